@@ -36,7 +36,7 @@ void exportScene(const ExportArguments& arguments) {
     const PreparedScene scene = loader.prepare(experiment.setup.scene);
     for (const std::string& warning : loader.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     if (scene.state.scene->environment.radiance != glm::vec3(0.0f))
-        throw UsageError(placeOf(experiment.config, "scene.environment"),
+        throw UsageError(locationOf(experiment.config, "scene.environment"),
                          "scene.environment: glTF can't carry one: leave it out of the file with --set "
                          "scene.environment=none");
     exportGlb(scene.state, arguments.target);

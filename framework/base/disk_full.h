@@ -6,7 +6,7 @@
 
 namespace voxray {
 
-/// A file can't be written whole because its disk has no room left.
+/// A file can't be written because its disk is full.
 class DiskFull : public Error {
  public:
     /// @param folder that the file was to lie in.

@@ -10,35 +10,34 @@
 
 namespace voxray {
 
-/// A place in a text file. `line` is 1-based; 0 means "the whole file".
+/// A location in a text file. `line` is 1-based; 0: the whole file.
 struct TextLocation {
     std::string file;
     int line = 0;
 
-    /// "file:line", "file" where there is no line, "" where there is no file.
+    /// "file:line", "file" without a line, "" without a file.
     std::string str() const {
         if (file.empty()) return {};
         return line > 0 ? fmt::format("{}:{}", file, line) : file;
     }
 };
 
-/// What a user did wrong or the machine refused, in one line that says what to do and is safe to print,
-/// whatever bytes of a file it names.
-/// Programmer errors are asserted instead.
+/// An error of the user or the system: one line with a remedy, safe to print even with names from files.
+/// Programming errors are asserted instead.
 class Error : public std::runtime_error {
  public:
     template <typename... Args>
     explicit Error(fmt::format_string<Args...> text, Args&&... args)
         : std::runtime_error(oneLine(fmt::format(text, std::forward<Args>(args)...))) {}
 
-    /// The same, prefixed with the place: "config.yaml:12: ...".
+    /// Prefixed with the location: "config.yaml:12: ...".
     template <typename... Args>
     Error(const TextLocation& where, fmt::format_string<Args...> text, Args&&... args)
         : std::runtime_error(oneLine((where.file.empty() ? std::string() : where.str() + ": ") +
                                      fmt::format(text, std::forward<Args>(args)...))) {}
 };
 
-/// Bad usage or a bad config: nothing was run. Commands turn it into exit status 2.
+/// Wrong usage or an invalid config: nothing was run. Commands exit with status 2.
 class UsageError : public Error {
  public:
     using Error::Error;

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-/// Parameters written once. A struct lists its fields in `schema()`; parsing, ranges, defaults, help and
-/// JSON Schema all come from that list:
+/// Declarative parameters. A struct lists its fields in `schema()`, from which parsing, ranges, defaults,
+/// help and JSON Schema are derived:
 ///
 ///     struct Params {
 ///         uint32_t raysPerLight = 1024;
@@ -32,7 +32,7 @@ std::string enumName(E value) {
     return {};
 }
 
-/// Values of another parameter: one of `values`, or none of them.
+/// A condition on another parameter: its value is one of `values`, or none of them.
 template <typename Owner, typename T>
 struct Condition {
     T Owner::*member;
@@ -49,8 +49,8 @@ constexpr Condition<Owner, T> noneOf(T Owner::*member, std::type_identity_t<std:
     return {member, std::move(values), false};
 }
 
-/// One parameter. `min` and `max` are inclusive; `allowed` are the only values it may have, empty: any. It
-/// has an effect where one of its conditions holds; without conditions, always.
+/// A parameter. `min` and `max` are inclusive; `allowed`: its only values, empty: any. It has an effect if
+/// one of its conditions holds, or without conditions.
 template <typename Owner, typename T, typename... Conditions>
 struct Field {
     const char* name;
@@ -64,21 +64,21 @@ struct Field {
     bool isVector = false;
     bool isLessNoise = false;
 
-    /// The same parameter: a number of rays, points or samples, of which more are less noise.
+    /// Marks a number of rays, points or samples, of which more mean less noise.
     constexpr Field lessNoise() && {
         isLessNoise = true;
         return std::move(*this);
     }
 
-    /// The same parameter, a place or a direction: one number does not stand for all three.
+    /// Marks a position or a direction: a scalar is no value for all three components.
     constexpr Field asVector() && {
         isVector = true;
         return std::move(*this);
     }
 
-    /// The same parameter, which has an effect with certain values of others alone:
-    /// field("samples", ...).onlyWith(oneOf(&Params::method, {Method::Sampled})). Written where none of these
-    /// conditions holds it is an error (unusedSettings()); the pass takes no notice of it there.
+    /// Restricts the parameter's effect to certain values of others:
+    /// field("samples", ...).onlyWith(oneOf(&Params::method, {Method::Sampled})). If none of these conditions
+    /// holds, naming it is an error (unusedSettings()), and the pass ignores it.
     template <typename... Others>
     constexpr Field<Owner, T, Others...> onlyWith(Others... others) && {
         return {name,     member,     help, min, max, ranged, std::move(allowed), {std::move(others)...},
@@ -95,14 +95,14 @@ constexpr Field<Owner, T> field(const char* name, T Owner::*member, const char* 
                                 std::type_identity_t<T> min, std::type_identity_t<T> max) {
     return {name, member, help, min, max, true};
 }
-/// A parameter that has to be one of some values: field("block", &Params::block, "...", {1, 2, 4, 8}).
+/// A parameter with a list of values: field("block", &Params::block, "...", {1, 2, 4, 8}).
 template <typename Owner, typename T>
 constexpr Field<Owner, T> field(const char* name, T Owner::*member, const char* help,
                                 std::type_identity_t<std::vector<T>> allowed) {
     return {name, member, help, T{}, T{}, false, std::move(allowed)};
 }
 
-/// The powers of two from `min` to `max`, which are two of them.
+/// The powers of two from `min` to `max`, both powers of two.
 constexpr std::vector<uint32_t> powersOfTwo(uint32_t min, uint32_t max) {
     std::vector<uint32_t> powers{min};
     while (powers.back() < max) powers.push_back(2 * powers.back());

@@ -30,7 +30,7 @@ void syncPath(const fs::path& path) {
     if (result != 0 && reason != EINVAL) throw Error("{}: {}", path.string(), std::strerror(reason));
 }
 
-/// Whether a folder's disk has no room: libraries that write files don't say why they fail.
+/// Whether a folder's disk is full, which libraries that write files don't report.
 bool isFull(const fs::path& folder) {
     constexpr uint64_t kRoom = 1 << 16;
     std::error_code code;
@@ -38,14 +38,13 @@ bool isFull(const fs::path& folder) {
     return !code && space.capacity > 0 && space.available < kRoom;
 }
 
-// For names that no other process takes, on no machine that shares the folder: process ids are of one
-// machine.
+// For names that are unique across machines that share the folder, which process ids are not.
 std::string randomNumber() {
     std::random_device random;
     return std::to_string((uint64_t(random()) << 32) | random());
 }
 
-// Puts a folder where another one may be. Of two processes that do so at once the last one's stays.
+// Moves a folder to a path, replacing an existing one. Of two concurrent processes the last one wins.
 void replaceFolder(const fs::path& from, const fs::path& to) {
     constexpr int kTries = 100;
     for (int attempt = 0; attempt < kTries; ++attempt) {
@@ -101,7 +100,7 @@ void writeFileAtomically(const fs::path& path, const std::function<void(const fs
         syncPath(temporary);
         fs::rename(temporary, path);
     } catch (const std::exception& error) {
-        const bool full = isFull(path.parent_path());  // Before what was written of the file goes.
+        const bool full = isFull(path.parent_path());  // Before the incomplete file is deleted.
         fs::remove(temporary, code);
         if (full) throw DiskFull(path.parent_path());
         if (const auto* system = dynamic_cast<const fs::filesystem_error*>(&error))

@@ -14,28 +14,28 @@ namespace voxray {
 std::vector<uint8_t> readFile(const std::filesystem::path& path);
 std::string readTextFile(const std::filesystem::path& path);
 
-/// Writes a file whole or not at all: a temporary file next to it (`.stem.NUMBER.tmp.ext`), flushed to disk,
-/// then renamed. Many processes may write it at once, on many machines too: whichever comes last stays.
+/// Writes a file atomically: to a temporary file next to it (`.stem.NUMBER.tmp.ext`), flushed to disk, then
+/// renamed. Of concurrent writers, on several machines too, the last one wins.
 /// @throws Error naming the file and the system's reason (full disk, no permission).
 void writeFileAtomically(const std::filesystem::path& path, std::string_view content);
 
-/// Whether a file is called as such a temporary file: left by a killed process, if nobody writes just now.
+/// Whether a file has the name of such a temporary file, which a killed process may leave.
 bool isTemporaryName(const std::filesystem::path& path);
 
-/// The same for writers that need a path: `write` gets a temporary path with the same extension.
+/// For writers that need a path: `write` gets a temporary path with the same extension.
 void writeFileAtomically(const std::filesystem::path& path,
                          const std::function<void(const std::filesystem::path&)>& write);
 
-/// The same for a folder that `write` fills, under a temporary name next to it (kTemporaryFolder and more).
-/// A folder that was there is replaced.
+/// Writes a folder atomically: `write` fills a temporary one next to it (kTemporaryFolder and a suffix),
+/// which replaces the old one.
 void writeFolderAtomically(const std::filesystem::path& folder,
                            const std::function<void(const std::filesystem::path&)>& write);
 inline constexpr const char* kTemporaryFolder = ".tmp-";
 
-/// Makes the folder and writes a file there for a moment. @return what went wrong, with the path, or "".
+/// Creates the folder and a file in it, as a test. @return the error, with the path, or "".
 std::string whyNotWritable(const std::filesystem::path& folder);
 
-/// Where Voxray keeps what it can make again (SPIR-V, references):
+/// Folder of the caches (SPIR-V, references):
 /// $VOXRAY_CACHE, else $XDG_CACHE_HOME/voxray, else ~/.cache/voxray.
 std::filesystem::path cacheFolder();
 

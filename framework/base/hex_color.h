@@ -5,8 +5,7 @@
 
 namespace voxray {
 
-/// "[1, 0.2462, 0]", the linear values of a display colour as web pages write it (#ff8800 or #f80, sRGB); ""
-/// for another text.
+/// Linear values "[1, 0.2462, 0]" of an sRGB colour in web notation (#ff8800 or #f80); "" for other text.
 std::string linearTriple(std::string_view hexColor);
 
 }  // namespace voxray

@@ -10,7 +10,7 @@
 namespace voxray {
 namespace {
 
-// A signal handler can reach nothing but lock-free statics.
+// Signal handlers may only access lock-free statics.
 std::atomic<bool> requested{false};
 std::atomic<pid_t> child{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free);
@@ -24,7 +24,7 @@ void install(void (*handler)(int), int flags) {
     sigaction(SIGTERM, &action, nullptr);
 }
 
-/// Async-signal-safe. A progress line may stand there without its end.
+/// Async-signal-safe. An unterminated progress line may precede the text.
 void say(std::string_view line) {
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
 }

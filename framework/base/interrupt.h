@@ -6,18 +6,18 @@
 
 namespace voxray {
 
-/// Thrown by long work that stopped because interruptRequested() became true.
+/// Thrown by long work when interruptRequested().
 class Interrupted : public Error {
  public:
     Interrupted() : Error("interrupted") {}
 };
 
-/// Whether SIGINT or SIGTERM came while an InterruptScope lives. Long work (a reference's paths, rays on the
-/// processor, what waits for the device) asks now and then and throws Interrupted.
+/// Whether SIGINT or SIGTERM arrived during an InterruptScope. Long work (path tracing of references, rays on
+/// the CPU, waits for the device) polls it and throws Interrupted.
 bool interruptRequested();
 
-/// While it lives, SIGINT and SIGTERM set a flag instead of ending the process; a second signal ends it, and
-/// the InterruptedChild with it. Both say so on the standard error. One at a time.
+/// In this scope SIGINT and SIGTERM set a flag instead of ending the process; a second signal ends it and the
+/// InterruptedChild. Both print a message to stderr. At most one instance.
 class InterruptScope {
  public:
     InterruptScope();
@@ -26,8 +26,7 @@ class InterruptScope {
     InterruptScope& operator=(const InterruptScope&) = delete;
 };
 
-/// A process that this one waits for, in a process group of its own (a terminal's Ctrl-C goes to a whole
-/// group).
+/// A child process in its own process group, which a terminal's Ctrl-C doesn't reach.
 class InterruptedChild {
  public:
     explicit InterruptedChild(pid_t process);

@@ -8,12 +8,12 @@ namespace voxray {
 namespace {
 
 struct Character {
-    size_t bytes;         ///< 1 where they are no UTF-8.
+    size_t bytes;         ///< 1 for invalid UTF-8.
     uint32_t code;        ///< Code point.
-    bool isValid = true;  ///< Neither cut off, overlong, a surrogate nor past the last code point.
+    bool isValid = true;  ///< Not truncated, overlong, a surrogate or past the last code point.
 };
 
-/// The character that a text, which is not empty, begins with. Source: RFC 3629, section 3.
+/// The first character of a nonempty text. Source: RFC 3629, section 3.
 Character firstCharacter(std::string_view text) {
     const auto byteAt = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned char lead = byteAt(0);
@@ -32,7 +32,7 @@ Character firstCharacter(std::string_view text) {
     return {bytes, code};
 }
 
-/// Unicode's control characters, its separators of lines, and its marks of the direction of writing.
+/// Unicode control characters, line separators and marks of writing direction.
 bool isControl(uint32_t code) {
     const auto within = [&](uint32_t first, uint32_t last) { return code >= first && code <= last; };
     return code < 0x20 || within(0x7f, 0x9f) || code == 0x61c || within(0x200e, 0x200f) ||
@@ -49,7 +49,7 @@ std::string oneLine(std::string_view text, size_t maxBytes) {
     while (!text.empty() && isSpace(text.back())) text.remove_suffix(1);
     constexpr std::string_view kDots = "...";
     std::string line;
-    size_t cutAt = 0;  // Where the line may be cut so that the dots fit.
+    size_t cutAt = 0;  // Length of the line if truncated, such that the dots fit.
     while (!text.empty()) {
         const Character c = firstCharacter(text);
         const std::string_view bytes = text.substr(0, c.bytes);

@@ -44,12 +44,12 @@ glm::vec3 readTriple(const Value& value, const std::string& what) {
 }
 
 template <typename T>
-void checkRange(const T& value, const T& min, const T& max, const Value& at, const std::string& what) {
+void checkRange(const T& value, const T& min, const T& max, const Value& source, const std::string& what) {
     if constexpr (std::is_same_v<T, glm::vec3>) {
-        for (int i = 0; i < 3; ++i) checkRange(value[i], min[i], max[i], at, what);
+        for (int i = 0; i < 3; ++i) checkRange(value[i], min[i], max[i], source, what);
     } else if constexpr (std::is_arithmetic_v<T>) {
         if (value < min || value > max)
-            throw UsageError(at.where, "{}: {} is out of range [{}, {}]", what, value, min, max);
+            throw UsageError(source.where, "{}: {} is out of range [{}, {}]", what, value, min, max);
     }
 }
 
@@ -71,7 +71,7 @@ class PlainType final : public ParameterType {
         return "string";
     }
 
-    void read(void* at, const Value& value, const std::string& what) const override {
+    void read(void* target, const Value& value, const std::string& what) const override {
         if (isVector_ && value.isScalar())
             throw UsageError(value.where, "{}: expected three numbers, as in [0, 1, 0], not '{}'", what,
                              value.scalar);
@@ -80,19 +80,19 @@ class PlainType final : public ParameterType {
         if (!allowed_.empty() && std::ranges::find(allowed_, read) == allowed_.end())
             throw UsageError(value.where, "{}: {} is not allowed; one of: {}", what, textOf(read),
                              fmt::join(choices(), ", "));
-        *static_cast<T*>(at) = read;
+        *static_cast<T*>(target) = read;
     }
 
-    std::string text(const void* at) const override { return textOf(*static_cast<const T*>(at)); }
+    std::string text(const void* field) const override { return textOf(*static_cast<const T*>(field)); }
 
-    Value value(const void* at) const override {
+    Value value(const void* field) const override {
         if constexpr (std::is_same_v<T, glm::vec3>) {
             Value list = Value::list();
-            const glm::vec3& triple = *static_cast<const glm::vec3*>(at);
+            const glm::vec3& triple = *static_cast<const glm::vec3*>(field);
             for (int i = 0; i < 3; ++i) list.items.push_back(Value::fromScalar(textOf(triple[i])));
             return list;
         } else {
-            return Value::fromScalar(text(at), std::is_same_v<T, std::string>);
+            return Value::fromScalar(text(field), std::is_same_v<T, std::string>);
         }
     }
 
@@ -133,30 +133,30 @@ class ChoiceType final : public ParameterType {
 
     const char* name() const override { return "choice"; }
 
-    void read(void* at, const Value& value, const std::string& what) const override {
+    void read(void* target, const Value& value, const std::string& what) const override {
         const std::string text = value.asString(what);
         for (const auto& [number, name] : names_)
             if (text == name) {
-                std::memcpy(at, &number, sizeof(number));
+                std::memcpy(target, &number, sizeof(number));
                 return;
             }
         throw UsageError(value.where, "{}: unknown value '{}'{}", what, text, didYouMean(text, choices()));
     }
 
-    std::string text(const void* at) const override {
+    std::string text(const void* field) const override {
         uint32_t value = 0;
-        std::memcpy(&value, at, sizeof(value));
+        std::memcpy(&value, field, sizeof(value));
         for (const auto& [number, name] : names_)
             if (number == value) return name;
         return {};
     }
 
-    Value value(const void* at) const override { return Value::fromScalar(text(at)); }
+    Value value(const void* field) const override { return Value::fromScalar(text(field)); }
 
     std::vector<std::string> choices() const override {
-        std::vector<std::string> all;
-        for (const auto& [number, name] : names_) all.push_back(name);
-        return all;
+        std::vector<std::string> names;
+        for (const auto& [number, name] : names_) names.push_back(name);
+        return names;
     }
 
  private:

@@ -12,20 +12,20 @@
 #include "base/field.h"
 #include "base/value.h"
 
-/// The fields of a struct without its type, so that one function reads parameters of all structs: few
-/// templates are left to instantiate for each of some hundreds of fields.
+/// Type-erased fields of a struct, so that one function reads parameters of all structs, with few template
+/// instantiations for hundreds of fields.
 namespace voxray {
 
-/// How values of one type are read, checked and written.
+/// Reads, checks and writes values of one type.
 class ParameterType {
  public:
     virtual ~ParameterType() = default;
-    virtual const char* name() const = 0;  ///< As ParameterDoc has it.
-    /// @throws UsageError where the value is of another type, out of range or not allowed.
-    virtual void read(void* at, const Value& value, const std::string& what) const = 0;
-    virtual std::string text(const void* at) const = 0;
-    virtual Value value(const void* at) const = 0;
-    virtual std::string min() const { return {}; }  ///< "" where there is no range.
+    virtual const char* name() const = 0;  ///< ParameterDoc::type.
+    /// @throws UsageError if the value has another type, is out of range or not allowed.
+    virtual void read(void* target, const Value& value, const std::string& what) const = 0;
+    virtual std::string text(const void* field) const = 0;
+    virtual Value value(const void* field) const = 0;
+    virtual std::string min() const { return {}; }  ///< "" without a range.
     virtual std::string max() const { return {}; }
     virtual std::vector<std::string> choices() const { return {}; }  ///< The only values; empty: any.
 };
@@ -40,9 +40,9 @@ std::shared_ptr<const ParameterType> choiceType(std::vector<std::pair<uint32_t, 
 
 /// One field of a struct.
 struct Parameter {
-    /// Values of another parameter, one of which it needs: one of `values`, or none of them.
+    /// A condition on another parameter: its value is one of `values`, or none of them.
     struct Condition {
-        size_t offset;  ///< Of the other one.
+        size_t offset;  ///< Of the other parameter.
         std::vector<std::string> values;
         bool isOneOf;
     };
@@ -51,7 +51,7 @@ struct Parameter {
     const char* help;
     size_t offset;  ///< In the struct, bytes.
     std::shared_ptr<const ParameterType> type;
-    std::vector<Condition> conditions;  ///< One of these holds where it has an effect; empty: everywhere.
+    std::vector<Condition> conditions;  ///< It has an effect if one of these holds, or if empty.
     bool isLessNoise;
 
     const void* of(const void* params) const { return static_cast<const char*>(params) + offset; }
@@ -75,7 +75,7 @@ std::shared_ptr<const ParameterType> typeOf(T min, T max, bool isRanged, std::ve
     }
 }
 
-/// Defined as parameterType() is.
+/// Defined for the same types as parameterType().
 template <typename T>
 std::vector<std::string> plainTexts(const std::vector<T>& values);
 
@@ -110,18 +110,20 @@ void addParameter(Schema& schema, const P& params, F field) {
 
 }  // namespace schema_detail
 
-/// The parameters of a struct, in the order that it lists them.
+/// The parameters of a struct, in the order of its schema().
 template <typename P>
 const Schema& schemaOf() {
-    static const Schema all = [] {
-        Schema schema;
+    static const Schema schema = [] {
+        Schema parameters;
         const P params;
         std::apply(
-            [&](auto... fields) { (schema_detail::addParameter(schema, params, std::move(fields)), ...); },
+            [&](auto... fields) {
+                (schema_detail::addParameter(parameters, params, std::move(fields)), ...);
+            },
             P::schema());
-        return schema;
+        return parameters;
     }();
-    return all;
+    return schema;
 }
 
 }  // namespace voxray

@@ -20,12 +20,12 @@ namespace {
 
 struct flock wholeFile(ProcessLock::Kind kind) {
     struct flock lock {};
-    lock.l_type = kind == ProcessLock::Kind::Alone ? F_WRLCK : F_RDLCK;
+    lock.l_type = kind == ProcessLock::Kind::Exclusive ? F_WRLCK : F_RDLCK;
     lock.l_whence = SEEK_SET;
     return lock;
 }
 
-// Whether the open file is still the one of that name: its last holder removes it.
+// Whether the open file still has that name: its last holder removes it.
 bool isCurrent(int descriptor, const std::filesystem::path& file) {
     struct stat open {
     }, named{};
@@ -49,7 +49,7 @@ ProcessLock::ProcessLock(std::filesystem::path file, Kind kind, const std::files
         const int reason = errno;
         if (isLocked && isCurrent(descriptor_, file_)) return;
 
-        // Who has it; nobody any more where it was freed in between
+        // The holder; none if it was released in between
         lock = wholeFile(kind);
         const bool isHeld = !isLocked && (reason == EACCES || reason == EAGAIN);
         if (isHeld) ::fcntl(descriptor_, F_GETLK, &lock);
@@ -60,7 +60,7 @@ ProcessLock::ProcessLock(std::filesystem::path file, Kind kind, const std::files
                 fmt::print(stderr, "voxray: {}: waiting for process {}, which is writing there\n",
                            what.string(), lock.l_pid);
             std::this_thread::sleep_for(kPause);
-            attempt = -1;  // Patience is for files that come and go, not for who works.
+            attempt = -1;  // The limit is for files that are removed and created again.
         } else if (isHeld && lock.l_type != F_UNLCK) {
             throw UsageError(
                 "{}: process {} is writing results there; wait until it ends or choose another "
@@ -74,8 +74,8 @@ ProcessLock::ProcessLock(std::filesystem::path file, Kind kind, const std::files
 }
 
 ProcessLock::~ProcessLock() {
-    // Who can have it alone is the last one
-    struct flock lock = wholeFile(Kind::Alone);
+    // The last holder can lock it exclusively
+    struct flock lock = wholeFile(Kind::Exclusive);
     if (::fcntl(descriptor_, F_SETLK, &lock) == 0) ::unlink(file_.c_str());
     ::close(descriptor_);
 }

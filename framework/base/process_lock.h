@@ -4,18 +4,16 @@
 
 namespace voxray {
 
-/// Keeps other processes away from what a file stands for while it lives. The lock is the system's own: it
-/// ends with the process, however that ends, and works over network file systems. Its last holder removes the
-/// file.
+/// A lock between processes, by a lock file. It is a POSIX record lock: released when the process ends, and
+/// valid on network file systems. The last holder removes the file.
 class ProcessLock {
  public:
-    /// Many processes may share a lock, while nobody holds it alone.
-    enum class Kind { Alone, Shared };
-    /// What to do where another process holds the lock.
+    enum class Kind { Exclusive, Shared };
+    /// What to do if another process holds the lock.
     enum class IfHeld { Refuse, Wait };
 
-    /// Makes the file where it isn't there. @param what is locked, for messages.
-    /// @throws UsageError naming a process that holds the lock (to wait: Interrupted), Error where the file
+    /// Creates the file if missing. @param what is locked, for messages.
+    /// @throws UsageError naming a process that holds the lock (with Wait: Interrupted), Error if the file
     /// can't be locked.
     ProcessLock(std::filesystem::path file, Kind kind, const std::filesystem::path& what,
                 IfHeld ifHeld = IfHeld::Refuse);

@@ -72,24 +72,24 @@ Value writeParams(const Schema& schema, const void* params) {
 }
 
 std::vector<UnusedSetting> unusedSettings(const Schema& schema, const void* params, const Value& map) {
-    std::vector<UnusedSetting> all;
+    std::vector<UnusedSetting> unused;
     for (const Parameter& parameter : schema) {
         const Value* written = map.find(parameter.name);
         if (!written || parameter.conditions.empty()) continue;
         bool holds = false;
         std::vector<std::string> present;
         for (const Parameter::Condition& condition : parameter.conditions) {
-            const Parameter& other = parameterAt(schema, condition.offset);
-            const std::string text = other.type->text(other.of(params));
+            const Parameter& required = parameterAt(schema, condition.offset);
+            const std::string text = required.type->text(required.of(params));
             holds = holds || (std::ranges::count(condition.values, text) > 0) == condition.isOneOf;
-            present.push_back(fmt::format("{}: {}", other.name, text));
+            present.push_back(fmt::format("{}: {}", required.name, text));
         }
         if (!holds)
-            all.push_back({parameter.name, written->where,
-                           fmt::format("no effect with {}; only with {}", fmt::join(present, ", "),
-                                       conditionsText(schema, parameter))});
+            unused.push_back({parameter.name, written->where,
+                              fmt::format("no effect with {}; only with {}", fmt::join(present, ", "),
+                                          conditionsText(schema, parameter))});
     }
-    return all;
+    return unused;
 }
 
 std::vector<ParameterDoc> describeParams(const Schema& schema, const void* defaults) {

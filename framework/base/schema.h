@@ -6,16 +6,16 @@
 #include "base/parameter.h"
 #include "base/value.h"
 
-/// Parameters read out of a config, and as text: what manifests, help pages and the JSON Schema say of them.
+/// Reads parameters from a config, and writes them for manifests, help pages and the JSON Schema.
 namespace voxray {
 
-/// What help pages and JSON Schema say of one parameter.
+/// Documentation of a parameter, for help pages and JSON Schema.
 struct ParameterDoc {
     std::string name;
     std::string type;      ///< "boolean", "integer", "number", "string", "choice", "rgb", "vector"
-    std::string help;      ///< With what it has an effect with alone, and whether it lowers noise.
+    std::string help;      ///< Includes its conditions, and whether it lowers noise.
     std::string defaults;  ///< Default as YAML text.
-    std::string min, max;  ///< Empty where there is no range.
+    std::string min, max;  ///< Empty without a range.
     std::vector<std::string> choices;  ///< The only values; empty: any of the type and range.
     bool isLessNoise = false;          ///< Larger values lower the pass's noise.
     /// Values of another parameter: one of them, or none of them.
@@ -27,14 +27,14 @@ struct ParameterDoc {
     std::vector<Condition> conditions;  ///< One of these holds where it has an effect; empty: everywhere.
 };
 
-/// A parameter that is written where it has no effect.
+/// A parameter in a config that has no effect there.
 struct UnusedSetting {
     std::string name;
     TextLocation where;
     std::string why;  ///< "no effect with method: exact; only with method: three_axis"
 };
 
-/// What the functions below do, of a struct without its type.
+/// Type-erased versions of the functions below.
 void readParams(const Schema& schema, void* params, const Value& map, const std::string& owner,
                 const std::vector<std::string>& alsoAllowed);
 Value writeParams(const Schema& schema, const void* params);
@@ -58,7 +58,7 @@ P readParams(const Value& map, const std::string& owner, const std::vector<std::
     return params;
 }
 
-/// Reads one parameter that stands alone, as a scene's environment does that is a radiance.
+/// Reads a single parameter, such as a scene's environment that is only a radiance.
 template <typename P, typename T>
 void readParam(P& params, T P::*member, const Value& value, const std::string& what) {
     const size_t offset = schema_detail::offsetOf(params, member);
@@ -66,19 +66,19 @@ void readParam(P& params, T P::*member, const Value& value, const std::string& w
         if (parameter.offset == offset) parameter.type->read(parameter.of(&params), value, what);
 }
 
-/// The parameters that a map names although others leave them without effect.
+/// Parameters in a map that have no effect because of others.
 template <typename P>
 std::vector<UnusedSetting> unusedSettings(const P& params, const Value& map) {
     return unusedSettings(schemaOf<P>(), &params, map);
 }
 
-/// Every parameter with its value, defaults filled in: what the manifest records.
+/// All parameters with their values, including defaults, for the manifest.
 template <typename P>
 Value writeParams(const P& params) {
     return writeParams(schemaOf<P>(), &params);
 }
 
-/// Help of every parameter, in the order of the schema.
+/// Documentation of all parameters, in the order of the schema.
 template <typename P>
 std::vector<ParameterDoc> describeParams() {
     const P defaults;

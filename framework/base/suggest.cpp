@@ -13,8 +13,7 @@ bool isSame(char a, char b) {
     return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
 
-// Optimal string alignment distance: insertions, deletions, substitutions, swaps of neighbours. Capitals
-// count as small letters.
+// Optimal string alignment distance: insertions, deletions, substitutions, transpositions. Case-insensitive.
 size_t editDistance(std::string_view a, std::string_view b) {
     std::vector<std::vector<size_t>> d(a.size() + 1, std::vector<size_t>(b.size() + 1));
     for (size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
@@ -36,7 +35,7 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
     std::string best;
     size_t bestDistance = std::max<size_t>(1, word.size() / 3) + 1;
     for (const std::string& candidate : candidates) {
-        if (candidate == word) continue;  // It is known, but not here.
+        if (candidate == word) continue;  // Valid elsewhere.
         const size_t distance = editDistance(word, candidate);
         if (distance < bestDistance) {
             bestDistance = distance;
@@ -45,30 +44,32 @@ std::string nearest(std::string_view word, std::span<const std::string> candidat
     }
     if (!best.empty() || word.empty()) return best;
 
-    // A part of a name that says more: `rays` of `rays_per_block`, `pos` of `position`
-    constexpr size_t kTelling = 3;
-    const auto isPart = [&](const std::string& candidate) {
+    // A component or prefix: `rays` of `rays_per_block`, `pos` of `position`
+    constexpr size_t kMinPrefix = 3;
+    const auto isComponent = [&](const std::string& candidate) {
         return fmt::format("_{}_", candidate).find(fmt::format("_{}_", word)) != std::string::npos ||
-               (word.size() >= kTelling && candidate.starts_with(word));
+               (word.size() >= kMinPrefix && candidate.starts_with(word));
     };
-    const auto whole = std::ranges::find_if(candidates, isPart);
-    return whole == candidates.end() ? std::string() : *whole;
+    const auto found = std::ranges::find_if(candidates, isComponent);
+    return found == candidates.end() ? std::string() : *found;
 }
 
 std::string didYouMeanFile(const std::filesystem::path& name, const std::filesystem::path& folder) {
-    const std::filesystem::path place = (folder / name).parent_path();
+    const std::filesystem::path parent = (folder / name).parent_path();
     std::vector<std::string> names;
     std::error_code code;
-    for (const auto& entry : std::filesystem::directory_iterator(place.empty() ? "." : place, code))
+    for (const auto& entry : std::filesystem::directory_iterator(parent.empty() ? "." : parent, code))
         names.push_back(entry.path().filename().string());
     std::ranges::sort(names);
-    const std::string near = nearest(name.filename().string(), names);
-    return near.empty() ? "" : fmt::format("; did you mean '{}'?", (name.parent_path() / near).string());
+    const std::string suggestion = nearest(name.filename().string(), names);
+    return suggestion.empty()
+               ? ""
+               : fmt::format("; did you mean '{}'?", (name.parent_path() / suggestion).string());
 }
 
 std::string didYouMean(std::string_view word, std::span<const std::string> candidates) {
-    const std::string near = nearest(word, candidates);
-    if (!near.empty()) return fmt::format("; did you mean '{}'?", near);
+    const std::string suggestion = nearest(word, candidates);
+    if (!suggestion.empty()) return fmt::format("; did you mean '{}'?", suggestion);
     if (candidates.empty()) return {};
     return fmt::format("; one of: {}", fmt::join(candidates, ", "));
 }

@@ -4,8 +4,8 @@
 
 namespace voxray {
 
-/// While it lives, this process works on so many threads: parallel loops and Embree; devices of Mesa's
-/// software driver lavapipe that are opened from now on as well. Results don't depend on it.
+/// Limits the threads of parallel loops, of Embree, and of lavapipe devices (Mesa's software driver) that are
+/// opened during its lifetime. Results don't depend on it.
 class ThreadLimit {
  public:
     /// @param threads at least 1.
@@ -19,7 +19,7 @@ class ThreadLimit {
     std::unique_ptr<Control> control_;
 };
 
-/// How many threads parallel loops work on: the limit, else one for each core that this process may use.
+/// Threads of parallel loops: the limit, else one per core that this process may use.
 unsigned workerThreads();
 
 }  // namespace voxray

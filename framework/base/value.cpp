@@ -8,7 +8,7 @@
 namespace voxray {
 namespace {
 
-constexpr size_t kShown = 60;  ///< Bytes of a wrong value that a message repeats.
+constexpr size_t kShown = 60;  ///< Maximum bytes of a value in a message.
 
 std::string describe(const Value& value) {
     switch (value.kind) {
@@ -41,7 +41,7 @@ std::string withHyphen(const Value& value) {
     return {};
 }
 
-/// "; a space is missing before '#'" for a comment that is taken for a part of the value, else "".
+/// "; a space is missing before '#'" for a comment that was read as part of the value, else "".
 std::string withComment(const Value& value) {
     const bool isComment =
         value.isScalar() && !value.quoted && value.scalar.find('#', 1) != std::string::npos;
@@ -101,7 +101,7 @@ bool isJsonLiteral(const Value& value) {
     return !(s[first] == '0' && first + 1 < s.size() && s[first + 1] >= '0' && s[first + 1] <= '9');
 }
 
-/// @throws UsageError for 032, which some readers of YAML take for an octal number.
+/// @throws UsageError for 032, which is octal for some YAML parsers.
 void checkLeadingZero(const Value& value, std::string_view what) {
     const size_t sign = value.scalar.find_first_of("+-") == 0 ? 1 : 0;
     const size_t digits = std::min(value.scalar.find_first_not_of('0', sign), value.scalar.size() - 1);

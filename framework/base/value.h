@@ -10,15 +10,15 @@
 
 namespace voxray {
 
-/// A node of a config: what YAML and JSON have in common, with the place it was read from.
-/// Scalars stay text until a schema asks for a type, so that the error can name file, line and type.
+/// A node of a YAML or JSON document, with its location. Scalars are text until they are read as a type, so
+/// that errors can name file, line and type.
 struct Value {
     enum class Kind { Null, Scalar, List, Map };
     struct Member;
 
     Kind kind = Kind::Null;
     std::string scalar;           ///< Text of a scalar.
-    bool quoted = false;          ///< A quoted scalar is a string, whatever it looks like.
+    bool quoted = false;          ///< A quoted scalar is always a string.
     std::vector<Value> items;     ///< Elements of a list.
     std::vector<Member> members;  ///< Entries of a map, in the file's order; keys are unique.
     TextLocation where;
@@ -31,7 +31,7 @@ struct Value {
     bool isScalar() const { return kind == Kind::Scalar; }
     bool isList() const { return kind == Kind::List; }
     bool isMap() const { return kind == Kind::Map; }
-    bool isNumber() const;  ///< A scalar that asNumber() reads.
+    bool isNumber() const;  ///< A scalar that asNumber() accepts.
 
     /// Entry of a map, or nullptr.
     const Value* find(std::string_view key) const;
@@ -42,7 +42,7 @@ struct Value {
     bool erase(std::string_view key);
 
     /// Typed reads. `what` names the value in the error, e.g. "voxelize.resolution".
-    /// @throws UsageError with file and line where the text is not of that type.
+    /// @throws UsageError with file and line if the text is not of that type.
     bool asBool(std::string_view what) const;
     int64_t asInteger(std::string_view what) const;
     double asNumber(std::string_view what) const;  ///< Finite only.
@@ -53,7 +53,7 @@ struct Value {
     /// JSON, numbers and booleans unquoted; `indent` < 0 writes one line.
     std::string json(int indent = 2) const;
 
-    /// Equality of content; places are ignored.
+    /// Equality of contents; locations are ignored.
     bool operator==(const Value& other) const;
 };
 

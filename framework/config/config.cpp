@@ -12,8 +12,8 @@ namespace {
 
 // A results folder is named after the experiment.
 void checkName(const Value& config, const std::string& name) {
-    const Value* at = config.find("name");
-    const TextLocation where = at ? at->where : config.where;
+    const Value* entry = config.find("name");
+    const TextLocation where = entry ? entry->where : config.where;
     if (name.empty()) throw UsageError(where, "name: an experiment needs a name");
     const bool isPlain = name.size() <= 100 && name[0] != '.' && name[0] != '-' &&
                          std::all_of(name.begin(), name.end(), [](unsigned char c) {
@@ -26,7 +26,7 @@ void checkName(const Value& config, const std::string& name) {
                          oneLine(name, 60));
 }
 
-/// The graph's first pass as an entry of a list, out of a map of passes.
+/// The first pass of a graph that is a map, as an entry of a list.
 std::string firstEntry(const Value& graph) {
     if (graph.find("pass")) return graph.text();
     const auto& [name, parameters] = graph.members[0];
@@ -36,7 +36,7 @@ std::string firstEntry(const Value& graph) {
     return entry.text();
 }
 
-// Ids share the first part of override paths with the config's keys.
+// Ids and config keys share the first component of override paths.
 void checkGraph(const Value& graph) {
     if (graph.isMap() && !graph.members.empty())
         throw UsageError(graph.where, "graph: expected a list of passes, each with a dash: write '- {}'",
@@ -67,7 +67,7 @@ void checkSweep(const Value& sweep) {
             throw UsageError(
                 values.where,
                 "sweep.{}: expected a list of values, as in [64, 128], or a map of names and values", path);
-    // A map of names, not one value that is a map
+    // A map of names, not a value that is a map
     for (const auto& [path, values] : sweep.members)
         for (const char* key : {"pass", "builtin", "file"})
             if (values.find(key))
@@ -76,8 +76,8 @@ void checkSweep(const Value& sweep) {
                                  key, values.text());
 }
 
-/// A key of the config that stands in one of its blocks: mostly it is indented too far.
-/// A built-in scene may have a parameter of that name.
+/// Rejects a top-level key within a block, which is mostly indented too far. A built-in scene may have a
+/// parameter of that name.
 void checkBlocks(const Value& config) {
     const auto& keys = configKeys();
     for (const char* name : {"scene", "image", "measure", "reference"}) {
@@ -90,7 +90,7 @@ void checkBlocks(const Value& config) {
     }
 }
 
-/// The first pass of the graph, or the reference, with a parameter of that name; "" where there is none.
+/// The first pass of the graph, or the reference, with a parameter of that name; "" if there is none.
 std::string passWith(const Value& config, const std::string& parameter) {
     const Value *graph = config.find("graph"), *reference = config.find("reference");
     for (const Value& entry : graph ? graph->items : std::vector<Value>())
@@ -130,9 +130,8 @@ bool hasReference(const Value& config) {
     return reference && !reference->isNull();
 }
 
-/// What the config's text asks for in vain, under whichever profile. Overrides may well leave it so: they
-/// take axes of the sweep out, or the reference.
-/// @param config the same with all overrides in place.
+/// Checks for settings of the config's text without effect in all profiles. Overrides may remove axes of the
+/// sweep or the reference, which is no error. @param config with all overrides applied.
 void checkEmptyBlocks(const Value& root, const Value& config) {
     if (const Value* sweep = root.find("sweep"); sweep && sweep->isMap() && sweep->members.empty())
         throw UsageError(sweep->where,
@@ -154,28 +153,27 @@ void checkEmptyBlocks(const Value& root, const Value& config) {
                              key);
 }
 
-/// Whether the config has that value without the axis of the sweep, too. A whole pass is swapped without its
-/// parameters.
+/// Whether the config has that value without the axis of the sweep. A swapped pass has default parameters.
 bool isWritten(const Value& config, const std::string& path, const Value& value) {
     const Value* written = valueAt(config, path);
     if (!written || path.find('.') != std::string::npos || !written->find("pass"))
         return written && *written == value;
-    Value own = *written, other = value.isScalar() ? Value::map() : value;
-    if (value.isScalar()) other.set("pass", value);
-    own.erase("id");
-    other.erase("id");
-    return own == other;
+    Value existing = *written, swapped = value.isScalar() ? Value::map() : value;
+    if (value.isScalar()) swapped.set("pass", value);
+    existing.erase("id");
+    swapped.erase("id");
+    return existing == swapped;
 }
 
-/// What to say of axes of the config's text whose only value is written in the graph or the scene as well.
-/// Those that a profile or --set leaves a single value keep their column on purpose.
+/// Warnings for axes of the config's text whose only value equals that in the graph or the scene. Axes that a
+/// profile or --set reduces to one value are intended.
 std::vector<std::string> idleAxes(const Value& root, const Experiment& experiment) {
     std::vector<std::string> warnings;
     const Value* sweep = root.find("sweep");
     for (const auto& [path, axis] : sweep ? sweep->members : std::vector<Value::Member>()) {
-        const Value* own = experiment.sweep.find(path);
+        const Value* effective = experiment.sweep.find(path);
         const size_t values = axis.items.size() + axis.members.size();
-        if (values != 1 || !own || own->where.str() != axis.where.str()) continue;
+        if (values != 1 || !effective || effective->where.str() != axis.where.str()) continue;
         const Value& value = axis.isMap() ? axis.members[0].value : axis.items[0];
         if (isWritten(experiment.config, path, value))
             warnings.push_back(
@@ -189,7 +187,7 @@ std::vector<std::string> idleAxes(const Value& root, const Experiment& experimen
     return warnings;
 }
 
-/// A config's file. @throws UsageError where it is a scene.
+/// Reads a config file. @throws UsageError for a scene.
 Value readConfig(const std::filesystem::path& path) {
     const std::filesystem::path ending = path.extension();
     if (ending == ".glb" || ending == ".gltf")
@@ -204,7 +202,7 @@ Value readConfig(const std::filesystem::path& path) {
 Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
     checkTopLevel(root);
 
-    // A profile that can't be read is an error even when nobody asks for it
+    // Profiles that aren't used must be valid, too
     if (const Value* profiles = root.find("profiles")) {
         for (const auto& member : profiles->members) {
             Value config = root;

@@ -9,23 +9,23 @@
 
 namespace voxray {
 
-/// What one variant renders.
+/// Input of one variant.
 struct Setup {
     GeneralSettings general;
     SceneSettings scene;
     ImageSettings image;
-    Value graph;  ///< The list of passes, unchecked: class Graph checks it.
+    Value graph;  ///< The list of passes, checked by class Graph.
 };
 
-/// A config, read: profile and assignments applied, the sweep not yet.
+/// A config with profile and assignments applied, and its sweep not expanded.
 struct Experiment {
     std::filesystem::path file;  ///< Empty for a config from text.
-    Value config;                ///< The whole config, without `profiles`.
+    Value config;                ///< Without `profiles`.
     Setup setup;
     MeasureSettings measure;
     Value reference;                    ///< One entry of a graph, or null: no reference, no metrics.
     Value sweep = Value::map();         ///< Path -> non-empty list, in the file's order.
-    std::vector<std::string> warnings;  ///< What may not be meant, with file and line.
+    std::vector<std::string> warnings;  ///< With file and line.
 };
 
 struct ConfigOptions {
@@ -34,20 +34,20 @@ struct ConfigOptions {
     std::vector<std::string> only = {};    ///< "axis=value" of --only: values of the sweep that stay.
 };
 
-/// Reads a config. Everything but the graph's passes and the contents of scene files is checked, all its
-/// profiles too.
+/// Reads a config. Checks all, including its profiles, except the graph's passes and the contents of scene
+/// files.
 /// @throws UsageError with file, line and the nearest valid word.
 Experiment loadExperiment(const std::filesystem::path& path, const ConfigOptions& options = {});
-/// The same from text; `fileName` is for messages.
+/// Reads a config from text; `fileName` is for messages.
 Experiment parseExperiment(const std::string& yaml, const std::string& fileName,
                            const ConfigOptions& options = {});
-/// The same from a whole config with all overrides in place.
+/// Reads a config with all overrides applied.
 Experiment readExperiment(Value config);
 
 /// Names of a config's profiles, in the file's order.
 std::vector<std::string> profileNames(const std::filesystem::path& path);
 
-/// Reads what one variant renders from a config with a variant's values in place.
+/// Reads a variant's setup from a config with its values applied.
 Setup readSetup(const Value& config);
 
 }  // namespace voxray

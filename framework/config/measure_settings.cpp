@@ -10,7 +10,7 @@
 namespace voxray {
 namespace {
 
-// Masks name columns of results.csv and pictures.
+// Masks name columns of results.csv and images.
 std::vector<MaskSettings> readMasks(const Value& map) {
     if (!map.isMap())
         throw UsageError(

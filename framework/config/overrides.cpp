@@ -10,8 +10,8 @@
 namespace voxray {
 namespace {
 
-/// Takes the first key off what is left of a path that goes on below `parent`, with the dot behind it. A name
-/// with dots is one key where it stands there already, or in double quotes.
+/// Removes the first key and its dot from a path below `parent`. A name with dots is one key if it exists
+/// there already, or in double quotes.
 std::string takeKey(const Value& parent, std::string_view& path) {
     const size_t quote = path.starts_with('"') ? path.find('"', 1) : std::string_view::npos;
     const bool isQuoted = quote != std::string_view::npos;
@@ -36,7 +36,7 @@ void mergeInto(Value& target, const Value& value, Merge merge) {
     }
 }
 
-// One key of a map: null takes it out.
+// Sets a key of a map; null removes it.
 void setNested(Value& parent, const std::string& key, const Value& value, Merge merge) {
     if (value.isNull()) {
         parent.erase(key);
@@ -47,30 +47,32 @@ void setNested(Value& parent, const std::string& key, const Value& value, Merge 
     }
 }
 
-// Follows a dotted path below `root`, making the maps on the way.
-void setAlong(Value& root, std::string_view path, const std::string& whole, const Value& value, Merge merge) {
-    if (path.ends_with('.')) throw UsageError(value.where, "'{}': a path must not end in a dot", whole);
+// Sets the value at a dotted path below `root`, creating maps as needed.
+void setAtPath(Value& root, std::string_view path, const std::string& fullPath, const Value& value,
+               Merge merge) {
+    if (path.ends_with('.')) throw UsageError(value.where, "'{}': a path must not end in a dot", fullPath);
     Value* parent = &root;
     std::string key = takeKey(root, path);
     for (; !path.empty(); key = takeKey(*parent, path)) {
         Value* child = parent->find(key);
         if (!child) {
-            Value made = Value::map();
-            made.where = value.where;
-            child = &parent->set(key, made);
+            Value created = Value::map();
+            created.where = value.where;
+            child = &parent->set(key, created);
         }
         if (!child->isMap())
-            throw UsageError(value.where, "{}: '{}' is {}, which has no keys{}", whole, key, child->text(),
-                             child->isList() ? fmt::format("; give it as a whole: in a sweep write a list of "
-                                                           "lists, as in {}: [[...], [...]]",
-                                                           whole.substr(0, whole.size() - path.size() - 1))
-                                             : "");
+            throw UsageError(value.where, "{}: '{}' is {}, which has no keys{}", fullPath, key, child->text(),
+                             child->isList()
+                                 ? fmt::format("; give it as a whole: in a sweep write a list of "
+                                               "lists, as in {}: [[...], [...]]",
+                                               fullPath.substr(0, fullPath.size() - path.size() - 1))
+                                 : "");
         parent = child;
     }
     setNested(*parent, key, value, merge);
 }
 
-// An entry of the graph: a pass's name stands for a map with `pass`.
+// An entry of the graph, given as a pass's name or a map with `pass`.
 Value passEntry(const Value& value, const std::string& path) {
     if (value.isMap() && value.find("pass")) return value;
     if (!value.isScalar())
@@ -83,8 +85,7 @@ Value passEntry(const Value& value, const std::string& path) {
     return entry;
 }
 
-// Another pass, or a chain of passes, in an entry's place. The last one gets the id, so that later passes
-// find it.
+// Replaces a pass by another one or a chain. The last one takes over the id, so that later passes find it.
 void swapPass(Value& graph, size_t index, const Value& value, const std::string& path) {
     std::vector<Value> chain;
     if (value.isList())
@@ -99,21 +100,21 @@ void swapPass(Value& graph, size_t index, const Value& value, const std::string&
     graph.items.insert(graph.items.begin() + ptrdiff_t(index), chain.begin(), chain.end() - 1);
 }
 
-void overridePass(Value& graph, size_t index, const std::string& rest, const std::string& path,
+void overridePass(Value& graph, size_t index, const std::string& subpath, const std::string& path,
                   const Value& value, Merge merge) {
-    const bool isSwap = rest.empty() && (merge == Merge::Replace || !value.isMap() || value.find("pass"));
+    const bool isSwap = subpath.empty() && (merge == Merge::Replace || !value.isMap() || value.find("pass"));
     if (isSwap) {
         swapPass(graph, index, value, path);
-    } else if (rest.empty()) {
+    } else if (subpath.empty()) {
         mergeInto(graph.items[index], value, merge);
     } else {
-        setAlong(graph.items[index], rest, path, value, merge);
+        setAtPath(graph.items[index], subpath, path, value, merge);
     }
 }
 
-/// "; did you mean ...": the path with other signs in place of its dots, a pass that has another id here, a
-/// parameter that stands in the graph, whose pass is left out or followed by an underscore in place of a dot,
-/// a key of a block, or the nearest of the candidates. `word` is the path's first part.
+/// "; did you mean ...": the path with dots instead of other separators, the id of a pass of that name, a
+/// parameter of a pass without its id or with an underscore instead of the dot, a key of a block, or the
+/// nearest candidate. `word`: the path's first component.
 std::string nearestPath(const Value& config, const std::string& path, const std::string& word,
                         const std::vector<std::string>& candidates) {
     std::string dotted = path;
@@ -133,8 +134,8 @@ std::string nearestPath(const Value& config, const std::string& path, const std:
     return didYouMean(word, candidates);
 }
 
-void overrideSweep(Value& config, const std::string& rest, const Value& value) {
-    if (rest.empty()) {
+void overrideSweep(Value& config, const std::string& subpath, const Value& value) {
+    if (subpath.empty()) {
         if (value.isNull())
             config.erase("sweep");
         else if (!value.isMap())
@@ -144,11 +145,11 @@ void overrideSweep(Value& config, const std::string& rest, const Value& value) {
     }
     Value* sweep = config.find("sweep");
     if (!sweep || !sweep->isMap()) {
-        Value made = Value::map();
-        made.where = value.where;
-        sweep = &config.set("sweep", made);
+        Value created = Value::map();
+        created.where = value.where;
+        sweep = &config.set("sweep", created);
     }
-    setNested(*sweep, rest, value, Merge::Replace);
+    setNested(*sweep, subpath, value, Merge::Replace);
 }
 
 }  // namespace
@@ -189,15 +190,15 @@ const Value* valueAt(const Value& config, const std::string& path) {
             from = first.size() + 1;
         }
     }
-    std::string_view left = std::string_view(path).substr(std::min(from, path.size()));
-    while (found && !left.empty()) found = found->find(takeKey(*found, left));
+    std::string_view remaining = std::string_view(path).substr(std::min(from, path.size()));
+    while (found && !remaining.empty()) found = found->find(takeKey(*found, remaining));
     return found;
 }
 
-TextLocation placeOf(const Value& config, const std::string& path) {
+TextLocation locationOf(const Value& config, const std::string& path) {
     const Value* found = &config;
-    for (std::string_view left = path; !left.empty();) {
-        const Value* next = found->find(takeKey(*found, left));
+    for (std::string_view remaining = path; !remaining.empty();) {
+        const Value* next = found->find(takeKey(*found, remaining));
         if (!next) break;
         found = next;
     }
@@ -206,9 +207,9 @@ TextLocation placeOf(const Value& config, const std::string& path) {
 
 std::string lastKey(const Value& config, const std::string& path) {
     const Value* parent = &config;
-    std::string_view left = path;
-    std::string key = takeKey(config, left);
-    for (; !left.empty(); key = takeKey(parent ? *parent : Value(), left))
+    std::string_view remaining = path;
+    std::string key = takeKey(config, remaining);
+    for (; !remaining.empty(); key = takeKey(parent ? *parent : Value(), remaining))
         if (parent) parent = parent->find(key);
     return key;
 }
@@ -222,8 +223,8 @@ std::string passId(const Value& entry) {
 void applyOverride(Value& config, const std::string& path, const Value& value, Merge merge) {
     const size_t dot = path.find('.');
     const std::string first = path.substr(0, dot);
-    const std::string rest = dot == std::string::npos ? std::string() : path.substr(dot + 1);
-    if (first == "sweep") return overrideSweep(config, rest, value);
+    const std::string subpath = dot == std::string::npos ? std::string() : path.substr(dot + 1);
+    if (first == "sweep") return overrideSweep(config, subpath, value);
     if (first == "profiles")
         throw UsageError(value.where, "'{}': profiles can't be changed by an override", path);
 
@@ -232,7 +233,7 @@ void applyOverride(Value& config, const std::string& path, const Value& value, M
     if (Value* graph = config.find("graph"); graph && graph->isList()) {
         for (size_t i = 0; i < graph->items.size(); ++i) {
             const std::string id = passId(graph->items[i]);
-            if (id == first && !id.empty()) return overridePass(*graph, i, rest, path, value, merge);
+            if (id == first && !id.empty()) return overridePass(*graph, i, subpath, path, value, merge);
             if (!id.empty()) candidates.push_back(id);
         }
     }
@@ -242,7 +243,7 @@ void applyOverride(Value& config, const std::string& path, const Value& value, M
         throw UsageError(value.where, "'{}': neither a key of the config nor a pass of its graph{}", first,
                          optionFor(first).empty() ? nearestPath(config, path, first, candidates)
                                                   : "; it is said on the command line: " + optionFor(first));
-    setAlong(config, path, path, value, merge);
+    setAtPath(config, path, path, value, merge);
 }
 
 void applyProfile(Value& config, const std::string& name) {
@@ -275,7 +276,7 @@ void applyAssignment(Value& config, const std::string& assignment) {
         throw UsageError("{}: expected path=value, as in image.width=320", label);
     Value value = parseYaml(assignment.substr(equals + 1), label);
 
-    // One line needs no line number
+    // No line numbers for a single line
     const auto clearLines = [](auto&& self, Value& node) -> void {
         node.where.line = 0;
         for (Value& item : node.items) self(self, item);

@@ -21,7 +21,7 @@ SceneAddition readAddition(const Value& entry, const std::string& owner) {
     return addition;
 }
 
-/// Where the second of two values is written: a sweep's or the command line's, or the lower one in the file.
+/// Location of the later of two values: that of a sweep or the command line, or the lower one in the file.
 TextLocation secondOf(const Value& a, const Value& b) {
     if (a.where.file != b.where.file) return a.where.line == 0 ? a.where : b.where;
     return a.where.line > b.where.line ? a.where : b.where;
@@ -42,7 +42,7 @@ SceneSource readSceneSource(const Value& map, const std::string& owner,
     Value source = Value::map(), parameters = Value::map();
     source.where = map.where;
     for (const auto& [key, value] : map.members) {
-        // `lights` of a config is a list, a built-in scene's parameter of that name a word
+        // A config's `lights` is a list, a built-in scene's parameter of that name a scalar
         const bool isBuiltinsLights = isBuiltin && key == "lights" && value.isScalar();
         const bool isKnown = isOneOf(fieldNames<SceneSource>(), key) || isOneOf(otherKeys, key);
         if (isBuiltin && (isBuiltinsLights || !isKnown))
@@ -55,7 +55,7 @@ SceneSource readSceneSource(const Value& map, const std::string& owner,
     read.owner = owner;
     read.otherKeys = otherKeys;
 
-    // One source
+    // Exactly one source
     const bool hasFile = !read.file.empty(), hasBuiltin = !read.builtin.empty();
     if (hasFile && hasBuiltin)
         throw UsageError(secondOf(*map.find("file"), *map.find("builtin")),

@@ -11,13 +11,13 @@
 
 namespace voxray {
 
-/// Where a scene comes from: a file or a built-in scene.
+/// Source of a scene: a file or a built-in scene.
 struct SceneSource {
     std::string file;
     std::string builtin;
     Value builtinParameters = Value::map();
     std::string owner;                   ///< For messages: "scene", "scene.add[0]".
-    std::vector<std::string> otherKeys;  ///< What else may stand there: for "did you mean".
+    std::vector<std::string> otherKeys;  ///< Other valid keys, for "did you mean".
     TextLocation where;
     static constexpr auto schema() {
         return std::tuple{
@@ -26,13 +26,12 @@ struct SceneSource {
                   "A built-in scene; its own parameters stand next to it.")};
     }
 
-    /// What the scene is called: the file's name without folder and ending, or the built-in scene's name.
+    /// The file's name without folder and extension, or the built-in scene's name.
     std::string name() const;
 };
 
-/// Takes the source out of a map: `file`, or `builtin` with every key that is not one of `otherKeys` as a
-/// parameter.
-/// @throws UsageError for an unknown key next to a file, and unless there is exactly one of the two.
+/// Reads the source in a map: `file`, or `builtin` with all keys except `otherKeys` as parameters.
+/// @throws UsageError for an unknown key next to a file, and unless exactly one of the two is given.
 SceneSource readSceneSource(const Value& map, const std::string& owner,
                             const std::vector<std::string>& otherKeys);
 
@@ -43,17 +42,17 @@ Placement readPlacement(const Value& map, const std::string& owner);
 struct SceneAddition {
     SceneSource source;
     Placement placement;
-    std::optional<MaterialSettings> material;  ///< Of all that is added; empty: its own materials.
+    std::optional<MaterialSettings> material;  ///< Replaces all added materials; empty: none.
 };
 
 /// An entry of `scene.override`.
 struct MaterialOverride {
-    std::string material;  ///< Name of the materials that it changes.
+    std::string material;  ///< Name of the changed materials.
     MaterialChange change;
     TextLocation where;
 };
 
-/// Read `scene.add` and `scene.override`; null is none. @throws UsageError with file, line and the nearest
+/// Read `scene.add` and `scene.override`; null: none. @throws UsageError with file, line and the nearest
 /// valid word.
 std::vector<SceneAddition> readSceneAdditions(const Value& list);
 std::vector<MaterialOverride> readMaterialOverrides(const Value& map);

@@ -11,13 +11,13 @@
 namespace voxray {
 namespace {
 
-glm::vec3 direction(const glm::vec3& vector, const Value& at, const std::string& what) {
+glm::vec3 direction(const glm::vec3& vector, const Value& source, const std::string& what) {
     const float length = glm::length(vector);
-    if (!(length > 1e-12f)) throw UsageError(at.where, "{}: a direction must not be zero", what);
+    if (!(length > 1e-12f)) throw UsageError(source.where, "{}: a direction must not be zero", what);
     return vector / length;
 }
 
-/// What other tools call parts of a light.
+/// Names of a light's properties in other tools.
 void checkLightKeys(const Value& entry, const std::string& what) {
     constexpr std::array<std::string_view, 9> kStrengths{
         "power", "color", "colour", "lumens", "lumen", "strength", "watts", "radiance", "brightness"};
@@ -37,7 +37,7 @@ void checkLightKeys(const Value& entry, const std::string& what) {
     }
 }
 
-// Light entries are named by the key that says their type.
+// A light's type is given by its key.
 ConfigLight readLight(const Value& entry, size_t index) {
     const std::string what = fmt::format("scene.lights[{}]", index);
     if (!entry.isMap())
@@ -108,7 +108,7 @@ void readCamera(const Value& value, SceneSettings& settings) {
         throw UsageError(value.where, "scene.camera: looks along its own 'up'; give another up");
 }
 
-/// What other tools call the radiance of an environment that is the same in all directions.
+/// Names of a constant environment's radiance in other tools.
 constexpr std::array<std::string_view, 4> kRadianceWords{"color", "colour", "radiance", "intensity"};
 
 void readEnvironment(const Value& value, SceneSettings& settings) {
@@ -130,7 +130,7 @@ void readEnvironment(const Value& value, SceneSettings& settings) {
     } else if (value.isScalar() && value.scalar == "none" && !value.quoted) {
         environment.scale = glm::vec3(0.0f);
     } else {
-        // A number or a triple is a radiance; any other text is a file
+        // A number or a triple is a radiance; other text is a file
         const bool isNumber = value.isList() || value.isNumber() || !linearTriple(value.scalar).empty();
         const bool isFile = value.isScalar() && value.scalar.find('.') != std::string::npos;
         if (!isNumber && !isFile)
@@ -169,7 +169,7 @@ void readRegion(const Value& value, SceneSettings& settings) {
     settings.region = region;
 }
 
-/// Keys that any scene may have next to its source.
+/// Keys of all scenes besides the source.
 std::vector<std::string> sceneKeys() {
     std::vector<std::string> keys = fieldNames<SceneOptions>();
     keys.insert(keys.end(), {"camera", "lights", "environment", "moving_spheres", "region", "transform",

@@ -13,8 +13,7 @@
 #include "scene/scene.h"
 #include "trace/ray_tracer.h"
 
-/// The typed blocks of a config. Names, ranges, defaults and help of its scalar keys stand here and nowhere
-/// else.
+/// The typed blocks of a config, with names, ranges, defaults and help of all scalar keys.
 namespace voxray {
 
 template <>
@@ -31,7 +30,7 @@ struct EnumNames<MaterialMode> {
                                       std::pair{MaterialMode::Lambert, "lambert"}};
 };
 
-/// Largest coordinate (m), intensity (W/sr, W/m²) and radiance (W/(m² sr)) that a config may name.
+/// Maximum coordinate (m), intensity (W/sr, W/m²) and radiance (W/(m² sr)) in a config.
 inline constexpr float kMaxCoordinate = 1e6f;
 inline constexpr float kMaxLight = 1e12f;
 
@@ -65,7 +64,8 @@ struct ImageSettings {
     }
 };
 
-/// An entry of `measure.masks`: what a surface must be for its pixels to be selected; all of it must hold.
+/// An entry of `measure.masks`: conditions on a surface, all of which must hold for its pixels to be
+/// selected.
 struct MaskSettings {
     std::string name;  ///< Its key.
     std::string material;
@@ -85,7 +85,7 @@ struct MaskSettings {
     }
 };
 
-/// `measure`, but for the list `metrics` and the map `masks`.
+/// `measure`; the schema has its scalars.
 struct MeasureSettings {
     uint32_t frames = 20;
     uint32_t warmup = 3;
@@ -93,7 +93,7 @@ struct MeasureSettings {
     uint32_t buildRepeats = 1;
     bool secondSeed = false;
     uint64_t memoryLimitMb = 0;
-    std::vector<std::string> metrics;  ///< As in the config: names out of metricNames().
+    std::vector<std::string> metrics;  ///< Of metricNames().
     std::vector<MaskSettings> masks;
     static constexpr auto schema() {
         return std::tuple{
@@ -120,16 +120,16 @@ struct MeasureSettings {
     }
 };
 
-/// "scene.camera" for `camera`: the path of a key of `scene`, `image` or `measure`, or "" for another word.
+/// Path of a key of `scene`, `image` or `measure`, such as "scene.camera" for `camera`; "" for other words.
 std::string pathOfKey(const std::string& key);
 
-/// How many of the measured frames are compared with a reference: 0, compareEvery, 2 compareEvery ...
+/// Number of measured frames compared with a reference: 0, compareEvery, 2 compareEvery ...
 uint32_t comparedFrames(const MeasureSettings& settings);
 
-/// Names for `measure.metrics`.
+/// Valid names in `measure.metrics`.
 std::vector<std::string> metricNames();
 
-/// Scalars of `scene`, but for its source.
+/// Scalars of `scene`, except its source.
 struct SceneOptions {
     bool keepFileLights = true;
     MaterialMode materials = MaterialMode::AsIs;
@@ -203,7 +203,7 @@ constexpr auto lightOffField(uint32_t Light::*offAt) {
                  0u, 100000u);
 }
 
-/// Entries of `scene.lights`; the first key says which kind.
+/// Entries of `scene.lights`; the first key is the kind.
 struct DirectionalLightSettings {
     glm::vec3 direction{0, -1, 0};
     glm::vec3 irradiance{1.0f};
@@ -292,9 +292,8 @@ struct EnvironmentSettings {
 /// A light of the config in the compared frame.
 struct ConfigLight {
     Light light;
-    glm::vec3 move{
-        0.0f};  ///< From one frame to the next: of its position in m, or of a directional's direction.
-    uint32_t offAt = 0;  ///< The frame from which on it does not shine; 0: none.
+    glm::vec3 move{0.0f};  ///< Per frame: of its position, m, or of a directional light's direction.
+    uint32_t offAt = 0;    ///< Frame from which on it is off; 0: never.
     TextLocation where;
 };
 
@@ -304,11 +303,11 @@ struct HiddenName {
     TextLocation where;
 };
 
-/// `scene`, read.
+/// `scene`.
 struct SceneSettings {
     SceneSource source;
     SceneOptions options;
-    std::optional<Placement> placement;  ///< Of the source; empty: as it is.
+    std::optional<Placement> placement;  ///< Of the source; empty: identity.
     std::vector<SceneAddition> additions;
     std::vector<MaterialOverride> overrides;
     std::vector<HiddenName> hidden;
@@ -316,22 +315,23 @@ struct SceneSettings {
     std::optional<CameraSettings> camera;
     std::vector<ConfigLight> lights;
     std::optional<MovingSpheres> movingSpheres;
-    std::optional<RegionSettings> region;            ///< What voxels and parallel light are for; empty: all.
-    std::optional<EnvironmentSettings> environment;  ///< Empty: the scene's own.
+    std::optional<RegionSettings> region;            ///< Extent of voxels and parallel light; empty: all.
+    std::optional<EnvironmentSettings> environment;  ///< Empty: that of the source.
     TextLocation where, cameraWhere, environmentWhere, regionWhere;
 };
 
 /// Reads the block `measure`. @throws UsageError with file, line and the nearest valid word.
 MeasureSettings readMeasureSettings(const Value& map);
 
-/// Reads the block `scene`. Touches no file. @throws UsageError with file, line and the nearest valid word.
+/// Reads the block `scene`, without file access. @throws UsageError with file, line and the nearest valid
+/// word.
 SceneSettings readSceneSettings(const Value& map);
 
-/// Whether surfaces or lights are elsewhere in the next frame, or a light is switched off.
-/// @param isAnimated whether the scene holds anything that a time step moves.
+/// Whether surfaces or lights move from frame to frame, or a light is switched off.
+/// @param isAnimated whether the scene has anything that a time step moves.
 bool changesInTime(const SceneSettings& settings, bool isAnimated = true);
 
-/// The first frame from which on a light does not shine; nullopt where none is switched off.
+/// The first frame in which a light is off; nullopt if none is switched off.
 std::optional<uint32_t> firstLightOff(const SceneSettings& settings);
 
 }  // namespace voxray

@@ -17,9 +17,9 @@ constexpr size_t kMaxNameLength = 120;
 
 struct Axis {
     std::string path;
-    std::string label;  ///< Short name, for the names of variants.
+    std::string label;  ///< Short name, in names of variants.
     std::vector<Value> values;
-    std::vector<std::string> texts;  ///< Of the values, short.
+    std::vector<std::string> texts;  ///< Labels of the values.
     TextLocation where;
 };
 
@@ -70,7 +70,7 @@ std::vector<Axis> readAxes(const Experiment& experiment) {
     return axes;
 }
 
-// One value of each axis, by its number: the digits of `index`, the last axis runs fastest.
+// Value indices of a combination: the digits of `index`, the last axis varies fastest.
 std::vector<size_t> choose(const std::vector<Axis>& axes, size_t index) {
     std::vector<size_t> chosen(axes.size());
     for (size_t a = axes.size(); a-- > 0;) {
@@ -84,14 +84,14 @@ bool swapsPass(const Axis& axis) {
     return axis.path.find('.') == std::string::npos;
 }
 
-/// A path that leads nowhere is told at the axis, anything else at the value.
+/// Errors of an invalid path are located at the axis, others at the value.
 void setValue(Value& config, const Axis& axis, size_t chosen) {
     Value value = axis.values[chosen];
     if (!hasTarget(config, axis.path)) value.where = axis.where;
     applyOverride(config, axis.path, value, Merge::Replace);
 }
 
-/// The config without its sweep, with whole passes in place: variants that differ in values alone share it.
+/// Configs without sweep and with passes swapped, shared by variants that differ in other values.
 class SwappedConfigs {
  public:
     SwappedConfigs(const Experiment& experiment, const std::vector<Axis>& axes)
@@ -99,7 +99,7 @@ class SwappedConfigs {
         plain_.erase("sweep");
     }
 
-    /// @param chosen a value of each axis, by its number; those that swap no pass are not looked at.
+    /// @param chosen value index of each axis; those that swap no pass are ignored.
     const Value& with(std::vector<size_t> chosen) {
         for (size_t a = 0; a < axes_.size(); ++a)
             if (!swapsPass(axes_[a])) chosen[a] = 0;
@@ -111,7 +111,7 @@ class SwappedConfigs {
         }
         return config->second;
     }
-    /// Whether any of the configs so far has what an axis leads to.
+    /// Whether any config so far has the target of an axis.
     bool hasSomewhere(const std::string& path) const {
         return std::ranges::any_of(configs_, [&](const auto& c) { return hasTarget(c.second, path); });
     }
@@ -119,7 +119,7 @@ class SwappedConfigs {
  private:
     const std::vector<Axis>& axes_;
     Value plain_;
-    std::map<std::vector<size_t>, Value> configs_;  ///< By the values that swap passes.
+    std::map<std::vector<size_t>, Value> configs_;  ///< By the indices of swapped passes.
 };
 
 std::string shortened(const std::string& name) {
@@ -186,8 +186,8 @@ std::vector<SweepPoint> expandSweep(const Experiment& experiment) {
             throw UsageError(experiment.sweep.where, "sweep: more than {} variants", kMaxVariants);
     }
 
-    // Whole passes are swapped first, so that parameters reach the pass that is there in the end. An axis of
-    // a pass that some graphs have and others lack does not split those that lack it
+    // Passes are swapped first, so that parameters apply to the final pass. An axis of a pass that only some
+    // graphs have does not multiply the others
     SwappedConfigs configs(experiment, axes);
     for (size_t index = 0; index < count; ++index) configs.with(choose(axes, index));
     std::vector<bool> somewhere(axes.size());
@@ -229,7 +229,7 @@ std::string VariantNames::next(const std::vector<std::string>& values) {
         if (values[a] != kNoValue) name += (name.empty() ? "" : "_") + fileSafe(labels_[a] + "-" + values[a]);
     name = shortened(name.empty() ? "default" : name);
 
-    // Different values may look alike once they are safe as file names
+    // Sanitized names of different values may be equal
     const std::string plain = name;
     for (int copy = 2; !taken_.insert(name).second; ++copy) name = plain + "-" + std::to_string(copy);
     return name;

@@ -12,18 +12,17 @@ namespace voxray {
 struct SweepPoint {
     std::string name;  ///< Unique, safe as a file name, e.g. "resolution-64_inject-inject_rsm".
     std::vector<std::string> values;  ///< Text of each axis' value, in the order of sweepKeys().
-    Value config;  ///< The experiment's config with this variant's values in place, no sweep.
+    Value config;                     ///< The experiment's config with this variant's values, without sweep.
     Setup setup;
 };
 
 /// The axes, in the file's order.
 std::vector<std::string> sweepKeys(const Experiment& experiment);
 
-/// The values of an axis, which is a list of values, or a map that gives each value a name.
+/// The values of an axis, which is a list, or a map of named values.
 std::vector<Value> sweepValues(const Value& axis);
 
-/// Short texts of these values, as in SweepPoint::values: the names that a map gives them, else
-/// valueLabels().
+/// Labels of these values, as in SweepPoint::values: their names in a map, else valueLabels().
 std::vector<std::string> sweepLabels(const Value& axis);
 
 /// Takes all values out of a config's sweep but the chosen ones; axes without a choice stay whole.
@@ -31,7 +30,7 @@ std::vector<std::string> sweepLabels(const Value& axis);
 /// there.
 void keepOnly(Value& config, const std::vector<std::string>& choices);
 
-/// In place of the value of an axis that a variant does not have.
+/// Label if a variant doesn't have an axis.
 inline constexpr const char* kNoValue = "-";
 
 /// Names of variants by their values, unique and safe as file names.
@@ -46,12 +45,11 @@ class VariantNames {
     std::set<std::string> taken_;
 };
 
-/// Every combination of the sweep's values; the last axis runs fastest. One variant, "default", without a
-/// sweep. Where a pass stands in the graphs of some variants alone, as one of a chain, a parameter of it
-/// varies these; each of the others comes once, with "-" in place of the value. An axis is
-/// `<id>.<parameter>`, `<id>` (swaps the whole pass for another or for a chain), `scene...`, `image...`,
-/// `seed` or `tracer`.
-/// @throws UsageError for another axis, a value that the config can't hold, or over 10,000 variants.
+/// All combinations of the sweep's values; the last axis varies fastest. Without a sweep one variant,
+/// "default". If only some variants have a pass, a parameter of it varies these alone; each of the others
+/// occurs once, with "-" as its value. An axis is `<id>.<parameter>`, `<id>` (replaces the pass by another or
+/// by a chain), `scene...`, `image...`, `seed` or `tracer`.
+/// @throws UsageError for another axis, an invalid value, or over 10,000 variants.
 std::vector<SweepPoint> expandSweep(const Experiment& experiment);
 
 }  // namespace voxray

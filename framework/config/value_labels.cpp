@@ -7,14 +7,14 @@
 namespace voxray {
 namespace {
 
-/// Members of a value's entries: the entry's number and the key.
+/// Members of a value's entries: index of the entry, and key.
 using MemberNames = std::set<std::pair<size_t, std::string>>;
 
 bool hasMaps(const Value& list) {
     return std::ranges::any_of(list.items, [](const Value& item) { return item.isMap(); });
 }
 
-/// The entries of a list of maps; any other value is its own only entry.
+/// The entries of a list of maps; any other value is a single entry.
 std::vector<const Value*> entriesOf(const Value& value) {
     if (!value.isList() || !hasMaps(value)) return {&value};
     std::vector<const Value*> entries;
@@ -22,7 +22,7 @@ std::vector<const Value*> entriesOf(const Value& value) {
     return entries;
 }
 
-/// The member that says what an entry is, or nullptr.
+/// The member that names an entry, or nullptr.
 const Value::Member* namingMember(const Value& entry) {
     static const std::set<std::string> naming{"pass", "builtin", "file", "directional", "point", "spot"};
     for (const Value::Member& member : entry.members)
@@ -30,23 +30,24 @@ const Value::Member* namingMember(const Value& entry) {
     return nullptr;
 }
 
-/// What an entry is, with some of its members spelt out.
-std::string label(const Value& entry, size_t number, const MemberNames& spelt) {
+/// Label of an entry, with some of its members.
+std::string label(const Value& entry, size_t number, const MemberNames& shownMembers) {
     if (entry.isScalar()) return entry.scalar;
     if (entry.isList() && entry.items.empty()) return "none";
     const Value::Member* naming = namingMember(entry);
     if (!naming) return entry.text();
     std::string text = naming->value.scalar;
     for (const Value::Member& member : entry.members)
-        if (&member != naming && spelt.contains({number, member.key}))
+        if (&member != naming && shownMembers.contains({number, member.key}))
             text += " " + member.key + " " + member.value.text();
     return text;
 }
 
-std::string label(const Value& value, const MemberNames& spelt) {
+std::string label(const Value& value, const MemberNames& shownMembers) {
     std::string text;
     const std::vector<const Value*> entries = entriesOf(value);
-    for (size_t e = 0; e < entries.size(); ++e) text += (e ? " + " : "") + label(*entries[e], e, spelt);
+    for (size_t e = 0; e < entries.size(); ++e)
+        text += (e ? " + " : "") + label(*entries[e], e, shownMembers);
     return text;
 }
 
@@ -78,8 +79,8 @@ std::vector<std::string> valueLabels(const std::vector<Value>& values) {
     for (const Value& value : values) labels.push_back(label(value, {}));
     for (const auto& [text, group] : groupsOf(labels)) {
         if (group.size() == 1) continue;
-        const MemberNames spelt = differences(values, group);
-        for (const size_t i : group) labels[i] = label(values[i], spelt);
+        const MemberNames shownMembers = differences(values, group);
+        for (const size_t i : group) labels[i] = label(values[i], shownMembers);
     }
     for (const auto& [text, group] : groupsOf(labels))
         if (group.size() > 1)

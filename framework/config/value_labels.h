@@ -7,10 +7,10 @@
 
 namespace voxray {
 
-/// Short texts that tell the values of one axis of a sweep apart, for names of variants and for tables. A map
-/// is called by what it is (its pass, scene, file or type of light), a list of maps by its entries joined
-/// with " + ", an empty list "none". Values that are called alike are told apart by the members that differ,
-/// and by all of their text where that is not enough. Equal values have equal texts.
+/// Short distinct labels of the values of a sweep's axis, for names of variants and for tables. The label of
+/// a map is its pass, scene, file or type of light, that of a list of maps its entries joined by " + ", that
+/// of an empty list "none". Differing members are appended to equal labels, or the full text is used. Equal
+/// values have equal labels.
 std::vector<std::string> valueLabels(const std::vector<Value>& values);
 
 }  // namespace voxray

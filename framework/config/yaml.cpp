@@ -16,13 +16,13 @@ constexpr size_t kMaxBytes = 1u << 20;
 constexpr size_t kMaxNodes = 100000;
 constexpr int kMaxDepth = 64;
 
-/// Turns yaml-cpp's nodes into Values.
+/// Converts yaml-cpp's nodes to Values.
 class Converter {
  public:
     Converter(const std::string& text, std::string file) : text_(text), file_(std::move(file)) {}
 
     Value convert(const YAML::Node& node, int depth, const TextLocation& fallback) {
-        // Limits: aliases make a small file large, and a node may contain itself
+        // Limits: aliases can expand a small file without bound, and a node may contain itself
         const TextLocation where = node.Mark().is_null() ? fallback : locate(node.Mark());
         if (depth > kMaxDepth) throw UsageError(where, "nested more than {} levels deep", kMaxDepth);
         if (++nodes_ > kMaxNodes) throw UsageError(where, "more than {} values", kMaxNodes);
@@ -91,13 +91,13 @@ class Converter {
                 value.members.push_back({key, std::move(member)});
         }
 
-        // What stands in the map itself counts, then what the first of the merged maps says
+        // Entries of the map take precedence, then those of earlier merged maps
         for (const Value& map : merged)
             for (const Value::Member& member : map.members)
                 if (seen.insert(member.key).second) value.members.push_back(member);
     }
 
-    /// What a merge key brings: a map, or a list of maps.
+    /// The value of a merge key: a map, or a list of maps.
     static std::vector<Value> mapsOf(const Value& value) {
         std::vector<Value> maps = value.isList() ? value.items : std::vector{value};
         for (const Value& map : maps)

@@ -15,14 +15,14 @@
 namespace voxray {
 namespace {
 
-/// A line of block style with something in it.
+/// A nonempty line in block style.
 struct Line {
     int number;     ///< 1-based.
     size_t indent;  ///< Spaces before it.
-    size_t inner;   ///< The same, with those and the dashes of list entries before what they hold.
+    size_t inner;   ///< Indentation including the dashes of list entries.
     std::string text;
-    std::string key;  ///< Of "key: value" or "key:"; empty for another line.
-    bool hasValue;    ///< Behind the key, in the same line.
+    std::string key;  ///< Of "key: value" or "key:"; empty for other lines.
+    bool hasValue;    ///< After the key, in the same line.
 
     bool isEntry() const { return inner > indent; }
 };
@@ -42,7 +42,7 @@ std::optional<Line> readLine(const std::string& text, int number) {
     return line;
 }
 
-/// The lines that hold something, up to one with that number.
+/// The nonempty lines up to one with that number.
 std::vector<Line> linesUpTo(const std::string& text, int last) {
     std::istringstream stream(text);
     std::vector<Line> lines;
@@ -52,14 +52,14 @@ std::vector<Line> linesUpTo(const std::string& text, int last) {
     return lines;
 }
 
-/// A white space that YAML takes for none.
+/// A white-space character that is no YAML white space.
 struct WhiteSpace {
     const char* bytes;
     const char* name;
 };
 constexpr WhiteSpace kOtherSpaces[] = {{"\t", "a tab"}, {"\u00a0", "a non-breaking space"}};
 
-/// The first line that is indented by such a space.
+/// The first line indented by such a character.
 std::optional<YamlFault> otherSpace(const std::string& text) {
     std::istringstream lines(text);
     std::string line;
@@ -75,7 +75,7 @@ std::string spaces(size_t count) {
     return fmt::format("{} space{}", count, count == 1 ? "" : "s");
 }
 
-/// A key that stands neither below its neighbours nor below a key that waits for a block.
+/// A key that is aligned neither with its neighbours nor below a key without a value.
 std::optional<YamlFault> indentation(const std::vector<Line>& lines) {
     if (lines.size() < 2 || lines.back().key.empty() || lines.back().isEntry()) return {};
     const Line &line = lines.back(), &before = lines[lines.size() - 2];
@@ -86,9 +86,9 @@ std::optional<YamlFault> indentation(const std::vector<Line>& lines) {
                         "as far, by {}",
                         line.key, before.key, before.number, spaces(before.inner))};
 
-    // Below the dash of an entry, or between it and what it holds
+    // Below the dash of an entry, or between the dash and its contents
     const auto above = std::find_if(lines.rbegin() + 1, lines.rend(),
-                                    [&](const Line& other) { return other.indent <= line.indent; });
+                                    [&](const Line& previous) { return previous.indent <= line.indent; });
     if (above == lines.rend() || !above->isEntry() || line.indent >= above->inner) return {};
     if (line.key == above->key)
         return YamlFault{line.number, fmt::format("a dash is missing before '{0}', as in line {1}: write '- "
@@ -102,12 +102,12 @@ std::optional<YamlFault> indentation(const std::vector<Line>& lines) {
                                  isTop ? ", as the config's other keys" : "")};
 }
 
-/// Whether a list entry's dash stands right before what it holds.
+/// Whether a list entry's dash is directly before its contents.
 bool hasNarrowDash(const Line& line) {
     return line.text.find_first_of("{[", line.indent) == line.indent + 1 && line.text[line.indent] == '-';
 }
 
-/// What to say of a line that has a second ': ' before any brace; else "".
+/// Message for a line with a second ': ' before any brace, else "".
 std::string secondColon(const Line& line) {
     const size_t brace = line.text.find_first_of("{[", line.inner);
     const std::string head = line.text.substr(line.inner, std::min(brace, line.text.size()) - line.inner);
@@ -118,14 +118,14 @@ std::string secondColon(const Line& line) {
     return "a second ': ' in a line; put a text that holds one between quotes" + quoted;
 }
 
-/// Whether the parser stopped at a key that it did not expect, outside of braces.
+/// Whether the parser stopped at an unexpected key, outside of braces.
 bool isOfBlocks(const std::string& message) {
     constexpr std::array<std::string_view, 3> kMessages{"end of map not found", "end of sequence not found",
                                                         "illegal map value"};
     return std::ranges::count(kMessages, message) > 0;
 }
 
-/// What mostly lies behind a message of the parser, or "".
+/// The usual cause of a parser message, or "".
 std::string hintOf(const std::string& message) {
     static const std::vector<std::pair<std::string, std::string>> hints{
         {"end of map not found", "is this line, or the one before, indented unlike its neighbours?"},
@@ -133,17 +133,17 @@ std::string hintOf(const std::string& message) {
         {"end of map flow not found", "after a '{' before it a comma or the '}' is missing"},
         {"end of sequence flow not found", "after a '[' before it a comma or the ']' is missing"},
         {"illegal map value", "is a ':' missing in the line before?"}};
-    for (const auto& [part, hint] : hints)
-        if (message == part) return "; " + hint;
+    for (const auto& [text, hint] : hints)
+        if (message == text) return "; " + hint;
     if (message.starts_with("unknown escape character"))
         return "; write paths with '/', or between single quotes";
     return {};
 }
 
-/// A '{' or '[' that is open where a line begins.
+/// A '{' or '[' that is open at the beginning of a line.
 struct OpenBrace {
     char brace;
-    int line;  ///< In which it stands.
+    int line;  ///< Of the bracket.
 };
 
 /// The innermost one.
@@ -173,8 +173,9 @@ std::optional<OpenBrace> openBrace(const std::string& text, int line) {
     return open.empty() ? std::nullopt : std::optional(open.back());
 }
 
-/// "; what follows '#' there is a comment" where it takes the brace's end with it, as an unquoted #ff8800
-/// does; else "".
+/// "; what follows '#' there is a comment" if a comment hides the closing brace, as an unquoted #ff8800 does;
+/// else
+/// "".
 std::string afterComment(const std::string& text, const OpenBrace& open) {
     std::istringstream lines(text);
     std::string line;

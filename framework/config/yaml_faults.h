@@ -4,15 +4,15 @@
 
 namespace voxray {
 
-/// What is wrong with a text that the parser of YAML refuses, and what to do about it.
+/// Diagnosis of a text that the YAML parser rejects, with a remedy.
 struct YamlFault {
-    int line;  ///< 1-based; 0 where it is not known.
+    int line;  ///< 1-based; 0: unknown.
     std::string message;
 };
 
-/// Looks for what is mostly behind a refusal: a tab in the indentation, a key that is indented unlike its
-/// neighbours, a second colon; else there is what the parser says, with a hint.
-/// @param line 1-based, where the parser stopped; 0: not known. @param message what it said.
+/// Looks for the usual causes: a tab in the indentation, a key with another indentation than its neighbours,
+/// a second colon; otherwise returns the parser's message with a hint.
+/// @param line 1-based, where the parser stopped; 0: unknown. @param message of the parser.
 YamlFault yamlFault(const std::string& text, int line, const std::string& message);
 
 }  // namespace voxray

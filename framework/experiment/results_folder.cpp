@@ -76,7 +76,7 @@ ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, Folde
             throw UsageError("{}: is not a folder", path_.string());
         if (fs::exists(path_)) checkOwner(experiment);
         fs::create_directories(path_ / "images");
-        lock_.emplace(path_ / kLock, isPart ? ProcessLock::Kind::Shared : ProcessLock::Kind::Alone, path_,
+        lock_.emplace(path_ / kLock, isPart ? ProcessLock::Kind::Shared : ProcessLock::Kind::Exclusive, path_,
                       ifHeld);
         checkOwner(experiment);  // Again: another process may have had it until now.
     });
@@ -100,7 +100,7 @@ ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, Folde
 
 ProcessLock ResultsFolder::lockPart(const std::string& id, ProcessLock::IfHeld ifHeld) const {
     orError<UsageError>(path_, [&] { fs::create_directories(path_ / kParts); });
-    return {path_ / kParts / ("." + id + ".lock"), ProcessLock::Kind::Alone, path_ / kParts / id, ifHeld};
+    return {path_ / kParts / ("." + id + ".lock"), ProcessLock::Kind::Exclusive, path_ / kParts / id, ifHeld};
 }
 
 void ResultsFolder::claim(const ManifestData& manifest) const {

@@ -82,7 +82,7 @@ void putRegion(PreparedScene& prepared, const SceneSettings& settings) {
                      glm::min(high - prepared.origin + rounding, g.boundsMax)};
     if (!glm::all(glm::lessThanEqual(region.min, region.max)))
         throw UsageError(settings.regionWhere, "scene.region: none of the scene lies in it");
-    prepared.state = inRegion(prepared.state, region, settings.options.time);
+    prepared.state = splitAtRegion(prepared.state, region, settings.options.time);
 }
 
 /// The lights that shine in a frame and its camera, out of those of the evaluated scene.
@@ -194,7 +194,7 @@ PreparedScene SceneLoader::prepare(const SceneSettings& settings, Origin origin)
     PreparedScene prepared;
     const Playback playback = settings.options.timeStep > 0 ? Playback::Looping : Playback::Frozen;
     std::shared_ptr<const Scene> scene = compose(settings);
-    prepared.state = evaluateParted(scene, settings.options.time, playback);
+    prepared.state = evaluateWithPanes(scene, settings.options.time, playback);
     const glm::vec3 nearest = nearestOrigin(prepared.state.geometry);
     prepared.isFarAway = nearest != glm::vec3(0.0f);
     if (origin == Origin::Scene) prepared.origin = nearest;
@@ -202,7 +202,7 @@ PreparedScene SceneLoader::prepare(const SceneSettings& settings, Origin origin)
         // A node over all nodes takes their translations away before any vertex is added to them
         auto moved = std::make_shared<Scene>(placedScene(*scene, {.translate = -prepared.origin}));
         moved->contentHash = hashScene(*moved);
-        prepared.state = evaluateParted(std::move(moved), settings.options.time, playback);
+        prepared.state = evaluateWithPanes(std::move(moved), settings.options.time, playback);
     }
     if (settings.region) putRegion(prepared, settings);
     chooseLightsAndCamera(prepared, settings, 0);

@@ -118,7 +118,7 @@ Variant::Variant(SweepPoint point, const Registry& registry)
         throw UsageError(setup.graph.where,
                          "graph: no pass writes '{}', the image that is compared; these can: {}",
                          kComparedImage, fmt::join(registry.writersOf(kComparedImage), ", "));
-    for (const char* part : kPartsOfLight) graph.checkIsMadeOf(kComparedImage, part);
+    for (const char* part : kPartsOfLight) graph.checkReadsLast(kComparedImage, part);
     unused = graph.unused();
     leftOut = graph.keepOnly(comparedPorts());
     resolved = graph.resolved();

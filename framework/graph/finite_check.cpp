@@ -10,7 +10,7 @@ namespace {
 
 constexpr uint64_t kFloatsPerDispatch = 32768 * 64;  // A row of work groups.
 
-/// Of floats that lie in host memory.
+/// Number of NaN or infinite floats, counted on the host.
 uint32_t badFloatsOf(CommandStream& stream, const Buffer& buffer) {
     const std::vector<float> values = stream.readAs<float>(buffer, buffer.bytes() / sizeof(float));
     return uint32_t(std::ranges::count_if(values, [](float value) { return !std::isfinite(value); }));

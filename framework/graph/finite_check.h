@@ -6,10 +6,10 @@
 
 namespace voxray {
 
-/// Counts NaN and infinite values: on the device, or on the host where that is all there is.
+/// Counts NaN and infinite values: on the device, or on the host if there is none.
 class FiniteCheck : public ProgramOwner {
  public:
-    /// Programs are compiled by the user.
+    /// The owner compiles the programs.
     explicit FiniteCheck(Device& device);
 
     /// Number of texels (level 0) with a NaN or infinite component. The image must have a float format.

@@ -7,7 +7,7 @@
 
 #include "base/byte_units.h"
 #include "graph/finite_check.h"
-#include "graph/left_out.h"
+#include "graph/pass_culling.h"
 #include "graph/pass_memory_tracker.h"
 #include "graph/size_advice.h"
 #include "graph/wiring.h"
@@ -17,12 +17,12 @@ namespace voxray {
 
 namespace {
 
-/// Leaves a graph so much of the device's memory, what its passes hold already among it, while it lives.
+/// Limits the device memory of a graph's passes while it lives. @param usedBytes by these passes already.
 class MemoryLimit {
  public:
-    MemoryLimit(Device& device, uint64_t bytes, uint64_t takenBytes)
+    MemoryLimit(Device& device, uint64_t bytes, uint64_t usedBytes)
         : device_(device), before_(device.memoryLimitBytes()) {
-        const uint64_t others = device.memoryUsedBytes() - takenBytes;
+        const uint64_t others = device.memoryUsedBytes() - usedBytes;
         if (bytes < before_ - std::min(before_, others)) device.setMemoryLimitBytes(others + bytes);
     }
     ~MemoryLimit() { device_.setMemoryLimitBytes(before_); }
@@ -34,8 +34,8 @@ class MemoryLimit {
     const uint64_t before_;
 };
 
-/// Numbers the contents of the outputs, and remembers which contents of all the pass knows.
-void markVersions(GraphNode& node, bool outputsKept) {
+/// Increments the versions of the outputs, and records which versions of all resources the pass has seen.
+void updateVersions(GraphNode& node, bool outputsKept) {
     if (!outputsKept)
         for (const std::unique_ptr<Resource>& output : node.outputs) ++output->version;
     node.seenVersions.emplace();
@@ -50,22 +50,22 @@ struct Graph::Impl {
     std::vector<PassMemoryTracker> memory;  ///< By node.
     std::optional<FiniteCheck> finiteCheck;
     uint64_t memoryLimitBytes = 0;
-    Image black;  ///< A texel, for inputs that nothing writes.
+    Image black;  ///< One texel, for inputs that nothing writes.
 
-    /// Does a part of a pass's work. @throws Error that says what to lower where something is too large.
-    void work(const GraphNode& node, const std::function<void()>& part) const;
-    /// Bytes that passes hold now.
-    uint64_t takenBytes() const;
+    /// Runs `work` of a pass. @throws Error with sizeAdvice() where a SizeError was thrown.
+    void withSizeAdvice(const GraphNode& node, const std::function<void()>& work) const;
+    /// Persistent memory of all passes.
+    uint64_t usedBytes() const;
     void checkOutputs(const GraphNode& node, CommandStream& stream);
 };
 
 uint64_t peakBytes(const std::vector<PassMemory>& passes) {
-    uint64_t kept = 0, scratch = 0;
+    uint64_t persistent = 0, scratch = 0;
     for (const PassMemory& pass : passes) {
-        kept += pass.bytes;
+        persistent += pass.bytes;
         scratch = std::max(scratch, pass.scratchBytes);
     }
-    return kept + scratch;
+    return persistent + scratch;
 }
 
 uint64_t estimatedBytes(const std::vector<PassMemory>& passes) {
@@ -74,9 +74,9 @@ uint64_t estimatedBytes(const std::vector<PassMemory>& passes) {
     return bytes;
 }
 
-uint64_t Graph::Impl::takenBytes() const {
+uint64_t Graph::Impl::usedBytes() const {
     uint64_t bytes = 0;
-    for (const PassMemoryTracker& own : memory) bytes += own.taken().bytes;
+    for (const PassMemoryTracker& pass : memory) bytes += pass.used().bytes;
     return bytes;
 }
 
@@ -98,36 +98,36 @@ std::vector<Graph::PassInfo> Graph::passes() const {
     std::vector<PassInfo> infos;
     for (const GraphNode& node : impl_->nodes)
         infos.push_back(
-            {node.id, node.kind, node.phase, node.pass->framesBefore(), node.where, node.lightRays});
+            {node.id, node.kind, node.phase, node.pass->warmupFrames(), node.where, node.lightRays});
     return infos;
 }
 
-void Graph::checkIsMadeOf(const std::string& whole, const std::string& part) const {
-    const GraphNode *last = nullptr, *maker = nullptr;
-    const Resource *written = nullptr, *read = nullptr;
+void Graph::checkReadsLast(const std::string& output, const std::string& input) const {
+    const GraphNode *lastWriter = nullptr, *reader = nullptr;
+    const Resource *lastWritten = nullptr, *read = nullptr;
     bool reads = false;
     for (const GraphNode& node : impl_->nodes)
         for (size_t p = 0; p < node.ports.size(); ++p) {
             if (!node.ports[p].output) continue;
-            if (node.ports[p].name == part) last = &node, written = node.resources[p];
-            if (node.ports[p].name == whole) maker = &node;
+            if (node.ports[p].name == input) lastWriter = &node, lastWritten = node.resources[p];
+            if (node.ports[p].name == output) reader = &node;
         }
-    if (!last || !maker) return;
-    for (size_t p = 0; p < maker->ports.size(); ++p)
-        if (!maker->ports[p].output && maker->ports[p].name == part) {
+    if (!lastWriter || !reader) return;
+    for (size_t p = 0; p < reader->ports.size(); ++p)
+        if (!reader->ports[p].output && reader->ports[p].name == input) {
             reads = true;
-            read = maker->resources[p];
+            read = reader->resources[p];
         }
-    const Value* inputs = maker->resolved.find("inputs");
-    if (!reads || read == written || (inputs && inputs->find(part))) return;
+    const Value* inputs = reader->resolved.find("inputs");
+    if (!reads || read == lastWritten || (inputs && inputs->find(input))) return;
     throw UsageError(
-        last->where,
+        lastWriter->where,
         "{0}: writes '{1}', but that is not what '{2}' reads, so '{3}' lacks what it brings: put '{0}' "
         "right before '{2}', or choose with inputs of '{2}'",
-        last->id, part, maker->id, whole);
+        lastWriter->id, input, reader->id, output);
 }
 
-std::vector<Graph::Input> Graph::emptyInputs(const std::string& portName) const {
+std::vector<Graph::Input> Graph::unboundInputs(const std::string& portName) const {
     const auto writes = [&](const GraphNode& node) { return outputNamed(node, portName).has_value(); };
     const auto& nodes = impl_->nodes;
     const auto last = std::find_if(nodes.rbegin(), nodes.rend(), writes);
@@ -168,20 +168,21 @@ std::vector<std::string> Graph::noiseParameters(const std::string& portName) con
     const Needed needed = neededFor(nodes, {portName});
     for (size_t n = 0; n < nodes.size(); ++n)
         if (needed.nodes[n])
-            for (const std::string& name : nodes[n].lessNoise) paths.push_back(nodes[n].id + "." + name);
+            for (const std::string& name : nodes[n].noiseParameters)
+                paths.push_back(nodes[n].id + "." + name);
     return paths;
 }
 
 std::vector<std::pair<std::string, std::vector<Aov>>> Graph::aovs() const {
-    std::vector<std::pair<std::string, std::vector<Aov>>> all;
+    std::vector<std::pair<std::string, std::vector<Aov>>> byPass;
     for (const GraphNode& node : impl_->nodes) {
-        std::vector<Aov> own;
+        std::vector<Aov> aovs;
         for (const std::unique_ptr<Resource>& output : node.outputs)
             for (const Aov& aov : output->aovs())
-                if (*aov.image) own.push_back(aov);  // Not made where no pass reads it.
-        if (!own.empty()) all.emplace_back(node.id, std::move(own));
+                if (*aov.image) aovs.push_back(aov);  // Null where no pass reads it.
+        if (!aovs.empty()) byPass.emplace_back(node.id, std::move(aovs));
     }
-    return all;
+    return byPass;
 }
 
 Value Graph::resolved() const {
@@ -191,11 +192,11 @@ Value Graph::resolved() const {
 }
 
 std::vector<UnusedSetting> Graph::unused() const {
-    std::vector<UnusedSetting> all;
+    std::vector<UnusedSetting> parameters;
     for (const GraphNode& node : impl_->nodes)
-        for (const UnusedSetting& own : node.unused)
-            all.push_back({node.id + "." + own.name, own.where, own.why});
-    return all;
+        for (const UnusedSetting& parameter : node.unused)
+            parameters.push_back({node.id + "." + parameter.name, parameter.where, parameter.why});
+    return parameters;
 }
 
 bool Graph::writes(const std::string& portName) const {
@@ -223,10 +224,10 @@ std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device
         impl_->memory[n] = PassMemoryTracker(plan);
         memory.push_back(impl_->memory[n].planned());
 
-        for (const MemoryPlan::Part& part : plan.parts()) {
-            if (part.bytes <= largestBytes) continue;
-            largestBytes = part.bytes;
-            largest = node.id + "'s " + part.name;
+        for (const MemoryPlan::Allocation& allocation : plan.allocations()) {
+            if (allocation.bytes <= largestBytes) continue;
+            largestBytes = allocation.bytes;
+            largest = node.id + "'s " + allocation.name;
             largestPass = &node;
         }
     }
@@ -254,21 +255,22 @@ void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& co
     for (size_t n = 0; n < impl_->nodes.size(); ++n) {
         GraphNode& node = impl_->nodes[n];
         PassSetup setup(node.resources, frame, device, stream);
-        impl_->work(node, [&] { impl_->memory[n].prepare(stream, [&] { node.pass->prepare(setup); }); });
+        impl_->withSizeAdvice(node,
+                              [&] { impl_->memory[n].prepare(stream, [&] { node.pass->prepare(setup); }); });
     }
 }
 
 std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& device, CommandStream& stream,
                                    RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex,
                                    bool checkFinite) {
-    struct Stamps {
+    struct PassTimestamps {
         size_t sample;
         uint32_t begin, end;
         std::vector<const Buffer*> voxelCounts;
     };
     std::vector<PassSample> samples;
-    std::vector<Stamps> stamps;
-    const MemoryLimit limit(device, impl_->memoryLimitBytes, impl_->takenBytes());
+    std::vector<PassTimestamps> timestamps;
+    const MemoryLimit limit(device, impl_->memoryLimitBytes, impl_->usedBytes());
     stream.finish();
     stream.resetTimestamps();
     for (size_t n = 0; n < impl_->nodes.size(); ++n) {
@@ -276,7 +278,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         if (node.phase != phase) continue;
         const uint64_t raysBefore = tracer.raysTraced();
 
-        // Time the pass on the device; the Embree backend's host work falls between the stamps.
+        // Device timestamps; host work of the Embree backend falls between them.
         PassContext context(node.resources, node.seenVersions ? &*node.seenVersions : nullptr, frame, device,
                             stream, tracer, scene, impl_->black, frameIndex);
         const StreamCounts before = stream.counts();
@@ -288,8 +290,8 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
             end = stream.timestamp();
             stream.endLabel();
         };
-        impl_->work(node, [&] { impl_->memory[n].record(stream, record); });
-        markVersions(node, context.outputsKept());
+        impl_->withSizeAdvice(node, [&] { impl_->memory[n].record(stream, record); });
+        updateVersions(node, context.outputsKept());
 
         PassSample sample;
         sample.rays = tracer.raysTraced() - raysBefore + context.extraRays;
@@ -298,28 +300,28 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         for (const PassContext::Value& value : sample.reported)
             if (!std::isfinite(value.value))
                 throw Error("pass '{}' reported {} as '{}'", node.id, value.value, value.name);
-        stamps.push_back({samples.size(), begin, end, std::move(context.voxelCounts)});
+        timestamps.push_back({samples.size(), begin, end, std::move(context.voxelCounts)});
         samples.push_back(sample);
         if (checkFinite) impl_->checkOutputs(node, stream);
     }
     stream.finish();
-    for (const Stamps& s : stamps) {
+    for (const PassTimestamps& s : timestamps) {
         PassSample& sample = samples[s.sample];
         sample.milliseconds = stream.millisecondsBetween(s.begin, s.end);
         uint64_t visits = 0;
         for (const Buffer* counts : s.voxelCounts) {
-            const std::vector<uint64_t> both = stream.readAs<uint64_t>(*counts, 2);
-            sample.voxelSteps += both[0];
-            visits += both[1];
+            const std::vector<uint64_t> stepsAndVisits = stream.readAs<uint64_t>(*counts, 2);
+            sample.voxelSteps += stepsAndVisits[0];
+            visits += stepsAndVisits[1];
         }
         if (!s.voxelCounts.empty()) sample.reported.push_back({"voxel visits", double(visits)});
     }
     return samples;
 }
 
-void Graph::Impl::work(const GraphNode& node, const std::function<void()>& part) const {
+void Graph::Impl::withSizeAdvice(const GraphNode& node, const std::function<void()>& work) const {
     try {
-        part();
+        work();
     } catch (const SizeError& error) {
         throw Error(node.where, "{}: {}: {}", node.id, error.what(), sizeAdvice(nodes, node));
     }
@@ -347,7 +349,7 @@ void Graph::Impl::checkOutputs(const GraphNode& node, CommandStream& stream) {
 
 std::vector<PassMemory> Graph::memory() const {
     std::vector<PassMemory> memory;
-    for (const PassMemoryTracker& own : impl_->memory) memory.push_back(own.taken());
+    for (const PassMemoryTracker& pass : impl_->memory) memory.push_back(pass.used());
     return memory;
 }
 

@@ -22,16 +22,16 @@
 #include "vulkan/memory.h"
 #include "vulkan/program.h"
 
-/// What a technique implements. Life of a pass: it is made, and its ports with it -> the graph is wired and
-/// sorted -> `plan` describes its memory, which the graph makes, as it compiles the pass's programs ->
+/// What a technique implements. Life of a pass: it is constructed with its ports -> the graph is wired and
+/// sorted -> `plan` describes its memory -> the graph makes the memory and compiles the pass's programs ->
 /// `prepare` fills tables -> `record`, once (build) or per frame.
 namespace voxray {
 
-/// When a pass runs: once for a scene and its lights, or in each frame. A pass that reads what is written in
-/// each frame runs in each frame.
+/// When a pass runs: once for a scene and its lights, or in each frame. Readers of frame passes run in each
+/// frame.
 enum class Phase { Build, Frame };
 
-/// What all passes of a graph share. Everything outlives the graph.
+/// Input of all passes of a graph. Everything outlives the graph.
 struct Frame {
     const SceneState* scene = nullptr;
     Camera camera;               ///< World space.
@@ -40,19 +40,18 @@ struct Frame {
     uint32_t height = 0;
     uint64_t seed = 0;
     glm::uvec2 pixels() const { return {width, height}; }
-    /// The part of its samples that a pass takes which writes their sums (ReferenceSums).
+    /// Samples that a pass takes which writes their sums (ReferenceSums).
     SamplePart samples;
-    /// Where surfaces came, went or moved since the build phase ran last (old and new bounds of what moves,
-    /// each instance apart); nullopt: everything is new.
+    /// Where surfaces appeared, disappeared or moved since the build phase ran last (old and new bounds, by
+    /// instance); nullopt: everything is new.
     std::optional<std::vector<Box>> changed;
-    /// Incremented when surfaces or lights change, each time that `changed` is told.
+    /// Incremented when surfaces or lights change, with `changed`.
     uint64_t sceneVersion = 0;
-    /// Called by passes that take long with the part that is done, 0 to 1; false asks them to stop with an
-    /// Error.
+    /// Called by long passes with their progress, 0 to 1; false asks them to stop with an Error.
     std::function<bool(double)> progress;
 };
 
-/// What every image of the frame's size and format is made from.
+/// Description of an image of the frame's size and format.
 inline ImageDesc frameImageDesc(const Frame& frame) {
     ImageDesc desc;
     desc.format = VK_FORMAT_R32G32B32A32_SFLOAT;
@@ -60,7 +59,7 @@ inline ImageDesc frameImageDesc(const Frame& frame) {
     return desc;
 }
 
-/// For describing buffers and images (MemoryPlan), before any memory is taken.
+/// Given to Pass::plan: describes buffers and images (MemoryPlan), before any memory is allocated.
 class PassPlan : public PortAccess, public MemoryPlan {
  public:
     PassPlan(const PortOwner& owner, const std::vector<Resource*>& resources, const Frame& f,
@@ -69,7 +68,7 @@ class PassPlan : public PortAccess, public MemoryPlan {
     const Frame& frame;
     const DeviceInfo& device;
     const Phase phase;  ///< In which the pass runs.
-    /// Rays that one run traces to or from lights, where they are so many for each light.
+    /// Rays to or from lights in one run, if their number is proportional to that of lights.
     uint64_t lightRays = 0;
 
     /// Describes an output image of the frame's size.
@@ -81,7 +80,7 @@ class PassPlan : public PortAccess, public MemoryPlan {
     const PortOwner& owner_;
 };
 
-/// For filling tables among the buffers and images that were described.
+/// Given to Pass::prepare: fills tables in the described buffers and images.
 class PassSetup : public PortAccess {
  public:
     PassSetup(const std::vector<Resource*>& resources, const Frame& f, Device& d, CommandStream& s)
@@ -91,7 +90,7 @@ class PassSetup : public PortAccess {
     CommandStream& stream;
 };
 
-/// For running.
+/// Given to Pass::record.
 class PassContext : public PortAccess {
  public:
     /// @param seenVersions of the resources when the pass recorded last; null in its first run
@@ -117,17 +116,17 @@ class PassContext : public PortAccess {
 
     /// Whether the pass records for the first time.
     bool isFirstRun() const { return !seenVersions_; }
-    /// Whether the contents of an input have changed since the pass recorded last; true in its first run,
-    /// false for an optional input that nothing writes.
+    /// Whether the contents of an input changed since the pass recorded last; true in its first run, false
+    /// for an optional input that nothing writes.
     bool changed(const Resource& input) const;
     bool changed(const Port& input) const {
         const Resource* resource = bound(input);
         return resource && changed(*resource);
     }
-    /// Whether those of any input have. A pass that returns where none has leaves its outputs as they are,
-    /// and so the graph takes them for unchanged where this is false.
+    /// Whether those of any input changed. If not, the graph takes the outputs for unchanged: the pass should
+    /// return without writing them.
     bool inputsChanged();
-    /// Tells the graph that this run leaves the outputs as they were.
+    /// Tells the graph that this run leaves the outputs unchanged.
     void keepOutputs() { outputsKept_ = true; }
     bool outputsKept() const { return outputsKept_; }
 
@@ -142,11 +141,10 @@ class PassContext : public PortAccess {
         const FrameImage* image = (*this)[port];
         return image ? image->image : black_;
     }
-    /// Rays traced outside of `tracer` (the reference traces on its own).
+    /// Rays traced without `tracer` (by the reference).
     uint64_t extraRays = 0;
-    /// Counts of walks through voxels (shaders/voxel_march), which the graph reads when all passes have run:
-    /// two 64-bit numbers, steps and words visited. They become the pass's voxel_steps and the value "voxel
-    /// visits".
+    /// Counters of voxel marches (shaders/voxel_march), read when all passes have run: two 64-bit numbers,
+    /// steps and words read. They become the pass's voxel_steps and the value "voxel visits".
     std::vector<const Buffer*> voxelCounts;
 
     struct Value {
@@ -154,7 +152,7 @@ class PassContext : public PortAccess {
         double value;
     };
     std::vector<Value> reported;
-    /// Leaves a finite number for values.csv and the report, under a name in words (with its unit, if any).
+    /// Reports a finite number in values.csv and the report. @param name in words, with its unit, if any.
     void report(std::string name, double value) { reported.push_back({std::move(name), value}); }
 
  private:
@@ -163,24 +161,23 @@ class PassContext : public PortAccess {
     bool outputsKept_ = false;
 };
 
-/// A stage of a graph. A pass class also has `struct Params` with a schema, a constructor from Params, and
+/// A stage of a graph. A pass class also has `struct Params` with a schema, a constructor from Params,
 /// `static constexpr const char* kName, *kHelp` (what it does, what biases it, what makes it noisy, its
-/// source), and `static constexpr bool kNeedsDevice = false` where it runs without Vulkan, too.
+/// source), and `static constexpr bool kNeedsDevice = false` if it runs without Vulkan, too.
 class Pass : public PortOwner, public ProgramOwner {
  public:
     virtual ~Pass() = default;
-    /// Frame for a pass that depends on the frame itself, such as its camera. Build for all others: they run
-    /// once, or in each frame where they read what is written in each frame.
+    /// Frame for a pass that depends on the frame itself, such as its camera. Build for all others, which
+    /// still run in each frame if they read a frame pass.
     virtual Phase phase() const { return Phase::Build; }
-    /// How many frames have to lead up to one that shows what the pass can: of one that goes on from frame to
-    /// frame.
-    virtual uint32_t framesBefore() const { return 0; }
+    /// Frames until the result of a pass with temporal history has converged.
+    virtual uint32_t warmupFrames() const { return 0; }
     /// Checks parameters against scene and device, describes outputs and all memory. Runs in graph order.
-    /// @throws Error for what this scene or device can't do.
+    /// @throws Error if the scene or the device doesn't support it.
     virtual void plan(PassPlan& plan) = 0;
-    /// Uploads tables; buffers, images and programs are there. Runs in graph order, after all plans.
+    /// Uploads tables to buffers and images. Runs in graph order, after all plans.
     virtual void prepare(PassSetup&) {}
-    /// Records the work.
+    /// Records dispatches and draws.
     virtual void record(PassContext& context) = 0;
 };
 

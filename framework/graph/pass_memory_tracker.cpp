@@ -6,20 +6,20 @@ namespace voxray {
 
 PassMemory PassMemoryTracker::planned() const {
     PassMemory memory;
-    for (const MemoryPlan::Part& part : plan_.parts())
-        (part.isScratch ? memory.scratchBytes : memory.bytes) += part.bytes;
+    for (const MemoryPlan::Allocation& allocation : plan_.allocations())
+        (allocation.isScratch ? memory.scratchBytes : memory.bytes) += allocation.bytes;
     memory.estimatedBytes = plan_.estimatedBytes();
     return memory;
 }
 
 bool PassMemoryTracker::make(Device& device, bool scratch) const {
-    bool any = false;
-    for (const MemoryPlan::Part& part : plan_.parts()) {
-        if (part.isScratch != scratch) continue;
-        part.make(device);
-        any = true;
+    bool made = false;
+    for (const MemoryPlan::Allocation& allocation : plan_.allocations()) {
+        if (allocation.isScratch != scratch) continue;
+        allocation.make(device);
+        made = true;
     }
-    return any;
+    return made;
 }
 
 void PassMemoryTracker::prepare(CommandStream& stream, const std::function<void()>& preparePass) {
@@ -28,7 +28,7 @@ void PassMemoryTracker::prepare(CommandStream& stream, const std::function<void(
     make(device, false);
     preparePass();
     stream.finish();
-    taken_ = {device.memoryUsedBytes() - before, 0};
+    used_ = {device.memoryUsedBytes() - before, 0};
 }
 
 void PassMemoryTracker::record(CommandStream& stream, const std::function<void()>& recordPass) {
@@ -38,15 +38,15 @@ void PassMemoryTracker::record(CommandStream& stream, const std::function<void()
     const bool hasScratch = make(device, true);
     recordPass();
 
-    // Scratch is free for the next pass, and so is what was staged.
+    // The next pass may reuse scratch and staging memory.
     if (hasScratch || stream.stagingBytes() > 0) stream.finish();
-    for (const MemoryPlan::Part& part : plan_.parts())
-        if (part.isScratch) part.free();
+    for (const MemoryPlan::Allocation& allocation : plan_.allocations())
+        if (allocation.isScratch) allocation.free();
 
-    // A pass may size its outputs by what it counted: what it holds now is what it keeps.
+    // Persistent memory may have grown: a pass may size its outputs by a count.
     const uint64_t after = device.memoryUsedBytes();
-    taken_.bytes += after - before;
-    taken_.scratchBytes = std::max(taken_.scratchBytes, device.memoryPeakBytes() - after);
+    used_.bytes += after - before;
+    used_.scratchBytes = std::max(used_.scratchBytes, device.memoryPeakBytes() - after);
 }
 
 }  // namespace voxray

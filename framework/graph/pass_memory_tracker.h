@@ -8,29 +8,28 @@
 
 namespace voxray {
 
-/// The memory of one pass while the graph runs: makes and frees what the pass described, and measures what it
-/// takes.
+/// Memory of one pass while the graph runs: makes and frees what the pass described, and measures its use.
 class PassMemoryTracker {
  public:
     PassMemoryTracker() = default;
     explicit PassMemoryTracker(MemoryPlan plan) : plan_(std::move(plan)) {}
 
-    /// What the pass described, and what it estimates besides.
+    /// Described and estimated memory.
     PassMemory planned() const;
-    /// What the pass has taken so far.
-    const PassMemory& taken() const { return taken_; }
+    /// Measured memory so far.
+    const PassMemory& used() const { return used_; }
 
-    /// Makes what is kept, then calls `preparePass`. Waits for the device.
+    /// Makes persistent memory, then calls `preparePass`. Waits for the device.
     void prepare(CommandStream& stream, const std::function<void()>& preparePass);
-    /// Makes scratch, calls `recordPass` and frees it, for which it waits for the device where there is any.
+    /// Makes scratch, calls `recordPass` and frees scratch. Waits for the device if there is any scratch.
     void record(CommandStream& stream, const std::function<void()>& recordPass);
 
  private:
-    /// @return whether there is any of that kind.
+    /// @return whether anything was made.
     bool make(Device& device, bool scratch) const;
 
     MemoryPlan plan_;
-    PassMemory taken_;
+    PassMemory used_;
 };
 
 }  // namespace voxray

@@ -21,7 +21,7 @@ struct PortInfo {
 
 class Port;
 
-/// What ports are members of: a pass, also for the parts of it that several passes share.
+/// Owner of ports: a pass, passed on to the classes that several passes share.
 class PortOwner {
  public:
     PortOwner() = default;
@@ -39,15 +39,15 @@ class PortOwner {
     std::vector<PortInfo> ports_;
 };
 
-/// What inputs and outputs have in common: the graph binds them to resources.
+/// Base of inputs and outputs, which the graph binds to resources.
 class Port {
  public:
     Port(const Port&) = delete;
     Port& operator=(const Port&) = delete;
 
  protected:
-    Port(PortOwner& owner, PortInfo info, bool isAsked) {
-        if (!isAsked) return;
+    Port(PortOwner& owner, PortInfo info, bool isPresent) {
+        if (!isPresent) return;
         index_ = int(owner.ports_.size());
         owner.ports_.push_back(std::move(info));
     }
@@ -55,40 +55,40 @@ class Port {
  private:
     friend class PortAccess;
     friend class PortOwner;
-    int index_ = -1;  ///< Of the pass's own ports; -1: it has none, with its parameters.
+    int index_ = -1;  ///< In the owner's ports; -1: absent.
 };
 
 inline const std::string& PortOwner::nameOf(const Port& port) const {
     return ports_.at(size_t(port.index_)).name;
 }
 
-/// An input of a pass: what an earlier pass writes under this name (or under the name that the config's
-/// `inputs` gives).
+/// An input of a pass: what an earlier pass writes under this name (or that which the config's `inputs`
+/// gives).
 template <typename T>
 class In : public Port {
  public:
-    /// @param isAsked false: with its parameters the pass has no such port.
-    In(PortOwner& owner, std::string name, std::string help, bool isAsked = true)
-        : Port(owner, {std::move(name), std::move(help), false, false, typeid(T)}, isAsked) {}
+    /// @param isPresent false if the pass has no such port with its parameters.
+    In(PortOwner& owner, std::string name, std::string help, bool isPresent = true)
+        : Port(owner, {std::move(name), std::move(help), false, false, typeid(T)}, isPresent) {}
 };
 
 /// The same, but the graph is valid without it.
 template <typename T>
 class InOptional : public Port {
  public:
-    InOptional(PortOwner& owner, std::string name, std::string help, bool isAsked = true)
-        : Port(owner, {std::move(name), std::move(help), false, true, typeid(T)}, isAsked) {}
+    InOptional(PortOwner& owner, std::string name, std::string help, bool isPresent = true)
+        : Port(owner, {std::move(name), std::move(help), false, true, typeid(T)}, isPresent) {}
 };
 
 /// An output of a pass.
 template <typename T>
 class Out : public Port {
  public:
-    Out(PortOwner& owner, std::string name, std::string help, bool isAsked = true)
+    Out(PortOwner& owner, std::string name, std::string help, bool isPresent = true)
         : Port(owner,
                {std::move(name), std::move(help), true, false, typeid(T),
                 []() -> Resource* { return new T(); }},
-               isAsked) {}
+               isPresent) {}
 };
 
 /// Access to the resources that a pass's ports are bound to.

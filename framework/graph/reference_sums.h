@@ -7,8 +7,8 @@
 
 namespace voxray {
 
-/// What the pass of a reference writes: sums over the part of its samples that Frame::samples asks for, on
-/// the host. The two halves of all samples are independent of each other.
+/// Output of the reference's pass, on the host: sums over the samples of Frame::samples, in two independent
+/// halves.
 struct ReferenceSums : Resource {
     std::array<SampleSums, 2> final, indirect;
 };

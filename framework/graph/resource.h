@@ -9,30 +9,29 @@
 
 namespace voxray {
 
-/// An image to look at (AOV), as channels of an EXR file: "P.X" is the channel X of the layer P.
+/// An AOV, as channels of an EXR file: "P.X" is the channel X of the layer P.
 struct Aov {
     const Image* image;                 ///< RGBA32F or RGBA16F.
     std::vector<std::string> channels;  ///< Names of the image's first components.
 };
 
-/// What passes hand to each other: a plain struct of buffers and images. The pass that writes it describes
-/// them in plan(), or makes them in record() where their size is counted on the device.
+/// Buffers and images that a pass writes and others read. The writer describes them in plan(), or makes them
+/// in record() where their size is counted on the device.
 struct Resource {
     virtual ~Resource() = default;
-    /// False for an output that nothing reads: its producer may leave it empty. Set by the graph, before
-    /// plan().
+    /// False for an output that nothing reads: its writer may leave it empty. Set by the graph before plan().
     bool isRead = true;
     /// Incremented by the graph when the contents have changed (PassContext::changed).
     uint64_t version = 0;
-    /// Bounces of light between a source and the surface that the camera sees, at most, as `bounces` of
-    /// path_trace counts them; nullopt where it carries no indirect light or has no such bound. Of stored
-    /// light those before it arrives where it is stored. Set in plan().
+    /// Maximum number of bounces between a light source and the surface that the camera sees (for stored
+    /// light: the surface where it is stored), counted as `bounces` of path_trace; nullopt without indirect
+    /// light or without a bound. Set in plan().
     std::optional<uint32_t> lightBounces;
-    /// Name of the input by which its elements are numbered, such as "voxels"; empty: none. Who reads both
-    /// must read the same one as the pass that wrote this.
-    virtual std::string basisPort() const { return {}; }
-    /// What its elements are numbered by; null where its writer reads no such input. Set by the graph.
-    const Resource* basis = nullptr;
+    /// Name of the port whose elements index this resource, such as "voxels"; empty: none. A pass that reads
+    /// both must read the same one as the writer of this resource.
+    virtual std::string indexedBy() const { return {}; }
+    /// The resource at that port of the writer; null where it reads none. Set by the graph.
+    const Resource* indexResource = nullptr;
     /// Float images and float buffers that are checked for NaN and infinity after the producing pass ran.
     virtual std::vector<const Image*> checkedImages() const { return {}; }
     virtual std::vector<const Buffer*> checkedBuffers() const { return {}; }
@@ -40,7 +39,7 @@ struct Resource {
     virtual std::vector<Aov> aovs() const { return {}; }
 };
 
-/// Bounces of what surfaces reflect of stored light, from Resource::lightBounces of it.
+/// Bounces of stored light after surfaces reflect it, from its Resource::lightBounces.
 inline std::optional<uint32_t> oneMore(std::optional<uint32_t> bounces) {
     return bounces ? std::optional(*bounces + 1) : std::nullopt;
 }
@@ -48,7 +47,7 @@ inline std::optional<uint32_t> oneMore(std::optional<uint32_t> bounces) {
 /// A radiance image of the frame's size: RGBA32F, linear Rec.709, W/(m² sr).
 struct FrameImage : Resource {
     Image image;
-    /// Of indirect light: whether what specular lobes reflect is in it. Set in plan().
+    /// Of indirect light: whether it includes the reflection of specular lobes. Set in plan().
     bool hasSpecularLobes = false;
     std::vector<const Image*> checkedImages() const override { return {&image}; }
 };

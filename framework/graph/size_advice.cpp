@@ -18,8 +18,8 @@ bool reads(const GraphNode& reader, const GraphNode& writer) {
 std::string sizeAdvice(const std::vector<GraphNode>& nodes, const GraphNode& node) {
     std::vector<std::string> paths;
     const auto add = [&](const GraphNode& other) {
-        for (const std::string& count : other.counts)
-            paths.push_back(fmt::format("{}.{}, ", other.id, count));
+        for (const std::string& parameter : other.sizeParameters)
+            paths.push_back(fmt::format("{}.{}, ", other.id, parameter));
     };
     add(node);
     for (const GraphNode& writer : nodes)

@@ -7,12 +7,12 @@
 #include <set>
 
 #include "base/suggest.h"
-#include "graph/basis.h"
+#include "graph/index_resource.h"
 
 namespace voxray {
 namespace {
 
-/// Where an input comes from: a node and one of its output ports.
+/// A node and one of its output ports.
 struct Source {
     size_t node;
     size_t port;
@@ -24,7 +24,7 @@ std::vector<std::string> idsOf(const std::vector<GraphNode>& nodes) {
     return ids;
 }
 
-/// @throws UsageError for a parameter that another pass of the graph has, and this one has not.
+/// @throws UsageError for an unknown parameter that another pass of the graph has.
 void checkParameters(const Registry& registry, const PassKind& kind, const Value& entry,
                      const std::string& id, const std::vector<std::string>& reservedKeys,
                      const Value& passList) {
@@ -33,19 +33,20 @@ void checkParameters(const Registry& registry, const PassKind& kind, const Value
     };
     for (const auto& [key, value] : entry.members) {
         if (has(kind, key) || std::ranges::count(reservedKeys, key) > 0) continue;
-        for (const Value& other : passList.items) {
-            const Value* name = other.find("pass");
+        for (const Value& otherEntry : passList.items) {
+            const Value* name = otherEntry.find("pass");
             const PassKind* otherKind = name && name->isScalar() ? registry.find(name->scalar) : nullptr;
             if (!otherKind || !has(*otherKind, key)) continue;
-            std::vector<std::string> own;
-            for (const ParameterDoc& doc : kind.parameters) own.push_back(doc.name);
+            std::vector<std::string> names;
+            for (const ParameterDoc& doc : kind.parameters) names.push_back(doc.name);
             throw UsageError(value.where, "{}: unknown parameter '{}', which '{}' has; one of: {}", id, key,
-                             otherKind->name, own.empty() ? "none" : fmt::format("{}", fmt::join(own, ", ")));
+                             otherKind->name,
+                             names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
         }
     }
 }
 
-/// @param passList the graph that the entry stands in.
+/// @param passList the graph of the entry.
 GraphNode readNode(const Registry& registry, const Value& entry, const std::vector<std::string>& reservedKeys,
                    const Value& passList) {
     if (!entry.isMap())
@@ -66,7 +67,7 @@ GraphNode readNode(const Registry& registry, const Value& entry, const std::vect
     node.pass = kind.create(entry, node.id, reservedKeys);
     node.ports = node.pass->ports();
 
-    // What the manifest records: the reserved keys as they are, then every parameter.
+    // Resolved: the reserved keys as written, then all parameters.
     node.resolved = Value::map();
     for (const std::string& key : reservedKeys)
         if (const Value* value = entry.find(key)) node.resolved.set(key, *value);
@@ -75,8 +76,8 @@ GraphNode readNode(const Registry& registry, const Value& entry, const std::vect
     for (const ParameterDoc& doc : kind.parameters) {
         if (std::ranges::count(unused, doc.name, &UnusedSetting::name) > 0) continue;
         if (doc.type == "integer" && parameters.find(doc.name)->scalar != doc.min)
-            node.counts.push_back(doc.name);
-        if (doc.isLessNoise) node.lessNoise.push_back(doc.name);
+            node.sizeParameters.push_back(doc.name);
+        if (doc.isLessNoise) node.noiseParameters.push_back(doc.name);
     }
     for (UnusedSetting& parameter : unused)
         if (const Value* written = entry.find(parameter.name)) {
@@ -124,7 +125,7 @@ std::optional<Source> implicitSource(const std::vector<GraphNode>& nodes, size_t
                      writers.empty() ? "" : fmt::format("; these can: {}", fmt::join(writers, ", ")));
 }
 
-/// ", as in {irradiance: inject}" for `inputs` that are no map, with the pass that they name if there is one.
+/// ", as in {irradiance: inject}" for `inputs` that are no map, with the pass that they name, if any.
 std::string exampleOfInputs(const std::vector<GraphNode>& nodes, const std::vector<std::string>& ports,
                             const Value& inputs) {
     const Value& named = inputs.items.empty() ? inputs : inputs.items[0];
@@ -148,9 +149,10 @@ void checkInputKeys(const std::vector<GraphNode>& nodes, const GraphNode& node, 
                              didYouMean(key, names));
 }
 
-/// Writers before readers; ties in the list's order. @throws UsageError naming the passes of a cycle.
-std::vector<size_t> sorted(const std::vector<GraphNode>& nodes,
-                           const std::vector<std::set<size_t>>& dependencies) {
+/// Topological order: writers before readers, ties in the list's order. @throws UsageError naming the passes
+/// of a cycle.
+std::vector<size_t> topologicalOrder(const std::vector<GraphNode>& nodes,
+                                     const std::vector<std::set<size_t>>& dependencies) {
     std::vector<size_t> order;
     std::set<size_t> done;
     while (order.size() < nodes.size()) {
@@ -205,7 +207,7 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
                                  nodes[n].id);
     }
 
-    // Outputs are owned by the pass that writes them. From outside, only the last of a name can be read.
+    // A pass owns its outputs. Only the last output of a name can be read from outside the graph.
     std::set<std::string> laterOutputs;
     for (size_t n = nodes.size(); n-- > 0;) {
         GraphNode& node = nodes[n];
@@ -218,7 +220,7 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
         }
     }
 
-    // Bind every input and note who depends on whom.
+    // Bind all inputs and collect dependencies.
     std::vector<std::set<size_t>> dependencies(nodes.size());
     for (size_t n = 0; n < nodes.size(); ++n) {
         const Value* inputs = passList.items[n].find("inputs");
@@ -240,18 +242,18 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
         }
     }
 
-    // What reads the output of a frame pass runs in each frame, too.
-    const std::vector<size_t> order = sorted(nodes, dependencies);
+    // Readers of frame passes are frame passes.
+    const std::vector<size_t> order = topologicalOrder(nodes, dependencies);
     for (const size_t n : order) {
         const bool readsFrame = std::ranges::any_of(
             dependencies[n], [&](size_t writer) { return nodes[writer].phase == Phase::Frame; });
         nodes[n].phase = readsFrame ? Phase::Frame : nodes[n].pass->phase();
     }
 
-    std::vector<GraphNode> inOrder;
-    for (const size_t n : order) inOrder.push_back(std::move(nodes[n]));
-    bindBases(inOrder);
-    return inOrder;
+    std::vector<GraphNode> ordered;
+    for (const size_t n : order) ordered.push_back(std::move(nodes[n]));
+    bindIndexResources(ordered);
+    return ordered;
 }
 
 }  // namespace voxray

@@ -16,20 +16,20 @@ struct GraphNode {
     std::string id;
     std::string kind;  ///< Name in the registry.
     std::unique_ptr<Pass> pass;
-    Phase phase = Phase::Build;  ///< The pass's own, or Frame where it reads what is written in each frame.
+    Phase phase = Phase::Build;  ///< The pass's, or Frame if it reads what is written in each frame.
     std::vector<PortInfo> ports;
     std::vector<Resource*> resources;  ///< By port; null for an optional input that nothing writes.
     std::optional<std::vector<uint64_t>> seenVersions;  ///< Of `resources` after the pass recorded last.
-    std::vector<std::unique_ptr<Resource>> outputs;     ///< What this pass owns.
+    std::vector<std::unique_ptr<Resource>> outputs;     ///< Owned by this pass.
     Value resolved;                                     ///< The config's entry with defaults filled in.
-    std::vector<std::string> counts;                    ///< Its whole-number parameters that can be lowered.
-    std::vector<std::string> lessNoise;                 ///< Parameters whose larger values lower its noise.
-    std::vector<UnusedSetting> unused;  ///< What its entry names although it has no effect there.
+    std::vector<std::string> sizeParameters;            ///< Integer parameters above their minimum.
+    std::vector<std::string> noiseParameters;           ///< Parameters whose larger values lower its noise.
+    std::vector<UnusedSetting> unused;                  ///< Parameters of its entry that have no effect.
     TextLocation where;
     uint64_t lightRays = 0;  ///< As planned.
 };
 
-/// The number of a node's output port of that name.
+/// Index of a node's output port of that name.
 std::optional<size_t> outputNamed(const GraphNode& node, const std::string& name);
 
 /// Checks an entry of a pass list by itself: its pass, its parameters and which inputs it names.

@@ -8,8 +8,8 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kTileEdge = 16;
-constexpr size_t kFewTiles = 64;
-// So that the 25th value from either end bounds 2.5 %.
+constexpr size_t kMinTiles = 64;
+// The 25th value from either end bounds 2.5 %.
 constexpr size_t kResamples = 999, kOutside = 25;
 
 struct Tile {
@@ -19,7 +19,7 @@ struct Tile {
 
 std::vector<Tile> tilesOf(const std::vector<double>& values, uint32_t width, uint32_t height, PixelMask mask,
                           size_t count) {
-    const uint32_t edge = std::clamp(uint32_t(std::sqrt(double(count) / double(kFewTiles))), 1u, kTileEdge);
+    const uint32_t edge = std::clamp(uint32_t(std::sqrt(double(count) / double(kMinTiles))), 1u, kTileEdge);
     const size_t tilesX = (width + edge - 1) / edge;
     std::vector<Tile> tiles(tilesX * ((height + edge - 1) / edge));
     for (uint32_t y = 0; y < height; ++y)
@@ -38,15 +38,15 @@ std::vector<Tile> tilesOf(const std::vector<double>& values, uint32_t width, uin
 
 Estimate meanOverTiles(const std::vector<double>& values, uint32_t width, uint32_t height, PixelMask mask) {
     const std::vector<Tile> tiles = tilesOf(values, width, height, mask, countPixels(width, height, mask));
-    Tile all;
+    Tile total;
     for (const Tile& tile : tiles) {
-        all.sum += tile.sum;
-        all.count += tile.count;
+        total.sum += tile.sum;
+        total.count += tile.count;
     }
-    Estimate mean(all.sum / all.count);
+    Estimate mean(total.sum / total.count);
     if (tiles.size() < 2) return mean;
 
-    // As many tiles again, drawn with replacement
+    // Resample as many tiles with replacement
     std::mt19937 random(1);
     std::vector<double> means(kResamples);
     for (double& resampled : means) {

@@ -14,17 +14,17 @@ struct Interval {
     double high = 0;
 };
 
-/// A score, with its 95 % confidence interval where it has one.
+/// A score, with its 95 % confidence interval, if any.
 struct Estimate {
     Estimate(double score) : value(score) {}
     double value;
     std::optional<Interval> interval;
 };
 
-/// Mean of one value a pixel, over the pixels that count, with a percentile interval by bootstrap (Efron
-/// 1979) over square tiles: neighbours are not independent, tiles of up to 16 x 16 pixels nearly are. Fewer
-/// than 64 tiles of that size are made smaller. The same values give the same interval; no interval where
-/// there is but one tile. @throws Error as countPixels().
+/// Mean of one value per pixel under the mask, with a percentile interval by block bootstrap (Efron 1979)
+/// over square tiles of 16 x 16 pixels, which are nearly independent, unlike adjacent pixels. Tiles are
+/// smaller if there were fewer than 64. Deterministic; no interval for a single tile. @throws Error as
+/// countPixels().
 Estimate meanOverTiles(const std::vector<double>& values, uint32_t width, uint32_t height, PixelMask mask);
 
 }  // namespace voxray

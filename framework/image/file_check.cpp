@@ -31,36 +31,36 @@ uint32_t bigEndian(const uint8_t* bytes) {
     return uint32_t(bytes[0]) << 24 | uint32_t(bytes[1]) << 16 | uint32_t(bytes[2]) << 8 | bytes[3];
 }
 
-// Walks a PNG's chunks (length, type, data, checksum of type and data) up to IEND. Chunks that a decoder may
-// skip have a lower-case name: their checksums don't matter.
+// Checks a PNG's chunks (length, type, data, checksum of type and data) up to IEND. Checksums of optional
+// chunks, with lower-case names, are ignored.
 void checkPng(std::span<const uint8_t> bytes, const std::string& name) {
-    for (size_t at = 8; bytes.size() - at >= 12;) {
-        const size_t length = bigEndian(&bytes[at]);
-        if (bytes.size() - at - 12 < length) break;
-        const auto typeAndData = bytes.subspan(at + 4, 4 + length);
+    for (size_t offset = 8; bytes.size() - offset >= 12;) {
+        const size_t length = bigEndian(&bytes[offset]);
+        if (bytes.size() - offset - 12 < length) break;
+        const auto typeAndData = bytes.subspan(offset + 4, 4 + length);
         const std::string_view type(reinterpret_cast<const char*>(typeAndData.data()), 4);
         const bool isNamed = std::all_of(type.begin(), type.end(), [](char c) {
             return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
         });
         if (!isNamed) throw Error("{}: is broken: a chunk has no name", name);
         const bool isCritical = (typeAndData[0] & 0x20) == 0;
-        if (isCritical && crc(typeAndData) != bigEndian(&bytes[at + 8 + length]))
+        if (isCritical && crc(typeAndData) != bigEndian(&bytes[offset + 8 + length]))
             throw Error("{}: is broken: the checksum of a chunk is wrong", name);
         if (type == "IEND") return;
-        at += 12 + length;
+        offset += 12 + length;
     }
     throw Error("{}: is broken or truncated: its end is missing", name);
 }
 
-bool startsWith(std::span<const uint8_t> bytes, std::string_view magic, size_t at = 0) {
-    return bytes.size() >= at + magic.size() &&
-           std::equal(magic.begin(), magic.end(), bytes.begin() + int64_t(at),
+bool startsWith(std::span<const uint8_t> bytes, std::string_view magic, size_t offset = 0) {
+    return bytes.size() >= offset + magic.size() &&
+           std::equal(magic.begin(), magic.end(), bytes.begin() + int64_t(offset),
                       [](char a, uint8_t b) { return uint8_t(a) == b; });
 }
 
 }  // namespace
 
-bool jpegEnds(std::span<const uint8_t> bytes) {
+bool hasJpegEnd(std::span<const uint8_t> bytes) {
     static constexpr uint8_t endOfImage[] = {0xff, 0xd9};
     return std::find_end(bytes.begin(), bytes.end(), std::begin(endOfImage), std::end(endOfImage)) !=
            bytes.end();
@@ -73,9 +73,9 @@ bool isWebp(std::span<const uint8_t> bytes) {
 std::string adviceFor(std::span<const uint8_t> bytes) {
     if (startsWith(bytes, "\xabKTX 20\xbb"))
         return ", but KTX2: store it as PNG (KTX-Software: ktx extract --transcode rgba8 IN.ktx2 OUT.png)";
-    for (const auto& [magic, at, format] :
+    for (const auto& [magic, offset, format] :
          {std::tuple{"DDS ", 0, "DDS"}, {"ftypavif", 4, "AVIF"}, {"GIF8", 0, "GIF"}, {"BM", 0, "BMP"}})
-        if (startsWith(bytes, magic, size_t(at)))
+        if (startsWith(bytes, magic, size_t(offset)))
             return fmt::format(", but {}: store it as PNG or JPEG", format);
     return "";
 }
@@ -89,9 +89,9 @@ bool isPng(std::span<const uint8_t> bytes) {
     return bytes.size() > sizeof magic && std::equal(std::begin(magic), std::end(magic), bytes.begin());
 }
 
-void checkWhole(std::span<const uint8_t> bytes, const std::string& name) {
+void checkIntegrity(std::span<const uint8_t> bytes, const std::string& name) {
     if (isPng(bytes)) checkPng(bytes, name);
-    if (isJpeg(bytes) && !jpegEnds(bytes))
+    if (isJpeg(bytes) && !hasJpegEnd(bytes))
         throw Error("{}: is broken or truncated: its end is missing", name);
 }
 

@@ -4,22 +4,21 @@
 #include <span>
 #include <string>
 
-/// What is looked at in PNG and JPEG files before a decoder sees them. Internal to the image layer.
+/// Checks of PNG and JPEG files before decoding. Internal to the image layer.
 namespace voxray {
 
 bool isJpeg(std::span<const uint8_t> bytes);
 bool isPng(std::span<const uint8_t> bytes);
 bool isWebp(std::span<const uint8_t> bytes);
 
-/// Whether the end marker is there; a cut-off JPEG decodes to grey without complaint.
-bool jpegEnds(std::span<const uint8_t> bytes);
+/// Whether the end marker exists; truncated JPEGs decode to grey without an error.
+bool hasJpegEnd(std::span<const uint8_t> bytes);
 
-/// How to convert a picture of another format, which begins its own clause; empty where the format is
-/// unknown.
+/// Clause on how to convert an image of an unsupported format; empty for an unknown format.
 std::string adviceFor(std::span<const uint8_t> bytes);
 
-/// Refuses PNG and JPEG files without their end, and PNG files whose chunks are damaged: decoders speak on
-/// stderr of such files, or stay silent and decode a part. @throws Error that begins with `name`.
-void checkWhole(std::span<const uint8_t> bytes, const std::string& name);
+/// Rejects truncated PNG and JPEG files and corrupt PNG chunks, which decoders report on stderr or ignore.
+/// @throws Error that begins with `name`.
+void checkIntegrity(std::span<const uint8_t> bytes, const std::string& name);
 
 }  // namespace voxray

@@ -14,8 +14,7 @@
 
 /// FLIP: Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild, "FLIP: A Difference Evaluator for
 /// Alternating Images", 2020; HDR-FLIP: Andersson, Nilsson, Shirley, Akenine-Möller, "Visualizing Errors in
-/// Rendered High Dynamic Range Images", 2021. A colour pipeline and a feature pipeline meet in the final
-/// error.
+/// Rendered High Dynamic Range Images", 2021. The error combines a colour pipeline and a feature pipeline.
 namespace voxray {
 
 namespace {
@@ -145,13 +144,13 @@ struct Filters {
     }
 };
 
-// An image as the two pipelines see it.
+// An image after the two pipelines.
 struct Seen {
     Planes colour;      // Filtered, in Hunt-adjusted Lab
     Plane edge, point;  // Strength of edges and points
 };
 
-// Length of the gradient that a derivative kernel finds in both directions.
+// Magnitude of the gradient by a derivative kernel.
 Plane strength(const Plane& alongX, const Plane& alongY) {
     Plane out(alongX.width, alongX.height);
     parallelRows(out.height, [&](size_t y) {
@@ -174,7 +173,7 @@ Seen look(uint32_t width, uint32_t height, const Filters& filters, const LinearR
         }
     });
 
-    // Colour: what the eye resolves, back in the display's gamut, then perceptually even.
+    // Colour: filtered by contrast sensitivity, clamped to the gamut, in a perceptually uniform space.
     Seen seen;
     for (size_t c = 0; c < 3; ++c) seen.colour[c] = apply(filters.sensitivities[c], opponent[c]);
     parallelRows(height, [&](size_t y) {
@@ -198,7 +197,7 @@ Seen look(uint32_t width, uint32_t height, const Filters& filters, const LinearR
     return seen;
 }
 
-// Error of each pixel from what is seen of the two images.
+// Error of each pixel from the filtered images.
 Plane difference(const Seen& test, const Seen& reference) {
     const double largest =
         std::pow(hyab(huntLabFromRgb({0, 1, 0}), huntLabFromRgb({0, 0, 1})), colourExponent);
@@ -209,7 +208,7 @@ Plane difference(const Seen& test, const Seen& reference) {
             return glm::dvec3(seen.colour[0].row(y)[x], seen.colour[1].row(y)[x], seen.colour[2].row(y)[x]);
         };
         for (size_t x = 0; x < out.width; ++x) {
-            // Colour difference, small ones spread over [0, 0.95].
+            // Colour difference, small ones mapped to [0, 0.95].
             const double distance = std::pow(hyab(colourAt(test, x), colourAt(reference, x)), colourExponent);
             const double colour = distance < knee ? distance / knee * colourKneeValue
                                                   : colourKneeValue + (distance - knee) / (largest - knee) *
@@ -262,7 +261,7 @@ ErrorMap flipHdr(const ImageF& test, const ImageF& reference, const FlipExposure
                     exposures.stop);
     const Filters filters(pixelsPerDegree);
 
-    // Each pixel's largest error; equal exposures are looked at once.
+    // Maximum error of each pixel; equal exposures are evaluated once.
     const int count = exposures.start == exposures.stop ? 1 : exposures.count;
     const double step = (exposures.stop - exposures.start) / std::max(count - 1, 1);
     Plane largest(reference.width, reference.height);

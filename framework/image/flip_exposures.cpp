@@ -12,7 +12,7 @@ FlipExposures flipExposures(const ImageF& reference) {
     if (reference.channels != 3) throw Error("FLIP needs an image of 3 channels, not {}", reference.channels);
     checkFinite(reference, "reference image");
 
-    // Largest and median luminance; the median of the lit pixels where most are black.
+    // Largest and median luminance; the median of nonblack pixels if most are black.
     std::vector<double> luminances(reference.pixelCount());
     for (size_t i = 0; i < luminances.size(); ++i) {
         const float* rgb = &reference.data[i * 3];
@@ -29,7 +29,7 @@ FlipExposures flipExposures(const ImageF& reference) {
         center = median({lit, luminances.end()});
     }
 
-    // The exposures that lift both luminances to 0.85.
+    // The exposures that map them to 0.85.
     const double target = acesInverse(0.85);
     FlipExposures exposures;
     exposures.start = std::log2(target / luminances.back());

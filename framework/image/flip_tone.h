@@ -4,7 +4,7 @@
 #include <cmath>
 
 /// The tone map of HDR-FLIP (Andersson et al. 2021): Narkowicz's fit of the ACES curve,
-/// y = x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14), at 0.6 x, which undoes the fit's own exposure.
+/// y = x (2.51 x + 0.03) / (x (2.43 x + 0.59) + 0.14), at 0.6 x, which undoes the fit's exposure.
 namespace voxray {
 
 namespace flip_aces {

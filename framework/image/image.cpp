@@ -22,7 +22,7 @@ namespace {
 constexpr uint64_t maxPixels = 1ull << 28;
 constexpr int maxSide = 1 << 16;
 
-// What a library says, which may be nothing.
+// A library's message, which may be empty.
 std::string reasonOr(const std::string& said) {
     return said.empty() ? "unknown reason" : said;
 }
@@ -38,7 +38,7 @@ void checkSpec(const OIIO::ImageSpec& spec, const std::string& name) {
                     spec.height, maxPixels, maxSide);
 }
 
-// Reads in strips and grows as they arrive, so that a short file that claims to be huge costs no memory.
+// Reads in strips and allocates as they arrive, so that a small file with a huge size costs no memory.
 template <typename T>
 std::vector<T> readPixels(OIIO::ImageInput& input, const std::string& name, int firstChannel, int channels,
                           OIIO::TypeDesc type) {
@@ -63,7 +63,7 @@ std::vector<T> readPixels(OIIO::ImageInput& input, const std::string& name, int 
     return values;
 }
 
-// Colour under transparent pixels stays as the file has it.
+// Keeps the colour of transparent pixels.
 OIIO::ImageSpec openOptions() {
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
@@ -82,7 +82,7 @@ void checkWritable(const fs::path& path, const ImageF& image) {
                     image.data.size(), image.width, image.height, image.channels);
 }
 
-// Of the file system that a file is to lie on: libraries don't say that a disk is full.
+// Reports a full disk, which libraries don't.
 std::string freeMiB(const fs::path& path) {
     std::error_code code;
     const fs::space_info space = fs::space(fs::absolute(path).parent_path(), code);
@@ -105,9 +105,9 @@ void writeWhole(const fs::path& path, const char* format, const OIIO::ImageSpec&
 LayeredImage readLayer(const fs::path& path, const std::string& wanted) {
     const std::string name = path.string();
     const std::vector<uint8_t> file = readFile(path);
-    checkWhole(file, name);
+    checkIntegrity(file, name);
     try {
-        // Open, and refuse what is no flat picture before any memory is taken.
+        // Open, and check the dimensions before allocation.
         const OIIO::ImageSpec config = openOptions();
         const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &config);
         if (!input)
@@ -127,7 +127,7 @@ LayeredImage readLayer(const fs::path& path, const std::string& wanted) {
             if (exr && !spec.channelformat(channel).is_floating_point())
                 throw Error("{}: its layer '{}' holds whole numbers, not radiance", name, layer.name);
 
-        // Integer files hold display values.
+        // Files of integers have display values.
         const auto [first, last] = std::minmax_element(layer.channels.begin(), layer.channels.end());
         const int count = *last - *first + 1;
         std::vector<float> values = readPixels<float>(*input, name, *first, count, OIIO::TypeDesc::FLOAT);
@@ -161,13 +161,13 @@ DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name) {
                                            : nullptr;
     if (format == nullptr) throw Error("{}: is neither PNG, JPEG nor WebP{}", name, adviceFor(encoded));
     std::vector<uint8_t> completed;
-    if (isJpeg(encoded) && !jpegEnds(encoded)) {
-        // Without its end marker a whole picture decodes; of a part the decoder then says so.
+    if (isJpeg(encoded) && !hasJpegEnd(encoded)) {
+        // A missing end marker is tolerated; the decoder reports missing data.
         completed.assign(encoded.begin(), encoded.end());
         completed.insert(completed.end(), {0xff, 0xd9});
         encoded = completed;
     }
-    checkWhole(encoded, name);
+    checkIntegrity(encoded, name);
     try {
         // Open from memory.
         OIIO::Filesystem::IOMemReader reader(const_cast<uint8_t*>(encoded.data()), encoded.size());
@@ -220,7 +220,7 @@ void writeExr(const fs::path& path, const ImageF& image, const std::vector<std::
     OIIO::ImageSpec spec(int(image.width), int(image.height), int(image.channels), OIIO::TypeDesc::FLOAT);
     spec.channelnames = channelNames;
     spec.attribute("compression", "zip");
-    // Without a date OpenImageIO writes the time of day: equal images would differ in their bytes.
+    // Fixed date, since OpenImageIO writes the time of day: equal images should be equal files.
     spec.attribute("DateTime", "1970:01:01 00:00:00");
     writeWhole(path, "openexr", spec, OIIO::TypeDesc::FLOAT, image.data.data());
 }

@@ -9,7 +9,7 @@
 
 namespace voxray {
 
-/// A float picture in memory: linear Rec.709 radiance, interleaved channels, row 0 at the top.
+/// A float image: linear Rec.709 radiance, interleaved channels, row 0 at the top.
 struct ImageF {
     uint32_t width = 0;
     uint32_t height = 0;
@@ -25,47 +25,45 @@ struct ImageF {
     size_t pixelCount() const { return size_t(width) * height; }
 };
 
-/// Reads EXR, HDR, PNG or JPEG as float. 8-bit sRGB files are decoded to linear; alpha is dropped from
-/// 4-channel files, grey becomes 3 equal channels: the result has 3.
+/// Reads EXR, HDR, PNG or JPEG as 3 linear float channels. 8-bit sRGB is decoded, alpha dropped, grey
+/// replicated.
 /// @throws Error for a missing, broken, truncated or oversized (above 2^28 pixels or 65536 on a side) file.
 ImageF readImage(const std::filesystem::path& path);
 
-/// A picture out of a file that may have several.
+/// An image from a file that may have several layers.
 struct LayeredImage {
     ImageF image;
-    std::string layer;  ///< Name of the EXR layer that was taken, "View.Combined"; empty for plain channels.
-    size_t layerCount = 0;  ///< Layers of the file that are pictures; 0 for formats without layers.
+    std::string layer;      ///< Name of the EXR layer, "View.Combined"; empty for plain channels.
+    size_t layerCount = 0;  ///< Image layers of the file; 0 for formats without layers.
 };
-/// readImage() of an EXR layer or part. @param layer its whole name, or the last word of it; empty: plain
-/// R, G, B, else the layer whose last word is Combined, Beauty, RGBA, RGB, Color or Final, else the only one.
-/// @throws Error as readImage(), and one that lists the layers where none or more than one is meant
+/// readImage() of an EXR layer or part. @param layer its full name or the last word of it; empty: plain R, G,
+/// B, else the layer whose last word is Combined, Beauty, RGBA, RGB, Color or Final, else the only one.
+/// @throws Error as readImage(), and one that lists the layers if none or several match
 LayeredImage readLayer(const std::filesystem::path& path, const std::string& layer);
 
-/// A decoded 8-bit RGBA texture, still in the file's own encoding (no sRGB decode). Row 0 at the top.
+/// A decoded 8-bit RGBA texture, in the file's encoding (no sRGB decode). Row 0 at the top.
 struct DecodedImage {
     uint32_t width = 0;
     uint32_t height = 0;
     std::vector<uint8_t> rgba;
 };
-/// Decodes a PNG, JPEG or WebP from memory: 16 bits are reduced to 8, grey and palette become RGB, a missing
-/// alpha 255; alpha is not multiplied in. A JPEG may lack its end marker, not more.
-/// @param name names the picture in errors. @throws Error as readImage().
+/// Decodes a PNG, JPEG or WebP in memory: 16 bits are reduced to 8, grey and palette become RGB, missing
+/// alpha 255; alpha is not premultiplied. A JPEG may lack its end marker.
+/// @param name for errors. @throws Error as readImage().
 DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name);
 
-/// A PNG file of 8-bit RGBA that decodeImage() gives back byte by byte.
-/// @throws Error where the bytes do not fill the picture.
+/// A PNG file of 8-bit RGBA; lossless. @throws Error if the number of bytes doesn't match the size.
 std::vector<uint8_t> encodePng(const DecodedImage& image);
 
-/// Writes a float32 EXR (ZIP; channels R, G, B or Y), whole or not at all. Equal images give equal files.
-/// @throws Error where the image is empty or has neither 1 nor 3 channels, or the file cannot be written.
+/// Writes a float32 EXR (ZIP; channels R, G, B or Y) atomically. Equal images give equal files.
+/// @throws Error if the image is empty or has neither 1 nor 3 channels, or the file cannot be written.
 void writeExr(const std::filesystem::path& path, const ImageF& image);
-/// The same with a name for each channel, as many as there are: "P.X" is the channel X of the layer P.
+/// With a name for each channel: "P.X" is the channel X of the layer P.
 void writeExr(const std::filesystem::path& path, const ImageF& image,
               const std::vector<std::string>& channelNames);
 
-/// Writes an 8-bit PNG of display values in [0, 1] (already encoded; others are clamped), whole or not at
-/// all.
-/// @throws Error as writeExr(), and where a value is NaN.
+/// Writes an 8-bit PNG of encoded display values, clamped to [0, 1], atomically.
+/// @throws Error as writeExr(), and if a value is NaN.
 void writePng(const std::filesystem::path& path, const ImageF& display);
 
 /// Preview: scales by 2^exposure, clamps to [0, 1], applies the sRGB transfer function.

@@ -37,7 +37,7 @@ int numberOf(const ChannelNumbers& channels, const char* name) {
     return found == channels.end() ? -1 : found->second;
 }
 
-/// The picture in a layer's channels; no channels where there is none.
+/// The color or grey channels of a layer; empty if there are none.
 Layer layerOf(const ChannelNumbers& channels) {
     Layer layer;
     for (const auto& names : {std::array{"r", "g", "b"}, std::array{"red", "green", "blue"}}) {
@@ -78,12 +78,12 @@ void addLayers(const OIIO::ImageSpec& spec, int part, const std::string& partNam
     throw Error("{}: {}; its layers: {}", file, what, fmt::join(names, ", "));
 }
 
-/// Layers that fit, or all where none does.
-template <typename Fits>
-std::vector<Layer> onlyThose(const std::vector<Layer>& layers, const Fits& fits) {
-    std::vector<Layer> kept;
-    std::copy_if(layers.begin(), layers.end(), std::back_inserter(kept), fits);
-    return kept.empty() ? layers : kept;
+/// The layers that match, or all if none does.
+template <typename Matches>
+std::vector<Layer> prefer(const std::vector<Layer>& layers, const Matches& matches) {
+    std::vector<Layer> preferred;
+    std::copy_if(layers.begin(), layers.end(), std::back_inserter(preferred), matches);
+    return preferred.empty() ? layers : preferred;
 }
 
 }  // namespace
@@ -94,7 +94,7 @@ std::vector<Layer> layersOf(OIIO::ImageInput& input) {
         const OIIO::ImageSpec spec = input.spec();
         addLayers(spec, part, std::string(spec.get_string_attribute("oiio:subimagename")), layers);
     }
-    input.geterror();  // That of the part after the last one
+    input.geterror();  // Clears the error of seeking past the last part
     return layers;
 }
 
@@ -111,17 +111,17 @@ Layer chooseLayer(const std::vector<Layer>& layers, const std::string& wanted, c
         return found[0];
     }
 
-    constexpr std::array wholePictures{"combined", "beauty", "rgba", "rgb", "color", "final"};
-    std::vector<Layer> left = onlyThose(layers, [](const Layer& layer) { return layer.isColor; });
-    left = onlyThose(left, [](const Layer& layer) { return layer.channels.size() == 3; });
-    left = onlyThose(left, [](const Layer& layer) { return layer.name.empty(); });
-    if (left.size() > 1)
-        left = onlyThose(left, [&](const Layer& layer) {
-            return std::find(wholePictures.begin(), wholePictures.end(), lastWord(layer.name)) !=
-                   wholePictures.end();
+    constexpr std::array fullImageNames{"combined", "beauty", "rgba", "rgb", "color", "final"};
+    std::vector<Layer> candidates = prefer(layers, [](const Layer& layer) { return layer.isColor; });
+    candidates = prefer(candidates, [](const Layer& layer) { return layer.channels.size() == 3; });
+    candidates = prefer(candidates, [](const Layer& layer) { return layer.name.empty(); });
+    if (candidates.size() > 1)
+        candidates = prefer(candidates, [&](const Layer& layer) {
+            return std::find(fullImageNames.begin(), fullImageNames.end(), lastWord(layer.name)) !=
+                   fullImageNames.end();
         });
-    if (left.size() > 1) refuse(layers, file, "it isn't clear which layer is the picture");
-    return left[0];
+    if (candidates.size() > 1) refuse(layers, file, "it isn't clear which layer is the picture");
+    return candidates[0];
 }
 
 }  // namespace voxray

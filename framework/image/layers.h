@@ -5,24 +5,24 @@
 #include <string>
 #include <vector>
 
-/// Which channels of a file are its picture. Internal to the image layer.
+/// Selection of an image file's channels. Internal to the image layer.
 namespace voxray {
 
-/// Channels that belong together: those of an EXR file whose names have one beginning ("View.AO.R" is of the
-/// layer "View.AO"), or of a part without such names.
+/// A layer: channels of an EXR file with a common prefix ("View.AO.R" belongs to the layer "View.AO"), or
+/// those of a part without prefixes.
 struct Layer {
     std::string name;           ///< Empty for plain channels of a file of one part.
     int part = 0;               ///< Subimage.
     std::vector<int> channels;  ///< Red, green, blue, or one of grey.
-    bool isColor = false;       ///< They are called so (R, G, B or Y).
+    bool isColor = false;       ///< Channels are named R, G, B or Y.
 };
 
-/// All layers of one or three channels. @throws Error where a part can't be reached
+/// All layers of one or three channels. @throws Error if a part can't be read
 std::vector<Layer> layersOf(OIIO::ImageInput& input);
 
-/// The layer that is meant: by name (whole, or its last word), else the only one, plain R, G, B, else the one
-/// whose last word is Combined, Beauty, RGBA, RGB, Color or Final, as renderers call the whole picture.
-/// @throws Error that begins with `file` and lists the layers, where that is none or more than one.
+/// Chooses a layer: by name (full, or its last word), else the only one, plain R, G, B, or the one whose last
+/// word is Combined, Beauty, RGBA, RGB, Color or Final, renderers' names of the full image.
+/// @throws Error that begins with `file` and lists the layers, if none or several match.
 Layer chooseLayer(const std::vector<Layer>& layers, const std::string& wanted, const std::string& file);
 
 }  // namespace voxray

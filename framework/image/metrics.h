@@ -5,17 +5,16 @@
 
 #include "image/image.h"
 
-/// Image metrics as pure functions. `test` and `reference` are 3-channel images of equal size, linear where
-/// the name does not say display. Every function is deterministic, whatever the number of threads. `mask`
-/// selects the pixels that count: means are taken over these alone, the reference's mean among them.
-/// @throws Error where sizes differ, an image is empty, a pixel is NaN or infinite, or a mask selects no
-/// pixel. The table of metrics that results are made of is in score.cpp.
+/// Image metrics as pure functions. `test` and `reference` are 3-channel images of equal size, linear unless
+/// named display. All functions are deterministic for any number of threads. `mask` selects the pixels of all
+/// means, also of the reference's mean. The table of metrics in results is in score.cpp.
+/// @throws Error if sizes differ, an image is empty, a pixel is NaN or infinite, or a mask selects no pixel.
 namespace voxray {
 
-/// A byte a pixel, row 0 at the top: other than 0 where the pixel counts. Empty: all pixels count.
+/// A byte per pixel, row 0 at the top: nonzero if the pixel is selected. Empty: all pixels are selected.
 using PixelMask = std::span<const uint8_t>;
 
-/// Pixels that count. @throws Error where the mask doesn't fit the image or selects no pixel of it.
+/// Number of selected pixels. @throws Error if the mask doesn't fit the image or selects no pixel.
 size_t countPixels(uint32_t width, uint32_t height, PixelMask mask);
 
 /// Mean over all channels.
@@ -25,34 +24,33 @@ double meanValue(const ImageF& image, PixelMask mask = {});
 struct ErrorMap {
     double mean = 0;
     ImageF map;  ///< 1 channel.
-    /// `mean`, or that of the pixels under a mask.
+    /// `mean`, or the mean under a mask.
     double meanUnder(PixelMask mask) const;
 };
 
-/// Largest score of psnr(), that of equal images: results stay finite numbers.
+/// Maximum of psnr(), for equal images, which keeps results finite.
 inline constexpr double psnrCap = 100;
-/// Largest magnitude of meanRatio(), and its value where only the reference is black.
+/// Maximum magnitude of meanRatio(), and its value if only the reference is black.
 inline constexpr double meanRatioCap = 1e6;
 
-/// What images are multiplied by, so that neither exposure nor light strength changes a score: one over the
-/// reference's mean, 1 where that is not above 0.
+/// Scale of images that makes scores independent of exposure and light strength: one over the reference's
+/// mean, or 1 if that is not positive.
 double unitScale(double referenceMean);
 /// Added to the squared reference in relMse(), in units of the reference's squared mean.
 inline constexpr double relMseOffset = 0.01;
 
-/// Mean of the test over mean of the reference, over all channels, within ±meanRatioCap; 1 where both are 0.
+/// Mean of the test over mean of the reference, over all channels, within ±meanRatioCap; 1 if both are 0.
 double meanRatio(const ImageF& test, const ImageF& reference, PixelMask mask = {});
-/// mean((x-r)² / (r²+relMseOffset)) after dividing both images by the reference's mean (by 1 where that is
-/// not above 0).
+/// mean((x-r)² / (r²+relMseOffset)) of images scaled by unitScale().
 double relMse(const ImageF& test, const ImageF& reference, PixelMask mask = {});
-/// sqrt(mean((x-r)²)) after dividing both images by the reference's mean (by 1 where that is not above 0).
+/// sqrt(mean((x-r)²)) of images scaled by unitScale().
 double nRmse(const ImageF& test, const ImageF& reference, PixelMask mask = {});
 /// PSNR in dB of two display images in [0, 1] with peak 1; at most psnrCap.
 double psnr(const ImageF& testDisplay, const ImageF& referenceDisplay, PixelMask mask = {});
 /// SSIM (Wang et al. 2004) on luma (Rec.709 weights on display values) of two display images in [0, 1]:
-/// Gaussian window 11, sigma 1.5, population covariance, K1 = 0.01, K2 = 0.03. The mean is taken where the
-/// window lies wholly in the image; an axis shorter than 11 pixels is not cropped but its edge repeated.
-/// Under a mask the mean is taken over the windows around its pixels, the image's edge repeated.
+/// Gaussian window 11, sigma 1.5, population covariance, K1 = 0.01, K2 = 0.03. The mean is over windows
+/// within the image; along an axis shorter than 11 pixels edges are repeated instead. Under a mask the mean
+/// is over the windows around its pixels, with repeated edges.
 double ssim(const ImageF& testDisplay, const ImageF& referenceDisplay, PixelMask mask = {});
 
 /// The published viewing condition of FLIP: 0.7 m from a 0.7 m wide monitor of 3840 pixels, 3840 π / 180.
@@ -68,18 +66,17 @@ struct FlipExposures {
     double stop = 0;
     int count = 2;
 };
-/// The published choice: the ACES curve lifts the reference's largest luminance to 0.85
-/// at `start` and its median (upper one of an even number) at `stop`; count = max(2, ceil(stop - start)).
-/// Where the median is black, that of the pixels that are not; {0, 0, 2} for a black image.
+/// The published choice: the ACES curve maps the reference's largest luminance to 0.85 at `start` and its
+/// median (the upper one of an even number) at `stop`; count = max(2, ceil(stop - start)). If the median is
+/// black, that of the other pixels; {0, 0, 2} for a black image.
 FlipExposures flipExposures(const ImageF& reference);
-/// HDR-FLIP of two linear images: each pixel's largest LDR-FLIP over the exposures. Negative values count as
+/// HDR-FLIP of two linear images: each pixel's maximum LDR-FLIP over the exposures. Negative values count as
 /// 0.
-/// @throws Error also where the exposures are not finite or not in order, or their count is below 1.
+/// @throws Error also if the exposures are not finite or not in order, or their count is below 1.
 ErrorMap flipHdr(const ImageF& test, const ImageF& reference, const FlipExposures& exposures,
                  double pixelsPerDegree = flipPixelsPerDegree);
 
-/// The two images that every table is read against, sized like the reference: all black, and the reference's
-/// mean colour everywhere.
+/// Baseline images of the reference's size: black, and the reference's mean colour.
 ImageF blackLike(const ImageF& reference);
 ImageF constantLike(const ImageF& reference);
 

@@ -24,13 +24,13 @@ Plane filterX(const Plane& in, const Kernel& kernel) {
     parallelRanges(in.height, 8, [&](size_t begin, size_t end) {
         std::vector<double> padded(in.width + 2 * radius);
         for (size_t y = begin; y < end; ++y) {
-            // Repeat the edges to both sides.
+            // Repeat the edges on both sides.
             const double* from = in.row(y);
             std::fill_n(padded.begin(), radius, from[0]);
             std::copy_n(from, in.width, padded.begin() + ptrdiff_t(radius));
             std::fill_n(padded.end() - ptrdiff_t(radius), radius, from[in.width - 1]);
 
-            // Add the shifted row once a weight.
+            // Add the shifted row, weighted.
             double* to = out.row(y);
             for (size_t k = 0; k < kernel.size(); ++k) {
                 const double weight = kernel[k];
@@ -49,9 +49,9 @@ Plane filterY(const Plane& in, const Kernel& kernel) {
         double* to = out.row(y);
         for (size_t k = 0; k < kernel.size(); ++k) {
             const double weight = kernel[k];
-            const int64_t at =
+            const int64_t row =
                 std::clamp<int64_t>(int64_t(y) + int64_t(k) - radius, 0, int64_t(in.height) - 1);
-            const double* from = in.row(size_t(at));
+            const double* from = in.row(size_t(row));
             for (size_t x = 0; x < in.width; ++x) to[x] += weight * from[x];
         }
     });

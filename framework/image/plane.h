@@ -8,10 +8,10 @@
 #include "base/parallel.h"
 #include "image/image.h"
 
-/// What the metrics share: single-channel planes in double precision, their filters and ordered sums.
+/// Common part of the metrics: single-channel planes in double precision, filters and deterministic sums.
 namespace voxray {
 
-/// One channel of a picture, row 0 at the top.
+/// One channel of an image, row 0 at the top.
 struct Plane {
     uint32_t width = 0;
     uint32_t height = 0;
@@ -30,11 +30,11 @@ using Kernel = std::vector<double>;
 /// exp(-x² / (2 sigma²)) at x = -radius ... radius, summing to 1.
 Kernel gaussianKernel(double sigma, int radius);
 
-/// Correlates rows (X) or columns (Y) with a kernel; beyond the image its edge pixel is repeated.
+/// Correlates rows (X) or columns (Y) with a kernel; edges are repeated.
 Plane filterX(const Plane& in, const Kernel& kernel);
 Plane filterY(const Plane& in, const Kernel& kernel);
 
-/// Calls body(y) for every row, on all cores.
+/// Calls body(y) for all rows, in parallel.
 template <typename Body>
 void parallelRows(uint32_t height, const Body& body) {
     parallelRanges(height, 8, [&](size_t begin, size_t end) {
@@ -42,7 +42,7 @@ void parallelRows(uint32_t height, const Body& body) {
     });
 }
 
-/// Sum of rowSum(y) over all rows, rows in parallel, added in order.
+/// Sum of rowSum(y) over all rows: computed in parallel, added in order.
 template <typename RowSum>
 double sumRows(uint32_t height, const RowSum& rowSum) {
     std::vector<double> sums(height);
@@ -52,7 +52,7 @@ double sumRows(uint32_t height, const RowSum& rowSum) {
     return sum;
 }
 
-/// @throws Error where the two are not 3-channel images of one size, or a value is not finite.
+/// @throws Error unless both are 3-channel images of one size with finite values.
 void checkPair(const ImageF& test, const ImageF& reference);
 /// @param what names the image in the error, e.g. "reference image".
 void checkFinite(const ImageF& image, const char* what);

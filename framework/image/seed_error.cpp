@@ -22,7 +22,7 @@ std::span<const MetricInfo> seedMetrics() {
 
 Scores seedScores(const ImageF& first, const ImageF& second, const ReferenceHalves& reference,
                   PixelMask mask) {
-    for (const ImageF* other : {&second, &reference.a, &reference.b}) checkPair(first, *other);
+    for (const ImageF* image : {&second, &reference.a, &reference.b}) checkPair(first, *image);
     const double mean = 0.5 * (meanValue(reference.a, mask) + meanValue(reference.b, mask));
     std::vector<double> bias(first.pixelCount()), noise(first.pixelCount());
     for (size_t i = 0; i < first.data.size(); ++i) {

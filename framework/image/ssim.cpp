@@ -42,7 +42,7 @@ double ssim(const ImageF& testDisplay, const ImageF& referenceDisplay, PixelMask
     const Plane meanXX = blur(product(test, test)), meanRR = blur(product(reference, reference));
     const Plane meanXR = blur(product(test, reference));
 
-    // The pixels whose window lies in the image; under a mask all of its pixels.
+    // Pixels whose window is within the image; under a mask all of its pixels.
     const auto cropOf = [&](uint32_t size) {
         return mask.empty() && size > 2 * windowRadius ? size_t(windowRadius) : size_t(0);
     };

@@ -33,7 +33,7 @@ void TemporalError::add(const ImageF& test, const ReferenceHalves& reference) {
     } else if (test.width != width_ || test.height != height_) {
         throw Error("a frame of {} x {} follows frames of {} x {}", test.width, test.height, width_, height_);
     }
-    const double steps = double(frames_);  // That d_t counts with this frame.
+    const double steps = double(frames_);  // Number of d_t including this frame.
     double squares = 0, radiance = 0;
     for (size_t i = 0; i < count; ++i) {
         Value& v = values_[i];
@@ -44,11 +44,11 @@ void TemporalError::add(const ImageF& test, const ReferenceHalves& reference) {
         v.errorB = x - b;
         if (frames_ == 0) continue;
 
-        // Means and spread so far (Welford 1962)
-        const double fromOldMeanA = stepA - v.meanA;
-        v.meanA += fromOldMeanA / steps;
+        // Running means and spread (Welford 1962)
+        const double deviationA = stepA - v.meanA;
+        v.meanA += deviationA / steps;
         v.meanB += (stepB - v.meanB) / steps;
-        v.spread += fromOldMeanA * (stepB - v.meanB);
+        v.spread += deviationA * (stepB - v.meanB);
         squares += stepA * stepB;
     }
     if (frames_ > 0) meanSquares_.push_back(squares / double(count));
@@ -62,17 +62,17 @@ double TemporalError::scale() const {
 
 Scores TemporalError::scores() const {
     if (meanSquares_.empty()) return {};
-    std::vector<double> bias(values_.size() / 3), flicker(bias.size()), both(bias.size());
+    std::vector<double> bias(values_.size() / 3), flicker(bias.size()), total(bias.size());
     for (size_t i = 0; i < values_.size(); ++i) {
         bias[i / 3] += values_[i].meanA * values_[i].meanB / 3;
         flicker[i / 3] += values_[i].spread / double(meanSquares_.size()) / 3;
     }
-    for (size_t i = 0; i < both.size(); ++i) both[i] = bias[i] + flicker[i];
+    for (size_t i = 0; i < total.size(); ++i) total[i] = bias[i] + flicker[i];
     Scores scores;
     const auto addRoot = [&](const char* name, const std::vector<double>& squares) {
         addScore(scores, name, rootOf(meanOverTiles(squares, width_, height_, {}), scale()));
     };
-    addRoot("temporal_nrmse", both);
+    addRoot("temporal_nrmse", total);
     addRoot("temporal_bias", bias);
     addRoot("temporal_flicker", flicker);
     return scores;

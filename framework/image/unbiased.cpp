@@ -56,19 +56,19 @@ Estimate relMse(const ImageF& test, const ReferenceHalves& reference, PixelMask 
     const Estimate expanded = meanOf(test, reference, mask, scale, [&](double x, double a, double b) {
         // Half of the second derivative of e² / q
         const double m = 0.5 * (a + b), d = 0.5 * (a - b), e = x - m, q = m * m + relMseOffset;
-        const double bending = 1 / q + 4 * e * m / (q * q) + e * e * (4 * m * m - q) / (q * q * q);
-        return errorAgainst(x, m) - bending * d * d;
+        const double halfCurvature = 1 / q + 4 * e * m / (q * q) + e * e * (4 * m * m - q) / (q * q * q);
+        return errorAgainst(x, m) - halfCurvature * d * d;
     });
     const Estimate jackknife = meanOf(test, reference, mask, scale, [&](double x, double a, double b) {
         return 2 * errorAgainst(x, 0.5 * (a + b)) - 0.5 * (errorAgainst(x, a) + errorAgainst(x, b));
     });
 
-    // Where the noise is not small the two part
-    Estimate both(expanded.value);
+    // The two differ if the noise is not small
+    Estimate combined(expanded.value);
     if (expanded.interval)
-        both.interval = {std::min(expanded.interval->low, jackknife.interval->low),
-                         std::max(expanded.interval->high, jackknife.interval->high)};
-    return mapped(both, [](double value) { return std::max(value, 0.0); });
+        combined.interval = {std::min(expanded.interval->low, jackknife.interval->low),
+                             std::max(expanded.interval->high, jackknife.interval->high)};
+    return mapped(combined, [](double value) { return std::max(value, 0.0); });
 }
 
 }  // namespace voxray

@@ -42,7 +42,7 @@ glm::vec4 sampleChannel(const AnimationChannel& channel, double timeSeconds) {
     const bool rotation = channel.property == AnimatedProperty::Rotation;
     const auto value = [&](size_t key) { return channel.values[cubic ? 3 * key + 1 : key]; };
 
-    // Find the keys around the time; outside of all keys, the nearest one counts.
+    // The keys around the time, clamped.
     const size_t next = size_t(std::upper_bound(times.begin(), times.end(), timeSeconds) - times.begin());
     if (next == 0) return value(0);
     if (next == times.size() || channel.interpolation == Interpolation::Step) return value(next - 1);
@@ -50,14 +50,14 @@ glm::vec4 sampleChannel(const AnimationChannel& channel, double timeSeconds) {
     const double span = double(times[next]) - double(times[previous]);
     const float t = float((timeSeconds - double(times[previous])) / span);
 
-    // Interpolate linearly, rotations along the shorter arc.
+    // Linear, rotations along the shorter arc.
     if (!cubic) {
         if (!rotation) return glm::mix(value(previous), value(next), t);
         const glm::quat q = glm::slerp(toQuat(value(previous)), toQuat(value(next)), t);
         return normalizedOr(glm::vec4(q.x, q.y, q.z, q.w), value(previous));
     }
 
-    // Interpolate by a Hermite spline; tangents are per second.
+    // Hermite spline; tangents are per second.
     const float t2 = t * t;
     const float t3 = t2 * t;
     const glm::vec4 out = channel.values[3 * previous + 2] * float(span);
@@ -68,7 +68,7 @@ glm::vec4 sampleChannel(const AnimationChannel& channel, double timeSeconds) {
 }
 
 std::vector<glm::mat4> nodeToWorld(const Scene& scene, double timeSeconds) {
-    // Put each channel's value into its node's transform.
+    // Set the nodes' transforms.
     std::vector<Node> nodes = scene.nodes;
     for (const AnimationChannel& channel : scene.animation) {
         const glm::vec4 v = sampleChannel(channel, timeSeconds);
@@ -86,7 +86,7 @@ std::vector<glm::mat4> nodeToWorld(const Scene& scene, double timeSeconds) {
         }
     }
 
-    // Multiply down the hierarchy; parents come first.
+    // Multiply down the hierarchy; parents precede children.
     std::vector<glm::mat4> world(nodes.size());
     for (size_t i = 0; i < nodes.size(); ++i) {
         const int32_t parent = nodes[i].parent;

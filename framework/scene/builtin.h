@@ -9,14 +9,14 @@
 
 namespace voxray {
 
-/// A built-in scene: its name, how it is made of its parameters, and what these are.
+/// A built-in scene: name, factory and parameters.
 struct BuiltinScene {
     const char* name;
     std::shared_ptr<const Scene> (*make)(const Value& params);
     std::vector<ParameterDoc> (*describe)();
 };
 
-/// The scenes of each file.
+/// Scenes by source file.
 std::vector<BuiltinScene> roomScenes();        ///< cornell, still_life, thin_wall, mirror_room, mirror_row
 std::vector<BuiltinScene> daylightScenes();    ///< window_room, shell_room
 std::vector<BuiltinScene> clutterScenes();     ///< clutter

@@ -56,7 +56,7 @@ struct WhiteRoom {
     }
 };
 
-/// A closed cube of 2 m with a point light in its center: all 4 pi I watts end in the walls, so that their
+/// A closed cube of 2 m with a point light in its center: the walls receive all 4 pi I watts, so that their
 /// mean radiosity is 4 pi I albedo / (24 m² (1 - albedo)).
 std::shared_ptr<const Scene> make(const WhiteRoom& params) {
     SceneBuilder b(WhiteRoom::name);
@@ -115,9 +115,9 @@ struct Plane {
     }
 };
 
-/// A Lambert square of 10 m in the plane y = 0, seen from straight above; up in the image is -Z. The point
-/// and spot lights hang over the origin; the spot shines down with its cone from 20° to 40°, the directional
-/// light falls along (1, -2, 0).
+/// A Lambert square of 10 m in the plane y = 0, seen from straight above; up in the image is -Z. Point and
+/// spot light are above the origin; the spot points down with its cone from 20° to 40°; the directional light
+/// has the direction (1, -2, 0).
 std::shared_ptr<const Scene> make(const Plane& params) {
     SceneBuilder b(Plane::name);
     const uint32_t ground = b.lambert("ground", glm::vec3(params.albedo));

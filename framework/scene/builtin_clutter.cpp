@@ -24,7 +24,7 @@ struct Clutter {
     }
 };
 
-/// Boards and legs about a point of the floor, rotated about +Y. All of them have the same thickness.
+/// Furniture of boards and legs of equal thickness round a point of the floor, rotated about +Y.
 class Furniture {
  public:
     Furniture(SceneBuilder& builder, const glm::vec3& origin, float angleRadians, float thickness,
@@ -32,27 +32,27 @@ class Furniture {
         : builder_(builder), origin_(origin), angle_(angleRadians), t_(thickness), material_(material) {}
 
     void table(const glm::vec3& size) {
-        part({0, size.y - t_, 0}, {size.x, t_, size.z});
+        addBox({0, size.y - t_, 0}, {size.x, t_, size.z});
         legs(size, size.y - t_);
     }
 
     /// A seat at half of the height; three bars at its back.
     void chair(const glm::vec3& size) {
         const float seat = 0.5f * size.y, back = 0.5f * (size.z - t_);
-        part({0, seat, 0}, {size.x, t_, size.z});
+        addBox({0, seat, 0}, {size.x, t_, size.z});
         legs(size, seat);
         for (const float side : {-0.5f, 0.5f})
-            part({side * (size.x - t_), seat + t_, -back}, {t_, size.y - seat - t_, t_});
+            addBox({side * (size.x - t_), seat + t_, -back}, {t_, size.y - seat - t_, t_});
         for (const float height : {0.25f, 0.5f, 0.75f})
-            part({0, glm::mix(seat, size.y, height), -back}, {size.x - 2 * t_, t_, t_});
+            addBox({0, glm::mix(seat, size.y, height), -back}, {size.x - 2 * t_, t_, t_});
     }
 
     /// Boards between two sides, open at front and back.
     void shelf(const glm::vec3& size, uint32_t boards) {
-        for (const float side : {-0.5f, 0.5f}) part({side * (size.x - t_), 0, 0}, {t_, size.y, size.z});
+        for (const float side : {-0.5f, 0.5f}) addBox({side * (size.x - t_), 0, 0}, {t_, size.y, size.z});
         for (uint32_t i = 0; i < boards; ++i) {
             const float height = (size.y - t_) * float(i + 1) / float(boards);
-            part({0, height, 0}, {size.x - 2 * t_, t_, size.z});
+            addBox({0, height, 0}, {size.x - 2 * t_, t_, size.z});
         }
     }
 
@@ -60,11 +60,11 @@ class Furniture {
     void legs(const glm::vec3& size, float height) {
         for (const float x : {-0.5f, 0.5f})
             for (const float z : {-0.5f, 0.5f})
-                part({x * (size.x - t_), 0, z * (size.z - t_)}, {t_, height, t_});
+                addBox({x * (size.x - t_), 0, z * (size.z - t_)}, {t_, height, t_});
     }
 
-    /// A box that stands at `base`, in the furniture's own axes.
-    void part(const glm::vec3& base, const glm::vec3& size) {
+    /// A box on `base`, in the furniture's space.
+    void addBox(const glm::vec3& base, const glm::vec3& size) {
         const float c = std::cos(angle_), s = std::sin(angle_);
         const glm::vec3 rotated(c * base.x + s * base.z, base.y, c * base.z - s * base.x);
         builder_.box("furniture", origin_ + rotated, size, angle_, material_);
@@ -85,7 +85,7 @@ std::shared_ptr<const Scene> make(const Clutter& params) {
     const uint32_t wood = b.lambert("wood", {0.5f, 0.33f, 0.2f});
     b.room({-3, 0, -2.5f}, {3, 2.8f, 2.5f}, {white, white, wood, white, white, white});
 
-    // Each piece of furniture has a cell of its own.
+    // One cell per piece of furniture.
     constexpr uint32_t columns = 6, rows = 5;
     UniformRandom uniform(params.seed);
     std::array<uint32_t, columns * rows> cells;

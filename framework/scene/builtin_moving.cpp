@@ -33,7 +33,7 @@ std::shared_ptr<const Scene> make(const Spheres& params) {
     SceneBuilder b(Spheres::name);
     UniformRandom uniform(params.seed);
 
-    // One mesh a colour, shared by the spheres.
+    // One mesh per colour, shared by the spheres.
     const uint32_t floor = b.lambert("floor", glm::vec3(0.6f));
     b.quad("floor", {-5, 0, -5}, {0, 0, 10}, {10, 0, 0}, floor);
     std::array<uint32_t, colorCount> meshes;
@@ -43,7 +43,7 @@ std::shared_ptr<const Scene> make(const Spheres& params) {
                                  false, true));
     }
 
-    // Each sphere has its ellipse, height, start and way round.
+    // Each sphere has its ellipse, height, phase and direction.
     for (uint32_t i = 0; i < params.count; ++i) {
         const glm::vec3 center(uniform(-3, 3), params.radius + uniform(0, 1.5f), uniform(-3, 3));
         const glm::vec2 extent(uniform(0.3f, 1.5f), uniform(0.3f, 1.5f));

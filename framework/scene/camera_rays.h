@@ -9,14 +9,14 @@
 
 namespace voxray {
 
-/// A pinhole camera's image plane at unit distance. Directions of pixel centers: forward + (2 (x + 0.5) /
-/// width
-/// - 1) * right + (1 - 2 (y + 0.5) / height) * up.
+/// A pinhole camera's image plane at unit distance. Direction of a pixel's center:
+///
+///     forward + (2 (x + 0.5) / width - 1) * right + (1 - 2 (y + 0.5) / height) * up
 struct CameraRays {
     glm::vec3 origin, forward, right, up;
 
-    /// Through the point (x, y) of an image whose width and height count 1; (0, 0) is its upper left corner.
-    /// Along `forward` it has length 1.
+    /// Direction through the image point (x, y), 0 to 1; (0, 0) is the upper left corner. Its component along
+    /// `forward` is 1.
     glm::vec3 direction(float x, float y) const {
         return forward + (2.0f * x - 1.0f) * right + (1.0f - 2.0f * y) * up;
     }

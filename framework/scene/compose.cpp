@@ -18,12 +18,12 @@ Node nodeOf(const Placement& placement, const std::string& name) {
     return node;
 }
 
-/// What a node makes of a direction, with its length.
+/// A direction transformed by a node, not normalized.
 glm::vec3 transformed(const Node& node, const glm::vec3& vector) {
     return node.rotation * (node.scale * vector);
 }
 
-/// Copies textures and materials. @return the number of the first of these materials.
+/// Copies textures and materials. @return the index of the first of these materials.
 uint32_t addMaterials(Scene& scene, const Scene& added) {
     const int32_t firstTexture = int32_t(scene.textures.size());
     const uint32_t firstMaterial = uint32_t(scene.materials.size());
@@ -41,7 +41,7 @@ uint32_t addMaterials(Scene& scene, const Scene& added) {
 
 void addScene(Scene& scene, const Scene& added, const Placement& placement, const std::string& name,
               const Material* material) {
-    // Nodes below the one that places them
+    // Nodes, below the new one
     const int32_t root = int32_t(scene.nodes.size());
     const auto numberOf = [&](int32_t node) { return node < 0 ? root : root + 1 + node; };
     const Node placing = nodeOf(placement, name);
@@ -72,7 +72,7 @@ void addScene(Scene& scene, const Scene& added, const Placement& placement, cons
         scene.instances.push_back({firstMesh + instance.mesh, numberOf(instance.node),
                                    instance.skin < 0 ? -1 : firstSkin + instance.skin});
 
-    // Lights; those without a node stand in the added scene's world
+    // Lights; those without a node are in the added scene's world space
     for (Light light : added.lights) {
         if (light.node < 0) {
             light.position = placement.translate + transformed(placing, light.position);
@@ -92,7 +92,7 @@ Scene placedScene(const Scene& scene, const Placement& placement) {
     placed.orthographicCameras = scene.orthographicCameras;
     addScene(placed, scene, placement, scene.name);
 
-    // Cameras, as lights: those without a node stand in the scene's world
+    // Cameras; those without a node are in the scene's world space
     const Node& placing = placed.nodes.front();
     for (Camera camera : scene.cameras) {
         if (camera.node < 0) {

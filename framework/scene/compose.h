@@ -5,7 +5,7 @@
 
 namespace voxray {
 
-/// How a scene is placed: scaled, then rotated about the axes X, Y and Z in this order, then moved.
+/// Transform of a scene: scaled, then rotated about the axes X, Y and Z in this order, then translated.
 struct Placement {
     glm::vec3 translate{0.0f};
     glm::vec3 rotateDegrees{0.0f};
@@ -26,16 +26,15 @@ struct Placement {
     }
 };
 
-/// Adds what another scene shows to a scene: surfaces, materials, punctual lights and animation, below one
-/// new node that places them. Cameras and the environment of the added scene are left out.
+/// Adds surfaces, materials, punctual lights and animation of another scene below a new node with this
+/// transform. The added scene's cameras and environment are ignored. The content hash is not updated.
 /// @param name of the new node
-/// @param material stands in for all materials of the added scene; nullptr: they stay. The content hash
-/// stays.
+/// @param material replaces all materials of the added scene; nullptr: none
 void addScene(Scene& scene, const Scene& added, const Placement& placement, const std::string& name,
               const Material* material = nullptr);
 
-/// The scene below one new node that places it: surfaces, punctual lights, cameras and animation. Lights keep
-/// their intensity, the environment its directions. The content hash is left empty.
+/// The scene below a new node with this transform: surfaces, punctual lights, cameras and animation. Light
+/// intensities and the environment's orientation don't change. The content hash is empty.
 Scene placedScene(const Scene& scene, const Placement& placement);
 
 }  // namespace voxray

@@ -6,8 +6,7 @@
 
 namespace voxray {
 
-/// Hash of everything in a scene that a renderer can see. The scene's name, its warnings and the hash it
-/// already carries are left out.
+/// Hash of everything in a scene that affects rendering: not of its name, its warnings and its present hash.
 std::string hashScene(const Scene& scene);
 
 }  // namespace voxray

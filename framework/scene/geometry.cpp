@@ -17,19 +17,19 @@ namespace {
 constexpr uint64_t maxCount = uint64_t(1) << 31;
 constexpr size_t grain = 16384;
 
-/// The vector's direction, or the fallback where it has none.
+/// The normalized vector, or the fallback for a zero vector.
 glm::vec3 directionOr(const glm::vec3& v, const glm::vec3& fallback) {
     const glm::dvec3 d(v);
     const double length = glm::length(d);
     return length > 0 && std::isfinite(length) ? glm::vec3(d / length) : fallback;
 }
 
-/// Transforms normals: det(m) times the inverse transpose of m, which exists for flat scales too.
+/// Normal matrix: det(m) times the inverse transpose of m, which exists for singular m, too.
 glm::mat3 cofactorMatrix(const glm::mat3& m) {
     return glm::mat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
 }
 
-/// Counts vertices and triangles of all instances, and refuses what can't be held.
+/// Counts vertices and triangles of all instances. @throws Error if they are too many.
 Geometry allocate(const Scene& scene) {
     Geometry geometry;
     uint64_t vertices = 0;
@@ -59,18 +59,18 @@ Geometry allocate(const Scene& scene) {
     return geometry;
 }
 
-/// How a vertex comes into world space.
-struct Placing {
-    explicit Placing(const glm::mat4& matrix)
+/// Transform of a vertex to world space.
+struct VertexTransform {
+    explicit VertexTransform(const glm::mat4& matrix)
         : world(matrix), linear(matrix), mirrored(glm::determinant(glm::dmat3(linear)) < 0) {
-        toNormal = cofactorMatrix(linear) * (mirrored ? -1.0f : 1.0f);
+        normalMatrix = cofactorMatrix(linear) * (mirrored ? -1.0f : 1.0f);
     }
     glm::mat4 world;
-    glm::mat3 linear, toNormal;
+    glm::mat3 linear, normalMatrix;
     bool mirrored;
 };
 
-/// World matrices of a skin's joints, inverse bind matrices in them.
+/// World matrices of a skin's joints times their inverse bind matrices.
 std::vector<glm::mat4> jointMatrices(const Skin& skin, const std::vector<glm::mat4>& world) {
     std::vector<glm::mat4> matrices;
     for (size_t i = 0; i < skin.joints.size(); ++i)
@@ -78,7 +78,7 @@ std::vector<glm::mat4> jointMatrices(const Skin& skin, const std::vector<glm::ma
     return matrices;
 }
 
-/// A vertex's joints, blended linearly (glTF 2.0, section 3.7.3.3).
+/// Linear blend skinning (glTF 2.0, section 3.7.3.3).
 glm::mat4 blended(const Mesh& mesh, const std::vector<glm::mat4>& joints, size_t vertex) {
     glm::mat4 sum(0.0f);
     for (const SkinWeights& set : mesh.skinWeights)
@@ -88,21 +88,22 @@ glm::mat4 blended(const Mesh& mesh, const std::vector<glm::mat4>& joints, size_t
     return sum;
 }
 
-/// @param placingOf gives a vertex's Placing.
-template <typename PlacingOf>
-void transformVertices(const Mesh& mesh, const InstanceRange& range, const PlacingOf& placingOf,
+/// @param transformOf gives a vertex's VertexTransform.
+template <typename TransformOf>
+void transformVertices(const Mesh& mesh, const InstanceRange& range, const TransformOf& transformOf,
                        Geometry& out) {
     parallelRanges(mesh.positions.size(), grain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            const Placing& place = placingOf(i);
+            const VertexTransform& transform = transformOf(i);
             out.positions[range.firstVertex + i] =
-                glm::vec3(place.world * glm::vec4(mesh.positions[i], 1.0f));
+                glm::vec3(transform.world * glm::vec4(mesh.positions[i], 1.0f));
             VertexAttributes& a = out.attributes[range.firstVertex + i];
-            if (!mesh.normals.empty()) a.normal = directionOr(place.toNormal * mesh.normals[i], {0, 1, 0});
+            if (!mesh.normals.empty())
+                a.normal = directionOr(transform.normalMatrix * mesh.normals[i], {0, 1, 0});
             if (!mesh.tangents.empty()) {
                 const glm::vec4 t = mesh.tangents[i];
-                a.tangent = glm::vec4(directionOr(place.linear * glm::vec3(t), {1, 0, 0}),
-                                      place.mirrored ? -t.w : t.w);
+                a.tangent = glm::vec4(directionOr(transform.linear * glm::vec3(t), {1, 0, 0}),
+                                      transform.mirrored ? -t.w : t.w);
             }
             if (!mesh.texCoords0.empty()) {
                 a.texCoords.x = mesh.texCoords0[i].x;
@@ -116,10 +117,10 @@ void transformVertices(const Mesh& mesh, const InstanceRange& range, const Placi
         }
     });
 
-    // A mirroring transform turns triangles round: swap two corners, so that fronts stay fronts.
+    // Mirroring flips the winding order: swap two vertices.
     parallelRanges(mesh.triangles.size(), grain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            const bool mirrored = placingOf(mesh.triangles[i].x).mirrored;
+            const bool mirrored = transformOf(mesh.triangles[i].x).mirrored;
             const glm::uvec3 t = mesh.triangles[i] + range.firstVertex;
             out.triangles[range.firstTriangle + i] = mirrored ? glm::uvec3(t.x, t.z, t.y) : t;
             out.triangleMaterials[range.firstTriangle + i] = mesh.material;
@@ -127,18 +128,20 @@ void transformVertices(const Mesh& mesh, const InstanceRange& range, const Placi
     });
 }
 
-/// Places an instance by its skin's joints or by its node.
-void placeInstance(const Scene& scene, const Instance& instance, const std::vector<glm::mat4>& world,
-                   const InstanceRange& range, Geometry& out) {
+/// Transforms an instance by its skin's joints or by its node.
+void transformInstance(const Scene& scene, const Instance& instance, const std::vector<glm::mat4>& world,
+                       const InstanceRange& range, Geometry& out) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     if (instance.skin >= 0) {
         const auto joints = jointMatrices(scene.skins[size_t(instance.skin)], world);
-        const auto placingOf = [&](size_t vertex) { return Placing(blended(mesh, joints, vertex)); };
-        transformVertices(mesh, range, placingOf, out);
+        const auto transformOf = [&](size_t vertex) {
+            return VertexTransform(blended(mesh, joints, vertex));
+        };
+        transformVertices(mesh, range, transformOf, out);
     } else {
-        const Placing place(instance.node < 0 ? glm::mat4(1.0f) : world[size_t(instance.node)]);
+        const VertexTransform transform(instance.node < 0 ? glm::mat4(1.0f) : world[size_t(instance.node)]);
         transformVertices(
-            mesh, range, [&](size_t) -> const Placing& { return place; }, out);
+            mesh, range, [&](size_t) -> const VertexTransform& { return transform; }, out);
     }
 }
 
@@ -148,7 +151,7 @@ std::string nameOf(const Scene& scene, const Instance& instance) {
                        node.empty() ? "" : " of node '" + node + "'");
 }
 
-/// @throws Error where a coordinate is beyond kMaxPosition, or none.
+/// @throws Error if a coordinate exceeds kMaxPosition or is NaN.
 void checkCoordinates(const glm::vec3& p, const Scene& scene, const Instance& instance) {
     for (int axis = 0; axis < 3; ++axis)
         if (!(std::abs(p[axis]) <= kMaxPosition))
@@ -158,7 +161,7 @@ void checkCoordinates(const glm::vec3& p, const Scene& scene, const Instance& in
                 nameOf(scene, instance), p.x, p.y, p.z, kMaxPosition);
 }
 
-/// Bounds of an instance's vertices. @throws Error where one is too far away, or nowhere
+/// Bounds of an instance's vertices. @throws Error as checkCoordinates()
 Box boundsOf(const Geometry& geometry, const InstanceRange& range, const Scene& scene,
              const Instance& instance) {
     Box box{glm::vec3(std::numeric_limits<float>::infinity()), glm::vec3(0.0f)};
@@ -171,7 +174,7 @@ Box boundsOf(const Geometry& geometry, const InstanceRange& range, const Scene& 
     return box;
 }
 
-/// Bounds of all instances, of those that move at all times.
+/// Bounds of all instances, for moving ones over all times.
 void findBounds(const Scene& scene, Geometry& geometry) {
     if (geometry.positions.empty()) return;
     geometry.boundsMin = glm::vec3(std::numeric_limits<float>::infinity());
@@ -190,7 +193,7 @@ void findBounds(const Scene& scene, Geometry& geometry) {
     geometry.region = {geometry.boundsMin, geometry.boundsMax};
 }
 
-/// A node's axis in world space. @throws Error where the node's scale leaves no direction.
+/// A node's axis in world space. @throws Error if the node is scaled by 0.
 glm::vec3 axisOf(const Scene& scene, const glm::mat4& world, const glm::vec3& axis, const std::string& what) {
     const glm::vec3 direction = directionOr(glm::mat3(world) * axis, glm::vec3(0.0f));
     if (direction == glm::vec3(0.0f))
@@ -199,7 +202,7 @@ glm::vec3 axisOf(const Scene& scene, const glm::mat4& world, const glm::vec3& ax
     return direction;
 }
 
-/// Places lights; scale does not change how bright they are.
+/// Transforms lights to world space; intensities don't change with scale.
 std::vector<Light> placeLights(const Scene& scene, const std::vector<glm::mat4>& world) {
     std::vector<Light> lights = scene.lights;
     for (Light& light : lights) {
@@ -213,7 +216,7 @@ std::vector<Light> placeLights(const Scene& scene, const std::vector<glm::mat4>&
     return lights;
 }
 
-/// Places cameras, with the up vector perpendicular to the view.
+/// Transforms cameras to world space, with the up vector perpendicular to the view.
 std::vector<Camera> placeCameras(const Scene& scene, const std::vector<glm::mat4>& world) {
     std::vector<Camera> cameras = scene.cameras;
     for (Camera& camera : cameras) {
@@ -248,7 +251,7 @@ SceneState evaluate(std::shared_ptr<const Scene> scenePointer, double timeSecond
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         InstanceRange& range = state.geometry.instances[i];
-        placeInstance(scene, instance, world, range, state.geometry);
+        transformInstance(scene, instance, world, range, state.geometry);
         range.moves = playback == Playback::Looping && range.vertexCount > 0 && movesInTime(scene, instance);
     }
     findBounds(scene, state.geometry);
@@ -289,7 +292,7 @@ std::vector<Box> advance(SceneState& state, double timeSeconds) {
         if (!range.moves) continue;
         const Instance& instance = scene.instances[i];
         const Box before = boundsOf(state.geometry, range, scene, instance);
-        placeInstance(scene, instance, world, range, state.geometry);
+        transformInstance(scene, instance, world, range, state.geometry);
         const Box after = boundsOf(state.geometry, range, scene, instance);
         changed.insert(changed.end(), {before, after});
     }

@@ -10,8 +10,8 @@
 
 namespace voxray {
 
-/// The largest coordinate of a vertex in world space, m: squared lengths of cross products of edges, at
-/// most 192 x^4 between vertices this far out, stay below 3.4e38, where float ends.
+/// The largest coordinate of a vertex in world space, m. Squared lengths of cross products of edges, at most
+/// 192 x^4, then stay below the largest float, 3.4e38.
 constexpr float kMaxPosition = 1e9f;
 
 /// An axis-aligned box, m.
@@ -28,8 +28,8 @@ struct VertexAttributes {
     glm::vec4 color{1.0f};          ///< Linear RGBA.
 };
 
-/// Whether a scene's animation stands still at the time that it is evaluated at, or goes on from there and
-/// repeats after its last key.
+/// Whether a scene's animation is frozen at the time of its evaluation, or plays from there and repeats after
+/// its last key.
 enum class Playback { Frozen, Looping };
 
 /// Triangles of one instance: [firstTriangle, firstTriangle + triangleCount).
@@ -38,20 +38,20 @@ struct InstanceRange {
     uint32_t triangleCount = 0;
     uint32_t firstVertex = 0;
     uint32_t vertexCount = 0;
-    bool moves = false;  ///< `advance` places it again; all others stay where they are.
+    bool moves = false;  ///< Updated by `advance`.
 };
 
-/// The scene at one time as one list of world-space triangles. A triangle's index here is the primitive
-/// number that every ray-tracing backend and every pass uses.
+/// The scene at one time as a list of world-space triangles. All ray-tracing backends and passes use its
+/// triangle indices.
 struct Geometry {
     std::vector<glm::vec3> positions;
     std::vector<VertexAttributes> attributes;  ///< Same length as positions.
     std::vector<glm::uvec3> triangles;         ///< Counter-clockwise seen from the front.
     std::vector<uint32_t> triangleMaterials;   ///< Same length as triangles.
     std::vector<InstanceRange> instances;      ///< In the order of Scene::instances.
-    glm::vec3 boundsMin{0.0f};                 ///< At all times of a looping animation.
+    glm::vec3 boundsMin{0.0f};                 ///< Over all times of a looping animation.
     glm::vec3 boundsMax{0.0f};
-    Box region{};  ///< What voxels and parallel light are for: the bounds, or a part of them (scene.region).
+    Box region{};  ///< Extent of voxels and parallel light: the bounds, or a part of them (scene.region).
 };
 
 /// A scene evaluated at one time: geometry, lights and cameras in world space (their node is -1).
@@ -61,12 +61,11 @@ struct SceneState {
     Geometry geometry;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
-    std::shared_ptr<SceneState> panes;  ///< What light passes (panes.h), at the same time; nullptr: nothing.
+    std::shared_ptr<SceneState> panes;  ///< At the same time (panes.h); nullptr: none.
 };
 
-/// Evaluates nodes and animation at `timeSeconds` and flattens every instance into world space.
-/// Instances are duplicated: one list of triangles keeps every consumer simple.
-/// @throws Error where a vertex is further out than kMaxPosition, or the vertex or triangle count exceeds
+/// Evaluates nodes and animation at `timeSeconds` and flattens all instances into one list of world-space
+/// triangles. @throws Error if a coordinate exceeds kMaxPosition, or the vertex or triangle count exceeds
 /// 2^31.
 SceneState evaluate(std::shared_ptr<const Scene> scene, double timeSeconds,
                     Playback playback = Playback::Frozen);
@@ -74,12 +73,12 @@ SceneState evaluate(std::shared_ptr<const Scene> scene, double timeSeconds,
 /// The instance that a triangle belongs to.
 uint32_t instanceOf(const Geometry& geometry, uint32_t triangle);
 
-/// Instances that move, those that follow each other as one range.
+/// Ranges of consecutive moving instances.
 std::vector<InstanceRange> movingRuns(const Geometry& geometry);
 
-/// Takes a state to another time, in place and equal to one that is evaluated there: what moves, lights and
-/// cameras, panes. Triangle numbers and bounds stay. Triangles of a frozen state stay too.
-/// @return bounds before and after of each instance that moved, in turn. @throws Error as `evaluate`.
+/// Updates a state to another time, in place: moving instances, lights, cameras and panes, as `evaluate`
+/// would. Triangle indices and bounds don't change, nor do the triangles of a frozen state.
+/// @return old and new bounds of each instance that moved. @throws Error as `evaluate`.
 std::vector<Box> advance(SceneState& state, double timeSeconds);
 
 }  // namespace voxray

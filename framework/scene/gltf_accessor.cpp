@@ -7,10 +7,10 @@
 namespace voxray {
 namespace {
 
-/// Accessors without a buffer are zeros that a few bytes of JSON can ask for in any number.
+/// Limit of accessors without a buffer, which are zeros: a few bytes of JSON can declare any number of them.
 constexpr size_t maxZeros = size_t(1) << 22;
 
-/// Elements in a buffer, all of them inside it.
+/// Elements in a buffer, checked to be inside of it.
 struct Elements {
     const uint8_t* data = nullptr;
     size_t stride = 0;
@@ -51,7 +51,7 @@ uint32_t componentCount(const GltfFile& file, int type, const char* what) {
     }
 }
 
-/// @throws Error where any of the elements ends outside of the view, or the view outside of its buffer.
+/// @throws Error if an element ends outside of the view, or the view outside of its buffer.
 Elements locate(const GltfFile& file, int viewIndex, int64_t byteOffset, size_t count, size_t elementBytes,
                 bool strided, const char* what) {
     const tinygltf::BufferView& view = file.at(file.model().bufferViews, viewIndex, "bufferView");
@@ -118,8 +118,8 @@ void checkIndexType(const GltfFile& file, int type) {
         file.fail("indices have component type {}; unsigned 8, 16 or 32 bits are expected", type);
 }
 
-/// Visits every element that a buffer or the sparse part gives: visit(index, bytes).
-/// The rest are zeros. @throws Error where one is not there.
+/// Calls visit(index, bytes) for all elements of the buffer and of the sparse part; others are zeros.
+/// @throws Error if an element is out of bounds.
 template <typename Visit>
 void visitElements(const GltfFile& file, const tinygltf::Accessor& accessor, size_t elementBytes,
                    const char* what, const Visit& visit) {
@@ -147,7 +147,7 @@ void visitElements(const GltfFile& file, const tinygltf::Accessor& accessor, siz
     }
 }
 
-/// Checks the number of elements against the bytes that are there, before anything is allocated.
+/// Checks the number of elements against the available bytes, before allocation.
 void checkCount(GltfFile& file, const tinygltf::Accessor& accessor, size_t elementBytes, const char* what) {
     if (accessor.bufferView < 0) {
         if (accessor.count > maxZeros)

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// What the loader knows. Those of variants and metadata change nothing of what is rendered.
+/// Supported extensions. Those of variants and metadata don't affect rendering.
 constexpr std::array supportedExtensions{"EXT_mesh_gpu_instancing", "EXT_meshopt_compression",
                                          "EXT_texture_webp",        "KHR_draco_mesh_compression",
                                          "KHR_lights_punctual",     "KHR_materials_emissive_strength",
@@ -25,7 +25,7 @@ constexpr std::array supportedExtensions{"EXT_mesh_gpu_instancing", "EXT_meshopt
                                          "KHR_texture_basisu",      "KHR_texture_transform",
                                          "KHR_xmp_json_ld"};
 
-/// The number before or after the dot of a version; -1 where there is none.
+/// The number before or after the dot of a version; -1 if missing.
 int versionPart(std::string_view version, bool minor) {
     if (minor) version.remove_prefix(std::min(version.find('.'), version.size() - 1) + 1);
     int value = -1;

@@ -6,9 +6,8 @@
 
 namespace voxray {
 
-/// Checks what a parser takes on trust: versions, required extensions, the kinds of the top-level arrays, and
-/// that buffer views lie in their buffers.
-/// @return extensions that the file uses, does not require, and that are left out
+/// Checks what the parser doesn't: versions, required extensions, types of the top-level arrays, and bounds
+/// of buffer views. @return extensions that the file uses, but doesn't require, and that are ignored
 /// @throws Error without the file's name.
 std::vector<std::string> checkGltf(const nlohmann::json& root);
 

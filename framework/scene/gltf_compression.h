@@ -5,10 +5,10 @@
 
 #include "scene/gltf_data.h"
 
-/// Decoders of compressed glTF: what they decode takes its place, so that readers see plain glTF.
+/// Decoders of compressed glTF: they replace compressed data, so that readers see plain glTF.
 namespace voxray {
 
-/// Counts memory before it is allocated: elements, bytes each. @throws Error where it is too much
+/// Counts memory before its allocation: elements, bytes per element. @throws Error if it is too much
 using ReserveMemory = std::function<void(uint64_t, uint64_t)>;
 
 /// Buffer views of EXT_meshopt_compression become views of new buffers.

@@ -27,7 +27,7 @@ void addTargets(GltfFile& file, const tinygltf::Primitive& primitive, const std:
     }
 }
 
-/// Weights that sum to 1 at each vertex, whatever they were. @return vertices that had none
+/// Normalizes weights to sum to 1 at each vertex. @return vertices without weights
 size_t normalizeWeights(std::vector<SkinWeights>& sets, size_t vertexCount) {
     size_t without = 0;
     for (size_t v = 0; v < vertexCount; ++v) {

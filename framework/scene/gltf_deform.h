@@ -7,15 +7,15 @@
 #include "scene/gltf_file.h"
 #include "scene/scene.h"
 
-/// What moves a mesh's vertices against each other: morph targets and skins.
+/// Deformation of meshes: morph targets and skins.
 namespace voxray {
 
 /// Adds a primitive's morph targets to positions, normals and tangents, each times its weight.
-/// @throws Error where a target is not as long as the positions
+/// @throws Error if a target differs in length from the positions
 void addMorphTargets(GltfFile& file, const tinygltf::Primitive& primitive, const std::vector<double>& weights,
                      Mesh& mesh, const std::string& what);
 
-/// Reads all pairs JOINTS_n and WEIGHTS_n; weights are made to sum to 1. @throws Error
+/// Reads all pairs JOINTS_n and WEIGHTS_n; weights are normalized to sum to 1. @throws Error
 void readSkinWeights(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& mesh,
                      const std::string& what);
 
@@ -25,11 +25,11 @@ class SkinReader {
     /// @param fileNodes as readNodes returned them
     SkinReader(GltfFile& file, const std::vector<int>& fileNodes, Scene& scene);
 
-    /// Number in the scene of a skin of the file; -1 with a warning where a joint is not in the scene.
+    /// Index in the scene of a skin of the file; -1 with a warning if a joint is not in the scene.
     /// @throws Error for a skin without joints or with too few matrices
     int32_t skin(int index);
 
-    /// @throws Error where a mesh has a joint that its skin has not
+    /// @throws Error if a mesh has a joint that its skin lacks
     void check(const Mesh& mesh, int32_t skin, const std::string& what) const;
 
  private:

@@ -17,10 +17,10 @@ using nlohmann::json;
 
 constexpr const char* kDraco = "KHR_draco_mesh_compression";
 
-/// More triangles or vertices than this for each byte are a hostile file's.
+/// Maximum number of triangles or vertices per byte, against malicious files.
 constexpr uint64_t maxPerByte = 1024;
 
-/// Compares the counts that the stream begins with to its size: the decoder allocates on their word.
+/// Checks the counts in the stream's header against its size, since the decoder allocates by them.
 void checkCounts(const std::vector<uint8_t>& bytes, const ReserveMemory& reserve) {
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -44,7 +44,7 @@ void checkCounts(const std::vector<uint8_t>& bytes, const ReserveMemory& reserve
     for (const uint32_t count : counts) {
         if (count > maxPerByte * bytes.size())
             throw Error("{} triangles or vertices in {} bytes are too many", count, bytes.size());
-        // Corner table and attributes take about this much a triangle or vertex.
+        // Approximate bytes of corner table and attributes per triangle or vertex.
         reserve(count, 64);
     }
 }
@@ -83,7 +83,7 @@ std::vector<uint8_t> attributeBytes(const draco::Mesh& mesh, const draco::PointA
     }
 }
 
-/// Adds a buffer, its view and an accessor. @return the accessor's number
+/// Adds a buffer, its view and an accessor. @return the accessor's index
 size_t addAccessor(json& root, GltfBuffers& buffers, std::vector<uint8_t> data, json accessor) {
     const json view = {{"buffer", buffers.size()}, {"byteOffset", 0}, {"byteLength", data.size()}};
     buffers.push_back(std::move(data));
@@ -119,7 +119,7 @@ void expandPrimitive(json& root, json& primitive, GltfBuffers& buffers, const Re
                     {{"type", "SCALAR"}, {"componentType", 5125}, {"count", uint64_t(mesh.num_faces()) * 3}});
     primitive["mode"] = 4;
 
-    // Attributes, in the types that their accessors tell
+    // Attributes, in the types of their accessors
     const json attributes = source.value("attributes", json::object());
     if (!attributes.is_object() || !primitive["attributes"].is_object())
         throw Error("its attributes are not an object");

@@ -43,7 +43,7 @@ int wrapMode(Wrap wrap) {
     }
 }
 
-/// A node at a place that looks along `forward` with its -Z.
+/// A node whose -Z axis is `forward`.
 tinygltf::Node lookingNode(const std::string& name, const glm::vec3& position, const glm::vec3& forward,
                            const glm::vec3& up) {
     const glm::dvec3 z = -glm::normalize(glm::dvec3(forward));
@@ -52,7 +52,8 @@ tinygltf::Node lookingNode(const std::string& name, const glm::vec3& position, c
     tinygltf::Node node;
     node.name = name;
     node.translation = numbers(position);
-    for (const double part : {q.x, q.y, q.z, q.w}) node.rotation.push_back(std::clamp(part, -1.0, 1.0));
+    for (const double component : {q.x, q.y, q.z, q.w})
+        node.rotation.push_back(std::clamp(component, -1.0, 1.0));
     return node;
 }
 
@@ -141,8 +142,7 @@ Info GltfWriter::textureInfo(const TextureRef& ref) {
     const glm::vec3& v = ref.transform[1];
     if (ref.texture < 0 || (u == glm::vec3(1, 0, 0) && v == glm::vec3(0, 1, 0))) return info;
 
-    // Take the matrix apart: its first column is the scale times (cos, -sin), its second one times (sin,
-    // cos).
+    // Decompose the matrix: its columns are the scale times (cos, -sin) and (sin, cos).
     const double scaleU = std::hypot(u.x, v.x);
     const double angle = scaleU > 0 ? std::atan2(-v.x, u.x) : std::atan2(u.y, v.y);
     const double scaleV = std::sin(angle) * u.y + std::cos(angle) * v.y;
@@ -175,7 +175,7 @@ void GltfWriter::addMaterials(const Scene& scene) {
                         : m.alphaMode == AlphaMode::Blend ? "BLEND"
                                                           : "OPAQUE";
 
-        // emissiveFactor is at most 1; what is above goes into the strength.
+        // emissiveFactor is at most 1; the strength has the rest.
         const double strength =
             std::max({1.0, double(m.emission.x), double(m.emission.y), double(m.emission.z)});
         out.emissiveFactor = numbers(glm::dvec3(m.emission) / strength);
@@ -203,7 +203,7 @@ void GltfWriter::addMaterials(const Scene& scene) {
 }
 
 void GltfWriter::addInstance(const Geometry& geometry, const InstanceRange& range, const Mesh& mesh) {
-    // Take the instance's part of each array.
+    // The instance's range of each array.
     const auto vertices = std::span(geometry.attributes).subspan(range.firstVertex, range.vertexCount);
     const auto positionSpan = std::span(geometry.positions).subspan(range.firstVertex, range.vertexCount);
     const std::vector<glm::vec3> positions(positionSpan.begin(), positionSpan.end());
@@ -224,7 +224,7 @@ void GltfWriter::addInstance(const Geometry& geometry, const InstanceRange& rang
         colors.push_back(a.color);
     }
 
-    // Write them; positions have bounds, as glTF demands.
+    // glTF requires bounds of positions.
     const int vertexData = TINYGLTF_TARGET_ARRAY_BUFFER;
     const int floats = TINYGLTF_COMPONENT_TYPE_FLOAT;
     tinygltf::Primitive primitive;
@@ -263,7 +263,7 @@ void GltfWriter::addInstance(const Geometry& geometry, const InstanceRange& rang
 }
 
 void GltfWriter::addLight(const Light& light) {
-    // glTF's colour is at most 1; its intensity carries the strength.
+    // glTF's colour is at most 1; the intensity has the rest.
     const float strength = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
     tinygltf::Light out;
     out.name = light.name;
@@ -295,8 +295,7 @@ void GltfWriter::addCamera(const Camera& camera) {
     out.name = camera.name;
     out.type = "perspective";
     out.perspective.yfov = double(camera.verticalFovRadians);
-    // Planes far outside of what any scene needs; tinygltf would write an infinite far plane as zfar 0, which
-    // is invalid.
+    // Planes beyond any scene; tinygltf would write an infinite far plane as an invalid zfar of 0.
     out.perspective.znear = 1e-3;
     out.perspective.zfar = 1e5;
     model_.cameras.push_back(std::move(out));
@@ -322,11 +321,11 @@ void exportGlb(const SceneState& state, const std::filesystem::path& path) {
         throw Error("{}: glTF can't carry an environment; export with environment: none", path.string());
     GltfWriter writer;
     writer.addMaterials(*state.scene);
-    for (const SceneState* part : {&state, static_cast<const SceneState*>(state.panes.get())}) {
-        if (!part) continue;
-        for (size_t i = 0; i < part->geometry.instances.size(); ++i)
-            writer.addInstance(part->geometry, part->geometry.instances[i],
-                               part->scene->meshes[part->scene->instances[i].mesh]);
+    for (const SceneState* exported : {&state, static_cast<const SceneState*>(state.panes.get())}) {
+        if (!exported) continue;
+        for (size_t i = 0; i < exported->geometry.instances.size(); ++i)
+            writer.addInstance(exported->geometry, exported->geometry.instances[i],
+                               exported->scene->meshes[exported->scene->instances[i].mesh]);
     }
     for (const Light& light : state.lights) writer.addLight(light);
     for (const Camera& camera : state.cameras) writer.addCamera(camera);

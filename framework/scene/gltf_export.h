@@ -8,20 +8,20 @@
 
 namespace voxray {
 
-/// Collects a glTF model with all of its data in one buffer.
+/// Builds a glTF model with all of its data in one buffer.
 class GltfWriter {
  public:
     GltfWriter();
 
     /// Adds materials, samplers, textures and images of a scene, in the scene's order.
     void addMaterials(const Scene& scene);
-    /// Adds a mesh and its node: the triangles of one instance, in world space. Attributes that the
-    /// instance's mesh does not have are left out.
+    /// Adds a mesh and its node: the triangles of one instance, in world space, with the attributes of the
+    /// instance's mesh.
     void addInstance(const Geometry& geometry, const InstanceRange& range, const Mesh& mesh);
     void addLight(const Light& light);
     void addCamera(const Camera& camera);
 
-    /// The whole model as a .glb file. @throws Error where it is 4 GiB or more.
+    /// The model as a .glb file. @throws Error if it has 4 GiB or more.
     std::string glb();
 
  private:

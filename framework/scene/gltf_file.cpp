@@ -16,8 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Takes the strides out of the buffer views: any that lies in its buffer is fine, the parser wants multiples
-/// of 4 up to 252.
+/// Removes the strides of buffer views: the parser accepts only multiples of 4 up to 252.
 std::vector<size_t> takeStrides(json& root) {
     std::vector<size_t> strides;
     for (size_t i = 0; i < objects(root, "bufferViews").size(); ++i) {
@@ -28,8 +27,7 @@ std::vector<size_t> takeStrides(json& root) {
     return strides;
 }
 
-/// Takes the indices out of the primitives, mesh by mesh: they may be sparse without a buffer view, which the
-/// parser refuses.
+/// Removes the indices of primitives, by mesh: the parser refuses sparse ones without a buffer view.
 std::vector<int> takeIndices(json& root) {
     std::vector<int> indices;
     for (size_t m = 0; m < objects(root, "meshes").size(); ++m)
@@ -44,7 +42,7 @@ std::vector<int> takeIndices(json& root) {
     return indices;
 }
 
-/// Gives the parser's own structures to JSON, without buffers and images, which are fetched before.
+/// Parses the JSON without buffers and images, which are read separately.
 tinygltf::Model parsed(json root) {
     const std::vector<size_t> strides = takeStrides(root);
     const std::vector<int> indices = takeIndices(root);
@@ -77,7 +75,7 @@ GltfFile::GltfFile(const std::filesystem::path& path) : name_(path.string()) {
 }
 
 void GltfFile::parse(const std::vector<uint8_t>& bytes, const std::filesystem::path& folder) {
-    // Check the outside and fetch all data before the parser sees it.
+    // Check the file and read all data before parsing.
     GltfContainer container = openGltf(bytes);
     for (const std::string& extension : checkGltf(container.root))
         warn("extension {} is not supported; what it adds is left out", extension);

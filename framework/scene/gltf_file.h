@@ -20,17 +20,17 @@ inline std::string shortLine(std::string_view text) {
     return oneLine(text, 200);
 }
 
-/// A parsed glTF file, and what all who read from it need: checked indices, errors that name the file,
-/// warnings, and a bound on the memory that a small file can ask for.
+/// A parsed glTF file, with checked indices, errors that name the file, warnings, and a bound on the memory
+/// that a small file can demand.
 class GltfFile {
  public:
-    /// Reads and parses; buffers are loaded and decompressed, images are fetched but not decoded.
-    /// URIs reach files in the file's own folder and below only.
+    /// Reads and parses; buffers are loaded and decompressed, images are read but not decoded.
+    /// URIs may only name files in the file's folder and below.
     /// @throws Error
     explicit GltfFile(const std::filesystem::path& path);
 
     const tinygltf::Model& model() const { return model_; }
-    /// Files of the images, in the file's order.
+    /// Encoded images, in the file's order.
     const std::vector<EncodedImage>& images() const { return images_; }
 
     template <typename... Args>
@@ -45,7 +45,7 @@ class GltfFile {
     }
     const std::vector<std::string>& warnings() const { return warnings_; }
 
-    /// An element that an index in the file points to. @throws Error where there is none.
+    /// An array's element by an index in the file. @throws Error if it is out of range.
     template <typename T>
     const T& at(const std::vector<T>& array, int64_t index, const char* what) const {
         if (index < 0 || uint64_t(index) >= array.size())
@@ -53,15 +53,14 @@ class GltfFile {
         return array[size_t(index)];
     }
 
-    /// Counts memory before it is allocated. @throws Error where all of it together exceeds half of the
-    /// machine's memory.
+    /// Counts memory before its allocation. @throws Error if the total exceeds half of the machine's memory.
     void reserve(uint64_t count, uint64_t bytesEach);
 
  private:
-    static constexpr size_t kMaxMessage = 500;  ///< Bytes; a file's own words can be longer.
+    static constexpr size_t kMaxMessage = 500;  ///< Bytes; names in a file can be longer.
 
     void addWarning(std::string line);
-    /// reserve(), with an error that does not name the file, as all that parse() throws.
+    /// reserve() without the file's name in the error, as in all errors of parse().
     void countMemory(uint64_t count, uint64_t bytesEach);
     void parse(const std::vector<uint8_t>& bytes, const std::filesystem::path& folder);
 

@@ -23,8 +23,8 @@ struct Chunks {
     std::span<const uint8_t> json, bin;
 };
 
-/// The first two chunks of a .glb file, after every length was compared with the bytes that are there. Chunks
-/// of other types are an extension's (glTF 2.0, section 4.4.3.1).
+/// The first two chunks of a .glb file, with checked lengths. Other types of chunks belong to extensions
+/// (glTF 2.0, section 4.4.3.1).
 Chunks chunksOf(std::span<const uint8_t> file) {
     constexpr uint32_t jsonType = 0x4E4F534A;
     constexpr uint32_t binType = 0x004E4942;
@@ -50,7 +50,7 @@ Chunks chunksOf(std::span<const uint8_t> file) {
     return chunks;
 }
 
-/// Parsers of values recurse: a file of brackets alone would overflow the stack.
+/// Limits nesting: the parser recurses, and a file of brackets would overflow the stack.
 void checkDepth(std::string_view text) {
     int depth = 0;
     bool inString = false;
@@ -69,7 +69,7 @@ void checkDepth(std::string_view text) {
     }
 }
 
-/// The length of the UTF-8 sequence that text begins with; 0 where it is none (RFC 3629).
+/// Length of the UTF-8 sequence at the beginning of a text; 0 if invalid (RFC 3629).
 size_t utf8Length(std::string_view text) {
     const auto byte = [&](size_t i) { return i < text.size() ? uint8_t(text[i]) : uint8_t(0); };
     const uint8_t first = byte(0);
@@ -83,7 +83,7 @@ size_t utf8Length(std::string_view text) {
     return overlong || outside ? 0 : length;
 }
 
-/// Bytes that are no UTF-8, as old exporters leave them in names, become U+FFFD.
+/// Replaces invalid UTF-8, which old exporters leave in names, by U+FFFD.
 std::string withValidUtf8(std::string_view text) {
     std::string out;
     out.reserve(text.size());
@@ -95,7 +95,7 @@ std::string withValidUtf8(std::string_view text) {
     return out;
 }
 
-/// JSON has one kind of number: 3.0 is as good an index as 3.
+/// Converts whole numbers such as 3.0 to integers: JSON has one type of number.
 void makeIntegers(json& value) {
     constexpr double largest = 9007199254740992.0;  // 2^53: above, doubles skip integers
     if (value.is_structured()) {
@@ -122,7 +122,7 @@ json parse(std::string_view text) {
         makeIntegers(root);
         return root;
     } catch (const json::exception& error) {
-        // Without the name of the exception, which stands in brackets before what it says
+        // Without the name of the exception, which precedes the message in brackets
         const std::string_view what = error.what();
         throw Error("its JSON is broken: {}", what.substr(what.find(' ') + 1));
     }

@@ -31,8 +31,7 @@ Wrap MaterialReader::wrap(int mode) {
 }
 
 TexelFilter MaterialReader::filter(const tinygltf::Sampler& sampler) {
-    // Level 0 is looked up as if it were magnified. -1: the file leaves it open, and the other filter
-    // decides.
+    // The magnification filter counts, for lookups in level 0; if it is unspecified (-1), the other filter.
     switch (sampler.magFilter == -1 ? sampler.minFilter : sampler.magFilter) {
         case -1:
         case TINYGLTF_TEXTURE_FILTER_LINEAR:
@@ -70,7 +69,7 @@ TextureRef MaterialReader::texture(int index, int texCoord, const tinygltf::Exte
         texelFilter = filter(sampler);
     }
 
-    // One texture for each image, encoding and sampler.
+    // One texture per image, encoding and sampler.
     const auto [entry, added] = textures_.try_emplace({source.source, srgb, wrapU, wrapV, texelFilter},
                                                       int32_t(scene_.textures.size()));
     if (added) {
@@ -109,7 +108,7 @@ float MaterialReader::readIor(const tinygltf::Material& source, const std::strin
     constexpr const char* extension = "KHR_materials_ior";
     float ior = 1.5f;
     readExtension(file_, what, source.extensions, extension, "ior", 0, 1000, ior);
-    // 0 stands for an infinite one (KHR_materials_ior); nothing is between it and that of empty space.
+    // 0 means infinite (KHR_materials_ior); values between 0 and 1 are invalid.
     return ior == 0 ? 0 : limited(file_, ior, 1, 1000, what + ": KHR_materials_ior.ior");
 }
 
@@ -163,7 +162,7 @@ Material MaterialReader::read(int index) {
     m.emissiveTexture = texture(emissive.index, emissive.texCoord, emissive.extensions, true, what);
     m.normalScale = limited(file_, normal.scale, -maxNumber, maxNumber, what + ": normalTexture.scale");
 
-    // What is left out.
+    // Unsupported properties.
     if (isPane(m))
         file_.warn(
             "{}: {} makes it a pane: light passes it straight, times its colour, and nothing is reflected or "
@@ -189,7 +188,7 @@ uint32_t MaterialReader::material(int index) {
 }
 
 void MaterialReader::decodeTextures() {
-    // Decode each image once, all at the same time; the first error in the file's order is the one reported.
+    // Decode each image once, in parallel; report the first error in the file's order.
     std::vector<int> images = images_;
     std::sort(images.begin(), images.end());
     images.erase(std::unique(images.begin(), images.end()), images.end());

@@ -9,7 +9,7 @@
 
 namespace voxray {
 
-/// Turns the materials that are used into the scene's, and the images that these use into textures.
+/// Reads the used materials into the scene, and their images as textures.
 class MaterialReader {
  public:
     MaterialReader(GltfFile& file, Scene& scene) : file_(file), scene_(scene) {}

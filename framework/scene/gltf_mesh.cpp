@@ -16,7 +16,7 @@ constexpr size_t maxVertices = size_t(1) << 31;
 /// All attributes of a vertex that is copied or split.
 constexpr size_t bytesPerVertex = 3 * sizeof(glm::vec4) + 3 * sizeof(glm::vec3);
 
-/// Reads one attribute, if there is one. @throws Error where it is not as long as the positions.
+/// Reads an attribute, if present. @throws Error if it differs in length from the positions.
 template <typename Vector>
 void readAttribute(GltfFile& file, const tinygltf::Primitive& primitive, const char* name,
                    uint32_t minComponents, uint32_t maxComponents, float fallback, std::vector<Vector>& out,
@@ -34,7 +34,7 @@ void readAttribute(GltfFile& file, const tinygltf::Primitive& primitive, const c
         for (int c = 0; c < int(Vector::length()); ++c) out[i][c] = values.get(i, uint32_t(c), fallback);
 }
 
-/// Replaces what is not finite. @return how many vectors had such a component
+/// Replaces components that are not finite. @return number of vectors changed
 template <typename Vector>
 size_t replaceNonFinite(std::vector<Vector>& values, float replacement) {
     size_t count = 0;
@@ -72,7 +72,7 @@ std::vector<glm::uvec3> trianglesOf(GltfFile& file, int mode, const std::vector<
 
 void readTriangles(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& mesh,
                    const std::string& what) {
-    // Vertices in order where there are no indices.
+    // Without indices, vertices in order.
     std::vector<uint32_t> indices;
     if (primitive.indices >= 0) {
         indices = readIndices(file, primitive.indices);
@@ -88,7 +88,7 @@ void readTriangles(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& m
     mesh.triangles = trianglesOf(file, primitive.mode, indices, what);
 }
 
-/// Reads all attributes as the file has them, with its morph targets.
+/// Reads all attributes, with morph targets applied.
 void readAttributes(GltfFile& file, const tinygltf::Primitive& primitive,
                     const std::vector<double>& morphWeights, Mesh& mesh, const std::string& what) {
     const size_t count = mesh.positions.size();
@@ -102,7 +102,7 @@ void readAttributes(GltfFile& file, const tinygltf::Primitive& primitive,
     readSkinWeights(file, primitive, mesh, what);
 }
 
-/// Makes normals and tangents where the file has none, or none that are of use.
+/// Computes missing or invalid normals and tangents.
 void completeNormals(GltfFile& file, const Material& material, Mesh& mesh, const std::string& what) {
     bool make = mesh.tangents.empty();
     if (mesh.normals.empty()) {
@@ -139,7 +139,7 @@ Mesh readPrimitive(GltfFile& file, const tinygltf::Primitive& primitive,
         return mesh;
     }
 
-    // Positions and triangles must be sound.
+    // Positions and triangles must be valid.
     const int positions = primitive.attributes.at("POSITION");
     const size_t count = file.at(file.model().accessors, positions, "accessor").count;
     if (count > maxVertices) file.fail("{}: more than 2^31 vertices", what);
@@ -153,7 +153,7 @@ Mesh readPrimitive(GltfFile& file, const tinygltf::Primitive& primitive,
     dropUnusedVertices(mesh);
     if (replaceNonFinite(mesh.positions, 0) > 0) file.fail("{}: it has positions that are not finite", what);
 
-    // Coordinates and colours can be repaired.
+    // Texture coordinates and colours are repaired.
     if (replaceNonFinite(mesh.texCoords0, 0) + replaceNonFinite(mesh.texCoords1, 0) > 0)
         file.warn("{}: texture coordinates that are not finite are taken as 0", what);
     if (replaceNonFinite(mesh.colors, 1) > 0)

@@ -7,9 +7,9 @@
 
 namespace voxray {
 
-/// Reads a primitive's vertices and triangles; normals are always there afterwards, tangents where the
-/// material has a normal map. A primitive without triangles gives an empty mesh and a warning.
-/// Vertices that no triangle has are left out.
+/// Reads a primitive's vertices and triangles. Missing normals are computed, and tangents if the material has
+/// a normal map; unused vertices are dropped. A primitive without triangles gives an empty mesh and a
+/// warning.
 /// @param morphWeights of the primitive's targets; missing ones are 0
 /// @param what names the primitive in messages
 /// @throws Error for indices outside of the vertices, positions that are not finite, attributes of unequal

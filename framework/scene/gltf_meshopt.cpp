@@ -30,7 +30,7 @@ void unfilter(std::vector<uint8_t>& data, size_t count, size_t stride, const std
 }
 
 std::vector<uint8_t> decoded(const json& view, const GltfBuffers& buffers, const ReserveMemory& reserve) {
-    // Where the compressed bytes are, and what they hold (EXT_meshopt_compression)
+    // Location and layout of the compressed bytes (EXT_meshopt_compression)
     const json& source = *extensionOf(view, kMeshopt);
     const uint64_t buffer = unsignedMember(source, "buffer", kMeshopt);
     const uint64_t offset = unsignedMember(source, "byteOffset", kMeshopt, 0);

@@ -52,12 +52,12 @@ Node readNode(GltfFile& file, int index, int32_t parent) {
     return node;
 }
 
-std::string nameOf(const std::string& own, const std::string& nodes, const char* kind, size_t number) {
-    if (!own.empty()) return shortLine(own);
-    return nodes.empty() ? fmt::format("{} {}", kind, number) : shortLine(nodes);
+std::string nameOf(const std::string& name, const std::string& nodeName, const char* kind, size_t number) {
+    if (!name.empty()) return shortLine(name);
+    return nodeName.empty() ? fmt::format("{} {}", kind, number) : shortLine(nodeName);
 }
 
-/// Reads an attribute of the instances of EXT_mesh_gpu_instancing; none where it is missing.
+/// Reads an attribute of the instances of EXT_mesh_gpu_instancing; empty if missing.
 AccessorValues instanceAttribute(GltfFile& file, const tinygltf::Value& attributes, const char* name,
                                  uint32_t components) {
     if (!attributes.Has(name)) return {};
@@ -121,7 +121,7 @@ void readLight(GltfFile& file, const tinygltf::Node& node, int32_t nodeIndex, Sc
 }
 
 std::vector<int> readNodes(GltfFile& file, Scene& scene) {
-    // Walk depth first, children in the file's order; without recursion, since files can be deep.
+    // Depth first, children in the file's order; without recursion, since hierarchies can be deep.
     struct Visit {
         int index;
         int32_t parent;
@@ -148,7 +148,8 @@ std::vector<int> readNodes(GltfFile& file, Scene& scene) {
     return fileNodes;
 }
 
-std::vector<int32_t> readPlaces(GltfFile& file, const tinygltf::Node& source, int32_t node, Scene& scene) {
+std::vector<int32_t> readInstanceNodes(GltfFile& file, const tinygltf::Node& source, int32_t node,
+                                       Scene& scene) {
     const tinygltf::Value* attributes =
         extensionMember(source.extensions, "EXT_mesh_gpu_instancing", "attributes");
     if (attributes == nullptr) return {node};
@@ -162,28 +163,28 @@ std::vector<int32_t> readPlaces(GltfFile& file, const tinygltf::Node& source, in
         if (values->count != 0 && values->count != count)
             file.fail("{}: its attributes have {} and {} elements", what, values->count, count);
 
-    // One node for each, below the node itself
+    // One node per instance, below the node itself
     file.reserve(count, sizeof(Node));
-    std::vector<int32_t> places;
+    std::vector<int32_t> instanceNodes;
     for (size_t i = 0; i < count; ++i) {
-        Node place;
-        place.name = scene.nodes[size_t(node)].name;
-        place.parent = node;
+        Node instance;
+        instance.name = scene.nodes[size_t(node)].name;
+        instance.parent = node;
         glm::vec4 rotation(0, 0, 0, 1);
         for (uint32_t c = 0; c < 4; ++c) {
             if (rotations.count > 0) rotation[int(c)] = rotations.get(i, c);
             if (c == 3) break;
-            if (translations.count > 0) place.translation[int(c)] = translations.get(i, c);
-            if (scales.count > 0) place.scale[int(c)] = scales.get(i, c);
+            if (translations.count > 0) instance.translation[int(c)] = translations.get(i, c);
+            if (scales.count > 0) instance.scale[int(c)] = scales.get(i, c);
         }
         const float length = glm::length(rotation);
         if (!(length > 0 && length < float(maxNumber))) file.fail("{}: rotation {} is zero", what, i);
         rotation /= length;
-        place.rotation = glm::quat(rotation.w, rotation.x, rotation.y, rotation.z);
-        places.push_back(int32_t(scene.nodes.size()));
-        scene.nodes.push_back(std::move(place));
+        instance.rotation = glm::quat(rotation.w, rotation.x, rotation.y, rotation.z);
+        instanceNodes.push_back(int32_t(scene.nodes.size()));
+        scene.nodes.push_back(std::move(instance));
     }
-    return places;
+    return instanceNodes;
 }
 
 }  // namespace voxray

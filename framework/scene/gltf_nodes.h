@@ -9,7 +9,7 @@
 namespace voxray {
 
 /// Reads the nodes of the default scene (else scene 0, else all roots), parents first.
-/// @return for each node of the scene its index in the file
+/// @return index in the file of each node of the scene
 /// @throws Error for cycles, nodes with two parents, transforms that are not finite.
 std::vector<int> readNodes(GltfFile& file, Scene& scene);
 
@@ -17,13 +17,14 @@ std::vector<int> readNodes(GltfFile& file, Scene& scene);
 /// @param fileNodes as readNodes returned them
 void readAnimations(GltfFile& file, const std::vector<int>& fileNodes, Scene& scene);
 
-/// Adds the camera of a node. An orthographic one is left out, with a warning.
+/// Adds the camera of a node; orthographic ones are ignored with a warning.
 void readCamera(GltfFile& file, const tinygltf::Node& source, int32_t node, Scene& scene);
 
 /// Adds the light of a node.
 void readLight(GltfFile& file, const tinygltf::Node& source, int32_t node, Scene& scene);
 
-/// Where a node places its mesh: itself, or nodes that are added below it for EXT_mesh_gpu_instancing.
-std::vector<int32_t> readPlaces(GltfFile& file, const tinygltf::Node& source, int32_t node, Scene& scene);
+/// Nodes of a mesh's instances: the node itself, or nodes added below it for EXT_mesh_gpu_instancing.
+std::vector<int32_t> readInstanceNodes(GltfFile& file, const tinygltf::Node& source, int32_t node,
+                                       Scene& scene);
 
 }  // namespace voxray

@@ -9,7 +9,7 @@ namespace {
 using nlohmann::json;
 using Lines = std::vector<std::string>;
 
-/// The entries of a top-level array, to be changed.
+/// The entries of a top-level array.
 json& entries(json& root, const char* key) {
     objects(root, key);
     json& array = root[key];
@@ -22,7 +22,7 @@ std::string nameOf(const json& object) {
     return name != object.end() && name->is_string() ? oneLine(name->get<std::string>(), 100) : "";
 }
 
-/// A path without a node is nobody's (glTF 2.0, section 5.5: such channels are ignored).
+/// Drops channels without a target node (glTF 2.0, section 5.5).
 void dropChannelsWithoutNode(json& root, Lines& warnings) {
     json& animations = entries(root, "animations");
     for (size_t a = 0; a < animations.size(); ++a) {
@@ -40,13 +40,13 @@ void dropChannelsWithoutNode(json& root, Lines& warnings) {
     }
 }
 
-/// Without inverse bind matrices they are identities (glTF 2.0, section 5.28).
+/// Missing inverse bind matrices are identities (glTF 2.0, section 5.28).
 void allowSkinsWithoutMatrices(json& root) {
     for (json& skin : entries(root, "skins"))
         if (!skin.contains("inverseBindMatrices")) skin["inverseBindMatrices"] = -1;
 }
 
-/// A pinhole camera has no use for its near plane, nor for anything of an orthographic one.
+/// Sets missing near planes, and parameters of orthographic cameras, which are unused.
 void completeCameras(json& root) {
     for (json& camera : entries(root, "cameras")) {
         const auto perspective = camera.find("perspective");
@@ -57,17 +57,17 @@ void completeCameras(json& root) {
     }
 }
 
-/// The core's image is the fallback of the extension's, so it does where there is one.
+/// Uses an extension's image if the core has no fallback image.
 void nameImagesOfTextures(json& root) {
     for (json& texture : entries(root, "textures"))
         for (const char* extension : {"EXT_texture_webp", "KHR_texture_basisu"})
-            if (const json* other = extensionOf(texture, extension);
-                other && other->contains("source") && !texture.contains("source"))
-                texture["source"] = (*other)["source"];
+            if (const json* extended = extensionOf(texture, extension);
+                extended && extended->contains("source") && !texture.contains("source"))
+                texture["source"] = (*extended)["source"];
 }
 
-/// Diffuse and specular colour as a dielectric's base colour and its reflectance at normal incidence, which
-/// is 0.04 * specularColorFactor (KHR_materials_specular).
+/// Converts diffuse and specular colour to a dielectric's base colour and reflectance at normal incidence,
+/// 0.04 * specularColorFactor (KHR_materials_specular).
 void rewriteSpecularGlossiness(json& root, Lines& warnings) {
     json& materials = entries(root, "materials");
     for (size_t i = 0; i < materials.size(); ++i) {

@@ -16,7 +16,7 @@ bool isHex(char c) {
     return std::isxdigit(static_cast<unsigned char>(c)) != 0;
 }
 
-/// A plus is a plus: it is a space in forms alone.
+/// Decodes percent codes; a plus is no space, which it is in forms alone.
 std::string percentDecoded(std::string_view text) {
     std::string out;
     for (size_t i = 0; i < text.size(); ++i) {
@@ -30,7 +30,7 @@ std::string percentDecoded(std::string_view text) {
     return out;
 }
 
-/// -1 where the character is not of base64 or base64url (RFC 4648).
+/// Value of a base64 or base64url character; -1 if invalid (RFC 4648).
 int base64Digit(char c) {
     if (c >= 'A' && c <= 'Z') return c - 'A';
     if (c >= 'a' && c <= 'z') return c - 'a' + 26;
@@ -66,7 +66,7 @@ std::vector<uint8_t> dataUriBytes(std::string_view uri) {
     return {content.begin(), content.end()};
 }
 
-/// Whether a name is not that of a file in or below the folder that it starts from.
+/// Whether a path leaves the folder that it starts from.
 bool leavesFolder(const std::string& name) {
     const fs::path path = fs::path(name).lexically_normal();
     const bool scheme = name.find(':') < name.find('/');

@@ -11,17 +11,17 @@
 
 namespace voxray {
 
-/// A double from the file as a finite float in [min, max]. @throws Error naming it
+/// Converts a double to a finite float in [min, max]. @throws Error naming it
 inline float checkedFloat(const GltfFile& file, double value, double min, double max,
                           const std::string& what) {
     if (!(value >= min && value <= max)) file.fail("{} is {}; expected {} to {}", what, value, min, max);
     return float(value);
 }
 
-/// The largest number that is taken as finite: far below float's limit, so that products stay finite.
+/// Upper bound of numbers, far below float's maximum, so that products are finite.
 constexpr double maxNumber = 1e30;
 
-/// Copies an array of the right length; an empty one keeps the default. @throws Error
+/// Reads an array of the vector's length; an empty one keeps the default. @throws Error
 template <typename Vector>
 void readVector(const GltfFile& file, const std::vector<double>& values, Vector& out, double min, double max,
                 const std::string& what) {
@@ -40,8 +40,8 @@ inline const tinygltf::Value* extensionMember(const tinygltf::ExtensionMap& exte
     return &entry->second.Get(member);
 }
 
-/// A number of an extension's object, limited to a range; a missing one keeps the default. @param owner that
-/// warnings name. @throws Error
+/// Reads a number of an extension, clamped to a range; a missing one keeps the default. @param owner named in
+/// warnings. @throws Error
 inline void readExtension(GltfFile& file, const std::string& owner, const tinygltf::ExtensionMap& extensions,
                           const char* extension, const char* member, double min, double max, float& out) {
     const tinygltf::Value* value = extensionMember(extensions, extension, member);
@@ -51,7 +51,7 @@ inline void readExtension(GltfFile& file, const std::string& owner, const tinygl
     out = limited(file, value->GetNumberAsDouble(), min, max, what);
 }
 
-/// The same of a vector. @throws Error
+/// Reads a vector likewise. @throws Error
 template <typename Vector>
 void readExtensionVector(GltfFile& file, const std::string& owner, const tinygltf::ExtensionMap& extensions,
                          const char* extension, const char* member, double min, double max, Vector& out) {

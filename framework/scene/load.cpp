@@ -15,7 +15,7 @@
 namespace voxray {
 namespace {
 
-/// Meshes of the file that were read already: where they begin in the scene, and how many there are.
+/// The scene's meshes of a mesh in the file.
 struct MeshRange {
     uint32_t first = 0;
     uint32_t count = 0;
@@ -24,7 +24,7 @@ struct MeshRange {
 /// A mesh of the file, and its morph targets' weights.
 using MeshKey = std::pair<int, std::vector<double>>;
 
-/// A node's own weights take the place of its mesh's (glTF 2.0, section 3.7.2.2).
+/// A node's weights override those of its mesh (glTF 2.0, section 3.7.2.2).
 MeshKey meshOf(GltfFile& file, const tinygltf::Node& node) {
     const tinygltf::Mesh& mesh = file.at(file.model().meshes, node.mesh, "mesh");
     return {node.mesh, node.weights.empty() ? mesh.weights : node.weights};
@@ -48,7 +48,7 @@ MeshRange readMesh(GltfFile& file, const MeshKey& key, MaterialReader& materials
     return range;
 }
 
-/// The skin that carries the meshes of a node; -1: the node itself does.
+/// The skin of a node's meshes; -1: they are transformed by the node.
 int32_t skinOf(GltfFile& file, const tinygltf::Node& node, const MeshRange& range, SkinReader& skins,
                const Scene& scene) {
     if (node.skin < 0 || range.count == 0) return -1;
@@ -63,21 +63,21 @@ int32_t skinOf(GltfFile& file, const tinygltf::Node& node, const MeshRange& rang
     return skin;
 }
 
-/// Whether KHR_node_visibility hides each node of the scene, by itself or from above.
+/// Whether KHR_node_visibility hides each node of the scene, itself or by an ancestor.
 std::vector<bool> hiddenNodes(GltfFile& file, const std::vector<int>& fileNodes, const Scene& scene) {
     std::vector<bool> hidden(fileNodes.size());
     for (size_t i = 0; i < fileNodes.size(); ++i) {
         const int32_t parent = scene.nodes[i].parent;
         const tinygltf::Value* visible = extensionMember(file.model().nodes[size_t(fileNodes[i])].extensions,
                                                          "KHR_node_visibility", "visible");
-        const bool own = visible != nullptr && visible->IsBool() && !visible->Get<bool>();
-        if (own) file.warn("node '{}': KHR_node_visibility hides it; left out", scene.nodes[i].name);
-        hidden[i] = own || (parent >= 0 && hidden[size_t(parent)]);
+        const bool isHidden = visible != nullptr && visible->IsBool() && !visible->Get<bool>();
+        if (isHidden) file.warn("node '{}': KHR_node_visibility hides it; left out", scene.nodes[i].name);
+        hidden[i] = isHidden || (parent >= 0 && hidden[size_t(parent)]);
     }
     return hidden;
 }
 
-/// Why there is nothing to render. @param hasMeshes whether a node of the scene has one, which was left out
+/// Why there is nothing to render. @param hasMeshes whether any node has a mesh, which was ignored
 std::string emptyCause(const GltfFile& file, bool hasMeshes) {
     const tinygltf::Model& model = file.model();
     if (model.meshes.empty()) return "it has no meshes";
@@ -96,7 +96,7 @@ std::shared_ptr<const Scene> load(const std::filesystem::path& path) {
     MaterialReader materials(file, *scene);
     std::map<MeshKey, MeshRange> meshes;
 
-    // Read nodes, and what hangs on them; a mesh is read once, however many nodes share it.
+    // Read nodes with their meshes; shared meshes are read once.
     const std::vector<int> fileNodes = readNodes(file, *scene);
     const std::vector<bool> hidden = hiddenNodes(file, fileNodes, *scene);
     SkinReader skins(file, fileNodes, *scene);
@@ -111,9 +111,9 @@ std::shared_ptr<const Scene> load(const std::filesystem::path& path) {
         if (!meshes.contains(key)) meshes[key] = readMesh(file, key, materials, *scene);
         const MeshRange& range = meshes[key];
         const int32_t skin = skinOf(file, node, range, skins, *scene);
-        for (const int32_t place : readPlaces(file, node, int32_t(i), *scene))
+        for (const int32_t instanceNode : readInstanceNodes(file, node, int32_t(i), *scene))
             for (uint32_t m = 0; m < range.count; ++m)
-                scene->instances.push_back({range.first + m, place, skin});
+                scene->instances.push_back({range.first + m, instanceNode, skin});
     }
     if (scene->instances.empty()) {
         const bool hasMeshes = std::any_of(fileNodes.begin(), fileNodes.end(), [&](int node) {

@@ -8,7 +8,7 @@
 
 namespace voxray {
 
-/// A material as a config describes it. The defaults are those of a white dielectric.
+/// A material in a config; by default a white dielectric.
 struct MaterialSettings {
     glm::vec3 baseColor{1.0f};
     float metallic = 0;
@@ -38,11 +38,11 @@ struct MaterialSettings {
 /// New values for some of a material's settings.
 struct MaterialChange {
     MaterialSettings settings;
-    std::vector<std::string> keys;  ///< Names of the settings that are given; the others stay.
+    std::vector<std::string> keys;  ///< Names of the settings that change.
 };
 
-/// Gives a material the values of a change, in place of its factors and of the textures that would multiply
-/// them. Vertex colours still multiply the base colour. A new base colour makes a masked material opaque.
+/// Sets factors of a material and removes the textures that would multiply them. Vertex colours still
+/// multiply the base colour. A new base colour makes a masked material opaque.
 void changeMaterial(Material& material, const MaterialChange& change);
 
 /// A material of these settings, without textures.

@@ -50,7 +50,7 @@ void gatherVertices(Mesh& mesh, const std::vector<uint32_t>& source) {
     }
 }
 
-/// The direction on a triangle in which u grows, scaled by twice its area; zero where uv are degenerate.
+/// A triangle's tangent, the direction of growing u, times twice its area; zero for degenerate uv.
 struct Frame {
     glm::dvec3 tangent{0.0};
     bool mirrored = false;
@@ -106,7 +106,7 @@ void makeFlatNormals(Mesh& mesh) {
 }
 
 size_t repairNormals(Mesh& mesh) {
-    // Normalise the good ones.
+    // Normalize the valid ones.
     size_t notFinite = 0;
     std::vector<bool> bad(mesh.normals.size());
     bool anyBad = false;
@@ -119,7 +119,7 @@ size_t repairNormals(Mesh& mesh) {
     }
     if (!anyBad) return notFinite;
 
-    // Sum triangles' normals at the bad ones.
+    // Sum triangles' normals at the invalid ones.
     std::vector<glm::dvec3> sums(mesh.normals.size(), glm::dvec3(0));
     for (const glm::uvec3& t : mesh.triangles)
         for (int corner = 0; corner < 3; ++corner)
@@ -134,7 +134,7 @@ void makeTangents(Mesh& mesh, uint32_t texCoordSet) {
     std::vector<glm::vec2> uv = texCoordSet == 0 ? mesh.texCoords0 : mesh.texCoords1;
     uv.resize(mesh.positions.size(), glm::vec2(0));
 
-    // Split vertices between mirrored and unmirrored triangles: mirrored ones get copies.
+    // Copy vertices of mirrored triangles that unmirrored ones use, too.
     std::vector<uint8_t> uses(mesh.positions.size());
     std::vector<Frame> frames(mesh.triangles.size());
     for (size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -159,7 +159,7 @@ void makeTangents(Mesh& mesh, uint32_t texCoordSet) {
             for (int corner = 0; corner < 3; ++corner)
                 mesh.triangles[i][corner] = copies[mesh.triangles[i][corner]];
 
-    // Sum triangles' tangents at vertices, and make them perpendicular to the normals.
+    // Sum triangles' tangents at vertices, and orthogonalize them to the normals.
     std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0));
     for (size_t i = 0; i < mesh.triangles.size(); ++i)
         for (int corner = 0; corner < 3; ++corner) sums[mesh.triangles[i][corner]] += frames[i].tangent;

@@ -7,7 +7,7 @@ namespace voxray {
 void addMovingSpheres(Scene& scene, const MovingSpheres& spheres) {
     if (spheres.count == 0) return;
 
-    // One mesh for all, of 1280 triangles.
+    // One shared mesh of 1280 triangles.
     Material material;
     material.name = "moving sphere";
     material.baseColor = glm::vec4(spheres.albedo, 1.0f);
@@ -18,16 +18,16 @@ void addMovingSpheres(Scene& scene, const MovingSpheres& spheres) {
     scene.meshes.push_back(sphereMesh("moving sphere", glm::vec3(0.0f), spheres.radius, 3,
                                       uint32_t(scene.materials.size() - 1), false, true));
 
-    // The smallest lattice of n x n x n that takes them all, centered as far as it is filled.
-    uint32_t side = 1;
-    while (side * side * side < spheres.count) ++side;
-    const uint32_t layers = (spheres.count + side * side - 1) / (side * side);
-    const glm::vec3 half = 0.5f * glm::vec3(side - 1, layers - 1, side - 1);
+    // The smallest lattice of n x n x n that holds all, centered by its filled layers.
+    uint32_t n = 1;
+    while (n * n * n < spheres.count) ++n;
+    const uint32_t layers = (spheres.count + n * n - 1) / (n * n);
+    const glm::vec3 half = 0.5f * glm::vec3(n - 1, layers - 1, n - 1);
     for (uint32_t i = 0; i < spheres.count; ++i) {
-        const glm::vec3 place(i % side, i / (side * side), i / side % side);
+        const glm::vec3 cell(i % n, i / (n * n), i / n % n);
         Node node;
         node.name = "moving sphere " + std::to_string(i);
-        node.translation = spheres.center + spheres.spacing * (place - half);
+        node.translation = spheres.center + spheres.spacing * (cell - half);
         const glm::vec4 center(node.translation, 0), swing(spheres.swing, 0);
         scene.animation.push_back({uint32_t(scene.nodes.size()),
                                    AnimatedProperty::Translation,

@@ -5,7 +5,7 @@
 
 namespace voxray {
 
-/// Lambert spheres in a cubic lattice that swing together along a line, at constant speed. They fill the
+/// Lambert spheres in a cubic lattice that oscillate together along a line, at constant speed. They fill the
 /// lattice row by row, then layer by layer upwards: 9 are one layer of 3 x 3, 27 three of them.
 struct MovingSpheres {
     uint32_t count = 1;
@@ -34,7 +34,7 @@ struct MovingSpheres {
     }
 };
 
-/// Adds the spheres to a scene, each a node with a channel of animation. The content hash stays.
+/// Adds the spheres to a scene, each a node with an animation channel. The content hash is not updated.
 void addMovingSpheres(Scene& scene, const MovingSpheres& spheres);
 
 }  // namespace voxray

@@ -4,9 +4,8 @@
 
 namespace voxray {
 
-/// The bounds of a scene's vertices but for outliers: along each axis those beyond Tukey's fences, off the
-/// quartiles by more than one and a half times the distance between these, along the axis where it is largest
-/// (Tukey 1977).
+/// Bounds of a scene's vertices without outliers: those beyond Tukey's fences along any axis, 1.5
+/// interquartile ranges off the quartiles, with the largest range of the three axes (Tukey 1977).
 Box boundsWithoutOutliers(const Geometry& geometry);
 
 }  // namespace voxray

@@ -7,18 +7,18 @@
 namespace voxray {
 namespace {
 
-/// From this transmission on a surface is a pane: most of what meets it passes.
+/// Transmission from which a surface is a pane.
 constexpr float kMinTransmission = 0.5f;
 
-/// Whether a pane takes nothing from light that passes it.
+/// Whether the transmittance of a pane is 1.
 bool isClear(const Material& material, const Mesh& mesh) {
     const auto isWhite = [](const glm::vec4& color) { return glm::vec3(color) == glm::vec3(1.0f); };
     return material.transmission == 1 && material.metallic == 0 && isWhite(material.baseColor) &&
            material.baseColorTexture.texture < 0 && std::ranges::all_of(mesh.colors, isWhite);
 }
 
-/// Textures that no pane is coloured by keep their numbers and one texel.
-void keepColors(Scene& panes) {
+/// Replaces textures that don't affect the panes' transmittance by one texel; indices don't change.
+void dropUnusedTextures(Scene& panes) {
     std::vector<bool> isRead(panes.textures.size());
     for (const Instance& instance : panes.instances) {
         const Material& material = panes.materials[panes.meshes[instance.mesh].material];
@@ -37,31 +37,30 @@ bool isPane(const Material& material) {
     return material.transmission >= kMinTransmission && material.emission == glm::vec3(0.0f);
 }
 
-PartedScene partPanes(std::shared_ptr<const Scene> scene) {
-    const auto isOfPane = [&](const Instance& instance) {
+SplitScene splitPanes(std::shared_ptr<const Scene> scene) {
+    const auto isPaneInstance = [&](const Instance& instance) {
         return isPane(scene->materials[scene->meshes[instance.mesh].material]);
     };
-    const auto panes = std::ranges::count_if(scene->instances, isOfPane);
+    const auto panes = std::ranges::count_if(scene->instances, isPaneInstance);
     if (panes == 0 || size_t(panes) == scene->instances.size()) return {std::move(scene), nullptr};
 
-    PartedScene parted;
+    SplitScene split;
     auto surfaces = std::make_shared<Scene>(*scene);
-    keepInstances(*surfaces, [&](const Instance& instance) { return !isOfPane(instance); });
-    parted.surfaces = std::move(surfaces);
+    keepInstances(*surfaces, [&](const Instance& instance) { return !isPaneInstance(instance); });
+    split.surfaces = std::move(surfaces);
     auto onlyPanes = std::make_shared<Scene>(*scene);
-    keepInstances(*onlyPanes, isOfPane);
-    keepColors(*onlyPanes);
+    keepInstances(*onlyPanes, isPaneInstance);
+    dropUnusedTextures(*onlyPanes);
     onlyPanes->lights.clear();
     onlyPanes->environment = {};
-    parted.panes = std::move(onlyPanes);
-    return parted;
+    split.panes = std::move(onlyPanes);
+    return split;
 }
 
-SceneState evaluateParted(std::shared_ptr<const Scene> scene, double timeSeconds, Playback playback) {
-    const PartedScene parted = partPanes(std::move(scene));
-    SceneState state = evaluate(parted.surfaces, timeSeconds, playback);
-    if (parted.panes)
-        state.panes = std::make_shared<SceneState>(evaluate(parted.panes, timeSeconds, playback));
+SceneState evaluateWithPanes(std::shared_ptr<const Scene> scene, double timeSeconds, Playback playback) {
+    const SplitScene split = splitPanes(std::move(scene));
+    SceneState state = evaluate(split.surfaces, timeSeconds, playback);
+    if (split.panes) state.panes = std::make_shared<SceneState>(evaluate(split.panes, timeSeconds, playback));
     return state;
 }
 

@@ -6,28 +6,27 @@
 
 namespace voxray {
 
-/// Panes are surfaces that light passes straight on: of a material with KHR_materials_transmission that
-/// transmits at least half of it. What a pane would reflect, bend or scatter is left out. So rays meet panes
-/// nowhere: they are parted from the scene before anything sees it. Each pane on the way from a light, a lamp
-/// or the sky to the surface that it lights multiplies the light by its transmittance, transmission * base
-/// colour * (1 - metallic). Between surfaces, and to the camera, panes are clear.
+/// Panes are surfaces that transmit light straight: their KHR_materials_transmission is at least 0.5.
+/// Reflection, refraction and scattering at panes are ignored, so rays don't hit them: they are split off the
+/// scene. Each pane between a light, an emissive surface or the sky and a lit surface multiplies the light by
+/// its transmittance, transmission * base colour * (1 - metallic). Between surfaces, and to the camera, panes
+/// are clear.
 bool isPane(const Material& material);
 
-/// A scene's surfaces and its panes, each with all of its materials and nodes.
-struct PartedScene {
+/// A scene's surfaces and panes as scenes, each with all materials and nodes.
+struct SplitScene {
     std::shared_ptr<const Scene> surfaces;
-    std::shared_ptr<const Scene> panes;  ///< nullptr: there are none.
+    std::shared_ptr<const Scene> panes;  ///< nullptr: none.
 };
 
-/// Parts a scene. One that would be left without any surface has no panes.
-PartedScene partPanes(std::shared_ptr<const Scene> scene);
+/// Splits panes off a scene, unless no surface would be left.
+SplitScene splitPanes(std::shared_ptr<const Scene> scene);
 
-/// `evaluate` of both parts.
-SceneState evaluateParted(std::shared_ptr<const Scene> scene, double timeSeconds,
-                          Playback playback = Playback::Frozen);
+/// `evaluate` of surfaces and panes.
+SceneState evaluateWithPanes(std::shared_ptr<const Scene> scene, double timeSeconds,
+                             Playback playback = Playback::Frozen);
 
-/// Whether a state has panes that take anything from light which passes them: a colour by factor, vertex
-/// colours or texture.
+/// Whether a state has panes with a transmittance below 1, by factors, vertex colours or textures.
 bool dimsLight(const SceneState& state);
 
 }  // namespace voxray

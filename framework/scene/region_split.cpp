@@ -11,30 +11,30 @@
 namespace voxray {
 namespace {
 
-/// A corner of a part of a triangle: its weights on the triangle's corners, and where it is in the world.
+/// A vertex of a part of a triangle: barycentric coordinates and world position.
 struct Corner {
     glm::dvec3 weights, world;
 };
 using Polygon = std::vector<Corner>;
 
-/// The parts of a convex polygon inside and outside of a plane across an axis, which has the inside on the
-/// side of `sign`. What lies in the plane is inside.
-std::pair<Polygon, Polygon> cut(const Polygon& polygon, int axis, double at, double sign) {
+/// Clips a convex polygon at the plane `coordinate` across an axis, whose inside is on the side of `sign`.
+/// Points in the plane are inside. @return the parts inside and outside.
+std::pair<Polygon, Polygon> cut(const Polygon& polygon, int axis, double coordinate, double sign) {
     Polygon inside, outside;
     bool reachesIn = false, reachesOut = false;
     for (size_t i = 0; i < polygon.size(); ++i) {
         const Corner &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
-        const double a = sign * (from.world[axis] - at), b = sign * (to.world[axis] - at);
+        const double a = sign * (from.world[axis] - coordinate), b = sign * (to.world[axis] - coordinate);
         reachesIn = reachesIn || a > 0;
         reachesOut = reachesOut || a < 0;
         if (a >= 0) inside.push_back(from);
         if (a <= 0) outside.push_back(from);
         if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
             const double t = a / (a - b);
-            Corner between{glm::mix(from.weights, to.weights, t), glm::mix(from.world, to.world, t)};
-            between.world[axis] = at;
-            inside.push_back(between);
-            outside.push_back(between);
+            Corner crossing{glm::mix(from.weights, to.weights, t), glm::mix(from.world, to.world, t)};
+            crossing.world[axis] = coordinate;
+            inside.push_back(crossing);
+            outside.push_back(crossing);
         }
     }
     if (!reachesOut) return {polygon, {}};
@@ -42,41 +42,42 @@ std::pair<Polygon, Polygon> cut(const Polygon& polygon, int axis, double at, dou
     return {inside, outside};
 }
 
-/// The parts of a triangle, each inside or outside of a box.
-std::vector<Polygon> parts(const Polygon& triangle, const Box& box) {
-    std::vector<Polygon> found;
-    Polygon rest = triangle;
+/// Splits a triangle at a box into polygons, each inside or outside.
+std::vector<Polygon> splitAtBox(const Polygon& triangle, const Box& box) {
+    std::vector<Polygon> polygons;
+    Polygon remaining = triangle;
     for (int axis = 0; axis < 3; ++axis)
-        for (const auto& [at, sign] : {std::pair(box.min[axis], 1.0), std::pair(box.max[axis], -1.0)}) {
-            auto [inside, outside] = cut(rest, axis, double(at), sign);
-            found.push_back(std::move(outside));
-            rest = std::move(inside);
+        for (const auto& [coordinate, sign] :
+             {std::pair(box.min[axis], 1.0), std::pair(box.max[axis], -1.0)}) {
+            auto [inside, outside] = cut(remaining, axis, double(coordinate), sign);
+            polygons.push_back(std::move(outside));
+            remaining = std::move(inside);
         }
-    found.push_back(std::move(rest));
-    std::erase_if(found, [](const Polygon& polygon) { return polygon.size() < 3; });
-    return found;
+    polygons.push_back(std::move(remaining));
+    std::erase_if(polygons, [](const Polygon& polygon) { return polygon.size() < 3; });
+    return polygons;
 }
 
 template <typename T>
-T weighed(const std::vector<T>& list, const glm::uvec3& t, const glm::vec3& w) {
+T interpolated(const std::vector<T>& list, const glm::uvec3& t, const glm::vec3& w) {
     return list[t.x] * w.x + list[t.y] * w.y + list[t.z] * w.z;
 }
 
-glm::vec3 unit(const glm::vec3& v) {
+glm::vec3 normalizedOrZero(const glm::vec3& v) {
     const float length = glm::length(v);
     return length > 0 ? v / length : v;
 }
 
 uint32_t addVertex(Mesh& mesh, const glm::uvec3& t, const glm::vec3& w) {
     const auto add = [&](auto& list) {
-        if (!list.empty()) list.push_back(weighed(list, t, w));
+        if (!list.empty()) list.push_back(interpolated(list, t, w));
     };
     add(mesh.positions);
     add(mesh.normals);
-    if (!mesh.normals.empty()) mesh.normals.back() = unit(mesh.normals.back());
+    if (!mesh.normals.empty()) mesh.normals.back() = normalizedOrZero(mesh.normals.back());
     add(mesh.tangents);
     if (!mesh.tangents.empty())
-        mesh.tangents.back() = glm::vec4(unit(mesh.tangents.back()), mesh.tangents[t.x].w);
+        mesh.tangents.back() = glm::vec4(normalizedOrZero(mesh.tangents.back()), mesh.tangents[t.x].w);
     add(mesh.texCoords0);
     add(mesh.texCoords1);
     add(mesh.colors);
@@ -88,22 +89,23 @@ bool split(Mesh& mesh, const glm::vec3* world, const Box& box) {
     std::vector<glm::uvec3> triangles;
     bool isCut = false;
     for (const glm::uvec3 t : mesh.triangles) {
-        const Polygon whole{{{1, 0, 0}, glm::dvec3(world[t.x])},
-                            {{0, 1, 0}, glm::dvec3(world[t.y])},
-                            {{0, 0, 1}, glm::dvec3(world[t.z])}};
+        const Polygon triangle{{{1, 0, 0}, glm::dvec3(world[t.x])},
+                               {{0, 1, 0}, glm::dvec3(world[t.y])},
+                               {{0, 0, 1}, glm::dvec3(world[t.z])}};
         const glm::vec3 low = glm::min(world[t.x], glm::min(world[t.y], world[t.z]));
         const glm::vec3 high = glm::max(world[t.x], glm::max(world[t.y], world[t.z]));
         const bool isInside =
             glm::all(glm::greaterThanEqual(low, box.min)) && glm::all(glm::lessThanEqual(high, box.max));
         const bool isOutside =
             glm::any(glm::lessThan(high, box.min)) || glm::any(glm::greaterThan(low, box.max));
-        const std::vector<Polygon> found = isInside || isOutside ? std::vector<Polygon>() : parts(whole, box);
-        if (found.size() < 2) {
+        const std::vector<Polygon> polygons =
+            isInside || isOutside ? std::vector<Polygon>() : splitAtBox(triangle, box);
+        if (polygons.size() < 2) {
             triangles.push_back(t);
             continue;
         }
         isCut = true;
-        for (const Polygon& polygon : found) {
+        for (const Polygon& polygon : polygons) {
             std::vector<uint32_t> corners;
             for (const Corner& corner : polygon) {
                 const glm::dvec3& w = corner.weights;
@@ -122,7 +124,7 @@ bool split(Mesh& mesh, const glm::vec3* world, const Box& box) {
 
 }  // namespace
 
-SceneState inRegion(const SceneState& state, const Box& region, double timeSeconds) {
+SceneState splitAtRegion(const SceneState& state, const Box& region, double timeSeconds) {
     auto scene = std::make_shared<Scene>(*state.scene);
     for (size_t i = 0; i < scene->instances.size(); ++i) {
         const InstanceRange& range = state.geometry.instances[i];
@@ -144,7 +146,7 @@ bool isInRegion(const Geometry& g, uint32_t triangle) {
     if (low == g.boundsMin && high == g.boundsMax) return true;
     const glm::uvec3 t = g.triangles[triangle];
     const glm::vec3 &a = g.positions[t.x], &b = g.positions[t.y], &c = g.positions[t.z];
-    // The mean of three equal floats can be another one: a triangle in the border would lie outside of it
+    // Clamped, since the mean of three equal floats may differ from them: for triangles in the border.
     const glm::vec3 center =
         glm::clamp(a / 3.0f + b / 3.0f + c / 3.0f, glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)));
     return glm::all(glm::greaterThanEqual(center, low)) && glm::all(glm::lessThanEqual(center, high));

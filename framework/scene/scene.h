@@ -27,14 +27,14 @@ struct Texture {
     std::string name;
     uint32_t width = 0;
     uint32_t height = 0;
-    std::vector<uint8_t> rgba;  ///< 4 bytes a texel, row 0 at the top.
+    std::vector<uint8_t> rgba;  ///< 4 bytes per texel, row 0 at the top.
     bool srgb = false;          ///< RGB is sRGB-encoded (base colour, emission).
     Wrap wrapU = Wrap::Repeat;
     Wrap wrapV = Wrap::Repeat;
-    TexelFilter filter = TexelFilter::Linear;  ///< Of a level's texels: bilinear, or the nearest one.
+    TexelFilter filter = TexelFilter::Linear;  ///< Within a level: bilinear or nearest.
 };
 
-/// Which texture a material reads, with which coordinates: uv' = transform * (u, v, 1).
+/// A material's texture and its coordinates: uv' = transform * (u, v, 1).
 struct TextureRef {
     int32_t texture = -1;   ///< Index into Scene::textures; -1: none.
     uint32_t texCoord = 0;  ///< 0 or 1.
@@ -52,29 +52,28 @@ struct Material {
     float ior = 1.5f;          ///< KHR_materials_ior.
     glm::vec3 emission{0.0f};  ///< W/(m² sr): emissiveFactor * KHR_materials_emissive_strength.
     float normalScale = 1.0f;
-    float transmission = 0.0f;  ///< KHR_materials_transmission: makes a pane (panes.h) where it is above 0.
+    float transmission = 0.0f;  ///< KHR_materials_transmission; see panes.h.
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
-    bool doubleSided = false;  ///< Emits on both sides. All materials reflect and block on both.
+    bool doubleSided = false;  ///< Emits on both sides. All materials reflect and occlude on both.
     TextureRef baseColorTexture;
     TextureRef metallicRoughnessTexture;  ///< G roughness, B metallic.
     TextureRef normalTexture;
     TextureRef emissiveTexture;
 };
 
-/// Four joints that carry each vertex, and how much of it.
+/// Four joints and weights per vertex.
 struct SkinWeights {
     std::vector<glm::uvec4> joints;  ///< Indices into Skin::joints.
-    std::vector<glm::vec4> weights;  ///< Not negative; those of all sets sum to 1 at a vertex.
+    std::vector<glm::vec4> weights;  ///< Nonnegative; those of all sets sum to 1 at a vertex.
 };
 
 /// One glTF primitive in object space. Attribute arrays are empty or as long as `positions`.
 struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;  ///< Always there after loading (flat where the file has none).
-    std::vector<glm::vec4>
-        tangents;  ///< xyz and handedness w; made by the loader where a normal map needs them.
+    std::vector<glm::vec3> normals;   ///< Never empty after loading (flat if missing in the file).
+    std::vector<glm::vec4> tangents;  ///< xyz and handedness w; computed if a normal map needs them.
     std::vector<glm::vec2> texCoords0;
     std::vector<glm::vec2> texCoords1;
     std::vector<glm::vec4> colors;  ///< Linear RGBA, multiplies the base colour.
@@ -83,7 +82,7 @@ struct Mesh {
     uint32_t material = 0;
 };
 
-/// A node's local transform: translation * rotation * scale, or a matrix where the file gives one.
+/// A node's local transform: translation * rotation * scale, or a matrix.
 struct Node {
     std::string name;
     int32_t parent = -1;
@@ -93,13 +92,13 @@ struct Node {
     std::optional<glm::mat4> matrix;
 };
 
-/// Nodes that carry vertices: a joint takes a vertex by its node's world matrix * its inverse bind matrix.
+/// A skin: joint i transforms vertices by its node's world matrix * inverseBindMatrices[i].
 struct Skin {
     std::vector<uint32_t> joints;  ///< Nodes.
     std::vector<glm::mat4> inverseBindMatrices;
 };
 
-/// A mesh placed by a node, or by the joints of a skin; then the node's own transform doesn't matter.
+/// A mesh transformed by a node, or by the joints of a skin, in which case the node is ignored.
 struct Instance {
     uint32_t mesh = 0;
     int32_t node = -1;  ///< -1: identity.
@@ -108,8 +107,8 @@ struct Instance {
 
 enum class LightType : uint32_t { Point, Spot, Directional };
 
-/// A punctual light (KHR_lights_punctual, read radiometrically). Placed by its node: at the node's origin,
-/// shining along the node's -Z. Without a node, `position` and `direction` are world space.
+/// A punctual light (KHR_lights_punctual, in radiometric units) at its node's origin, along the node's -Z.
+/// Without a node, `position` and `direction` are in world space.
 struct Light {
     std::string name;
     LightType type = LightType::Point;
@@ -117,11 +116,11 @@ struct Light {
     float innerConeAngle = 0.0f;  ///< Radians from the axis, spot only.
     float outerConeAngle = 0.7853982f;
     glm::vec3 position{0.0f};
-    glm::vec3 direction{0, 0, -1};  ///< The way the light travels, unit length.
+    glm::vec3 direction{0, 0, -1};  ///< Of propagation, unit length.
     int32_t node = -1;
 };
 
-/// A pinhole camera. Placed by its node, looking along -Z, +Y up; without a node the vectors are world space.
+/// A pinhole camera at its node, looking along -Z, +Y up; without a node the vectors are in world space.
 struct Camera {
     std::string name;
     float verticalFovRadians = 1.0f;
@@ -131,9 +130,9 @@ struct Camera {
     int32_t node = -1;
 };
 
-/// Light from infinitely far, seen where a ray leaves the scene.
+/// Radiance from infinity.
 struct Environment {
-    glm::vec3 radiance{0.0f};  ///< Multiplies the map; the radiance itself where there is none. W/(m² sr).
+    glm::vec3 radiance{0.0f};  ///< Multiplies the map; the radiance itself without a map. W/(m² sr).
     std::shared_ptr<const ImageF> map;  ///< Equirectangular, 3 channels, row 0 at +Y; u = 0.5 looks along -Z,
                                         ///< u grows towards +X.
 };
@@ -160,10 +159,10 @@ struct Scene {
     std::vector<Instance> instances;
     std::vector<Light> lights;
     std::vector<Camera> cameras;
-    std::vector<std::string> orthographicCameras;  ///< Names of those that were left out.
+    std::vector<std::string> orthographicCameras;  ///< Names of ignored ones.
     Environment environment;
     std::vector<AnimationChannel> animation;  ///< All of the file's animations, played together.
-    std::vector<std::string> warnings;        ///< What the loader left out, a line each.
+    std::vector<std::string> warnings;        ///< Of the loader, one line each.
     std::string contentHash;                  ///< Of everything above; part of cache keys.
 };
 

@@ -7,7 +7,7 @@ namespace voxray {
 void keepInstances(Scene& scene, const std::function<bool(const Instance&)>& isKept) {
     std::erase_if(scene.instances, [&](const Instance& instance) { return !isKept(instance); });
 
-    // Meshes that no instance shows keep their numbers and nothing else
+    // Unused meshes are emptied, which keeps indices
     std::vector<bool> isShown(scene.meshes.size());
     for (const Instance& instance : scene.instances) isShown[instance.mesh] = true;
     for (size_t i = 0; i < scene.meshes.size(); ++i)

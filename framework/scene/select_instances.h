@@ -8,14 +8,13 @@
 
 namespace voxray {
 
-/// Leaves those instances out of a scene that `isKept` refuses. Nodes, materials, lights and the content hash
-/// stay.
+/// Removes instances for which `isKept` is false. Nodes, materials, lights and the content hash don't change.
 void keepInstances(Scene& scene, const std::function<bool(const Instance&)>& isKept);
 
-/// Names that an instance goes by: of its mesh, its material, its node and the nodes above it; none is empty.
+/// Nonempty names of an instance's mesh, material, node and ancestors.
 std::vector<std::string> namesOfInstance(const Scene& scene, const Instance& instance);
 
-/// Leaves every instance out that goes by a name. @return how many there were
+/// Removes all instances with a name. @return their number
 size_t hide(Scene& scene, const std::string& name);
 
 }  // namespace voxray

@@ -11,7 +11,7 @@
 namespace voxray {
 namespace {
 
-/// A flat, convex quadrilateral whose front sees its corners counter-clockwise.
+/// A flat, convex quadrilateral; vertices are counter-clockwise seen from the front.
 void appendCorners(Mesh& mesh, const SceneBuilder::Corners& corners, const glm::vec3& normal) {
     const uint32_t first = uint32_t(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), corners.begin(), corners.end());
@@ -174,7 +174,7 @@ Mesh sphereMesh(const std::string& name, const glm::vec3& center, float radius, 
                                       {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
                                       {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
 
-    // Split each triangle into four, with the new corners on the sphere.
+    // Split each triangle into four, with the new vertices on the sphere.
     for (uint32_t level = 0; level < subdivisions; ++level) {
         std::map<std::pair<uint32_t, uint32_t>, uint32_t> centers;
         const auto center = [&](uint32_t a, uint32_t b) {
@@ -194,7 +194,7 @@ Mesh sphereMesh(const std::string& name, const glm::vec3& center, float radius, 
     if (inwards)
         for (glm::uvec3& t : triangles) std::swap(t.y, t.z);
 
-    // Emit shared corners with the sphere's normals, or own corners with the triangle's.
+    // Shared vertices with the sphere's normals, or separate ones with the triangle's.
     Mesh mesh;
     mesh.name = name;
     mesh.material = material;

@@ -6,7 +6,7 @@
 
 namespace voxray {
 
-/// Builds a scene out of simple shapes, all with flat or exact normals.
+/// Builds a scene from simple shapes with flat or exact normals.
 class SceneBuilder {
  public:
     explicit SceneBuilder(std::string name);
@@ -22,14 +22,14 @@ class SceneBuilder {
     void quad(const std::string& name, const glm::vec3& corner, const glm::vec3& edgeU,
               const glm::vec3& edgeV, uint32_t material);
     using Corners = std::array<glm::vec3, 4>;
-    /// The four quads between the edges of two quadrilaterals: a wall round a window, or walls from a floor's
-    /// outline to a ceiling's. Fronts are towards cross(inner[1] - inner[0], outer[0] - inner[0]).
+    /// Four quads between the edges of two quadrilaterals: a wall round a window, or walls between floor and
+    /// ceiling. Fronts are towards cross(inner[1] - inner[0], outer[0] - inner[0]).
     void band(const std::string& name, const Corners& inner, const Corners& outer, uint32_t material);
-    /// A box that stands at `base` (the center of its bottom), rotated about +Y; fronts outwards.
+    /// A box on `base` (the center of its bottom), rotated about +Y; fronts outwards.
     void box(const std::string& name, const glm::vec3& base, const glm::vec3& size, float angleRadians,
              uint32_t material);
-    /// A closed axis-aligned room, fronts inwards. Materials in the order -x, +x, -y, +y, -z, +z;
-    /// `none` leaves that wall out.
+    /// A closed axis-aligned room, fronts inwards. Materials in the order -x, +x, -y, +y, -z, +z; `none`
+    /// omits a wall.
     void room(const glm::vec3& min, const glm::vec3& max, const std::array<uint32_t, 6>& materials);
     static constexpr uint32_t none = ~0u;
 
@@ -48,9 +48,9 @@ class SceneBuilder {
     std::shared_ptr<Scene> scene_;
 };
 
-/// A subdivided icosahedron of 20 * 4^subdivisions triangles with its corners on the sphere.
+/// A subdivided icosahedron of 20 * 4^subdivisions triangles with its vertices on the sphere.
 /// @param inwards fronts and normals towards the center
-/// @param smooth normals of the sphere at shared corners; otherwise each triangle has its own, flat ones
+/// @param smooth normals of the sphere at shared vertices; otherwise flat normals
 Mesh sphereMesh(const std::string& name, const glm::vec3& center, float radius, uint32_t subdivisions,
                 uint32_t material, bool inwards, bool smooth);
 

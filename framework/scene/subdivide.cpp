@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint64_t kMaxTriangles = 1ull << 28;
 
-/// Adds the mean of two entries of a list that has one for each vertex.
+/// Appends the mean of two vertices to an attribute list.
 template <typename T>
 void addMean(std::vector<T>& list, uint32_t a, uint32_t b) {
     if (!list.empty()) list.push_back((list[a] + list[b]) * 0.5f);
@@ -38,7 +38,7 @@ void addMidpoint(Mesh& mesh, uint32_t a, uint32_t b) {
 }
 
 void subdivide(Mesh& mesh) {
-    std::unordered_map<uint64_t, uint32_t> midpoints;  // By both ends of an edge, the lower one first.
+    std::unordered_map<uint64_t, uint32_t> midpoints;  // By the vertices of an edge, the lower one first.
     const auto midpoint = [&](uint32_t a, uint32_t b) {
         if (a > b) std::swap(a, b);
         const auto [found, isNew] =

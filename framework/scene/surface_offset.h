@@ -9,13 +9,14 @@
 
 namespace voxray {
 
-/// How far off a surface rays begin, m, as in shaders/scene/surface_offset.glsl. Of a point alone: never 0.
+/// Offset of ray origins from a surface, m, as in shaders/scene/surface_offset.glsl. From a point alone;
+/// never 0.
 inline float pointOffset(const glm::vec3& position) {
     const glm::vec3 size = glm::abs(position);
     return COORDINATE_ERROR * std::max({size.x, size.y, size.z, 1e-20f});
 }
 
-/// Of a triangle's plane.
+/// From a triangle's plane.
 inline float planeOffset(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
                          const glm::vec3& normal) {
     return COORDINATE_ERROR *

@@ -22,7 +22,7 @@ Box hullOf(const std::vector<glm::vec3>& points) {
     return hull;
 }
 
-/// A box that holds the box's image under an affine map.
+/// Bounds of a box under an affine transform.
 Box transformed(const Box& box, const glm::mat3& linear, const glm::vec3& offset) {
     Box out{offset, offset};
     for (int axis = 0; axis < 3; ++axis) {
@@ -38,8 +38,7 @@ bool changes(const AnimationChannel& channel) {
                        [&](const glm::vec4& value) { return value != channel.values[0]; });
 }
 
-/// A box that holds what an animated vector takes on the way; the control points of a spline's Bezier form
-/// hold the spline.
+/// Bounds of an animated vector; a spline lies in the hull of its Bezier control points.
 Box valuesOf(const AnimationChannel& channel) {
     std::vector<glm::vec3> points;
     const bool cubic = channel.interpolation == Interpolation::CubicSpline;
@@ -53,7 +52,7 @@ Box valuesOf(const AnimationChannel& channel) {
     return hullOf(points);
 }
 
-/// What a node's properties take in time; no rotation: any.
+/// Ranges of a node's properties; no rotation: any.
 struct NodeRange {
     Box translation, scale;
     std::optional<glm::quat> rotation;
@@ -74,7 +73,7 @@ NodeRange rangeOf(const Scene& scene, uint32_t index) {
     return range;
 }
 
-/// From the node's own space to its parent's.
+/// Bounds in the space of the node's parent over all times.
 Box swept(const Box& box, const Scene& scene, uint32_t index) {
     if (const auto& matrix = scene.nodes[index].matrix)
         return transformed(box, glm::mat3(*matrix), glm::vec3((*matrix)[3]));
@@ -102,7 +101,7 @@ bool nodeMoves(const Scene& scene, int32_t node) {
     return false;
 }
 
-/// For each joint, what it carries, in its node's own space.
+/// Bounds of each joint's vertices, in its node's space.
 std::vector<Box> jointHulls(const Mesh& mesh, const Skin& skin) {
     std::vector<Box> hulls(skin.joints.size(), {glm::vec3(kInfinity), glm::vec3(-kInfinity)});
     for (const SkinWeights& set : mesh.skinWeights)
@@ -131,7 +130,7 @@ Box sweptBounds(const Scene& scene, const Instance& instance) {
     if (instance.skin < 0) {
         box = sweptToWorld(hullOf(mesh.positions), scene, instance.node);
     } else {
-        // A blend with weights that sum to 1 lies in the hull of what the joints make alone.
+        // A blend with weights that sum to 1 lies in the hull of the vertices transformed by single joints.
         const Skin& skin = scene.skins[size_t(instance.skin)];
         const std::vector<Box> hulls = jointHulls(mesh, skin);
         for (size_t i = 0; i < hulls.size(); ++i) {
@@ -141,10 +140,10 @@ Box sweptBounds(const Scene& scene, const Instance& instance) {
         }
     }
 
-    // Vertices are placed by one matrix, with its own rounding.
+    // Rounding of the vertex transform.
     const glm::vec3 largest = glm::max(glm::abs(box.min), glm::abs(box.max));
-    const float spare = 1e-5f * std::max({largest.x, largest.y, largest.z});
-    return {box.min - spare, box.max + spare};
+    const float margin = 1e-5f * std::max({largest.x, largest.y, largest.z});
+    return {box.min - margin, box.max + margin};
 }
 
 }  // namespace voxray

@@ -1,4 +1,4 @@
-// Compiles tinygltf's implementation, so that sanitizers see it too.
+// tinygltf's implementation, compiled here so that sanitizers cover it.
 #include <fstream>
 #include <nlohmann/json.hpp>
 

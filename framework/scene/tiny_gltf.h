@@ -1,6 +1,6 @@
 #pragma once
 
-// The one place that includes tinygltf. It reads and writes no files and decodes no images by itself.
+// Includes tinygltf, configured without file access and image decoding.
 #define TINYGLTF_NO_FS
 #define TINYGLTF_NO_STB_IMAGE
 #define TINYGLTF_NO_STB_IMAGE_WRITE
@@ -11,8 +11,8 @@
 
 namespace voxray {
 
-/// Gives a node the light with that index: as an extension, and from tinygltf 2.9 on as a member, too,
-/// without which the extension is not written.
+/// Sets a node's light: as an extension, and since tinygltf 2.9 also as a member, without which the extension
+/// is not written.
 template <typename Node>
 void setLight(Node& node, int light) {
     node.extensions["KHR_lights_punctual"] =

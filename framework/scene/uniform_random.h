@@ -5,7 +5,7 @@
 
 namespace voxray {
 
-/// Random numbers for scenes, the same on every machine, which the standard library's distributions are not.
+/// Random numbers that are equal on all machines, unlike the standard library's distributions.
 class UniformRandom {
  public:
     explicit UniformRandom(uint32_t seed) : random_(seed) {}

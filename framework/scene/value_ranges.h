@@ -8,11 +8,10 @@
 
 namespace voxray {
 
-/// A value of the file that has a range: itself within [min, max], else the nearest bound with a warning that
-/// names it. What is not a number is taken as `min`.
+/// Clamps a value of the file to [min, max], with a warning that names it. NaN becomes `min`.
 float limited(GltfFile& file, double value, double min, double max, const std::string& what);
 
-/// An array's numbers, each limited; an empty one keeps the default. @throws Error for another length
+/// Reads an array's numbers, each clamped; an empty one keeps the default. @throws Error for another length
 template <typename Vector>
 void readLimited(GltfFile& file, const std::vector<double>& values, Vector& out, double min, double max,
                  const std::string& what) {
@@ -22,8 +21,8 @@ void readLimited(GltfFile& file, const std::vector<double>& values, Vector& out,
     for (int i = 0; i < int(Vector::length()); ++i) out[i] = limited(file, values[size_t(i)], min, max, what);
 }
 
-/// Limits vertex colours so that the base colour, factor times vertex colour, is from 0 to 1; so it is with a
-/// texture, too. @return how many vertices had another
+/// Clamps vertex colours so that the base colour, factor times vertex colour, is 0 to 1. @return number of
+/// vertices changed
 size_t limitColors(Mesh& mesh, const Material& material);
 
 }  // namespace voxray

@@ -9,22 +9,22 @@
 namespace voxray {
 namespace {
 
-/// The part of a convex polygon on the side of a plane through the origin that its normal points to.
+/// Clips a convex polygon to the positive side of a plane through the origin.
 void clip(std::vector<glm::vec3>& polygon, const glm::vec3& normal) {
-    std::vector<glm::vec3> kept;
+    std::vector<glm::vec3> clipped;
     for (size_t i = 0; i < polygon.size(); ++i) {
         const glm::vec3 &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
         const float a = glm::dot(from, normal), b = glm::dot(to, normal);
-        if (a > 0) kept.push_back(from);
-        if ((a > 0) != (b > 0)) kept.push_back(from + (a / (a - b)) * (to - from));
+        if (a > 0) clipped.push_back(from);
+        if ((a > 0) != (b > 0)) clipped.push_back(from + (a / (a - b)) * (to - from));
     }
-    polygon = std::move(kept);
+    polygon = std::move(clipped);
 }
 
 }  // namespace
 
 bool isInView(const Geometry& geometry, const Camera& camera, uint32_t width, uint32_t height) {
-    // Planes through the camera and the edges of the image, normals inwards
+    // Frustum planes through the camera, normals inwards
     const CameraRays rays = cameraRays(camera, width, height);
     const std::array<glm::vec3, 4> corners{rays.direction(0, 0), rays.direction(1, 0), rays.direction(1, 1),
                                            rays.direction(0, 1)};

@@ -6,8 +6,7 @@
 
 namespace voxray {
 
-/// Whether any triangle reaches into what a camera sees, hidden or not: with none, an image of that size is
-/// empty.
+/// Whether any triangle, occluded or not, intersects the view frustum.
 bool isInView(const Geometry& geometry, const Camera& camera, uint32_t width, uint32_t height);
 
 }  // namespace voxray

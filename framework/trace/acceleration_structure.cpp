@@ -54,7 +54,7 @@ VkDeviceAddress AccelerationStructure::address() const {
 
 namespace {
 
-/// A structure that is to be built from one geometry of `primitives` elements.
+/// Build of a structure from one geometry of `primitives` elements.
 struct Build {
     VkAccelerationStructureTypeKHR type;
     VkAccelerationStructureGeometryKHR geometry;
@@ -72,8 +72,8 @@ VkAccelerationStructureBuildGeometryInfoKHR describe(const Build& build) {
     return info;
 }
 
-/// Builds one structure and waits, so that scratch memory is needed for one at a time. Makes `result` where
-/// it is empty; one of as many primitives is rebuilt in its place.
+/// Builds a structure and waits, so that one scratch buffer exists at a time. Creates `result` if it is
+/// empty; otherwise rebuilds it in place, with the same number of primitives.
 void run(Device& device, CommandStream& stream, const char* name, const Build& build,
          AccelerationStructure& result) {
     VkAccelerationStructureBuildGeometryInfoKHR info = describe(build);
@@ -84,7 +84,7 @@ void run(Device& device, CommandStream& stream, const char* name, const Build& b
     if (!result.handle())
         result = AccelerationStructure(device, name, build.type, sizes.accelerationStructureSize);
 
-    // Scratch memory starts at an aligned address.
+    // The scratch address must be aligned.
     const uint64_t alignment =
         device.accelerationStructureProperties().minAccelerationStructureScratchOffsetAlignment;
     const Buffer scratch(device, "acceleration structure scratch", sizes.buildScratchSize + alignment);
@@ -128,7 +128,7 @@ void buildChunk(Device& device, CommandStream& stream, const TracingOrder& order
 }
 
 void buildTop(Device& device, CommandStream& stream, SceneStructure& scene) {
-    // Instances as they are: the triangles are in world space. All sides count.
+    // Identity transforms, since triangles are in world space. No culling.
     std::vector<VkAccelerationStructureInstanceKHR> instances;
     for (uint32_t i = 0; i < scene.chunks.size(); ++i) {
         VkAccelerationStructureInstanceKHR instance{};
@@ -161,7 +161,7 @@ uint64_t SceneStructure::bytes() const {
 }
 
 uint32_t trianglesPerChunk(const Device& device) {
-    constexpr uint64_t kMax = 1u << 22;  // Bounds the memory that a build needs in addition to the structure.
+    constexpr uint64_t kMax = 1u << 22;  // Bounds the scratch memory of a build.
     return uint32_t(std::min(kMax, device.accelerationStructureProperties().maxPrimitiveCount));
 }
 
@@ -176,7 +176,7 @@ SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const 
     scene.positions = uploaded(device, stream, "acceleration structure vertices", geometry.positions);
     scene.corners = uploaded(device, stream, "acceleration structure indices", indices);
 
-    // A structure for each chunk, one over all.
+    // A bottom-level structure for each chunk, and the top-level one.
     scene.opaqueCount = order.opaqueCount;
     scene.chunks.resize(order.chunkFirst.size());
     for (size_t chunk = 0; chunk < scene.chunks.size(); ++chunk)

@@ -32,13 +32,13 @@ class AccelerationStructure {
     VkAccelerationStructureKHR handle_ = VK_NULL_HANDLE;
 };
 
-/// A scene's triangles for tracing on the GPU: chunks of opaque and of masked triangles, each a bottom-level
-/// structure and an instance whose custom index is the chunk's number. Opaque chunks call no any-hit shader.
+/// Acceleration structures of a scene: chunks of opaque and of alpha-masked triangles, each a bottom-level
+/// structure with an instance whose custom index is the chunk's number. Opaque chunks call no any-hit shader.
 struct SceneStructure {
     std::vector<AccelerationStructure> chunks;
     AccelerationStructure top;
     Buffer chunkFirst;   ///< First triangle, in tracing order, of each chunk.
-    Buffer triangleIds;  ///< Numbers in the scene, in tracing order.
+    Buffer triangleIds;  ///< Triangles of the scene, in tracing order.
     Buffer corners;      ///< Vertices of the triangles, in tracing order.
     Buffer positions;    ///< Of the vertices.
     uint32_t opaqueCount = 0;
@@ -46,16 +46,15 @@ struct SceneStructure {
     uint64_t bytes() const;  ///< Of all structures.
 };
 
-/// Triangles of one bottom-level structure at most.
+/// Maximum number of triangles in a bottom-level structure.
 uint32_t trianglesPerChunk(const Device& device);
 
-/// Builds the structures; records and finishes.
-/// @throws Error over the memory limit.
+/// Builds the structures and waits. @throws Error over the memory limit.
 SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const SceneState& state,
                                    const TracingOrder& order);
 
-/// Takes over where the moving triangles are now, after `sortMoving`: builds their chunks and the top again,
-/// in place. Records and finishes.
+/// Rebuilds the chunks of moving triangles and the top-level structure in place and waits. After
+/// `sortMoving`.
 void updateSceneStructure(Device& device, CommandStream& stream, const SceneState& state,
                           const TracingOrder& order, SceneStructure& scene);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Embree 3 or Embree 4, whichever this machine has: the one place where they differ.
+// Differences between Embree 3 and Embree 4.
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
@@ -11,8 +11,7 @@
 
 namespace voxray {
 
-/// How Embree traces one thread's rays: closest hits and occlusion, of one ray or of those of eight that are
-/// active (-1).
+/// Ray queries of one thread: closest hit and occlusion, of single rays or packets of eight (active: -1).
 class EmbreeQuery {
  public:
     explicit EmbreeQuery(Coherence coherence);

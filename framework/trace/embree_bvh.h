@@ -10,25 +10,25 @@
 
 namespace voxray {
 
-/// A scene's triangles in Embree: a BVH over those that stay, with all of the scene's vertices, and one over
-/// those that move, with theirs. Alpha masks hold for every kind of ray. For EmbreeScene alone, since this
-/// header brings Embree's.
+/// A scene's triangles in Embree: a BVH of static triangles, with all of the scene's vertices, and one of
+/// dynamic triangles, with theirs. Alpha masks apply to all rays. For EmbreeScene alone, since it includes
+/// Embree's headers.
 struct EmbreeBvh {
-    /// Triangles that share how they are intersected. Embree's primitive i is the scene's triangle ids[i].
+    /// Opaque or alpha-masked triangles. Embree's primitive i is the scene's triangle ids[i].
     struct TriangleGroup {
         std::vector<uint32_t> ids;
-        std::vector<uint32_t> skipped;  ///< By primitive: vertices before its own that Embree lacks.
+        std::vector<uint32_t> vertexOffsets;  ///< By primitive: scene's vertex index less Embree's; empty: 0.
         const SceneState* state = nullptr;
     };
 
-    struct Part {
+    struct Bvh {
         RTCScene scene = nullptr;
-        TriangleGroup opaque, masked;       ///< Embree's geometries 0 and 1.
-        std::vector<InstanceRange> moving;  ///< Whose vertices there are; none: all.
-        bool sameNumbers = false;           ///< Embree's primitive numbers are the scene's.
+        TriangleGroup opaque, masked;          ///< Embree's geometries 0 and 1.
+        std::vector<InstanceRange> instances;  ///< With the vertices of these alone; empty: all.
+        bool idsAreIdentity = false;           ///< Embree's primitives are the scene's triangles.
 
         uint32_t triangleOf(const RTCHit& hit) const {
-            return sameNumbers ? hit.primID : (hit.geomID == 0 ? opaque : masked).ids[hit.primID];
+            return idsAreIdentity ? hit.primID : (hit.geomID == 0 ? opaque : masked).ids[hit.primID];
         }
     };
 
@@ -37,25 +37,24 @@ struct EmbreeBvh {
     EmbreeBvh(const EmbreeBvh&) = delete;
     EmbreeBvh& operator=(const EmbreeBvh&) = delete;
 
-    /// Once. `state` must outlive this object. The qualities are those of `still` and of `moving`.
-    /// @throws Error where Embree refuses (out of memory), Interrupted.
-    void build(const SceneState& state, RTCBuildQuality ofStill, RTCBuildQuality ofMoving);
-    /// Takes over where the state's moving instances are now. @throws as build().
+    /// Called once. `state` must outlive this object. @throws Error if Embree is out of memory, Interrupted.
+    void build(const SceneState& state, RTCBuildQuality staticQuality, RTCBuildQuality dynamicQuality);
+    /// Rebuilds the dynamic BVH from the state's current positions. @throws as build().
     void update();
 
     RTCDevice device = nullptr;
-    Part still, moving;  ///< `moving` has a scene only where something moves.
+    Bvh staticBvh, dynamicBvh;  ///< `dynamicBvh` has a scene only if something moves.
     std::atomic<ptrdiff_t> bytes{0};
 
  private:
-    /// Sorts the triangles into parts that stay and move, and those into opaque and alpha-masked ones.
+    /// Sorts the triangles into static and dynamic, opaque and alpha-masked ones.
     void sort(const SceneState& state);
-    void buildPart(Part& part, RTCBuildQuality quality);
-    /// Adds the group's triangles to a part as geometry number `geomId`.
-    void attach(const Part& part, TriangleGroup& group, unsigned geomId, RTCBuildQuality quality);
-    /// Copies the group's vertices and corners as they are now.
-    void fill(const Part& part, const TriangleGroup& group, unsigned geomId);
-    void commit(const Part& part);
+    void buildBvh(Bvh& bvh, RTCBuildQuality quality);
+    /// Adds the group's triangles to a BVH as geometry `geomId`.
+    void attach(const Bvh& bvh, TriangleGroup& group, unsigned geomId, RTCBuildQuality quality);
+    /// Copies the group's current vertices and indices.
+    void fill(const Bvh& bvh, const TriangleGroup& group, unsigned geomId);
+    void commit(const Bvh& bvh);
 };
 
 }  // namespace voxray

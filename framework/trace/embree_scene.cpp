@@ -15,12 +15,12 @@ namespace voxray {
 
 namespace {
 
-/// Embree's own bound on coordinates (its FLT_LARGE): Debian's build aborts on rays beyond it.
+/// Embree's bound on coordinates (FLT_LARGE): Debian's build aborts on rays beyond it.
 constexpr float kLargest = 1.8e18f;
 constexpr size_t kStreamGrain = 4096;
-/// Rays of an incoherent stream that take each step together.
+/// Rays of an incoherent stream that are traced together (intersectEach).
 constexpr size_t kBlock = 64;
-/// Rays of a packet: as wide as AVX2. 16 are 8 % faster where there is AVX-512.
+/// Rays per packet: the width of AVX2. With AVX-512, 16 are 8 % faster.
 constexpr uint32_t kPacket = EmbreeScene::kPacketRays;
 
 /// Half of a ray: origin and tMin, or direction and tMax.
@@ -34,7 +34,7 @@ Float4 load(const glm::vec3& first) {
     return half;
 }
 
-/// Four comparisons at once and no branches: it runs on every ray of a stream. NaN fails all.
+/// Vectorized and branchless, since it runs on every ray of a stream. False for NaN.
 bool isTraceable(const Ray& ray) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     const Float4 origin = load(ray.origin), direction = load(ray.direction);
@@ -51,7 +51,7 @@ bool isActive(const Ray& ray) {
     return ray.tMax >= ray.tMin;
 }
 
-/// In stores as wide as Embree's loads, which would wait for narrower ones.
+/// With stores as wide as Embree's loads, for store forwarding.
 void toEmbree(const Ray& ray, RTCRay& out) {
     const Float4 origin = load(ray.origin);
     const Int4 direction = reinterpret_cast<Int4>(load(ray.direction)) & Int4{-1, -1, -1, 0};  // Time 0.
@@ -63,9 +63,9 @@ void toEmbree(const Ray& ray, RTCRay& out) {
     out.flags = 0;
 }
 
-/// Neighbours of a coherent stream, traced together.
+/// Adjacent rays of a coherent stream, traced together.
 struct Packet {
-    alignas(32) int active[kPacket];  ///< -1: yes, as Embree wants it.
+    alignas(32) int active[kPacket];  ///< -1: active, as in Embree.
     RTCRayHit8 query{};
 
     explicit Packet(std::span<const Ray> rays) {
@@ -94,12 +94,12 @@ struct EmbreeScene::Impl : EmbreeBvh {
         if (!(ray.tMax >= ray.tMin)) return hit;
         RTCRayHit query;
         toEmbree(ray, query.ray);
-        for (const Part* part : {&still, &moving}) {
-            if (!part->scene) break;
+        for (const Bvh* bvh : {&staticBvh, &dynamicBvh}) {
+            if (!bvh->scene) break;
             query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-            embree.intersect(part->scene, query);
+            embree.intersect(bvh->scene, query);
             if (query.hit.geomID != RTC_INVALID_GEOMETRY_ID)
-                hit = {query.ray.tfar, part->triangleOf(query.hit), query.hit.u, query.hit.v};
+                hit = {query.ray.tfar, bvh->triangleOf(query.hit), query.hit.u, query.hit.v};
         }
         return hit;
     }
@@ -108,28 +108,27 @@ struct EmbreeScene::Impl : EmbreeBvh {
         if (!(ray.tMax >= ray.tMin)) return false;
         RTCRay query;
         toEmbree(ray, query);
-        embree.occluded(still.scene, query);
-        if (moving.scene && query.tfar >= 0.0f) embree.occluded(moving.scene, query);
+        embree.occluded(staticBvh.scene, query);
+        if (dynamicBvh.scene && query.tfar >= 0.0f) embree.occluded(dynamicBvh.scene, query);
         return query.tfar < 0.0f;
     }
 
-    /// Up to kBlock rays that don't lie together. Each step for all of them before the next takes less time
-    /// than all steps for one ray after another.
+    /// Up to kBlock incoherent rays. Doing each step for all rays before the next is faster than ray by ray.
     void intersectEach(std::span<const Ray> rays, std::span<Hit> hits, EmbreeQuery& embree) const {
         std::array<RTCRayHit, kBlock> queries;
         for (size_t i = 0; i < rays.size(); ++i) {
             toEmbree(rays[i], queries[i].ray);
             hits[i] = {rays[i].tMax, Hit::kMiss, 0.0f, 0.0f};
         }
-        for (const Part* part : {&still, &moving}) {
-            if (!part->scene) break;
+        for (const Bvh* bvh : {&staticBvh, &dynamicBvh}) {
+            if (!bvh->scene) break;
             for (size_t i = 0; i < rays.size(); ++i) queries[i].hit.geomID = RTC_INVALID_GEOMETRY_ID;
             for (size_t i = 0; i < rays.size(); ++i)
-                if (isActive(rays[i])) embree.intersect(part->scene, queries[i]);
+                if (isActive(rays[i])) embree.intersect(bvh->scene, queries[i]);
             for (size_t i = 0; i < rays.size(); ++i) {
                 const RTCRayHit& found = queries[i];
                 if (found.hit.geomID != RTC_INVALID_GEOMETRY_ID)
-                    hits[i] = {found.ray.tfar, part->triangleOf(found.hit), found.hit.u, found.hit.v};
+                    hits[i] = {found.ray.tfar, bvh->triangleOf(found.hit), found.hit.u, found.hit.v};
             }
         }
     }
@@ -138,10 +137,11 @@ struct EmbreeScene::Impl : EmbreeBvh {
         std::array<RTCRay, kBlock> queries;
         for (size_t i = 0; i < rays.size(); ++i) toEmbree(rays[i], queries[i]);
         for (size_t i = 0; i < rays.size(); ++i)
-            if (isActive(rays[i])) embree.occluded(still.scene, queries[i]);
-        if (moving.scene)
+            if (isActive(rays[i])) embree.occluded(staticBvh.scene, queries[i]);
+        if (dynamicBvh.scene)
             for (size_t i = 0; i < rays.size(); ++i)
-                if (isActive(rays[i]) && queries[i].tfar >= 0.0f) embree.occluded(moving.scene, queries[i]);
+                if (isActive(rays[i]) && queries[i].tfar >= 0.0f)
+                    embree.occluded(dynamicBvh.scene, queries[i]);
         for (size_t i = 0; i < rays.size(); ++i)
             results[i] = isActive(rays[i]) && queries[i].tfar < 0.0f ? 1u : 0u;
     }
@@ -150,16 +150,16 @@ struct EmbreeScene::Impl : EmbreeBvh {
         Packet packet(rays);
         RTCRayHit8& query = packet.query;
         for (size_t k = 0; k < rays.size(); ++k) hits[k] = {rays[k].tMax, Hit::kMiss, 0.0f, 0.0f};
-        for (const Part* part : {&still, &moving}) {
-            if (!part->scene) break;
+        for (const Bvh* bvh : {&staticBvh, &dynamicBvh}) {
+            if (!bvh->scene) break;
             std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
-            embree.intersect(packet.active, part->scene, query);
+            embree.intersect(packet.active, bvh->scene, query);
             for (size_t k = 0; k < rays.size(); ++k) {
                 if (query.hit.geomID[k] == RTC_INVALID_GEOMETRY_ID) continue;
                 RTCHit hit{};
                 hit.primID = query.hit.primID[k];
                 hit.geomID = query.hit.geomID[k];
-                hits[k] = {query.ray.tfar[k], part->triangleOf(hit), query.hit.u[k], query.hit.v[k]};
+                hits[k] = {query.ray.tfar[k], bvh->triangleOf(hit), query.hit.u[k], query.hit.v[k]};
             }
         }
     }
@@ -167,21 +167,21 @@ struct EmbreeScene::Impl : EmbreeBvh {
     void areOccluded(std::span<const Ray> rays, std::span<uint32_t> results, EmbreeQuery& embree) const {
         Packet packet(rays);
         RTCRay8& query = packet.query.ray;
-        embree.occluded(packet.active, still.scene, query);
-        if (moving.scene) {
+        embree.occluded(packet.active, staticBvh.scene, query);
+        if (dynamicBvh.scene) {
             for (uint32_t k = 0; k < kPacket; ++k)
                 if (query.tfar[k] < 0.0f) packet.active[k] = 0;
-            embree.occluded(packet.active, moving.scene, query);
+            embree.occluded(packet.active, dynamicBvh.scene, query);
         }
         for (size_t k = 0; k < rays.size(); ++k)
             results[k] = rays[k].tMax >= rays[k].tMin && query.tfar[k] < 0.0f ? 1u : 0u;
     }
 
-    /// Calls trace(first, count, embree) for every kSize rays of a stream, in parallel, after their check.
-    /// How the work is divided makes no difference to what lies together.
+    /// Checks all rays of a stream and calls trace(first, count, embree) for packets of kSize, in parallel.
+    /// Packets don't depend on how the work is divided.
     template <size_t kSize, typename Trace>
     void forEachPacket(std::span<const Ray> rays, const Trace& trace) const {
-        std::atomic<size_t> firstBad{rays.size()};
+        std::atomic<size_t> firstInvalid{rays.size()};
         const size_t packets = (rays.size() + kSize - 1) / kSize;
         parallelRanges(packets, kStreamGrain / kSize, [&](size_t begin, size_t end) {
             EmbreeQuery embree(kSize == kPacket ? Coherence::Coherent : Coherence::Incoherent);
@@ -191,25 +191,25 @@ struct EmbreeScene::Impl : EmbreeBvh {
                 for (size_t i = first; i < first + count; ++i) {
                     if (isTraceable(rays[i])) [[likely]]
                         continue;
-                    size_t known = firstBad.load();
-                    while (i < known && !firstBad.compare_exchange_weak(known, i)) {
+                    size_t lowest = firstInvalid.load();
+                    while (i < lowest && !firstInvalid.compare_exchange_weak(lowest, i)) {
                     }
                     return;
                 }
                 trace(first, count, embree);
             }
         });
-        if (firstBad != rays.size())
+        if (firstInvalid != rays.size())
             throw Error(
                 "ray {} of a stream of {} is NaN, infinite, beyond {} m or has a negative tMin: "
                 "mark unused rays with tMax < tMin",
-                firstBad.load(), rays.size(), kLargest);
+                firstInvalid.load(), rays.size(), kLargest);
     }
 };
 
-EmbreeScene::EmbreeScene(const SceneState& state, RaysToCome rays) : impl_(std::make_unique<Impl>()) {
-    // What moves is rebuilt in each frame: in less time, and no worse for its few triangles.
-    if (rays == RaysToCome::Many)
+EmbreeScene::EmbreeScene(const SceneState& state, ExpectedRays rays) : impl_(std::make_unique<Impl>()) {
+    // Dynamic triangles are few and rebuilt in each frame: medium quality is as good and faster.
+    if (rays == ExpectedRays::Many)
         impl_->build(state, RTC_BUILD_QUALITY_HIGH, RTC_BUILD_QUALITY_MEDIUM);
     else
         impl_->build(state, RTC_BUILD_QUALITY_LOW, RTC_BUILD_QUALITY_LOW);

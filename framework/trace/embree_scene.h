@@ -9,42 +9,42 @@
 
 namespace voxray {
 
-/// What a BVH is built for: a good one takes several times as long to build.
-enum class RaysToCome { Many, Few };
+/// Number of rays that a BVH is built for: one of high quality takes several times as long to build.
+enum class ExpectedRays { Many, Few };
 
-/// A scene's triangles in an Embree BVH, and a second one of those that move, with alpha masks honoured on
-/// every ray. Embree's headers stay out of this one (embree_bvh.h). Rays may come from any thread, but not
-/// during an update.
+/// A scene's triangles in Embree, with alpha masks on all rays. Doesn't include Embree's headers
+/// (embree_bvh.h). Thread-safe except during update().
 class EmbreeScene {
  public:
-    /// `state` must outlive this object. @throws Error where Embree refuses (out of memory).
-    explicit EmbreeScene(const SceneState& state, RaysToCome rays = RaysToCome::Many);
+    /// `state` must outlive this object. @throws Error if Embree is out of memory.
+    explicit EmbreeScene(const SceneState& state, ExpectedRays rays = ExpectedRays::Many);
     ~EmbreeScene();
     EmbreeScene(EmbreeScene&&) noexcept;
     EmbreeScene& operator=(EmbreeScene&&) noexcept;
 
-    /// Takes over where the state's moving instances are now (`advance`). @throws Error where Embree refuses.
+    /// Rebuilds dynamic triangles from the state's current positions (`advance`). @throws Error if Embree is
+    /// out of memory.
     void update();
 
-    /// One ray. The ray must be finite with tMin >= 0 (checked by the callers that take rays from outside).
+    /// The ray must be finite with tMin >= 0, which is not checked.
     Hit closestHit(const Ray& ray) const;
     bool occluded(const Ray& ray) const;
 
-    /// Up to kPacketRays rays that lie close together, as one by one but in less time. Those with tMax < tMin
-    /// hit nothing.
+    /// Up to kPacketRays coherent rays, with the results of single rays but faster. Inactive rays (tMax <
+    /// tMin) hit nothing.
     static constexpr size_t kPacketRays = 8;
     void closestHitPacket(std::span<const Ray> rays, std::span<Hit> hits) const;
     void occludedPacket(std::span<const Ray> rays, std::span<uint32_t> results) const;
 
-    /// Whole streams, on all cores; `result` is 1 where something lies between tMin and tMax.
-    /// @throws Error naming the index of the first ray that is NaN, infinite (a tMax of +inf is allowed),
-    /// beyond 1.8e18 m or has a negative tMin; inactive rays too.
+    /// Streams of rays, on all cores. `results`: 1 if occluded between tMin and tMax.
+    /// @throws Error with the index of the first ray, active or not, that is NaN, infinite (a tMax of +inf is
+    /// allowed), beyond 1.8e18 m or has a negative tMin.
     void closestHit(std::span<const Ray> rays, std::span<Hit> hits,
                     Coherence coherence = Coherence::Incoherent) const;
     void occluded(std::span<const Ray> rays, std::span<uint32_t> results,
                   Coherence coherence = Coherence::Incoherent) const;
 
-    /// Bytes that Embree holds: its BVH and its copy of the triangles.
+    /// Bytes of Embree's BVHs and its copy of the triangles.
     size_t memoryBytes() const;
 
  private:

@@ -7,8 +7,8 @@
 namespace voxray {
 namespace {
 
-/// Rays between two looks for an interrupt, and of one staged copy.
-constexpr uint32_t kRaysPerPart = 1u << 20;
+/// Rays between checks for an interrupt, and per staged copy.
+constexpr uint32_t kRaysPerBatch = 1u << 20;
 
 }  // namespace
 
@@ -17,19 +17,18 @@ void EmbreeTracer::trace(CommandStream& stream, const Buffer& rays, const Buffer
                          const std::function<void(std::span<const Ray>, std::span<Result>)>& traceRays) {
     stream.finish();
     const bool isMapped = rays.mapped() && results.mapped();
-    for (uint32_t first = 0, part = 0; first < count; first += part) {
+    for (uint32_t first = 0, batch = 0; first < count; first += batch) {
         if (interruptRequested()) throw Interrupted();
-        part = std::min(kRaysPerPart, count - first);
+        batch = std::min(kRaysPerBatch, count - first);
         if (isMapped) {
-            traceRays(rays.mappedAs<const Ray>().subspan(first, part),
-                      results.mappedAs<Result>().subspan(first, part));
+            traceRays(rays.mappedAs<const Ray>().subspan(first, batch),
+                      results.mappedAs<Result>().subspan(first, batch));
             continue;
         }
 
-        // Device memory that the host doesn't see
-        const std::vector<std::byte> bytes = stream.read(rays, part * sizeof(Ray), first * sizeof(Ray));
-        std::vector<Result> traced(part);
-        traceRays({reinterpret_cast<const Ray*>(bytes.data()), part}, traced);
+        const std::vector<std::byte> bytes = stream.read(rays, batch * sizeof(Ray), first * sizeof(Ray));
+        std::vector<Result> traced(batch);
+        traceRays({reinterpret_cast<const Ray*>(bytes.data()), batch}, traced);
         stream.upload(results, std::as_bytes(std::span(traced)), first * sizeof(Result));
     }
 }
@@ -38,10 +37,11 @@ void EmbreeTracer::trace(CommandStream& stream, Query query, const Buffer& rays,
                          uint32_t count, Coherence coherence) {
     if (query == Query::ClosestHit)
         trace<Hit>(stream, rays, results, count,
-                   [&](auto from, auto to) { scene_.closestHit(from, to, coherence); });
+                   [&](auto batchRays, auto hits) { scene_.closestHit(batchRays, hits, coherence); });
     else
-        trace<uint32_t>(stream, rays, results, count,
-                        [&](auto from, auto to) { scene_.occluded(from, to, coherence); });
+        trace<uint32_t>(stream, rays, results, count, [&](auto batchRays, auto occluded) {
+            scene_.occluded(batchRays, occluded, coherence);
+        });
 }
 
 void EmbreeTracer::updateStructure(CommandStream& stream) {

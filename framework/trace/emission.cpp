@@ -8,16 +8,16 @@
 namespace voxray {
 namespace {
 
-/// Points along a side of the square that is folded onto a triangle.
-constexpr uint32_t kSide = 4;
-/// What lies between the points counts as much as this part of the factor.
-constexpr float kUnseen = 0.01f;
+/// Sample points along an edge of the unit square that is folded onto a triangle.
+constexpr uint32_t kEdgePoints = 4;
+/// Lower bound of the mean, as a fraction of the emission factor: for emission between the points.
+constexpr float kMinFraction = 0.01f;
 
 const Material& materialOf(const SceneState& state, uint32_t triangle) {
     return state.scene->materials[state.geometry.triangleMaterials[triangle]];
 }
 
-/// Of the factor times the vertices' alphas: what lies between them is no more and no less.
+/// Range of the factor times the interpolated vertex alpha.
 struct AlphaRange {
     float lowest, highest;
 };
@@ -54,20 +54,21 @@ bool canEmit(const SceneState& state, uint32_t triangle) {
 glm::vec3 meanEmission(const SceneState& state, uint32_t triangle) {
     if (!canEmit(state, triangle)) return glm::vec3(0.0f);
     const Material& m = materialOf(state, triangle);
-    const bool isWhole =
+    const bool isUniform =
         m.alphaMode != AlphaMode::Mask ||
         (m.baseColorTexture.texture < 0 && alphaRange(state, triangle).lowest >= alphaThreshold(m));
-    if (isWhole && m.emissiveTexture.texture < 0) return m.emission;
+    if (isUniform && m.emissiveTexture.texture < 0) return m.emission;
     glm::vec3 sum(0.0f);
-    for (uint32_t i = 0; i < kSide * kSide; ++i) {
-        float u = (float(i % kSide) + 0.5f) / float(kSide), v = (float(i / kSide) + 0.25f) / float(kSide);
+    for (uint32_t i = 0; i < kEdgePoints * kEdgePoints; ++i) {
+        float u = (float(i % kEdgePoints) + 0.5f) / float(kEdgePoints),
+              v = (float(i / kEdgePoints) + 0.25f) / float(kEdgePoints);
         if (u + v > 1) {
             u = 1 - u;
             v = 1 - v;
         }
         sum += emissionAt(state, triangle, u, v);
     }
-    return glm::max(sum / float(kSide * kSide), kUnseen * m.emission);
+    return glm::max(sum / float(kEdgePoints * kEdgePoints), kMinFraction * m.emission);
 }
 
 }  // namespace voxray

@@ -10,7 +10,7 @@
 namespace voxray {
 namespace {
 
-/// Alpha channels of textures one after the other, each texture once.
+/// Concatenated alpha channels of textures, each texture once.
 class AlphaTexels {
  public:
     explicit AlphaTexels(const Scene& scene) : scene_(scene) {}
@@ -25,7 +25,7 @@ class AlphaTexels {
                 uint32_t(texture.wrapU),  uint32_t(texture.wrapV), uint32_t(texture.filter)};
     }
 
-    /// The texels so far, padded to whole words.
+    /// All texels, padded to words.
     std::vector<uint8_t> padded() const {
         std::vector<uint8_t> bytes = texels_;
         bytes.resize((bytes.size() + 3) / 4 * 4);
@@ -59,7 +59,7 @@ Buffer uploadedUnlessEmpty(Device& device, CommandStream& stream, const char* na
 
 GpuAlphaMask makeGpuAlphaMask(Device& device, CommandStream& stream, const SceneState& state,
                               const TracingOrder& order) {
-    // The masked materials, with the textures that they read.
+    // Masked materials and their textures.
     AlphaTexels texels(*state.scene);
     std::vector<gpu::AlphaMaterial> materials;
     std::map<uint32_t, uint32_t> materialNumbers;
@@ -70,7 +70,7 @@ GpuAlphaMask makeGpuAlphaMask(Device& device, CommandStream& stream, const Scene
         const auto [number, isNew] = materialNumbers.try_emplace(index, uint32_t(materials.size()));
         if (isNew) materials.push_back(texels.describe(material));
 
-        // Coordinates and alpha at the vertices.
+        // Texture coordinates and alpha at the vertices.
         gpu::MaskedTriangle triangle{};
         triangle.material = number->second;
         for (int corner = 0; corner < 3; ++corner) {

@@ -7,17 +7,16 @@
 
 namespace voxray {
 
-/// What the shaders need to decide whether a hit on a masked triangle counts (shaders/trace/trace_types.h):
-/// the triangles' texture coordinates and the alpha channels of their textures, filtered in the shader
-/// exactly as the CPU does, since samplers round their weights. Buffers are empty where no triangle is
-/// masked.
+/// Data of the any-hit test of alpha-masked triangles (shaders/trace/trace_types.h): texture coordinates, and
+/// alpha channels of textures. Shaders filter these exactly as the CPU does, since samplers round their
+/// weights. Buffers are empty if no triangle is masked.
 struct GpuAlphaMask {
     Buffer triangles;
     Buffer materials;
     Buffer texels;
 };
 
-/// @throws Error where the masked textures hold more than 2^32 texels.
+/// @throws Error if the masked textures have more than 2^32 texels.
 GpuAlphaMask makeGpuAlphaMask(Device& device, CommandStream& stream, const SceneState& state,
                               const TracingOrder& order);
 

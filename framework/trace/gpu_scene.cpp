@@ -65,7 +65,7 @@ float luminance(glm::vec3 c) {
     return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
 }
 
-// Triangles that emit anywhere, with the chance of picking each, in proportion to what it emits.
+// Emissive triangles with their sampling probabilities, proportional to power.
 std::vector<gpu::GpuEmitter> findEmitters(const SceneState& state) {
     const Geometry& g = state.geometry;
     std::vector<gpu::GpuEmitter> emitters;
@@ -186,7 +186,7 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
     GpuScene scene;
     if (device.isHost()) return scene;
 
-    // Geometry, as it is.
+    // Geometry.
     scene.positions = uploaded(device, stream, "scene positions", g.positions);
     scene.attributes = uploaded(device, stream, "scene attributes", g.attributes);
     scene.triangles = uploaded(device, stream, "scene triangles", g.triangles);
@@ -222,7 +222,7 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
     stream.finish();
     scene.hasEnvironment = state.scene->environment.radiance != glm::vec3(0.0f);
 
-    // Textures with their mip levels; one white texel stands in where a scene has none.
+    // Textures with mip levels; one white texel for a scene without textures.
     std::vector<TextureArray::Entry> entries;
     const Texture white{.name = "white", .width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
     const std::vector<Texture> none{white};
@@ -245,8 +245,9 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
 void updateGpuScene(CommandStream& stream, const SceneState& state, GpuScene& scene) {
     if (stream.device().isHost()) return;
     const Geometry& g = state.geometry;
-    const auto upload = [&](const Buffer& to, const auto& all, uint32_t first, uint32_t count) {
-        stream.upload(to, std::as_bytes(std::span(all).subspan(first, count)), first * sizeof(all[0]));
+    const auto upload = [&](const Buffer& to, const auto& elements, uint32_t first, uint32_t count) {
+        stream.upload(to, std::as_bytes(std::span(elements).subspan(first, count)),
+                      first * sizeof(elements[0]));
     };
     for (const InstanceRange& run : movingRuns(g)) {
         upload(scene.positions, g.positions, run.firstVertex, run.vertexCount);

@@ -7,8 +7,8 @@
 
 namespace voxray {
 
-/// What both GPU backends share: the scene's structures, and launches over parts of a stream that a device
-/// can take in one.
+/// Base of both GPU backends: the scene's acceleration structures, and streams in launches of the size that a
+/// device allows.
 class GpuTracer : public RayTracer {
  public:
     size_t memoryBytes() const final { return structure_.bytes(); }
@@ -16,7 +16,7 @@ class GpuTracer : public RayTracer {
  protected:
     GpuTracer(Device& device, const SceneState& state, uint32_t trianglesPerChunk);
 
-    /// Traces `count` rays of a stream. @param call what shaders/trace/trace.glsl declares, and the
+    /// Traces `count` rays of a stream. @param call bindings of shaders/trace/trace.glsl and the top-level
     /// structure.
     virtual void launch(CommandStream& stream, bool occluded, uint32_t count, const Bindings& call) = 0;
 

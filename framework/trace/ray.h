@@ -5,8 +5,8 @@
 
 namespace voxray {
 
-/// A ray of a stream; the same 32 bytes in C++ and GLSL. `direction` need not be unit length: t counts in
-/// multiples of it. A ray with tMax < tMin is inactive: it is a miss and not occluded.
+/// A ray of a stream; 32 bytes, as in GLSL. `direction` need not be unit length: t is in multiples of it. A
+/// ray with tMax < tMin is inactive: a miss, and not occluded.
 struct Ray {
     glm::vec3 origin;
     float tMin;
@@ -15,7 +15,7 @@ struct Ray {
 };
 static_assert(sizeof(Ray) == 32);
 
-/// The closest hit of a ray; the same 16 bytes in C++ and GLSL.
+/// The closest hit of a ray; 16 bytes, as in GLSL.
 struct Hit {
     static constexpr uint32_t kMiss = 0xffffffffu;
     float t;            ///< Distance in multiples of the ray's direction; the ray's tMax on a miss.
@@ -25,8 +25,8 @@ struct Hit {
 };
 static_assert(sizeof(Hit) == 16);
 
-/// Whether a stream's neighbours start near each other and go alike, as camera rays do. It matters to speed
-/// alone, and to which of several triangles at the same distance is hit.
+/// Whether adjacent rays of a stream have similar origins and directions, as camera rays have. Affects only
+/// speed, and which of several triangles at the same distance is hit.
 enum class Coherence { Incoherent, Coherent };
 
 }  // namespace voxray

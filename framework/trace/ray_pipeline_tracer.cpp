@@ -21,7 +21,7 @@ RayPipelineTracer::Pipeline RayPipelineTracer::makePipeline(Device& device,
     Pipeline pipeline;
     pipeline.program = makeRayTracingProgram(device, modules, {{"kOccluded", occluded ? 1u : 0u}});
 
-    // The groups' handles, packed by the driver, laid out one to an aligned record.
+    // Shader group handles, one per aligned record.
     constexpr uint32_t kGroups = 3;
     const auto& properties = device.rayPipelineProperties();
     const size_t handleBytes = properties.shaderGroupHandleSize;

@@ -12,7 +12,7 @@ class RayPipelineTracer final : public GpuTracer {
     std::string_view name() const override { return "ray_pipeline"; }
 
  private:
-    /// A pipeline with its shader binding table: one record each of ray generation, miss and hit group.
+    /// A pipeline and its shader binding table, with one record each for ray generation, miss and hit group.
     struct Pipeline {
         Program program;
         Buffer table;

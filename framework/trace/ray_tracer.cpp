@@ -15,7 +15,7 @@ void require(bool feature, const Device& device, const char* tracer, const char*
                     extension, device.info().name);
 }
 
-/// @throws Error where a stream's buffers are too small for `count` rays and results of `resultBytes` each.
+/// @throws Error if a stream's buffers are too small for `count` rays and results of `resultBytes` each.
 void checkStream(const Buffer& rays, const Buffer& results, uint64_t resultBytes, uint32_t count) {
     if (rays.bytes() < count * sizeof(Ray))
         throw Error("buffer '{}' holds {} rays, {} are to be traced", rays.name(), rays.bytes() / sizeof(Ray),

@@ -21,7 +21,7 @@ glm::vec4 texel(const Texture& texture, int32_t x, int32_t y) {
     return glm::vec4(code[0], code[1], code[2], code[3]) * kScale;
 }
 
-/// Moves a coordinate into a range in which `floor(x * size)` fits an integer and no precision is lost.
+/// Wraps a coordinate to a range in which `floor(x * size)` fits an integer, without loss of precision.
 float reduceCoordinate(float x, Wrap wrap) {
     if (!std::isfinite(x)) return 0.0f;
     switch (wrap) {
@@ -58,7 +58,7 @@ int32_t wrapTexel(int32_t x, int32_t size, Wrap wrap) {
 
 namespace {
 
-/// What a filter mixes along one axis: two texels and the second one's weight.
+/// Linear filter along one axis: two texels and the weight of the second one.
 struct Texels {
     int32_t first, second;
     float weight;
@@ -77,8 +77,8 @@ Texels filteredTexels(float coordinate, int32_t size, Wrap wrap, TexelFilter fil
 glm::vec4 sampleTexture(const Texture& texture, glm::vec2 uv) {
     const Texels x = filteredTexels(uv.x, int32_t(texture.width), texture.wrapU, texture.filter);
     const Texels y = filteredTexels(uv.y, int32_t(texture.height), texture.wrapV, texture.filter);
-    const auto row = [&](int32_t at) {
-        return texel(texture, x.first, at) * (1.0f - x.weight) + texel(texture, x.second, at) * x.weight;
+    const auto row = [&](int32_t rowY) {
+        return texel(texture, x.first, rowY) * (1.0f - x.weight) + texel(texture, x.second, rowY) * x.weight;
     };
     return row(y.first) * (1.0f - y.weight) + row(y.second) * y.weight;
 }

@@ -18,11 +18,11 @@ extern const std::array<float, 256> kSrgbToLinear;
 /// A texel's integer coordinate after wrapping; any `x` that fits in 32 bits, `size` >= 1.
 int32_t wrapTexel(int32_t x, int32_t size, Wrap wrap);
 
-/// Lookup by the texture's filter. (0, 0) is the upper left corner of the upper left texel, as in glTF. A
-/// coordinate that is not finite reads as 0. The texture has at least one texel.
+/// Samples a texture of at least one texel with its filter. (0, 0) is the upper left corner of the upper left
+/// texel, as in glTF. Coordinates that are not finite count as 0.
 glm::vec4 sampleTexture(const Texture& texture, glm::vec2 uv);
 
-/// The coordinates with which a material reads a texture: set 0 or 1, then KHR_texture_transform.
+/// Texture coordinates of a material: set 0 or 1, then KHR_texture_transform.
 inline glm::vec2 textureCoordinates(const TextureRef& ref, const glm::vec4& texCoords) {
     const float u = ref.texCoord == 0 ? texCoords.x : texCoords.z;
     const float v = ref.texCoord == 0 ? texCoords.y : texCoords.w;
@@ -30,18 +30,18 @@ inline glm::vec2 textureCoordinates(const TextureRef& ref, const glm::vec4& texC
     return {m[0].x * u + m[0].y * v + m[0].z, m[1].x * u + m[1].y * v + m[1].z};
 }
 
-/// Weighted sum of a triangle's three values; `u` and `v` weigh the second and the third.
+/// Barycentric interpolation; `u` and `v` are the weights of `b` and `c`.
 template <typename T>
 T interpolate(const T& a, const T& b, const T& c, float u, float v) {
     return a * (1.0f - u - v) + b * u + c * v;
 }
 
-/// Alphas below it are cut away: the material's cutoff, less what rounds off in floats on the way to a
-/// product of factor, texture and vertex colour. An alpha equal to the cutoff is opaque.
+/// The material's alpha cutoff, less the rounding error of the product of factor, texture and vertex colour:
+/// an alpha equal to the cutoff is opaque.
 float alphaThreshold(const Material& material);
 
-/// Whether an alpha-masked surface is cut away at a point of a triangle: base colour's alpha (factor *
-/// texture * vertex colour) below the threshold.
+/// Whether the base colour's alpha (factor * texture * vertex colour) at a point of a triangle is below the
+/// threshold.
 bool isCutAway(const SceneState& state, uint32_t triangle, float u, float v);
 
 }  // namespace voxray

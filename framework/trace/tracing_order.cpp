@@ -14,7 +14,7 @@ namespace {
 
 constexpr size_t kParallelTriangles = 8192;
 
-/// Corners' minimum plus maximum: twice the center of the triangle's box. By triangle, for those listed.
+/// Twice the centers of the bounding boxes of the listed triangles, by triangle of the scene.
 std::vector<glm::vec3> centers(const Geometry& geometry, std::span<const uint32_t> triangles) {
     std::vector<glm::vec3> result(geometry.triangles.size());
     parallelRanges(triangles.size(), kParallelTriangles, [&](size_t begin, size_t end) {
@@ -28,8 +28,8 @@ std::vector<glm::vec3> centers(const Geometry& geometry, std::span<const uint32_
     return result;
 }
 
-/// Splits a list into halves (the first the larger), neighbours together; ties go by number, so that the
-/// outcome does not depend on threads.
+/// Splits a list at the median along its longest axis (the first half is the larger). Ties are broken by
+/// index, so that the result doesn't depend on threads.
 std::pair<std::span<uint32_t>, std::span<uint32_t>> halve(std::span<uint32_t> triangles,
                                                           const std::vector<glm::vec3>& centers) {
     glm::vec3 low = centers[triangles[0]], high = low;
@@ -59,19 +59,19 @@ void sortAsTree(std::span<uint32_t> triangles, const std::vector<glm::vec3>& cen
     }
 }
 
-/// Halves until a part is small enough to be a chunk, then orders it. How large the chunks are depends on the
-/// number of triangles alone. @return the first place of each.
+/// Splits a range recursively into chunks and sorts each. The sizes of chunks depend only on the number of
+/// triangles. @return the first index of each chunk.
 std::vector<uint32_t> sortIntoChunks(TracingOrder& order, const TracingOrder::Range& range,
                                      const std::vector<glm::vec3>& centers) {
     std::vector<uint32_t> chunkFirst;
-    const auto split = [&](const auto& self, std::span<uint32_t> part) -> void {
-        if (part.empty()) return;
-        if (part.size() <= order.maxChunk) {
-            chunkFirst.push_back(uint32_t(part.data() - order.triangles.data()));
-            sortAsTree(part, centers);
+    const auto split = [&](const auto& self, std::span<uint32_t> list) -> void {
+        if (list.empty()) return;
+        if (list.size() <= order.maxChunk) {
+            chunkFirst.push_back(uint32_t(list.data() - order.triangles.data()));
+            sortAsTree(list, centers);
             return;
         }
-        const auto halves = halve(part, centers);
+        const auto halves = halve(list, centers);
         self(self, halves.first);
         self(self, halves.second);
     };
@@ -87,7 +87,7 @@ TracingOrder tracingOrder(const SceneState& state, uint32_t maxChunk) {
     for (const InstanceRange& range : movingRuns(geometry))
         std::fill_n(moves.begin() + ptrdiff_t(range.firstTriangle), range.triangleCount, true);
 
-    // Opaque ones that stay, that move, masked ones that stay, that move.
+    // Opaque static, opaque moving, masked static, masked moving.
     TracingOrder order;
     order.maxChunk = maxChunk;
     std::array<TracingOrder::Range, 4> groups;

@@ -9,19 +9,18 @@
 
 namespace voxray {
 
-/// The order in which the GPU tracers hold a scene's triangles: opaque ones first, those with an alpha mask
-/// last, both in chunks of neighbours, those that move apart from those that stay. Within a chunk triangles
-/// follow the leaves of a tree that halves them along the longest axis: software Vulkan builds its trees by
-/// halving the list as it stands, so that this order is the quality of its tree (17 times the speed on the
-/// Stanford dragon). GPUs sort for themselves.
+/// Order of a scene's triangles in the GPU tracers: opaque static, opaque moving, masked static, masked
+/// moving ones, each in spatially compact chunks. Within a chunk triangles have the order of the leaves of a
+/// tree by object median splits along the longest axis: software Vulkan builds its BVH by halving the list as
+/// it is, so that this order determines its quality (17 times the speed on the Stanford dragon). GPUs sort
+/// for themselves.
 struct TracingOrder {
-    std::vector<uint32_t> triangles;  ///< Numbers in the scene.
-    std::vector<uint32_t>
-        chunkFirst;  ///< Place in `triangles` of each chunk's first; none for an empty scene.
+    std::vector<uint32_t> triangles;   ///< Of the scene.
+    std::vector<uint32_t> chunkFirst;  ///< Indices into `triangles`; empty for an empty scene.
     uint32_t opaqueCount = 0;
-    uint32_t maxChunk = 0;  ///< Most triangles of a chunk.
+    uint32_t maxChunk = 0;  ///< Maximum number of triangles in a chunk.
 
-    /// Places in `triangles` of those that move: opaque ones, masked ones.
+    /// Indices into `triangles` of moving triangles: opaque ones, masked ones.
     struct Range {
         uint32_t first = 0, end = 0;
     };
@@ -32,16 +31,16 @@ struct TracingOrder {
             return chunkFirst[chunk] >= range.first && chunkFirst[chunk] < range.end;
         });
     }
-    /// Place after a chunk's last triangle.
+    /// Index after a chunk's last triangle.
     uint32_t chunkEnd(size_t chunk) const {
         return chunk + 1 < chunkFirst.size() ? chunkFirst[chunk + 1] : uint32_t(triangles.size());
     }
 };
 
-/// @param maxChunk most triangles of a chunk, at least 1.
+/// @param maxChunk maximum number of triangles in a chunk, at least 1.
 TracingOrder tracingOrder(const SceneState& state, uint32_t maxChunk);
 
-/// Sorts the triangles that move by where they are now; chunks keep their places and sizes.
+/// Sorts moving triangles by their current positions; chunks keep their ranges.
 void sortMoving(const SceneState& state, TracingOrder& order);
 
 }  // namespace voxray

@@ -9,7 +9,7 @@
 
 namespace voxray {
 
-/// A device buffer that holds `data`, with room for one element where there is none.
+/// A device buffer with `data`, of at least one element.
 template <typename T>
 Buffer uploaded(Device& device, CommandStream& stream, const char* name, const std::vector<T>& data) {
     Buffer buffer(device, name, std::max<uint64_t>(data.size(), 1) * sizeof(T));

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "base/byte_units.h"
+#include "vulkan/memory_pool.h"
 #include "vulkan/size_error.h"
-#include "vulkan/spare_memory.h"
 #include "vulkan/structure.h"
 
 namespace voxray {
@@ -19,7 +19,7 @@ bool sharesMemory(const Device& device) {
            device.properties().deviceType == VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU;
 }
 
-/// The allowed memory type that has all of `needed` and most of `preferred`; the first one of equals.
+/// The first allowed memory type with all flags of `needed` and most of `preferred`.
 std::optional<uint32_t> findType(const Device& device, uint32_t allowed, VkMemoryPropertyFlags needed,
                                  VkMemoryPropertyFlags preferred) {
     const VkPhysicalDeviceMemoryProperties& memory = device.memoryProperties();
@@ -63,7 +63,7 @@ DeviceMemory allocateMemory(Device& device, const std::string& name, const VkMem
                         double(requirements.size) / kMiB, device.info().name,
                         double(limits.maxMemoryAllocationSize) / kMiB);
 
-    // The memory type: mapped where the host needs it or shares it, cached for reading back.
+    // Memory type: mapped if the host needs or shares it, cached for reading back.
     const VkMemoryPropertyFlags needed = isMapped(device, kind) ? kHost : 0;
     VkMemoryPropertyFlags preferred = 0;
     if (kind != MemoryKind::Upload) preferred |= VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
@@ -71,10 +71,10 @@ DeviceMemory allocateMemory(Device& device, const std::string& name, const VkMem
     const std::optional<uint32_t> type = findType(device, requirements.memoryTypeBits, needed, preferred);
     if (!type) throw Error("device '{}' has no memory type for '{}'", device.info().name, name);
 
-    // Books first, so that a refusal happens before the driver is asked.
+    // Checks the memory limit before the driver is called.
     device.reserveMemory(requirements.size, name);
-    SpareMemory& spare = device.spareMemory();
-    if (const auto memory = spare.take(requirements.size, *type, addressable)) return *memory;
+    MemoryPool& pool = device.memoryPool();
+    if (const auto memory = pool.acquire(requirements.size, *type, addressable)) return *memory;
     auto flags = structure<VkMemoryAllocateFlagsInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO);
     flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
     auto allocate = structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
@@ -83,8 +83,8 @@ DeviceMemory allocateMemory(Device& device, const std::string& name, const VkMem
     allocate.memoryTypeIndex = *type;
     DeviceMemory memory{VK_NULL_HANDLE, requirements.size, *type, addressable};
     VkResult result = vkAllocateMemory(device.handle(), &allocate, nullptr, &memory.handle);
-    if (result != VK_SUCCESS && spare.bytes() > 0) {
-        spare.freeAll();
+    if (result != VK_SUCCESS && pool.bytes() > 0) {
+        pool.freeAll();
         result = vkAllocateMemory(device.handle(), &allocate, nullptr, &memory.handle);
     }
     if (result != VK_SUCCESS) {
@@ -96,7 +96,7 @@ DeviceMemory allocateMemory(Device& device, const std::string& name, const VkMem
 }
 
 void freeMemory(Device& device, const std::string& name, const DeviceMemory& memory) {
-    device.spareMemory().keep(memory);
+    device.memoryPool().recycle(memory);
     device.releaseMemory(memory.bytes, name);
 }
 

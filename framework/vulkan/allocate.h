@@ -6,21 +6,22 @@
 
 #include "vulkan/memory.h"
 
-/// Device memory, one allocation a resource. Internal to the vulkan layer.
+/// Device memory, one allocation per resource. Internal to the vulkan layer.
 namespace voxray {
 
-/// Most bytes of one buffer.
+/// Maximum size of a buffer.
 uint64_t maxBufferBytes(const Device& device);
 
 /// Whether memory of this kind is mapped for the host.
 bool isMapped(const Device& device, MemoryKind kind);
 
-/// Books and allocates memory, spare memory of that size first. `addressable`: with a device address.
-/// @throws SizeError naming the resource where it is too large, the limit is reached or the driver refuses.
+/// Allocates memory and counts it as used; takes it from the pool if possible. `addressable`: with a device
+/// address. @throws SizeError naming the resource if it is too large, the limit is reached or the driver
+/// refuses.
 DeviceMemory allocateMemory(Device& device, const std::string& name, const VkMemoryRequirements& requirements,
                             MemoryKind kind, bool addressable);
 
-/// Takes memory, which must not be mapped, off the books and makes it spare.
+/// Returns memory, which must not be mapped, to the pool; it no longer counts as used.
 void freeMemory(Device& device, const std::string& name, const DeviceMemory& memory);
 
 }  // namespace voxray

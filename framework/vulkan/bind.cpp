@@ -39,8 +39,7 @@ bool isNumber(const Binding& binding) {
     return std::holds_alternative<Number>(binding.value);
 }
 
-/// What is given under a name, as a resource or as a number; what a resource brings along comes last. Null
-/// where there is none.
+/// The binding of a name, a resource or a number; optional ones come last. Null if there is none.
 const Binding* find(std::span<const Binding> given, std::string_view name, bool asNumber) {
     const Binding* found = nullptr;
     for (const Binding& binding : given)
@@ -50,23 +49,23 @@ const Binding* find(std::span<const Binding> given, std::string_view name, bool 
     return found;
 }
 
-/// In GLSL a trailing underscore tells a name from a keyword.
+/// Strips the trailing underscore of GLSL names that would be keywords.
 std::string_view withoutUnderscore(std::string_view name) {
     return name.substr(0, name.find_last_not_of('_') + 1);
 }
 
-/// @throws Error for what is given and not declared, and for what is given twice.
+/// @throws Error for a binding that is not declared, or given twice.
 void checkUses(const Program& program, std::span<const Binding> given) {
     std::vector<std::string> names, numbers;
-    for (const ShaderBinding& wanted : program.bindings()) names.push_back(wanted.name);
-    for (const ShaderPushMember& wanted : program.pushMembers())
-        numbers.emplace_back(withoutUnderscore(wanted.name));
+    for (const ShaderBinding& shaderBinding : program.bindings()) names.push_back(shaderBinding.name);
+    for (const ShaderPushMember& member : program.pushMembers())
+        numbers.emplace_back(withoutUnderscore(member.name));
     for (const Binding& binding : given) {
-        const std::vector<std::string>& known = isNumber(binding) ? numbers : names;
-        if (!binding.optional && std::ranges::find(known, binding.name) == known.end())
+        const std::vector<std::string>& declared = isNumber(binding) ? numbers : names;
+        if (!binding.optional && std::ranges::find(declared, binding.name) == declared.end())
             throw Error("{}: there is no {} '{}'{}", program.name(),
                         isNumber(binding) ? "push constant" : "binding", binding.name,
-                        didYouMean(binding.name, known));
+                        didYouMean(binding.name, declared));
         const auto isSame = [&](const Binding& other) {
             return other.name == binding.name && other.optional == binding.optional &&
                    isNumber(other) == isNumber(binding);
@@ -76,18 +75,18 @@ void checkUses(const Program& program, std::span<const Binding> given) {
     }
 }
 
-/// Every binding of a program with what is given for it.
+/// The given binding for each one that the program declares.
 std::vector<const Binding*> matchBindings(const Program& program, std::span<const Binding> given) {
     std::vector<const Binding*> matched;
-    for (const ShaderBinding& wanted : program.bindings()) {
-        const Binding* found = find(given, wanted.name, false);
-        if (!found) throw Error("{}: binding '{}' is not given", program.name(), wanted.name);
+    for (const ShaderBinding& shaderBinding : program.bindings()) {
+        const Binding* found = find(given, shaderBinding.name, false);
+        if (!found) throw Error("{}: binding '{}' is not given", program.name(), shaderBinding.name);
         matched.push_back(found);
     }
     return matched;
 }
 
-/// The block of push constants out of the numbers among the bindings.
+/// The push constant block, from the numbers among the bindings.
 std::vector<std::byte> pushBlock(const Program& program, std::span<const Binding> given) {
     std::vector<std::byte> block(program.pushConstantBytes());
     for (const ShaderPushMember& member : program.pushMembers()) {
@@ -112,29 +111,29 @@ class Writes {
         structures_.reserve(count);
     }
 
-    void add(const ShaderBinding& wanted, const Binding& given) {
+    void add(const ShaderBinding& shaderBinding, const Binding& given) {
         auto write = structure<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
-        write.dstBinding = wanted.binding;
+        write.dstBinding = shaderBinding.binding;
         write.descriptorCount = 1;
-        write.descriptorType = wanted.type;
+        write.descriptorType = shaderBinding.type;
         if (const auto* buffer = std::get_if<const Buffer*>(&given.value)) {
-            expect(wanted, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-            write.pBufferInfo = &buffers_.emplace_back(bufferInfo(wanted, **buffer));
+            expect(shaderBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+            write.pBufferInfo = &buffers_.emplace_back(bufferInfo(shaderBinding, **buffer));
         } else if (const auto* image = std::get_if<const Image*>(&given.value)) {
-            const bool isSampled = wanted.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-            expect(wanted, isSampled || given.sampler ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
-                                                      : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
+            const bool isSampled = shaderBinding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+            expect(shaderBinding, isSampled || given.sampler ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
+                                                             : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
             const VkImageView view = isSampled ? (*image)->view() : (*image)->levelView(given.level);
             const VkSampler sampler = !isSampled      ? VK_NULL_HANDLE
                                       : given.sampler ? given.sampler->handle()
                                                       : device_.texelSampler();
             write.pImageInfo = &images_.emplace_back(sampler, view, VK_IMAGE_LAYOUT_GENERAL);
         } else if (const auto* structure = std::get_if<VkAccelerationStructureKHR>(&given.value)) {
-            expect(wanted, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
+            expect(shaderBinding, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
             write.pNext = &structures_.emplace_back(
                 VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, nullptr, 1u, structure);
         } else {
-            refuse(wanted);
+            refuse(shaderBinding);
         }
         writes_.push_back(write);
     }
@@ -142,22 +141,25 @@ class Writes {
     const std::vector<VkWriteDescriptorSet>& list() const { return writes_; }
 
  private:
-    VkDescriptorBufferInfo bufferInfo(const ShaderBinding& wanted, const Buffer& buffer) const {
+    VkDescriptorBufferInfo bufferInfo(const ShaderBinding& shaderBinding, const Buffer& buffer) const {
         const uint64_t limit = device_.properties().limits.maxStorageBufferRange;
         if (buffer.bytes() > limit)
             throw Error(
                 "{}: buffer '{}' bound to '{}' holds {} bytes, but device '{}' binds at most {}; use the "
                 "buffer's address instead (GL_EXT_buffer_reference)",
-                program_.name(), buffer.name(), wanted.name, buffer.bytes(), device_.info().name, limit);
-        if (!buffer) throw Error("{}: the buffer bound to '{}' is empty", program_.name(), wanted.name);
+                program_.name(), buffer.name(), shaderBinding.name, buffer.bytes(), device_.info().name,
+                limit);
+        if (!buffer)
+            throw Error("{}: the buffer bound to '{}' is empty", program_.name(), shaderBinding.name);
         return {buffer.handle(), 0, VK_WHOLE_SIZE};
     }
 
-    void expect(const ShaderBinding& wanted, VkDescriptorType given) const {
-        if (wanted.set != 0 || wanted.type != given) refuse(wanted);
+    void expect(const ShaderBinding& shaderBinding, VkDescriptorType given) const {
+        if (shaderBinding.set != 0 || shaderBinding.type != given) refuse(shaderBinding);
     }
-    [[noreturn]] void refuse(const ShaderBinding& wanted) const {
-        throw Error("{}: binding '{}' takes {}", program_.name(), wanted.name, kindName(wanted.type));
+    [[noreturn]] void refuse(const ShaderBinding& shaderBinding) const {
+        throw Error("{}: binding '{}' takes {}", program_.name(), shaderBinding.name,
+                    kindName(shaderBinding.type));
     }
 
     const Device& device_;
@@ -178,14 +180,14 @@ void CommandStream::Impl::bind(VkCommandBuffer buffer, const Program& program,
         vkCmdPushConstants(buffer, program.layout(), program.stages(), 0, uint32_t(block.size()),
                            block.data());
 
-    // Set 0 is pushed, the texture array is bound as a set of its own.
+    // Set 0 is pushed; the texture array is a descriptor set.
     const std::vector<const Binding*> matched = matchBindings(program, given);
     Writes writes(device, program, matched.size());
     for (size_t i = 0; i < matched.size(); ++i) {
-        const ShaderBinding& wanted = program.bindings()[i];
+        const ShaderBinding& shaderBinding = program.bindings()[i];
         const auto* textures = std::get_if<const TextureArray*>(&matched[i]->value);
-        if (wanted.set == 0 || !textures) {
-            writes.add(wanted, *matched[i]);
+        if (shaderBinding.set == 0 || !textures) {
+            writes.add(shaderBinding, *matched[i]);
             continue;
         }
         const VkDescriptorSet set = (*textures)->set();

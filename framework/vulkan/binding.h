@@ -20,7 +20,7 @@
 #include "vulkan/memory.h"
 #include "vulkan/program.h"
 
-/// What a call gives to a program's shaders, by the names that these declare.
+/// Resources and push constants of a call, by the names that shaders declare.
 namespace voxray {
 
 /// The value of a push constant: a number, a vector, a matrix or a plain struct.
@@ -31,7 +31,7 @@ class Number {
         static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= sizeof(data_));
         std::memcpy(data_.data(), &value, sizeof(T));
     }
-    /// As the 32-bit number that it is in GLSL.
+    /// Stored as 32 bits, as in GLSL.
     explicit Number(bool value) : Number(uint32_t(value)) {}
 
     NumberKind kind() const { return kind_; }
@@ -67,16 +67,14 @@ concept IsNumber =
     std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> && !std::derived_from<T, Buffer> &&
     !std::derived_from<T, Image> && !std::same_as<T, TextureArray>;
 
-/// A resource or a number for a shader's name. An image binds as the shader declares it: as a storage image
-/// (level 0, or `level`), or as a sampled one, by the sampler that is given, else by nearest texels clamped
-/// to the edge.
+/// A resource or a number for a name in a shader. An image binds as the shader declares it: as a storage
+/// image (mip `level`), or sampled by `sampler`, by default nearest and clamped to the edge.
 struct Binding {
     std::string_view name;
     std::variant<const Buffer*, const Image*, const TextureArray*, VkAccelerationStructureKHR, Number> value;
     const Sampler* sampler = nullptr;
     uint32_t level = 0;
-    /// A program that does not use it may leave it out; what is given under its name otherwise stands above
-    /// it.
+    /// Ignored by programs that don't declare the name. A binding of the same name that isn't optional wins.
     bool optional = false;
 
     Binding(std::string_view n, const Buffer& b) : name(n), value(&b) {}
@@ -89,19 +87,19 @@ struct Binding {
     Binding(std::string_view n, const T& number) : name(n), value(Number(number)) {}
 };
 
-/// A binding that shaders/*.glsl declares for whoever includes it, used or not.
+/// A binding for shared GLSL, ignored by programs that don't declare it.
 inline Binding ifUsed(Binding binding) {
     binding.optional = true;
     return binding;
 }
 
-/// What brings bindings of its own, such as a resource of a graph: `bindings()` gives them.
+/// Has bindings of its own, such as a resource of a graph.
 template <typename T>
 concept HasBindings = requires(const T& t) {
     { t.bindings() } -> std::convertible_to<std::vector<Binding>>;
 };
 
-/// All that a call gives, in a list such as {{"result", image}, {"count", 7u}, voxels}.
+/// The bindings of a call, in a list such as {{"result", image}, {"count", 7u}, voxels}.
 class Bindings {
  public:
     /// One entry of the list.
@@ -110,7 +108,7 @@ class Bindings {
         template <typename... More>
         Entry(std::string_view name, const More&... what) : bindings{Binding(name, what...)} {}
         Entry(Binding binding) : bindings{std::move(binding)} {}
-        Entry(std::vector<Binding> all) : bindings(std::move(all)) {}
+        Entry(std::vector<Binding> list) : bindings(std::move(list)) {}
         template <HasBindings T>
         Entry(const T& resource) : bindings(resource.bindings()) {}
     };
@@ -124,14 +122,13 @@ class Bindings {
     std::vector<Binding> all_;
 };
 
-/// How many invocations of a compute shader a dispatch makes, at least: work groups follow from the shader's
-/// local size.
+/// Minimum number of invocations of a dispatch, rounded up to work groups of the shader's local size.
 class Invocations {
  public:
-    /// One each for so many elements. Work groups are folded into rows of 32768 (devices allow 65535 along an
-    /// axis); GLSL counterpart: linearIndex() in shaders/compute/linear_index.glsl.
+    /// One per element. Work groups are folded into rows of 32768 (devices allow 65535 along an axis); GLSL
+    /// counterpart: linearIndex() in shaders/compute/linear_index.glsl.
     Invocations(uint64_t count) : count_(count) {}
-    /// One for each pixel, or for each texel of a volume.
+    /// One per pixel, or per texel of a volume.
     Invocations(glm::uvec2 pixels) : Invocations(glm::uvec3(pixels, 1)) {}
     Invocations(glm::uvec3 texels) : texels_(texels), isLinear_(false) {}
 

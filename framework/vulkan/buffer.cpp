@@ -10,8 +10,8 @@
 namespace voxray {
 namespace {
 
-/// What a watched device's buffers hold before anything is written: NaN as floats, -1 as integers. Who reads
-/// what nobody wrote fails its tests.
+/// Initial bytes of buffers with validation: NaN as floats, -1 as integers, so that tests fail that read
+/// uninitialized memory.
 constexpr int kUnwritten = 0xff;
 
 }  // namespace
@@ -53,7 +53,7 @@ Buffer::Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind
     address_ = vkGetBufferDeviceAddress(device.handle(), &info);
     if (!isMapped(device, kind)) return;
     check(vkMapMemory(device.handle(), memory_.handle, 0, VK_WHOLE_SIZE, 0, &mapped_), "vkMapMemory");
-    if (device.isWatched()) std::memset(mapped_, kUnwritten, bytes_);
+    if (device.hasValidation()) std::memset(mapped_, kUnwritten, bytes_);
 }
 
 Buffer::~Buffer() {

@@ -12,7 +12,7 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kTimestampsPerPool = 256;
-constexpr uint64_t kSmallBytes = 8 << 10;  ///< Of a kept staging buffer: for counters and parameters.
+constexpr uint64_t kSmallBytes = 8 << 10;  ///< Of a persistent staging buffer, for counters and parameters.
 
 void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 dstStage, VkAccessFlags2 dstAccess) {
     auto barrier = structure<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
@@ -62,7 +62,7 @@ CommandStream::Impl::~Impl() {
     vkDestroyCommandPool(device.handle(), pool, nullptr);
 }
 
-VkCommandBuffer CommandStream::Impl::open() {
+VkCommandBuffer CommandStream::Impl::beginRecording() {
     if (device.isHost()) throw Error("{}", whyNoDevice({}));
     if (recording) return commands;
     auto begin = structure<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
@@ -70,7 +70,7 @@ VkCommandBuffer CommandStream::Impl::open() {
     check(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
     recording = true;
 
-    // Labels that were open at the last finish() go on.
+    // Reopen labels that were open at the last finish().
     for (const std::string& name : labels) {
         VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, nullptr, name.c_str(), {}};
         beginLabel(commands, &label);
@@ -78,8 +78,8 @@ VkCommandBuffer CommandStream::Impl::open() {
     return commands;
 }
 
-VkCommandBuffer CommandStream::Impl::next() {
-    open();
+VkCommandBuffer CommandStream::Impl::recordAfterBarrier() {
+    beginRecording();
     fullBarrier(commands);
     return commands;
 }
@@ -139,20 +139,20 @@ void CommandStream::dispatch(const Program& program, const Invocations& invocati
     if (groups.x > limit[0] || groups.y > limit[1] || groups.z > limit[2])
         throw Error("{}: {}x{}x{} work groups; device '{}' allows {}x{}x{} in one dispatch", program.name(),
                     groups.x, groups.y, groups.z, impl_->device.info().name, limit[0], limit[1], limit[2]);
-    const VkCommandBuffer commands = impl_->next();
+    const VkCommandBuffer commands = impl_->recordAfterBarrier();
     impl_->bind(commands, program, bindings.all());
     vkCmdDispatch(commands, groups.x, groups.y, groups.z);
     ++impl_->counts.dispatches;
 }
 
 void CommandStream::record(const std::function<void(VkCommandBuffer)>& commands) {
-    commands(impl_->next());
+    commands(impl_->recordAfterBarrier());
     ++impl_->counts.dispatches;
 }
 
 void CommandStream::record(const Program& program, const Bindings& bindings,
                            const std::function<void(VkCommandBuffer)>& commands) {
-    const VkCommandBuffer buffer = impl_->next();
+    const VkCommandBuffer buffer = impl_->recordAfterBarrier();
     impl_->bind(buffer, program, bindings.all());
     commands(buffer);
     ++impl_->counts.dispatches;
@@ -160,10 +160,10 @@ void CommandStream::record(const Program& program, const Bindings& bindings,
 
 void CommandStream::draw(const Program& program, const RasterTargets& targets, uint32_t vertexCount,
                          const Bindings& bindings, uint32_t instanceCount) {
-    const VkCommandBuffer commands = impl_->next();
+    const VkCommandBuffer commands = impl_->recordAfterBarrier();
     impl_->bind(commands, program, bindings.all());
 
-    // Attachments: cleared or kept, always stored.
+    // Attachments: cleared or loaded, always stored.
     const auto attach = [&](const Image& image) {
         if (image.desc().extent.x < targets.extent.x || image.desc().extent.y < targets.extent.y)
             throw Error("{}: target '{}' is smaller than the viewport of {}x{}", program.name(), image.name(),
@@ -207,7 +207,7 @@ void CommandStream::draw(const Program& program, const RasterTargets& targets, u
 
 void CommandStream::beginLabel(const std::string& name) {
     if (!impl_->beginLabel) return;
-    const VkCommandBuffer commands = impl_->open();
+    const VkCommandBuffer commands = impl_->beginRecording();
     impl_->labels.push_back(name);
     VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, nullptr, name.c_str(), {}};
     impl_->beginLabel(commands, &label);
@@ -216,7 +216,7 @@ void CommandStream::beginLabel(const std::string& name) {
 void CommandStream::endLabel() {
     if (!impl_->beginLabel) return;
     if (impl_->labels.empty()) throw Error("endLabel() without beginLabel()");
-    impl_->endLabel(impl_->open());
+    impl_->endLabel(impl_->beginRecording());
     impl_->labels.pop_back();
 }
 
@@ -236,7 +236,7 @@ uint32_t CommandStream::timestamp() {
         check(vkCreateQueryPool(impl_->device.handle(), &create, nullptr, &queries), "vkCreateQueryPool");
         impl_->queryPools.push_back(queries);
     }
-    const VkCommandBuffer commands = impl_->next();
+    const VkCommandBuffer commands = impl_->recordAfterBarrier();
     if (slot == 0) vkCmdResetQueryPool(commands, impl_->queryPools[pool], 0, kTimestampsPerPool);
     vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, impl_->queryPools[pool], slot);
     return index;

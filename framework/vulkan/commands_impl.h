@@ -13,18 +13,18 @@ struct CommandStream::Impl {
     explicit Impl(Device& device);
     ~Impl();
 
-    /// The command buffer, recording, after a full barrier.
-    VkCommandBuffer next();
-    /// The command buffer, recording, without a barrier.
-    VkCommandBuffer open();
+    /// The command buffer in recording state, after a full barrier.
+    VkCommandBuffer recordAfterBarrier();
+    /// The command buffer in recording state.
+    VkCommandBuffer beginRecording();
     void finish();
     void discard();
 
-    /// Binds a program with what its shaders name.
-    /// @throws Error naming program and binding where one is missing, unknown or of the wrong kind.
+    /// Binds a program, its descriptors and its push constants.
+    /// @throws Error naming program and binding if one is missing, unknown or of the wrong kind.
     void bind(VkCommandBuffer commands, const Program& program, std::span<const Binding> bindings);
 
-    /// Where data waits for its upload.
+    /// Data in a staging buffer.
     struct Staged {
         const Buffer* buffer;
         uint64_t offset;
@@ -38,21 +38,21 @@ struct CommandStream::Impl {
     VkFence fence = VK_NULL_HANDLE;
     bool recording = false;
     std::vector<std::string> labels;  ///< Open ones, outermost first.
-    Buffer smallUploads;              ///< Kept, for uploads of few bytes.
-    Buffer smallReads;              ///< Kept, for reading few bytes back from memory that the host can't see.
-    uint64_t smallUploadBytes = 0;  ///< Waiting in smallUploads.
+    Buffer smallUploads;              ///< Persistent staging buffer of small uploads.
+    Buffer smallReads;                ///< Persistent staging buffer of small reads from unmapped memory.
+    uint64_t smallUploadBytes = 0;    ///< Pending in smallUploads.
     std::vector<Buffer> staging;
     uint64_t stagingBytes = 0;
     StreamCounts counts;
     std::vector<VkQueryPool> queryPools;
     uint32_t timestamps = 0;
-    std::vector<std::chrono::steady_clock::time_point> hostTimestamps;  ///< Where there is no Vulkan.
+    std::vector<std::chrono::steady_clock::time_point> hostTimestamps;  ///< Without Vulkan.
     PFN_vkCmdPushDescriptorSetKHR pushDescriptors = nullptr;
     PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel = nullptr;
     PFN_vkCmdEndDebugUtilsLabelEXT endLabel = nullptr;
 };
 
-/// Orders everything after everything before.
+/// Orders all later commands after all earlier ones.
 void fullBarrier(VkCommandBuffer commands);
 
 }  // namespace voxray

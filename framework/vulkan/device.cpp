@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "base/byte_units.h"
+#include "vulkan/memory_pool.h"
 #include "vulkan/size_error.h"
-#include "vulkan/spare_memory.h"
 #include "vulkan/structure.h"
 #include "vulkan/support.h"
 
@@ -18,7 +18,7 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kMaxTextures = 4096;
-constexpr uint64_t kLargestSpareBytes = 256ull << 20;
+constexpr uint64_t kMaxPooledBytes = 256ull << 20;
 
 std::string lower(std::string text) {
     std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
@@ -61,12 +61,12 @@ std::string whyNoDevice(const std::vector<DeviceInfo>& devices) {
 }
 
 struct Device::Impl {
-    explicit Impl(const DeviceOptions& options) : isWatched(options.validation) {
+    explicit Impl(const DeviceOptions& options) : hasValidation(options.validation) {
         if (!options.isHost) instance.emplace(options.validation);
     }
     ~Impl() {
         if (device) vkDeviceWaitIdle(device);
-        spare.reset();
+        pool.reset();
         if (textureSetLayout) vkDestroyDescriptorSetLayout(device, textureSetLayout, nullptr);
         if (texelSampler) vkDestroySampler(device, texelSampler, nullptr);
         if (commandPool) vkDestroyCommandPool(device, commandPool, nullptr);
@@ -80,8 +80,8 @@ struct Device::Impl {
     void describeHost();
 
     std::optional<Instance> instance;
-    bool isWatched;
-    std::unique_ptr<SpareMemory> spare;
+    bool hasValidation;
+    std::unique_ptr<MemoryPool> pool;
     DeviceSupport support;
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
@@ -157,21 +157,21 @@ void Device::Impl::createTexelSampler() {
 }
 
 void Device::Impl::readProperties() {
-    auto all =
+    auto chain =
         structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, nullptr);
     if (support.info.rayPipeline) {
-        rayPipeline.pNext = all.pNext;
-        all.pNext = &rayPipeline;
+        rayPipeline.pNext = chain.pNext;
+        chain.pNext = &rayPipeline;
     }
     if (support.info.rayQuery || support.info.rayPipeline) {
-        accelerationStructure.pNext = all.pNext;
-        all.pNext = &accelerationStructure;
+        accelerationStructure.pNext = chain.pNext;
+        chain.pNext = &accelerationStructure;
     }
-    vkGetPhysicalDeviceProperties2(support.physical, &all);
-    properties = all.properties;
+    vkGetPhysicalDeviceProperties2(support.physical, &chain);
+    properties = chain.properties;
     rayPipeline.pNext = accelerationStructure.pNext = nullptr;
 
-    // The limit is the largest heap of the device's own memory.
+    // The limit is the size of the largest device-local heap.
     vkGetPhysicalDeviceMemoryProperties(support.physical, &memoryProperties);
     for (uint32_t i = 0; i < memoryProperties.memoryHeapCount; ++i) {
         const VkMemoryHeap& heap = memoryProperties.memoryHeaps[i];
@@ -194,7 +194,7 @@ Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>(opti
     }
     impl_->support = choose(inspectDevices(impl_->instance->handle()), options.name);
     impl_->createDevice();
-    impl_->spare = std::make_unique<SpareMemory>(impl_->device, kLargestSpareBytes);
+    impl_->pool = std::make_unique<MemoryPool>(impl_->device, kMaxPooledBytes);
     impl_->readProperties();
     impl_->createTextureSetLayout();
     impl_->createTexelSampler();
@@ -284,12 +284,12 @@ std::vector<std::string> Device::validationMessages() const {
     return log.messages;
 }
 
-bool Device::isWatched() const {
-    return impl_->isWatched;
+bool Device::hasValidation() const {
+    return impl_->hasValidation;
 }
 
-SpareMemory& Device::spareMemory() {
-    return *impl_->spare;
+MemoryPool& Device::memoryPool() {
+    return *impl_->pool;
 }
 
 uint64_t Device::memoryLimitBytes() const {

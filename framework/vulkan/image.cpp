@@ -135,7 +135,7 @@ Image::Image(Device& device, std::string name, const ImageDesc& desc) : Image() 
     memory_ = allocateMemory(device, name_, requirements, MemoryKind::Device, false);
     check(vkBindImageMemory(device.handle(), handle_, memory_.handle, 0), "vkBindImageMemory");
 
-    // One view of all levels and one of each; transfer-only images have none.
+    // A view of all levels and one per level; transfer-only images have none.
     constexpr VkImageUsageFlags kViewed = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
                                           VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
                                           VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
@@ -146,7 +146,7 @@ Image::Image(Device& device, std::string name, const ImageDesc& desc) : Image() 
             levelViews_[level] = makeView(device, handle_, desc, level, 1);
     }
 
-    // The layout that the image keeps for good.
+    // The image keeps this layout.
     device.runNow([&](VkCommandBuffer commands) {
         auto barrier = structure<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2);
         barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;

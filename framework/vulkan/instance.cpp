@@ -63,7 +63,7 @@ Instance::Instance(bool validation) {
         VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
     messenger.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    // Performance messages are left out: they ask for other layouts than GENERAL, which is chosen on purpose.
+    // No performance messages: they object to the layout GENERAL, which is intended.
     messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
     messenger.pfnUserCallback = collectMessage;
     messenger.pUserData = &log_;

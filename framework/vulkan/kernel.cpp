@@ -12,28 +12,29 @@
 namespace voxray {
 namespace {
 
-/// A shader relative to the source root: next to a source file, or as it is where it names its whole path.
-std::string nextTo(std::string_view source, std::string_view file) {
+/// Path of a shader relative to the source root: in the folder of a source file, unless it begins with a top
+/// folder.
+std::string resolvePath(std::string_view source, std::string_view file) {
     constexpr std::array<std::string_view, 5> kTopFolders{"passes/", "framework/", "tests/", "docs/examples/",
                                                           "shaders/"};
     for (const std::string_view top : kTopFolders)
         if (file.starts_with(top)) return std::string(file);
 
-    // Compilers know sources by various paths.
+    // __FILE__ may be absolute or relative.
     size_t root = 0;
     for (const std::string_view top : kTopFolders)
-        for (size_t at = source.find(top); at != std::string_view::npos; at = source.find(top, at + 1))
-            if (at == 0 || source[at - 1] == '/') root = std::max(root, at);
+        for (size_t p = source.find(top); p != std::string_view::npos; p = source.find(top, p + 1))
+            if (p == 0 || source[p - 1] == '/') root = std::max(root, p);
     return std::string(source.substr(root, source.find_last_of('/') + 1 - root)) + std::string(file);
 }
 
-std::vector<std::string> allNextTo(std::string_view source, const std::vector<std::string>& files) {
-    std::vector<std::string> all;
-    for (const std::string& file : files) all.push_back(nextTo(source, file));
-    return all;
+std::vector<std::string> resolvePaths(std::string_view source, const std::vector<std::string>& files) {
+    std::vector<std::string> paths;
+    for (const std::string& file : files) paths.push_back(resolvePath(source, file));
+    return paths;
 }
 
-/// Calls f(0), f(1), ... on all cores. @throws what the first of them that throws has thrown.
+/// Calls f(0), f(1), ... on all cores. @throws the exception of the lowest index that threw.
 template <class F>
 void forEachInParallel(size_t count, const F& f) {
     std::vector<std::exception_ptr> errors(count);
@@ -51,7 +52,7 @@ void forEachInParallel(size_t count, const F& f) {
 }  // namespace
 
 PassProgram::PassProgram(ProgramOwner& owner, std::vector<std::string> files, Defines defines)
-    : owner_(owner), files_(std::move(files)), ownDefines_(std::move(defines)), defines_(ownDefines_) {
+    : owner_(owner), files_(std::move(files)), baseDefines_(std::move(defines)), defines_(baseDefines_) {
     owner_.programs_.push_back(this);
 }
 
@@ -60,10 +61,10 @@ PassProgram::~PassProgram() {
 }
 
 void PassProgram::define(const Defines& more) {
-    Defines all = more;
-    all.insert(ownDefines_.begin(), ownDefines_.end());
-    if (all == defines_) return;
-    defines_ = std::move(all);
+    Defines defines = more;
+    defines.insert(baseDefines_.begin(), baseDefines_.end());
+    if (defines == defines_) return;
+    defines_ = std::move(defines);
     program_ = {};
 }
 
@@ -79,7 +80,7 @@ PassProgram::operator const Program&() const {
 }
 
 Kernel::Kernel(ProgramOwner& owner, std::string_view file, Defines defines, const char* sourceFile)
-    : PassProgram(owner, {nextTo(sourceFile, file)}, std::move(defines)) {}
+    : PassProgram(owner, {resolvePath(sourceFile, file)}, std::move(defines)) {}
 
 Program Kernel::make(Device& device, std::span<const ShaderModule> modules,
                      const SpecializationConstants& constants) const {
@@ -88,7 +89,7 @@ Program Kernel::make(Device& device, std::span<const ShaderModule> modules,
 
 RasterPipeline::RasterPipeline(ProgramOwner& owner, const std::vector<std::string>& files, RasterState state,
                                Defines defines, const char* sourceFile)
-    : PassProgram(owner, allNextTo(sourceFile, files), std::move(defines)), state_(std::move(state)) {}
+    : PassProgram(owner, resolvePaths(sourceFile, files), std::move(defines)), state_(std::move(state)) {}
 
 void RasterPipeline::setState(RasterState state) {
     state_ = std::move(state);
@@ -102,11 +103,11 @@ Program RasterPipeline::make(Device& device, std::span<const ShaderModule> modul
 
 void compile(const std::vector<PassProgram*>& programs, Device& device, const ShaderCompiler& compiler) {
     using Source = std::pair<std::string, Defines>;
-    std::vector<PassProgram*> asked;
+    std::vector<PassProgram*> pending;
     std::vector<Source> sources;
     for (PassProgram* program : programs) {
         if (!program->isUsed_ || program->program_) continue;
-        asked.push_back(program);
+        pending.push_back(program);
         for (const std::string& file : program->files_) sources.emplace_back(file, program->defines_);
     }
     std::ranges::sort(sources);
@@ -115,14 +116,14 @@ void compile(const std::vector<PassProgram*>& programs, Device& device, const Sh
     forEachInParallel(sources.size(),
                       [&](size_t i) { modules[i] = compiler.compile(sources[i].first, sources[i].second); });
 
-    forEachInParallel(asked.size(), [&](size_t i) {
-        PassProgram& program = *asked[i];
-        std::vector<ShaderModule> own;
+    forEachInParallel(pending.size(), [&](size_t i) {
+        PassProgram& program = *pending[i];
+        std::vector<ShaderModule> stages;
         for (const std::string& file : program.files_) {
             const auto source = std::ranges::lower_bound(sources, Source{file, program.defines_});
-            own.push_back(modules[size_t(source - sources.begin())]);
+            stages.push_back(modules[size_t(source - sources.begin())]);
         }
-        program.program_ = program.make(device, own, program.constants_);
+        program.program_ = program.make(device, stages, program.constants_);
     });
 }
 

@@ -8,12 +8,12 @@
 
 #include "vulkan/program.h"
 
-/// Programs as members of a pass: they register with it, and all of a graph are compiled at once.
+/// Programs as members of a pass, which register with it. The graph compiles those of all passes in parallel.
 namespace voxray {
 
 class PassProgram;
 
-/// What programs are members of: a pass, also for the parts of it that several passes share.
+/// Owner of programs: a pass, passed on to the classes that several passes share.
 class ProgramOwner {
  public:
     ProgramOwner() = default;
@@ -36,15 +36,15 @@ class PassProgram {
     PassProgram(const PassProgram&) = delete;
     PassProgram& operator=(const PassProgram&) = delete;
 
-    /// Adds preprocessor definitions to those that were given at first, in place of those of an earlier call.
-    /// In plan(), as specialize() and compileIf().
+    /// Sets preprocessor definitions in addition to those of the constructor. This and the next two are
+    /// called in plan().
     void define(const Defines& more);
-    /// Values of specialization constants.
+    /// Sets the values of specialization constants.
     void specialize(const SpecializationConstants& constants);
-    /// Programs that aren't dispatched needn't be compiled.
+    /// Skips compilation of a program that won't be dispatched.
     void compileIf(bool isUsed) { isUsed_ = isUsed; }
 
-    /// @throws Error where it isn't compiled.
+    /// @throws Error if it isn't compiled.
     operator const Program&() const;
 
  protected:
@@ -59,7 +59,7 @@ class PassProgram {
 
     ProgramOwner& owner_;
     std::vector<std::string> files_;  ///< Relative to the source root.
-    Defines ownDefines_, defines_;
+    Defines baseDefines_, defines_;   ///< Of the constructor; with those of define().
     SpecializationConstants constants_;
     bool isUsed_ = true;
 };
@@ -67,7 +67,7 @@ class PassProgram {
 /// A compute shader, such as Kernel{*this, "composite.comp"}.
 class Kernel final : public PassProgram {
  public:
-    /// @param file next to the source file that makes the kernel, or from "passes/" or "shaders/" on.
+    /// @param file relative to the folder of `sourceFile`, or from "passes/" or "shaders/" on.
     Kernel(ProgramOwner& owner, std::string_view file, Defines defines = {},
            const char* sourceFile = __builtin_FILE());
 
@@ -79,7 +79,7 @@ class Kernel final : public PassProgram {
 /// A raster pipeline of shaders, such as RasterPipeline{*this, {"gbuffer.vert", "gbuffer.frag"}}.
 class RasterPipeline final : public PassProgram {
  public:
-    /// @param files as of a kernel, one a stage.
+    /// @param files as of a kernel, one per stage.
     RasterPipeline(ProgramOwner& owner, const std::vector<std::string>& files, RasterState state = {},
                    Defines defines = {}, const char* sourceFile = __builtin_FILE());
     /// In plan().
@@ -92,8 +92,8 @@ class RasterPipeline final : public PassProgram {
     RasterState state_;
 };
 
-/// Compiles those programs that are used and not compiled yet, on all cores; shaders that several have in
-/// common once. @throws Error as ShaderCompiler::compile() and makeComputeProgram(): that of the first.
+/// Compiles the used programs that aren't compiled yet, on all cores, shared shaders once.
+/// @throws Error of the first that fails, as ShaderCompiler::compile() and makeComputeProgram().
 void compile(const std::vector<PassProgram*>& programs, Device& device, const ShaderCompiler& compiler);
 
 }  // namespace voxray

@@ -14,18 +14,18 @@
 
 namespace voxray {
 
-/// Where a buffer lives. On software Vulkan all memory is mapped, whichever is asked for.
+/// Memory of a buffer. On software Vulkan all kinds are mapped.
 enum class MemoryKind {
-    Device,    ///< Fast for the device; mapped only where the device shares memory with the host.
+    Device,    ///< Fast for the device; mapped only if the device shares memory with the host.
     Upload,    ///< Host writes, device reads.
     Readback,  ///< Device writes, host reads.
 };
 
-/// One allocation of the driver's, of a buffer or an image.
+/// A driver allocation, of a buffer or an image.
 struct DeviceMemory {
     VkDeviceMemory handle = VK_NULL_HANDLE;
     uint64_t bytes = 0;  ///< With the driver's padding.
-    uint32_t type = 0;   ///< Index of the memory's type.
+    uint32_t type = 0;   ///< Index of the memory type.
     bool addressable = false;
 };
 
@@ -34,7 +34,7 @@ struct DeviceMemory {
 class Buffer {
  public:
     Buffer() = default;
-    /// @throws Error where the size is 0, over the device's or the configured memory limit.
+    /// @throws Error if the size is 0 or over the device's or the configured memory limit.
     Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind = MemoryKind::Device,
            VkBufferUsageFlags extraUsage = 0);
     ~Buffer();
@@ -46,7 +46,7 @@ class Buffer {
     uint64_t bytes() const { return bytes_; }
     VkBuffer handle() const { return handle_; }
     VkDeviceAddress address() const { return address_; }
-    /// Mapped memory, or nullptr. What the device writes is visible after CommandStream::finish().
+    /// Mapped memory, or nullptr. Writes of the device are visible after CommandStream::finish().
     void* mapped() const { return mapped_; }
     template <typename T>
     std::span<T> mappedAs() const {
@@ -61,10 +61,10 @@ class Buffer {
     DeviceMemory memory_;
     VkDeviceAddress address_ = 0;
     void* mapped_ = nullptr;
-    std::unique_ptr<std::byte[]> host_;  ///< Where there is no Vulkan.
+    std::unique_ptr<std::byte[]> host_;  ///< Without Vulkan.
 };
 
-/// What an image is. `extent.z` > 1 makes it 3D.
+/// Description of an image; 3D if `extent.z` > 1.
 struct ImageDesc {
     VkFormat format = VK_FORMAT_R32G32B32A32_SFLOAT;
     glm::uvec3 extent{1, 1, 1};
@@ -73,7 +73,7 @@ struct ImageDesc {
                               VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 };
 
-/// Bytes that an image of this description takes, mip levels included (before the driver's padding).
+/// Bytes of an image with its mip levels, without the driver's padding.
 uint64_t imageBytes(const ImageDesc& desc);
 
 /// Bytes of a texel (a depth texel for depth formats). @throws Error for a format that Voxray doesn't use.
@@ -82,12 +82,12 @@ uint32_t texelBytes(VkFormat format);
 /// Depth or colour aspect of a format.
 VkImageAspectFlags aspectOf(VkFormat format);
 
-/// An image with a view of all its levels, in VK_IMAGE_LAYOUT_GENERAL from its creation on. Its content is
-/// undefined until it is written. Move-only.
+/// An image with a view of all its levels, in VK_IMAGE_LAYOUT_GENERAL from its creation on, with undefined
+/// contents. Move-only.
 class Image {
  public:
     Image() = default;
-    /// @throws Error where the device can't make such an image, or the memory limit would be exceeded.
+    /// @throws Error if the device can't make such an image, or the memory limit would be exceeded.
     Image(Device& device, std::string name, const ImageDesc& desc);
     ~Image();
     Image(Image&& other) noexcept;
@@ -100,7 +100,7 @@ class Image {
     VkImage handle() const { return handle_; }
     VkImageView view() const { return view_; }
     VkImageView levelView(uint32_t level) const;  ///< One mip level, for storage access.
-    /// All levels one after another, tightly packed; nullptr on a device.
+    /// All levels, tightly packed; nullptr with Vulkan.
     std::byte* hostTexels() const { return host_.get(); }
 
  private:
@@ -131,8 +131,8 @@ class Sampler {
     VkSampler handle_ = VK_NULL_HANDLE;
 };
 
-/// Many sampled images under one binding (`uniform sampler2D textures[]`), index by index. Holds at least one
-/// entry. The images and samplers must outlive it.
+/// Array of sampled images under one binding (`uniform sampler2D textures[]`), of at least one entry. The
+/// images and samplers must outlive it.
 class TextureArray {
  public:
     struct Entry {

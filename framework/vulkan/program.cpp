@@ -36,7 +36,7 @@ Program makeRasterProgram(Device& device, std::span<const ShaderModule> modules,
                     device.info().name);
     ProgramBuilder builder(device, modules, constants, VK_PIPELINE_BIND_POINT_GRAPHICS);
 
-    // Triangles without vertex inputs, one sample a pixel, no blending.
+    // Triangles without vertex inputs, one sample per pixel, no blending.
     auto vertexInput = structure<VkPipelineVertexInputStateCreateInfo>(
         VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
     auto assembly = structure<VkPipelineInputAssemblyStateCreateInfo>(
@@ -54,7 +54,7 @@ Program makeRasterProgram(Device& device, std::span<const ShaderModule> modules,
         VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
     samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
 
-    // Depth is tested and written where there is a depth target.
+    // Depth is tested and written if there is a depth target.
     auto depth = structure<VkPipelineDepthStencilStateCreateInfo>(
         VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
     depth.depthTestEnable = depth.depthWriteEnable = state.depthFormat != VK_FORMAT_UNDEFINED;
@@ -69,7 +69,7 @@ Program makeRasterProgram(Device& device, std::span<const ShaderModule> modules,
     blend.attachmentCount = uint32_t(targets.size());
     blend.pAttachments = targets.data();
 
-    // Viewport and scissor come with each draw.
+    // Viewport and scissor are dynamic.
     const VkDynamicState dynamicStates[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
     auto dynamic =
         structure<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);

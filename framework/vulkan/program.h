@@ -22,14 +22,14 @@ using Defines = std::map<std::string, std::string>;
 
 /// One reflected binding. Set 0 is pushed per dispatch; set 1 binding 0 is the scene's texture array.
 struct ShaderBinding {
-    std::string name;  ///< The block's instance or variable name in GLSL.
+    std::string name;  ///< GLSL name of the block's instance or the variable.
     uint32_t set = 0;
-    uint32_t binding = 0;  ///< Of a module: as the compiler numbered it. Of a program: by its name.
+    uint32_t binding = 0;  ///< In a module: assigned by the compiler. In a program: by name.
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    uint32_t bindingWord = 0;  ///< Index of the SPIR-V word that holds the number.
+    uint32_t bindingWord = 0;  ///< Index of the SPIR-V word with the binding number.
 };
 
-/// What a push constant or a specialization constant is: integers are 32 bits, signed or not.
+/// Kind of a push constant. Integers have 32 bits, signed or not.
 enum class NumberKind { Integer, Float, Address, Struct };
 
 /// A member of a shader's block of push constants.
@@ -47,31 +47,30 @@ struct ShaderConstant {
     uint32_t id = 0;
 };
 
-/// A compiled shader stage with what reflection found in it. Only what the code uses is listed.
+/// A compiled shader stage with its reflection. Only names that the code uses are listed.
 struct ShaderModule {
     std::string file;  ///< For messages.
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
     std::vector<uint32_t> spirv;
     std::vector<ShaderBinding> bindings;
-    uint32_t pushConstantBytes = 0;  ///< Of the block as C++ lays it out: padded to its largest scalar.
+    uint32_t pushConstantBytes = 0;  ///< Of the block, padded to its largest scalar as in C++.
     std::vector<ShaderPushMember> pushMembers;
     std::vector<ShaderConstant> constants;
-    glm::uvec3 localSize{1, 1, 1};  ///< Of a compute shader: invocations of a work group.
+    glm::uvec3 localSize{1, 1, 1};  ///< Invocations of a compute shader's work group.
 };
 
-/// GLSL 4.60 to SPIR-V with glslang, at run time. The compiler gives version and extensions, so that a shader
-/// begins with what it does; lines of messages are the file's own. Includes are searched relative to the
-/// including file, then in the source root (so that "shaders/..." and "passes/..." work). SPIR-V is cached on
-/// disk by the content of all its sources, the defines and the compiler's version.
+/// Compiles GLSL 4.60 to SPIR-V with glslang, at run time. Version and extensions are added without shifting
+/// the lines of messages. Includes are searched relative to the including file, then in the source root
+/// ("shaders/...", "passes/..."). SPIR-V is cached on disk by the contents of all sources, the defines and
+/// the compiler's version.
 class ShaderCompiler {
  public:
     /// @param sourceRoot folder that holds shaders/ and passes/; cacheFolder may be empty: no disk cache.
     ShaderCompiler(std::filesystem::path sourceRoot, std::filesystem::path cacheFolder);
 
-    /// The stage follows from the extension: .comp .vert .geom .frag .rgen .rmiss .rchit .rahit.
+    /// Stage by extension: .comp .vert .geom .frag .rgen .rmiss .rchit .rahit.
     /// @param file relative to the source root.
-    /// @throws Error with "file:line: message" of each compile error, of the file in which it is. A cache
-    /// that can't be written is left alone.
+    /// @throws Error with "file:line: message" of each compile error. Errors of the cache are ignored.
     ShaderModule compile(const std::string& file, const Defines& defines = {}) const;
 
  private:
@@ -79,7 +78,7 @@ class ShaderCompiler {
     std::filesystem::path cacheFolder_;
 };
 
-/// A pipeline with its layout, bindings found by reflection. Move-only.
+/// A pipeline with its layout and reflected bindings. Move-only.
 class Program {
  public:
     Program() = default;
@@ -116,7 +115,7 @@ class Program {
 /// Values of specialization constants by name.
 using SpecializationConstants = std::map<std::string, uint32_t>;
 
-/// @throws Error where the shader uses a feature or a binding kind that is not supported.
+/// @throws Error if the shader uses an unsupported feature or kind of binding.
 Program makeComputeProgram(Device& device, const ShaderModule& module,
                            const SpecializationConstants& constants = {});
 
@@ -133,9 +132,8 @@ struct RasterState {
 Program makeRasterProgram(Device& device, std::span<const ShaderModule> modules, const RasterState& state,
                           const SpecializationConstants& constants = {});
 
-/// A ray-tracing pipeline. Groups follow from the modules' order: each .rgen and .rmiss is a group of its
-/// own, and all .rchit and .rahit together make one triangle hit group, the last group.
-/// @throws Error where the device has no ray-tracing pipelines.
+/// A ray-tracing pipeline. Groups in the modules' order: one for each .rgen and .rmiss, then one triangle hit
+/// group of all .rchit and .rahit. @throws Error if the device has no ray-tracing pipelines.
 Program makeRayTracingProgram(Device& device, std::span<const ShaderModule> modules,
                               const SpecializationConstants& constants = {});
 

@@ -66,7 +66,7 @@ void ProgramBuilder::mergeBindings(const ShaderModule& module) {
         const auto known = std::ranges::find(program_.bindings_, binding.name, &ShaderBinding::name);
         if (known == program_.bindings_.end()) {
             program_.bindings_.push_back(binding);
-            // Set 1 has the textures alone.
+            // Set 1 has only the textures.
             program_.bindings_.back().binding =
                 binding.set == 0 ? uint32_t(program_.bindings_.size() - 1) : 0;
         } else if (known->set != binding.set || known->type != binding.type) {
@@ -85,7 +85,7 @@ std::vector<uint32_t> ProgramBuilder::numbered(const ShaderModule& module) const
 }
 
 void ProgramBuilder::makeLayout() {
-    // Set 0: one pushed descriptor for each binding, seen by all stages.
+    // Set 0: one push descriptor per binding, visible to all stages.
     std::vector<VkDescriptorSetLayoutBinding> pushed;
     bool hasTextures = false;
     for (const ShaderBinding& binding : program_.bindings_) {

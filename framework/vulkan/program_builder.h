@@ -5,14 +5,14 @@
 
 #include "vulkan/program.h"
 
-/// What the three kinds of pipeline share. Internal to the vulkan layer.
+/// Common part of the three kinds of pipeline. Internal to the vulkan layer.
 namespace voxray {
 
-/// Builds a Program's layout from its modules and keeps shader modules and specialization data alive until
-/// the pipeline is made.
+/// Builds a Program's layout from its modules; owns shader modules and specialization data until the pipeline
+/// is created.
 class ProgramBuilder {
  public:
-    /// @throws Error where stages disagree on a binding, a constant is unknown, or limits are exceeded.
+    /// @throws Error if stages disagree on a binding, a constant is unknown, or limits are exceeded.
     ProgramBuilder(Device& device, std::span<const ShaderModule> modules,
                    const SpecializationConstants& constants, VkPipelineBindPoint bindPoint);
     ~ProgramBuilder();
@@ -22,15 +22,15 @@ class ProgramBuilder {
     std::span<const VkPipelineShaderStageCreateInfo> stages() const { return stages_; }
     VkPipelineLayout layout() const { return program_.layout_; }
 
-    /// The program, once its pipeline is made.
+    /// The program with its pipeline.
     Program finish(VkPipeline pipeline);
 
  private:
-    /// Gives each name a number of its own: stages and files share names, not numbers.
+    /// Assigns a binding number to each name: stages and files share names, not numbers.
     void mergeBindings(const ShaderModule& module);
     /// The module's SPIR-V with the program's binding numbers.
     std::vector<uint32_t> numbered(const ShaderModule& module) const;
-    /// @throws Error where no stage has a constant of that name.
+    /// @throws Error if no stage has a constant of that name.
     uint32_t constantId(std::span<const ShaderModule> modules, const std::string& name) const;
     void makeLayout();
     void makeStages(std::span<const ShaderModule> modules, const SpecializationConstants& constants);

@@ -44,7 +44,7 @@ TextureArray::TextureArray(Device& device, std::span<const Entry> entries) : Tex
         throw Error("the scene has {} textures; at most {} are supported", entries.size(),
                     device.maxTextures());
 
-    // A pool for the one set of the array's length.
+    // A pool for one set of the array's length.
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count};
     auto pool = structure<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     pool.maxSets = 1;

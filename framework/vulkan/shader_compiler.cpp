@@ -35,7 +35,7 @@ constexpr std::array kStages{
 };
 
 constexpr int kGlslVersion = 460;
-/// What shaders may use without asking for it.
+/// Enabled in all shaders.
 constexpr std::array kExtensions{
     "GL_GOOGLE_include_directive",
     "GL_EXT_scalar_block_layout",
@@ -54,7 +54,7 @@ const Stage& stageOf(const std::string& file) {
     throw Error("{}: unknown kind of shader '{}'", file, extension);
 }
 
-/// Serves includes from sources that were read beforehand, so that what is compiled is what was hashed.
+/// Serves includes from the sources that the cache key was computed from.
 class Includer final : public glslang::TShader::Includer {
  public:
     explicit Includer(const ShaderSources& sources) : sources_(sources) {}
@@ -72,20 +72,20 @@ class Includer final : public glslang::TShader::Includer {
     std::list<IncludeResult> results_;
 };
 
-/// glslang's process-wide tables, set up once.
+/// Initializes glslang's process-wide tables, once.
 void initialiseCompiler() {
     static const bool ready = glslang::InitializeProcess();
     if (!ready) throw Error("glslang can't be initialised");
 }
 
-/// glslang's log as "file:line: message; ...", without its summary and the lines that name no place.
+/// glslang's log as "file:line: message; ...", without its summary and lines without a location.
 std::string formatLog(const std::string& file, const std::string& log) {
-    static const std::regex place(R"(^(ERROR|WARNING): ([^:]+):(\d+): (.*)$)");
+    static const std::regex located(R"(^(ERROR|WARNING): ([^:]+):(\d+): (.*)$)");
     std::string out;
     std::istringstream lines(log);
     for (std::string line; std::getline(lines, line);) {
         std::smatch match;
-        if (!std::regex_match(line, match, place) || match[1] != "ERROR") continue;
+        if (!std::regex_match(line, match, located) || match[1] != "ERROR") continue;
         if (match[4].str().find("compilation terminated") != std::string::npos) continue;
         if (!out.empty()) out += "; ";
         out += fmt::format("{}:{}: {}", match[2].str(), match[3].str(), match[4].str());
@@ -113,7 +113,7 @@ std::vector<uint32_t> compileGlsl(const std::string& file, const Stage& stage, c
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
     shader.setAutoMapBindings(true);
 
-    // One stage a program: stages meet only in the pipeline.
+    // One stage per program: stages are linked in the pipeline.
     const auto messages = EShMessages(EShMsgSpvRules | EShMsgVulkanRules);
     Includer includer(sources);
     if (!shader.parse(GetDefaultResources(), kGlslVersion, false, messages, includer))
@@ -141,7 +141,7 @@ std::string cacheKey(const std::string& file, const ShaderSources& sources, cons
     return hash.hex();
 }
 
-/// A cache file is the hash of the SPIR-V in 32 digits, then the SPIR-V.
+/// A cache file is the hash of the SPIR-V, 32 digits, then the SPIR-V. Empty if it is missing or corrupt.
 std::vector<uint32_t> readCached(const std::filesystem::path& path) {
     constexpr size_t kDigits = 32;
     if (!std::filesystem::is_regular_file(path)) return {};
@@ -156,7 +156,7 @@ std::vector<uint32_t> readCached(const std::filesystem::path& path) {
     return spirv;
 }
 
-/// A cache that can't be written costs time, not results.
+/// Ignores errors: without a cache compilation only takes longer.
 void writeCached(const std::filesystem::path& path, const std::vector<uint32_t>& spirv) {
     std::string content = Hasher().add(spirv.data(), spirv.size() * 4).hex();
     content.append(reinterpret_cast<const char*>(spirv.data()), spirv.size() * 4);
@@ -180,7 +180,6 @@ ShaderModule ShaderCompiler::compile(const std::string& file, const Defines& def
     module.file = file;
     module.stage = stage.flag;
 
-    // A broken cache file reads as empty and is made again.
     const bool cached = !cacheFolder_.empty();
     const std::filesystem::path path =
         cached ? cacheFolder_ / "spirv" / (cacheKey(file, sources, defines) + ".spv")

@@ -5,22 +5,21 @@
 #include <optional>
 #include <string>
 
-/// A shader with all the files that it may include, read once. Internal to the vulkan layer.
+/// A shader with all files that it may include, read once. Internal to the vulkan layer.
 namespace voxray {
 
 /// Files are named relative to the source root, with '/' and without "..".
 class ShaderSources {
  public:
-    /// Reads `file` and, through every `#include "..."` in the text, all that it may include.
-    /// Includes that are not found are left out: the compiler reports them if the preprocessor gets there.
-    /// @throws Error where `file` itself can't be read.
+    /// Reads `file` and, recursively, all `#include "..."` in the text. Missing includes are skipped; the
+    /// compiler reports them if the preprocessor gets there. @throws Error if `file` can't be read.
     ShaderSources(std::filesystem::path sourceRoot, const std::string& file);
 
     /// Name and text of every file that was read.
     const std::map<std::string, std::string>& files() const { return files_; }
 
-    /// The name of the file that `#include "header"` means in `includer`: next to the includer, else from the
-    /// source root. Empty: there is none.
+    /// The file of `#include "header"` in `includer`: relative to the includer, else to the source root.
+    /// Empty if there is none.
     std::optional<std::string> resolve(const std::string& header, const std::string& includer) const;
 
  private:

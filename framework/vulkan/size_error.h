@@ -4,7 +4,7 @@
 
 namespace voxray {
 
-/// A buffer or an image that is too large for a device, or for what is left of its memory.
+/// A buffer or an image is too large for the device or for its free memory.
 class SizeError : public Error {
  public:
     using Error::Error;

@@ -4,7 +4,7 @@
 
 namespace voxray {
 
-/// A Vulkan structure of a type, all else zero: structure<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_..., next).
+/// A zero-initialized Vulkan structure: structure<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_..., next).
 template <typename T>
 T structure(VkStructureType type, void* next = nullptr) {
     T result{};

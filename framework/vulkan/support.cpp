@@ -10,7 +10,7 @@
 namespace voxray {
 namespace {
 
-/// A feature bit that Voxray turns on, by its name in the Vulkan specification.
+/// A feature bit that Voxray enables, by its name in the Vulkan specification.
 struct WantedFeature {
     const char* name;
     bool required;
@@ -82,7 +82,7 @@ std::vector<std::string> extensionsOf(VkPhysicalDevice physical) {
     return names;
 }
 
-/// The extensions to turn on: those that are there and whose own dependencies are.
+/// Extensions to enable: those that are supported together with their dependencies.
 std::vector<std::string> chooseExtensions(const std::vector<std::string>& available) {
     std::vector<std::string> chosen;
     if (contains(available, kRequiredExtension)) chosen.emplace_back(kRequiredExtension);
@@ -95,7 +95,7 @@ std::vector<std::string> chooseExtensions(const std::vector<std::string>& availa
     return chosen;
 }
 
-/// Turns on each wanted feature that `available` has and names the required ones that it lacks.
+/// Enables the wanted features that `available` has, and names the required ones that it lacks.
 std::unique_ptr<FeatureChain> chooseFeatures(FeatureChain& available,
                                              const std::vector<std::string>& extensions,
                                              std::vector<std::string>& missing) {
@@ -151,7 +151,7 @@ DeviceSupport inspect(VkPhysicalDevice physical) {
     info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
     info.isCpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
 
-    // A device older than 1.3 is not asked about 1.3's structures.
+    // Devices older than 1.3 are not queried for structures of 1.3.
     if (properties.properties.apiVersion < VK_API_VERSION_1_3) {
         info.missing.emplace_back("Vulkan 1.3");
         return support;
@@ -214,7 +214,7 @@ std::vector<DeviceSupport> inspectDevices(VkInstance instance) {
     std::vector<VkPhysicalDevice> physical(count);
     check(vkEnumeratePhysicalDevices(instance, &count, physical.data()), "vkEnumeratePhysicalDevices");
 
-    // Devices that qualify come first, then the faster kinds; equals keep the loader's order.
+    // Qualifying devices first, then by kind; ties in the loader's order.
     std::vector<DeviceSupport> devices;
     for (VkPhysicalDevice device : physical) devices.push_back(inspect(device));
     const auto key = [](const DeviceSupport& support) {

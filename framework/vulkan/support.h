@@ -10,7 +10,7 @@
 #include "vulkan/device.h"
 #include "vulkan/structure.h"
 
-/// How a device is found and rated. Internal to the vulkan layer.
+/// Selection of devices. Internal to the vulkan layer.
 namespace voxray {
 
 /// Warnings and errors of the validation layer, collected from any thread.
@@ -19,11 +19,11 @@ struct ValidationLog {
     std::vector<std::string> messages;
 };
 
-/// A headless Vulkan 1.3 instance, with the validation layer where it is asked for. Not movable: the layer
-/// keeps a pointer to the log.
+/// A headless Vulkan 1.3 instance, optionally with the validation layer. Not movable: the layer keeps a
+/// pointer to the log.
 class Instance {
  public:
-    /// @throws Error where there is no Vulkan 1.3 loader, or no validation layer though it is asked for.
+    /// @throws Error without a Vulkan 1.3 loader, or without a validation layer if `validation` is set.
     explicit Instance(bool validation);
     ~Instance();
     Instance(const Instance&) = delete;
@@ -41,7 +41,7 @@ class Instance {
     mutable ValidationLog log_;
 };
 
-/// Every feature structure that Voxray asks about, chained for a query or for device creation.
+/// All feature structures that Voxray uses, chained for a query or for device creation.
 struct FeatureChain {
     VkPhysicalDeviceFeatures2 core =
         structure<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
@@ -67,14 +67,14 @@ struct FeatureChain {
     void link(const std::vector<std::string>& extensions);
 };
 
-/// A physical device, what it offers and what Voxray would turn on.
+/// A physical device with its features, and what Voxray enables.
 struct DeviceSupport {
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     DeviceInfo info;
     uint32_t queueFamily = 0;
     uint32_t timestampBits = 0;
-    std::vector<std::string> extensions;     ///< To turn on.
-    std::unique_ptr<FeatureChain> features;  ///< To turn on; linked.
+    std::vector<std::string> extensions;     ///< To enable.
+    std::unique_ptr<FeatureChain> features;  ///< To enable; linked.
 };
 
 /// All devices of an instance, best first.

@@ -7,9 +7,9 @@
 namespace voxray {
 namespace {
 
-/// Most bytes that wait in staging buffers, and the size of one.
+/// Maximum bytes in staging buffers, and size of one of them.
 constexpr uint64_t kStagingBytes = 64ull << 20;
-/// Where small data begins in the stream's own staging buffer: a multiple of every texel's size.
+/// Alignment of data in the persistent staging buffer: a multiple of all texel sizes.
 constexpr uint64_t kStagingAlignment = 16;
 
 glm::uvec3 levelExtent(const ImageDesc& desc, uint32_t level) {
@@ -31,10 +31,10 @@ VkBufferImageCopy wholeLevel(const Image& image, uint32_t level) {
     return region;
 }
 
-/// A level's texels where there is no Vulkan.
+/// A level's texels in host memory.
 std::byte* hostTexels(const Image& image, uint32_t level) {
     std::byte* texels = image.hostTexels();
-    for (uint32_t before = 0; before < level; ++before) texels += levelBytes(image.desc(), before);
+    for (uint32_t l = 0; l < level; ++l) texels += levelBytes(image.desc(), l);
     return texels;
 }
 
@@ -55,8 +55,7 @@ VkOffset3D corner(glm::uvec3 size) {
 }  // namespace
 
 CommandStream::Impl::Staged CommandStream::Impl::stage(std::span<const std::byte> data) {
-    // Small data goes into the buffer that the stream keeps: allocating memory takes a GPU's driver longer
-    // than most passes take.
+    // Small data goes into the persistent buffer: an allocation takes a GPU's driver longer than most passes.
     if (const uint64_t room = smallUploads.bytes() - smallUploadBytes; data.size() <= room) {
         const Staged staged{&smallUploads, smallUploadBytes};
         std::memcpy(static_cast<std::byte*>(smallUploads.mapped()) + staged.offset, data.data(), data.size());
@@ -77,12 +76,13 @@ uint64_t CommandStream::stagingBytes() const {
 }
 
 void CommandStream::fill(const Buffer& buffer, uint32_t word) {
-    vkCmdFillBuffer(impl_->next(), buffer.handle(), 0, VK_WHOLE_SIZE, word);
+    vkCmdFillBuffer(impl_->recordAfterBarrier(), buffer.handle(), 0, VK_WHOLE_SIZE, word);
 }
 
 void CommandStream::clear(const Image& image, VkClearColorValue value) {
     const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, image.desc().mipLevels, 0, 1};
-    vkCmdClearColorImage(impl_->next(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, &value, 1, &range);
+    vkCmdClearColorImage(impl_->recordAfterBarrier(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, &value, 1,
+                         &range);
 }
 
 void CommandStream::copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset,
@@ -95,7 +95,7 @@ void CommandStream::copy(const Buffer& from, const Buffer& to, uint64_t bytes, u
         return;
     }
     const VkBufferCopy region{fromOffset, toOffset, bytes};
-    vkCmdCopyBuffer(impl_->next(), from.handle(), to.handle(), 1, &region);
+    vkCmdCopyBuffer(impl_->recordAfterBarrier(), from.handle(), to.handle(), 1, &region);
 }
 
 void CommandStream::copy(const Image& from, const Buffer& to, uint32_t level) {
@@ -105,7 +105,8 @@ void CommandStream::copy(const Image& from, const Buffer& to, uint32_t level) {
         std::memcpy(to.mapped(), hostTexels(from, level), levelBytes(from.desc(), level));
         return;
     }
-    vkCmdCopyImageToBuffer(impl_->next(), from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1, &region);
+    vkCmdCopyImageToBuffer(impl_->recordAfterBarrier(), from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle(),
+                           1, &region);
 }
 
 void CommandStream::copy(const Buffer& from, const Image& to, uint32_t level) {
@@ -115,7 +116,8 @@ void CommandStream::copy(const Buffer& from, const Image& to, uint32_t level) {
         std::memcpy(hostTexels(to, level), from.mapped(), levelBytes(to.desc(), level));
         return;
     }
-    vkCmdCopyBufferToImage(impl_->next(), from.handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
+    vkCmdCopyBufferToImage(impl_->recordAfterBarrier(), from.handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL,
+                           1, &region);
 }
 
 void CommandStream::makeMipLevels(const Image& image) {
@@ -133,7 +135,7 @@ void CommandStream::makeMipLevels(const Image& image) {
         region.srcOffsets[1] = corner(levelExtent(desc, level - 1));
         region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1};
         region.dstOffsets[1] = corner(levelExtent(desc, level));
-        vkCmdBlitImage(impl_->next(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, image.handle(),
+        vkCmdBlitImage(impl_->recordAfterBarrier(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, image.handle(),
                        VK_IMAGE_LAYOUT_GENERAL, 1, &region, VK_FILTER_LINEAR);
     }
 }
@@ -155,7 +157,7 @@ void CommandStream::upload(const Buffer& to, std::span<const std::byte> data, ui
 }
 
 void CommandStream::upload(const Image& to, std::span<const std::byte> data, uint32_t level) {
-    const VkBufferImageCopy whole = wholeLevel(to, level);
+    const VkBufferImageCopy levelCopy = wholeLevel(to, level);
     const uint64_t bytes = levelBytes(to.desc(), level);
     if (data.size() != bytes)
         throw Error("image '{}', level {}: {} bytes given, {} needed", to.name(), level, data.size(), bytes);
@@ -166,7 +168,7 @@ void CommandStream::upload(const Image& to, std::span<const std::byte> data, uin
     }
 
     // Slices of depth for volumes, blocks of rows for flat images, as many as fit into a staging buffer.
-    const VkExtent3D size = whole.imageExtent;
+    const VkExtent3D size = levelCopy.imageExtent;
     const bool isVolume = size.depth > 1;
     const uint32_t slices = isVolume ? size.depth : size.height;
     const uint64_t sliceBytes = bytes / slices;
@@ -174,12 +176,12 @@ void CommandStream::upload(const Image& to, std::span<const std::byte> data, uin
     for (uint32_t first = 0; first < slices; first += perCopy) {
         const uint32_t count = std::min(perCopy, slices - first);
         const Impl::Staged staged = impl_->stage(data.subspan(first * sliceBytes, count * sliceBytes));
-        VkBufferImageCopy region = whole;
+        VkBufferImageCopy region = levelCopy;
         region.bufferOffset = staged.offset;
         (isVolume ? region.imageOffset.z : region.imageOffset.y) = int32_t(first);
         (isVolume ? region.imageExtent.depth : region.imageExtent.height) = count;
-        vkCmdCopyBufferToImage(impl_->next(), staged.buffer->handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL,
-                               1, &region);
+        vkCmdCopyBufferToImage(impl_->recordAfterBarrier(), staged.buffer->handle(), to.handle(),
+                               VK_IMAGE_LAYOUT_GENERAL, 1, &region);
     }
 }
 
@@ -193,11 +195,11 @@ std::vector<std::byte> CommandStream::read(const Buffer& buffer, uint64_t bytes,
         std::memcpy(out.data(), static_cast<const std::byte*>(buffer.mapped()) + offset, bytes);
         return out;
     }
-    // The copy goes into the submission of what was recorded before it: one wait, not two.
-    Buffer own;
+    // The first copy joins the submission of earlier commands: one wait, not two.
+    Buffer largeReads;
     if (bytes > impl_->smallReads.bytes())
-        own = Buffer(impl_->device, "staging", std::min(bytes, kStagingBytes), MemoryKind::Readback);
-    const Buffer& staging = own ? own : impl_->smallReads;
+        largeReads = Buffer(impl_->device, "staging", std::min(bytes, kStagingBytes), MemoryKind::Readback);
+    const Buffer& staging = largeReads ? largeReads : impl_->smallReads;
     for (uint64_t done = 0; done < bytes; done += staging.bytes()) {
         const uint64_t part = std::min(staging.bytes(), bytes - done);
         copy(buffer, staging, part, offset + done, 0);

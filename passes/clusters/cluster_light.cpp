@@ -3,8 +3,8 @@
 namespace voxray {
 
 std::vector<Binding> gatherBindings(const ClusterVisibility& visibility, const ClusterLight& light) {
-    return {{"seenChunks", visibility.addresses},
-            {"partRadiosity", light.parts},
+    return {{"visibilityLists", visibility.chunkAddresses},
+            {"componentRadiosity", light.components},
             {"PatchRadiosityAt", light.patches.at()}};
 }
 

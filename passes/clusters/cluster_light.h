@@ -11,27 +11,27 @@
 
 namespace voxray {
 
-/// What parts of clusters and patches send: radiosity (W/m²) by the targets of ClusterVisibility, in 32 bits
-/// each, off by 1/255 of the largest channel at most (passes/surfels/radiosity.glsl). Light that lamps send
-/// themselves is not in it.
+/// Radiosity (W/m²) of cluster components and patches, the targets of ClusterVisibility. 32 bits each: off by
+/// 1/255 of the largest channel at most (passes/surfels/radiosity.glsl). Reflected light only: what emissive
+/// surfaces send themselves is not in it.
 struct ClusterLight : Resource {
-    Buffer parts;         ///< 6 a part.
+    Buffer components;    ///< 6 a component: one for each face.
     LargeBuffer patches;  ///< 1 a patch.
     LargeBuffer direct;   ///< Irradiance (W/m²) straight from the lights, packed likewise: 1 a patch.
 
-    /// Bytes of one of these values for each of so many.
+    /// Size of a buffer of `count` packed values.
     static uint64_t bytes(uint64_t count) { return std::max<uint64_t>(count, 1) * sizeof(uint32_t); }
 };
 
 /// What passes/clusters/gather_patch.glsl reads.
 std::vector<Binding> gatherBindings(const ClusterVisibility& visibility, const ClusterLight& light);
 
-/// Radiosity of what patches see, weighted by their rays: the irradiance of each patch.
+/// Irradiance of all patches: the mean radiosity that their rays met.
 class ClusterGather {
  public:
-    explicit ClusterGather(ProgramOwner& owner) : gather_(owner, "cluster_gather.comp") {}
+    explicit ClusterGather(ProgramOwner& owner) : gather_(owner, "gather_patches.comp") {}
 
-    /// @param irradiance 1 value a patch, W/m², packed as ClusterLight is.
+    /// @param irradiance 1 value a patch, W/m², packed as in ClusterLight.
     void gather(CommandStream& stream, const ClusterVisibility& visibility, const ClusterLight& light,
                 const LargeBuffer& irradiance) const;
 

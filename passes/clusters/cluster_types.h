@@ -8,23 +8,23 @@ VOXRAY_SHARED_BEGIN
 
 #define NO_CLUSTER 0xffffffffu
 
-// Surface voxels that lie near each other and look the same way.
+// Adjacent surface voxels of like normals.
 struct VoxelCluster {
     vec3 position;  // Mean of its voxels' centers, m.
     uint firstMember;
     vec3 normal;  // Unit: the mean normal of its voxels.
-    uint members;
-    vec3 axis;    // Unit: each of its voxels' normals is within the angle limit of this one.
-    vec3 albedo;  // Mean diffuse reflectance, by area.
-    uvec3 first;  // The first and the last voxel of its box.
-    uvec3 last;
+    uint memberCount;
+    vec3 seedNormal;  // Unit: the normal of each of its voxels is within the angle limit of this one.
+    vec3 albedo;      // Mean diffuse reflectance, weighted by area.
+    uvec3 minVoxel;   // Bounding box, both included.
+    uvec3 maxVoxel;
 };
 
-// What grows into a cluster, while voxels choose theirs.
+// A cluster's center while voxels are assigned, as in k-means.
 struct ClusterSeed {
-    vec3 center;   // In voxels.
-    uint members;  // 0: it has lost all its voxels and gets no more.
-    vec3 normal;   // Unit.
+    vec3 center;       // In voxels.
+    uint memberCount;  // 0: it has lost all its voxels and gets no more.
+    vec3 normal;       // Unit.
 };
 
 VOXRAY_SHARED_END

@@ -3,32 +3,32 @@
 #include <vector>
 
 #include "graph/pass.h"
-#include "passes/clusters/seen_types.h"
+#include "passes/clusters/visibility_list_types.h"
 #include "passes/common/voxels/voxels.h"
 
 namespace voxray {
 
-/// What each patch sees: parts of clusters by their faces, and near patches, each with the number of rays
-/// that met it. Rays are distributed by the cosine, so rays over all rays is a form factor. GLSL:
-/// passes/clusters/seen_types.h and gather_patch.glsl.
+/// The visibility list of each patch: the component faces, and the patches near by, that its rays hit, with
+/// the number of rays for each. Rays are cosine-distributed, so their fraction is a form factor. GLSL:
+/// passes/clusters/visibility_list.glsl and gather_patch.glsl.
 struct ClusterVisibility : Resource {
-    std::string basisPort() const override { return "voxels"; }
+    std::string indexedBy() const override { return "voxels"; }
 
-    /// What patches see that follow one another by number.
+    /// The lists of consecutive patches.
     struct Chunk {
-        Buffer first;  ///< Where each patch's list begins in `seen`, and where the last one ends.
-        Buffer seen;   ///< Entries of `layout.entryBits`: gpu::seenTarget() and gpu::seenRays(), by target.
+        Buffer offsets;  ///< By patch: its first entry; then the end of the last list.
+        Buffer entries;  ///< `layout.entryBits` each, sorted by target; gpu::entryTarget(), entryRays().
     };
     std::vector<Chunk> chunks;
-    Buffer addresses;           ///< Of `first` and `seen`, by chunk.
-    gpu::SeenLayout layout{};   ///< Rays, their bits and patches of a chunk are known from plan() on.
-    bool listsPatches = false;  ///< Whether entries name patches besides faces of parts; from plan() on.
-    uint64_t entries = 0;       ///< Of all lists.
-    uint32_t patchCount = 0;    ///< That have a list.
+    Buffer chunkAddresses;               ///< By chunk: those of `offsets` and `entries`.
+    gpu::VisibilityListLayout layout{};  ///< raysPerPatch, rayBits, patchesPerChunk are set in plan().
+    bool listsPatches = false;           ///< Whether targets may be patches. Set in plan().
+    uint64_t entryCount = 0;             ///< Of all lists.
+    uint32_t patchCount = 0;
 
     uint64_t bytes() const {
-        uint64_t sum = addresses.bytes();
-        for (const Chunk& chunk : chunks) sum += chunk.first.bytes() + chunk.seen.bytes();
+        uint64_t sum = chunkAddresses.bytes();
+        for (const Chunk& chunk : chunks) sum += chunk.offsets.bytes() + chunk.entries.bytes();
         return sum;
     }
 };

@@ -1,46 +1,47 @@
 #pragma once
 
 #include "graph/pass.h"
-#include "passes/clusters/patch_types.h"
+#include "passes/clusters/surface_group_types.h"
 #include "passes/common/compute/large_buffer.h"
 #include "passes/common/voxels/voxels.h"
 
 namespace voxray {
 
-/// The surfaces of each voxel, split into sides: each holds those surfels that look into the same space, open
-/// or a gap narrower than a voxel. Both sides of a wall that is thinner than a voxel are two. Those of a
-/// side's six faces at which it has area are its patches, numbered by side and face. Clusters are split
-/// likewise, into parts (find_patches).
+/// Surfels, surface groups and patches of voxels, and components of clusters (find_patches):
+///
+///     voxel   -> surface groups: surfels that look into the same space, e.g. one face of a thin wall
+///     group   -> patches: one for each of the six faces at which it has area, numbered by group and face
+///     cluster -> components: its connected groups, e.g. what lies on one side of a wall
 struct VoxelPatches : Resource {
-    std::string basisPort() const override { return "voxels"; }
+    std::string indexedBy() const override { return "voxels"; }
 
-    uint32_t sideCount = 0;
+    uint32_t groupCount = 0;
     uint32_t patchCount = 0;
     uint32_t surfelCount = 0;
-    uint32_t partCount = 0;
-    LargeBuffer surfels;     ///< gpu::PatchSurfel each, by voxel, side and id.
-    LargeBuffer places;      ///< Of each surfel by its number: where it is in `surfels`, or NO_SIDE.
-    Buffer firstSide;        ///< By voxel: its first side, and the end of the last one's; voxels + 1 uints.
-    Buffer sides;            ///< gpu::SurfaceSide each.
-    LargeBuffer materials;   ///< By side: PackedVoxelMaterial of its surfaces alone.
-    Buffer firstNeighbour;   ///< By side: where its neighbours begin; sides + 1 uints.
-    LargeBuffer neighbours;  ///< Sides of the 26 voxels round it that look into the same space, or NO_SIDE.
-    Buffer parts;            ///< gpu::ClusterPart each.
-    Buffer members;          ///< Sides, those of each part together and ascending.
-    Buffer ofSide;           ///< By side: its part, or NO_PART where its voxel has no cluster.
-    /// Where surfaces have moved since the build before: by side its number then, or NO_SIDE where its
-    /// voxel has changed since. Empty where all is new.
-    Buffer previousSides;
+    uint32_t componentCount = 0;
+    LargeBuffer surfels;      ///< gpu::GroupedSurfel each, by voxel, group and id.
+    LargeBuffer surfelIndex;  ///< By surfel of place_surfels: its index in `surfels`, or NO_GROUP.
+    Buffer firstGroup;        ///< By voxel: its first group; then the number of groups.
+    Buffer groups;            ///< gpu::SurfaceGroup each.
+    LargeBuffer materials;    ///< By group: PackedVoxelMaterial of its surfaces alone.
+    Buffer firstNeighbour;    ///< By group: its first element of `neighbours`; then their number.
+    LargeBuffer neighbours;   ///< Groups of the 26 voxels around that look into the same space, or NO_GROUP.
+    Buffer components;        ///< gpu::ClusterComponent each.
+    Buffer memberGroups;      ///< Groups by component, ascending within each.
+    Buffer componentOfGroup;  ///< By group: its component, or NO_COMPONENT where its voxel has no cluster.
+    /// After an update (moving surfaces): by group its index in the build before, or NO_GROUP where its voxel
+    /// has changed. Empty where all is new.
+    Buffer previousGroups;
 
     /// Frees the buffers.
     void clear() {
-        surfels = {}, places = {}, firstSide = {}, sides = {}, materials = {}, firstNeighbour = {};
-        neighbours = {}, parts = {}, members = {}, ofSide = {}, previousSides = {};
+        surfels = {}, surfelIndex = {}, firstGroup = {}, groups = {}, materials = {}, firstNeighbour = {};
+        neighbours = {}, components = {}, memberGroups = {}, componentOfGroup = {}, previousGroups = {};
     }
     uint64_t bytes() const {
-        return surfels.bytes() + places.bytes() + firstSide.bytes() + sides.bytes() + materials.bytes() +
-               firstNeighbour.bytes() + neighbours.bytes() + parts.bytes() + members.bytes() +
-               ofSide.bytes() + previousSides.bytes();
+        return surfels.bytes() + surfelIndex.bytes() + firstGroup.bytes() + groups.bytes() +
+               materials.bytes() + firstNeighbour.bytes() + neighbours.bytes() + components.bytes() +
+               memberGroups.bytes() + componentOfGroup.bytes() + previousGroups.bytes();
     }
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }
 };

@@ -1,5 +1,4 @@
-// Points round voxels from which something is looked for, in directions from their centers: beyond those of their 12 edges and of
-// their 6 faces (Cosin and Patow 2022, section 4.4).
+// Sample points around voxels, in the directions of the centers of their 12 edges and 6 faces (Cosin and Patow 2022, section 4.4).
 #ifndef VOXRAY_VOXEL_POINTS_GLSL
 #define VOXRAY_VOXEL_POINTS_GLSL
 
@@ -8,7 +7,7 @@
 #define EDGE_POINTS 12u
 #define EDGE_AND_FACE_POINTS 18u
 
-layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;  // Of voxels.
+layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;  // By voxel.
 
 // m
 vec3 voxelCenter(VoxelGrid grid, uint voxel) { return grid.origin + grid.voxelSize * (vec3(coordinates.data[voxel]) + 0.5); }

@@ -1,40 +1,39 @@
-// Access to the leaves of a hybrid octree (Seok 2021, section 3.1; docs/hybrid-leaves.md): each surface voxel is a leaf with a list of
-// the triangles in it, or with a grid of finer voxels, its cells, where triangles are many. Leaves are numbered as surface voxels are
-// (voxelNumber() of shaders/voxels/voxels.glsl).
+// Leaves of a hybrid octree (Seok 2021, section 3.1; docs/hybrid-leaves.md): each surface voxel is a leaf with a list of its
+// triangles or, where these are many, a grid of finer voxels, its cells. Leaves have the indices of surface voxels (voxelNumber()
+// of shaders/voxels/voxels.glsl).
 #ifndef VOXRAY_HYBRID_LEAVES_GLSL
 #define VOXRAY_HYBRID_LEAVES_GLSL
-
 
 #include "shaders/compute/large_buffer.glsl"
 #include "passes/hybrid_leaves/hybrid_types.h"
 
 struct ListItem {
-    uint box;  // And LIST_ENDS.
+    uint box;  // Packed (leaf_box.glsl), with LIST_ENDS.
     uint triangle;
 };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LeafLists { ListItem data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer TriangleCorners { vec3 data[]; };
 
-// The arrays stand behind addresses, since they outgrow what devices bind.
+// Arrays by address: they may exceed maxStorageBufferRange.
 layout(scalar) buffer HybridLeaves {
-    LargeUints words;       // One a leaf.
-    LeafLists primitives;   // Lists, one after the other.
-    LargeUints gridBits;    // Which cells of each grid are not empty: wordsPerGrid words a grid, level by level, the finest first.
-    LargeUints gridRanks;   // Such cells before each word.
-    LargeUints cells;       // shape.cellWords each (passes/hybrid_leaves/grid_cell.glsl).
-    TriangleCorners corners;  // Three positions for each of the scene's triangles, in one place for a test.
+    LargeUints words;         // One per leaf (hybrid_types.h).
+    LeafLists primitives;     // All lists.
+    LargeUints gridBits;      // Occupancy of cells: wordsPerGrid words per grid, level by level from the finest.
+    LargeUints gridRanks;     // Occupied cells before each word.
+    LargeUints cells;         // shape.cellWords per occupied cell (grid_cell.glsl).
+    TriangleCorners corners;  // Three positions for each triangle of the scene.
     HybridShape shape;
 } hybridLeaves;
 
 bool isEmptyLeaf(uint leaf) { return leaf == LEAF_EMPTY; }
 bool isGridLeaf(uint leaf) { return leaf != LEAF_EMPTY && (leaf & LEAF_IS_GRID) != 0u; }
-// Of a leaf with a list: the number of its first item.
+// First item of a leaf with a list.
 uint firstItem(uint leaf) { return leaf & ~LIST_HAS_GROUPS; }
 
-// The cells of one level of a grid.
+// One level of a grid.
 struct GridLevel {
     uint edge;       // Cells along an edge.
-    uint firstBit;   // Among the grid's.
+    uint firstBit;   // Of the level, in the grid.
     uint firstWord;  // Of the grid.
 };
 GridLevel gridLevel(uint grid, uint level) {
@@ -47,23 +46,23 @@ GridLevel gridLevel(uint grid, uint level) {
     return GridLevel(GRID_EDGE(m, level), firstBit, grid * hybridLeaves.shape.wordsPerGrid);
 }
 
-// A cell by its bit: bit x + edge (y + edge z) of its level.
+// A cell's occupancy bit: x + edge (y + edge z) in its level.
 struct GridBit {
     uint word;
     uint bit;
 };
 GridBit gridBit(GridLevel level, ivec3 cell) {
-    const uint at = level.firstBit + uint(cell.x) + level.edge * (uint(cell.y) + level.edge * uint(cell.z));
-    return GridBit(level.firstWord + (at >> 5), 1u << (at & 31u));
+    const uint bitIndex = level.firstBit + uint(cell.x) + level.edge * (uint(cell.y) + level.edge * uint(cell.z));
+    return GridBit(level.firstWord + (bitIndex >> 5), 1u << (bitIndex & 31u));
 }
 
-// Its number among the cells of all grids that are not empty; NO_CELL where it is.
+// Index of an occupied cell among those of all grids; NO_CELL for an empty one.
 #define NO_CELL 0xffffffffu
-uint gridCellNumber(LargeUints gridBits, LargeUints gridRanks, GridBit at) {
-    const uint bits = gridBits.data[at.word];
-    if ((bits & at.bit) == 0u) return NO_CELL;
-    return gridRanks.data[at.word] + uint(bitCount(bits & (at.bit - 1u)));
+uint gridCellIndex(LargeUints gridBits, LargeUints gridRanks, GridBit cellBit) {
+    const uint bits = gridBits.data[cellBit.word];
+    if ((bits & cellBit.bit) == 0u) return NO_CELL;
+    return gridRanks.data[cellBit.word] + uint(bitCount(bits & (cellBit.bit - 1u)));
 }
-uint gridCellNumber(GridBit at) { return gridCellNumber(hybridLeaves.gridBits, hybridLeaves.gridRanks, at); }
+uint gridCellIndex(GridBit cellBit) { return gridCellIndex(hybridLeaves.gridBits, hybridLeaves.gridRanks, cellBit); }
 
 #endif

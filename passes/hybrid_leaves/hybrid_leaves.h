@@ -8,14 +8,14 @@
 
 namespace voxray {
 
-/// Levels of cells that a grid of m³ has where it has all: the coarsest has 2 along an edge.
+/// Levels of a full pyramid over a grid of m³: the coarsest has 2 cells along an edge.
 inline uint32_t allGridLevels(uint32_t m) {
     uint32_t levels = 1;
     while (GRID_EDGE(m, levels) >= 2) ++levels;
     return levels;
 }
 
-/// Cells of a grid of m³, full ones and empty ones, from level `first` up to, but without, `end`.
+/// Cells of a grid of m³ in levels [first, end), empty ones included.
 inline uint32_t gridCells(uint32_t m, uint32_t first, uint32_t end) {
     uint32_t cells = 0;
     for (uint32_t level = first; level < end; ++level)
@@ -23,29 +23,29 @@ inline uint32_t gridCells(uint32_t m, uint32_t first, uint32_t end) {
     return cells;
 }
 
-/// What the leaves of the octree over surface voxels hold: lists of triangles, or grids of finer voxels,
-/// cells, where triangles are many (Seok 2021, section 3.1). Leaves are numbered as voxels() are; the
-/// octree's structure is its users' (VoxelMarch). GLSL access: passes/hybrid_leaves/hybrid_leaves.glsl.
+/// Leaves of the octree over surface voxels: lists of triangles or, where these are many, grids of finer
+/// voxels, their cells (Seok 2021, section 3.1). Leaves have the indices of voxels(). Users build the octree
+/// themselves (VoxelMarch). GLSL access: passes/hybrid_leaves/hybrid_leaves.glsl.
 struct HybridLeaves : Resource {
-    std::string basisPort() const override { return "voxels"; }
+    std::string indexedBy() const override { return "voxels"; }
 
     gpu::HybridShape shape{};
     uint32_t gridCount = 0;
-    uint32_t emptyCount = 0;      ///< Leaves that hold nothing.
-    uint32_t primitiveCount = 0;  ///< Triangles of all lists.
-    uint32_t cellCount = 0;       ///< Of all levels of all grids, those that are not empty.
+    uint32_t emptyCount = 0;      ///< Leaves without triangles.
+    uint32_t primitiveCount = 0;  ///< Triangles in all lists.
+    uint32_t cellCount = 0;       ///< Occupied cells of all grids and levels.
     Buffer header;                ///< Addresses of the arrays, and `shape`.
-    Buffer words;                 ///< A word a leaf.
-    Buffer primitives;            ///< Items, list by list (LIST_ITEMS()); at least one word.
-    Buffer corners;               ///< Three positions for each of the scene's triangles.
-    Buffer gridBits, gridRanks;   ///< A bit for each cell, and the cells before each word.
-    Buffer cells;                 ///< shape.cellWords each. Like the bits, none where no leaf has a grid.
+    Buffer words;                 ///< One word per leaf.
+    Buffer primitives;            ///< List items (LIST_ITEMS()); at least one word.
+    Buffer corners;               ///< Three positions for each triangle of the scene.
+    Buffer gridBits, gridRanks;   ///< Occupancy of cells, and its prefix sums by word.
+    Buffer cells;                 ///< shape.cellWords each. Empty, as the bits are, without grids.
 
-    /// Surface voxels and those in which alpha masks leave too little to make them one; without materials.
-    /// Not there in scenes without masks. Its version is that of the surface voxels.
+    /// Surface voxels, and voxels of masked triangles that are too transparent to be one; without materials.
+    /// Empty in scenes without alpha masks. Its version is that of the surface voxels.
     SurfaceVoxels masked;
 
-    /// The voxels that the leaves are numbered by, out of the surface voxels that they are built over.
+    /// The voxels that leaves are indexed by. @param surface the surface voxels that they are built over.
     const SurfaceVoxels& voxels(const SurfaceVoxels& surface) const {
         return masked.occupancy ? masked : surface;
     }

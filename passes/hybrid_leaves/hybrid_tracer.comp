@@ -1,4 +1,4 @@
-// A stream of rays through hybrid leaves: one thread a ray.
+// A stream of rays through hybrid leaves.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/hybrid_leaves/hybrid_walk.glsl"
 layout(local_size_x = 64) in;
@@ -11,18 +11,18 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer Wo
 layout(scalar) buffer HybridTestCounts { uint words[2]; } hybridTestCounts;  // 64 bits, the low word first.
 layout(push_constant, scalar) uniform Push {
     uint64_t rays;
-    uint64_t starts;  // 0: bare rays.
-    uint64_t hits;    // Words, where rays are asked for occlusion.
+    uint64_t starts;  // 0: rays without surface and width.
+    uint64_t hits;    // Hit each, or a word where kOccluded.
     VoxelGrid grid;
-    float widest;  // m: rays that are wider end.
+    float maxWidth;  // m: wider rays end (HIT_IS_WIDE).
     uint firstRay;
     uint endRay;
 } push;
 
-// Whether a ray is active and finite; others miss.
+// Inactive and non-finite rays miss.
 bool isTraceable(Ray ray) {
-    const bool finite = all(lessThanEqual(abs(ray.origin), vec3(1.8e18))) && all(lessThanEqual(abs(ray.direction), vec3(1.8e18)));
-    return finite && any(notEqual(ray.direction, vec3(0.0))) && ray.tMin >= 0.0 && ray.tMax >= ray.tMin;
+    const bool isFinite = all(lessThanEqual(abs(ray.origin), vec3(1.8e18))) && all(lessThanEqual(abs(ray.direction), vec3(1.8e18)));
+    return isFinite && any(notEqual(ray.direction, vec3(0.0))) && ray.tMin >= 0.0 && ray.tMax >= ray.tMin;
 }
 
 void main() {
@@ -32,7 +32,7 @@ void main() {
     RayStart start = RayStart(vec3(0.0), 0.0, 0.0);
     if (push.starts != 0ul) start = StartStream(push.starts).data[i];
     Hit hit = Hit(ray.tMax, NO_HIT, 0.0, 0.0);
-    if (isTraceable(ray)) hit = hybridClosest(push.grid, ray.origin, ray.direction, ray.tMin, ray.tMax, start, push.widest);
+    if (isTraceable(ray)) hit = hybridClosestHit(push.grid, ray.origin, ray.direction, ray.tMin, ray.tMax, start, push.maxWidth);
     if (kOccluded) {
         WordStream(push.hits).data[i] = hit.triangle == NO_HIT ? 0u : 1u;
     } else {
@@ -40,7 +40,7 @@ void main() {
     }
     countMarch();
     if (hybridTests != 0u) {
-        const uint before = atomicAdd(hybridTestCounts.words[0], hybridTests);
-        if (before + hybridTests < before) atomicAdd(hybridTestCounts.words[1], 1u);
+        const uint lowWord = atomicAdd(hybridTestCounts.words[0], hybridTests);
+        if (lowWord + hybridTests < lowWord) atomicAdd(hybridTestCounts.words[1], 1u);
     }
 }

@@ -24,17 +24,17 @@ void HybridTracer::plan(MemoryPlan& plan, const SurfaceVoxels& voxels) {
 }
 
 void HybridTracer::begin(CommandStream& stream, const GpuScene& scene, const SurfaceVoxels& voxels,
-                         const HybridLeaves& leaves, float widest) {
+                         const HybridLeaves& leaves, float maxWidth) {
     march_.begin(stream, leaves.voxels(voxels));
     stream.fill(testCounts_, 0);
     scene_ = &scene;
     leaves_ = &leaves;
     grid_ = voxels.grid;
-    widest_ = widest;
+    maxWidth_ = maxWidth;
 }
 
-void HybridTracer::closestFrom(CommandStream& stream, const Buffer& rays, const Buffer& starts,
-                               const Buffer& hits, uint32_t count) {
+void HybridTracer::closestHitWithStarts(CommandStream& stream, const Buffer& rays, const Buffer& starts,
+                                        const Buffer& hits, uint32_t count) {
     if (rays.bytes() < count * sizeof(Ray) || starts.bytes() < count * sizeof(gpu::RayStart) ||
         hits.bytes() < count * sizeof(Hit))
         throw Error("hybrid tracer: buffers of {} rays are too small", count);
@@ -62,7 +62,7 @@ void HybridTracer::dispatch(CommandStream& stream, const Program& program, VkDev
                          {"starts", starts},
                          {"hits", results},
                          {"grid", grid_},
-                         {"widest", widest_},
+                         {"maxWidth", maxWidth_},
                          {"firstRay", first},
                          {"endRay", end}});
         first = end;

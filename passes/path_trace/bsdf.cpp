@@ -6,14 +6,14 @@ namespace voxray::path_trace {
 
 namespace {
 
-/// sqrt(alpha² + (1 - alpha²) cos²): what Smith's masking terms are made of.
+/// sqrt(alpha² + (1 - alpha²) cos²), of Smith's masking terms.
 float smithRoot(float cosine, float alpha) {
     const float a2 = alpha * alpha;
     return std::sqrt(a2 + (1.0f - a2) * cosine * cosine);
 }
 
-/// Half vector drawn from those visible from `out` (local frame, +Z the normal). Dupuy and Benyoub 2023,
-/// "Sampling Visible GGX Normals with Spherical Caps".
+/// Samples a half vector visible from `out` (local frame, +Z the normal). Dupuy and Benyoub 2023, "Sampling
+/// Visible GGX Normals with Spherical Caps".
 glm::vec3 sampleVisibleNormal(const glm::vec3& out, float alpha, float u, float v) {
     const glm::vec3 stretched = glm::normalize(glm::vec3(out.x * alpha, out.y * alpha, out.z));
     const float phi = 2.0f * kPi * u;
@@ -35,7 +35,7 @@ BsdfValue Bsdf::evaluateLayers(const glm::vec3& out, const glm::vec3& in, const 
     const float cosHalf = glm::dot(out, half);
     const float pSpecular = specularProbability(cosOut);
 
-    // Lambert under the dielectric layer.
+    // Lambert under the dielectric layer
     const float w = schlickWeight(cosHalf);
     const float transmitted = 1.0f - (dielectricF0 * (1.0f - w) + dielectricF90 * w);
     BsdfValue value;
@@ -43,7 +43,7 @@ BsdfValue Bsdf::evaluateLayers(const glm::vec3& out, const glm::vec3& in, const 
     value.pdf = (1.0f - pSpecular) * cosIn * kInvPi;
     if (isMirror()) return value;
 
-    // GGX with height-correlated Smith masking.
+    // GGX with height-correlated Smith masking
     const glm::vec3 across = glm::cross(n, half);
     const float d = distribution(glm::dot(n, half), glm::dot(across, across), alpha) * kInvPi;
     const float rootOut = smithRoot(cosOut, alpha), rootIn = smithRoot(cosIn, alpha);
@@ -53,27 +53,27 @@ BsdfValue Bsdf::evaluateLayers(const glm::vec3& out, const glm::vec3& in, const 
     return value;
 }
 
-BsdfSample Bsdf::sampleLayers(const glm::vec3& out, const Frame& frame, glm::vec2 place, float lobe) const {
+BsdfSample Bsdf::sampleLayers(const glm::vec3& out, const Frame& frame, glm::vec2 u, float uLobe) const {
     glm::vec3 local = frame.toLocal(out);
     local.z = std::max(local.z, 1e-5f);
     const float pSpecular = specularProbability(local.z);
     BsdfSample sample;
 
-    // A mirror is sampled alone: nothing else has a density there.
-    if (lobe < pSpecular && isMirror()) {
+    // A delta lobe has no other density
+    if (uLobe < pSpecular && isMirror()) {
         sample.direction = frame.toWorld({-local.x, -local.y, local.z});
         sample.weight = fresnel(local.z) / pSpecular;
-        sample.mirror = true;
+        sample.isMirror = true;
         return sample;
     }
 
-    // Otherwise either lobe draws the direction and both weigh it.
+    // One lobe samples the direction, both contribute
     glm::vec3 in;
-    if (lobe < pSpecular) {
-        const glm::vec3 half = sampleVisibleNormal(local, alpha, place.x, place.y);
+    if (uLobe < pSpecular) {
+        const glm::vec3 half = sampleVisibleNormal(local, alpha, u.x, u.y);
         in = glm::normalize(half * (2.0f * glm::dot(local, half)) - local);
     } else {
-        in = cosineHemisphere(place.x, place.y);
+        in = cosineHemisphere(u.x, u.y);
     }
     if (!(in.z > 0.0f)) return sample;
     sample.direction = frame.toWorld(in);

@@ -7,10 +7,10 @@
 /// glTF 2.0 metallic-roughness, appendix B, with KHR_materials_specular and KHR_materials_ior.
 namespace voxray::path_trace {
 
-/// Below this alpha (roughness²) a surface is a perfect mirror: a true delta lobe.
+/// Below this alpha (roughness²) a surface is a perfect mirror: a delta lobe.
 constexpr float kMirrorAlpha = 1e-3f;
 
-/// A reflection's value times cosine, with the density (per steradian) of sampling it.
+/// The BSDF times cosine, and the density of sampling the direction, per steradian.
 struct BsdfValue {
     glm::vec3 fCos{0.0f};
     float pdf = 0.0f;
@@ -18,22 +18,23 @@ struct BsdfValue {
 
 struct BsdfSample {
     glm::vec3 direction{0.0f};
-    glm::vec3 weight{0.0f};  ///< f cos / pdf; 0 where the sample is lost below the surface.
+    glm::vec3 weight{0.0f};  ///< f cos / pdf; 0 for a direction below the surface.
     float pdf = 0.0f;        ///< Per steradian; 0 for a mirror.
-    bool mirror = false;
+    bool isMirror = false;
 };
 
-/// Reflection at a point: a Lambert lobe under a GGX lobe, weighed by Schlick's Fresnel term.
-/// All vectors are unit length and point away from the surface; `n` is the shading normal.
+/// Reflection at a point: a Lambert lobe under a GGX lobe, combined by Schlick's Fresnel term. All vectors
+/// are unit length and point away from the surface; `n` is the shading normal.
 struct Bsdf {
-    glm::vec3 diffuse{0.0f};    ///< Base colour * (1 - metallic).
+    glm::vec3 diffuse{0.0f};    ///< Base color * (1 - metallic).
     float alpha = 1.0f;         ///< Roughness squared.
     glm::vec3 f0{0.0f};         ///< Specular reflectance at normal incidence, metal and dielectric mixed.
     float f90 = 0.0f;           ///< The same at grazing incidence.
-    float dielectricF0 = 0.0f;  ///< Largest component of the dielectric part: what diffuse light loses.
+    float dielectricF0 = 0.0f;  ///< Largest component of the dielectric part: taken from diffuse light.
     float dielectricF90 = 0.0f;
 
-    /// From a material's factors, textures multiplied in. `specular` and `specularColor` as in the extension.
+    /// From a material's parameters, with textures multiplied in. `specular` and `specularColor` are those of
+    /// KHR_materials_specular.
     static Bsdf make(const glm::vec3& baseColor, float metallic, float roughness, float specular,
                      const glm::vec3& specularColor, float ior) {
         const glm::vec3 dielectric =
@@ -51,16 +52,16 @@ struct Bsdf {
     bool hasSpecular() const { return f90 > 0.0f; }
     bool isMirror() const { return alpha < kMirrorAlpha; }
 
-    /// Probability that `sample` takes the specular lobe.
+    /// Probability that sample() takes the specular lobe.
     float specularProbability(float cosOut) const {
         if (!hasSpecular()) return 0.0f;
-        const float specularPart = luminance(fresnel(cosOut));
-        const float diffusePart = luminance(diffuse);
-        if (!(diffusePart > 0.0f)) return 1.0f;
-        return std::clamp(specularPart / (specularPart + diffusePart), 0.1f, 0.9f);
+        const float specularLuminance = luminance(fresnel(cosOut));
+        const float diffuseLuminance = luminance(diffuse);
+        if (!(diffuseLuminance > 0.0f)) return 1.0f;
+        return std::clamp(specularLuminance / (specularLuminance + diffuseLuminance), 0.1f, 0.9f);
     }
 
-    /// Value for a direction `in` that was chosen without regard to this lobe; mirrors are left out.
+    /// Value for any direction `in`; without a mirror's delta lobe.
     BsdfValue evaluate(const glm::vec3& out, const glm::vec3& in, const glm::vec3& n) const {
         const float cosIn = glm::dot(n, in);
         if (!(cosIn > 0.0f)) return {};
@@ -68,14 +69,14 @@ struct Bsdf {
         return evaluateLayers(out, in, n, cosIn);
     }
 
-    /// Draws a direction: `place` in [0, 1)² places it, `lobe` in [0, 1) chooses diffuse or specular.
-    BsdfSample sample(const glm::vec3& out, const glm::vec3& n, glm::vec2 place, float lobe) const {
+    /// Samples a direction by `u` in [0, 1)²; `uLobe` in [0, 1) selects the lobe.
+    BsdfSample sample(const glm::vec3& out, const glm::vec3& n, glm::vec2 u, float uLobe) const {
         const Frame frame(n);
         if (!hasSpecular()) {
-            const glm::vec3 local = cosineHemisphere(place.x, place.y);
+            const glm::vec3 local = cosineHemisphere(u.x, u.y);
             return {frame.toWorld(local), diffuse, local.z * kInvPi, false};
         }
-        return sampleLayers(out, frame, place, lobe);
+        return sampleLayers(out, frame, u, uLobe);
     }
 
     /// Schlick's Fresnel reflectance at an angle to the half vector.
@@ -89,7 +90,7 @@ struct Bsdf {
         return square(square(m)) * m;
     }
 
-    /// GGX distribution of half vectors times pi; `sin2` is 1 - cosNormal² without its rounding error.
+    /// GGX distribution of half vectors, times pi. @param sin2 1 - cosNormal², without rounding error.
     static float distribution(float cosNormal, float sin2, float alpha) {
         const float a2 = alpha * alpha;
         return a2 / square(cosNormal * cosNormal * a2 + sin2);
@@ -98,7 +99,7 @@ struct Bsdf {
  private:
     BsdfValue evaluateLayers(const glm::vec3& out, const glm::vec3& in, const glm::vec3& n,
                              float cosIn) const;
-    BsdfSample sampleLayers(const glm::vec3& out, const Frame& frame, glm::vec2 place, float lobe) const;
+    BsdfSample sampleLayers(const glm::vec3& out, const Frame& frame, glm::vec2 u, float uLobe) const;
 };
 
 }  // namespace voxray::path_trace

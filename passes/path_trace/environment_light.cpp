@@ -9,26 +9,26 @@ namespace voxray::path_trace {
 
 namespace {
 
-/// Finds the interval of a cumulative sum that holds `u`; `rest` is u's place in the interval, in [0, 1).
-uint32_t invert(const float* sums, uint32_t count, float u, float& rest) {
-    const float* upper = std::upper_bound(sums, sums + count + 1, u);
-    const auto i = uint32_t(std::clamp<ptrdiff_t>(upper - sums - 1, 0, ptrdiff_t(count) - 1));
-    const float width = sums[i + 1] - sums[i];
-    rest = width > 0.0f ? std::clamp((u - sums[i]) / width, 0.0f, 0x1.fffffep-1f) : 0.5f;
+/// Inverts a piecewise linear CDF: finds the interval that holds `u`, and u's `offset` in it, in [0, 1).
+uint32_t sampleCdf(const float* cdf, uint32_t count, float u, float& offset) {
+    const float* upper = std::upper_bound(cdf, cdf + count + 1, u);
+    const auto i = uint32_t(std::clamp<ptrdiff_t>(upper - cdf - 1, 0, ptrdiff_t(count) - 1));
+    const float width = cdf[i + 1] - cdf[i];
+    offset = width > 0.0f ? std::clamp((u - cdf[i]) / width, 0.0f, 0x1.fffffep-1f) : 0.5f;
     return i;
 }
 
 }  // namespace
 
 EnvironmentLight::EnvironmentLight(const Environment& environment) : environment_(&environment) {
-    black_ = !(maxComponent(environment.radiance) > 0.0f);
+    isBlack_ = !(maxComponent(environment.radiance) > 0.0f);
     meanLuminance_ = luminance(environment.radiance);
-    if (black_ || !environment.map) return;
+    if (isBlack_ || !environment.map) return;
     const ImageF& map = *environment.map;
     width_ = map.width;
     height_ = map.height;
 
-    // Mean brightness of each texel's bilinear patch: never zero where its radiance isn't.
+    // Mean luminance of each texel's bilinear patch: positive where its radiance is
     std::vector<double> weights(size_t(width_) * height_);
     const auto brightness = [&](int64_t x, int64_t y) {
         const float* p = map.pixel(uint32_t((x + width_) % width_),
@@ -44,37 +44,37 @@ EnvironmentLight::EnvironmentLight(const Environment& environment) : environment
             weights[size_t(y) * width_ + size_t(x)] = sum;
         }
 
-    // Cumulative sums, rows weighed by the solid angle that they cover.
-    columnSums_.resize((size_t(width_) + 1) * height_);
-    rowSums_.resize(size_t(height_) + 1);
-    std::vector<double> rows(height_);
+    // CDFs of columns, and of rows weighted by solid angle
+    columnCdfs_.resize((size_t(width_) + 1) * height_);
+    rowCdf_.resize(size_t(height_) + 1);
+    std::vector<double> rowWeights(height_);
     double total = 0.0;
     for (uint32_t y = 0; y < height_; ++y) {
         const double* row = &weights[size_t(y) * width_];
         double rowTotal = 0.0;
         for (uint32_t x = 0; x < width_; ++x) rowTotal += row[x];
-        float* sums = &columnSums_[size_t(y) * (width_ + 1)];
+        float* cdf = &columnCdfs_[size_t(y) * (width_ + 1)];
         double sum = 0.0;
         for (uint32_t x = 0; x < width_; ++x) {
             sum += rowTotal > 0.0 ? row[x] / rowTotal : 1.0 / width_;
-            sums[x + 1] = float(std::min(sum, 1.0));
+            cdf[x + 1] = float(std::min(sum, 1.0));
         }
-        sums[width_] = 1.0f;
+        cdf[width_] = 1.0f;
         const double solidAngle = std::cos(kPi * y / height_) - std::cos(kPi * (y + 1) / height_);
-        rows[y] = rowTotal * solidAngle;
-        total += rows[y];
+        rowWeights[y] = rowTotal * solidAngle;
+        total += rowWeights[y];
     }
-    black_ = !(total > 0.0);
+    isBlack_ = !(total > 0.0);
     meanLuminance_ = float(total / (2.0 * width_));
     double sum = 0.0;
-    for (uint32_t y = 0; y < height_ && !black_; ++y) {
-        sum += rows[y] / total;
-        rowSums_[y + 1] = float(std::min(sum, 1.0));
+    for (uint32_t y = 0; y < height_ && !isBlack_; ++y) {
+        sum += rowWeights[y] / total;
+        rowCdf_[y + 1] = float(std::min(sum, 1.0));
     }
-    rowSums_[height_] = 1.0f;
+    rowCdf_[height_] = 1.0f;
 }
 
-glm::vec2 EnvironmentLight::toMap(const glm::vec3& d) const {
+glm::vec2 EnvironmentLight::texelCoordinates(const glm::vec3& d) const {
     const float u = 0.5f + std::atan2(d.x, -d.z) * (0.5f * kInvPi);
     const float v = std::acos(std::clamp(d.y, -1.0f, 1.0f)) * kInvPi;
     return {u * float(width_), v * float(height_)};
@@ -83,7 +83,7 @@ glm::vec2 EnvironmentLight::toMap(const glm::vec3& d) const {
 glm::vec3 EnvironmentLight::radiance(const glm::vec3& direction) const {
     if (!hasMap()) return environment_->radiance;
     const ImageF& map = *environment_->map;
-    const glm::vec2 p = toMap(direction) - 0.5f;
+    const glm::vec2 p = texelCoordinates(direction) - 0.5f;
     const float floorX = std::floor(p.x), floorY = std::floor(p.y);
     const float fx = p.x - floorX, fy = p.y - floorY;
     const auto texel = [&](int64_t x, int64_t y) {
@@ -97,28 +97,28 @@ glm::vec3 EnvironmentLight::radiance(const glm::vec3& direction) const {
     return environment_->radiance * (top * (1.0f - fy) + bottom * fy);
 }
 
-float EnvironmentLight::pdfOfTexel(uint32_t x, uint32_t y, float sinTheta) const {
-    const float* sums = &columnSums_[size_t(y) * (width_ + 1)];
+float EnvironmentLight::texelPdf(uint32_t x, uint32_t y, float sinTheta) const {
+    const float* cdf = &columnCdfs_[size_t(y) * (width_ + 1)];
     const float density =
-        (sums[x + 1] - sums[x]) * float(width_) * (rowSums_[y + 1] - rowSums_[y]) * float(height_);
+        (cdf[x + 1] - cdf[x]) * float(width_) * (rowCdf_[y + 1] - rowCdf_[y]) * float(height_);
     return sinTheta > 0.0f ? density / (2.0f * kPi * kPi * sinTheta) : 0.0f;
 }
 
 float EnvironmentLight::pdf(const glm::vec3& direction) const {
-    const glm::vec2 p = toMap(direction);
+    const glm::vec2 p = texelCoordinates(direction);
     const auto x = std::min(uint32_t(std::max(p.x, 0.0f)), width_ - 1);
     const auto y = std::min(uint32_t(std::max(p.y, 0.0f)), height_ - 1);
-    return pdfOfTexel(x, y, std::sqrt(std::max(0.0f, 1.0f - direction.y * direction.y)));
+    return texelPdf(x, y, std::sqrt(std::max(0.0f, 1.0f - direction.y * direction.y)));
 }
 
 glm::vec3 EnvironmentLight::sample(float u, float v, float& pdf) const {
-    float restX, restY;
-    const uint32_t y = invert(rowSums_.data(), height_, v, restY);
-    const uint32_t x = invert(&columnSums_[size_t(y) * (width_ + 1)], width_, u, restX);
-    const float theta = kPi * (float(y) + restY) / float(height_);
-    const float phi = 2.0f * kPi * ((float(x) + restX) / float(width_) - 0.5f);
+    float offsetX, offsetY;
+    const uint32_t y = sampleCdf(rowCdf_.data(), height_, v, offsetY);
+    const uint32_t x = sampleCdf(&columnCdfs_[size_t(y) * (width_ + 1)], width_, u, offsetX);
+    const float theta = kPi * (float(y) + offsetY) / float(height_);
+    const float phi = 2.0f * kPi * ((float(x) + offsetX) / float(width_) - 0.5f);
     const float sinTheta = std::sin(theta);
-    pdf = pdfOfTexel(x, y, sinTheta);
+    pdf = texelPdf(x, y, sinTheta);
     return {sinTheta * std::sin(phi), std::cos(theta), -sinTheta * std::cos(phi)};
 }
 

@@ -8,35 +8,35 @@
 
 namespace voxray::path_trace {
 
-/// Light from infinitely far. A constant environment needs no sampling of its own: reflection sampling meets
-/// it everywhere. A map is drawn by brightness: rows, then columns, by inverting cumulative sums.
+/// Light from infinitely far. A constant environment is not sampled: reflection sampling finds it everywhere.
+/// A map is sampled by luminance: rows, then columns, by inverting CDFs (PBRT 12.5).
 class EnvironmentLight {
  public:
-    /// `environment` must outlive this object.
+    /// @param environment must outlive this object.
     explicit EnvironmentLight(const Environment& environment);
 
-    bool isBlack() const { return black_; }
-    bool hasMap() const { return !columnSums_.empty(); }
+    bool isBlack() const { return isBlack_; }
+    bool hasMap() const { return !columnCdfs_.empty(); }
     /// Mean luminance over all directions, W/(m² sr).
     float meanLuminance() const { return meanLuminance_; }
 
-    /// Radiance that arrives along a unit `direction` pointing away from the scene. The map is bilinear.
+    /// Radiance from a unit `direction` that points away from the scene; the map is interpolated bilinearly.
     glm::vec3 radiance(const glm::vec3& direction) const;
 
-    /// Density per steradian with which `sample` draws a direction; maps only.
+    /// Density of sample(), per steradian; maps only.
     float pdf(const glm::vec3& direction) const;
     glm::vec3 sample(float u, float v, float& pdf) const;
 
  private:
-    glm::vec2 toMap(const glm::vec3& direction) const;
-    float pdfOfTexel(uint32_t x, uint32_t y, float sinTheta) const;
+    glm::vec2 texelCoordinates(const glm::vec3& direction) const;
+    float texelPdf(uint32_t x, uint32_t y, float sinTheta) const;
 
     const Environment* environment_;
     uint32_t width_ = 0, height_ = 0;
-    bool black_ = true;
+    bool isBlack_ = true;
     float meanLuminance_ = 0.0f;
-    std::vector<float> rowSums_;     ///< height + 1 entries from 0 to 1.
-    std::vector<float> columnSums_;  ///< (width + 1) entries a row, each row from 0 to 1.
+    std::vector<float> rowCdf_;      ///< height + 1 entries.
+    std::vector<float> columnCdfs_;  ///< width + 1 entries per row.
 };
 
 }  // namespace voxray::path_trace

@@ -12,33 +12,33 @@ namespace voxray::path_trace {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-/// Shadow rays end this part of their way before the light.
+/// Shadow rays end at this fraction of the distance to the light.
 constexpr float kShadowEnd = 1.0f - 4e-6f;
-/// Panes that one ray crosses, at most.
+/// Maximum panes that a ray crosses.
 constexpr uint32_t kMaxPanes = 64;
-/// Vertices before Russian roulette starts.
-constexpr uint32_t kSureVertices = 3;
+/// Vertices before Russian roulette.
+constexpr uint32_t kMinRouletteVertices = 3;
 
 constexpr Ray kNoRay{{}, 0.0f, {0.0f, 0.0f, 1.0f}, -1.0f};
 
-/// What each vertex draws numbers for; the camera uses number 0.
-enum Use : uint32_t { kLightPoint = 1, kLightChoice, kReflection, kLobe, kRoulette, kUses = 8 };
+/// Sobol pairs of each vertex; the camera uses pair 0.
+enum Dimension : uint32_t { kLightPoint = 1, kLightChoice, kReflection, kLobe, kRoulette, kDimensions = 8 };
 
 }  // namespace
 
-/// The numbers of one vertex of a path.
+/// Random numbers of a path vertex.
 struct Integrator::VertexSampler {
     const SobolSampler& sampler;
     uint32_t vertex;
 
-    std::array<glm::vec2, 2> pairs(Use a, Use b) const {
-        return sampler.pairs(vertex * kUses + a, vertex * kUses + b);
+    std::array<glm::vec2, 2> get2Dx2(Dimension a, Dimension b) const {
+        return sampler.get2Dx2(vertex * kDimensions + a, vertex * kDimensions + b);
     }
-    float one(Use use) const { return sampler.one(vertex * kUses + use); }
+    float get1D(Dimension dimension) const { return sampler.get1D(vertex * kDimensions + dimension); }
 };
 
 Integrator::Integrator(const SceneState& state, const EmbreeScene& tracer, uint32_t bounces,
-                       Strategy strategy, PathLight light, RaysToCome rays)
+                       Strategy strategy, PathLight light, ExpectedRays rays)
     : tracer_(tracer),
       surfaces_(state, rays),
       lights_(state, surfaces_),
@@ -48,23 +48,23 @@ Integrator::Integrator(const SceneState& state, const EmbreeScene& tracer, uint3
       light_(light) {}
 
 glm::vec3 Integrator::transmittance(Ray ray) const {
-    glm::vec3 all(1.0f);
+    glm::vec3 product(1.0f);
     for (uint32_t pane = 0; panes_ && pane < kMaxPanes; ++pane) {
         const Hit hit = panes_->tracer.closestHit(ray);
         if (hit.triangle == Hit::kMiss) break;
         const SurfaceTable& surfaces = panes_->surfaces;
-        all *= surfaces.material(surfaces.triangle(hit.triangle)).transmission *
-               surfaces.at(hit, glm::normalize(ray.direction)).bsdf.diffuse;
-        // The next one is farther by more than a distance rounds off.
+        product *= surfaces.material(surfaces.triangle(hit.triangle)).transmission *
+                   surfaces.pointAt(hit, glm::normalize(ray.direction)).bsdf.diffuse;
+        // Step past this pane's rounding error
         ray.tMin = hit.t * (1 + 1e-5f);
     }
-    return all;
+    return product;
 }
 
-float Integrator::weightOfHit(float reflectionPdf, float lightPdf) const {
+float Integrator::hitWeight(float bsdfPdf, float lightPdf) const {
     switch (strategy_) {
         case Strategy::Mis:
-            return misWeight(reflectionPdf, lightPdf);
+            return misWeight(bsdfPdf, lightPdf);
         case Strategy::ReflectionOnly:
             return 1.0f;
         case Strategy::LightsOnly:
@@ -73,163 +73,166 @@ float Integrator::weightOfHit(float reflectionPdf, float lightPdf) const {
     return lightPdf > 0.0f ? 0.0f : 1.0f;
 }
 
-/// A path on its way. For each vertex: arrive() at a hit, addLight() of it, scatter() on.
+/// State of a path. For each vertex: shadeHit(), addLightSample(), scatter().
 class Integrator::Path {
  public:
     Path(const Integrator& integrator, const Ray& cameraRay, const SobolSampler& sampler)
-        : in_(integrator), sampler_(sampler), ray_(cameraRay) {}
+        : integrator_(integrator), sampler_(sampler), ray_(cameraRay) {}
 
     const Ray& ray() const { return ray_; }
-    /// To the light that was drawn; tMax < tMin where none is.
-    const Ray& shadowRay() const { return shadow_; }
-    const PathSample& sample() const { return path_; }
+    /// Towards the sampled light; inactive (tMax < tMin) without one.
+    const Ray& shadowRay() const { return shadowRay_; }
+    const PathSample& sample() const { return sample_; }
 
-    /// Adds what the ray runs into, and draws a light. @return whether the path goes on to addLight().
-    bool arrive(const Hit& hit);
-    /// Adds what the light that was drawn sends here.
-    void addLight(bool isOccluded) {
-        if (shadow_.tMax >= shadow_.tMin && !isOccluded)
-            add(vertex_ == 0, light_ * in_.transmittance(shadow_));
+    /// Adds light at the ray's hit, and samples a light there. @return whether the path continues with
+    /// addLightSample().
+    bool shadeHit(const Hit& hit);
+    /// Adds the sampled light.
+    void addLightSample(bool isOccluded) {
+        if (shadowRay_.tMax >= shadowRay_.tMin && !isOccluded)
+            add(vertex_ == 0, light_ * integrator_.transmittance(shadowRay_));
     }
-    /// @return whether the path goes on, along ray().
+    /// @return whether the path continues, along ray().
     bool scatter();
 
  private:
-    // Light that reaches the path here or that it runs into. Beyond the second vertex the latter is indirect.
+    // Adds light to the sample's components.
     void add(bool isDirect, const glm::vec3& light, float weight = 1.0f) {
-        (isDirect ? path_.direct : path_.indirect) += throughput_ * light * weight;
-        if (!isDirect) path_.irradiance += irradianceThroughput_ * light * weight;
+        (isDirect ? sample_.direct : sample_.indirect) += throughput_ * light * weight;
+        if (!isDirect) sample_.irradiance += irradianceThroughput_ * light * weight;
     }
-    /// Light that the ray runs into `distance` away. What the camera sees, in mirrors too, panes leave as it
-    /// is.
-    void addFound(const glm::vec3& light, float weight, float distance) {
-        const bool isSeen = isMirrored_ || vertex_ == 0;
-        const Ray way{ray_.origin, ray_.tMin, ray_.direction, distance};
-        add(vertex_ <= 1, isSeen ? light : light * in_.transmittance(way), weight);
+    /// Adds a light that the ray hits at `distance`: indirect light beyond the second vertex. Panes do not
+    /// absorb it where the camera sees it, directly or in mirrors.
+    void addHitLight(const glm::vec3& light, float weight, float distance) {
+        const bool isSeenDirectly = isSpecularBounce_ || vertex_ == 0;
+        const Ray segment{ray_.origin, ray_.tMin, ray_.direction, distance};
+        add(vertex_ <= 1, isSeenDirectly ? light : light * integrator_.transmittance(segment), weight);
     }
-    void drawLight();
+    void sampleLight();
 
-    const Integrator& in_;
+    const Integrator& integrator_;
     const SobolSampler& sampler_;
-    PathSample path_;
-    Ray ray_, shadow_{};
+    PathSample sample_;
+    Ray ray_, shadowRay_{};
     uint32_t vertex_ = 0;
     SurfacePoint point_;
-    std::array<glm::vec2, 2> places_;  ///< Random numbers for a point of a light and for a direction.
-    glm::vec3 light_{0.0f};            ///< That the shadow ray brings unless something is in its way.
+    std::array<glm::vec2, 2> u_;  ///< For a point on a light, and for a direction.
+    glm::vec3 light_{0.0f};       ///< Unoccluded, along the shadow ray.
     glm::vec3 throughput_{1.0f};
-    glm::vec3 irradianceThroughput_{0.0f};  ///< The same with the first hit's reflection left out.
-    float reflectionPdf_ = 0.0f;
-    bool isMirrored_ =
-        true;  ///< The camera, as a mirror, has no density: only the ray itself finds what it sees.
+    glm::vec3 irradianceThroughput_{0.0f};  ///< Throughput without the first hit's BSDF.
+    float bsdfPdf_ = 0.0f;
+    /// Light sampling can't find what the ray hits: after a mirror, and for camera rays.
+    bool isSpecularBounce_ = true;
 };
 
-bool Integrator::Path::arrive(const Hit& hit) {
-    const bool wantsFound = vertex_ > 1 || in_.light_ == PathLight::All;
-    ++path_.rays;
-    shadow_ = kNoRay;
-    if (vertex_ == 1 && hit.triangle != Hit::kMiss) path_.distance = hit.t;
+bool Integrator::Path::shadeHit(const Hit& hit) {
+    const bool countsHitLight = vertex_ > 1 || integrator_.light_ == PathLight::All;
+    ++sample_.rays;
+    shadowRay_ = kNoRay;
+    if (vertex_ == 1 && hit.triangle != Hit::kMiss) sample_.distance = hit.t;
     if (hit.triangle == Hit::kMiss) {
-        const EnvironmentLight& environment = in_.lights_.environment();
-        if (wantsFound && !environment.isBlack()) {
+        const EnvironmentLight& environment = integrator_.lights_.environment();
+        if (countsHitLight && !environment.isBlack()) {
             const float weight =
-                isMirrored_ ? 1.0f
-                            : in_.weightOfHit(reflectionPdf_, in_.lights_.pdfOfEnvironment(ray_.direction));
-            addFound(environment.radiance(ray_.direction), weight, hit.t);
+                isSpecularBounce_
+                    ? 1.0f
+                    : integrator_.hitWeight(bsdfPdf_, integrator_.lights_.environmentPdf(ray_.direction));
+            addHitLight(environment.radiance(ray_.direction), weight, hit.t);
         }
         return false;
     }
-    const SurfaceTriangle triangle = in_.surfaces_.triangle(hit.triangle);
-    if (wantsFound && triangle.light != kNoLight && in_.surfaces_.emitsTowards(triangle, -ray_.direction)) {
-        const float weight =
-            isMirrored_
-                ? 1.0f
-                : in_.weightOfHit(reflectionPdf_, in_.lights_.pdfOfHit(triangle, ray_.direction, hit.t));
-        addFound(in_.surfaces_.emission(hit.triangle, hit.u, hit.v), weight, hit.t);
+    const SurfaceTriangle triangle = integrator_.surfaces_.triangle(hit.triangle);
+    if (countsHitLight && triangle.light != kNoLight &&
+        integrator_.surfaces_.emitsTowards(triangle, -ray_.direction)) {
+        const float weight = isSpecularBounce_
+                                 ? 1.0f
+                                 : integrator_.hitWeight(
+                                       bsdfPdf_, integrator_.lights_.hitPdf(triangle, ray_.direction, hit.t));
+        addHitLight(integrator_.surfaces_.emission(hit.triangle, hit.u, hit.v), weight, hit.t);
     }
-    if (vertex_ > in_.bounces_) return false;
+    if (vertex_ > integrator_.bounces_) return false;
 
-    point_ = in_.surfaces_.at(hit, ray_.direction);
-    places_ = VertexSampler{sampler_, vertex_}.pairs(kLightPoint, kReflection);
-    if (vertex_ == 0) path_.hasIrradiance = maxComponent(point_.bsdf.diffuse) > 0.0f;
-    if (!in_.lights_.empty() && (vertex_ > 0 || in_.light_ == PathLight::All)) drawLight();
+    point_ = integrator_.surfaces_.pointAt(hit, ray_.direction);
+    u_ = VertexSampler{sampler_, vertex_}.get2Dx2(kLightPoint, kReflection);
+    if (vertex_ == 0) sample_.hasIrradiance = maxComponent(point_.bsdf.diffuse) > 0.0f;
+    if (!integrator_.lights_.empty() && (vertex_ > 0 || integrator_.light_ == PathLight::All)) sampleLight();
     return true;
 }
 
-void Integrator::Path::drawLight() {
+void Integrator::Path::sampleLight() {
     const VertexSampler sampler{sampler_, vertex_};
     const glm::vec3 origin = point_.rayOrigin();
-    const float choice = in_.lights_.isSingle() ? 0.0f : sampler.one(kLightChoice);
-    const LightSample light = in_.lights_.sample(origin, choice, places_[0]);
+    const float uLight = integrator_.lights_.isSingle() ? 0.0f : sampler.get1D(kLightChoice);
+    const LightSample light = integrator_.lights_.sample(origin, uLight, u_[0]);
     if (!(light.pdf > 0.0f) || !(glm::dot(light.direction, point_.faceNormal) > 0.0f)) return;
-    const BsdfValue reflection = point_.bsdf.evaluate(-ray_.direction, light.direction, point_.shadingNormal);
-    light_ = reflection.fCos * light.radiance / light.pdf;
+    const BsdfValue bsdfValue = point_.bsdf.evaluate(-ray_.direction, light.direction, point_.shadingNormal);
+    light_ = bsdfValue.fCos * light.radiance / light.pdf;
     if (!light.isDelta) {
-        if (in_.strategy_ == Strategy::ReflectionOnly) return;
-        if (in_.strategy_ == Strategy::Mis) light_ *= misWeight(light.pdf, reflection.pdf);
+        if (integrator_.strategy_ == Strategy::ReflectionOnly) return;
+        if (integrator_.strategy_ == Strategy::Mis) light_ *= misWeight(light.pdf, bsdfValue.pdf);
     }
     if (!(maxComponent(light_) > 0.0f)) return;
-    ++path_.rays;
-    shadow_ = light.isInfinite ? Ray{origin, 0.0f, light.direction, kInfinity}
-                               : Ray{origin, 0.0f, light.target - origin, kShadowEnd};
+    ++sample_.rays;
+    shadowRay_ = light.isInfinite ? Ray{origin, 0.0f, light.direction, kInfinity}
+                                  : Ray{origin, 0.0f, light.target - origin, kShadowEnd};
 }
 
 bool Integrator::Path::scatter() {
-    if (vertex_ == in_.bounces_ && !in_.lights_.canBeHit()) return false;
+    if (vertex_ == integrator_.bounces_ && !integrator_.lights_.canBeHit()) return false;
 
-    // Rays that a shading normal sends below the surface are lost.
+    // Directions below the surface are absorbed
     const VertexSampler sampler{sampler_, vertex_};
-    const float lobe = point_.bsdf.hasSpecular() ? sampler.one(kLobe) : 0.0f;
-    const BsdfSample next = point_.bsdf.sample(-ray_.direction, point_.shadingNormal, places_[1], lobe);
+    const float uLobe = point_.bsdf.hasSpecular() ? sampler.get1D(kLobe) : 0.0f;
+    const BsdfSample next = point_.bsdf.sample(-ray_.direction, point_.shadingNormal, u_[1], uLobe);
     throughput_ *= next.weight;
     if (vertex_ > 0)
         irradianceThroughput_ *= next.weight;
     else if (next.pdf > 0.0f)
         irradianceThroughput_ = glm::vec3(glm::dot(point_.shadingNormal, next.direction) / next.pdf);
-    const float strength = maxComponent(throughput_);
-    if (!(strength > 0.0f) || !(glm::dot(next.direction, point_.faceNormal) > 0.0f)) return false;
+    const float maxThroughput = maxComponent(throughput_);
+    if (!(maxThroughput > 0.0f) || !(glm::dot(next.direction, point_.faceNormal) > 0.0f)) return false;
 
-    // Russian roulette by the root of the throughput: shorter paths, more noise; the mean stays.
-    if (vertex_ + 1 >= kSureVertices && strength < 1.0f) {
-        const float survival = std::sqrt(strength);
-        if (sampler.one(kRoulette) >= survival) return false;
+    // Russian roulette by the square root of the throughput: shorter paths, more noise, the same mean
+    if (vertex_ + 1 >= kMinRouletteVertices && maxThroughput < 1.0f) {
+        const float survival = std::sqrt(maxThroughput);
+        if (sampler.get1D(kRoulette) >= survival) return false;
         throughput_ /= survival;
         irradianceThroughput_ /= survival;
     }
     ray_ = {point_.rayOrigin(), 0.0f, next.direction, kInfinity};
-    reflectionPdf_ = next.pdf;
-    isMirrored_ = next.mirror;
+    bsdfPdf_ = next.pdf;
+    isSpecularBounce_ = next.isMirror;
     ++vertex_;
     return true;
 }
 
 void Integrator::trace(std::span<const Ray> cameraRays, std::span<const SobolSampler> samplers,
                        std::span<PathSample> samples) const {
-    // The first hits of neighbours lie close together, and so do the rays from there to one light.
+    // First hits of adjacent pixels are coherent, and so are their shadow rays to one light
     const size_t count = cameraRays.size();
     std::array<Hit, kPacket> hits;
     tracer_.closestHitPacket(cameraRays, std::span(hits).first(count));
     std::array<std::optional<Path>, kPacket> paths;
-    std::array<bool, kPacket> goesOn;
+    std::array<bool, kPacket> isAlive;
     std::array<Ray, kPacket> shadows;
     std::array<uint32_t, kPacket> occluded;
     bool hasShadows = false;
     for (size_t i = 0; i < count; ++i) {
         paths[i].emplace(*this, cameraRays[i], samplers[i]);
-        goesOn[i] = paths[i]->arrive(hits[i]);
+        isAlive[i] = paths[i]->shadeHit(hits[i]);
         shadows[i] = paths[i]->shadowRay();
         hasShadows = hasShadows || shadows[i].tMax >= shadows[i].tMin;
     }
     if (hasShadows) tracer_.occludedPacket(std::span(shadows).first(count), std::span(occluded).first(count));
 
-    // From there on they part.
+    // Later rays are incoherent
     for (size_t i = 0; i < count; ++i) {
         Path& path = *paths[i];
-        if (goesOn[i]) {
-            path.addLight(occluded[i] != 0);
-            while (path.scatter() && path.arrive(tracer_.closestHit(path.ray()))) {
+        if (isAlive[i]) {
+            path.addLightSample(occluded[i] != 0);
+            while (path.scatter() && path.shadeHit(tracer_.closestHit(path.ray()))) {
                 const Ray& shadow = path.shadowRay();
-                if (shadow.tMax >= shadow.tMin) path.addLight(tracer_.occluded(shadow));
+                if (shadow.tMax >= shadow.tMin) path.addLightSample(tracer_.occluded(shadow));
             }
         }
         samples[i] = path.sample();

@@ -14,30 +14,31 @@
 
 namespace voxray::path_trace {
 
-/// How light is found; all three have the same mean (mirrors and delta lights apart), which a test shows.
+/// Sampling strategies. All three have the same mean (mirrors and delta lights apart), which a test shows.
 enum class Strategy { Mis, ReflectionOnly, LightsOnly };
 
-/// What one path brought, W/(m² sr).
+/// Radiance of one path, W/(m² sr).
 struct PathSample {
-    glm::vec3 direct{0.0f};    ///< Emission and direct light at the first hit: N = 0.
-    glm::vec3 indirect{0.0f};  ///< Everything else.
+    glm::vec3 direct{0.0f};    ///< Emission and direct light at the first hit (no bounce).
+    glm::vec3 indirect{0.0f};  ///< All other light.
     uint32_t rays = 0;
 
-    /// Whether the path scattered at a first hit that reflects diffusely; if so, the next two are estimates.
+    /// Whether the first hit reflects diffusely, and the path scattered there; then the next two are
+    /// estimates.
     bool hasIrradiance = false;
-    glm::vec3 irradiance{0.0f};  ///< Of indirect light, about the first hit's shading normal, W/m².
-    float distance = std::numeric_limits<float>::infinity();  ///< From the first hit to the second, m.
+    glm::vec3 irradiance{0.0f};  ///< Of indirect light about the first hit's shading normal, W/m².
+    float distance = std::numeric_limits<float>::infinity();  ///< First to second hit, m.
 };
 
-/// The light transport equation's estimator: unidirectional paths with next-event estimation.
+/// Unidirectional path tracing with next-event estimation (PBRT 13).
 class Integrator {
  public:
-    /// Both arguments must outlive this object.
+    /// `state` and `tracer` must outlive this object.
     Integrator(const SceneState& state, const EmbreeScene& tracer, uint32_t bounces, Strategy strategy,
-               PathLight light = PathLight::All, RaysToCome rays = RaysToCome::Many);
+               PathLight light = PathLight::All, ExpectedRays rays = ExpectedRays::Many);
 
-    /// Follows up to kPacket paths that start along `cameraRays` (unit directions) and lie close together:
-    /// they share the packets of their first rays. Pair 0 of samplers is the caller's.
+    /// Traces up to kPacket paths along `cameraRays` (unit directions) that are close together: their first
+    /// rays are traced as packets. The caller uses pair 0 of the samplers.
     static constexpr size_t kPacket = EmbreeScene::kPacketRays;
     void trace(std::span<const Ray> cameraRays, std::span<const SobolSampler> samplers,
                std::span<PathSample> samples) const;
@@ -45,27 +46,27 @@ class Integrator {
  private:
     struct VertexSampler;
     class Path;
-    float weightOfHit(float reflectionPdf, float lightPdf) const;
+    float hitWeight(float bsdfPdf, float lightPdf) const;
 
-    /// What a ray's light loses to the colour of panes on its way up to tMax.
+    /// Transmittance of the colored panes along a ray, up to tMax.
     glm::vec3 transmittance(Ray ray) const;
 
     const EmbreeScene& tracer_;
     SurfaceTable surfaces_;
     LightTable lights_;
-    /// Panes that dim light.
+    /// Panes that absorb light.
     struct Panes {
         explicit Panes(const SceneState& state) : tracer(state), surfaces(state) {}
         EmbreeScene tracer;
         SurfaceTable surfaces;
     };
-    std::unique_ptr<const Panes> panes_;  ///< nullptr: there are none.
+    std::unique_ptr<const Panes> panes_;  ///< nullptr: none.
     uint32_t bounces_;
     Strategy strategy_;
     PathLight light_;
 };
 
-/// Renders as `pathTrace` does, with any strategy.
+/// As pathTrace(), with any strategy.
 PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
                        const PathTraceOptions& options, const ProgressCallback& progress, Strategy strategy);
 

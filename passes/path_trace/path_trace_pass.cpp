@@ -12,12 +12,12 @@
 namespace voxray {
 namespace {
 
-/// Uploads an image of 3 or 4 channels; the fourth is 1 where there is none.
-void upload(CommandStream& stream, const ImageF& from, const Image& to) {
-    std::vector<float> rgba(from.pixelCount() * 4, 1.0f);
-    for (size_t i = 0; i < from.pixelCount(); ++i)
-        for (size_t c = 0; c < from.channels; ++c) rgba[4 * i + c] = from.data[from.channels * i + c];
-    stream.upload(to, std::as_bytes(std::span(rgba)));
+/// Uploads an image of 3 or 4 channels; a missing fourth one is 1.
+void upload(CommandStream& stream, const ImageF& source, const Image& target) {
+    std::vector<float> rgba(source.pixelCount() * 4, 1.0f);
+    for (size_t i = 0; i < source.pixelCount(); ++i)
+        for (size_t c = 0; c < source.channels; ++c) rgba[4 * i + c] = source.data[source.channels * i + c];
+    stream.upload(target, std::as_bytes(std::span(rgba)));
     stream.finish();
 }
 
@@ -29,8 +29,8 @@ struct EnumNames<PathLight> {
                                       std::pair{PathLight::Indirect, "indirect"}};
 };
 
-/// The reference path tracer (path_tracer.h) as a pass: many samples make it the reference of all others, few
-/// make it the baseline on the chart. It shares no shader and no stream with the methods that it is compared
+/// The reference path tracer (path_tracer.h) as a pass: with many samples the reference of all methods, with
+/// few the baseline of charts. It shares no shader and no ray stream with the methods that it is compared
 /// with.
 class PathTracePass final : public Pass {
  public:
@@ -65,19 +65,19 @@ class PathTracePass final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    using Pixels = const ImageF& (*)(const PathTraceResult&);
-    /// An output and what is rendered for it.
+    using PixelsOf = const ImageF& (*)(const PathTraceResult&);
+    /// An output and its pixels.
     struct RenderedImage {
         Out<FrameImage> port;
-        PathLight light;  ///< Where paths are spent on this light alone, it is written.
+        PathLight light;  ///< Light that the image has; also rendered where paths compute that light only.
         bool isHalf;
-        Pixels pixels;
+        PixelsOf pixels;
 
-        RenderedImage(PortOwner& owner, const char* portName, const char* help, PathLight of, bool half,
-                      Pixels which)
-            : port(owner, portName, help), light(of), isHalf(half), pixels(which) {}
+        RenderedImage(PortOwner& owner, const char* portName, const char* help, PathLight imageLight,
+                      bool half, PixelsOf pixelsOf)
+            : port(owner, portName, help), light(imageLight), isHalf(half), pixels(pixelsOf) {}
     };
-    /// With `light: indirect` nothing but indirect light is; of a single sample there are no halves.
+    /// Only indirect images with `light: indirect`; no halves of a single sample.
     bool isRendered(const RenderedImage& image) const {
         return (image.light == PathLight::Indirect || params_.light == PathLight::All) &&
                (!image.isHalf || params_.spp > 1);
@@ -85,7 +85,7 @@ class PathTracePass final : public Pass {
 
     const Params params_;
     InOptional<GBuffer> gbuffer_{*this, "gbuffer", "whose texels 'noisy_irradiance' is for; else pixels"};
-    /// 'final' is the first.
+    /// The first is 'final'.
     const RenderedImage images_[6] = {
         {*this, "final", "radiance towards the camera", PathLight::All, false,
          [](const PathTraceResult& r) -> const ImageF& { return r.total; }},
@@ -146,8 +146,8 @@ void PathTracePass::record(PassContext& context) {
     PathTraceResult result = pathTrace(*frame.scene, *embree_, frame.camera, options_, frame.progress);
     context.extraRays = result.rays;
     for (const RenderedImage& image : images_)
-        if (const FrameImage& to = context[image.port]; to.isRead && isRendered(image))
-            upload(context.stream, image.pixels(result), to.image);
+        if (const FrameImage& target = context[image.port]; target.isRead && isRendered(image))
+            upload(context.stream, image.pixels(result), target.image);
     if (const NoisyIrradiance& noisy = context[noisy_]; noisy.isRead) {
         upload(context.stream, result.irradiance, noisy.irradiance);
         context.stream.upload(noisy.moments, result.moments);

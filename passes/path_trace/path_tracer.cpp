@@ -18,11 +18,11 @@ namespace path_trace {
 
 namespace {
 
-constexpr uint32_t kTile = 16;  ///< A multiple of every momentsPixels(): no two tiles share a block.
+constexpr uint32_t kTile = 16;  ///< A multiple of all momentsPixels(): no two tiles share a block.
 constexpr uint32_t kBatches = 2;
-constexpr uint64_t kPathsPerReport = 4096;  ///< Some hundredths of a second on one core.
+constexpr uint64_t kPathsPerReport = 4096;  ///< Some 10 ms on one core.
 
-/// Turns points of the image plane into rays.
+/// Pinhole camera: generates rays through points of the image plane.
 class PinholeCamera {
  public:
     PinholeCamera(const Camera& camera, uint32_t width, uint32_t height) : origin_(camera.position) {
@@ -34,7 +34,7 @@ class PinholeCamera {
         corner_ = camera.forward - perX_ * (0.5f * float(width)) - perY_ * (0.5f * float(height));
     }
 
-    /// `x` and `y` in pixels from the image's upper left corner.
+    /// @param x and y in pixels from the image's upper left corner.
     Ray ray(float x, float y) const {
         return {origin_, 0.0f, glm::normalize(corner_ + perX_ * x + perY_ * y),
                 std::numeric_limits<float>::infinity()};
@@ -44,13 +44,13 @@ class PinholeCamera {
     glm::vec3 origin_, corner_, perX_, perY_;
 };
 
-/// Sums of one image's pixel over the batches.
+/// Sums of a pixel, by batch of samples.
 struct PixelSums {
     std::array<glm::dvec3, kBatches> batch{};
 
-    /// Writes the mean of all samples and that of each batch.
+    /// Writes the mean over all samples, and over each batch.
     void write(const std::array<uint32_t, kBatches>& sizes, uint32_t batches, uint32_t x, uint32_t y,
-               ImageF& all, std::array<ImageF, kBatches>& halves) const {
+               ImageF& mean, std::array<ImageF, kBatches>& halves) const {
         glm::dvec3 sum(0.0);
         uint32_t samples = 0;
         for (uint32_t b = 0; b < batches; ++b) {
@@ -59,10 +59,10 @@ struct PixelSums {
             for (int c = 0; c < 3; ++c)
                 halves[b].pixel(x, y)[c] = float(batch[b][c] / std::max(sizes[b], 1u));
         }
-        for (int c = 0; c < 3; ++c) all.pixel(x, y)[c] = float(sum[c] / samples);
+        for (int c = 0; c < 3; ++c) mean.pixel(x, y)[c] = float(sum[c] / samples);
     }
 
-    /// Keeps the sums of the batches as they are.
+    /// Writes the sums of batches.
     void write(uint32_t batches, uint32_t x, uint32_t y, std::array<SampleSums, kBatches>& sums) const {
         for (uint32_t b = 0; b < batches; ++b)
             for (int c = 0; c < 3; ++c) sums[b].pixel(x, y)[c] = batch[b][c];
@@ -79,25 +79,25 @@ void addTo(gpu::RayMoments& sum, const PathSample& path) {
     sum.squaredOverDistance += l * l * inverseDistance;
 }
 
-/// Paths that are followed together: a pixel's, then the next one's.
+/// Paths that are traced together: of one pixel, then of the next.
 struct Packet {
-    struct Place {
+    struct CameraSample {
         glm::uvec2 pixel;
-        glm::vec2 inPixel;
+        glm::vec2 positionInPixel;
         uint32_t batch;
     };
     size_t size = 0;
-    std::array<Place, Integrator::kPacket> places;
+    std::array<CameraSample, Integrator::kPacket> cameraSamples;
     std::array<Ray, Integrator::kPacket> rays;
     std::array<SobolSampler, Integrator::kPacket> samplers;
     std::array<PathSample, Integrator::kPacket> samples;
 
-    void add(const PinholeCamera& camera, Place place, const SobolSampler& sampler) {
-        place.inPixel = sampler.pair(0);
-        const glm::vec2 inImage = place.inPixel + glm::vec2(place.pixel);
-        rays[size] = camera.ray(inImage.x, inImage.y);
+    void add(const PinholeCamera& camera, CameraSample sample, const SobolSampler& sampler) {
+        sample.positionInPixel = sampler.get2D(0);
+        const glm::vec2 imagePosition = sample.positionInPixel + glm::vec2(sample.pixel);
+        rays[size] = camera.ray(imagePosition.x, imagePosition.y);
         samplers[size] = sampler;
-        places[size++] = place;
+        cameraSamples[size++] = sample;
     }
     void trace(const Integrator& integrator) {
         integrator.trace(std::span(rays).first(size), std::span(samplers).first(size),
@@ -105,7 +105,7 @@ struct Packet {
     }
 };
 
-/// Counts followed paths and asks the caller whether to go on.
+/// Counts traced paths, and asks the caller whether to continue.
 class ProgressReporter {
  public:
     ProgressReporter(const ProgressCallback& callback, uint64_t paths) : callback_(callback), paths_(paths) {}
@@ -125,29 +125,29 @@ class ProgressReporter {
     std::atomic<bool> stopped_{false};
 };
 
-/// Everything that the tiles share.
-struct Job {
+/// Shared by all tiles.
+struct RenderJob {
     const Integrator& integrator;
     const PinholeCamera& camera;
     const PathTraceOptions& options;
-    /// Of each batch's samples, which are numbered on their own: the first one that is taken, and how many.
+    /// By batch, whose samples are numbered separately: the first sample, and the number of samples.
     std::array<uint32_t, kBatches> batchFirst{}, batchSizes{};
     uint32_t batches = 1;
     PathTraceResult& result;
     ProgressReporter& reporter;
 
-    /// Adds what a path tells of the irradiance at its first hit, `place` in [0, 1)² of the pixel.
-    void addIrradiance(uint32_t x, uint32_t y, glm::vec2 place, const PathSample& path) const {
+    /// Adds a path's irradiance at its first hit. @param u position in the pixel, in [0, 1)².
+    void addIrradiance(uint32_t x, uint32_t y, glm::vec2 u, const PathSample& path) const {
         const uint32_t texels = options.irradianceTexels, block = options.momentsPixels();
-        const glm::uvec2 inPixel = glm::min(glm::uvec2(place * float(texels)), glm::uvec2(texels - 1));
-        float* texel = result.irradiance.pixel(x * texels + inPixel.x, y * texels + inPixel.y);
+        const glm::uvec2 texelInPixel = glm::min(glm::uvec2(u * float(texels)), glm::uvec2(texels - 1));
+        float* texel = result.irradiance.pixel(x * texels + texelInPixel.x, y * texels + texelInPixel.y);
         for (int c = 0; c < 3; ++c) texel[c] += path.irradiance[c];
         texel[3] += 1.0f;
         const uint32_t blocksX = (options.width + block - 1) / block;
         addTo(result.moments[size_t(y / block) * blocksX + x / block], path);
     }
 
-    /// From sums over a pixel's paths to means.
+    /// Divides a pixel's irradiance sums by their counts.
     void finishIrradiance(uint32_t x, uint32_t y) const {
         const uint32_t texels = options.irradianceTexels;
         for (uint32_t j = 0; j < texels; ++j)
@@ -157,7 +157,7 @@ struct Job {
             }
     }
 
-    /// Renders a tile, or a part of it where the caller stops that; returns the rays that it took.
+    /// Renders a tile, or part of it if stopped. @return the number of rays.
     uint64_t renderTile(glm::uvec2 first) const {
         const glm::uvec2 last = glm::min(first + kTile, glm::uvec2(options.width, options.height));
         std::array<PixelSums, kTile * kTile> totals, indirects;
@@ -166,19 +166,19 @@ struct Job {
         const auto trace = [&] {
             packet.trace(integrator);
             for (size_t i = 0; i < packet.size; ++i) {
-                const Packet::Place& place = packet.places[i];
+                const Packet::CameraSample& sample = packet.cameraSamples[i];
                 const PathSample& path = packet.samples[i];
                 const glm::vec3 sum = path.direct + path.indirect;
                 if (!std::isfinite(sum.x + sum.y + sum.z))
                     throw Error(
                         "path tracing: a sample of pixel ({}, {}) is not finite: "
                         "is a light or an emission too bright for a float?",
-                        place.pixel.x, place.pixel.y);
-                const glm::uvec2 inTile = place.pixel - first;
-                totals[inTile.y * kTile + inTile.x].batch[place.batch] += sum;
-                indirects[inTile.y * kTile + inTile.x].batch[place.batch] += path.indirect;
+                        sample.pixel.x, sample.pixel.y);
+                const glm::uvec2 inTile = sample.pixel - first;
+                totals[inTile.y * kTile + inTile.x].batch[sample.batch] += sum;
+                indirects[inTile.y * kTile + inTile.x].batch[sample.batch] += path.indirect;
                 if (options.irradianceTexels > 0 && path.hasIrradiance)
-                    addIrradiance(place.pixel.x, place.pixel.y, place.inPixel, path);
+                    addIrradiance(sample.pixel.x, sample.pixel.y, sample.positionInPixel, path);
                 rays += path.rays;
             }
             unreported += packet.size;
@@ -239,24 +239,24 @@ PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const
     const Integrator integrator(state, tracer, options.bounces, strategy, options.light, options.rays);
     const PinholeCamera pinhole(camera, width, height);
 
-    // Divide the samples among independent batches: of two the first takes the odd numbers.
+    // Divide samples among independent batches: of two the first takes odd numbers
     ProgressReporter reporter(progress, uint64_t(width) * height * (end - first));
-    Job job{.integrator = integrator,
-            .camera = pinhole,
-            .options = options,
-            .result = result,
-            .reporter = reporter};
+    RenderJob job{.integrator = integrator,
+                  .camera = pinhole,
+                  .options = options,
+                  .result = result,
+                  .reporter = reporter};
     job.batches = std::min(options.spp, kBatches);
     for (uint32_t b = 0; b < job.batches; ++b) {
         result.totalHalves[b] = result.indirectHalves[b] = ImageF(width, height, 3);
-        const auto before = [&](uint64_t number) { return uint32_t((number + b) / job.batches); };
-        job.batchFirst[b] = before(first);
-        job.batchSizes[b] = before(end) - before(first);
+        const auto firstOf = [&](uint64_t sample) { return uint32_t((sample + b) / job.batches); };
+        job.batchFirst[b] = firstOf(first);
+        job.batchSizes[b] = firstOf(end) - firstOf(first);
         if (!options.keepSums) continue;
         result.totalSums[b] = result.indirectSums[b] = SampleSums(width, height, job.batchSizes[b]);
     }
 
-    // Every pixel is computed alone, so tiles may run in any order.
+    // Pixels are independent: tiles run in any order
     const size_t tilesX = (width + kTile - 1) / kTile, tiles = tilesX * ((height + kTile - 1) / kTile);
     std::atomic<uint64_t> rays{0};
     parallelRanges(tiles, 1, [&](size_t begin, size_t end) {

@@ -13,54 +13,51 @@
 
 namespace voxray {
 
-/// Which light paths are spent on. Indirect: nothing on emission and direct light at the first hit; the
-/// indirect light is the same, bit for bit.
+/// Which light is computed. Indirect: not emission and direct light at the first hit; indirect light is the
+/// same, bit for bit.
 enum class PathLight { All, Indirect };
 
-/// What the reference path tracer renders.
+/// Parameters of the reference path tracer.
 struct PathTraceOptions {
     uint32_t width = 0;
     uint32_t height = 0;
-    uint32_t spp = 64;     ///< Paths a pixel; powers of two are sampled best.
+    uint32_t spp = 64;     ///< Paths per pixel; powers of two are best for Sobol points.
     uint32_t bounces = 8;  ///< Scattering events after direct light at the first hit.
-    uint64_t seed = 0;     ///< Another seed: another, independent estimate.
+    uint64_t seed = 0;     ///< Different seeds give independent estimates.
     PathLight light = PathLight::All;
-    RaysToCome rays = RaysToCome::Many;  ///< Few, for a small image of a large scene: nothing is prepared.
-    SamplePart samples{};                ///< Which of the spp samples of each pixel are taken.
-    bool keepSums = false;               ///< Whether the sums over them are wanted.
-    /// Texels along a pixel's edge at which the irradiance of indirect light is estimated; 0: it is not.
+    ExpectedRays rays = ExpectedRays::Many;  ///< Few: nothing is precomputed.
+    SamplePart samples{};                    ///< Which of a pixel's spp samples are taken.
+    bool keepSums = false;                   ///< Whether to return sums over samples.
+    /// Texels along a pixel's edge for which irradiance of indirect light is estimated; 0: none.
     uint32_t irradianceTexels = 0;
 
-    /// Pixels along the edge of the blocks of `PathTraceResult::moments`: each has 16 paths or more.
+    /// Pixels along the edge of a block of PathTraceResult::moments: at least 16 paths each.
     uint32_t momentsPixels() const { return spp >= 16 ? 1 : spp >= 4 ? 2 : 4; }
 };
 
-/// Radiance, 3 channels, W/(m² sr), and the means of two halves of the samples, randomised independently:
-/// their difference tells the noise, of low-discrepancy samples too. With 1 spp there is no second half: it
-/// is empty. Of a part of the samples everything is the mean over that part; a half of which it holds no
-/// sample is black.
+/// Radiance, 3 channels, W/(m² sr), and means over two independently randomized halves of the samples, whose
+/// difference measures the noise, of low-discrepancy samples too. The second half is empty with 1 spp. With a
+/// part of the samples all means are over that part; a half without samples is black.
 struct PathTraceResult {
     ImageF total;
-    ImageF indirect;  ///< Total less emission and direct light at the first hit.
+    ImageF indirect;  ///< Total without emission and direct light at the first hit.
     std::array<ImageF, 2> totalHalves, indirectHalves;
     std::array<SampleSums, 2> totalSums, indirectSums;  ///< Of the halves; empty without keepSums.
     uint64_t rays = 0;
 
-    /// Indirect light that arrives at first hits, before they reflect it. 4 channels, irradianceTexels texels
-    /// along a pixel's edge: irradiance about the shading normal, W/m², the mean over the paths that fall
-    /// into the texel and whose first hit reflects diffusely; the number of these paths. Empty without
-    /// irradianceTexels.
+    /// Irradiance of indirect light at first hits, about the shading normal. 4 channels, irradianceTexels
+    /// texels along a pixel's edge: W/m², mean over the texel's paths whose first hit reflects diffusely; the
+    /// number of these paths. Empty without irradianceTexels.
     ImageF irradiance;
-    /// Sums over these paths for each block of momentsPixels x momentsPixels pixels, row by row.
+    /// Moments of these paths for each block of momentsPixels() x momentsPixels() pixels, row by row.
     std::vector<gpu::RayMoments> moments;
 };
 
-/// Called now and then with the part that is done, 0 to 1, never twice at once. False stops the rendering.
+/// Called at times with the fraction that is done, 0 to 1, by one thread at a time. False stops rendering.
 using ProgressCallback = std::function<bool(double)>;
 
 /// Renders by path tracing: next-event estimation, multiple importance sampling, Owen-scrambled Sobol points.
-/// Same arguments, same image, bit for bit, whatever the number of threads. Conventions and limits:
-/// docs/path-tracing.md.
+/// Deterministic, bit for bit, with any number of threads. Conventions and limits: docs/path-tracing.md.
 /// @throws Error where the size or spp is 0, where `progress` stopped it, or where a sample is not finite.
 PathTraceResult pathTrace(const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
                           const PathTraceOptions& options, const ProgressCallback& progress = {});

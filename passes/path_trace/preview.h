@@ -9,7 +9,7 @@ namespace voxray {
 inline ImageF pathTracedPreview(const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
                                 uint32_t width, uint32_t height, uint32_t spp, uint32_t bounces) {
     const PathTraceOptions options{
-        .width = width, .height = height, .spp = spp, .bounces = bounces, .rays = RaysToCome::Few};
+        .width = width, .height = height, .spp = spp, .bounces = bounces, .rays = ExpectedRays::Few};
     return pathTrace(state, tracer, camera, options).total;
 }
 

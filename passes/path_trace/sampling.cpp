@@ -10,23 +10,23 @@ AliasTable::AliasTable(std::span<const double> weights) {
     const size_t count = weights.size();
     bins_.resize(count);
 
-    // Sort the entries into those below and above the mean.
-    std::vector<double> scaled(count);
+    // Divide entries into those below and above the mean
+    std::vector<double> relative(count);
     std::vector<uint32_t> small, large;
     for (uint32_t i = 0; i < count; ++i) {
-        scaled[i] = weights[i] / sum * double(count);
+        relative[i] = weights[i] / sum * double(count);
         bins_[i] = {1.0f, i, float(weights[i] / sum)};
-        (scaled[i] < 1.0 ? small : large).push_back(i);
+        (relative[i] < 1.0 ? small : large).push_back(i);
     }
 
-    // Fill each small entry's bin up with a part of a large one.
+    // Fill each small entry's bin with a part of a large entry
     while (!small.empty() && !large.empty()) {
         const uint32_t s = small.back(), l = large.back();
         small.pop_back();
-        bins_[s].threshold = float(scaled[s]);
+        bins_[s].threshold = float(relative[s]);
         bins_[s].alias = l;
-        scaled[l] -= 1.0 - scaled[s];
-        if (scaled[l] < 1.0) {
+        relative[l] -= 1.0 - relative[s];
+        if (relative[l] < 1.0) {
             large.pop_back();
             small.push_back(l);
         }

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-/// Warps of the unit square and discrete distributions.
+/// Sampling warps of the unit square, and discrete distributions.
 namespace voxray::path_trace {
 
 constexpr float kPi = 3.14159265358979f;
@@ -25,8 +25,8 @@ inline float square(float x) {
     return x * x;
 }
 
-/// Two unit vectors that make a right-handed frame with the unit vector z. Duff et al. 2017, "Building an
-/// Orthonormal Basis, Revisited".
+/// Orthonormal right-handed frame around the unit vector z. Duff et al. 2017, "Building an Orthonormal Basis,
+/// Revisited".
 struct Frame {
     glm::vec3 x, y, z;
 
@@ -61,14 +61,14 @@ inline glm::vec2 uniformDisk(float u, float v) {
     return {b * sine, b * cosine};
 }
 
-/// Cosine-distributed on the upper hemisphere (+Z); density cos / pi.
+/// Cosine-distributed on the hemisphere around +Z; pdf cos / pi.
 inline glm::vec3 cosineHemisphere(float u, float v) {
     const glm::vec2 d = uniformDisk(u, v);
     return {d.x, d.y, std::sqrt(std::max(0.0f, 1.0f - d.x * d.x - d.y * d.y))};
 }
 
-/// Barycentric weights of the second and third corner, uniform on a triangle. Heitz 2019, "A Low-Distortion
-/// Map Between Triangle and Square".
+/// Barycentric coordinates of the second and third corner, uniform on a triangle. Heitz 2019, "A
+/// Low-Distortion Map Between Triangle and Square".
 inline glm::vec2 uniformTriangle(float u, float v) {
     if (v > u) {
         u *= 0.5f;
@@ -80,18 +80,18 @@ inline glm::vec2 uniformTriangle(float u, float v) {
     return {u, v};
 }
 
-/// Weight of a sample taken with density `mine` where another technique would have had density `other`: the
-/// power heuristic with exponent 2. Veach 1997, section 9.2.
-inline float misWeight(float mine, float other) {
-    const float r = other / mine;
-    return 1.0f / (1.0f + r * r);
+/// MIS weight of a sample with density `pdf` where another technique has `otherPdf`: power heuristic with
+/// exponent 2. Veach 1997, section 9.2.
+inline float misWeight(float pdf, float otherPdf) {
+    const float ratio = otherPdf / pdf;
+    return 1.0f / (1.0f + ratio * ratio);
 }
 
-/// Discrete distribution, one lookup a draw: Vose 1991's alias method.
+/// Discrete distribution by Vose's alias method (1991): constant time per draw.
 class AliasTable {
  public:
     AliasTable() = default;
-    /// Weights must be finite and not negative; where all are 0 the table is empty.
+    /// @param weights finite, not negative; the table is empty where all are 0.
     explicit AliasTable(std::span<const double> weights);
 
     bool empty() const { return bins_.empty(); }

@@ -17,8 +17,7 @@ bool readsTextures(const Material& m) {
            m.normalTexture.texture >= 0;
 }
 
-/// The normal of a normal map in world space; the interpolated one where the map or the tangent is
-/// degenerate.
+/// World-space normal of a normal map; the interpolated one where map or tangent are degenerate.
 glm::vec3 mapNormal(const glm::vec3& normal, const glm::vec4& tangent, const glm::vec4& texel, float scale) {
     const glm::vec3 t(tangent), b = glm::cross(normal, t) * tangent.w;
     const glm::vec3 mapped = t * ((2.0f * texel.x - 1.0f) * scale) + b * ((2.0f * texel.y - 1.0f) * scale) +
@@ -29,21 +28,21 @@ glm::vec3 mapNormal(const glm::vec3& normal, const glm::vec4& tangent, const glm
 
 }  // namespace
 
-SurfaceTable::SurfaceTable(const SceneState& state, RaysToCome rays) : state_(&state) {
+SurfaceTable::SurfaceTable(const SceneState& state, ExpectedRays rays) : state_(&state) {
     for (const Material& m : state.scene->materials)
         materials_.push_back(
             {Bsdf::make(glm::vec3(m.baseColor), m.metallic, m.roughness, m.specular, m.specularColor, m.ior),
              &m, m.emissiveTexture.texture >= 0 || m.alphaMode == AlphaMode::Mask});
-    if (rays == RaysToCome::Few) return;
+    if (rays == ExpectedRays::Few) return;
 
     std::vector<SurfaceTriangle> triangles(triangleCount());
     parallelRanges(triangles.size(), 4096, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) triangles[i] = gathered(uint32_t(i));
+        for (size_t i = begin; i < end; ++i) triangles[i] = makeTriangle(uint32_t(i));
     });
     triangles_ = std::move(triangles);
 }
 
-SurfaceTriangle SurfaceTable::gathered(uint32_t i) const {
+SurfaceTriangle SurfaceTable::makeTriangle(uint32_t i) const {
     const Geometry& geometry = state_->geometry;
     const glm::uvec3 corners = geometry.triangles[i];
     const glm::vec3 a = geometry.positions[corners.x];
@@ -56,20 +55,20 @@ SurfaceTriangle SurfaceTable::gathered(uint32_t i) const {
     t.material = geometry.triangleMaterials[i];
     if (const auto light = lights_.find(i); light != lights_.end()) t.light = light->second;
 
-    // The normal in double: slivers underflow a float.
+    // In double: slivers underflow a float
     const glm::dvec3 n = glm::cross(glm::dvec3(b) - glm::dvec3(a), glm::dvec3(c) - glm::dvec3(a));
     const double length = glm::length(n);
     if (length > 0.0) t.normal = glm::vec3(n / length);
     t.offset = planeOffset(a, b, c, t.normal);
 
-    // Most triangles need nothing but their material's constants.
-    bool simple = !readsTextures(*materials_[t.material].source);
+    // Most triangles need only their material's constants
+    bool isSimple = !readsTextures(*materials_[t.material].source);
     for (const uint32_t corner : {corners.x, corners.y, corners.z}) {
         const VertexAttributes& vertex = geometry.attributes[corner];
-        simple = simple && glm::vec3(vertex.color) == glm::vec3(1.0f) &&
-                 std::fabs(glm::dot(vertex.normal, t.normal)) > 1.0f - 1e-6f;
+        isSimple = isSimple && glm::vec3(vertex.color) == glm::vec3(1.0f) &&
+                   std::fabs(glm::dot(vertex.normal, t.normal)) > 1.0f - 1e-6f;
     }
-    t.isSimple = simple ? 1 : 0;
+    t.isSimple = isSimple ? 1 : 0;
     return t;
 }
 
@@ -80,7 +79,7 @@ void SurfaceTable::setLight(uint32_t triangle, uint32_t light) {
         triangles_[triangle].light = light;
 }
 
-SurfacePoint SurfaceTable::at(const Hit& hit, const glm::vec3& direction) const {
+SurfacePoint SurfaceTable::pointAt(const Hit& hit, const glm::vec3& direction) const {
     const SurfaceTriangle t = triangle(hit.triangle);
     SurfacePoint point;
     point.position = t.corner + t.edge1 * hit.u + t.edge2 * hit.v;
@@ -88,9 +87,9 @@ SurfacePoint SurfaceTable::at(const Hit& hit, const glm::vec3& direction) const 
     point.faceNormal = glm::dot(t.normal, direction) > 0.0f ? -t.normal : t.normal;
     point.shadingNormal = point.faceNormal;
     point.bsdf = materials_[t.material].bsdf;
-    if (!t.isSimple) shadeInDetail(hit, point);
+    if (!t.isSimple) applyTextures(hit, point);
 
-    // A shading normal that leans away from the ray has no specular lobe: bend it back.
+    // A shading normal that faces away from the ray has no specular lobe: tilt it back
     if (point.bsdf.hasSpecular()) {
         const float cosOut = -glm::dot(point.shadingNormal, direction);
         if (cosOut < kMinCosine)
@@ -99,7 +98,7 @@ SurfacePoint SurfaceTable::at(const Hit& hit, const glm::vec3& direction) const 
     return point;
 }
 
-void SurfaceTable::shadeInDetail(const Hit& hit, SurfacePoint& point) const {
+void SurfaceTable::applyTextures(const Hit& hit, SurfacePoint& point) const {
     const Geometry& geometry = state_->geometry;
     const glm::uvec3 corners = geometry.triangles[hit.triangle];
     const VertexAttributes& a = geometry.attributes[corners.x];
@@ -108,17 +107,17 @@ void SurfaceTable::shadeInDetail(const Hit& hit, SurfacePoint& point) const {
     const Material& m = *materials_[geometry.triangleMaterials[hit.triangle]].source;
     const glm::vec4 texCoords = interpolate(a.texCoords, b.texCoords, c.texCoords, hit.u, hit.v);
 
-    // Normal: interpolated, mapped, flipped to the side of the ray.
+    // Normal: interpolated, mapped, flipped to the ray's side
     glm::vec3 normal = interpolate(a.normal, b.normal, c.normal, hit.u, hit.v);
     const float length2 = glm::dot(normal, normal);
     normal = length2 > 1e-12f ? normal / std::sqrt(length2) : point.faceNormal;
-    const float side = glm::dot(normal, point.faceNormal) < 0.0f ? -1.0f : 1.0f;
+    const float sign = glm::dot(normal, point.faceNormal) < 0.0f ? -1.0f : 1.0f;
     if (m.normalTexture.texture >= 0)
         normal = mapNormal(normal, interpolate(a.tangent, b.tangent, c.tangent, hit.u, hit.v),
                            lookUp(m.normalTexture, texCoords), m.normalScale);
-    point.shadingNormal = normal * side;
+    point.shadingNormal = normal * sign;
 
-    // Reflection: factors times textures times vertex colour.
+    // BSDF: factors times textures times vertex color
     glm::vec3 baseColor =
         glm::vec3(m.baseColor) * glm::vec3(interpolate(a.color, b.color, c.color, hit.u, hit.v));
     if (m.baseColorTexture.texture >= 0) baseColor *= glm::vec3(lookUp(m.baseColorTexture, texCoords));
@@ -131,7 +130,7 @@ void SurfaceTable::shadeInDetail(const Hit& hit, SurfacePoint& point) const {
     point.bsdf = Bsdf::make(baseColor, metallic, roughness, m.specular, m.specularColor, m.ior);
 }
 
-glm::vec3 SurfaceTable::varyingEmission(uint32_t triangle, float u, float v) const {
+glm::vec3 SurfaceTable::texturedEmission(uint32_t triangle, float u, float v) const {
     const Geometry& geometry = state_->geometry;
     const glm::uvec3 corners = geometry.triangles[triangle];
     const Material& m = *materials_[geometry.triangleMaterials[triangle]].source;

@@ -15,22 +15,22 @@ namespace voxray::path_trace {
 
 constexpr uint32_t kNoLight = 0xffffffffu;
 
-/// What a path needs to know of a triangle, gathered in one cache line.
+/// Shading data of a triangle, in one cache line.
 struct alignas(64) SurfaceTriangle {
     glm::vec3 corner{0.0f};
     float offset = 0.0f;  ///< Of its plane: planeOffset().
     glm::vec3 edge1{0.0f};
     uint32_t material = 0;
     glm::vec3 edge2{0.0f};
-    uint32_t light = kNoLight;     ///< Patch among the lights, or kNoLight.
+    uint32_t light = kNoLight;     ///< Index of its LightTable patch, or kNoLight.
     glm::vec3 normal{0.0f, 1, 0};  ///< Geometric, unit length, on the front side.
-    uint32_t isSimple = 0;         ///< 1: flat, no textures, no vertex colours.
+    uint32_t isSimple = 0;         ///< 1: flat, no textures, no vertex colors.
 
-    /// How far off the surface new rays start at a point of it, m.
+    /// Offset of ray origins at a point of it, m.
     float offsetAt(const glm::vec3& position) const { return std::max(offset, pointOffset(position)); }
 };
 
-/// A point where a path scatters.
+/// A path vertex on a surface.
 struct SurfacePoint {
     glm::vec3 position{0.0f};
     float offset = 0.0f;
@@ -38,36 +38,37 @@ struct SurfacePoint {
     glm::vec3 shadingNormal{0.0f};  ///< On the same side.
     Bsdf bsdf;
 
-    /// Start of a ray that leaves on the side of the incoming one.
+    /// Origin of a ray that leaves on the incoming ray's side.
     glm::vec3 rayOrigin() const { return position + faceNormal * offset; }
 };
 
-/// Every triangle's and material's shading data. Thread-safe after construction.
+/// Shading data of all triangles and materials. Thread-safe after construction.
 class SurfaceTable {
  public:
-    /// `state` must outlive this object. For few rays nothing is prepared: triangles are gathered as they are
-    /// met.
-    explicit SurfaceTable(const SceneState& state, RaysToCome rays = RaysToCome::Many);
+    /// @param state must outlive this object. @param rays Few: triangles are computed at each hit, not in
+    /// advance.
+    explicit SurfaceTable(const SceneState& state, ExpectedRays rays = ExpectedRays::Many);
 
-    SurfaceTriangle triangle(uint32_t i) const { return triangles_.empty() ? gathered(i) : triangles_[i]; }
+    SurfaceTriangle triangle(uint32_t i) const {
+        return triangles_.empty() ? makeTriangle(i) : triangles_[i];
+    }
     size_t triangleCount() const { return state_->geometry.triangles.size(); }
-    /// Makes a triangle part of a patch among the lights. Not thread-safe.
+    /// Assigns a triangle to a patch of LightTable. Not thread-safe.
     void setLight(uint32_t triangle, uint32_t light);
 
-    /// Geometry and material where a ray of unit `direction` hits.
-    SurfacePoint at(const Hit& hit, const glm::vec3& direction) const;
+    /// Geometry and material at a hit. @param direction of the ray, unit length.
+    SurfacePoint pointAt(const Hit& hit, const glm::vec3& direction) const;
 
-    /// Radiance that leaves a triangle's emitting sides at barycentrics (u, v): none where the alpha mask
-    /// cuts the surface away.
+    /// Emitted radiance at barycentrics (u, v); 0 where the alpha mask cuts the surface away.
     glm::vec3 emission(uint32_t triangle, float u, float v) const {
         const MaterialData& m = materials_[state_->geometry.triangleMaterials[triangle]];
-        return m.emissionVaries ? varyingEmission(triangle, u, v) : m.source->emission;
+        return m.emissionVaries ? texturedEmission(triangle, u, v) : m.source->emission;
     }
-    /// Whether a triangle's emission may differ from point to point.
+    /// Whether emission varies over the triangle.
     bool emissionVaries(const SurfaceTriangle& triangle) const {
         return materials_[triangle.material].emissionVaries;
     }
-    /// Whether light leaves towards a unit `direction` that points away from the triangle.
+    /// Whether it emits towards a unit `direction` that points away from it.
     bool emitsTowards(const SurfaceTriangle& triangle, const glm::vec3& direction) const {
         return materials_[triangle.material].source->doubleSided ||
                glm::dot(triangle.normal, direction) > 0.0f;
@@ -78,14 +79,14 @@ class SurfaceTable {
 
  private:
     struct MaterialData {
-        Bsdf bsdf;  ///< Without textures and vertex colours.
+        Bsdf bsdf;  ///< Without textures and vertex colors.
         const Material* source = nullptr;
         bool emissionVaries = false;
     };
 
-    SurfaceTriangle gathered(uint32_t i) const;
-    glm::vec3 varyingEmission(uint32_t triangle, float u, float v) const;
-    void shadeInDetail(const Hit& hit, SurfacePoint& point) const;
+    SurfaceTriangle makeTriangle(uint32_t i) const;
+    glm::vec3 texturedEmission(uint32_t triangle, float u, float v) const;
+    void applyTextures(const Hit& hit, SurfacePoint& point) const;
     glm::vec4 lookUp(const TextureRef& ref, const glm::vec4& texCoords) const;
 
     const SceneState* state_;

@@ -1,4 +1,4 @@
-// The neighbours of a surfel, as passes/radiosity/link_surfels/neighbours.comp lists them.
+// The neighbours of a surfel, as passes/radiosity/link_surfels/list_neighbours.comp lists them.
 #ifndef VOXRAY_NEIGHBOURS_GLSL
 #define VOXRAY_NEIGHBOURS_GLSL
 

@@ -12,7 +12,7 @@ namespace voxray {
 /// linked surfels reflect: irradiance times reflectance (Goral et al. 1984, with form factors by counting
 /// rays). Depends on geometry and materials alone, not on light.
 struct SurfelLinks : Resource {
-    std::string basisPort() const override { return "surfels"; }
+    std::string indexedBy() const override { return "surfels"; }
 
     static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();  ///< A ray that met nothing.
 

@@ -11,7 +11,7 @@ namespace voxray {
 /// irradiance of voxels is measured. Each stands for the same area. Covered sides may be among them, with
 /// area 0: no voxel's irradiance is theirs.
 struct Surfels : Resource {
-    std::string basisPort() const override { return "voxels"; }
+    std::string indexedBy() const override { return "voxels"; }
 
     struct Chunk {
         Buffer surfels;  ///< gpu::Surfel each.

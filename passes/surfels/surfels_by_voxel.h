@@ -8,7 +8,7 @@ namespace voxray {
 
 /// The surfels that lie in each voxel. Surfels without a voxel are left out.
 struct SurfelsByVoxel : Resource {
-    std::string basisPort() const override { return "voxels"; }
+    std::string indexedBy() const override { return "voxels"; }
 
     bool coveredSides = false;  ///< Whether covered sides have surfels. Set in plan().
     uint32_t slotCount = 0;
@@ -20,7 +20,7 @@ struct SurfelsByVoxel : Resource {
 
 /// Light that arrives at surfels, in the slots of SurfelsByVoxel.
 struct SurfelIrradiance : Resource {
-    std::string basisPort() const override { return "surfels_by_voxel"; }
+    std::string indexedBy() const override { return "surfels_by_voxel"; }
 
     LargeBuffer
         lit;  ///< Surfel and its indirect irradiance, W/m² (LitSurfels, packed_surfel.glsl): 12 bytes.

@@ -6,12 +6,13 @@
 
 VOXRAY_SHARED_BEGIN
 
-// A point on one side of a Lambert surface that sends light on: cosine / pi times its flux, W/sr.
+// A surface point that stands for the light that the surface reflects there: radiant intensity flux * cos /
+// pi, W/sr.
 struct Vpl {
-    vec3 position;    // m; so far off its surface that rays may begin there (SurfacePoint::offset).
-    vec3 normal;      // Unit length: the shading normal, which the cosine is about.
-    vec3 faceNormal;  // Unit length: the triangle's, on the same side. Nothing is sent below it.
-    vec3 flux;        // W, that the surface reflects here.
+    vec3 position;    // m, offset off the surface: rays may begin here (SurfacePoint::offset).
+    vec3 normal;      // Unit shading normal, from which the cosine is measured.
+    vec3 faceNormal;  // Unit normal of the triangle, on the same side. No light is sent below it.
+    vec3 flux;        // Reflected, W.
 };
 
 VOXRAY_SHARED_END

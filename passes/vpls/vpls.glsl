@@ -1,4 +1,4 @@
-// Virtual point lights (passes/vpls/vpls.h), by the address of their array.
+// Virtual point lights (passes/vpls/vpls.h), by address.
 #ifndef VOXRAY_VPLS_GLSL
 #define VOXRAY_VPLS_GLSL
 

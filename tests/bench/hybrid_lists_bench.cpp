@@ -10,7 +10,7 @@
 namespace voxray {
 namespace {
 
-// Clear is what is so in voxels smaller, or larger, by this on each side: four of the walk's margins.
+// Clear is what is so in voxels smaller, or larger, by this on each side: four of the voxelizer's margins.
 constexpr double kEpsilon = 1e-3;
 
 using Lists = std::vector<std::vector<uint32_t>>;
@@ -57,7 +57,7 @@ void visitClearly(const test::Triangle& triangle, glm::ivec3 corner, int side, c
 
 /// Lists of all triangles in a scene's voxels at 128³ against an independent test on the host: pairs of a
 /// triangle and a voxel that clearly overlap, those of them that no list holds, and those in lists that
-/// clearly don't. `degenerate`: triangles whose area is lost in the walk's rounding.
+/// clearly don't. `degenerate`: triangles whose area is lost in the voxelizer's rounding.
 void hybridListsMissing(benchmark::State& state, const std::string& file) {
     test::device();  // Made before the chain, so that it goes after it.
     const auto scene =
@@ -83,7 +83,7 @@ void hybridListsMissing(benchmark::State& state, const std::string& file) {
                 triangles[t][size_t(k)] =
                     (glm::dvec3(g.positions[g.triangles[t][k]]) - glm::dvec3(grid.origin)) /
                     double(grid.voxelSize);
-            // Twice what GridTriangle takes for lost (passes/common/triangle_walk/grid_triangle.glsl)
+            // Twice what GridTriangle takes for lost (passes/common/triangle_voxelizer/grid_triangle.glsl)
             const glm::dvec3 e1 = triangles[t][1] - triangles[t][0], e2 = triangles[t][2] - triangles[t][0];
             if (glm::length(glm::cross(e1, e2)) <= 3.2e-6 * glm::length(e1) * glm::length(e2)) {
                 ++degenerate;

@@ -27,7 +27,7 @@ inline LightRays lightRays(test::Chain& chain, size_t count) {
     const Vpls& vpls = *chain.graph().resource<Vpls>("vpls");
     const GBuffer& gbuffer = *chain.graph().resource<GBuffer>("gbuffer");
     const auto points = chain.read<gpu::Vpl>(vpls.points);
-    const auto list = chain.read<uint32_t>(vpls.list);
+    const auto list = chain.read<uint32_t>(vpls.activeIndices);
     const auto positions = chain.readImage<glm::vec4>(gbuffer.position);
     const auto normals = chain.readImage<glm::u16vec4>(gbuffer.geometricNormal);
     const double bound = surfaceArea(chain.state().geometry) / (3.14159265358979 * vpls.paths);
@@ -36,7 +36,7 @@ inline LightRays lightRays(test::Chain& chain, size_t count) {
     while (rays.pairs.size() < count) {
         const size_t texel = random() % positions.size();
         if (positions[texel].w == 0) continue;
-        const gpu::Vpl& vpl = points[list[random() % vpls.count]];
+        const gpu::Vpl& vpl = points[list[random() % vpls.activeCount]];
         const glm::vec3 at(positions[texel]),
             normal = glm::normalize(glm::vec3(glm::unpackHalf(normals[texel])));
         const glm::vec3 way = vpl.position - at;

@@ -63,7 +63,7 @@ void vplRayOrder(benchmark::State& state) {
     const Vpls& vpls = *chain->graph().resource<Vpls>("vpls");
     const GBuffer& gbuffer = *chain->graph().resource<GBuffer>("gbuffer");
     const auto points = chain->read<gpu::Vpl>(vpls.points);
-    auto list = chain->read<uint32_t>(vpls.list);
+    auto list = chain->read<uint32_t>(vpls.activeIndices);
     const auto positions = chain->readImage<glm::vec4>(gbuffer.position);
     const auto normals = chain->readImage<glm::u16vec4>(gbuffer.geometricNormal);
     list.resize(kLights);

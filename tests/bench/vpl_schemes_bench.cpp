@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "passes/vpls/select_vpls/resample.h"
+#include "passes/vpls/select_vpls/systematic_resampling.h"
 #include "tests/bench/light_rays.h"
 #include "tests/bench/light_tree.h"
 
@@ -159,10 +159,11 @@ std::vector<LightPoint> chosen(const OneBounce& scene, const std::vector<LightPo
     const double sum = std::accumulate(brings.begin(), brings.end(), 0.0);
     for (size_t i = 0; i < points.size(); ++i)
         probabilities[i] = 0.9 * brings[i] / sum + 0.1 / double(points.size());
-    const Resampled kept = resample(probabilities, uint32_t(count), double(random() % 1024) / 1024);
+    const Resampled kept =
+        systematicResampling(probabilities, uint32_t(count), double(random() % 1024) / 1024);
     std::vector<LightPoint> stay;
-    for (size_t i = 0; i < kept.places.size(); ++i) {
-        stay.push_back(points[kept.places[i]]);
+    for (size_t i = 0; i < kept.indices.size(); ++i) {
+        stay.push_back(points[kept.indices[i]]);
         stay.back().flux *= double(kept.weights[i]);
     }
     return stay;

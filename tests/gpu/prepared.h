@@ -12,7 +12,7 @@ template <typename Walker>
 void prepare(TestPrograms& programs, Walker& walker, const SurfaceVoxels& voxels) {
     MemoryPlan plan;
     walker.plan(plan, voxels);
-    for (const MemoryPlan::Part& part : plan.parts()) part.make(device());
+    for (const MemoryPlan::Allocation& allocation : plan.allocations()) allocation.make(device());
     programs.compile();
 }
 

@@ -91,7 +91,7 @@ inline float minimumLevel(const ClipmapWindows& windows, const gpu::RadianceGrid
     for (uint32_t level = 0; level < windows.firstWhole(); ++level) {
         const gpu::ClipmapWindow w = windows.window(level, camera);
         const glm::vec3 left = w.reach - glm::abs(position - w.center);
-        const float weight = std::min({left.x, left.y, left.z}) * w.fall;
+        const float weight = std::min({left.x, left.y, left.z}) * w.falloff;
         if (weight > 0) return float(level) + std::max(1 - weight, 0.0f);
     }
     return float(windows.firstWhole());

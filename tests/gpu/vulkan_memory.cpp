@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "gpu/vulkan_fixture.h"
+#include "vulkan/memory_pool.h"
 #include "vulkan/size_error.h"
-#include "vulkan/spare_memory.h"
 
 namespace voxray {
 namespace {
@@ -109,34 +109,34 @@ TEST_F(VulkanMemory, ManySmallUploadsArriveEachInItsPlace) {
     EXPECT_EQ(stream.readAs<uint32_t>(buffer, expected.size()), expected);
 }
 
-TEST_F(VulkanMemory, OfAFreedBufferServesTheNextOfItsSize) {
+TEST_F(VulkanMemory, OfAFreedBufferIsReusedForTheNextOfItsSize) {
     constexpr uint64_t kBytes = 3 * kMiB + 64;
-    SpareMemory& spare = device().spareMemory();
-    spare.freeAll();
+    MemoryPool& pool = device().memoryPool();
+    pool.freeAll();
     const uint64_t used = device().memoryUsedBytes();
     { const Buffer buffer(device(), "first", kBytes); }
-    EXPECT_GE(spare.bytes(), kBytes);
-    EXPECT_EQ(device().memoryUsedBytes(), used);  // Spare memory is on nobody's books.
+    EXPECT_GE(pool.bytes(), kBytes);
+    EXPECT_EQ(device().memoryUsedBytes(), used);  // Pooled memory does not count as used.
     {
         const Buffer smaller(device(), "smaller", kMiB);
-        EXPECT_GE(spare.bytes(), kBytes);
+        EXPECT_GE(pool.bytes(), kBytes);
         const Buffer next(device(), "next", kBytes);
-        EXPECT_EQ(spare.bytes(), 0u);
+        EXPECT_EQ(pool.bytes(), 0u);
         EXPECT_GE(device().memoryUsedBytes(), used + kBytes + kMiB);
     }
-    spare.freeAll();
-    EXPECT_EQ(spare.bytes(), 0u);
+    pool.freeAll();
+    EXPECT_EQ(pool.bytes(), 0u);
 }
 
-TEST_F(VulkanMemory, NoMoreIsSpareThanAllowed) {
-    SpareMemory& spare = device().spareMemory();
-    spare.freeAll();
+TEST_F(VulkanMemory, PoolIsLimited) {
+    MemoryPool& pool = device().memoryPool();
+    pool.freeAll();
     for (uint64_t i = 1; i <= 8; ++i) {
         const Buffer buffer(device(), "buffer", 60 * kMiB + i * kMiB);
     }
-    EXPECT_GT(spare.bytes(), 190 * kMiB);
-    EXPECT_LE(spare.bytes(), 256 * kMiB);
-    spare.freeAll();
+    EXPECT_GT(pool.bytes(), 190 * kMiB);
+    EXPECT_LE(pool.bytes(), 256 * kMiB);
+    pool.freeAll();
 }
 
 TEST_F(VulkanMemory, WhatNobodyWroteIsNoNumberOnAWatchedDevice) {

@@ -133,7 +133,7 @@ TEST(AccumulateVirtualLights, AClampedOneIsGoneAtOnceWhereNoLightIsLeft) {
     EXPECT_GT(mean(chain.image("indirect")), 0);
     switchOff(chain);
     EXPECT_EQ(mean(chain.image("indirect")), 0);
-    EXPECT_EQ(chain.graph().resource<Vpls>("vpls")->count, 0u);
+    EXPECT_EQ(chain.graph().resource<Vpls>("vpls")->activeCount, 0u);
 }
 
 TEST(AccumulateVirtualLights, TheOtherLightsBringWhatTheyDid) {

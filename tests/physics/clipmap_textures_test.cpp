@@ -8,7 +8,7 @@
 #include <glm/vector_relational.hpp>
 #include <iterator>
 
-#include "passes/cones/clipmap/clipmap_texture.h"
+#include "passes/cones/clipmap/clipmap_atlas.h"
 #include "tests/gpu/radiance_places.h"
 #include "tests/support/errors.h"
 
@@ -182,7 +182,7 @@ TEST(ClipmapTextures, BlocksHoldTheirWindowsApart) {
         for (const uint32_t directions : {1u, 6u}) {
             const gpu::RadianceGrid grid{{}, 1, resolution, gridLevels(resolution), directions, 1};
             const ClipmapWindows windows(grid, kSide);
-            const ClipmapTexture texture = placeInTexture(windows, grid.levels, directions);
+            const ClipmapAtlas texture = packAtlas(windows, grid.levels, directions);
             std::vector<std::pair<glm::uvec3, glm::uvec3>> blocks;  // First and end.
             for (uint32_t level = 0; level < grid.levels; ++level) {
                 glm::uvec3 size = windows.window(level, {}).size + 2u;

@@ -30,40 +30,40 @@ inline std::vector<std::string> clusterGraph(const std::string& inject, const st
             "gather_irradiance"};
 }
 
-/// Sides that split the surfaces of a chain's voxels.
-inline std::vector<gpu::SurfaceSide> readSides(Chain& chain) {
-    return chain.read<gpu::SurfaceSide>(chain.graph().resource<VoxelPatches>("patches")->sides);
+/// Surface groups of a chain's voxels.
+inline std::vector<gpu::SurfaceGroup> readGroups(Chain& chain) {
+    return chain.read<gpu::SurfaceGroup>(chain.graph().resource<VoxelPatches>("patches")->groups);
 }
 
-/// Of each patch: 6 * side + face.
-inline std::vector<uint32_t> facesOfPatches(const std::vector<gpu::SurfaceSide>& sides) {
+/// By patch: 6 * group + face.
+inline std::vector<uint32_t> facesOfPatches(const std::vector<gpu::SurfaceGroup>& groups) {
     std::vector<uint32_t> faces;
-    for (uint32_t side = 0; side < sides.size(); ++side)
+    for (uint32_t group = 0; group < groups.size(); ++group)
         for (uint32_t face = 0; face < 6; ++face)
-            if ((sides[side].faces >> face & 1u) != 0) faces.push_back(6 * side + face);
+            if ((groups[group].faces >> face & 1u) != 0) faces.push_back(6 * group + face);
     return faces;
 }
 
-struct Seen {
+struct VisibilityEntry {
     uint32_t target, rays;
 };
 
-/// What each patch sees: entries of a chunk lie end to end, the first one in its lowest bits.
-inline std::vector<std::vector<Seen>> readSeen(Chain& chain) {
+/// The visibility list of each patch: entries of a chunk lie end to end, the first one in its lowest bits.
+inline std::vector<std::vector<VisibilityEntry>> readVisibilityLists(Chain& chain) {
     const auto* visibility = chain.graph().resource<ClusterVisibility>("cluster_visibility");
-    const gpu::SeenLayout& layout = visibility->layout;
-    std::vector<std::vector<Seen>> lists;
+    const gpu::VisibilityListLayout& layout = visibility->layout;
+    std::vector<std::vector<VisibilityEntry>> lists;
     for (const ClusterVisibility::Chunk& chunk : visibility->chunks) {
-        const auto first = chain.read<uint32_t>(chunk.first), words = chain.read<uint32_t>(chunk.seen);
+        const auto offsets = chain.read<uint32_t>(chunk.offsets), words = chain.read<uint32_t>(chunk.entries);
         const auto entry = [&](uint32_t number) {
             uint32_t bits = 0;
-            for (uint32_t i = 0, at = number * layout.entryBits; i < layout.entryBits; ++i, ++at)
-                bits |= (words[at / 32] >> at % 32 & 1u) << i;
-            return Seen{gpu::seenTarget(layout, bits), gpu::seenRays(layout, bits)};
+            for (uint32_t i = 0, bit = number * layout.entryBits; i < layout.entryBits; ++i, ++bit)
+                bits |= (words[bit / 32] >> bit % 32 & 1u) << i;
+            return VisibilityEntry{gpu::entryTarget(layout, bits), gpu::entryRays(layout, bits)};
         };
-        for (size_t i = 0; i + 1 < first.size(); ++i) {
+        for (size_t i = 0; i + 1 < offsets.size(); ++i) {
             lists.emplace_back();
-            for (uint32_t k = first[i]; k < first[i + 1]; ++k) lists.back().push_back(entry(k));
+            for (uint32_t k = offsets[i]; k < offsets[i + 1]; ++k) lists.back().push_back(entry(k));
         }
     }
     return lists;

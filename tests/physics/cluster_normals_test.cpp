@@ -1,5 +1,4 @@
-// Which way voxels look where their surfaces disagree, by open space and by fragments (Cosin and Patow 2022,
-// figure 7).
+// Normals of voxels whose surfaces disagree, by open space and by fragments (Cosin and Patow 2022, figure 7).
 #include <gtest/gtest.h>
 
 #include "passes/clusters/voxel_clusters.h"
@@ -28,26 +27,26 @@ std::shared_ptr<const Scene> plate(int squaresAbove, int squaresBelow) {
     return b.finish();
 }
 
-struct Ways {
-    double up = 0, down = 0, others = 0;  ///< Voxels of clusters that look there.
+struct NormalCounts {
+    double up = 0, down = 0, others = 0;  ///< Voxels of clusters with such a normal.
     double tied, decided, changed;        ///< Voxels, %, as the pass reports them.
 };
 
-Ways waysOf(const std::shared_ptr<const Scene>& scene, const std::string& ties) {
+NormalCounts countNormals(const std::shared_ptr<const Scene>& scene, const std::string& ties) {
     Chain chain(std::make_shared<SceneState>(evaluate(scene, 0.0)),
                 graphYaml({"voxelize, resolution: 8, visibility_rays: 0",
                            "cluster_voxels, target: 8, normals: open_space, ties: " + ties}),
                 16, 16, 1);
     const PassSample& sample = chain.buildSamples.at(1);
-    Ways ways{.tied = reported(sample, "voxels whose open ways tie, %"),
-              .decided = reported(sample, "voxels that fragments decide otherwise, %"),
-              .changed = reported(sample, "voxels with another normal than by area, %")};
+    NormalCounts counts{.tied = reported(sample, "voxels whose open ways tie, %"),
+                        .decided = reported(sample, "voxels that fragments decide otherwise, %"),
+                        .changed = reported(sample, "voxels with another normal than by area, %")};
     for (const gpu::VoxelCluster& cluster :
          chain.read<gpu::VoxelCluster>(chain.graph().resource<VoxelClusters>("clusters")->clusters)) {
         const float up = cluster.normal.y;
-        (up > 0.999f ? ways.up : up < -0.999f ? ways.down : ways.others) += cluster.members;
+        (up > 0.999f ? counts.up : up < -0.999f ? counts.down : counts.others) += cluster.memberCount;
     }
-    return ways;
+    return counts;
 }
 
 TEST(ClusterNormals, OfAThinPlateFollowItsFragmentsWhereBothWaysAreOpen) {
@@ -55,11 +54,12 @@ TEST(ClusterNormals, OfAThinPlateFollowItsFragmentsWhereBothWaysAreOpen) {
     // fragments the finer sheet has more in each voxel. Without probes: their noise would decide by area.
     for (const bool isFinerBelow : {true, false}) {
         const auto scene = isFinerBelow ? plate(1, 16) : plate(16, 1);
-        const Ways bySurface = waysOf(scene, "surfaces"), byFragments = waysOf(scene, "fragments");
-        for (const Ways& ways : {bySurface, byFragments}) {
-            EXPECT_EQ(ways.tied, 100);
-            EXPECT_EQ(ways.up + ways.down, 64);
-            EXPECT_EQ(ways.others, 0);
+        const NormalCounts bySurface = countNormals(scene, "surfaces"),
+                           byFragments = countNormals(scene, "fragments");
+        for (const NormalCounts& counts : {bySurface, byFragments}) {
+            EXPECT_EQ(counts.tied, 100);
+            EXPECT_EQ(counts.up + counts.down, 64);
+            EXPECT_EQ(counts.others, 0);
         }
         EXPECT_EQ(bySurface.up, 64);
         EXPECT_EQ(bySurface.decided, 0);
@@ -72,10 +72,10 @@ TEST(ClusterNormals, OfAThinPlateFollowItsFragmentsWhereBothWaysAreOpen) {
 
 TEST(ClusterNormals, OfTiesBetweenFragmentsAreThoseOfSurfaces) {
     // As many fragments look up as down.
-    const Ways ways = waysOf(plate(4, 4), "fragments");
-    EXPECT_EQ(ways.tied, 100);
-    EXPECT_EQ(ways.decided, 0);
-    EXPECT_EQ(ways.up, 64);
+    const NormalCounts counts = countNormals(plate(4, 4), "fragments");
+    EXPECT_EQ(counts.tied, 100);
+    EXPECT_EQ(counts.decided, 0);
+    EXPECT_EQ(counts.up, 64);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Clusters of voxels: how voxels are grouped, and what faces see of them.
+// Clusters of voxels: how voxels are assigned, and form factors between patches and clusters.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,16 +20,16 @@ struct Clusters {
     explicit Clusters(Chain& chain) : voxels(chain) {
         const auto* resource = chain.graph().resource<VoxelClusters>("clusters");
         clusters = chain.read<gpu::VoxelCluster>(resource->clusters);
-        ofVoxel = chain.read<uint32_t>(resource->ofVoxel);
-        members = chain.read<uint32_t>(resource->members);
+        clusterOfVoxel = chain.read<uint32_t>(resource->clusterOfVoxel);
+        memberVoxels = chain.read<uint32_t>(resource->memberVoxels);
         coordinates = chain.read<glm::uvec3>(resource->coordinates);
-        seen = reported(chain.buildSamples.at(1), "voxels no seed reached, %");
+        unassigned = reported(chain.buildSamples.at(1), "voxels no seed reached, %");
     }
     Voxels voxels;
     std::vector<gpu::VoxelCluster> clusters;
-    std::vector<uint32_t> ofVoxel, members;
+    std::vector<uint32_t> clusterOfVoxel, memberVoxels;
     std::vector<glm::uvec3> coordinates;
-    double seen;  ///< Voxels that no seed's cluster asked for, %.
+    double unassigned;  ///< Voxels that algorithm 1 left without a cluster, %.
 };
 
 Clusters clustersOf(const std::string& scene, const std::string& parameters, const std::string& pass,
@@ -39,12 +39,12 @@ Clusters clustersOf(const std::string& scene, const std::string& parameters, con
     return Clusters(chain);
 }
 
-/// As normals.comp has it; not a number where that takes the largest face.
+/// As voxel_normals.comp has it; not a number where that takes the largest face.
 glm::vec3 normalOf(const gpu::VoxelMaterial& m) {
-    const glm::vec3 net = m.unoccludedPositive - m.unoccludedNegative;
-    const glm::vec3 both = m.unoccludedPositive + m.unoccludedNegative, one(1);
-    if (glm::dot(glm::abs(net), one) > 0.01f * glm::dot(both, one))
-        return glm::normalize(glm::sign(net) * glm::sqrt(glm::abs(net)));
+    const glm::vec3 difference = m.unoccludedPositive - m.unoccludedNegative;
+    const glm::vec3 sum = m.unoccludedPositive + m.unoccludedNegative, one(1);
+    if (glm::dot(glm::abs(difference), one) > 0.01f * glm::dot(sum, one))
+        return glm::normalize(glm::sign(difference) * glm::sqrt(glm::abs(difference)));
     return glm::dot(m.normal, m.normal) > 1e-4f ? glm::normalize(m.normal) : glm::vec3(NAN);
 }
 
@@ -55,27 +55,27 @@ TEST(ClusterVoxels, GroupEachVoxelOnceAndTheSameInEachRun) {
     for (const std::string& kind : kKinds) {
         const Clusters c = clustersOf("cornell", "{lights: point}", kind);
         const Clusters again = clustersOf("cornell", "{lights: point}", kind);
-        EXPECT_EQ(c.ofVoxel, again.ofVoxel) << kind;
-        EXPECT_EQ(c.members, again.members) << kind;
+        EXPECT_EQ(c.clusterOfVoxel, again.clusterOfVoxel) << kind;
+        EXPECT_EQ(c.memberVoxels, again.memberVoxels) << kind;
         std::vector<bool> isListed(c.voxels.count, false);
         uint32_t next = 0;
         for (uint32_t i = 0; i < c.clusters.size(); ++i) {
             const gpu::VoxelCluster& cluster = c.clusters[i];
-            ASSERT_GT(cluster.members, 0u);
+            ASSERT_GT(cluster.memberCount, 0u);
             EXPECT_EQ(cluster.firstMember, next);
-            next += cluster.members;
-            for (uint32_t k = 0; k < cluster.members; ++k) {
-                const uint32_t voxel = c.members[cluster.firstMember + k];
+            next += cluster.memberCount;
+            for (uint32_t k = 0; k < cluster.memberCount; ++k) {
+                const uint32_t voxel = c.memberVoxels[cluster.firstMember + k];
                 EXPECT_FALSE(isListed[voxel]);
                 isListed[voxel] = true;
-                EXPECT_EQ(c.ofVoxel[voxel], i);
-                EXPECT_TRUE(glm::all(glm::greaterThanEqual(c.coordinates[voxel], cluster.first)));
-                EXPECT_TRUE(glm::all(glm::lessThanEqual(c.coordinates[voxel], cluster.last)));
+                EXPECT_EQ(c.clusterOfVoxel[voxel], i);
+                EXPECT_TRUE(glm::all(glm::greaterThanEqual(c.coordinates[voxel], cluster.minVoxel)));
+                EXPECT_TRUE(glm::all(glm::lessThanEqual(c.coordinates[voxel], cluster.maxVoxel)));
             }
         }
         EXPECT_EQ(next, c.voxels.count) << "0 unassigned: " << kind;
         std::printf("%s: %zu clusters of %u voxels, no seed reached %.2f %%\n", kind.c_str(),
-                    c.clusters.size(), c.voxels.count, c.seen);
+                    c.clusters.size(), c.voxels.count, c.unassigned);
     }
 }
 
@@ -88,7 +88,7 @@ TEST(ClusterVoxels, KeepNormalsWithinTheAngleLimit) {
         uint32_t known = 0;
         for (uint32_t voxel = 0; voxel < c.voxels.count; ++voxel) {
             const double cosine =
-                glm::dot(c.clusters[c.ofVoxel[voxel]].axis, normalOf(c.voxels.materials[voxel]));
+                glm::dot(c.clusters[c.clusterOfVoxel[voxel]].seedNormal, normalOf(c.voxels.materials[voxel]));
             if (std::isnan(cosine)) continue;
             ++known;
             worst = std::min(worst, cosine);
@@ -103,15 +103,17 @@ TEST(ClusterVoxels, TakeWhatNoOtherWantsInThePapersOrder) {
     const std::string few = "target: 1, iterations: 1, reach: 8, unassigned: leave, assign: ";
     const Clusters nearest = clustersOf("white_room", "{}", few + "nearest");
     const Clusters first = clustersOf("white_room", "{}", few + "first");
-    const auto unassigned = [](const Clusters& c) { return std::ranges::count(c.ofVoxel, NO_CLUSTER); };
+    const auto unassigned = [](const Clusters& c) {
+        return std::ranges::count(c.clusterOfVoxel, NO_CLUSTER);
+    };
     EXPECT_GT(unassigned(nearest), 0);
     EXPECT_EQ(unassigned(first), 0);
-    // Where each way has clusters of its own, nearly all voxels with a normal join one that looks their way.
+    // Where each direction has its own clusters, nearly all voxels with a normal join one of like normal.
     const Clusters many = clustersOf("cornell", "{lights: point}", "target: 200, assign: first, reach: 4");
     uint32_t known = 0, beyond = 0;
     for (uint32_t voxel = 0; voxel < many.voxels.count; ++voxel) {
-        const double cosine =
-            glm::dot(many.clusters[many.ofVoxel[voxel]].axis, normalOf(many.voxels.materials[voxel]));
+        const double cosine = glm::dot(many.clusters[many.clusterOfVoxel[voxel]].seedNormal,
+                                       normalOf(many.voxels.materials[voxel]));
         if (std::isnan(cosine)) continue;
         ++known;
         beyond += cosine < std::cos(35 * kPi / 180) - 1e-4 ? 1 : 0;
@@ -123,17 +125,19 @@ TEST(ClusterVoxels, TakeWhatNoOtherWantsInThePapersOrder) {
 
 TEST(ClusterVoxels, LeaveVoxelsOnlyWhereAsked) {
     const std::string few = "target: 12, iterations: 1, unassigned: ";
-    const auto unassigned = [](const Clusters& c) { return std::ranges::count(c.ofVoxel, NO_CLUSTER); };
+    const auto unassigned = [](const Clusters& c) {
+        return std::ranges::count(c.clusterOfVoxel, NO_CLUSTER);
+    };
     const Clusters left = clustersOf("cornell", "{lights: point}", few + "leave");
     EXPECT_GT(unassigned(left), 0);
-    EXPECT_NEAR(100.0 * double(unassigned(left)) / left.voxels.count, left.seen, 1e-6);
+    EXPECT_NEAR(100.0 * double(unassigned(left)) / left.voxels.count, left.unassigned, 1e-6);
     EXPECT_EQ(unassigned(clustersOf("cornell", "{lights: point}", few + "own")), 0);
     const Clusters nearest = clustersOf("cornell", "{lights: point}", few + "nearest");
     EXPECT_EQ(unassigned(nearest), 0);
     EXPECT_EQ(nearest.clusters.size(), left.clusters.size());
 }
 
-TEST(ClusterVoxels, OfAPlaneLookItsWay) {
+TEST(ClusterVoxels, OfAPlaneHaveItsNormal) {
     const Clusters c = clustersOf("plane", "{}", "target: 50");
     EXPECT_GT(c.clusters.size(), 25u);
     EXPECT_LT(c.clusters.size(), 100u);
@@ -141,13 +145,13 @@ TEST(ClusterVoxels, OfAPlaneLookItsWay) {
     for (const gpu::VoxelCluster& cluster : c.clusters) {
         EXPECT_NEAR(cluster.normal.y, 1, 1e-4);
         EXPECT_NEAR(cluster.albedo.x, 0.5, 1e-3);
-        voxels += cluster.members;
+        voxels += cluster.memberCount;
     }
     EXPECT_EQ(voxels, c.voxels.count);
 }
 
 TEST(ClusterVoxels, TakeAnyNumberOfVoxelsAndClusters) {
-    // One voxel; more clusters than voxels, of which each then is one; one cluster for each way.
+    // One voxel; more clusters than voxels, of which each then is one; one cluster for each direction.
     EXPECT_EQ(clustersOf("cornell", "{lights: point}", "target: 5", "1").clusters.size(), 1u);
     const Clusters many = clustersOf("white_room", "{}", "target: 100000", "8");
     EXPECT_EQ(many.clusters.size(), many.voxels.count);
@@ -157,8 +161,8 @@ TEST(ClusterVoxels, TakeAnyNumberOfVoxelsAndClusters) {
 }
 
 TEST(ClusterVisibility, CountsFormFactors) {
-    // Parallel unit squares, 1 m apart: F = 0.19982 (Howell, C-11). Of what each voxel's face that looks up
-    // from the lower one sees, rays that meet the upper one.
+    // Parallel unit squares, 1 m apart: F = 0.19982 (Howell, C-11). The fraction of rays from patches +y of
+    // the lower one that hit the upper one.
     for (const std::string visibility : {"voxels", "exact"}) {
         Chain chain("quad_light", "{}",
                     graphYaml({"voxelize, resolution: 32", "cluster_voxels, target: 100", "place_surfels",
@@ -167,21 +171,21 @@ TEST(ClusterVisibility, CountsFormFactors) {
                     16, 16);
         const Clusters c(chain);
         const auto* patches = chain.graph().resource<VoxelPatches>("patches");
-        const auto sides = chain.read<gpu::SurfaceSide>(patches->sides);
-        const auto parts = chain.read<gpu::ClusterPart>(patches->parts);
-        const auto members = chain.read<uint32_t>(patches->members);
+        const auto groups = chain.read<gpu::SurfaceGroup>(patches->groups);
+        const auto components = chain.read<gpu::ClusterComponent>(patches->components);
+        const auto memberGroups = chain.read<uint32_t>(patches->memberGroups);
         const auto materials = chain.read<gpu::PackedVoxelMaterial>(patches->materials);
-        const auto faces = facesOfPatches(sides);
-        const auto lists = readSeen(chain);
+        const auto faces = facesOfPatches(groups);
+        const auto lists = readVisibilityLists(chain);
         double sum = 0, area = 0;
         for (size_t i = 0; i < lists.size(); ++i) {
-            const uint32_t side = faces[i] / 6;
-            if (faces[i] % 6 != 2 || c.coordinates[sides[side].voxel].y > 16) continue;
-            const double own = gpu::unpackMaterial(materials[side]).unoccludedPositive.y;
-            area += own;
-            for (const Seen& seen : lists[i])
-                if (sides[members[parts[seen.target / 6].firstMember]].raised.y > 0.5f)
-                    sum += own * seen.rays / 256;
+            const uint32_t group = faces[i] / 6;
+            if (faces[i] % 6 != 2 || c.coordinates[groups[group].voxel].y > 16) continue;
+            const double patchArea = gpu::unpackMaterial(materials[group]).unoccludedPositive.y;
+            area += patchArea;
+            for (const VisibilityEntry& entry : lists[i])
+                if (groups[memberGroups[components[entry.target / 6].firstMember]].pointAbove.y > 0.5f)
+                    sum += patchArea * entry.rays / 256;
         }
         std::printf("%s: form factor %.4f\n", visibility.c_str(), sum / area);
         // Through voxels rays begin one of 1/32 m above the square and end one before the other.
@@ -190,7 +194,7 @@ TEST(ClusterVisibility, CountsFormFactors) {
 }
 
 TEST(ClusterVisibility, KeepLongLists) {
-    // In a closed sphere 1024 rays meet nearly as many clusters, of one voxel each. Walls that emit 1 and
+    // In a closed sphere 1024 rays hit nearly as many clusters, of one voxel each. Walls that emit 1 and
     // reflect a half reflect a quarter of pi after the gather.
     Chain chain(
         "furnace", "{shape: sphere, albedo: 0.5, emission: 1}",
@@ -204,21 +208,22 @@ TEST(ClusterVisibility, KeepLongLists) {
     EXPECT_NEAR(light, 1, 0.01);
 }
 
-/// Light of sides inside a sealed room whose floor and ceiling run on outside, into the sun, through the same
-/// voxels, next to that of all others: means of radiosity, green.
+/// Light of surface groups inside a sealed room whose floor and ceiling run on outside, into the sun, through
+/// the same voxels, next to that of all others: means of radiosity, green.
 double leakIntoARoom(const std::string& visibility, const std::string& direct, const std::string& near) {
     Chain chain("shell_room", "{wall_thickness: 0.1}",
                 graphYaml(clusterGraph("rays_per_light: 262144, bounces: 0", "target: 400",
                                        "rays: 64, near_distance: " + near + ", visibility: " + visibility,
                                        "2, direct: " + direct, "filter_passes: 2", "25")));
-    const auto sides = readSides(chain);
+    const auto groups = readGroups(chain);
     const auto light = readRadiosity(chain);
     double inside = 0, outside = 0, insideCount = 0, outsideCount = 0;
-    for (size_t i = 0; i < sides.size(); ++i) {
+    for (size_t i = 0; i < groups.size(); ++i) {
         double sum = 0;
-        for (int k = 0; k < std::popcount(sides[i].faces); ++k) sum += light[sides[i].firstPatch + size_t(k)];
-        const glm::vec3 at = sides[i].raised;
-        const bool isInside = std::abs(at.x) < 2 && at.y > 0 && at.y < 2.5f && std::abs(at.z) < 2;
+        for (int k = 0; k < std::popcount(groups[i].faces); ++k)
+            sum += light[groups[i].firstPatch + size_t(k)];
+        const glm::vec3 p = groups[i].pointAbove;
+        const bool isInside = std::abs(p.x) < 2 && p.y > 0 && p.y < 2.5f && std::abs(p.z) < 2;
         (isInside ? inside : outside) += sum;
         (isInside ? insideCount : outsideCount) += 1;
     }
@@ -248,7 +253,7 @@ TEST(ClusterVisibility, LookAlongTheNormalOfEachWallOfACorner) {
     // at an angle has other light by its faces' axes.
     struct Light {
         std::vector<float> flux;      ///< By voxel and face, 3 floats each.
-        std::vector<uint32_t> ways;   ///< By voxel: a bit for each face that one of its surfels looks along.
+        std::vector<uint32_t> faces;  ///< By voxel: a bit for each face that a surfel's normal is along.
         std::vector<bool> isAligned;  ///< By voxel: whether all of its surfels look along axes.
     };
     const auto lightOf = [](const std::string& hemisphere) {
@@ -258,15 +263,15 @@ TEST(ClusterVisibility, LookAlongTheNormalOfEachWallOfACorner) {
         Light light;
         light.flux = readFlux(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->indirect);
         const auto surfels =
-            chain.read<gpu::PatchSurfel>(chain.graph().resource<VoxelPatches>("patches")->surfels);
-        light.ways.resize(light.flux.size() / 18);
-        light.isAligned.resize(light.ways.size(), true);
-        for (const gpu::PatchSurfel& s : surfels)
+            chain.read<gpu::GroupedSurfel>(chain.graph().resource<VoxelPatches>("patches")->surfels);
+        light.faces.resize(light.flux.size() / 18);
+        light.isAligned.resize(light.faces.size(), true);
+        for (const gpu::GroupedSurfel& s : surfels)
             for (int axis = 0; axis < 3; ++axis) {
-                const float along = s.normal[axis];
-                if (std::abs(along) > 0.999f)
-                    light.ways[s.voxel] |= 1u << (2 * axis + (along < 0 ? 1 : 0));
-                else if (std::abs(along) > 0.001f)
+                const float cosine = s.normal[axis];
+                if (std::abs(cosine) > 0.999f)
+                    light.faces[s.voxel] |= 1u << (2 * axis + (cosine < 0 ? 1 : 0));
+                else if (std::abs(cosine) > 0.001f)
                     light.isAligned[s.voxel] = false;
             }
         return light;
@@ -278,7 +283,7 @@ TEST(ClusterVisibility, LookAlongTheNormalOfEachWallOfACorner) {
         const bool isAligned = face.isAligned[i / 18];
         difference[isAligned] += std::abs(surface.flux[i] - face.flux[i]);
         sum[isAligned] += face.flux[i];
-        if (i % 18 == 0 && isAligned && std::popcount(face.ways[i / 18]) > 1) ++corners;
+        if (i % 18 == 0 && isAligned && std::popcount(face.faces[i / 18]) > 1) ++corners;
     }
     std::printf("%.0f corners: %.6f of the light differs, at slanted surfaces %.4f\n", corners,
                 difference[1] / sum[1], difference[0] / sum[0]);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// What all faces hold of indirect light, W, green.
+/// Indirect flux at all faces, W, green.
 double indirectFlux(Chain& chain) {
     const std::vector<float> flux =
         readFlux(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->indirect);
@@ -26,7 +26,7 @@ double indirectFlux(Chain& chain) {
 
 TEST(GatherClusters, KeepTheEnergyOfAFurnace) {
     // Walls that emit e and reflect a: direct irradiance is pi e, and after n bounces between clusters and
-    // one of the gather pi e (a + ... + a^(n + 1)) is indirect. Rays of a closed box all meet a wall.
+    // one of the gather pi e (a + ... + a^(n + 1)) is indirect. All rays in a closed box hit a wall.
     for (const auto& [near, direct] :
          {std::pair<std::string, std::string>{"0", "injected"}, {"4", "injected"}, {"4", "shadow_rays"}})
         for (const int bounces : {0, 4}) {
@@ -36,16 +36,16 @@ TEST(GatherClusters, KeepTheEnergyOfAFurnace) {
                 graphYaml(clusterGraph(kDirect, "target: 200", "rays: 64, near_distance: " + near,
                                        std::to_string(bounces) + ", direct: " + direct, "filter_passes: 0")));
             // All that is seen from within the box, and nothing from without.
-            const auto sides = readSides(chain);
+            const auto groups = readGroups(chain);
             uint32_t inside = 0, outside = 0;
-            const auto faces = facesOfPatches(sides);
-            const auto lists = readSeen(chain);
+            const auto faces = facesOfPatches(groups);
+            const auto lists = readVisibilityLists(chain);
             ASSERT_EQ(lists.size(), faces.size());
             for (size_t patch = 0; patch < lists.size(); ++patch) {
                 uint32_t rays = 0;
-                for (const Seen& seen : lists[patch]) rays += seen.rays;
-                const glm::vec3 at = glm::abs(sides[faces[patch] / 6].raised);
-                const bool isInside = std::max({at.x, at.y, at.z}) < 1;
+                for (const VisibilityEntry& entry : lists[patch]) rays += entry.rays;
+                const glm::vec3 p = glm::abs(groups[faces[patch] / 6].pointAbove);
+                const bool isInside = std::max({p.x, p.y, p.z}) < 1;
                 EXPECT_EQ(rays, isInside ? 64 : 0) << "patch " << patch;
                 ++(isInside ? inside : outside);
             }
@@ -59,9 +59,9 @@ TEST(GatherClusters, KeepTheEnergyOfAFurnace) {
 }
 
 TEST(InjectClusters, KeepTheFluxInAGapNarrowerThanAVoxel) {
-    // A closed box of 24 m² in one voxel: within it no side is open. A lamp of I W/sr sends 4 pi I / 24 m² to
-    // each wall, walls that emit e send pi e, and a of it comes again with each bounce. Nothing arrives at
-    // the open, outer sides.
+    // A closed box of 24 m² in one voxel: all groups within it are occluded. A lamp of I W/sr sends
+    // 4 pi I / 24 m² to each wall, walls that emit e send pi e, and a of it comes again with each bounce.
+    // Nothing arrives at the unoccluded, outer groups.
     const double a = 0.5, intensity = 2, emission = 1;
     for (const auto& [scene, parameters, first] :
          {std::tuple{"white_room", "{albedo: 0.5, intensity: 2}", 4 * kPi * intensity / 24},
@@ -71,25 +71,25 @@ TEST(InjectClusters, KeepTheFluxInAGapNarrowerThanAVoxel) {
                     graphYaml({"voxelize, resolution: 1", "place_surfels, sides: all, points_per_voxel: 256",
                                "cluster_voxels, target: 1", "find_patches", "cluster_visibility, rays: 256",
                                "inject_clusters, bounces: 4, direct: shadow_rays, light_samples: 64"}));
-        const auto sides = readSides(chain);
+        const auto groups = readGroups(chain);
         const auto light = readRadiosity(chain);
         const auto materials =
             chain.read<gpu::PackedVoxelMaterial>(chain.graph().resource<VoxelPatches>("patches")->materials);
         const float voxelSize = chain.graph().resource<SurfaceVoxels>("voxels")->grid.voxelSize;
-        const auto faces = facesOfPatches(sides);
+        const auto faces = facesOfPatches(groups);
         ASSERT_EQ(light.size(), faces.size());
         double flux = 0, area = 0, outside = 0;
         for (size_t patch = 0; patch < faces.size(); ++patch) {
-            const uint32_t side = faces[patch] / 6, face = faces[patch] % 6;
-            if (sides[side].isCovered == 0) {
+            const uint32_t group = faces[patch] / 6, face = faces[patch] % 6;
+            if (groups[group].isOccluded == 0) {
                 outside += light[patch];
                 continue;
             }
-            const gpu::VoxelMaterial m = gpu::unpackMaterial(materials[side]);
+            const gpu::VoxelMaterial m = gpu::unpackMaterial(materials[group]);
             const glm::vec3& areas = face % 2 == 0 ? m.unoccludedPositive : m.unoccludedNegative;
-            const double own = areas[int(face / 2)] * voxelSize * voxelSize;
-            area += own;
-            flux += light[patch] * own;
+            const double patchArea = areas[int(face / 2)] * voxelSize * voxelSize;
+            area += patchArea;
+            flux += light[patch] * patchArea;
         }
         std::printf("%s: %.4f of the area, %.4f of the flux\n", scene, area / 24, flux / area / sent);
         EXPECT_NEAR(area / 24, 1, 0.01);
@@ -156,9 +156,9 @@ TEST(GatherClusters, FilterOverAllOrOverWhatIsLit) {
     EXPECT_GT(lit, 1.01 * all);
 }
 
-TEST(InjectClusters, BounceBetweenFacesOfParts) {
-    // In a furnace each patch stands for all: the closed form after five bounces. In Cornell one patch for
-    // each face of a part, drawn by area, brings as much light in the mean as all of them do one by one.
+TEST(InjectClusters, BounceBetweenComponentFaces) {
+    // In a furnace each patch stands for all: the closed form after five bounces. In Cornell one patch of
+    // each component face, sampled by area, brings as much light in the mean as all of them do one by one.
     const auto light = [](const std::string& scene, const std::string& parameters, const std::string& near,
                           const std::string& bounces, uint32_t seed) {
         Chain chain(scene, parameters,
@@ -234,16 +234,16 @@ TEST(GatherClusters, OfSeenVoxelsShowWhatThoseOfAllShow) {
     expectTheSame("at first");
     EXPECT_LT(first, voxels);
     const glm::vec3 from = seen->state().cameras.at(0).position;
-    const auto go = [&](const glm::vec3& by) {
+    const auto moveCamera = [&](const glm::vec3& by) {
         seen->runFrameFrom(from + by);
         all->runFrameFrom(from + by);
     };
-    go({0.3f, 0.2f, -1.5f});
+    moveCamera({0.3f, 0.2f, -1.5f});
     const double second = found();
     expectTheSame("from elsewhere");
     EXPECT_GT(second, 0);
     EXPECT_LT(second, 0.5 * first);
-    go({});
+    moveCamera({});
     EXPECT_EQ(found(), 0);
     expectTheSame("back again");
     const auto moveLight = [](SceneState& state) {

@@ -116,7 +116,8 @@ TEST(GatherMirror, TellsWhatRaysEndedOn) {
                 24, 24, 1);
     const MirrorEnds& ends = *chain.graph().resource<MirrorEnds>("mirror_ends");
     glm::dvec4 sum(0);
-    for (const glm::vec4& parts : chain.readImage<glm::vec4>(ends.parts)) sum += glm::dvec4(parts);
+    for (const glm::vec4& fractions : chain.readImage<glm::vec4>(ends.fractions))
+        sum += glm::dvec4(fractions);
     const PassSample& mirrorPass = *(chain.frameSamples.end() - 2);  // Before composite.
     EXPECT_EQ(sum.x, reported(mirrorPass, "mirror rays that hit triangles"));
     EXPECT_EQ(sum.y, reported(mirrorPass, "mirror rays that hit cells of grids"));

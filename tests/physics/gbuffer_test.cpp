@@ -145,8 +145,8 @@ TEST(GBuffer, TheNearerOfTwoSheetsIsSeenHoweverFarOtherSurfacesLie) {
     builder.quad("back", {-3, -3, -1e-4f}, {6, 0, 0}, {0, 6, 0}, builder.lambert("back", glm::vec3(0.2f)));
     builder.quad("stray", {1e6f, 0, 0}, {1, 0, 0}, {0, 1, 0}, builder.lambert("stray", glm::vec3(0.5f)));
     builder.camera({0, 0, 4}, {0, 0, 0}, 60);
-    const auto state =
-        std::make_shared<SceneState>(inRegion(evaluate(builder.finish(), 0), {{-3, -3, -1}, {3, 3, 4}}, 0));
+    const auto state = std::make_shared<SceneState>(
+        splitAtRegion(evaluate(builder.finish(), 0), {{-3, -3, -1}, {3, 3, 4}}, 0));
     for (const std::string method : {"rays", "raster"}) {
         Chain chain(state, graphYaml({"gbuffer, method: " + method}), 16, 16, 1);
         for (const glm::vec4& albedo : texels(chain, gbuffer(chain).albedo))

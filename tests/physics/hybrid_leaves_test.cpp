@@ -66,7 +66,7 @@ std::vector<uint32_t> listOf(uint32_t word, const std::vector<ListItem>& primiti
 }
 
 TEST(HybridLeaves, ListEveryTriangleThatOverlaps) {
-    // In voxels larger and smaller by four of the walk's margins
+    // In voxels larger and smaller by four of the voxelizer's margins
     constexpr double kEpsilon = 1e-3;
     for (const std::shared_ptr<const SceneState>& state :
          {builtin("cornell"), builtin("clutter"), builtin("spheres", "{count: 8}"), soup()}) {

@@ -42,13 +42,13 @@ class Hybrid {
     const HybridLeaves& leaves() const { return *chain_.graph().resource<HybridLeaves>("hybrid_leaves"); }
     Chain& chain() { return chain_; }
 
-    /// @param start what all rays leave behind. @param widest m, beyond which rays end.
+    /// @param start what all rays leave behind. @param maxWidth m, beyond which rays end.
     std::vector<Hit> closest(HybridWalk walk, const std::vector<Ray>& rays,
-                             const std::optional<gpu::RayStart>& start = {}, float widest = kInfinity) {
+                             const std::optional<gpu::RayStart>& start = {}, float maxWidth = kInfinity) {
         TestPrograms programs;
         HybridTracer tracer(programs, walk);
         prepare(programs, tracer, voxels());
-        tracer.begin(stream_, scene_, voxels(), leaves(), widest);
+        tracer.begin(stream_, scene_, voxels(), leaves(), maxWidth);
         const std::vector<Hit> hits = start ? closestFrom(tracer, rays, *start) : closest(tracer, rays);
         counts = stream_.readAs<uint64_t>(tracer.counts(), 2);
         tests = stream_.readAs<uint64_t>(tracer.testCounts(), 1)[0];
@@ -76,7 +76,7 @@ class Hybrid {
             out(device(), "hits", rays.size() * sizeof(Hit));
         stream_.upload(in, rays);
         stream_.upload(starts, std::vector<gpu::RayStart>(rays.size(), start));
-        tracer.closestFrom(stream_, in, starts, out, uint32_t(rays.size()));
+        tracer.closestHitWithStarts(stream_, in, starts, out, uint32_t(rays.size()));
         return stream_.readAs<Hit>(out, rays.size());
     }
 

@@ -1,4 +1,4 @@
-// Which surfaces lights see, by points round their voxels and by shadow rays of their surfels.
+// Which surfaces are lit, by points around their voxels and by shadow rays of their surfels.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,12 +12,12 @@
 namespace voxray::test {
 namespace {
 
-/// Radiosity of a patch, W/m², by where it is and looks.
+/// Radiosity of a patch, W/m², by position and normal.
 struct LitPatch {
-    glm::vec3 at;  ///< Half a voxel above its side's first surfel.
+    glm::vec3 position;  ///< Half a voxel above the first surfel of its group.
     uint32_t face;
     double radiosity;
-    glm::vec3 normal;  ///< Of its side's first surfel.
+    glm::vec3 normal;  ///< Of the first surfel of its group.
 };
 
 std::string litGraph(const std::string& test, const std::string& resolution) {
@@ -27,15 +27,15 @@ std::string litGraph(const std::string& test, const std::string& resolution) {
 }
 
 std::vector<LitPatch> litPatches(Chain& chain) {
-    const auto sides = readSides(chain);
+    const auto groups = readGroups(chain);
     const auto surfels =
-        chain.read<gpu::PatchSurfel>(chain.graph().resource<VoxelPatches>("patches")->surfels);
-    const auto faces = facesOfPatches(sides);
+        chain.read<gpu::GroupedSurfel>(chain.graph().resource<VoxelPatches>("patches")->surfels);
+    const auto faces = facesOfPatches(groups);
     const auto light = readRadiosity(chain);
     std::vector<LitPatch> patches;
     for (size_t i = 0; i < faces.size(); ++i) {
-        const gpu::SurfaceSide& side = sides[faces[i] / 6];
-        patches.push_back({side.raised, faces[i] % 6, light[i], surfels[side.firstSurfel].normal});
+        const gpu::SurfaceGroup& group = groups[faces[i] / 6];
+        patches.push_back({group.pointAbove, faces[i] % 6, light[i], surfels[group.firstSurfel].normal});
     }
     return patches;
 }
@@ -101,18 +101,18 @@ TEST(LitPoints, LightNothingBehindAWall) {
     for (const std::string test : {"points", "surfels"}) {
         uint32_t dark = 0, before = 0, behind = 0;
         for (const LitPatch& p : litGround(0, {1, -1, 0}, true, test)) {
-            if (std::abs(p.at.z) > 5 - 2 * voxel) continue;  // The sun passes the wall's ends.
+            if (std::abs(p.position.z) > 5 - 2 * voxel) continue;  // The sun passes the wall's ends.
             const bool isOfWall = std::abs(p.normal.x) > 0.5f;
             if (p.normal.y < -0.5f || (isOfWall && p.normal.x > 0)) {
                 EXPECT_EQ(p.radiosity, 0) << test;
-            } else if (isOfWall || p.at.x < 0.3f) {
+            } else if (isOfWall || p.position.x < 0.3f) {
                 EXPECT_GT(p.radiosity, 0) << test;
                 ++before;
-            } else if (p.at.x > voxel && p.at.x < 2.3f - 2.7f * voxel) {
-                EXPECT_EQ(p.radiosity, 0) << test << " at " << p.at.x << " " << p.at.z;
+            } else if (p.position.x > voxel && p.position.x < 2.3f - 2.7f * voxel) {
+                EXPECT_EQ(p.radiosity, 0) << test << " at " << p.position.x << " " << p.position.z;
                 ++dark;
-            } else if (p.at.x > 2.3f + voxel) {
-                EXPECT_GT(p.radiosity, 0) << test << " at " << p.at.x << " " << p.at.z;
+            } else if (p.position.x > 2.3f + voxel) {
+                EXPECT_GT(p.radiosity, 0) << test << " at " << p.position.x << " " << p.position.z;
                 ++behind;
             }
         }

@@ -17,7 +17,7 @@ TEST(ManyLights, OfReflectiveShadowMapsCarryEqualPartsOfAllFlux) {
     Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
                 rsmLights(", rsm_resolution: 256", "vpls_per_bounce: 4096, bounces: 1"), 4, 4);
     const auto points = chain.read<gpu::Vpl>(vpls(chain).points);
-    ASSERT_EQ(vpls(chain).count, 4096u);
+    ASSERT_EQ(vpls(chain).activeCount, 4096u);
     for (const gpu::Vpl& vpl : points) ASSERT_NEAR(vpl.flux.y * 4096 / (4 * kPi), 1, 2e-3);
 }
 
@@ -48,7 +48,7 @@ TEST(ManyLights, OfReflectiveShadowMapsAllFallOnTheOnlyTexelThatSeesAnything) {
     state.geometry.boundsMin *= 0.02f, state.geometry.boundsMax *= 0.02f;
     Chain chain(std::make_shared<SceneState>(state),
                 rsmLights(", rsm_resolution: 3", "vpls_per_bounce: 64, bounces: 1"), 4, 4, 1);
-    ASSERT_EQ(vpls(chain).count, 64u);
+    ASSERT_EQ(vpls(chain).activeCount, 64u);
     double flux = 0;
     for (const gpu::Vpl& vpl : chain.read<gpu::Vpl>(vpls(chain).points)) {
         flux += vpl.flux.y;

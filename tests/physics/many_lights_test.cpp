@@ -12,9 +12,9 @@ TEST(ManyLights, ReflectAllLightOfAClosedRoom) {
     Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
                 manyLights("vpls_per_bounce: 8192", "visibility: none, block: 16"), 4, 4);
     const auto points = chain.read<gpu::Vpl>(vpls(chain).points);
-    const auto list = chain.read<uint32_t>(vpls(chain).list);
+    const auto list = chain.read<uint32_t>(vpls(chain).activeIndices);
     std::vector<double> flux(3);
-    for (uint32_t i = 0; i < vpls(chain).count; ++i) flux.at(list[i] % 3) += points.at(list[i]).flux.y;
+    for (uint32_t i = 0; i < vpls(chain).activeCount; ++i) flux.at(list[i] % 3) += points.at(list[i]).flux.y;
     EXPECT_NEAR(flux[0] / (4 * kPi), 1, 1e-5);
     EXPECT_NEAR(flux[1] / (2 * kPi), 1, 0.02);
     EXPECT_NEAR(flux[2] / kPi, 1, 0.04);
@@ -25,9 +25,9 @@ TEST(ManyLights, BouncesThroughVoxelsKeepTheFluxOfAClosedRoom) {
     Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
                 manyLights("vpls_per_bounce: 8192, bounce: svo", "visibility: none, block: 16"), 4, 4);
     const auto points = chain.read<gpu::Vpl>(vpls(chain).points);
-    const auto list = chain.read<uint32_t>(vpls(chain).list);
+    const auto list = chain.read<uint32_t>(vpls(chain).activeIndices);
     std::vector<double> flux(3);
-    for (uint32_t i = 0; i < vpls(chain).count; ++i) {
+    for (uint32_t i = 0; i < vpls(chain).activeCount; ++i) {
         const gpu::Vpl& vpl = points.at(list[i]);
         flux.at(list[i] % 3) += vpl.flux.y;
         ASSERT_NEAR(glm::length(vpl.normal), 1, 1e-4);

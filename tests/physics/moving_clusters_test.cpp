@@ -41,37 +41,37 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
     return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
-constexpr size_t kSee = 4;  ///< cluster_visibility, among the passes of the build.
+constexpr size_t kVisibility = 4;  ///< cluster_visibility, among the passes of the build.
 
 double traced(const std::vector<PassSample>& samples) {
-    return reported(samples.at(kSee), "rays traced, % of all");
+    return reported(samples.at(kVisibility), "rays traced, % of all");
 }
 
-/// Clusters, sides, parts, lists and image of two chains.
+/// Clusters, surface groups, components, visibility lists and image of two chains.
 void expectSame(Chain& a, Chain& b) {
     const auto expectSameBuffer = [&](const Buffer& ofA, const Buffer& ofB) {
         EXPECT_TRUE(sameBits(a.read<uint32_t>(ofA), b.read<uint32_t>(ofB))) << ofA.name();
     };
     const auto *clustersA = a.graph().resource<VoxelClusters>("clusters"),
                *clustersB = b.graph().resource<VoxelClusters>("clusters");
-    for (Buffer VoxelClusters::*buffer : {&VoxelClusters::clusters, &VoxelClusters::ofVoxel,
-                                          &VoxelClusters::members, &VoxelClusters::coordinates})
+    for (Buffer VoxelClusters::*buffer : {&VoxelClusters::clusters, &VoxelClusters::clusterOfVoxel,
+                                          &VoxelClusters::memberVoxels, &VoxelClusters::coordinates})
         expectSameBuffer(clustersA->*buffer, clustersB->*buffer);
     const auto *patchesA = a.graph().resource<VoxelPatches>("patches"),
                *patchesB = b.graph().resource<VoxelPatches>("patches");
     for (Buffer VoxelPatches::*buffer :
-         {&VoxelPatches::firstSide, &VoxelPatches::sides, &VoxelPatches::firstNeighbour, &VoxelPatches::parts,
-          &VoxelPatches::members, &VoxelPatches::ofSide})
+         {&VoxelPatches::firstGroup, &VoxelPatches::groups, &VoxelPatches::firstNeighbour,
+          &VoxelPatches::components, &VoxelPatches::memberGroups, &VoxelPatches::componentOfGroup})
         expectSameBuffer(patchesA->*buffer, patchesB->*buffer);
     expectSameBuffer(patchesA->materials, patchesB->materials);
     expectSameBuffer(patchesA->neighbours, patchesB->neighbours);
-    const auto *seenA = a.graph().resource<ClusterVisibility>("cluster_visibility"),
-               *seenB = b.graph().resource<ClusterVisibility>("cluster_visibility");
-    ASSERT_EQ(seenA->chunks.size(), seenB->chunks.size());
-    EXPECT_EQ(seenA->layout.entryBits, seenB->layout.entryBits);
-    for (size_t i = 0; i < seenA->chunks.size(); ++i) {
-        expectSameBuffer(seenA->chunks[i].first, seenB->chunks[i].first);
-        expectSameBuffer(seenA->chunks[i].seen, seenB->chunks[i].seen);
+    const auto *listsA = a.graph().resource<ClusterVisibility>("cluster_visibility"),
+               *listsB = b.graph().resource<ClusterVisibility>("cluster_visibility");
+    ASSERT_EQ(listsA->chunks.size(), listsB->chunks.size());
+    EXPECT_EQ(listsA->layout.entryBits, listsB->layout.entryBits);
+    for (size_t i = 0; i < listsA->chunks.size(); ++i) {
+        expectSameBuffer(listsA->chunks[i].offsets, listsB->chunks[i].offsets);
+        expectSameBuffer(listsA->chunks[i].entries, listsB->chunks[i].entries);
     }
     const ImageF imageA = a.image("indirect"), imageB = b.image("indirect");
     EXPECT_TRUE(sameBits(imageA.data, imageB.data));
@@ -89,11 +89,11 @@ TEST(MovingClusters, AreAsMadeThere) {
         moved->goTo(second);
         const auto made = chainAt(scene, second, graph);
         expectSame(*moved, *made);
-        // Those alone that passed the ball, or pass it now.
+        // Only rays that passed the ball, or pass it now.
         std::printf("at %.2f s: %.1f %% of rays traced\n", second, traced(moved->updateSamples));
         EXPECT_GT(traced(moved->updateSamples), 0.5);
         EXPECT_LT(traced(moved->updateSamples), 25);
-        EXPECT_LT(moved->updateSamples[kSee].rays, made->buildSamples[kSee].rays / 4);
+        EXPECT_LT(moved->updateSamples[kVisibility].rays, made->buildSamples[kVisibility].rays / 4);
     }
 }
 
@@ -102,7 +102,7 @@ TEST(MovingClusters, AreKeptWhereNothingMoves) {
     const auto scene = swingingBall();
     const auto chain = chainAt(scene, 0.5, graph), made = chainAt(scene, 0.5, graph);
     chain->relight();
-    EXPECT_EQ(chain->buildSamples[kSee].rays, 0u);
+    EXPECT_EQ(chain->buildSamples[kVisibility].rays, 0u);
     expectSame(*chain, *made);
     // Boxes without a surface, and beyond the room.
     for (const Box& box : {Box{{0.45f, 1.5f, 0.6f}, {0.5f, 1.52f, 0.65f}}, Box{{5, 5, 5}, {6, 6, 6}}}) {

@@ -92,7 +92,7 @@ class Content {
     }
 
     /// Two voxels in a row: what has no room next to the front one is hidden.
-    static glm::dvec4 inARow(const glm::dvec4& front, const glm::dvec4& rear) {
+    static glm::dvec4 compositePair(const glm::dvec4& front, const glm::dvec4& rear) {
         return front + rear * (rear.a > 0 ? std::clamp((1 - front.a) / rear.a, 0.0, 1.0) : 0.0);
     }
     static glm::ivec3 offset(int octant) { return glm::ivec3(octant, octant >> 1, octant >> 2) & 1; }
@@ -106,7 +106,7 @@ class Content {
                 const auto child = [&](int o) { return at(finer, 2 * cell + offset(o))[size_t(face)]; };
                 if (directions_ == 1) result[size_t(face)] += child(octant) / 8.0;
                 if (directions_ == 6 && isFront(face, octant))
-                    result[size_t(face)] += inARow(child(octant), child(octant ^ 1 << face / 2)) / 4.0;
+                    result[size_t(face)] += compositePair(child(octant), child(octant ^ 1 << face / 2)) / 4.0;
             }
         return result;
     }
@@ -132,7 +132,8 @@ class Content {
                 if (directions_ == 1 || !isFront(face, octant)) continue;
                 const glm::dvec4 front = value(octant, face);
                 sum += std::abs(direction[axis]) *
-                       (weight(octant) * front + weight(rear) * (inARow(front, value(rear, face)) - front));
+                       (weight(octant) * front +
+                        weight(rear) * (compositePair(front, value(rear, face)) - front));
             }
         return sum;
     }

@@ -35,7 +35,7 @@ std::shared_ptr<SceneState> glazedRoom(Shines shines, int panes, const glm::vec3
         b.quad("pane", {-3, 1.1f + 0.1f * float(i), -3}, {0, 0, 6}, {6, 0, 0}, material);
     b.camera({0, 0.5f, 0.9f}, {0, -1, -0.3f}, 70);
     if (shines == Shines::Sky) b.scene().environment.radiance = light;
-    return std::make_shared<SceneState>(evaluateParted(b.finish(), 0.0));
+    return std::make_shared<SceneState>(evaluateWithPanes(b.finish(), 0.0));
 }
 
 void expectTwinsImage(Shines shines, int panes, const std::vector<std::string>& passes,
@@ -67,7 +67,7 @@ TEST(Panes, AreMetByNoRayAndInNoVoxel) {
 
 TEST(Panes, StayWhereARegionIsCut) {
     const auto state = glazedRoom(Shines::Sun, 1, glm::vec3(1));
-    const SceneState cut = inRegion(*state, {glm::vec3(-1), glm::vec3(0.5f)}, 0);
+    const SceneState cut = splitAtRegion(*state, {glm::vec3(-1), glm::vec3(0.5f)}, 0);
     EXPECT_EQ(cut.panes, state->panes);
 }
 

@@ -146,7 +146,7 @@ TEST(Reflection, SamplesFollowTheirDensity) {
 TEST(Reflection, MirrorsAreExactAndGrazingViewsFinite) {
     const Bsdf mirror = metal(0);
     const BsdfSample s = mirror.sample(directionAt(0.6, 1), kNormal, {0.5f, 0.5f}, 0.5f);
-    EXPECT_TRUE(s.mirror);
+    EXPECT_TRUE(s.isMirror);
     EXPECT_NEAR(glm::dot(s.direction, directionAt(0.6, 1 + 3.14159265358979)), 1, 1e-6);
     EXPECT_NEAR(s.weight.x, 1, 1e-5);
     for (const Bsdf& b : {metal(0.04f), metal(0.3f), plastic(0.0f), plastic(1.0f)})

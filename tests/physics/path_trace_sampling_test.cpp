@@ -17,9 +17,9 @@ using path_trace::Strategy;
 TEST(SobolSampler, TwoAtOnceAreTheSameNumbers) {
     for (uint32_t seed = 0; seed < 100; ++seed) {
         const SobolSampler sampler(seed * 0x9e3779b9u, seed * seed);
-        const auto both = sampler.pairs(seed, seed + 5);
-        ASSERT_EQ(both[0], sampler.pair(seed));
-        ASSERT_EQ(both[1], sampler.pair(seed + 5));
+        const auto both = sampler.get2Dx2(seed, seed + 5);
+        ASSERT_EQ(both[0], sampler.get2D(seed));
+        ASSERT_EQ(both[1], sampler.get2D(seed + 5));
     }
 }
 
@@ -33,9 +33,9 @@ TEST(SobolSampler, EveryPairIsAZeroTwoSequence) {
                         std::set<std::pair<int, int>> cells;
                         for (uint32_t k = 0; k < (1u << m); ++k) {
                             const SobolSampler sampler(seed, (run << m) + k);
-                            const glm::vec2 u = sampler.pair(pair);
+                            const glm::vec2 u = sampler.get2D(pair);
                             ASSERT_TRUE(u.x >= 0 && u.x < 1 && u.y >= 0 && u.y < 1);
-                            ASSERT_EQ(u.x, sampler.one(pair));
+                            ASSERT_EQ(u.x, sampler.get1D(pair));
                             cells.insert({int(u.x * float(1 << i)), int(u.y * float(1 << (m - i)))});
                         }
                         ASSERT_EQ(cells.size(), 1u << m) << "pair " << pair << " m " << m << " shape " << i;
@@ -48,8 +48,8 @@ TEST(SobolSampler, PairsAndSeedsAreUncorrelated) {
                                  int b) {
         double sum = 0;
         for (uint32_t k = 0; k < kPoints; ++k)
-            sum += (SobolSampler(seedA, k).pair(pairA)[a] - 0.5) *
-                   (SobolSampler(seedB, k).pair(pairB)[b] - 0.5) * 12 / kPoints;
+            sum += (SobolSampler(seedA, k).get2D(pairA)[a] - 0.5) *
+                   (SobolSampler(seedB, k).get2D(pairB)[b] - 0.5) * 12 / kPoints;
         return std::fabs(sum);
     };
     for (uint32_t pair = 0; pair < 8; ++pair)

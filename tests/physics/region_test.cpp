@@ -37,7 +37,7 @@ double areaOf(const Geometry& g, const std::function<bool(uint32_t)>& isCounted)
 constexpr Box kRoom{{-2.5f, 0, -2.5f}, {2.5f, 3.2f, 3}};
 
 TEST(Region, CutsTrianglesAtItsBorderAndKeepsTheirSurface) {
-    const SceneState whole = roomOnGround(), cut = inRegion(whole, kRoom, 0);
+    const SceneState whole = roomOnGround(), cut = splitAtRegion(whole, kRoom, 0);
     const auto all = [](uint32_t) { return true; };
     EXPECT_NEAR(areaOf(cut.geometry, all), areaOf(whole.geometry, all), 1e-6 * areaOf(whole.geometry, all));
     // 5 m by 5.5 m of ground, and the room
@@ -50,7 +50,7 @@ TEST(Region, CutsTrianglesAtItsBorderAndKeepsTheirSurface) {
                                 glm::all(glm::lessThanEqual(p, kRoom.max + 1e-4f));
             EXPECT_TRUE(within || !inside(t));
         }
-    EXPECT_EQ(inRegion(whole, {{-1000, -1, -1000}, {1000, 9, 1000}}, 0).geometry.triangles.size(),
+    EXPECT_EQ(splitAtRegion(whole, {{-1000, -1, -1000}, {1000, 9, 1000}}, 0).geometry.triangles.size(),
               whole.geometry.triangles.size());
 }
 
@@ -63,7 +63,7 @@ TEST(Region, HoldsTrianglesThatLieInItsBorder) {
     builder.quad("far", {-9, 0, 0}, {0, 1, 0}, {0, 0, 1}, builder.lambert("white", glm::vec3(0.8f)));
     builder.directionalLight({1, 0, 0}, glm::vec3(1));
     builder.camera({0, 0.5f, 0.5f}, {wall, 0.5f, 0.5f}, 60);
-    const SceneState cut = inRegion(evaluate(builder.finish(), 0), {glm::vec3(0), {wall, 1, 1}}, 0);
+    const SceneState cut = splitAtRegion(evaluate(builder.finish(), 0), {glm::vec3(0), {wall, 1, 1}}, 0);
     std::vector<bool> inside;
     for (uint32_t t = 0; t < cut.geometry.triangles.size(); ++t)
         inside.push_back(isInRegion(cut.geometry, t));
@@ -73,7 +73,7 @@ TEST(Region, HoldsTrianglesThatLieInItsBorder) {
 /// Expects the mean indirect light of gather rays in kRoom to be the reference's. @return the voxels' edge,
 /// m.
 float expectTheReference(const SceneState& whole) {
-    const auto state = std::make_shared<SceneState>(inRegion(whole, kRoom, 0));
+    const auto state = std::make_shared<SceneState>(splitAtRegion(whole, kRoom, 0));
     Chain chain(state,
                 graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 64",
                            "inject_light_rays, rays_per_light: 1048576, bounces: 6",

@@ -1,4 +1,4 @@
-// Which voxels light is gathered for, by points round them that the camera sees.
+// Which voxels light is gathered for, by points around them that the camera sees.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,10 +23,10 @@ std::string seenGraph(const std::string& update, const std::string& resolution) 
 std::vector<bool> gathered(Chain& chain) {
     const std::vector<float> areas =
         readAreas(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->area);
-    std::vector<bool> is(areas.size() / 6);
+    std::vector<bool> isGathered(areas.size() / 6);
     for (size_t i = 0; i < areas.size(); ++i)
-        if (areas[i] > 0) is[i / 6] = true;
-    return is;
+        if (areas[i] > 0) isGathered[i / 6] = true;
+    return isGathered;
 }
 
 TEST(SeenPoints, LeaveOutWhatIsBehindAWallAndBehindTheCamera) {
@@ -41,27 +41,31 @@ TEST(SeenPoints, LeaveOutWhatIsBehindAWallAndBehindTheCamera) {
     b.camera(eye, {0, 1, 0}, 60);
     Chain chain(std::make_shared<SceneState>(evaluate(b.finish(), 0.0)), seenGraph("seen_points", "32"), 24,
                 24, 1);
-    const std::vector<bool> is = gathered(chain);
+    const std::vector<bool> isGathered = gathered(chain);
     const auto coordinates =
         chain.read<glm::uvec3>(chain.graph().resource<VoxelClusters>("clusters")->coordinates);
     const gpu::VoxelGrid grid = chain.graph().resource<SurfaceVoxels>("voxels")->grid;
     const float voxel = grid.voxelSize, tangent = std::tan(glm::radians(30.0f));
     uint32_t before = 0, behindWall = 0, behindCamera = 0, beyondEdge = 0;
-    for (size_t i = 0; i < is.size(); ++i) {
-        const glm::vec3 at = grid.origin + voxel * (glm::vec3(coordinates[i]) + 0.5f), from = at - eye;
+    for (size_t i = 0; i < isGathered.size(); ++i) {
+        const glm::vec3 center = grid.origin + voxel * (glm::vec3(coordinates[i]) + 0.5f),
+                        fromEye = center - eye;
         const float reach = 2 * voxel;
-        const float aside = std::max(std::abs(from.y), std::abs(from.z));
-        if (at.x > 0.3f + 1.5f * voxel) {
-            EXPECT_FALSE(is[i]) << "behind the wall at " << at.x << " " << at.y << " " << at.z;
+        const float aside = std::max(std::abs(fromEye.y), std::abs(fromEye.z));
+        if (center.x > 0.3f + 1.5f * voxel) {
+            EXPECT_FALSE(isGathered[i])
+                << "behind the wall at " << center.x << " " << center.y << " " << center.z;
             ++behindWall;
-        } else if (from.x < -reach) {
-            EXPECT_FALSE(is[i]) << "behind the camera at " << at.x << " " << at.z;
+        } else if (fromEye.x < -reach) {
+            EXPECT_FALSE(isGathered[i]) << "behind the camera at " << center.x << " " << center.z;
             ++behindCamera;
-        } else if (aside - reach > tangent * (from.x + reach)) {
-            EXPECT_FALSE(is[i]) << "beyond the image's edge at " << at.x << " " << at.y << " " << at.z;
+        } else if (aside - reach > tangent * (fromEye.x + reach)) {
+            EXPECT_FALSE(isGathered[i])
+                << "beyond the image's edge at " << center.x << " " << center.y << " " << center.z;
             ++beyondEdge;
-        } else if (aside < tangent * from.x) {
-            EXPECT_TRUE(is[i]) << "before the wall at " << at.x << " " << at.y << " " << at.z;
+        } else if (aside < tangent * fromEye.x) {
+            EXPECT_TRUE(isGathered[i])
+                << "before the wall at " << center.x << " " << center.y << " " << center.z;
             ++before;
         }
     }
@@ -103,7 +107,7 @@ LeftOut leftOut(const std::shared_ptr<const SceneState>& state, uint32_t width, 
     Chain lookup(state, seenGraph("seen", "64"), width, height, 1);
     Chain points(state, seenGraph("seen_points", "64"), width, height, 1);
     const std::vector<bool> byLookup = gathered(lookup), byPoints = gathered(points);
-    const auto count = [](const std::vector<bool>& is) { return double(std::ranges::count(is, true)); };
+    const auto count = [](const std::vector<bool>& flags) { return double(std::ranges::count(flags, true)); };
     LeftOut r{double(byLookup.size()), count(byLookup), count(byPoints), 0, 0, 0, 0};
 
     // The eight voxels round each texel

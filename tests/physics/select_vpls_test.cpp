@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "passes/vpls/select_vpls/resample.h"
+#include "passes/vpls/select_vpls/systematic_resampling.h"
 #include "passes/vpls/vpls.h"
 #include "tests/gpu/chain.h"
 
@@ -24,13 +24,13 @@ TEST(SelectVpls, ResamplingKeepsSumsOnAverage) {
     const std::vector<double> probabilities = {0.1, 0, 0.5, 0.05, 0.35};
     std::vector<double> means(5);
     for (int i = 0; i < 1000; ++i) {
-        const Resampled kept = resample(probabilities, 3, (i + 0.5) / 1000);
-        ASSERT_LE(kept.places.size(), 3u);
-        for (size_t k = 0; k < kept.places.size(); ++k) means[kept.places[k]] += kept.weights[k] / 1000;
+        const Resampled kept = systematicResampling(probabilities, 3, (i + 0.5) / 1000);
+        ASSERT_LE(kept.indices.size(), 3u);
+        for (size_t k = 0; k < kept.indices.size(); ++k) means[kept.indices[k]] += kept.weights[k] / 1000;
     }
     for (const int place : {0, 2, 3, 4}) EXPECT_NEAR(means[size_t(place)], 1, 0.01) << place;
     EXPECT_EQ(means[1], 0);
-    EXPECT_EQ(resample(probabilities, 3, 0.999999).places.back(), 4u);
+    EXPECT_EQ(systematicResampling(probabilities, 3, 0.999999).indices.back(), 4u);
 }
 
 TEST(SelectVpls, BringTheEnergyOfAll) {
@@ -38,11 +38,11 @@ TEST(SelectVpls, BringTheEnergyOfAll) {
     Chain chain("white_room", "{}", selectedLights("4096", "2048"), 16, 16);
     const Vpls& vpls = *chain.graph().resource<Vpls>("vpls");
     const auto points = chain.read<gpu::Vpl>(vpls.points);
-    const auto list = chain.read<uint32_t>(vpls.list);
-    EXPECT_LE(vpls.count, 2048u);
-    EXPECT_GT(vpls.count, 1024u);
+    const auto list = chain.read<uint32_t>(vpls.activeIndices);
+    EXPECT_LE(vpls.activeCount, 2048u);
+    EXPECT_GT(vpls.activeCount, 1024u);
     double flux = 0;
-    for (uint32_t i = 0; i < vpls.count; ++i) flux += points.at(list[i]).flux.y;
+    for (uint32_t i = 0; i < vpls.activeCount; ++i) flux += points.at(list[i]).flux.y;
     const double each = 4 * std::numbers::pi * 0.8;
     EXPECT_NEAR(flux / (each + 0.8 * each + 0.64 * each), 1, 0.05);
     const double all = mean(Chain("white_room", "{}", allLights("4096"), 16, 16).image("indirect"));

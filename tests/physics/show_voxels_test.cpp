@@ -113,7 +113,7 @@ TEST(ShowVoxels, DrawsEachLevelOfPrefilteredVoxels) {
 
 TEST(ShowVoxels, CountsTheLitFacesOfARoomThatAFaceSees) {
     // A lamp lights all walls of a closed room of 8 voxels. All voxels are one cluster: each face sees all of
-    // its part's that look another way, 5 times 8², but for those in a corner that no surfel fell on.
+    // its component's that look another way, 5 times 8², but for those in a corner that no surfel fell on.
     Chain chain(
         "white_room", "{}",
         graphYaml({"voxelize, resolution: 8", "place_surfels",
@@ -122,7 +122,7 @@ TEST(ShowVoxels, CountsTheLitFacesOfARoomThatAFaceSees) {
                    "show_voxels, show: lit_faces, red_at: 640"}),
         kSize, kSize);
     chain.runFrameFrom({});  // From the center: the camera's own place is in a wall's voxels.
-    const auto faces = facesOfPatches(readSides(chain));
+    const auto faces = facesOfPatches(readGroups(chain));
     const std::vector<bool> isLit = litPatches(chain);
     uint32_t lit = 0, back = 0;
     for (size_t i = 0; i < faces.size(); ++i) {
@@ -152,19 +152,19 @@ TEST(ShowVoxels, CountsLitFacesAsListsTell) {
                    "show_voxels, show: lit_faces, red_at: " + std::to_string(kRed)}),
         kSize, kSize);
     const auto* patches = chain.graph().resource<VoxelPatches>("patches");
-    const auto sides = readSides(chain);
-    const auto parts = chain.read<gpu::ClusterPart>(patches->parts);
-    const auto members = chain.read<uint32_t>(patches->members);
-    const auto firstSide = chain.read<uint32_t>(patches->firstSide);
+    const auto groups = readGroups(chain);
+    const auto components = chain.read<gpu::ClusterComponent>(patches->components);
+    const auto memberGroups = chain.read<uint32_t>(patches->memberGroups);
+    const auto firstGroup = chain.read<uint32_t>(patches->firstGroup);
     const std::vector<bool> isLit = litPatches(chain);
-    const auto faces = facesOfPatches(sides);
-    const auto lists = readSeen(chain);
-    std::vector<uint32_t> litOfParts(6 * parts.size());
-    for (size_t i = 0; i < parts.size(); ++i)
-        for (uint32_t k = 0; k < parts[i].members; ++k)
-            for (size_t p = sides[members[parts[i].firstMember + k]].firstPatch;
-                 p < faces.size() && faces[p] / 6 == members[parts[i].firstMember + k]; ++p)
-                litOfParts[6 * i + faces[p] % 6] += isLit[p] ? 1 : 0;
+    const auto faces = facesOfPatches(groups);
+    const auto lists = readVisibilityLists(chain);
+    std::vector<uint32_t> litOfComponents(6 * components.size());
+    for (size_t i = 0; i < components.size(); ++i)
+        for (uint32_t k = 0; k < components[i].memberCount; ++k)
+            for (size_t p = groups[memberGroups[components[i].firstMember + k]].firstPatch;
+                 p < faces.size() && faces[p] / 6 == memberGroups[components[i].firstMember + k]; ++p)
+                litOfComponents[6 * i + faces[p] % 6] += isLit[p] ? 1 : 0;
 
     const Voxels voxels(chain);
     const Camera& camera = chain.state().cameras.at(0);
@@ -184,13 +184,13 @@ TEST(ShowVoxels, CountsLitFacesAsListsTell) {
             const uint32_t number = voxels.rank[voxels.word(voxel)] + uint32_t(std::popcount(below));
             uint32_t seen = 0;
             for (uint32_t patch = 0; patch < faces.size(); ++patch) {
-                const uint32_t side = faces[patch] / 6;
-                if (faces[patch] % 6 != 4 || side < firstSide[number] || side >= firstSide[number + 1])
+                const uint32_t group = faces[patch] / 6;
+                if (faces[patch] % 6 != 4 || group < firstGroup[number] || group >= firstGroup[number + 1])
                     continue;
-                for (const Seen& entry : lists[patch])
-                    seen += entry.target < litOfParts.size()
-                                ? litOfParts[entry.target]
-                                : uint32_t(isLit[entry.target - litOfParts.size()]);
+                for (const VisibilityEntry& entry : lists[patch])
+                    seen += entry.target < litOfComponents.size()
+                                ? litOfComponents[entry.target]
+                                : uint32_t(isLit[entry.target - litOfComponents.size()]);
             }
             const float red = float(seen) / kRed;
             EXPECT_LT(glm::distance(pixelOf(image, x, y), glm::vec3(red, 1 - red, 0)), 1e-5f)

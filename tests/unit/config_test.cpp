@@ -279,9 +279,9 @@ TEST(Config, AnAxisWhoseOneValueIsWrittenIsWarnedOf) {
 
 TEST(Config, PlacesOfPaths) {
     const Value config = parseExperiment(kValid, "demo.yaml").config;
-    EXPECT_EQ(placeOf(config, "scene.camera.fov_deg").line, 5);
-    EXPECT_EQ(placeOf(config, "scene.lights").line, 4);
-    EXPECT_EQ(placeOf(config, "scene.time_step").line, placeOf(config, "scene").line);
+    EXPECT_EQ(locationOf(config, "scene.camera.fov_deg").line, 5);
+    EXPECT_EQ(locationOf(config, "scene.lights").line, 4);
+    EXPECT_EQ(locationOf(config, "scene.time_step").line, locationOf(config, "scene").line);
 }
 
 TEST(Yaml, LimitsAndSyntax) {

@@ -56,7 +56,7 @@ struct Soup {
 TEST(EmbreeScene, AnInterruptStopsItsBuild) {
     Soup soup;
     for (int i = 0; i < 100000; ++i) soup.add({0, 0, float(-i)}, {4, 0, float(-i)}, {0, 4, float(-i)});
-    for (const RaysToCome rays : {RaysToCome::Many, RaysToCome::Few}) {
+    for (const ExpectedRays rays : {ExpectedRays::Many, ExpectedRays::Few}) {
         const InterruptScope scope;
         testing::internal::CaptureStderr();
         std::raise(SIGINT);

@@ -158,16 +158,16 @@ TEST(GraphWiring, TakesTheNearestEarlierWriter) {
 TEST(GraphWiring, WhatIsChangedAfterItWasReadIsRefused) {
     const std::string late =
         "- {pass: make_voxels}\n- {pass: light_voxels}\n- {pass: make_voxels, id: late}\n";
-    const std::string message = errorOf<UsageError>([&] { graph(late).checkIsMadeOf("light", "voxels"); });
+    const std::string message = errorOf<UsageError>([&] { graph(late).checkReadsLast("light", "voxels"); });
     EXPECT_CONTAINS(message, "g.yaml:3: late: writes 'voxels', but that is not what 'light_voxels' reads");
     EXPECT_CONTAINS(message, "put 'late' right before 'light_voxels'");
 
     // In order, chosen on purpose, or not made of it at all
-    graph("- {pass: make_voxels}\n- {pass: light_voxels}\n").checkIsMadeOf("light", "voxels");
+    graph("- {pass: make_voxels}\n- {pass: light_voxels}\n").checkReadsLast("light", "voxels");
     graph(
         "- {pass: make_voxels, id: a}\n- {pass: light_voxels, inputs: {voxels: a}}\n- {pass: make_voxels}\n")
-        .checkIsMadeOf("light", "voxels");
-    graph("- {pass: make_voxels}\n- {pass: sum_up}\n").checkIsMadeOf("light", "voxels");
+        .checkReadsLast("light", "voxels");
+    graph("- {pass: make_voxels}\n- {pass: sum_up}\n").checkReadsLast("light", "voxels");
 }
 
 TEST(GraphWiring, SortsWritersBeforeReaders) {

@@ -81,38 +81,38 @@ class SharedFolder : public testing::Test {
 };
 
 TEST_F(SharedFolder, ALockThatIsHeldAloneExcludesAll) {
-    const pid_t holder = hold(Kind::Alone);
+    const pid_t holder = hold(Kind::Exclusive);
     EXPECT_FALSE(canTake(Kind::Shared));
-    EXPECT_CONTAINS(errorOf<UsageError>([&] { ProcessLock(file(), Kind::Alone, folder_); }),
+    EXPECT_CONTAINS(errorOf<UsageError>([&] { ProcessLock(file(), Kind::Exclusive, folder_); }),
                     fmt::format("process {} is writing", holder));
     end(holder, SIGKILL);  // A dead process keeps nothing.
-    EXPECT_TRUE(canTake(Kind::Alone));
+    EXPECT_TRUE(canTake(Kind::Exclusive));
     EXPECT_FALSE(fs::exists(file()));
 }
 
 TEST_F(SharedFolder, SharedLocksExcludeThoseHeldAlone) {
     const pid_t first = hold(Kind::Shared), second = hold(Kind::Shared);
     EXPECT_TRUE(canTake(Kind::Shared));
-    EXPECT_FALSE(canTake(Kind::Alone));
+    EXPECT_FALSE(canTake(Kind::Exclusive));
 
     // The file stays until the last one goes
     end(first, SIGTERM);
     EXPECT_TRUE(fs::exists(file()));
-    EXPECT_FALSE(canTake(Kind::Alone));
+    EXPECT_FALSE(canTake(Kind::Exclusive));
     end(second, SIGTERM);
     EXPECT_FALSE(fs::exists(file()));
-    EXPECT_TRUE(canTake(Kind::Alone));
+    EXPECT_TRUE(canTake(Kind::Exclusive));
 }
 
 TEST_F(SharedFolder, WhoWaitsGetsTheLockWhenItsHolderEnds) {
-    const pid_t holder = hold(Kind::Alone);
+    const pid_t holder = hold(Kind::Exclusive);
     const auto began = std::chrono::steady_clock::now();
     std::thread killer([&] {
         std::this_thread::sleep_for(std::chrono::milliseconds(300));
         ::kill(holder, SIGKILL);
     });
     {
-        const ProcessLock lock(file(), Kind::Alone, folder_, ProcessLock::IfHeld::Wait);
+        const ProcessLock lock(file(), Kind::Exclusive, folder_, ProcessLock::IfHeld::Wait);
         EXPECT_GE(std::chrono::steady_clock::now() - began, std::chrono::milliseconds(300));
     }
     killer.join();

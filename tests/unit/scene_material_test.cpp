@@ -196,18 +196,18 @@ TEST(GltfMaterials, TransmissionMakesPanesUnlessAllIsLambert) {
     const auto scene = b.load();
     EXPECT_TRUE(warns(*scene, "'glass': KHR_materials_transmission makes it a pane"));
     EXPECT_FALSE(warns(*scene, "is not supported"));
-    const SceneState parted = evaluateParted(scene, 0);
+    const SceneState parted = evaluateWithPanes(scene, 0);
     EXPECT_EQ(parted.geometry.triangles.size(), 1u);
     ASSERT_TRUE(parted.panes);
     EXPECT_EQ(parted.panes->geometry.triangles.size(), 1u);
-    EXPECT_EQ(evaluateParted(withLambertMaterials(*scene), 0).geometry.triangles.size(), 2u);
+    EXPECT_EQ(evaluateWithPanes(withLambertMaterials(*scene), 0).geometry.triangles.size(), 2u);
 
     // Nothing but panes is rendered as surfaces; what transmits less than half, or shines, is none.
     b.root["materials"][0] = b.root["materials"][1];
-    EXPECT_EQ(evaluateParted(b.load(), 0).geometry.triangles.size(), 2u);
+    EXPECT_EQ(evaluateWithPanes(b.load(), 0).geometry.triangles.size(), 2u);
     b.root["materials"][0] = {{"name", "wall"}};
     b.root["materials"][1]["extensions"]["KHR_materials_transmission"]["transmissionFactor"] = 0.4;
-    EXPECT_EQ(evaluateParted(b.load(), 0).panes, nullptr);
+    EXPECT_EQ(evaluateWithPanes(b.load(), 0).panes, nullptr);
     EXPECT_TRUE(warns(*b.load(), "rendered as opaque"));
 }
 

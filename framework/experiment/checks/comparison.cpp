@@ -34,20 +34,20 @@ void shortHistory(const PlannedVariant& v, Diagnostics& found) {
     const MeasureSettings& measure = v.study.experiment.measure;
     if (measure.compareEvery > 0) return;
     for (const Graph::PassInfo& pass : v.variant.graph.passes())
-        if (pass.framesBefore > measure.warmup)
+        if (pass.warmupFrames > measure.warmup)
             found.push_back(
                 {pass.where,
                  fmt::format("{}: it goes on from frame to frame, and {} of the {} frames that it looks back "
                              "on come before the one that is compared:",
-                             pass.id, measure.warmup, pass.framesBefore),
+                             pass.id, measure.warmup, pass.warmupFrames),
                  fmt::format("write measure: {{warmup: {}}}, or compare a sequence with 'compare_every'",
-                             pass.framesBefore)});
+                             pass.warmupFrames)});
 }
 
 /// An image that lacks a part of the light that the reference has.
 void missingLight(const PlannedVariant& v, Diagnostics& found) {
     if (!v.reference) return;
-    for (const Graph::Input& input : v.variant.graph.emptyInputs(kComparedImage))
+    for (const Graph::Input& input : v.variant.graph.unboundInputs(kComparedImage))
         if (std::ranges::count(kPartsOfLight, input.port) > 0)
             found.push_back(
                 {input.where,

@@ -79,7 +79,7 @@ double LightRays::perSecond() {
         const glm::vec3 way = isFar ? -light.direction : light.position - from;
         rays[i] = {from, 1e-3f, way, isFar ? std::numeric_limits<float>::infinity() : 1.0f};
     }
-    const EmbreeScene tracer(state_, RaysToCome::Few);
+    const EmbreeScene tracer(state_, ExpectedRays::Few);
     std::vector<uint32_t> occluded(kTimedRays);
     const auto start = std::chrono::steady_clock::now();
     tracer.occluded(rays, occluded);
@@ -122,7 +122,7 @@ void overTheMemoryLimit(const Study& study, Diagnostics& found) {
     if (over == 0) return;
     std::ranges::stable_sort(needs, {}, &MemoryNeed::bytes);
     const auto& [variant, bytes, largest] = *std::ranges::find_if(needs, isOver);
-    const Diagnostic finding{placeOf(study.experiment.config, "measure.memory_limit_mb"),
+    const Diagnostic finding{locationOf(study.experiment.config, "measure.memory_limit_mb"),
                              fmt::format("measure.memory_limit_mb: {} MiB are too few for {} of {} variants: "
                                          "{} takes at least {:.1f} MiB, "
                                          "the largest part of it by '{}'",

@@ -89,7 +89,7 @@ void addedScenesOfOtherUnits(const PlannedVariant& v, Diagnostics& found) {
 void lightsThatAreNotThere(const PlannedVariant& v, Diagnostics& found) {
     if (v.variant.setup.scene.options.keepFileLights || !v.scene.state.scene->lights.empty()) return;
     found.push_back(
-        {placeOf(v.variant.config, "scene.keep_file_lights"),
+        {locationOf(v.variant.config, "scene.keep_file_lights"),
          "scene.keep_file_lights: the scene has no punctual lights",
          "what else shines stays: 'override: {MATERIAL: {emission: 0}}' puts out a surface, 'environment: "
          "none' the sky"});
@@ -100,7 +100,7 @@ void spheresThatStandStill(const PlannedVariant& v, Diagnostics& found) {
     const SceneSettings& scene = v.variant.setup.scene;
     if (!scene.movingSpheres || scene.movingSpheres->count == 0 || scene.options.timeStep > 0) return;
     found.push_back(
-        {placeOf(v.variant.config, "scene.moving_spheres"), "scene.moving_spheres: they stand still",
+        {locationOf(v.variant.config, "scene.moving_spheres"), "scene.moving_spheres: they stand still",
          "for ones that move write 'time_step', the seconds from one frame to the next, next to it"});
 }
 

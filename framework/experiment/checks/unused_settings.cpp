@@ -41,7 +41,7 @@ void refuseUnusedParameters(const Study& study) {
 
 void UnusedMotion::look(const Variant& variant, const Scene& scene) {
     const auto note = [&](const std::string& path, bool hasEffect, const char* why) {
-        Use& use = uses_.try_emplace(path, Use{false, placeOf(variant.config, path), why}).first->second;
+        Use& use = uses_.try_emplace(path, Use{false, locationOf(variant.config, path), why}).first->second;
         use.hasEffect = use.hasEffect || hasEffect;
     };
     const SceneSettings& settings = variant.setup.scene;

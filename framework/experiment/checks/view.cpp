@@ -127,7 +127,7 @@ ViewCheck checkView(const Setup& setup, const PreparedScene& prepared, const Pre
                          cameraAdvice(setup.scene));
     if (!preview) return {};
 
-    const EmbreeScene tracer(state, RaysToCome::Few);
+    const EmbreeScene tracer(state, ExpectedRays::Few);
     View view{setup, prepared, tracer, {}, {}};
     lookThrough(view, camera, shrunk(setup.image, std::end(kLooks)[-1].size));
     const auto look = [&](const SceneState& lit, const Look& how) {

@@ -97,7 +97,7 @@ class UpdateRadianceCache final : public Pass {
     Phase phase() const override {
         return params_.update == CacheUpdate::EachFrame ? Phase::Frame : Phase::Build;
     }
-    uint32_t framesBefore() const override { return params_.historyFrames - 1; }
+    uint32_t warmupFrames() const override { return params_.historyFrames - 1; }
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
 

@@ -9,57 +9,59 @@ ClusterList::ClusterList(ProgramOwner& owner)
       prefixSum_(owner, PrefixSum::Of::Values),
       compaction_(owner),
       sort_(owner),
-      occupied_(owner, "occupied.comp"),
-      begin_(owner, "begin.comp"),
-      renumber_(owner, "renumber.comp"),
-      describe_(owner, "describe.comp") {}
+      flagNonempty_(owner, "flag_nonempty_clusters.comp"),
+      initClusters_(owner, "init_clusters.comp"),
+      renumberAssignment_(owner, "renumber_assignment.comp"),
+      averageClusters_(owner, "average_clusters.comp") {}
 
-void ClusterList::make(CommandStream& stream, const SurfaceVoxels& voxels,
-                       const ClusterGrowth::Result& growth, VoxelClusters& clusters) {
+void ClusterList::build(CommandStream& stream, const SurfaceVoxels& voxels,
+                        const SlicClustering::Result& slic, VoxelClusters& clusters) {
     Device& device = stream.device();
-    const uint32_t count = voxels.voxelCount, numbers = growth.seeds + count, words = (numbers + 31) / 32;
+    const uint32_t count = voxels.voxelCount, numbers = slic.seedCount + count, words = (numbers + 31) / 32;
     const auto uints = [&](const char* name, uint64_t n) {
         return Buffer(device, name, n * sizeof(uint32_t));
     };
 
-    // Clusters that have voxels, and where their members begin
-    const Buffer members = uints("voxels by number", numbers), before = uints("voxels before", numbers);
-    const Buffer flags = uints("numbers in use", words), kept = uints("clusters kept", numbers);
-    const Buffer renumbered = uints("new numbers", numbers);
-    histogram_.record(stream, growth.owners, members, count, numbers);
-    prefixSum_.run(stream, members, before, numbers);
-    stream.dispatch(occupied_, words, {{"members", members}, {"flags", flags}, {"numbers", numbers}});
-    clusters.count = compaction_.run(stream, flags, kept, words);
+    // Nonempty clusters
+    const Buffer memberCounts = uints("member counts", numbers),
+                 firstMembers = uints("first members", numbers);
+    const Buffer flags = uints("nonempty flags", words), nonempty = uints("nonempty clusters", numbers);
+    const Buffer newNumbers = uints("new numbers", numbers);
+    histogram_.record(stream, slic.assignment, memberCounts, count, numbers);
+    prefixSum_.run(stream, memberCounts, firstMembers, numbers);
+    stream.dispatch(flagNonempty_, words,
+                    {{"memberCounts", memberCounts}, {"flags", flags}, {"numbers", numbers}});
+    clusters.count = compaction_.run(stream, flags, nonempty, words);
     clusters.clusters = Buffer(device, "clusters", clusters.count * sizeof(gpu::VoxelCluster));
-    stream.dispatch(begin_, clusters.count,
-                    {{"numbers", kept},
-                     {"members", members},
-                     {"before", before},
-                     {"renumbered", renumbered},
-                     {"seeds", growth.seedList},
-                     {"normals", growth.normals},
+    stream.dispatch(initClusters_, clusters.count,
+                    {{"numbers", nonempty},
+                     {"memberCounts", memberCounts},
+                     {"firstMembers", firstMembers},
+                     {"newNumbers", newNumbers},
+                     {"seeds", slic.seeds},
+                     {"normals", slic.normals},
                      {"clusters", clusters.clusters},
                      {"clusterCount", clusters.count},
-                     {"firstOwn", growth.seeds}});
+                     {"seedCount", slic.seedCount}});
 
-    // Voxels by cluster: the sort is stable, so those of a cluster stay in their order
+    // Voxels by cluster: the sort is stable, so those of a cluster stay ascending
     Buffer keys = uints("clusters of voxels", count);
-    clusters.ofVoxel = uints("clusters of voxels", count);
-    clusters.members = uints("voxels by cluster", count);
-    stream.dispatch(renumber_, count,
-                    {{"owners", growth.owners},
-                     {"renumbered", renumbered},
-                     {"ofVoxel", clusters.ofVoxel},
+    clusters.clusterOfVoxel = uints("clusters of voxels", count);
+    clusters.memberVoxels = uints("voxels by cluster", count);
+    stream.dispatch(renumberAssignment_, count,
+                    {{"assignment", slic.assignment},
+                     {"newNumbers", newNumbers},
+                     {"clusterOfVoxel", clusters.clusterOfVoxel},
                      {"keys", keys},
-                     {"members", clusters.members},
+                     {"memberVoxels", clusters.memberVoxels},
                      {"count", count},
                      {"clusters", clusters.count}});
-    sort_.record(stream, keys, clusters.members, count, uint32_t(std::bit_width(clusters.count)));
-    stream.dispatch(describe_, clusters.count,
+    sort_.record(stream, keys, clusters.memberVoxels, count, uint32_t(std::bit_width(clusters.count)));
+    stream.dispatch(averageClusters_, clusters.count,
                     {voxels,
-                     {"members", clusters.members},
+                     {"memberVoxels", clusters.memberVoxels},
                      {"coordinates", clusters.coordinates},
-                     {"normals", growth.normals},
+                     {"normals", slic.normals},
                      {"clusters", clusters.clusters},
                      {"count", clusters.count}});
     stream.finish();

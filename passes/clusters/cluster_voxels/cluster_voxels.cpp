@@ -1,28 +1,28 @@
 #include <optional>
 
 #include "graph/registry.h"
-#include "passes/clusters/cluster_voxels/cluster_growth.h"
 #include "passes/clusters/cluster_voxels/cluster_list.h"
 #include "passes/clusters/cluster_voxels/fragment_angles.h"
+#include "passes/clusters/cluster_voxels/slic_clustering.h"
 #include "passes/clusters/voxel_clusters.h"
 
 namespace voxray {
 
-/// Groups surface voxels that lie near each other and look the same way, as a segmentation of images groups
-/// pixels. Source: Cosin and Patow 2022, section 4.2; Achanta et al. 2012 (SLIC).
+/// Groups adjacent surface voxels of like normals into clusters, as SLIC groups pixels into superpixels.
+/// Source: Cosin and Patow 2022, section 4.2; Achanta et al. 2012 (SLIC).
 class ClusterVoxels final : public Pass {
  public:
     static constexpr const char* kName = "cluster_voxels";
     static constexpr const char* kHelp =
         "Groups surface voxels into clusters by position and normal. Clusters stand for their voxels where "
         "light is gathered (cluster_visibility, inject_clusters, gather_clusters). Seeds in a uniform grid "
-        "take the voxels round them that look their way; centers and normals follow, some times over. Biased "
-        "by: the size of clusters, over which light is averaged. No noise: the same clusters in each run. "
+        "take the voxels around them of like normals and move to their mean, repeatedly. Biased by: the size "
+        "of clusters, over which light is averaged. No noise: the same clusters in each run. "
         "Source: Cosin and Patow 2022, section 4.2; Achanta et al. 2012 (SLIC).";
     using Params = ClusterParams;
 
     explicit ClusterVoxels(const Params& params) : params_(params) {
-        if (params.asksFragments()) fragments_.emplace(*this);
+        if (params.usesFragments()) fragments_.emplace(*this);
     }
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
@@ -30,11 +30,11 @@ class ClusterVoxels final : public Pass {
  private:
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
-    Out<VoxelClusters> clusters_{*this, "clusters", "surface voxels in groups"};
-    std::optional<FragmentAngles> fragments_;  ///< Where ties are decided by them.
-    ClusterGrowth growth_{*this, params_};
+    Out<VoxelClusters> clusters_{*this, "clusters", "clusters of surface voxels"};
+    std::optional<FragmentAngles> fragments_;  ///< For `ties: fragments`.
+    SlicClustering clustering_{*this, params_};
     ClusterList list_{*this};
-    Kernel coordinates_{*this, "passes/common/voxels/list_voxels.comp"};
+    Kernel listVoxels_{*this, "passes/common/voxels/list_voxels.comp"};
 };
 
 void ClusterVoxels::plan(PassPlan& plan) {
@@ -46,21 +46,22 @@ void ClusterVoxels::record(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
     VoxelClusters& clusters = context[clusters_];
     CommandStream& stream = context.stream;
-    clusters.clusters = {}, clusters.ofVoxel = {}, clusters.members = {}, clusters.coordinates = {};
+    clusters.clusters = {}, clusters.clusterOfVoxel = {}, clusters.memberVoxels = {},
+    clusters.coordinates = {};
     clusters.coordinates =
         Buffer(context.device, "coordinates of voxels", voxels.voxelCount * sizeof(glm::uvec3));
     const uint32_t words = uint32_t(voxels.words());
-    context.dispatch(coordinates_, words,
+    context.dispatch(listVoxels_, words,
                      {voxels, {"voxelCoordinates", clusters.coordinates}, {"words", words}});
     FragmentAngles::Sums fragments;
     if (fragments_) fragments = fragments_->measure(context, voxels);
-    const ClusterGrowth::Result growth = growth_.grow(stream, voxels, clusters.coordinates, fragments);
-    list_.make(stream, voxels, growth, clusters);
+    const SlicClustering::Result slic = clustering_.run(stream, voxels, clusters.coordinates, fragments);
+    list_.build(stream, voxels, slic, clusters);
     context.report("clusters", clusters.count);
     context.report("clusters, % of voxels", 100.0 * clusters.count / voxels.voxelCount);
-    context.report("voxels no seed reached, %", 100.0 * growth.unassigned / voxels.voxelCount);
+    context.report("voxels no seed reached, %", 100.0 * slic.unassigned / voxels.voxelCount);
     if (params_.normals == ClusterNormals::Area) return;
-    const ClusterGrowth::OpenSpaceCounts& open = growth.openSpace;
+    const SlicClustering::OpenSpaceCounts& open = slic.openSpace;
     context.report("voxels whose surfaces disagree, %", 100.0 * open.disagreeing / voxels.voxelCount);
     context.report("voxels whose open ways tie, %", 100.0 * open.tied / voxels.voxelCount);
     context.report("voxels that fragments decide otherwise, %", 100.0 * open.decided / voxels.voxelCount);

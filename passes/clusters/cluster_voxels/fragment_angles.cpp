@@ -8,18 +8,19 @@
 namespace voxray {
 namespace {
 
-constexpr float kFinestUnits = 65536;  // Of a radian.
+constexpr float kMaxUnitsPerRadian = 65536;
 
-/// A triangle is one fragment of a voxel at most, so that sums of angles up to pi fit into 32 bits.
+/// Such that a sum of an angle up to pi for each triangle fits into 32 bits.
 float unitsFor(size_t triangles) {
-    const float most = 0x1p31f / (std::numbers::pi_v<float> * float(std::max<size_t>(triangles, 1)));
-    return std::min(most, kFinestUnits);
+    const float limit = 0x1p31f / (std::numbers::pi_v<float> * float(std::max<size_t>(triangles, 1)));
+    return std::min(limit, kMaxUnitsPerRadian);
 }
 
 }  // namespace
 
 FragmentAngles::FragmentAngles(ProgramOwner& owner)
-    : walk_(makeExactWalk()), add_(walk_->makeVisitor(owner, "passes/clusters/cluster_voxels/add_angles")) {}
+    : voxelizer_(makeExactVoxelizer()),
+      accumulate_(voxelizer_->makeProgram(owner, "passes/clusters/cluster_voxels/accumulate_angles")) {}
 
 FragmentAngles::Sums FragmentAngles::measure(PassContext& context, const SurfaceVoxels& voxels) {
     const Geometry& geometry = context.frame.scene->geometry;
@@ -27,11 +28,11 @@ FragmentAngles::Sums FragmentAngles::measure(PassContext& context, const Surface
               unitsFor(geometry.triangles.size())};
     context.stream.fill(sums.angles, 0);
     const VoxelRegion region(voxels.grid);
-    walk_->select(context, voxels.grid, region, region.triangles(geometry));
-    walk_->run(context, *add_, voxels.grid, voxels.bindings({{"fragmentAngles", sums.angles}}),
-               sums.unitsPerRadian);
+    voxelizer_->select(context, voxels.grid, region, region.triangles(geometry));
+    voxelizer_->run(context, *accumulate_, voxels.grid, voxels.bindings({{"fragmentAngles", sums.angles}}),
+                    sums.unitsPerRadian);
     context.stream.finish();
-    walk_->release();
+    voxelizer_->release();
     return sums;
 }
 

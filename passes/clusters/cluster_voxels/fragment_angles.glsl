@@ -1,3 +1,3 @@
-// What the fragments in each voxel tell of the way that it looks: sums of their angles to +x, +y and +z, and how many they are.
+// By voxel: sums of the angles of its fragments' normals to +x, +y and +z, and the number of fragments.
 #define ANGLE_SUMS 4u
 buffer FragmentAngles { uint data[]; } fragmentAngles;

@@ -2,13 +2,13 @@
 
 #include <memory>
 
-#include "passes/common/triangle_walk/triangle_walk.h"
+#include "passes/common/triangle_voxelizer/triangle_voxelizer.h"
 #include "passes/common/voxels/voxels.h"
 
 namespace voxray {
 
-/// Angles of the fragments in each voxel to the axes: what of the paper's lists of fragments ties between
-/// ways are decided by. Source: Cosin and Patow 2022, section 4.2, figure 7.
+/// Sums of the angles between the axes and the normals of a voxel's fragments: all that deciding ties needs
+/// of the paper's lists of fragments. Source: Cosin and Patow 2022, section 4.2, figure 7.
 class FragmentAngles {
  public:
     struct Sums {
@@ -18,13 +18,13 @@ class FragmentAngles {
 
     explicit FragmentAngles(ProgramOwner& owner);
 
-    void plan(PassPlan& plan) { walk_->plan(plan); }
+    void plan(PassPlan& plan) { voxelizer_->plan(plan); }
     /// Waits for the device.
     Sums measure(PassContext& context, const SurfaceVoxels& voxels);
 
  private:
-    std::unique_ptr<TriangleWalk> walk_;
-    std::unique_ptr<PassProgram> add_;
+    std::unique_ptr<TriangleVoxelizer> voxelizer_;
+    std::unique_ptr<PassProgram> accumulate_;
 };
 
 }  // namespace voxray

@@ -1,4 +1,4 @@
-// The occupied voxels of a box, row by row, and what a voxel's distance from a cluster is.
+// The occupied voxels of a box, and a voxel's distance from a cluster.
 #include "passes/clusters/cluster_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -6,48 +6,51 @@
 layout(scalar) readonly buffer Normals { vec3 data[]; } normals;  // By voxel number, unit.
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
-    uint count;       // Of threads that have work.
-    float reach;      // Voxels: how far from a cluster's center its voxels lie at most, along each axis.
+    uint count;       // Of seeds or voxels: one a thread.
+    float reach;      // Voxels: how far from a cluster's center its voxels may lie along each axis.
     float minCosine;  // Of the largest angle between a cluster's normal and those of its voxels.
-    uint first;       // 1: the first cluster to ask for a voxel has it. 0: the nearest.
-    uint firstOwn;    // Number of the cluster that grows from voxel 0, after those that grow from seeds.
+    uint takesFirst;  // 1: the first cluster that reaches a voxel has it. 0: the nearest.
+    uint seedCount;
 } push;
 
-// The occupied voxels of a box one after another, a word of 32 neighbours at a time: for (BoxWalk w = walkBox(...); nextVoxel(w);).
-struct BoxWalk {
+// Iterates over the occupied voxels of a box by the words of the occupancy bits, which hold 32 voxels along x:
+// for (BoxIterator it = voxelsInBox(first, last); nextVoxel(it);).
+struct BoxIterator {
     ivec3 first, last;  // Of the box, both included.
-    ivec3 word;         // The next one: its number in the row, and the row.
-    uint at, all;       // The word in hand, and the bits of it.
-    uint bits;          // Those in the box that are still to come.
+    ivec3 nextWord;     // Its index in the row, and the row.
+    uint wordIndex;     // Of the current word,
+    uint word;          // the word,
+    uint remaining;     // and its bits in the box that are still to come.
     ivec3 voxel;
     uint number;
 };
 
-BoxWalk walkBox(ivec3 first, ivec3 last) {
-    BoxWalk w;
-    w.first = first;
-    w.last = last;
-    w.word = ivec3(first.x >> 5, first.yz);
-    w.bits = 0u;
-    return w;
+BoxIterator voxelsInBox(ivec3 first, ivec3 last) {
+    BoxIterator it;
+    it.first = first;
+    it.last = last;
+    it.nextWord = ivec3(first.x >> 5, first.yz);
+    it.remaining = 0u;
+    return it;
 }
 
-bool nextVoxel(inout BoxWalk w) {
-    if (any(greaterThan(w.first, w.last))) return false;
-    while (w.bits == 0u) {
-        if (w.word.z > w.last.z) return false;
-        const int low = max(w.first.x - 32 * w.word.x, 0), high = min(w.last.x - 32 * w.word.x, 31);
-        w.at = uint(w.word.z * int(push.grid.resolution.y) + w.word.y) * push.grid.wordsPerRow + uint(w.word.x);
-        w.all = voxelOccupancy.words[w.at];
-        w.bits = w.all & (0xffffffffu << low) & (0xffffffffu >> (31 - high));
-        w.voxel = ivec3(32 * w.word.x, w.word.yz);
-        if (++w.word.x > w.last.x >> 5) w.word = ivec3(w.first.x >> 5, w.word.y + 1, w.word.z);
-        if (w.word.y > w.last.y) w.word = ivec3(w.word.x, w.first.y, w.word.z + 1);
+bool nextVoxel(inout BoxIterator it) {
+    if (any(greaterThan(it.first, it.last))) return false;
+    while (it.remaining == 0u) {
+        if (it.nextWord.z > it.last.z) return false;
+        const int low = max(it.first.x - 32 * it.nextWord.x, 0), high = min(it.last.x - 32 * it.nextWord.x, 31);
+        it.wordIndex =
+            uint(it.nextWord.z * int(push.grid.resolution.y) + it.nextWord.y) * push.grid.wordsPerRow + uint(it.nextWord.x);
+        it.word = voxelOccupancy.words[it.wordIndex];
+        it.remaining = it.word & (0xffffffffu << low) & (0xffffffffu >> (31 - high));
+        it.voxel = ivec3(32 * it.nextWord.x, it.nextWord.yz);
+        if (++it.nextWord.x > it.last.x >> 5) it.nextWord = ivec3(it.first.x >> 5, it.nextWord.y + 1, it.nextWord.z);
+        if (it.nextWord.y > it.last.y) it.nextWord = ivec3(it.nextWord.x, it.first.y, it.nextWord.z + 1);
     }
-    const int bit = findLSB(w.bits);
-    w.voxel.x = (w.voxel.x & ~31) + bit;
-    w.number = voxelRank.before[w.at] + uint(bitCount(w.all & ((1u << bit) - 1u)));
-    w.bits &= w.bits - 1u;
+    const int bit = findLSB(it.remaining);
+    it.voxel.x = (it.voxel.x & ~31) + bit;
+    it.number = voxelRank.before[it.wordIndex] + uint(bitCount(it.word & ((1u << bit) - 1u)));
+    it.remaining &= it.remaining - 1u;
     return true;
 }
 
@@ -57,9 +60,9 @@ void boxWithinReach(vec3 center, out ivec3 first, out ivec3 last) {
     last = min(ivec3(floor(center - 0.5 + push.reach)), ivec3(push.grid.resolution) - 1);
 }
 
-// Squared distance, from 0 to 4 within reach: places in units of the reach, normals in units of the chord of the angle limit (SLIC,
-// Achanta et al. 2012, equation 3, with normals for colors).
+// SLIC's distance, squared (Achanta et al. 2012, equation 3) with normals for colors: positions in units of the reach, normals in units
+// of the chord of the angle limit. 0 to 4 within both.
 float clusterDistance(vec3 center, ivec3 voxel, float cosine) {
-    const vec3 away = (vec3(voxel) + 0.5 - center) / push.reach;
-    return dot(away, away) + (1.0 - cosine) / (1.0 - push.minCosine);
+    const vec3 offset = (vec3(voxel) + 0.5 - center) / push.reach;
+    return dot(offset, offset) + (1.0 - cosine) / (1.0 - push.minCosine);
 }

@@ -5,9 +5,9 @@
 
 #include "base/error.h"
 #include "graph/registry.h"
-#include "passes/clusters/find_patches/kept_sides.h"
-#include "passes/clusters/find_patches/part_search.h"
-#include "passes/clusters/find_patches/side_search.h"
+#include "passes/clusters/find_patches/component_labeling.h"
+#include "passes/clusters/find_patches/group_update_cache.h"
+#include "passes/clusters/find_patches/surfel_grouping.h"
 #include "passes/clusters/voxel_clusters.h"
 #include "passes/clusters/voxel_patches.h"
 #include "passes/common/compute/uints.h"
@@ -15,61 +15,63 @@
 
 namespace voxray {
 
-/// Splits the surfaces of each voxel by the space that they look into, and clusters likewise, so that
-/// no side of a thin wall holds the other side's light. Beyond Cosin and Patow 2022; docs/clusters.md.
+/// Groups the surfels of each voxel by the space that they look into, and splits clusters into connected
+/// components of these surface groups, so that light does not leak through walls thinner than a voxel. Beyond
+/// Cosin and Patow 2022; docs/clusters.md.
 class FindPatches final : public Pass {
  public:
     static constexpr const char* kName = "find_patches";
     static constexpr const char* kHelp =
-        "Splits voxels' surfels and clusters at walls thinner than a voxel. The surfels of a voxel fall into "
-        "sides, those between which nothing stands, and clusters into parts that hang together. So both "
-        "sides of a wall that is thinner than a voxel are told apart where light is gathered "
-        "(cluster_visibility, inject_clusters, gather_clusters). With place_surfels' 'sides: all' gaps "
-        "narrower than a voxel have sides, too, which send light and receive it. Biased by: voxel size (what "
-        "hides less than half a voxel above surfaces splits nothing). Noisy by: points_per_voxel (a surface "
-        "without a point has no side). Source: docs/clusters.md.";
+        "Splits voxels' surfels and clusters at walls thinner than a voxel. Surfels of a voxel that see each "
+        "other form a surface group; clusters are split into connected components of these groups. So both "
+        "sides of a wall thinner than a voxel have their own light (cluster_visibility, inject_clusters, "
+        "gather_clusters). With place_surfels' 'sides: all' gaps narrower than a voxel have groups, too, "
+        "which send and receive light. Biased by: voxel size (occluders lower than half a voxel split "
+        "nothing). Noisy by: points_per_voxel (a surface without a point is in no group). Source: "
+        "docs/clusters.md.";
 
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
 
  private:
-    /// The side of its voxel that each surfel is on.
-    void findSides(PassContext& context, SurfelsByVoxel& lists);
-    void listSides(PassContext& context, const SurfelsByVoxel& lists);
-    /// Sides next to each other that nothing hides.
+    /// The group of each surfel among those of its voxel.
+    void groupSurfels(PassContext& context, SurfelsByVoxel& lists);
+    void listGroups(PassContext& context, const SurfelsByVoxel& lists);
+    /// Adjacent groups that are not occluded from each other.
     void findNeighbours(PassContext& context);
 
-    bool isUpdate() const { return kept_ && kept_->isActive(); }
+    bool isUpdate() const { return updateCache_ && updateCache_->isActive(); }
 
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
     In<Surfels> surfels_{*this, "surfels", "points of their surfaces"};
-    In<VoxelClusters> clusters_{*this, "clusters", "surface voxels in groups"};
-    Out<VoxelPatches> patches_{*this, "patches", "surfaces by the open space that they look into"};
+    In<VoxelClusters> clusters_{*this, "clusters", "clusters of surface voxels"};
+    Out<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels"};
     SurfelSort sort_{*this};
     PrefixSum prefixSum_{*this, PrefixSum::Of::Values};
-    SideSearch sideSearch_{*this};
-    PartSearch partSearch_{*this};
-    std::optional<KeptSides> kept_;  ///< Where surfaces move.
-    Kernel beginKept_{*this, "begin.comp", {{"KEEP", "1"}}};
-    Kernel aimNearKept_{*this, "aim_near.comp", {{"KEEP", "1"}}};
-    Kernel partNearKept_{*this, "part_near.comp", {{"KEEP", "1"}}};
-    Kernel begin_{*this, "begin.comp"};
-    Kernel order_{*this, "order.comp"};
-    Kernel list_{*this, "list.comp"};
-    Kernel describe_{*this, "describe.comp"};
+    SurfelGrouping grouping_{*this};
+    ComponentLabeling labeling_{*this};
+    std::optional<GroupUpdateCache> updateCache_;  ///< Where surfaces move.
+    Kernel initKnownSurfels_{*this, "init_surfels.comp", {{"UPDATE", "1"}}};
+    Kernel generateNewNeighbourRays_{*this, "generate_neighbour_rays.comp", {{"UPDATE", "1"}}};
+    Kernel reuseNeighbours_{*this, "remove_occluded_neighbours.comp", {{"UPDATE", "1"}}};
+    Kernel initSurfels_{*this, "init_surfels.comp"};
+    Kernel sortSurfels_{*this, "sort_surfels.comp"};
+    Kernel listGroups_{*this, "list_groups.comp"};
+    Kernel averageMaterials_{*this, "average_materials.comp"};
     Kernel numberPatches_{*this, "number_patches.comp"};
-    Kernel countNear_{*this, "near.comp"};
-    Kernel listNear_{*this, "near.comp", {{"LIST", "1"}}};
-    Kernel aimNear_{*this, "aim_near.comp"};
-    Kernel partNear_{*this, "part_near.comp"};
+    Kernel countNeighbours_{*this, "build_adjacency.comp"};
+    Kernel listNeighbours_{*this, "build_adjacency.comp", {{"LIST", "1"}}};
+    Kernel generateNeighbourRays_{*this, "generate_neighbour_rays.comp"};
+    Kernel removeOccludedNeighbours_{*this, "remove_occluded_neighbours.comp"};
     RayBatch batch_;  ///< Scratch.
 };
 
 void FindPatches::plan(PassPlan& plan) {
     batch_.plan(plan, plan[surfels_].coveredSides);
     const bool surfacesMove = !movingRuns(plan.frame.scene->geometry).empty();
-    for (Kernel* kernel : {&beginKept_, &aimNearKept_, &partNearKept_}) kernel->compileIf(surfacesMove);
-    if (surfacesMove) kept_.emplace(*this);
+    for (Kernel* kernel : {&initKnownSurfels_, &generateNewNeighbourRays_, &reuseNeighbours_})
+        kernel->compileIf(surfacesMove);
+    if (surfacesMove) updateCache_.emplace(*this);
 }
 
 void FindPatches::record(PassContext& context) {
@@ -82,88 +84,92 @@ void FindPatches::record(PassContext& context) {
             "above 0",
             kName);
     VoxelPatches& patches = context[patches_];
-    if (kept_ && changed && !context.isFirstRun()) kept_->begin(context.stream, voxels, patches, *changed);
+    if (updateCache_ && changed && !context.isFirstRun())
+        updateCache_->begin(context.stream, voxels, patches, *changed);
     patches.clear();
     SurfelsByVoxel lists;
     sort_.run(context.stream, context[surfels_], voxels.voxelCount, lists);
-    findSides(context, lists);
-    listSides(context, lists);
+    groupSurfels(context, lists);
+    listGroups(context, lists);
     lists = {};
     findNeighbours(context);
-    partSearch_.find(context.stream, context[clusters_], patches);
-    if (kept_) kept_->end();
-    if (kept_) kept_->rememberVoxels(context.stream, voxels);
-    context.report("sides of voxels", patches.sideCount);
-    context.report("sides for each voxel", double(patches.sideCount) / voxels.voxelCount);
+    labeling_.run(context.stream, context[clusters_], patches);
+    if (updateCache_) {
+        updateCache_->end();
+        updateCache_->storeVoxels(context.stream, voxels);
+    }
+    context.report("sides of voxels", patches.groupCount);
+    context.report("sides for each voxel", double(patches.groupCount) / voxels.voxelCount);
     context.report("patches for each voxel", double(patches.patchCount) / voxels.voxelCount);
-    context.report("parts of clusters", patches.partCount);
+    context.report("parts of clusters", patches.componentCount);
     context.report("bytes of sides", double(patches.bytes()));
 }
 
-void FindPatches::findSides(PassContext& context, SurfelsByVoxel& lists) {
+void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& lists) {
     const SurfaceVoxels& voxels = context[voxels_];
     VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
     patches.surfelCount = lists.slotCount;
-    patches.surfels = LargeBuffer(context.device, "surfels by side",
-                                  std::max(lists.slotCount, 1u) * sizeof(gpu::PatchSurfel));
-    std::vector<Binding> kept;
-    if (isUpdate()) kept = kept_->surfelBindings(context[clusters_]);
-    uint32_t number = 0;
+    patches.surfels = LargeBuffer(context.device, "surfels by group",
+                                  std::max(lists.slotCount, 1u) * sizeof(gpu::GroupedSurfel));
+    std::vector<Binding> stored;
+    if (isUpdate()) stored = updateCache_->surfelBindings(context[clusters_]);
+    uint32_t firstIndex = 0;
     for (const Surfels::Chunk& chunk : context[surfels_].chunks) {
-        context.dispatch(isUpdate() ? beginKept_ : begin_, chunk.count,
-                         {kept,
+        context.dispatch(isUpdate() ? initKnownSurfels_ : initSurfels_, chunk.count,
+                         {stored,
                           {"surfels", chunk.surfels},
                           {"SlotsAt", lists.slots.at()},
-                          {"PatchSurfelsAt", patches.surfels.at()},
+                          {"GroupedSurfelsAt", patches.surfels.at()},
                           {"grid", voxels.grid},
                           {"count", chunk.count},
-                          {"firstNumber", number}});
-        number += chunk.count;
+                          {"firstIndex", firstIndex}});
+        firstIndex += chunk.count;
     }
     stream.finish();
-    patches.places = std::move(lists.slots);
+    patches.surfelIndex = std::move(lists.slots);
     lists.sorted = {};
-    sideSearch_.find(context, batch_, voxels, context[surfels_].coveredSides, lists, patches);
-    if (kept_) kept_->rememberSurfels(stream, patches, 2 * context[surfels_].pointCount);
+    grouping_.run(context, batch_, voxels, context[surfels_].coveredSides, lists, patches);
+    if (updateCache_) updateCache_->storeSurfels(stream, patches, 2 * context[surfels_].pointCount);
 }
 
-void FindPatches::listSides(PassContext& context, const SurfelsByVoxel& lists) {
+void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& lists) {
     const SurfaceVoxels& voxels = context[voxels_];
     VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
     const uint32_t count = voxels.voxelCount;
-    patches.firstSide = Buffer(context.device, "first side by voxel", uints(count + 1));
-    context.dispatch(order_, count + 1,
+    patches.firstGroup = Buffer(context.device, "first groups of voxels", uints(count + 1));
+    context.dispatch(sortSurfels_, count + 1,
                      {{"lists", lists.lists},
-                      {"counts", patches.firstSide},
-                      {"PatchSurfelsAt", patches.surfels.at()},
+                      {"counts", patches.firstGroup},
+                      {"GroupedSurfelsAt", patches.surfels.at()},
                       {"voxels", count}});
-    patches.sideCount = prefixSum_.run(stream, patches.firstSide, patches.firstSide, count + 1);
-    const uint64_t sides = std::max(patches.sideCount, 1u);
-    patches.sides = Buffer(context.device, "sides of voxels", sides * sizeof(gpu::SurfaceSide));
+    patches.groupCount = prefixSum_.run(stream, patches.firstGroup, patches.firstGroup, count + 1);
+    const uint64_t groups = std::max(patches.groupCount, 1u);
+    patches.groups = Buffer(context.device, "surface groups", groups * sizeof(gpu::SurfaceGroup));
     patches.materials =
-        LargeBuffer(context.device, "materials of sides", sides * sizeof(gpu::PackedVoxelMaterial));
-    context.dispatch(list_, count,
+        LargeBuffer(context.device, "materials of surface groups", groups * sizeof(gpu::PackedVoxelMaterial));
+    context.dispatch(listGroups_, count,
                      {{"lists", lists.lists},
-                      {"firstSide", patches.firstSide},
-                      {"PlacesAt", patches.places.at()},
-                      {"sides", patches.sides},
-                      {"PatchSurfelsAt", patches.surfels.at()},
+                      {"firstGroup", patches.firstGroup},
+                      {"SurfelIndexAt", patches.surfelIndex.at()},
+                      {"groups", patches.groups},
+                      {"GroupedSurfelsAt", patches.surfels.at()},
                       {"voxels", count}});
-    const Buffer counts(context.device, "patches of sides", uints(sides));
-    context.dispatch(describe_, count,
+    const Buffer patchCounts(context.device, "patch counts of surface groups", uints(groups));
+    context.dispatch(averageMaterials_, count,
                      {voxels,
-                      {"sides", patches.sides},
-                      {"firstSide", patches.firstSide},
-                      {"SideMaterialsAt", patches.materials.at()},
-                      {"counts", counts},
-                      {"PatchSurfelsAt", patches.surfels.at()},
+                      {"groups", patches.groups},
+                      {"firstGroup", patches.firstGroup},
+                      {"GroupMaterialsAt", patches.materials.at()},
+                      {"patchCounts", patchCounts},
+                      {"GroupedSurfelsAt", patches.surfels.at()},
                       {"voxels", count}});
-    patches.patchCount = prefixSum_.run(stream, counts, counts, patches.sideCount);
-    context.dispatch(numberPatches_, patches.sideCount,
-                     {{"before", counts}, {"sides", patches.sides}, {"sideCount", patches.sideCount}});
-    if (isUpdate()) kept_->findPrevious(stream, voxels, context[clusters_], patches);
+    patches.patchCount = prefixSum_.run(stream, patchCounts, patchCounts, patches.groupCount);
+    context.dispatch(
+        numberPatches_, patches.groupCount,
+        {{"firstPatches", patchCounts}, {"groups", patches.groups}, {"groupCount", patches.groupCount}});
+    if (isUpdate()) updateCache_->findPrevious(stream, voxels, context[clusters_], patches);
     stream.finish();
 }
 
@@ -171,43 +177,44 @@ void FindPatches::findNeighbours(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
     VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
-    const uint32_t sides = patches.sideCount;
-    const Bindings near{voxels,
-                        {"coordinates", context[clusters_].coordinates},
-                        {"sides", patches.sides},
-                        {"firstSide", patches.firstSide},
-                        {"SideMaterialsAt", patches.materials.at()},
-                        {"sideCount", sides}};
-    patches.firstNeighbour = Buffer(context.device, "first neighbour of each side", uints(sides + 1));
-    context.dispatch(countNear_, sides + 1, {near.all(), {"counts", patches.firstNeighbour}});
-    const uint32_t pairs = prefixSum_.run(stream, patches.firstNeighbour, patches.firstNeighbour, sides + 1);
-    patches.neighbours = LargeBuffer(context.device, "neighbours of sides", uints(pairs));
-    const LargeBuffer whose(context.device, "whose neighbours", uints(pairs));
-    context.dispatch(listNear_, sides + 1,
-                     {near.all(),
+    const uint32_t groups = patches.groupCount;
+    const Bindings adjacency{voxels,
+                             {"coordinates", context[clusters_].coordinates},
+                             {"groups", patches.groups},
+                             {"firstGroup", patches.firstGroup},
+                             {"GroupMaterialsAt", patches.materials.at()},
+                             {"groupCount", groups}};
+    patches.firstNeighbour = Buffer(context.device, "first neighbours of surface groups", uints(groups + 1));
+    context.dispatch(countNeighbours_, groups + 1, {adjacency.all(), {"counts", patches.firstNeighbour}});
+    const uint32_t neighbours =
+        prefixSum_.run(stream, patches.firstNeighbour, patches.firstNeighbour, groups + 1);
+    patches.neighbours = LargeBuffer(context.device, "neighbours of surface groups", uints(neighbours));
+    const LargeBuffer neighbourOf(context.device, "groups by neighbour", uints(neighbours));
+    context.dispatch(listNeighbours_, groups + 1,
+                     {adjacency.all(),
                       {"firstNeighbour", patches.firstNeighbour},
                       {"NeighboursAt", patches.neighbours.at()},
-                      {"WhoseAt", whose.at()}});
-    std::vector<Binding> keptPairs, keptHidden;
+                      {"NeighbourOfAt", neighbourOf.at()}});
+    std::vector<Binding> reused, previous;
     if (isUpdate()) {
-        keptPairs = kept_->pairBindings();
-        keptHidden = kept_->hiddenBindings(patches);
+        reused = updateCache_->neighbourRayBindings();
+        previous = updateCache_->previousNeighbourBindings(patches);
     }
-    RayBatch::inBatches(pairs, [&](uint32_t first, uint32_t count) {
-        context.dispatch(isUpdate() ? aimNearKept_ : aimNear_, count,
-                         {keptPairs,
-                          {"sides", patches.sides},
+    RayBatch::inBatches(neighbours, [&](uint32_t first, uint32_t count) {
+        context.dispatch(isUpdate() ? generateNewNeighbourRays_ : generateNeighbourRays_, count,
+                         {reused,
+                          {"groups", patches.groups},
                           {"NeighboursAt", patches.neighbours.at()},
-                          {"WhoseAt", whose.at()},
+                          {"NeighbourOfAt", neighbourOf.at()},
                           {"rays", batch_.rays},
                           {"first", first},
                           {"count", count}});
         context.tracer.occluded(stream, batch_.rays, batch_.occluded, count);
-        context.dispatch(isUpdate() ? partNearKept_ : partNear_, count,
-                         {keptHidden,
+        context.dispatch(isUpdate() ? reuseNeighbours_ : removeOccludedNeighbours_, count,
+                         {previous,
                           {"occluded", batch_.occluded},
                           {"NeighboursAt", patches.neighbours.at()},
-                          ifUsed({"WhoseAt", whose.at()}),
+                          ifUsed({"NeighbourOfAt", neighbourOf.at()}),
                           {"first", first},
                           {"count", count}});
     });

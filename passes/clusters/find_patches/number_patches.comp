@@ -1,13 +1,13 @@
-// Numbers the patches of all sides. A thread takes a side.
-#include "passes/clusters/patch_types.h"
+// By surface group: the number of its first patch.
+#include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer Before { uint data[]; } before;  // Patches of the sides before each.
-layout(scalar) buffer Sides { SurfaceSide data[]; } sides;
-layout(push_constant) uniform Push { uint sideCount; } push;
+readonly buffer FirstPatches { uint data[]; } firstPatches;
+layout(scalar) buffer Groups { SurfaceGroup data[]; } groups;
+layout(push_constant) uniform Push { uint groupCount; } push;
 
 void main() {
-    const uint side = linearIndex();
-    if (side < push.sideCount) sides.data[side].firstPatch = before.data[side];
+    const uint group = linearIndex();
+    if (group < push.groupCount) groups.data[group].firstPatch = firstPatches.data[group];
 }

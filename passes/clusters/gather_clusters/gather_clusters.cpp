@@ -6,29 +6,29 @@
 
 #include "graph/registry.h"
 #include "passes/clusters/cluster_light.h"
-#include "passes/clusters/gather_clusters/seen_voxels.h"
+#include "passes/clusters/gather_clusters/visible_voxels.h"
 #include "passes/clusters/voxel_clusters.h"
 
 namespace voxray {
 
-/// What the filter averages over.
+/// Which patches the filter averages.
 enum class FilterOver { All, Lit };
 template <>
 struct EnumNames<FilterOver> {
     static constexpr std::array names{std::pair{FilterOver::All, "all"}, std::pair{FilterOver::Lit, "lit"}};
 };
 
-/// Indirect light of voxels' faces out of the clusters that they see, filtered over neighbours. Source: Cosin
-/// and Patow 2022, section 4.4.
+/// Indirect irradiance of voxels' faces, gathered from the visibility lists of their patches and filtered
+/// over neighbours. Source: Cosin and Patow 2022, section 4.4.
 class GatherClusters final : public Pass {
  public:
     static constexpr const char* kName = "gather_clusters";
     static constexpr const char* kHelp =
-        "Gathers each patch's irradiance from the voxel clusters that it sees. It reads the lists of "
-        "cluster_visibility and the light of inject_clusters. What a patch receives is smoothed over "
-        "neighbours that look into the same space. The result is irradiance of voxels, with the direct light "
-        "that inject_clusters read or measured: gather_irradiance or gather_rays show it. Biased by: voxel "
-        "and cluster size, the filter (light creeps round edges). Noisy by: the lists' rays. Source: Cosin "
+        "Gathers each patch's irradiance from the voxel clusters that it sees: from the visibility lists of "
+        "cluster_visibility and the light of inject_clusters. It is filtered over neighbours that look into "
+        "the same space. The result is irradiance of voxels, with the direct light of inject_clusters: "
+        "gather_irradiance or gather_rays show it. Biased by: voxel and cluster size, the filter (light "
+        "creeps round edges). Noisy by: the lists' rays. Source: Cosin "
         "and Patow 2022, section 4.4.";
     struct Params {
         GatherUpdate update = GatherUpdate::All;
@@ -39,27 +39,27 @@ class GatherClusters final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("update", &Params::update,
-                      "all: every voxel, whenever light or voxels have changed. seen: voxels round what the "
+                      "all: every voxel, whenever light or voxels have changed. seen: voxels around what the "
                       "camera sees, when they come into view; they keep their light until light or voxels "
                       "change. For gather_irradiance, which reads no others. seen_points: likewise, but "
-                      "those that the camera sees one of 12 points 2 voxels round their centers (the "
-                      "paper's); what the lookup reads of others is left out of its mean."),
+                      "voxels of which the camera sees one of 12 points, 2 voxels from their centers (the "
+                      "paper's test); lookups leave other voxels out of their mean."),
                 field(
                     "reach", &Params::reach,
-                    "How many voxels along each axis count as round what the camera sees. It must be as far "
+                    "How many voxels along each axis count as around what the camera sees. It must be as far "
                     "as the lookup that follows reads: 4 times gather_irradiance's 'radius', where little "
                     "surface is near, and one more with 'lookup: seven_tap'. A lookup that reads farther is "
                     "refused.",
                     1u, 64u)
                     .onlyWith(oneOf(&Params::update, {GatherUpdate::Seen})),
                 field("filter_passes", &Params::filterPasses,
-                      "Times that faces are averaged with the same faces of the sides round them. The paper: "
-                      "2, of size 5.",
+                      "Times that patches are averaged with those at the same faces of neighbouring surface "
+                      "groups. The paper: 2, of size 5.",
                       0u, 8u),
                 field(
                     "filter_size", &Params::filterSize,
                     "Voxels along each edge of the filter's cube, with binomial weights (about a Gaussian). "
-                    "Sides that something hides and faces without surfaces don't count.",
+                    "Occluded neighbours and faces without surfaces don't count.",
                     std::vector{3u, 5u})
                     .onlyWith(noneOf(&Params::filterPasses, {0u})),
                 field(
@@ -71,7 +71,7 @@ class GatherClusters final : public Pass {
     };
 
     explicit GatherClusters(const Params& params) : params_(params) {
-        if (isLazy()) seen_.emplace(*this, params_.update);
+        if (isLazy()) visible_.emplace(*this, params_.update);
     }
     Phase phase() const override { return isLazy() ? Phase::Frame : Phase::Build; }
     void plan(PassPlan& plan) override;
@@ -83,27 +83,27 @@ class GatherClusters final : public Pass {
     /// Binomial weights of 5 voxels are those of 3, twice.
     uint32_t filterSteps() const { return params_.filterPasses * (params_.filterSize / 2); }
     Defines defines() const;
-    /// Gathers and filters the light of voxels that were found.
-    void gather(PassContext& context, const SeenVoxels::Found& found);
+    /// Gathers, filters and stores the light of `voxels`.
+    void gather(PassContext& context, const VisibleVoxels::NewVoxels& voxels);
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
-    In<VoxelPatches> patches_{*this, "patches", "surfaces by the open space that they look into"};
-    In<VoxelClusters> clusters_{*this, "clusters", "surface voxels in groups"};
-    In<ClusterVisibility> visibility_{*this, "cluster_visibility", "which clusters each patch sees"};
+    In<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels"};
+    In<VoxelClusters> clusters_{*this, "clusters", "clusters of surface voxels"};
+    In<ClusterVisibility> visibility_{*this, "cluster_visibility", "visibility lists of patches"};
     In<ClusterLight> light_{*this, "cluster_light", "what clusters send"};
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees", readsGBuffer()};
     Out<VoxelIrradiance> irradiance_{*this, "irradiance",
                                      "direct light, and indirect light that was gathered"};
-    std::optional<SeenVoxels> seen_;  ///< Where light is gathered for what comes into view.
-    Kernel gather_{*this, "gather.comp", defines()};
-    Kernel filter_{*this, "filter.comp", defines()};
-    Kernel store_{*this, "store.comp", defines()};
+    std::optional<VisibleVoxels> visible_;  ///< If lazy.
+    Kernel gatherGroups_{*this, "gather_groups.comp", defines()};
+    Kernel filterIrradiance_{*this, "filter_irradiance.comp", defines()};
+    Kernel storeIrradiance_{*this, "store_irradiance.comp", defines()};
     LargeBuffer gathered_, filtered_;  ///< Irradiance of patches.
 };
 
 Defines GatherClusters::defines() const {
-    Defines defines = isLazy() ? Defines{{"SEEN", "1"}} : Defines{};
+    Defines defines = isLazy() ? Defines{{"LISTED", "1"}} : Defines{};
     if (params_.filterOver == FilterOver::Lit) defines.emplace("LIT_ALONE", "1");
     return defines;
 }
@@ -112,7 +112,7 @@ void GatherClusters::plan(PassPlan& plan) {
     plan[irradiance_].lightBounces = oneMore(plan[light_].lightBounces);
     if (readsGBuffer()) plan[irradiance_].reach = params_.reach;
     plan.estimate(plan[voxels_].estimatedCount * VoxelIrradiance::bytes(1));
-    if (seen_) seen_->plan(plan);
+    if (visible_) visible_->plan(plan);
 }
 
 void GatherClusters::record(PassContext& context) {
@@ -123,54 +123,54 @@ void GatherClusters::record(PassContext& context) {
     if (isNew) result.allocate(context.device, voxels.voxelCount);
     if (!isLazy()) {
         if (!isNew) return context.keepOutputs();
-        SeenVoxels::Found all;
+        VisibleVoxels::NewVoxels all;
         all.voxelCount = voxels.voxelCount;
-        all.sidesWithin.assign(filterSteps() + 1, patches.sideCount);
+        all.groupCounts.assign(filterSteps() + 1, patches.groupCount);
         gather(context, all);
         requireLight(context.stream, voxels, result, *context.frame.scene);
         return;
     }
     if (isNew) {
         for (const Buffer* buffer : result.checkedBuffers()) context.stream.fill(*buffer, 0);
-        seen_->reset(context, voxels, patches);
+        visible_->reset(context, voxels, patches);
     }
     const GBuffer* gbuffer = readsGBuffer() ? &context[gbuffer_] : nullptr;
-    const SeenVoxels::Found found =
-        seen_->find(context, gbuffer, voxels, context[clusters_], patches, params_.reach, filterSteps());
-    context.report("voxels gathered", found.voxelCount);
-    if (found.voxelCount > 0)
-        gather(context, found);
+    const VisibleVoxels::NewVoxels newVoxels =
+        visible_->find(context, gbuffer, voxels, context[clusters_], patches, params_.reach, filterSteps());
+    context.report("voxels gathered", newVoxels.voxelCount);
+    if (newVoxels.voxelCount > 0)
+        gather(context, newVoxels);
     else if (!isNew)
         context.keepOutputs();
 }
 
-void GatherClusters::gather(PassContext& context, const SeenVoxels::Found& found) {
-    const SurfaceVoxels& voxels = context[voxels_];
+void GatherClusters::gather(PassContext& context, const VisibleVoxels::NewVoxels& voxels) {
+    const float voxelSize = context[voxels_].grid.voxelSize;
     const VoxelPatches& patches = context[patches_];
     const ClusterVisibility& visibility = context[visibility_];
     const ClusterLight& light = context[light_];
     CommandStream& stream = context.stream;
-    std::vector<Binding> listedSides, foundVoxels;
-    if (seen_) {
-        listedSides.emplace_back("listed", seen_->sides());
-        foundVoxels.emplace_back("found", seen_->voxels());
+    std::vector<Binding> listedGroups, newVoxels;
+    if (visible_) {
+        listedGroups.emplace_back("listedGroups", visible_->groups());
+        newVoxels.emplace_back("newVoxels", visible_->voxels());
     }
     const uint64_t bytes = std::max(patches.patchCount, 1u) * sizeof(glm::vec3);
     makeOrKeep(gathered_, context.device, "irradiance of patches", bytes);
     makeOrKeep(filtered_, context.device, "filtered irradiance", bytes);
-    const uint32_t steps = filterSteps(), sides = found.sidesWithin[steps];
-    context.dispatch(gather_, sides,
+    const uint32_t steps = filterSteps(), groups = voxels.groupCounts[steps];
+    context.dispatch(gatherGroups_, groups,
                      {gatherBindings(visibility, light),
-                      listedSides,
-                      {"sides", patches.sides},
+                      listedGroups,
+                      {"groups", patches.groups},
                       {"GatheredAt", gathered_.at()},
                       {"lists", visibility.layout},
-                      {"count", sides}});
+                      {"count", groups}});
     for (uint32_t i = 0; i < steps; ++i) {
-        const uint32_t count = found.sidesWithin[steps - 1 - i];
-        context.dispatch(filter_, count,
-                         {listedSides,
-                          {"sides", patches.sides},
+        const uint32_t count = voxels.groupCounts[steps - 1 - i];
+        context.dispatch(filterIrradiance_, count,
+                         {listedGroups,
+                          {"groups", patches.groups},
                           {"coordinates", context[clusters_].coordinates},
                           {"firstNeighbour", patches.firstNeighbour},
                           {"NeighboursAt", patches.neighbours.at()},
@@ -181,11 +181,11 @@ void GatherClusters::gather(PassContext& context, const SeenVoxels::Found& found
         std::swap(gathered_, filtered_);
     }
     const VoxelIrradiance& result = context[irradiance_];
-    const uint32_t pairs = 3 * found.voxelCount;
-    context.dispatch(store_, pairs,
-                     {foundVoxels,
-                      {"sides", patches.sides},
-                      {"firstSide", patches.firstSide},
+    const uint32_t pairs = 3 * voxels.voxelCount;
+    context.dispatch(storeIrradiance_, pairs,
+                     {newVoxels,
+                      {"groups", patches.groups},
+                      {"firstGroup", patches.firstGroup},
                       {"VoxelMaterialsAt", patches.materials.at()},
                       {"GatheredAt", gathered_.at()},
                       {"PatchDirectAt", light.direct.at()},
@@ -193,7 +193,7 @@ void GatherClusters::gather(PassContext& context, const SeenVoxels::Found& found
                       {"IndirectAt", result.indirect.at()},
                       {"area", result.area},
                       {"pairs", pairs},
-                      {"voxelFaceArea", voxels.grid.voxelSize * voxels.grid.voxelSize}});
+                      {"voxelFaceArea", voxelSize * voxelSize}});
     stream.finish();
     if (isLazy()) return;  // Buffers stay for what comes into view next.
     gathered_ = {};

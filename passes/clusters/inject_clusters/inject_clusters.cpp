@@ -8,8 +8,8 @@
 #include "base/error.h"
 #include "graph/registry.h"
 #include "passes/clusters/cluster_light.h"
+#include "passes/clusters/inject_clusters/component_face_types.h"
 #include "passes/clusters/inject_clusters/lit_points.h"
-#include "passes/clusters/inject_clusters/part_face_types.h"
 #include "passes/common/compute/compaction.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/lights/light_sources.h"
@@ -24,7 +24,7 @@ constexpr uint64_t kIrradianceBytes = 4 * sizeof(float);
 
 }  // namespace
 
-/// Where the direct light comes from that clusters send on.
+/// Where direct light comes from.
 enum class ClusterDirect { Injected, ShadowRays };
 template <>
 struct EnumNames<ClusterDirect> {
@@ -32,7 +32,7 @@ struct EnumNames<ClusterDirect> {
                                       std::pair{ClusterDirect::ShadowRays, "shadow_rays"}};
 };
 
-/// What tells whether a surface sees a light.
+/// By what surfaces are lit.
 enum class LitTest { Surfels, Points };
 template <>
 struct EnumNames<LitTest> {
@@ -40,17 +40,17 @@ struct EnumNames<LitTest> {
                                       std::pair{LitTest::Points, "points"}};
 };
 
-/// Light of voxels, summed up to what their clusters send, and bounced from face to face by the lists of what
-/// faces see. Source: Cosin and Patow 2022, section 4.4.
+/// Radiosity of patches and cluster components from direct or injected light, with bounces along the
+/// visibility lists. Source: Cosin and Patow 2022, section 4.4.
 class InjectClusters final : public Pass {
  public:
     static constexpr const char* kName = "inject_clusters";
     static constexpr const char* kHelp =
-        "Sums the light of lit voxels, or of their surfels, up to their clusters. Any pass may have injected "
-        "the voxels' light. The sum is what each part of a cluster sends from each of its six faces. With "
-        "bounces, light goes on from cluster to face and on, by the lists of cluster_visibility. Biased by: "
-        "the size of clusters, over which light is averaged; injected light by that of voxels, too, which "
-        "may hold both sides of a wall. Noisy by: bounce_patches. Source: Cosin and Patow 2022, section 4.4.";
+        "Averages the reflected light of voxels, or of their surfels, over their clusters. Any pass may have "
+        "injected the voxels' light. The mean is what each component of a cluster sends from each of its six "
+        "faces. Further bounces follow the visibility lists of cluster_visibility. Biased by: the size of "
+        "clusters, over which light is averaged; injected light by that of voxels, too, which may hold both "
+        "sides of a wall. Noisy by: bounce_patches. Source: Cosin and Patow 2022, section 4.4.";
     struct Params {
         uint32_t bounces = 0;
         uint32_t bouncePatches = 0;
@@ -64,8 +64,8 @@ class InjectClusters final : public Pass {
                       "gather_clusters.",
                       0u, 64u),
                 field("bounce_patches", &Params::bouncePatches,
-                      "How many patches of each face of a part stand for all of them in a bounce, picked by "
-                      "area and again in each bounce. 0: all, one by one.",
+                      "How many patches of each component face are sampled in a bounce, by area and anew in "
+                      "each bounce. 0: all, one by one.",
                       0u, 64u)
                     .lessNoise()
                     .onlyWith(noneOf(&Params::bounces, {0u})),
@@ -74,10 +74,9 @@ class InjectClusters final : public Pass {
                       "of the surfels (place_surfels) by rays to the lights, without an injection."),
                 field(
                     "lit_test", &Params::litTest,
-                    "surfels: each surfel is lit where its own shadow ray arrives. points: all surfels of a "
-                    "voxel are where a light sees one of 18 points 1.5 voxels round its center and no "
-                    "surface in the next voxel towards the light looks away from it (the paper's); for "
-                    "punctual lights.")
+                    "surfels: by a shadow ray from each surfel. points: all surfels of a voxel are lit if a "
+                    "light sees one of 18 points 1.5 voxels from its center and no surface in the adjacent "
+                    "voxel towards the light looks away from it (the paper's); for punctual lights.")
                     .onlyWith(oneOf(&Params::direct, {ClusterDirect::ShadowRays})),
                 field("light_samples", &Params::lightSamples,
                       "Shadow rays from each surfel to the emissive surfaces, and to the environment.", 1u,
@@ -87,7 +86,7 @@ class InjectClusters final : public Pass {
     };
 
     explicit InjectClusters(const Params& params) : params_(params) {
-        if (bouncesParts()) compaction_.emplace(*this);
+        if (bouncesComponents()) compaction_.emplace(*this);
         if (isInjected()) return;
         if (testsPoints())
             litPoints_.emplace(*this);
@@ -100,21 +99,23 @@ class InjectClusters final : public Pass {
  private:
     bool isInjected() const { return params_.direct == ClusterDirect::Injected; }
     bool testsPoints() const { return !isInjected() && params_.litTest == LitTest::Points; }
-    bool bouncesParts() const { return params_.bounces > 0 && params_.bouncePatches > 0; }
-    /// Direct light of each patch, and all that arrives before the first bounce in arriving_.
+    bool bouncesComponents() const { return params_.bounces > 0 && params_.bouncePatches > 0; }
+    /// Direct irradiance of each patch, and initialIrradiance_, from injected light.
     void readInjected(PassContext& context, const ClusterLight& light);
+    /// The same by the lit test.
     void measure(PassContext& context, const ClusterLight& light);
-    /// Irradiance of the surfels of each side, by their shadow rays.
-    void traceSurfels(PassContext& context, const LargeBuffer& ofSurfels);
-    /// What is sent of arriving_ and of what has bounced so far.
+    /// Irradiance of surfels by their shadow rays.
+    void traceSurfels(PassContext& context, const LargeBuffer& surfelIrradiance);
+    /// Radiosity by initialIrradiance_, and by bouncedIrradiance_ if `hasBounced`.
     void reflect(PassContext& context, bool hasBounced);
-    /// All bounces: of each patch, or between faces of parts.
+    /// All bounces: of each patch, or between component faces.
     void bouncePatches(PassContext& context, ClusterLight& light);
-    void bounceParts(PassContext& context, ClusterLight& light);
-    /// Areas of the faces of parts, and a list of those that have any. @return how many.
-    uint32_t listSenders(PassContext& context, const Buffer& partFaces, const Buffer& senders) const;
-    /// Radiosity of patches out of what bounced between parts.
-    void spread(PassContext& context, const ClusterLight& light, const Buffer& bounced) const;
+    void bounceComponents(PassContext& context, ClusterLight& light);
+    /// Areas of component faces, and a list of those with area. @return how many.
+    uint32_t listSendingFaces(PassContext& context, const Buffer& componentFaces,
+                              const Buffer& sendingFaces) const;
+    /// Radiosity of patches after bounces between component faces.
+    void scatter(PassContext& context, const ClusterLight& light, const Buffer& bouncedRadiosity) const;
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
@@ -122,31 +123,32 @@ class InjectClusters final : public Pass {
                                     isInjected()};
     In<Surfels> surfels_{*this, "surfels", "points where irradiance is measured", !isInjected()};
     In<VoxelClusters> clusters_{*this, "clusters", "where voxels are", params_.litTest == LitTest::Points};
-    In<VoxelPatches> patches_{*this, "patches", "surfaces by the open space that they look into"};
-    In<ClusterVisibility> visibility_{*this, "cluster_visibility", "which clusters each patch sees"};
+    In<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels"};
+    In<ClusterVisibility> visibility_{*this, "cluster_visibility", "visibility lists of patches"};
     Out<ClusterLight> light_{*this, "cluster_light", "what clusters send"};
     std::vector<LightSource> sources_;
-    std::optional<SurfelLight> surfelLight_;  ///< For shadow rays of surfels.
-    std::optional<LitPoints> litPoints_;      ///< For those of points.
+    std::optional<SurfelLight> surfelLight_;  ///< For `lit_test: surfels`.
+    std::optional<LitPoints> litPoints_;      ///< For `lit_test: points`.
     ClusterGather gather_{*this};
-    std::optional<Compaction> compaction_;  ///< For bounces between parts.
-    Kernel injected_{*this, "injected.comp"};
-    Kernel place_{*this, "place.comp"};
-    Kernel mean_{*this, "mean.comp"};
-    Kernel reflectSides_{*this, "reflect.comp"};
-    Kernel sumParts_{*this, "sum.comp"};
-    Kernel senders_{*this, "senders.comp"};
-    Kernel bounceParts_{*this, "bounce.comp"};
-    Kernel spread_{*this, "spread.comp"};
-    LargeBuffer arriving_, bounced_;
-    Buffer direct_;  ///< Scratch: of a chunk of surfels.
+    std::optional<Compaction> compaction_;  ///< For bounces between components.
+    Kernel readInjected_{*this, "read_injected.comp"};
+    Kernel reorderIrradiance_{*this, "reorder_irradiance.comp"};
+    Kernel averageSurfels_{*this, "average_surfels.comp"};
+    Kernel reflectPatches_{*this, "reflect_patches.comp"};
+    Kernel averageComponents_{*this, "average_components.comp"};
+    Kernel flagSendingFaces_{*this, "flag_sending_faces.comp"};
+    Kernel bounceComponents_{*this, "bounce_components.comp"};
+    Kernel scatterRadiosity_{*this, "scatter_radiosity.comp"};
+    LargeBuffer initialIrradiance_, bouncedIrradiance_;
+    Buffer chunkIrradiance_;  ///< Scratch: direct, of a chunk of surfels.
 };
 
 void InjectClusters::plan(PassPlan& plan) {
-    injected_.compileIf(isInjected());
-    place_.compileIf(!isInjected() && !testsPoints());
-    mean_.compileIf(!isInjected());
-    for (Kernel* kernel : {&senders_, &bounceParts_, &spread_}) kernel->compileIf(bouncesParts());
+    readInjected_.compileIf(isInjected());
+    reorderIrradiance_.compileIf(!isInjected() && !testsPoints());
+    averageSurfels_.compileIf(!isInjected());
+    for (Kernel* kernel : {&flagSendingFaces_, &bounceComponents_, &scatterRadiosity_})
+        kernel->compileIf(bouncesComponents());
 
     requireClearPanes(*plan.frame.scene, kName);
     if (isInjected()) {
@@ -158,7 +160,8 @@ void InjectClusters::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
     if (!testsPoints()) {
         surfelLight_->plan(plan, Surfels::kChunk);
-        plan.scratchBuffer(direct_, "direct irradiance of surfels", Surfels::kChunk * kIrradianceBytes);
+        plan.scratchBuffer(chunkIrradiance_, "direct irradiance of surfels",
+                           Surfels::kChunk * kIrradianceBytes);
         return;
     }
     if (std::ranges::any_of(sources_, [](const LightSource& s) { return s.kind != LightSource::Punctual; }))
@@ -177,174 +180,176 @@ void InjectClusters::record(PassContext& context) {
     const auto make = [&](auto& buffer, const char* name, uint64_t count) {
         makeOrKeep(buffer, context.device, name, ClusterLight::bytes(count));
     };
-    make(light.parts, "radiosity of parts", uint64_t(kFaces) * patches.partCount);
+    make(light.components, "radiosity of components", uint64_t(kFaces) * patches.componentCount);
     make(light.patches, "radiosity of patches", patches.patchCount);
     make(light.direct, "direct irradiance of patches", patches.patchCount);
-    make(arriving_, "light that arrives", patches.patchCount);
+    make(initialIrradiance_, "initial irradiance of patches", patches.patchCount);
     if (isInjected())
         readInjected(context, light);
     else
         measure(context, light);
     reflect(context, false);
-    if (bouncesParts())
-        bounceParts(context, light);
+    if (bouncesComponents())
+        bounceComponents(context, light);
     else
         bouncePatches(context, light);
     context.stream.finish();
-    arriving_ = {};
+    initialIrradiance_ = {};
 }
 
 void InjectClusters::bouncePatches(PassContext& context, ClusterLight& light) {
     if (params_.bounces == 0) return;
-    makeOrKeep(bounced_, context.device, "bounced light", light.patches.bytes());
+    makeOrKeep(bouncedIrradiance_, context.device, "bounced irradiance of patches", light.patches.bytes());
     for (uint32_t i = 0; i < params_.bounces; ++i) {
-        gather_.gather(context.stream, context[visibility_], light, bounced_);
+        gather_.gather(context.stream, context[visibility_], light, bouncedIrradiance_);
         reflect(context, true);
         context.stream.finish();
     }
-    bounced_ = {};
+    bouncedIrradiance_ = {};
 }
 
-uint32_t InjectClusters::listSenders(PassContext& context, const Buffer& partFaces,
-                                     const Buffer& senders) const {
+uint32_t InjectClusters::listSendingFaces(PassContext& context, const Buffer& componentFaces,
+                                          const Buffer& sendingFaces) const {
     const VoxelPatches& patches = context[patches_];
-    const uint32_t words = (kFaces * patches.partCount + 31) / 32;
-    const Buffer flags(context.device, "faces of parts that send", std::max(words, 1u) * sizeof(uint32_t));
+    const uint32_t words = (kFaces * patches.componentCount + 31) / 32;
+    const Buffer flags(context.device, "flags of sending faces", std::max(words, 1u) * sizeof(uint32_t));
     context.stream.fill(flags, 0);
-    context.dispatch(senders_, patches.partCount,
+    context.dispatch(flagSendingFaces_, patches.componentCount,
                      {{"VoxelMaterialsAt", patches.materials.at()},
-                      {"sides", patches.sides},
-                      {"parts", patches.parts},
-                      {"members", patches.members},
-                      {"partFaces", partFaces},
+                      {"groups", patches.groups},
+                      {"components", patches.components},
+                      {"memberGroups", patches.memberGroups},
+                      {"componentFaces", componentFaces},
                       {"flags", flags},
-                      {"partCount", patches.partCount}});
-    return compaction_->run(context.stream, flags, senders, words);
+                      {"componentCount", patches.componentCount}});
+    return compaction_->run(context.stream, flags, sendingFaces, words);
 }
 
-void InjectClusters::bounceParts(PassContext& context, ClusterLight& light) {
+void InjectClusters::bounceComponents(PassContext& context, ClusterLight& light) {
     const VoxelPatches& patches = context[patches_];
     const ClusterVisibility& visibility = context[visibility_];
     CommandStream& stream = context.stream;
-    const uint64_t faces = uint64_t(kFaces) * patches.partCount, bytes = ClusterLight::bytes(faces);
-    const Buffer partFaces(context.device, "areas of parts",
-                           std::max<uint64_t>(faces, 1) * sizeof(gpu::PartFace));
-    const Buffer senders(context.device, "list of faces of parts that send", bytes);
-    const Buffer first(context.device, "radiosity of parts before bounces", bytes);
-    const Buffer bounced(context.device, "bounced radiosity of parts", bytes);
-    Buffer sent(context.device, "radiosity of parts after a bounce", bytes);
-    const uint32_t count = listSenders(context, partFaces, senders);
-    stream.copy(light.parts, first, bytes);
-    stream.copy(light.parts, sent, bytes);
+    const uint64_t faces = uint64_t(kFaces) * patches.componentCount, bytes = ClusterLight::bytes(faces);
+    const Buffer componentFaces(context.device, "areas of component faces",
+                                std::max<uint64_t>(faces, 1) * sizeof(gpu::ComponentFace));
+    const Buffer sendingFaces(context.device, "sending faces", bytes);
+    const Buffer initialRadiosity(context.device, "initial radiosity of components", bytes);
+    const Buffer bouncedRadiosity(context.device, "bounced radiosity of components", bytes);
+    Buffer newRadiosity(context.device, "radiosity of components after a bounce", bytes);
+    const uint32_t count = listSendingFaces(context, componentFaces, sendingFaces);
+    stream.copy(light.components, initialRadiosity, bytes);
+    stream.copy(light.components, newRadiosity, bytes);
     for (uint32_t i = 0; i < params_.bounces; ++i) {
-        context.dispatch(bounceParts_, count,
+        context.dispatch(bounceComponents_, count,
                          {gatherBindings(visibility, light),
                           {"VoxelMaterialsAt", patches.materials.at()},
-                          {"sides", patches.sides},
-                          {"parts", patches.parts},
-                          {"members", patches.members},
-                          {"partFaces", partFaces},
-                          {"senders", senders},
-                          {"first", first},
-                          {"bounced", bounced},
-                          {"sent", sent},
+                          {"groups", patches.groups},
+                          {"components", patches.components},
+                          {"memberGroups", patches.memberGroups},
+                          {"componentFaces", componentFaces},
+                          {"sendingFaces", sendingFaces},
+                          {"initialRadiosity", initialRadiosity},
+                          {"bouncedRadiosity", bouncedRadiosity},
+                          {"newRadiosity", newRadiosity},
                           {"lists", visibility.layout},
-                          {"senderCount", count},
-                          {"picks", params_.bouncePatches},
+                          {"faceCount", count},
+                          {"maxSamples", params_.bouncePatches},
                           {"seed", randomSeed(context.frame, i + 1)}});
         stream.finish();
-        std::swap(light.parts, sent);
-        if (visibility.listsPatches || i + 1 == params_.bounces) spread(context, light, bounced);
+        std::swap(light.components, newRadiosity);
+        if (visibility.listsPatches || i + 1 == params_.bounces) scatter(context, light, bouncedRadiosity);
     }
     stream.finish();
 }
 
-void InjectClusters::spread(PassContext& context, const ClusterLight& light, const Buffer& bounced) const {
+void InjectClusters::scatter(PassContext& context, const ClusterLight& light,
+                             const Buffer& bouncedRadiosity) const {
     const VoxelPatches& patches = context[patches_];
-    context.dispatch(spread_, patches.partCount,
+    context.dispatch(scatterRadiosity_, patches.componentCount,
                      {{"VoxelMaterialsAt", patches.materials.at()},
-                      {"sides", patches.sides},
-                      {"parts", patches.parts},
-                      {"members", patches.members},
-                      {"sent", light.parts},
-                      {"bounced", bounced},
-                      {"ArrivingAt", arriving_.at()},
+                      {"groups", patches.groups},
+                      {"components", patches.components},
+                      {"memberGroups", patches.memberGroups},
+                      {"componentRadiosity", light.components},
+                      {"bouncedRadiosity", bouncedRadiosity},
+                      {"InitialIrradianceAt", initialIrradiance_.at()},
                       {"RadiosityAt", light.patches.at()},
-                      {"partCount", patches.partCount}});
+                      {"componentCount", patches.componentCount}});
 }
 
 void InjectClusters::readInjected(PassContext& context, const ClusterLight& light) {
     const VoxelPatches& patches = context[patches_];
     const VoxelIrradiance& irradiance = context[irradiance_];
     const float voxelSize = context[voxels_].grid.voxelSize;
-    context.dispatch(injected_, patches.sideCount,
-                     {{"sides", patches.sides},
+    context.dispatch(readInjected_, patches.groupCount,
+                     {{"groups", patches.groups},
                       {"DirectAt", irradiance.direct.at()},
                       {"IndirectAt", irradiance.indirect.at()},
                       {"area", irradiance.area},
                       {"PatchDirectAt", light.direct.at()},
-                      {"ArrivingAt", arriving_.at()},
-                      {"sideCount", patches.sideCount},
+                      {"InitialIrradianceAt", initialIrradiance_.at()},
+                      {"groupCount", patches.groupCount},
                       {"voxelFaceArea", voxelSize * voxelSize}});
 }
 
 void InjectClusters::measure(PassContext& context, const ClusterLight& light) {
     const VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
-    const LargeBuffer ofSurfels(context.device, "irradiance of surfels",
-                                std::max(patches.surfelCount, 1u) * sizeof(glm::vec3));
+    const LargeBuffer surfelIrradiance(context.device, "irradiance of surfels",
+                                       std::max(patches.surfelCount, 1u) * sizeof(glm::vec3));
     if (testsPoints()) {
-        stream.fill(ofSurfels, 0);
-        litPoints_->measure(context, sources_, context[voxels_], context[clusters_], patches, ofSurfels);
+        stream.fill(surfelIrradiance, 0);
+        litPoints_->measure(context, sources_, context[voxels_], context[clusters_], patches,
+                            surfelIrradiance);
     } else {
-        traceSurfels(context, ofSurfels);
+        traceSurfels(context, surfelIrradiance);
     }
-    context.dispatch(mean_, patches.sideCount,
-                     {{"sides", patches.sides},
-                      {"PatchSurfelsAt", patches.surfels.at()},
-                      {"PlacedAt", ofSurfels.at()},
+    context.dispatch(averageSurfels_, patches.groupCount,
+                     {{"groups", patches.groups},
+                      {"GroupedSurfelsAt", patches.surfels.at()},
+                      {"SurfelIrradianceAt", surfelIrradiance.at()},
                       {"PatchDirectAt", light.direct.at()},
-                      {"count", patches.sideCount}});
-    stream.copy(light.direct, arriving_, light.direct.bytes());
+                      {"count", patches.groupCount}});
+    stream.copy(light.direct, initialIrradiance_, light.direct.bytes());
     stream.finish();
 }
 
-void InjectClusters::traceSurfels(PassContext& context, const LargeBuffer& ofSurfels) {
+void InjectClusters::traceSurfels(PassContext& context, const LargeBuffer& surfelIrradiance) {
     const VoxelPatches& patches = context[patches_];
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
-    uint32_t first = 0;
+    uint32_t firstIndex = 0;
     for (const Surfels::Chunk& chunk : context[surfels_].chunks) {
         surfelLight_->measure(context, sources_, chunk.surfels, chunk.count, params_.lightSamples, seed,
-                              direct_);
-        context.dispatch(place_, chunk.count,
-                         {{"direct", direct_},
-                          {"PlacesAt", patches.places.at()},
-                          {"PlacedAt", ofSurfels.at()},
+                              chunkIrradiance_);
+        context.dispatch(reorderIrradiance_, chunk.count,
+                         {{"direct", chunkIrradiance_},
+                          {"SurfelIndexAt", patches.surfelIndex.at()},
+                          {"SurfelIrradianceAt", surfelIrradiance.at()},
                           {"count", chunk.count},
-                          {"firstNumber", first}});
-        first += chunk.count;
+                          {"firstIndex", firstIndex}});
+        firstIndex += chunk.count;
     }
 }
 
 void InjectClusters::reflect(PassContext& context, bool hasBounced) {
     const VoxelPatches& patches = context[patches_];
     const ClusterLight& light = context[light_];
-    context.dispatch(reflectSides_, patches.sideCount,
+    context.dispatch(reflectPatches_, patches.groupCount,
                      {{"VoxelMaterialsAt", patches.materials.at()},
-                      {"sides", patches.sides},
-                      {"ArrivingAt", arriving_.at()},
-                      {"BouncedAt", hasBounced ? bounced_.at() : arriving_.at()},
+                      {"groups", patches.groups},
+                      {"InitialIrradianceAt", initialIrradiance_.at()},
+                      {"BouncedIrradianceAt", hasBounced ? bouncedIrradiance_.at() : initialIrradiance_.at()},
                       {"RadiosityAt", light.patches.at()},
-                      {"sideCount", patches.sideCount},
+                      {"groupCount", patches.groupCount},
                       {"hasBounced", hasBounced}});
-    context.dispatch(sumParts_, patches.partCount,
+    context.dispatch(averageComponents_, patches.componentCount,
                      {{"VoxelMaterialsAt", patches.materials.at()},
-                      {"sides", patches.sides},
-                      {"parts", patches.parts},
-                      {"members", patches.members},
+                      {"groups", patches.groups},
+                      {"components", patches.components},
+                      {"memberGroups", patches.memberGroups},
                       {"RadiosityAt", light.patches.at()},
-                      {"sent", light.parts},
-                      {"count", patches.partCount}});
+                      {"componentRadiosity", light.components},
+                      {"count", patches.componentCount}});
 }
 
 VOXRAY_REGISTER_PASS(InjectClusters);

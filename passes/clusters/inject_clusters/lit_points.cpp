@@ -2,13 +2,14 @@
 
 namespace voxray {
 
-LitPoints::LitPoints(ProgramOwner& owner) : aim_(owner, "aim_points.comp"), add_(owner, "add_lit.comp") {}
+LitPoints::LitPoints(ProgramOwner& owner)
+    : generateRays_(owner, "generate_shadow_rays.comp"), addLight_(owner, "add_punctual_light.comp") {}
 
 void LitPoints::measure(PassContext& context, const std::vector<LightSource>& sources,
                         const SurfaceVoxels& voxels, const VoxelClusters& clusters,
-                        const VoxelPatches& patches, const LargeBuffer& surfels) const {
+                        const VoxelPatches& patches, const LargeBuffer& surfelIrradiance) const {
     for (const LightSource& source : sources) {
-        const auto given = [&](const PointRays::Batch& batch) {
+        const auto batchBindings = [&](const VoxelPointRays::Batch& batch) {
             return Bindings{context.scene,
                             voxels,
                             {"coordinates", clusters.coordinates},
@@ -18,20 +19,20 @@ void LitPoints::measure(PassContext& context, const std::vector<LightSource>& so
                             {"light", source.light}}
                 .all();
         };
-        const auto aim = [&](const PointRays::Batch& batch) {
-            context.dispatch(aim_, batch.voxels * kPoints, {given(batch)});
+        const auto generate = [&](const VoxelPointRays::Batch& batch) {
+            context.dispatch(generateRays_, batch.voxels * kPoints, {batchBindings(batch)});
         };
-        const auto add = [&](const PointRays::Batch& batch) {
-            context.dispatch(add_, batch.voxels,
-                             {given(batch),
+        const auto add = [&](const VoxelPointRays::Batch& batch) {
+            context.dispatch(addLight_, batch.voxels,
+                             {batchBindings(batch),
                               {"VoxelMaterialsAt", patches.materials.at()},
                               {"occluded", rays_.occluded()},
-                              {"firstSide", patches.firstSide},
-                              {"sides", patches.sides},
-                              {"PatchSurfelsAt", patches.surfels.at()},
-                              {"PlacedAt", surfels.at()}});
+                              {"firstGroup", patches.firstGroup},
+                              {"groups", patches.groups},
+                              {"GroupedSurfelsAt", patches.surfels.at()},
+                              {"SurfelIrradianceAt", surfelIrradiance.at()}});
         };
-        rays_.trace(context, voxels.voxelCount, aim, add);
+        rays_.trace(context, voxels.voxelCount, generate, add);
     }
 }
 

@@ -1,2 +1,2 @@
-#include "passes/common/triangle_walk/exact.glsl"
+#include "passes/common/triangle_voxelizer/exact.glsl"
 #include "passes/common/voxel_builder/add_surfaces.glsl"

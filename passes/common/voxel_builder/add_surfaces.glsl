@@ -1,5 +1,5 @@
-// A walk's visitor: adds the material of each clipped fragment to the accumulator of its voxel, weighted by area, in fixed point, so
-// that the order of additions does not matter. walk.visitorScale: one over the scene's largest emission; 0 where nothing emits.
+// Fragment callback: adds the material of each clipped fragment to the accumulator of its voxel, weighted by area, in fixed point, so
+// that the order of additions does not matter. voxelizer.fixedPointScale: one over the scene's largest emission; 0 where nothing emits.
 #ifndef VOXRAY_ADD_SURFACES_GLSL
 #define VOXRAY_ADD_SURFACES_GLSL
 
@@ -18,8 +18,8 @@ void addVector(uint at, vec3 units) {
     for (uint k = 0u; k < 3u; ++k) add(at + k, units[k]);
 }
 
-void visitFragment(TriangleFragment f) {
-    const uint voxel = voxelNumber(walk.grid, f.voxel);
+void processFragment(TriangleFragment f) {
+    const uint voxel = voxelNumber(voxelizer.grid, f.voxel);
     if (voxel == NO_VOXEL) return;
     ClippedFragment c;
     if (!clipFragment(f, c)) return;
@@ -34,9 +34,9 @@ void visitFragment(TriangleFragment f) {
     addVector(at + SUM_AXIS_AREA, m.at.geometricNormal * m.at.geometricNormal * units);
     addVector(at + SUM_NORMAL, m.normal * units);
     addVector(at + SUM_ALBEDO, m.albedo * units);
-    if (walk.visitorScale > 0.0)
+    if (voxelizer.fixedPointScale > 0.0)
         addVector(at + SUM_EMISSION, emission(material, m.at, footprintLevel(material.emissiveTexture, c.texCoordWidth)) *
-                                        (walk.visitorScale * units));
+                                        (voxelizer.fixedPointScale * units));
     add(at + SUM_METALLIC, m.metallic * units);
     add(at + SUM_ROUGHNESS, m.roughness * units);
 

@@ -1,2 +1,2 @@
-#include "passes/common/triangle_walk/raster.glsl"
+#include "passes/common/triangle_voxelizer/raster.glsl"
 #include "passes/common/voxel_builder/mark_voxels.glsl"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "passes/common/compute/prefix_sum.h"
-#include "passes/common/triangle_walk/voxel_region.h"
+#include "passes/common/triangle_voxelizer/voxel_region.h"
 #include "passes/common/voxels/voxels.h"
 
 namespace voxray {

@@ -6,11 +6,12 @@
 
 namespace voxray {
 
-VoxelBuilder::VoxelBuilder(ProgramOwner& owner, std::unique_ptr<TriangleWalk> walk, uint32_t visibilityRays)
-    : walk_(std::move(walk)),
+VoxelBuilder::VoxelBuilder(ProgramOwner& owner, std::unique_ptr<TriangleVoxelizer> voxelizer,
+                           uint32_t visibilityRays)
+    : voxelizer_(std::move(voxelizer)),
       visibilityRays_(visibilityRays),
-      markVoxels_(walk_->makeVisitor(owner, "passes/common/voxel_builder/mark_voxels")),
-      addSurfaces_(walk_->makeVisitor(owner, "passes/common/voxel_builder/add_surfaces")),
+      markVoxels_(voxelizer_->makeProgram(owner, "passes/common/voxel_builder/mark_voxels")),
+      addSurfaces_(voxelizer_->makeProgram(owner, "passes/common/voxel_builder/add_surfaces")),
       resolve_(owner, "surface_accumulator_resolve.comp"),
       prefixSum_(owner, PrefixSum::Of::SetBits),
       visibilityProbe_(owner),
@@ -22,7 +23,7 @@ void VoxelBuilder::planVoxels(PassPlan& plan, SurfaceVoxels& voxels) {
 }
 
 void VoxelBuilder::planWork(PassPlan& plan) {
-    walk_->plan(plan);
+    voxelizer_->plan(plan);
     largestEmission_ = 0;
     for (const Material& material : plan.frame.scene->scene->materials)
         for (int c = 0; c < 3; ++c) largestEmission_ = std::max(largestEmission_, material.emission[c]);
@@ -47,11 +48,12 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
                             const SurfaceVoxels* previous) {
     CommandStream& stream = context.stream;
     const std::vector<uint32_t> triangles = region.triangles(context.frame.scene->geometry);
-    walk_->select(context, target.grid, region, triangles);
+    voxelizer_->select(context, target.grid, region, triangles);
 
     // Mark occupied voxels, then number them.
     stream.fill(target.occupancy, 0);
-    walk_->run(context, *markVoxels_, target.grid, std::vector<Binding>{{"occupancy", target.occupancy}}, 0);
+    voxelizer_->run(context, *markVoxels_, target.grid, std::vector<Binding>{{"occupancy", target.occupancy}},
+                    0);
     if (previous) merge_.occupancy(stream, region, *previous, target);
     target.voxelCount = prefixSum_.run(stream, target.occupancy, target.rank, uint32_t(target.words()));
     const uint64_t count = std::max(target.voxelCount, 1u);
@@ -62,11 +64,11 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
     const LargeBuffer accumulator(context.device, "surface accumulator",
                                   count * ACCUMULATOR_UINTS * sizeof(uint32_t));
     stream.fill(accumulator, 0);
-    walk_->run(context, *addSurfaces_, target.grid,
-               std::vector<Binding>{{"SurfaceAccumulatorAt", accumulator.at()},
-                                    {"voxelOccupancy", target.occupancy},
-                                    {"voxelRank", target.rank}},
-               largestEmission_ > 0 ? 1.0f / largestEmission_ : 0.0f);
+    voxelizer_->run(context, *addSurfaces_, target.grid,
+                    std::vector<Binding>{{"SurfaceAccumulatorAt", accumulator.at()},
+                                         {"voxelOccupancy", target.occupancy},
+                                         {"voxelRank", target.rank}},
+                    largestEmission_ > 0 ? 1.0f / largestEmission_ : 0.0f);
     const Buffer visibility = visibilityProbe_.run(context, target, triangles, visibilityRays_);
     stream.dispatch(resolve_, target.voxelCount,
                     {{"SurfaceAccumulatorAt", accumulator.at()},
@@ -75,7 +77,7 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
                      {"voxelCount", target.voxelCount},
                      {"largestEmission", largestEmission_}});
     stream.finish();
-    walk_->release();
+    voxelizer_->release();
 }
 
 }  // namespace voxray

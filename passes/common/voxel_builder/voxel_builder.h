@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "passes/common/compute/prefix_sum.h"
-#include "passes/common/triangle_walk/triangle_walk.h"
+#include "passes/common/triangle_voxelizer/triangle_voxelizer.h"
 #include "passes/common/voxel_builder/changed_voxels.h"
 #include "passes/common/voxel_builder/region_merge.h"
 #include "passes/common/voxel_builder/visibility_probe.h"
@@ -31,13 +31,13 @@ struct VoxelBuildParams {
     }
 };
 
-/// Builds surface voxels from triangles, in two walks over them: the first marks the voxels that triangles
+/// Builds surface voxels from triangles, in two voxelizations: the first marks the voxels that triangles
 /// meet, the second, once marked voxels are numbered, accumulates the materials of their surfaces, weighted
 /// by area. Sums are integers: the result does not depend on the order of additions.
 class VoxelBuilder {
  public:
     /// @param visibilityRays visibility probes for as much area as a voxel's face has.
-    VoxelBuilder(ProgramOwner& owner, std::unique_ptr<TriangleWalk> walk, uint32_t visibilityRays);
+    VoxelBuilder(ProgramOwner& owner, std::unique_ptr<TriangleVoxelizer> voxelizer, uint32_t visibilityRays);
 
     /// Describes the memory of `voxels` that their grid tells.
     static void planVoxels(PassPlan& plan, SurfaceVoxels& voxels);
@@ -56,7 +56,7 @@ class VoxelBuilder {
     void voxelize(PassContext& context, const VoxelRegion& region, SurfaceVoxels& target,
                   const SurfaceVoxels* previous);
 
-    std::unique_ptr<TriangleWalk> walk_;
+    std::unique_ptr<TriangleVoxelizer> voxelizer_;
     const uint32_t visibilityRays_;
     std::unique_ptr<PassProgram> markVoxels_, addSurfaces_;
     Kernel resolve_;

@@ -54,7 +54,7 @@ constexpr uint32_t kFluxWords = 3 * FLUX_WORDS_PER_AXIS, kAreaWords = 3 * AREA_W
 /// the area is 0 the injection did not look: nothing is known, and lookups skip the face. GLSL access:
 /// shaders/voxels/packed_flux.glsl and voxel_irradiance.glsl.
 struct VoxelIrradiance : Resource {
-    std::string basisPort() const override { return "voxels"; }
+    std::string indexedBy() const override { return "voxels"; }
 
     LargeBuffer direct;    ///< W, straight from the lights: kFluxWords a voxel.
     LargeBuffer indirect;  ///< W, after one bounce or more; likewise.

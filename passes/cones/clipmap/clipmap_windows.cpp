@@ -11,15 +11,15 @@
 namespace voxray {
 namespace {
 
-/// Voxels by which a window's reach ends short of the window: half a voxel that interpolation needs, and
-/// half a voxel by which the window, in whole voxels, may lag behind the camera.
+/// Voxels between a window's reach and its border: half a voxel for interpolation and half a voxel by which
+/// the window, in whole voxels, lags behind the camera.
 constexpr float kMargin = 1;
 
-/// The part of a window's side, at either end of its reach, over which the next level takes over. Up to a
-/// quarter the next level is there in full wherever it is needed, since its window is twice as large.
+/// Width of the transition to the next level at either end of the reach, as a fraction of the window's side.
+/// Up to 1/4 the next level, whose window is twice as large, still counts in full there.
 constexpr float kTransition = 1.0f / 8;
 
-constexpr float kEndless = 1e30f;
+constexpr float kUnbounded = 1e30f;
 
 }  // namespace
 
@@ -40,7 +40,7 @@ ClipmapWindows::ClipmapWindows(const gpu::RadianceGrid& grid, uint32_t side) : g
         const glm::uvec3 resolution = levelResolution(grid.resolution, level);
         const glm::uvec3 size = glm::min(resolution, glm::uvec3(side));
         if (size != resolution) firstWhole_ = level + 1;
-        begin_.push_back(uint32_t(voxels_));
+        slotOffsets_.push_back(uint32_t(voxels_));
         voxels_ += VoxelBox{glm::ivec3(0), size}.count();
     }
 }
@@ -50,15 +50,14 @@ gpu::ClipmapWindow ClipmapWindows::window(uint32_t level, const glm::vec3& camer
     const glm::uvec3 resolution = levelResolution(grid_.resolution, level);
     const float half = 0.5f * float(side_), reach = half - kMargin, full = reach - kTransition * float(side_);
     gpu::ClipmapWindow w{};
-    w.begin = begin_[level];
-    w.fall = 1 / (kTransition * float(side_) * voxel);
+    w.slotOffset = slotOffsets_[level];
+    w.falloff = 1 / (kTransition * float(side_) * voxel);
     for (int axis = 0; axis < 3; ++axis) {
         w.size[axis] = std::min(resolution[axis], side_);
-        w.reach[axis] = kEndless;
+        w.reach[axis] = kUnbounded;
         if (resolution[axis] <= side_) continue;
 
-        // Where the camera comes near to the grid's border, the window stops with all up to the border in
-        // full.
+        // Near the grid's border the window stops, such that the level counts in full up to the border.
         const float center = std::clamp((camera[axis] - grid_.origin[axis]) / voxel, full,
                                         float(grid_.resolution[axis]) / float(1u << level) - full);
         w.first[axis] = int(std::round(center - half));
@@ -68,19 +67,19 @@ gpu::ClipmapWindow ClipmapWindows::window(uint32_t level, const glm::vec3& camer
     return w;
 }
 
-std::vector<VoxelBox> scrolledIn(const gpu::ClipmapWindow& before, const gpu::ClipmapWindow& window) {
+std::vector<VoxelBox> scrolledIn(const gpu::ClipmapWindow& previous, const gpu::ClipmapWindow& window) {
     std::vector<VoxelBox> boxes;
-    VoxelBox rest{window.first, window.size};
+    VoxelBox remaining{window.first, window.size};
     for (int axis = 0; axis < 3; ++axis) {
-        const int moved = window.first[axis] - before.first[axis];
+        const int moved = window.first[axis] - previous.first[axis];
         if (moved == 0) continue;
-        VoxelBox slab = rest;
-        slab.size[axis] = uint32_t(std::min(std::abs(moved), int(rest.size[axis])));
-        if (moved > 0) slab.first[axis] += int(rest.size[axis] - slab.size[axis]);
+        VoxelBox slab = remaining;
+        slab.size[axis] = uint32_t(std::min(std::abs(moved), int(remaining.size[axis])));
+        if (moved > 0) slab.first[axis] += int(remaining.size[axis] - slab.size[axis]);
         boxes.push_back(slab);
-        rest.size[axis] -= slab.size[axis];
-        if (rest.size[axis] == 0) break;
-        if (moved < 0) rest.first[axis] += int(slab.size[axis]);
+        remaining.size[axis] -= slab.size[axis];
+        if (remaining.size[axis] == 0) break;
+        if (moved < 0) remaining.first[axis] += int(slab.size[axis]);
     }
     return boxes;
 }

@@ -11,7 +11,7 @@
 
 namespace voxray {
 
-/// Parameters of a pass that makes a clipmap; it adds schema() to its own with std::tuple_cat.
+/// Parameters of a pass that builds a clipmap; it adds schema() to its own with std::tuple_cat.
 struct ClipmapParams {
     uint32_t clipmapResolution = 64;
     uint32_t clipmapLevels = RADIANCE_CLIPMAP_LEVELS;
@@ -26,12 +26,12 @@ struct ClipmapParams {
     }
 };
 
-/// Levels of a clipmap over a grid of `resolution` voxels. @throws Error naming `pass` where none of them
-/// holds the whole grid.
+/// Levels of a clipmap over a grid of `resolution` voxels. @throws Error naming `pass` if none of them holds
+/// the whole grid.
 uint32_t clipmapLevels(glm::uvec3 resolution, const ClipmapParams& params, const std::string& pass);
 
-/// What a clipmap over `grid` holds: of each level at most `side` voxels along an axis, round the camera.
-/// Levels that are no larger than that are held whole. `side`: a power of two, 16 or more.
+/// Windows of a clipmap over `grid` (Panteleev 2014): of each level at most `side` voxels
+/// along an axis, round the camera. Smaller levels are held whole. `side`: a power of two, 16 or more.
 class ClipmapWindows {
  public:
     ClipmapWindows() = default;
@@ -50,15 +50,14 @@ class ClipmapWindows {
     uint32_t side_ = 0;
     uint32_t firstWhole_ = 0;
     uint64_t voxels_ = 0;
-    std::vector<uint32_t> begin_;  ///< By level.
+    std::vector<uint32_t> slotOffsets_;  ///< By level.
 };
 
-/// What a pass reports as the number of voxels of its windows that it made, since they scrolled in or
-/// changed.
+/// Reported value: the voxels of its windows that a pass updated, because they scrolled in or changed.
 constexpr const char* kUpdatedVoxels = "updated voxels";
 
-/// What `window` holds that `before` did not: up to three boxes that have no voxel in common. Windows of one
-/// level.
-std::vector<VoxelBox> scrolledIn(const gpu::ClipmapWindow& before, const gpu::ClipmapWindow& window);
+/// The voxels in `window` that were not in `previous`, a window of the same level: up to three disjoint
+/// boxes.
+std::vector<VoxelBox> scrolledIn(const gpu::ClipmapWindow& previous, const gpu::ClipmapWindow& window);
 
 }  // namespace voxray

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "base/error.h"
-#include "passes/cones/clipmap/clipmap_texture.h"
+#include "passes/cones/clipmap/clipmap_atlas.h"
 #include "passes/cones/radiance/radiance_texture.h"
 
 namespace voxray {
@@ -12,8 +12,7 @@ namespace {
 
 constexpr uint32_t kClipmapValueBytes = 8;  // passes/cones/radiance/radiance_texel.glsl
 
-/// The buffer `radianceVoxels` of passes/cones/radiance/radiance_clipmap.glsl, up to what the storage adds to
-/// it.
+/// The buffer `radianceVoxels` of passes/cones/radiance/radiance_clipmap.glsl, without what the storage adds.
 struct ClipmapHeader {
     gpu::RadianceGrid grid;
     uint32_t side;
@@ -22,7 +21,7 @@ struct ClipmapHeader {
 };
 static_assert(sizeof(ClipmapHeader) % sizeof(uint64_t) == 0);
 
-/// What radiance_clipmap_textures.glsl adds.
+/// Added by radiance_clipmap_textures.glsl.
 struct ClipmapTextureHeader {
     glm::uvec3 extent;
     std::array<glm::uvec3, RADIANCE_CLIPMAP_LEVELS> blocks;
@@ -33,7 +32,7 @@ struct ClipmapTextureHeader {
 void RadianceClipmap::plan(PassPlan& plan, const std::string& pass, RadianceVoxels& radiance) const {
     const gpu::RadianceGrid& grid = radiance.grid;
     if (radiance.layout == RadianceLayout::ClipmapTextures) {
-        const glm::uvec3 extent = placeInTexture(windows_, grid.levels, grid.directions).extent;
+        const glm::uvec3 extent = packAtlas(windows_, grid.levels, grid.directions).extent;
         planRadianceTexture(plan, pass, "set 'layout' to clipmap", extent, 1, radiance);
         plan.buffer(radiance.header, "radiance clipmap's header",
                     sizeof(ClipmapHeader) + sizeof(ClipmapTextureHeader));
@@ -56,15 +55,15 @@ void RadianceClipmap::prepare(PassSetup& setup, RadianceVoxels& radiance) const 
         upload(radiance.storage[0].address());
         return;
     }
-    const ClipmapTexture texture = placeInTexture(windows_, radiance.grid.levels, radiance.grid.directions);
-    ClipmapTextureHeader added{texture.extent, {}};
-    std::ranges::copy(texture.blocks, added.blocks.begin());
+    const ClipmapAtlas atlas = packAtlas(windows_, radiance.grid.levels, radiance.grid.directions);
+    ClipmapTextureHeader added{atlas.extent, {}};
+    std::ranges::copy(atlas.blocks, added.blocks.begin());
     upload(added);
     prepareRadianceTexture(setup, radiance);
 }
 
-std::vector<gpu::ClipmapWindow> RadianceClipmap::follow(PassContext& context,
-                                                        RadianceVoxels& radiance) const {
+std::vector<gpu::ClipmapWindow> RadianceClipmap::moveWindows(PassContext& context,
+                                                             RadianceVoxels& radiance) const {
     const glm::vec3 camera = context.frame.camera.position;
     std::vector<gpu::ClipmapWindow> windows;
     for (uint32_t level = 0; level < radiance.grid.levels; ++level)

@@ -16,8 +16,7 @@ struct EnumNames<LevelDistance> {
                                       std::pair{LevelDistance::Euclidean, "euclidean"}};
 };
 
-/// The parameter of a pass that fills a clipmap with radiance; it adds schema() to its own with
-/// std::tuple_cat.
+/// Parameter of a pass that fills a radiance clipmap; it adds schema() to its own with std::tuple_cat.
 struct ClipmapLevelParams {
     LevelDistance levelDistance = LevelDistance::Axis;
     static constexpr auto schema() {
@@ -29,22 +28,21 @@ struct ClipmapLevelParams {
     }
 };
 
-/// Radiance voxels in a clipmap, layouts clipmap and clipmap_textures: their memory, and windows that follow
-/// the camera. Docs: docs/clipmap.md.
+/// Radiance voxels in a clipmap (layouts clipmap and clipmap_textures): memory, and windows that follow the
+/// camera. Docs: docs/clipmap.md.
 class RadianceClipmap {
  public:
     RadianceClipmap() = default;
     /// @param side of a window, a power of two.
     RadianceClipmap(const gpu::RadianceGrid& grid, uint32_t side) : windows_(grid, side) {}
 
-    /// Describes the memory of `radiance`, which has its layout and grid. In a buffer values have an exponent
-    /// of their own: the unit is set to 1. @throws Error naming `pass` for more values than can be numbered,
-    /// or a texture that the device can't make.
+    /// Describes the memory of `radiance`, whose layout and grid are set. Sets the unit to 1 in a buffer,
+    /// where values have exponents. @throws Error naming `pass` for more values than 32 bits number, or a
+    /// texture that the device can't make.
     void plan(PassPlan& plan, const std::string& pass, RadianceVoxels& radiance) const;
     void prepare(PassSetup& setup, RadianceVoxels& radiance) const;
-    /// Moves the windows to the frame's camera. What is in their slots stays as it is.
-    /// @return the windows, by level.
-    std::vector<gpu::ClipmapWindow> follow(PassContext& context, RadianceVoxels& radiance) const;
+    /// Moves the windows to the frame's camera; slots keep their contents. @return the windows, by level.
+    std::vector<gpu::ClipmapWindow> moveWindows(PassContext& context, RadianceVoxels& radiance) const;
     const ClipmapWindows& windows() const { return windows_; }
 
  private:

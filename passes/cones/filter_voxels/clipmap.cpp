@@ -4,8 +4,8 @@
 namespace voxray {
 namespace {
 
-/// Windows follow the camera: what scrolls in is filled, the rest stays, in a buffer or in a 3D texture.
-/// Docs: docs/clipmap.md.
+/// Windows that follow the camera, in a buffer or in a 3D texture: each frame fills what scrolled in. Docs:
+/// docs/clipmap.md.
 class ClipmapStorage final : public RadianceStorage {
  public:
     ClipmapStorage(ProgramOwner& owner, const ClipmapParams& params)
@@ -23,17 +23,17 @@ class ClipmapStorage final : public RadianceStorage {
 
     void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
              RadianceVoxels& radiance, float emission) override {
-        // Move the windows.
-        const bool keep = !context.changed(voxels) && !light.isNew;
-        const std::vector<gpu::ClipmapWindow> windows = clipmap_.follow(context, radiance);
+        const bool isUnchanged = !context.changed(voxels) && !light.isNew;
+        const std::vector<gpu::ClipmapWindow> windows = clipmap_.moveWindows(context, radiance);
 
-        // Fill what is new in them; where surfaces or their light are, everything.
+        // Fill what scrolled in; everything if surfaces or their light changed.
         uint64_t updated = 0;
         for (uint32_t level = 0; level < radiance.grid.levels; ++level) {
             const gpu::ClipmapWindow& window = windows[level];
-            const std::vector<VoxelBox> boxes =
-                keep ? scrolledIn(windows_[level], window) : std::vector{VoxelBox{window.first, window.size}};
-            // A level is made of the one below where that is held whole, else of the surfaces.
+            const std::vector<VoxelBox> boxes = isUnchanged
+                                                    ? scrolledIn(windows_[level], window)
+                                                    : std::vector{VoxelBox{window.first, window.size}};
+            // A level is filtered from the one below if that is held whole, else from the surfaces.
             const uint32_t source = level > clipmap_.windows().firstWhole() ? level - 1 : 0;
             for (const VoxelBox& box : boxes) {
                 context.dispatch(fill_, box.count(),
@@ -56,7 +56,7 @@ class ClipmapStorage final : public RadianceStorage {
     ClipmapParams params_;
     RadianceClipmap clipmap_;
     Kernel fill_;
-    std::vector<gpu::ClipmapWindow> windows_;  ///< As they were in the last run.
+    std::vector<gpu::ClipmapWindow> windows_;  ///< Of the last run.
 };
 
 }  // namespace

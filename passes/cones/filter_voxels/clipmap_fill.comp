@@ -1,5 +1,5 @@
-// A box of a clipmap level's voxels. A thread takes a voxel and goes through all that it encloses on the source level, filtering on
-// the way up: what is stored doesn't depend on where the finer levels' windows are.
+// Fills a box of a clipmap level's voxels. A voxel is filtered bottom-up from all voxels of the source level in it, so that its value
+// doesn't depend on the windows of finer levels.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cones/radiance/radiance_voxels.glsl"
 #include "passes/cones/radiance/surface_radiance.glsl"
@@ -11,10 +11,10 @@ layout(push_constant, scalar) uniform Push {
     ivec3 boxFirst;
     uvec3 boxSize;
     uint level;
-    uint source;  // The level whose voxels are known, one that is held whole; 0: the surfaces' own.
+    uint source;  // Level to filter from, which is held whole; 0: the surface voxels.
 } push;
 
-// Whether no surface passes through a voxel of a level. Reads a word, up to 32 voxels along x, at a time.
+// Whether no surface passes through a voxel of a level. Tests a word, up to 32 voxels along x, at a time.
 bool isEmpty(ivec3 voxel, uint level) {
     const ivec3 from = voxel << level;
     const ivec3 to = min((voxel + 1) << level, ivec3(push.grid.resolution));
@@ -28,20 +28,20 @@ bool isEmpty(ivec3 voxel, uint level) {
     return true;
 }
 
-// The value of a voxel of the source level, nothing outside of the grid.
+// The value of a voxel of the source level, 0 outside of the grid.
 vec4 sourceValue(ivec3 voxel, uint face) {
     if (push.source > 0u) {
         const ClipmapWindow w = radianceVoxels.window[push.source];
         return inWindow(w, voxel) ? radianceValue(clipmapSlot(push.source, voxel), face) : vec4(0.0);
     }
-    const uint number = voxelNumber(push.grid, voxel);
-    if (number == NO_VOXEL) return vec4(0.0);
-    return radianceVoxels.grid.directions == 6u ? faceRadiance(push.grid, number, face, push.emission)
-                                                : meanRadiance(push.grid, number, push.emission);
+    const uint surfaceVoxel = voxelNumber(push.grid, voxel);
+    if (surfaceVoxel == NO_VOXEL) return vec4(0.0);
+    return radianceVoxels.grid.directions == 6u ? faceRadiance(push.grid, surfaceVoxel, face, push.emission)
+                                                : meanRadiance(push.grid, surfaceVoxel, push.emission);
 }
 
-// The descendant of a voxel, `depth` levels below, that comes `index`-th: on each level the four pairs along the face's axis, of
-// each the front one first.
+// The `index`-th descendant of a voxel, `depth` levels below. Order: on each level the four pairs along the face's axis, of each pair the
+// front voxel first.
 ivec3 descendant(ivec3 voxel, uint depth, uint index, uint face) {
     const uint axis = face >> 1;
     for (uint d = depth; d-- > 0u;) {
@@ -55,8 +55,8 @@ ivec3 descendant(ivec3 voxel, uint depth, uint index, uint face) {
     return voxel;
 }
 
-// Filters a voxel of what is `depth` levels below: each level's values are rounded as they are stored, as if level had been made of
-// level. Of a voxel in the making, `front` is the front one of a pair, `sum` the pairs before it.
+// Filters a voxel from the level `depth` below. The values of each level are quantized, as if it had been filtered from the stored level
+// below. Partial results by level: `front`, the front voxel of a pair; `sum`, of the pairs before it.
 vec4 filtered(ivec3 voxel, uint depth, uint face) {
     const bool byFace = radianceVoxels.grid.directions == 6u;
     vec4 sum[RADIANCE_CLIPMAP_LEVELS], front[RADIANCE_CLIPMAP_LEVELS];
@@ -64,27 +64,27 @@ vec4 filtered(ivec3 voxel, uint depth, uint face) {
     vec4 value = vec4(0.0);
     const uint end = 1u << (3u * depth);
     for (uint index = 0u; index < end;) {
-        // The largest descendant that begins here and is empty, else one of the source level.
+        // The largest empty descendant that begins here, else one of the source level.
         uint d = index == 0u ? depth : uint(findLSB(index)) / 3u;
         if (push.source > 0u) d = 0u;
         while (d > 0u && !isEmpty(descendant(voxel, depth - d, index >> (3u * d), face), d)) --d;
         value = d > 0u ? vec4(0.0) : sourceValue(descendant(voxel, depth, index, face), face);
-        value = storedRadiance(value);
-        const uint taken = 1u << (3u * d);
+        value = quantizedRadiance(value);
+        const uint covered = 1u << (3u * d);
 
-        // Up, for as long as it is the last of its parent's children.
+        // Ascend while this is the last of its parent's children.
         for (; d < depth; ++d) {
             const uint octant = (index >> (3u * d)) & 7u;
             if ((octant & 1u) == 0u) {
                 front[d] = value;
                 break;
             }
-            sum[d] += byFace ? inARow(front[d], value) : 0.5 * (front[d] + value);
+            sum[d] += byFace ? compositePair(front[d], value) : 0.5 * (front[d] + value);
             if (octant != 7u) break;
-            value = storedRadiance(0.25 * sum[d]);
+            value = quantizedRadiance(0.25 * sum[d]);
             sum[d] = vec4(0.0);
         }
-        index += taken;
+        index += covered;
     }
     return value;
 }

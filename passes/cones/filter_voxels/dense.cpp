@@ -19,7 +19,7 @@ struct DenseHeader {
 };
 static_assert(sizeof(gpu::RadianceGrid) % 8 == 0);
 
-uint64_t allVoxels(const gpu::RadianceGrid& grid) {
+uint64_t pyramidVoxels(const gpu::RadianceGrid& grid) {
     uint64_t voxels = 0;
     for (uint32_t level = 0; level < grid.levels; ++level)
         voxels += voxelsOf(levelResolution(grid.resolution, level));
@@ -32,7 +32,7 @@ class DenseStorage final : public RadianceStorage {
 
     void plan(PassPlan& plan, const SurfaceVoxels&, RadianceVoxels& radiance) override {
         const gpu::RadianceGrid& grid = radiance.grid;
-        const uint64_t values = allVoxels(grid) * grid.directions;
+        const uint64_t values = pyramidVoxels(grid) * grid.directions;
         if (values > UINT32_MAX)
             throw Error(
                 "filter_voxels: {} values of {}x{}x{} voxels and their levels can't be numbered in 32 bits; "

@@ -7,15 +7,14 @@ namespace voxray {
 /// Voxels of a grid.
 uint64_t voxelsOf(glm::uvec3 resolution);
 
-/// Fills full grids level by level, wherever their layout keeps them: docs/writing-a-pass.md names what its
-/// shader defines.
+/// Fills full grids level by level, for any layout whose shader defines what docs/writing-a-pass.md lists.
 class DenseFill {
  public:
     explicit DenseFill(ProgramOwner& owner);
 
     /// @param radiance with its layout.
     void plan(const RadianceVoxels& radiance);
-    /// @param emission 1 to add what surfaces emit, 0 to leave it out.
+    /// @param emission 1 to add what surfaces emit, 0 not to.
     void run(CommandStream& stream, const SurfaceVoxels& voxels, const SurfaceLight& light,
              const RadianceVoxels& radiance, float emission) const;
 

@@ -1,4 +1,4 @@
-// Level 0 of radiance voxels in full grids: the surfaces' own radiance and opacity; nothing where there are none.
+// Level 0 of radiance voxels in full grids: radiance and opacity of the surfaces, 0 in empty voxels.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cones/radiance/radiance_voxels.glsl"
 #include "passes/cones/radiance/surface_radiance.glsl"
@@ -13,8 +13,8 @@ void main() {
     const uint i = linearIndex();
     const uvec3 size = radianceVoxels.grid.resolution;
     if (i >= size.x * size.y * size.z) return;
-    const ivec3 at = ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
-    const uint voxel = voxelNumber(push.grid, at);
+    const ivec3 cell = ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
+    const uint voxel = voxelNumber(push.grid, cell);
     const RADIANCE_LEVEL level = radianceLevel(0u);
     const uint directions = radianceVoxels.grid.directions;
     for (uint face = 0u; face < directions; ++face) {
@@ -22,6 +22,6 @@ void main() {
         if (voxel != NO_VOXEL)
             value = directions == 6u ? faceRadiance(push.grid, voxel, face, push.emission)
                                      : meanRadiance(push.grid, voxel, push.emission);
-        storeRadiance(radianceIndex(level, at), face, value / vec4(vec3(radianceVoxels.grid.unit), 1.0));
+        storeRadiance(radianceIndex(level, cell), face, value / vec4(vec3(radianceVoxels.grid.unit), 1.0));
     }
 }

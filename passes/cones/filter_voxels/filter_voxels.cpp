@@ -9,7 +9,8 @@
 
 namespace voxray {
 
-/// Turns lit surface voxels into radiance and opacity at all scales, for cone tracing.
+/// Prefilters lit surface voxels into radiance and opacity at all scales, for cone tracing. Sources: Crassin
+/// et al. 2011, section 4; Arnebäck 2017, section 3.1.4.
 class FilterVoxels final : public Pass {
  public:
     static constexpr const char* kName = "filter_voxels";
@@ -23,7 +24,7 @@ class FilterVoxels final : public Pass {
     struct Params : ClipmapParams, ClipmapLevelParams, BrickParams, ConeBounceParams {
         RadianceLayout layout = RadianceLayout::Dense;
         bool emission = false;
-        static constexpr auto ofClipmaps() {
+        static constexpr auto ifClipmap() {
             return oneOf(&Params::layout, {RadianceLayout::Clipmap, RadianceLayout::ClipmapTextures});
         }
         static constexpr auto schema() {
@@ -32,9 +33,9 @@ class FilterVoxels final : public Pass {
                            field("emission", &Params::emission,
                                  "Whether what surfaces emit is in. Off, cones bring indirect light alone: a "
                                  "direct_* pass adds the rest.")},
-                std::tuple{std::get<0>(ClipmapParams::schema()).onlyWith(ofClipmaps()),
-                           std::get<1>(ClipmapParams::schema()).onlyWith(ofClipmaps()),
-                           std::get<0>(ClipmapLevelParams::schema()).onlyWith(ofClipmaps()),
+                std::tuple{std::get<0>(ClipmapParams::schema()).onlyWith(ifClipmap()),
+                           std::get<1>(ClipmapParams::schema()).onlyWith(ifClipmap()),
+                           std::get<0>(ClipmapLevelParams::schema()).onlyWith(ifClipmap()),
                            std::get<0>(BrickParams::schema())
                                .onlyWith(oneOf(&Params::layout, {RadianceLayout::SvoBricks}))},
                 ConeBounceParams::schema());
@@ -54,7 +55,7 @@ class FilterVoxels final : public Pass {
     Out<RadianceVoxels> radiance_{*this, "radiance", "light that leaves them, at all scales"};
     std::unique_ptr<RadianceStorage> storage_ = makeRadianceStorage(*this, params_.layout, params_, params_);
     ConeBounces bounces_{*this, params_.bounceCones};
-    bool eachFrame_ = false;  ///< Whether it runs in each frame: storage keeps what it needs for that.
+    bool eachFrame_ = false;  ///< Runs in each frame, so that storage keeps what it needs for that.
 };
 
 void FilterVoxels::plan(PassPlan& plan) {
@@ -93,8 +94,8 @@ void FilterVoxels::record(PassContext& context) {
                       last && params_.emission ? 1.0f : 0.0f);
     };
 
-    // Each bounce carries all light of the last one on: one more of each order. What surfaces emit is not
-    // in before the end, since what it does to others is direct light.
+    // Each iteration adds one bounce to the light of the last one. Emission is added in the last: the light
+    // that it sheds on other surfaces is direct light.
     fill(irradiance.indirect, params_.bounces == 0);
     for (uint32_t bounce = 1; bounce <= params_.bounces; ++bounce) {
         bounces_.gather(context, voxels, irradiance, radiance);
@@ -102,7 +103,7 @@ void FilterVoxels::record(PassContext& context) {
     }
     if (eachFrame_) return;
     if (params_.bounces > 0) bounces_.release(context.stream);
-    storage_->close(context.stream, radiance);
+    storage_->finalize(context.stream, radiance);
 }
 
 VOXRAY_REGISTER_PASS(FilterVoxels);

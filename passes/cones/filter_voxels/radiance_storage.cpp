@@ -2,7 +2,7 @@
 
 namespace voxray {
 
-// Each in the source of its layout.
+// Defined in the source files of the layouts.
 std::unique_ptr<RadianceStorage> makeDenseStorage(ProgramOwner& owner);
 std::unique_ptr<RadianceStorage> makeSvoStorage(ProgramOwner& owner);
 std::unique_ptr<RadianceStorage> makeClipmapStorage(ProgramOwner& owner, const ClipmapParams& params);

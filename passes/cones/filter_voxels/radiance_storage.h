@@ -8,35 +8,35 @@
 
 namespace voxray {
 
-/// Light that surface voxels reflect, laid out as in VoxelIrradiance.
+/// Light that arrives at surface voxels, laid out as in VoxelIrradiance.
 struct SurfaceLight {
     const LargeBuffer& direct;
     const LargeBuffer& indirect;
     const Buffer& area;
-    bool isNew;  ///< Whether it has been measured again since the pass ran last.
+    bool isNew;  ///< Whether it has changed since the pass ran last.
 
-    /// Of passes/cones/radiance/surface_radiance.glsl, besides the voxels'.
+    /// Bindings of passes/cones/radiance/surface_radiance.glsl, besides those of the voxels.
     std::vector<Binding> bindings() const {
         return {{"DirectFluxAt", direct.at()}, {"IndirectFluxAt", indirect.at()}, {"voxelArea", area}};
     }
 };
 
-/// A way of storing radiance voxels: makes them of surface voxels and the light that they catch.
+/// Storage of radiance voxels in one layout, filled from surface voxels and their light.
 class RadianceStorage {
  public:
     virtual ~RadianceStorage() = default;
-    /// Whether it holds what is near the camera alone, so that it is filled in each frame.
+    /// Whether it holds windows round the camera, so that it is filled in each frame.
     virtual bool followsCamera() const { return false; }
-    /// Describes memory. `radiance` has its grid; the unit and the number of levels may be set to others.
-    /// @throws Error for what this device can't do.
+    /// Describes memory. The grid of `radiance` is set; its unit and number of levels may be changed.
+    /// @throws Error if the device lacks a feature.
     virtual void plan(PassPlan& plan, const SurfaceVoxels& voxels, RadianceVoxels& radiance) = 0;
     /// Uploads headers, clears textures.
     virtual void prepare(PassSetup&, RadianceVoxels&) {}
-    /// Fills all levels. `emission`: 1 to add what surfaces emit, 0 to leave it out.
+    /// Fills all levels. `emission`: 1 to add what surfaces emit, 0 not to.
     virtual void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
                      RadianceVoxels& radiance, float emission) = 0;
-    /// What was filled stays as it is: a storage may drop what it needs for filling.
-    virtual void close(CommandStream&, RadianceVoxels&) {}
+    /// Called when nothing will be filled again: frees what is needed for that alone.
+    virtual void finalize(CommandStream&, RadianceVoxels&) {}
 };
 
 /// Parameters of the layout svo_bricks; a pass adds schema() to its own with std::tuple_cat.
@@ -50,7 +50,6 @@ struct BrickParams {
     }
 };
 
-/// The storage of a layout.
 std::unique_ptr<RadianceStorage> makeRadianceStorage(ProgramOwner& owner, RadianceLayout layout,
                                                      const ClipmapParams& clipmap, const BrickParams& bricks);
 

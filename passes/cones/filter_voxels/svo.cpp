@@ -6,16 +6,16 @@
 namespace voxray {
 namespace {
 
-/// The structure is built of the voxels that there are, and kept for as long as they are the same and light
-/// is filtered again.
+/// Sparse voxel octree (Crassin et al. 2011). It is rebuilt when voxels change; when light changes, values
+/// are filtered again. Docs: docs/svo.md.
 class SvoStorage final : public RadianceStorage {
  public:
     explicit SvoStorage(ProgramOwner& owner)
         : surface_(owner, "svo_surface.comp"), builder_(owner), filter_(owner), collapse_(owner) {}
 
     void plan(PassPlan& plan, const SurfaceVoxels& voxels, RadianceVoxels& radiance) override {
-        radiance.grid.unit = 1;  // Values have an exponent of their own.
-        // Values of all levels, and a table of a word or so a voxel.
+        radiance.grid.unit = 1;  // Values have exponents.
+        // Values of all levels, and a table of about a word per voxel.
         plan.estimate(voxels.estimatedCount * (4.0 / 3 * radiance.grid.directions + 0.5) *
                       sizeof(glm::uvec2));
     }
@@ -23,9 +23,9 @@ class SvoStorage final : public RadianceStorage {
     void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
              RadianceVoxels& radiance, float emission) override {
         CommandStream& stream = context.stream;
-        // All is new where the voxels are; else what has another value.
-        const bool rebuilt = version_ != voxels.version;
-        if (rebuilt) {
+        // After a rebuild all nodes count as changed, else those with new values.
+        const bool isRebuilt = version_ != voxels.version;
+        if (isRebuilt) {
             radiance.octree = {};
             radiance.storage.clear();
             changed_ = {};
@@ -34,7 +34,7 @@ class SvoStorage final : public RadianceStorage {
             changed_ =
                 Buffer(context.device, "octree changes", SvoFilter::changedBytes(radiance.octree.size));
         }
-        stream.fill(changed_, rebuilt ? ~0u : 0u);
+        stream.fill(changed_, isRebuilt ? ~0u : 0u);
 
         const OctreeSize& size = radiance.octree.size;
         context.dispatch(surface_, size.nodes[0],
@@ -49,8 +49,7 @@ class SvoStorage final : public RadianceStorage {
         filter_.run(stream, radiance, changed_);
     }
 
-    void close(CommandStream& stream, RadianceVoxels& radiance) override {
-        // What is not filtered again needs no more than its values.
+    void finalize(CommandStream& stream, RadianceVoxels& radiance) override {
         collapse_.run(stream, radiance);
         radiance.octree.leafVoxels = {};
         changed_ = {};
@@ -62,7 +61,7 @@ class SvoStorage final : public RadianceStorage {
     OctreeBuilder builder_;
     SvoFilter filter_;
     SvoCollapse collapse_;
-    std::optional<uint64_t> version_;  ///< Of the voxels that it is built of; none once it is closed.
+    std::optional<uint64_t> version_;  ///< Of the voxels that it was built from; none once finalized.
     Buffer changed_;
 };
 

@@ -8,16 +8,16 @@
 namespace voxray {
 namespace {
 
-/// The octree of Arnebäck 2017 as published, over our surface voxels: nodes with neighbours, bricks that are
-/// filled by transfers and the three passes of its filter. All of it is built again where surfaces changed;
-/// voxelize_octree keeps what stays apart. Docs: docs/svo.md.
+/// The octree of Arnebäck 2017 as published, over our surface voxels: nodes with neighbor pointers, and
+/// bricks that transfers and a filter in three passes fill. Rebuilt as a whole when surfaces change;
+/// voxelize_octree keeps a static part. Docs: docs/svo.md.
 class SvoBricksStorage final : public RadianceStorage {
  public:
     SvoBricksStorage(ProgramOwner& owner, const BrickParams& params)
         : neighbors_(params.brickNeighbors),
           builder_(owner, neighbors_),
-          cells_(owner, "svo_bricks_cells.comp"),
-          leaves_(owner, "svo_bricks_leaves.comp"),
+          listCells_(owner, "svo_bricks_list_cells.comp"),
+          fillLeaves_(owner, "svo_bricks_fill_leaves.comp"),
           radiance_(owner) {}
 
     void plan(PassPlan& plan, const SurfaceVoxels& voxels, RadianceVoxels& radiance) override {
@@ -28,12 +28,13 @@ class SvoBricksStorage final : public RadianceStorage {
                 radiance.grid.directions);
         octree_.grid = voxels.grid;
         octree_.moves = !movingRuns(plan.frame.scene->geometry).empty();
-        // With its neighbours a surface is some two layers thick at the grid's border, three elsewhere; each
-        // level has a quarter of the one below, and eight nodes for each brick of the one above.
+        // With neighbors a surface is about two layers thick at the grid's border, three elsewhere. Each
+        // level has a quarter of the voxels of the one below, and eight nodes for each brick of the one
+        // above.
         plan.estimate(voxels.estimatedCount * (neighbors_ ? 8.0 / 3 : 4.0 / 3) *
                       (2 * kBrickNodeBytes + kBrickBytes));
         BrickRadiance::plan(plan, radiance);
-        leaves_.define(radiance.defines());
+        fillLeaves_.define(radiance.defines());
     }
 
     void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
@@ -41,20 +42,20 @@ class SvoBricksStorage final : public RadianceStorage {
         CommandStream& stream = context.stream;
         if (version_ != voxels.version) {
             build(stream, voxels);
-            radiance_.follow(stream, octree_, radiance);
+            radiance_.setOctree(stream, octree_, radiance);
         }
         version_ = voxels.version;
 
         const gpu::LevelNodes& leaves = octree_.levels[0];
         stream.fill(radiance.storage[0], 0);
-        for (const uint32_t isMeasured : {0u, 1u})
-            context.dispatch(leaves_, leaves.staticCount,
+        for (const uint32_t scaleIsKnown : {0u, 1u})
+            context.dispatch(fillLeaves_, leaves.staticCount,
                              {voxels,
                               light,
                               radiance,
                               {"emission", emission},
                               {"nodes", leaves},
-                              {"isMeasured", isMeasured}});
+                              {"scaleIsKnown", scaleIsKnown}});
         radiance_.filter(stream, octree_, radiance);
     }
 
@@ -62,17 +63,17 @@ class SvoBricksStorage final : public RadianceStorage {
     void build(CommandStream& stream, const SurfaceVoxels& voxels) {
         const LargeBuffer cells(stream.device(), "voxels of leaves",
                                 std::max(voxels.voxelCount, 1u) * sizeof(uint32_t));
-        stream.dispatch(cells_, voxels.words(), {voxels, {"FragmentCellsAt", cells.at()}});
+        stream.dispatch(listCells_, voxels.words(), {voxels, {"FragmentCellsAt", cells.at()}});
         builder_.build(stream, octree_, cells, voxels.voxelCount);
         stream.finish();
     }
 
     bool neighbors_;
     BrickOctreeBuilder builder_;
-    Kernel cells_, leaves_;
+    Kernel listCells_, fillLeaves_;
     BrickRadiance radiance_;
     BrickOctree octree_;
-    std::optional<uint64_t> version_;  ///< Of the voxels that it is built of.
+    std::optional<uint64_t> version_;  ///< Of the voxels that it was built from.
 };
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Moves a level of an octree and its values into a smaller one without what lies below uniform nodes: first the masks of the
-// level's nodes (MASKS), then their words, their values and a list of their children (WORDS). A thread takes four nodes of the
-// new octree; `nodes` tells for each its number in the old one and its voxel.
+// Copies a level of an octree and its values to a smaller octree without the descendants of uniform nodes: first the masks of the
+// level's nodes (MASKS), then their words, their values and a list of their children (WORDS), four nodes of the new octree per thread.
+// `nodes`: for each of them its number in the old octree and its voxel.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cones/radiance/radiance_svo.glsl"
 layout(local_size_x = 64) in;
@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;
 readonly buffer Nodes { uvec2 data[]; } nodes;
 readonly buffer Uniform { uint bits[]; } uniform_;
 buffer Masks { uint words[]; } masks;
-readonly buffer Before { uint bits[]; } before;
+readonly buffer Ranks { uint bits[]; } ranks;
 writeonly buffer Children { uvec2 data[]; } children;
 layout(scalar) readonly buffer Collapsed {
     OctreeWords table;
@@ -21,7 +21,7 @@ layout(scalar) readonly buffer CollapsedValues {
 } collapsedValues;
 layout(push_constant) uniform Push {
     uint level;
-    uint count;  // Nodes of the level that stay.
+    uint count;  // Nodes of the level in the new octree.
     uint firstNode;
     uint firstChild;
 } push;
@@ -41,7 +41,7 @@ void main() {
 #else
 void main() {
     const uint word = linearIndex();
-    uint child = push.level > 0u && 4u * word < push.count ? before.bits[word] : 0u;
+    uint child = push.level > 0u && 4u * word < push.count ? ranks.bits[word] : 0u;
     for (uint i = 4u * word; i < min(4u * word + 4u, push.count); ++i) {
         const uint old = nodes.data[i].x, number = push.firstNode + i;
         for (uint face = 0u; face < collapsedValues.grid.directions; ++face)
@@ -54,9 +54,9 @@ void main() {
         const uint node = mask != 0u ? mask | (push.firstChild + child) << 8 : number << 8;
         collapsed.nodes.data[number] = node;
         if (push.level >= collapsed.shape.tableLevel) {
-            const uvec3 size = uvec3(octreeSize(push.level) + 2), at = uvec3(cell + 1);
+            const uvec3 size = uvec3(octreeSize(push.level) + 2), entry = uvec3(cell + 1);
             collapsed.table.data[collapsed.shape.tableFirst[push.level - collapsed.shape.tableLevel] +
-                                 (at.z * size.y + at.y) * size.x + at.x] = node;
+                                 (entry.z * size.y + entry.y) * size.x + entry.x] = node;
         }
         for (uint bits = mask; bits != 0u; bits &= bits - 1u) {
             const uint octant = findLSB(bits);

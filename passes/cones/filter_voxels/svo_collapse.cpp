@@ -5,14 +5,14 @@
 namespace voxray {
 
 SvoCollapse::SvoCollapse(ProgramOwner& owner)
-    : uniform_(owner, "svo_uniform.comp"),
-      masks_(owner, "svo_collapse.comp", {{"MASKS", "1"}}),
-      words_(owner, "svo_collapse.comp", {{"WORDS", "1"}}),
-      table_(owner, "svo_collapse_table.comp"),
+    : markUniform_(owner, "svo_mark_uniform.comp"),
+      copyMasks_(owner, "svo_collapse.comp", {{"MASKS", "1"}}),
+      copyNodes_(owner, "svo_collapse.comp", {{"WORDS", "1"}}),
+      fillTable_(owner, "svo_collapse_table.comp"),
       prefixSum_(owner, PrefixSum::Of::SetBits) {}
 
 void SvoCollapse::run(CommandStream& stream, RadianceVoxels& radiance) const {
-    // From the leaves up: which nodes are uniform.
+    // Mark uniform nodes, bottom-up.
     const OctreeSize& size = radiance.octree.size;
     const std::vector<uint32_t> first = size.first();
     const Buffer uniform(stream.device(), "octree uniform nodes",
@@ -21,7 +21,7 @@ void SvoCollapse::run(CommandStream& stream, RadianceVoxels& radiance) const {
     stream.fill(uniform, 0);
     stream.fill(counts, 0);
     for (uint32_t level = 1; level < size.levels(); ++level)
-        stream.dispatch(uniform_, size.nodes[level],
+        stream.dispatch(markUniform_, size.nodes[level],
                         {radiance,
                          {"uniform_", uniform},
                          {"counts", counts},
@@ -29,7 +29,7 @@ void SvoCollapse::run(CommandStream& stream, RadianceVoxels& radiance) const {
                          {"count", size.nodes[level]},
                          {"firstNode", first[level]}});
 
-    // Each of them drops its eight children.
+    // Each uniform node loses its eight children.
     const std::vector<uint32_t> uniformNodes = stream.readAs<uint32_t>(counts, size.levels());
     OctreeSize smaller = size;
     for (uint32_t level = 1; level < size.levels(); ++level)
@@ -45,7 +45,8 @@ RadianceVoxels SvoCollapse::shrink(CommandStream& stream, const RadianceVoxels& 
     result.grid = radiance.grid;
     allocateSvoValues(stream, allocateOctree(stream, smaller), result);
 
-    // From the root down, as it was built: masks, numbers, then words, values and the next level's list.
+    // Top-down, as the octree was built: masks, ranks, then words, values and the list of the next level's
+    // nodes.
     const std::vector<uint32_t> first = smaller.first();
     Buffer nodes(device, "octree root", sizeof(glm::uvec2));
     const glm::uvec2 root(1, 0);
@@ -54,7 +55,7 @@ RadianceVoxels SvoCollapse::shrink(CommandStream& stream, const RadianceVoxels& 
         const uint32_t count = smaller.nodes[level], words = (count + 3) / 4;
         const uint32_t childCount = level > 0 ? smaller.nodes[level - 1] : 0;
         const Buffer masks(device, "octree masks", uint64_t(words) * sizeof(uint32_t));
-        const Buffer before(device, "octree ranks", uint64_t(words) * sizeof(uint32_t));
+        const Buffer ranks(device, "octree ranks", uint64_t(words) * sizeof(uint32_t));
         Buffer children(device, "octree children", uint64_t(std::max(childCount, 1u)) * sizeof(glm::uvec2));
         const Bindings step{{"octree", radiance.octree.header},
                             {"nodes", nodes},
@@ -63,12 +64,12 @@ RadianceVoxels SvoCollapse::shrink(CommandStream& stream, const RadianceVoxels& 
                             {"count", count},
                             {"firstNode", first[level]},
                             {"firstChild", level > 0 ? first[level - 1] : 0}};
-        stream.dispatch(masks_, words, {step.all(), {"masks", masks}});
-        prefixSum_.run(stream, masks, before, words);
-        stream.dispatch(words_, words,
+        stream.dispatch(copyMasks_, words, {step.all(), {"masks", masks}});
+        prefixSum_.run(stream, masks, ranks, words);
+        stream.dispatch(copyNodes_, words,
                         {step.all(),
                          {"radianceVoxels", radiance.header},
-                         {"before", before},
+                         {"ranks", ranks},
                          {"children", children},
                          {"collapsed", result.octree.header},
                          {"collapsedValues", result.header}});
@@ -78,7 +79,8 @@ RadianceVoxels SvoCollapse::shrink(CommandStream& stream, const RadianceVoxels& 
 
     for (uint32_t level = smaller.levels(); level-- > smaller.tableLevel();) {
         const glm::uvec3 voxels = levelResolution(smaller.resolution, level);
-        stream.dispatch(table_, uint64_t(voxels.x) * voxels.y * voxels.z, {result.octree, {"level", level}});
+        stream.dispatch(fillTable_, uint64_t(voxels.x) * voxels.y * voxels.z,
+                        {result.octree, {"level", level}});
     }
     stream.finish();
     return result;

@@ -1,4 +1,4 @@
-// The voxels of a table's level that lie in a uniform node of a coarser one take its word. A thread takes a voxel.
+// Copies the words of uniform nodes of a coarser level to the entries of a table's level within them.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/octree.glsl"
 layout(local_size_x = 64) in;

@@ -1,5 +1,5 @@
-// The values of a level's nodes from their children's, where any of those has changed. A thread takes a node.
-#include "passes/cones/filter_voxels/svo_change.glsl"
+// Filters the values of a level's nodes from those of their children, where any child has changed.
+#include "passes/cones/filter_voxels/svo_changed.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cones/radiance/radiance_filter.glsl"
 layout(local_size_x = 64) in;

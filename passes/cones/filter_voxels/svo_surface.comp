@@ -1,5 +1,5 @@
-// The values of an octree's leaves: the surfaces' own radiance and opacity. A thread takes a leaf.
-#include "passes/cones/filter_voxels/svo_change.glsl"
+// The values of an octree's leaves: radiance and opacity of the surfaces.
+#include "passes/cones/filter_voxels/svo_changed.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cones/radiance/surface_radiance.glsl"
 layout(local_size_x = 64) in;

@@ -26,11 +26,10 @@ void allocateSvoValues(CommandStream& stream, Octree octree, RadianceVoxels& rad
     const OctreeHeader header{radiance.grid, values.address()};
     stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
 
-    // NO_NODE holds nothing.
-    const glm::uvec2 nothing(0);
+    // The values of NO_NODE are 0.
+    const glm::uvec2 zero(0);
     for (uint64_t face = 0; face < directions; ++face)
-        stream.upload(values, std::as_bytes(std::span(&nothing, 1)),
-                      face * size.nodeCount() * sizeof(nothing));
+        stream.upload(values, std::as_bytes(std::span(&zero, 1)), face * size.nodeCount() * sizeof(zero));
 }
 
 SvoFilter::SvoFilter(ProgramOwner& owner) : filter_(owner, "svo_filter.comp") {}

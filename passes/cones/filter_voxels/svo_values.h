@@ -5,19 +5,19 @@
 
 namespace voxray {
 
-/// Radiance of an octree's nodes: RadianceVoxels whose `octree` has the structure, with 64 bits by direction
-/// and node in `storage` (passes/cones/radiance/radiance_texel.glsl).
+/// Radiance of an octree's nodes: `RadianceVoxels::octree` has the structure, `storage` 64 bits by direction
+/// and node (passes/cones/radiance/radiance_texel.glsl).
 
-/// Gives `radiance`, whose grid is set, an octree and values for its nodes, which are left undefined.
+/// Moves an octree into `radiance`, whose grid is set, and allocates values for its nodes, undefined as yet.
 void allocateSvoValues(CommandStream& stream, Octree octree, RadianceVoxels& radiance);
 
-/// Values of inner nodes from those of their children, from the leaves up.
+/// Filters the values of inner nodes from those of their children, bottom-up.
 class SvoFilter {
  public:
     explicit SvoFilter(ProgramOwner& owner);
 
-    /// Filters the nodes whose children have changed. `changed`: a bit a node (changedBytes()), set for
-    /// leaves with a new value, or for all nodes; the nodes that get a new value are set.
+    /// Filters the nodes whose children have changed. `changed`: a bit per node (changedBytes()), set for
+    /// leaves with new values, or for all nodes; set for the nodes that get new values, too.
     void run(CommandStream& stream, const RadianceVoxels& radiance, const Buffer& changed) const;
     static uint64_t changedBytes(const OctreeSize& size) {
         return (uint64_t(size.nodeCount()) + 31) / 32 * sizeof(uint32_t);

@@ -14,7 +14,7 @@ struct TextureHeader {
     gpu::TextureLayout layout;
 };
 
-gpu::TextureLayout layoutOf(glm::uvec3 resolution) {
+gpu::TextureLayout textureLayout(glm::uvec3 resolution) {
     gpu::TextureLayout layout{};
     for (int axis = 0; axis < 3; ++axis) layout.extent[axis] = std::bit_ceil(resolution[axis]);
     const int longest = resolution.x >= std::max(resolution.y, resolution.z) ? 0
@@ -33,7 +33,7 @@ class TexturesStorage final : public RadianceStorage {
 
     void plan(PassPlan& plan, const SurfaceVoxels&, RadianceVoxels& radiance) override {
         const gpu::RadianceGrid& grid = radiance.grid;
-        layout_ = layoutOf(grid.resolution);
+        layout_ = textureLayout(grid.resolution);
         planRadianceTexture(plan, "filter_voxels", "set 'layout' to dense",
                             layout_.extent * (1u + (grid.directions - 1u) * layout_.along), grid.levels,
                             radiance);

@@ -9,7 +9,7 @@
 namespace voxray {
 namespace {
 
-/// One texel for each traced texel of the g-buffer, row by row.
+/// Image of the traced texels of the g-buffer, row by row.
 ImageDesc tracedImage(const Frame& frame, uint32_t samples, uint32_t stride) {
     ImageDesc desc = frameImageDesc(frame);
     const glm::uvec2 extent = gbufferExtent(frame, samples);
@@ -57,7 +57,7 @@ class GatherCones final : public Pass {
     };
     explicit GatherCones(const Params& params) : params_(params) {
         if (params_.specular > 0) specular_.emplace(*this);
-        if (params_.nearFieldVoxels > 0) near_.emplace(*this);
+        if (params_.nearFieldVoxels > 0) nearField_.emplace(*this);
     }
 
     void plan(PassPlan& plan) override;
@@ -72,13 +72,13 @@ class GatherCones final : public Pass {
     Out<SpecularLobes> lobes_{*this, "lobes",
                               "what specular lobes reflect; a pass that reads it joins it with 'indirect'",
                               params_.specular > 0};
-    Kernel trace_{*this, "trace.comp"};
+    Kernel trace_{*this, "trace_cones.comp"};
     Kernel resolve_{*this, "resolve.comp"};
     Kernel resolveLobes_{*this, "resolve.comp", {{"SPECULAR", "1"}}};
     Buffer cones_;
     Image irradiance_;
     std::optional<SpecularCones> specular_;
-    std::optional<NearField> near_;
+    std::optional<NearField> nearField_;
 };
 
 void GatherCones::plan(PassPlan& plan) {
@@ -89,17 +89,17 @@ void GatherCones::plan(PassPlan& plan) {
     plan.frameImage(indirect_);
     const ImageDesc traced = tracedImage(plan.frame, plan[gbuffer_].samples, params_.stride);
     plan.image(irradiance_, "gathered irradiance", traced);
-    if (near_) {
+    if (nearField_) {
         if (radiance.emission)
             throw Error(
                 "gather_cones: 'near_field_voxels' measures light at near hits without what they emit, which "
                 "the radiance voxels hold; set it to 0, or 'emission' of filter_voxels to false");
-        near_->plan(plan, radiance,
-                    {params_.nearFieldVoxels, params_.cones, params_.stride, traced.extent,
-                     coneSet(params_.cones).back().width});
+        nearField_->plan(plan, radiance,
+                         {params_.nearFieldVoxels, params_.cones, params_.stride, traced.extent,
+                          coneSet(params_.cones).back().width});
     }
     trace_.define(radiance.defines());
-    trace_.compileIf(!near_);
+    trace_.compileIf(!nearField_);
     resolveLobes_.compileIf(params_.specular > 0);
     if (params_.specular == 0) return;
     SpecularLobes& lobes = plan[lobes_];
@@ -116,8 +116,8 @@ void GatherCones::prepare(PassSetup& setup) {
 void GatherCones::record(PassContext& context) {
     const GBuffer& gbuffer = context[gbuffer_];
     const RadianceVoxels& radiance = context[radiance_];
-    if (near_)
-        near_->record(context, gbuffer, radiance, cones_, irradiance_);
+    if (nearField_)
+        nearField_->record(context, gbuffer, radiance, cones_, irradiance_);
     else
         context.dispatch(trace_, irradiance_.desc().extent,
                          {gbuffer,
@@ -127,7 +127,7 @@ void GatherCones::record(PassContext& context) {
                           {"coneCount", params_.cones},
                           {"stride", params_.stride}});
 
-    // A later pass may join the lobes, which all have told by now.
+    // Unless a later pass adds the lobes; isJoined is final after all plans.
     std::vector<Binding> reflected;
     if (specular_) {
         const SpecularLobes& lobes = context[lobes_];

@@ -1,5 +1,5 @@
-// What the strata of a lobe reflect, for each cosine to the viewer and each roughness: integrals by importance sampling. A thread
-// takes a stratum. Strata hold equal parts of the visible half vectors: one in the center, 6, 12 and so on round it.
+// Integrates the strata of specular lobes by importance sampling, for each cosine to the viewer and each roughness. Strata partition the
+// distribution of visible half vectors into equal parts: one in the center, 6, 12 and so on round it.
 #include "passes/cones/gather_cones/lobe_types.h"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/specular.glsl"
@@ -11,14 +11,14 @@ layout(push_constant) uniform Push {
     uint pointsPerStratum;
 } push;
 
-// The corner and the size of a stratum in the unit square that half vectors are drawn by.
+// Corner and size of a stratum in the unit square that half vectors are sampled from.
 vec4 stratumSquare(uint stratum) {
-    uint before = 0u, ring = 1u;
-    while (stratum >= before + ring) {
-        before += ring;
-        ring = before == 1u ? 6u : ring + 6u;
+    uint inner = 0u, ring = 1u;
+    while (stratum >= inner + ring) {
+        inner += ring;
+        ring = inner == 1u ? 6u : ring + 6u;
     }
-    return vec4(float(stratum - before) / float(ring), float(before) / float(push.strataPerLobe), 1.0 / float(ring),
+    return vec4(float(stratum - inner) / float(ring), float(inner) / float(push.strataPerLobe), 1.0 / float(ring),
                 float(ring) / float(push.strataPerLobe));
 }
 
@@ -41,7 +41,7 @@ void main() {
         const float cosHalf = dot(out_, half_);
         const vec3 in_ = 2.0 * cosHalf * half_ - out_;
         if (in_.z > 0.0) {
-            // The lobe over the density of its sample.
+            // BRDF times cosine over the sample's density.
             const float rootOut = smithRoot(cosOut, alpha), rootIn = smithRoot(in_.z, alpha);
             const float weight = in_.z * (cosOut + rootOut) / (in_.z * rootOut + cosOut * rootIn);
             const float schlick = schlickWeight(cosHalf);

@@ -1,5 +1,5 @@
-// Radiance that each pixel reflects: albedo / pi times the irradiance of the traced texels around it that see much the same,
-// averaged over its sub-pixels. With SPECULAR what specular lobes reflect comes on top of what they leave to the diffuse ones.
+// Reflected radiance of each pixel: albedo / pi times filtered irradiance, averaged over its texels. With SPECULAR the reflection of
+// specular lobes is added, and the diffuse one scaled by what they leave to it.
 #include "passes/cones/gather_cones/texel_stride.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -18,10 +18,9 @@ layout(push_constant, scalar) uniform Push {
     float voxelSize;  // m
 } push;
 
-// Mean over the some 25 traced texels within reach, so that their cones' different directions average out. A texel's weight falls
-// with its distance from the tangent plane, in voxels, since cones know no finer detail, and with the angle between the normals (the
-// error bound of Ward et al. 1988).
-vec3 gathered(ivec2 texel) {
+// Mean over about 25 traced texels, which averages out their cones' different directions. Weights fall with the distance from the tangent
+// plane, in voxels (cones resolve no finer detail), and with the angle between the normals (the error bound of Ward et al. 1988).
+vec3 filteredIrradiance(ivec2 texel) {
     const vec4 p = texelFetch(position, texel, 0);
     if (p.w == 0.0) return vec3(0.0);
     const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
@@ -34,10 +33,10 @@ vec3 gathered(ivec2 texel) {
         const int first = (max(texel.x - reach, 0) - shift + push.stride - 1) / push.stride;
         const int last = (min(texel.x + reach, size.x - 1) - shift + push.stride) / push.stride - 1;
         for (int i = first; i <= last; ++i) {
-            const ivec2 other = ivec2(i * push.stride + shift, y);
-            const vec4 q = texelFetch(position, other, 0);
+            const ivec2 neighbor = ivec2(i * push.stride + shift, y);
+            const vec4 q = texelFetch(position, neighbor, 0);
             if (q.w == 0.0) continue;
-            const float angle = sqrt(max(1.0 - dot(n, normalize(texelFetch(normal, other, 0).xyz)), 0.0));
+            const float angle = sqrt(max(1.0 - dot(n, normalize(texelFetch(normal, neighbor, 0).xyz)), 0.0));
             const float weight = max(1.0 - abs(dot(n, q.xyz - p.xyz)) / push.voxelSize - angle, 0.0);
             sum += weight * texelFetch(irradiance, ivec2(i, y), 0).rgb;
             weights += weight;
@@ -53,7 +52,7 @@ void main() {
     for (int y = 0; y < push.samples; ++y)
         for (int x = 0; x < push.samples; ++x) {
             const ivec2 texel = pixel * push.samples + ivec2(x, y);
-            const vec3 diffuse = texelFetch(albedo, texel, 0).rgb * gathered(texel);
+            const vec3 diffuse = texelFetch(albedo, texel, 0).rgb * filteredIrradiance(texel);
 #ifdef SPECULAR
             const vec4 specular = texelFetch(reflected, texel, 0);
             sum += specular.a * diffuse + PI * specular.rgb;

@@ -5,7 +5,7 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kPoints = 1024;  // Of all integrals of a lobe together: their error is below 0.002.
+constexpr uint32_t kPointsPerLobe = 1024;  // The error of the integrals is below 0.002.
 
 ImageDesc reflectedImage(const Frame& frame, const GBuffer& gbuffer) {
     ImageDesc desc = frameImageDesc(frame);
@@ -16,7 +16,7 @@ ImageDesc reflectedImage(const Frame& frame, const GBuffer& gbuffer) {
 }  // namespace
 
 SpecularCones::SpecularCones(ProgramOwner& owner)
-    : fill_(owner, "lobe_table.comp"), trace_(owner, "specular.comp") {}
+    : fillTable_(owner, "lobe_table.comp"), trace_(owner, "trace_specular_cones.comp") {}
 
 void SpecularCones::plan(PassPlan& plan, const GBuffer& gbuffer, const RadianceVoxels& radiance,
                          uint32_t strata, Image& reflected) {
@@ -28,8 +28,8 @@ void SpecularCones::plan(PassPlan& plan, const GBuffer& gbuffer, const RadianceV
 
 void SpecularCones::prepare(PassSetup& setup) const {
     setup.stream.dispatch(
-        fill_, uint64_t(LOBES) * strata_,
-        {{"strata", table_}, {"strataPerLobe", strata_}, {"pointsPerStratum", kPoints / strata_}});
+        fillTable_, uint64_t(LOBES) * strata_,
+        {{"strata", table_}, {"strataPerLobe", strata_}, {"pointsPerStratum", kPointsPerLobe / strata_}});
 }
 
 void SpecularCones::record(PassContext& context, const GBuffer& gbuffer, const RadianceVoxels& radiance,

@@ -6,13 +6,13 @@
 
 namespace voxray {
 
-/// Light that specular lobes reflect: from each texel of the g-buffer a cone for each stratum of its lobe.
+/// Specular reflection: for each texel of the g-buffer a cone for each stratum of its lobe.
 /// Docs: docs/cone-tracing.md.
 class SpecularCones {
  public:
     explicit SpecularCones(ProgramOwner& owner);
 
-    /// @param strata of a lobe: 1, 7 or 19. @param reflected SpecularLobes::reflected, which it describes.
+    /// @param strata per lobe: 1, 7 or 19. @param reflected SpecularLobes::reflected, to be described.
     void plan(PassPlan& plan, const GBuffer& gbuffer, const RadianceVoxels& radiance, uint32_t strata,
               Image& reflected);
     /// Fills the table of lobes.
@@ -22,7 +22,7 @@ class SpecularCones {
 
  private:
     uint32_t strata_ = 0;
-    Kernel fill_, trace_;
+    Kernel fillTable_, trace_;
     Buffer table_;
 };
 

@@ -5,7 +5,7 @@
 #include "passes/common/lights/light_sources.h"
 #include "passes/common/lights/pane_tint.h"
 #include "passes/common/lights/shadow_map.h"
-#include "passes/common/triangle_walk/triangle_walk.h"
+#include "passes/common/triangle_voxelizer/triangle_voxelizer.h"
 #include "passes/common/voxels/flux_accumulator.h"
 #include "passes/cones/clipmap/clipmap_voxels.h"
 #include "passes/cones/clipmap/radiance_clipmap.h"
@@ -13,7 +13,7 @@
 
 namespace voxray {
 
-/// The layouts of radiance voxels that it can fill.
+/// The layouts of radiance voxels that the pass can fill.
 enum class ClipmapLayout {
     Clipmap = int(RadianceLayout::Clipmap),
     ClipmapTextures = int(RadianceLayout::ClipmapTextures)
@@ -24,8 +24,8 @@ struct EnumNames<ClipmapLayout> {
                                       std::pair{ClipmapLayout::ClipmapTextures, "clipmap_textures"}};
 };
 
-/// Lights the surface voxels of a clipmap by shadow maps, while it visits the triangles in them, and fills
-/// radiance voxels with what they reflect. Docs: docs/clipmap.md.
+/// Lights the surface voxels of a clipmap by shadow maps, per clipped triangle, and fills radiance voxels
+/// with what they reflect. Docs: docs/clipmap.md.
 class LightClipmap final : public Pass {
  public:
     static constexpr const char* kName = "light_clipmap";
@@ -58,17 +58,17 @@ class LightClipmap final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Measures light where windows or, with `moved`, lights or surfaces have changed, and fills all levels.
+    /// Updates light and all levels where windows or, with `moved`, lights or surfaces have changed.
     void relight(PassContext& context, bool moved);
-    /// Direct light of the voxels in boxes of a level. @param voxels these, or others besides.
-    VoxelIrradiance light(PassContext& context, const SurfaceVoxels& voxels,
-                          const std::vector<VoxelBox>& boxes);
-    /// Fills boxes of a level with what the voxels in them reflect.
-    void reflect(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
-                 const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light,
-                 const LargeBuffer& indirect);
-    /// Fills the levels beyond the first that is held whole, each from the one below.
-    void filter(PassContext& context);
+    /// Direct light of the voxels in boxes of a level. @param voxels include these.
+    VoxelIrradiance directLight(PassContext& context, const SurfaceVoxels& voxels,
+                                const std::vector<VoxelBox>& boxes);
+    /// Fills boxes of a level with the radiance that surface voxels reflect.
+    void fillWindow(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
+                    const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light,
+                    const LargeBuffer& indirect);
+    /// Filters the levels above the first that is held whole, each from the one below.
+    void fillCoarseLevels(PassContext& context);
 
     const Params params_;
     In<ClipmapVoxels> clipmap_{*this, "clipmap", "surface voxels to light"};
@@ -76,12 +76,12 @@ class LightClipmap final : public Pass {
     std::vector<LightSource> sources_;
     RadianceClipmap storage_;
     ShadowMaps shadowMaps_{*this};
-    std::unique_ptr<TriangleWalk> walk_ = makeExactWalk();
-    std::unique_ptr<PassProgram> light_ =
-        walk_->makeVisitor(*this, "passes/cones/light_clipmap/light_voxels");
-    Kernel area_{*this, "lit_area.comp"};
-    Kernel window_{*this, "fill_window.comp"};
-    Kernel level_{*this, "fill_level.comp"};
+    std::unique_ptr<TriangleVoxelizer> voxelizer_ = makeExactVoxelizer();
+    std::unique_ptr<PassProgram> lightVoxels_ =
+        voxelizer_->makeProgram(*this, "passes/cones/light_clipmap/light_voxels");
+    Kernel litArea_{*this, "lit_area.comp"};
+    Kernel fillWindow_{*this, "fill_window.comp"};
+    Kernel fillLevel_{*this, "fill_level.comp"};
     FluxAccumulator flux_{*this};
     ConeBounces bounces_{*this, params_.bounceCones};
     std::optional<uint64_t> sceneVersion_;  ///< Of the last frame.
@@ -106,7 +106,7 @@ void LightClipmap::plan(PassPlan& plan) {
     shadowMaps_.plan(plan, sources_, params_.shadowResolution);
 
     if (params_.bounces > 0) bounces_.plan(plan, radiance);
-    for (Kernel* kernel : {&window_, &level_}) kernel->define(radiance.defines());
+    for (Kernel* kernel : {&fillWindow_, &fillLevel_}) kernel->define(radiance.defines());
 }
 
 void LightClipmap::prepare(PassSetup& setup) {
@@ -117,10 +117,9 @@ void LightClipmap::prepare(PassSetup& setup) {
 void LightClipmap::record(PassContext& context) {
     const ClipmapVoxels& clipmap = context[clipmap_];
     RadianceVoxels& radiance = context[radiance_];
-    storage_.follow(context, radiance);
+    storage_.moveWindows(context, radiance);
 
-    // Where a light or a surface moved, a shadow may have moved anywhere. What bounces comes from anywhere,
-    // too.
+    // A light or a surface that moved may move a shadow anywhere.
     const bool moved = sceneVersion_ != context.frame.sceneVersion;
     if (moved) shadowMaps_.draw(context, sources_);
     sceneVersion_ = context.frame.sceneVersion;
@@ -134,6 +133,7 @@ void LightClipmap::record(PassContext& context) {
 void LightClipmap::relight(PassContext& context, bool moved) {
     const ClipmapVoxels& clipmap = context[clipmap_];
     const RadianceVoxels& radiance = context[radiance_];
+    // Bounced light comes from anywhere.
     const bool everywhere = moved || params_.bounces > 0;
 
     // Direct light
@@ -143,14 +143,13 @@ void LightClipmap::relight(PassContext& context, bool moved) {
         const SurfaceVoxels& voxels = everywhere || !level.updated.materials ? level.voxels : level.updated;
         const std::vector<VoxelBox> boxes = everywhere ? std::vector{heldVoxels(voxels.grid)} : level.boxes;
         if (boxes.empty()) continue;
-        VoxelIrradiance direct = light(context, voxels, boxes);
-        reflect(context, l, voxels, boxes, direct, direct.indirect);
+        VoxelIrradiance direct = directLight(context, voxels, boxes);
+        fillWindow(context, l, voxels, boxes, direct, direct.indirect);
         if (params_.bounces > 0) lights[l] = std::move(direct);
     }
-    if (everywhere || !clipmap.levels.back().boxes.empty()) filter(context);
+    if (everywhere || !clipmap.levels.back().boxes.empty()) fillCoarseLevels(context);
 
-    // Each bounce carries all light of the last one on: one more of each order. Of all levels before any is
-    // filled.
+    // Each iteration adds one bounce. All levels are gathered before any is filled.
     for (uint32_t bounce = 1; bounce <= params_.bounces; ++bounce) {
         std::vector<LargeBuffer> flux(clipmap.levels.size());
         for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
@@ -162,46 +161,46 @@ void LightClipmap::relight(PassContext& context, bool moved) {
         for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
             const SurfaceVoxels& voxels = clipmap.levels[l].voxels;
             if (voxels.voxelCount == 0) continue;
-            reflect(context, l, voxels, {heldVoxels(voxels.grid)}, lights[l], flux[l]);
+            fillWindow(context, l, voxels, {heldVoxels(voxels.grid)}, lights[l], flux[l]);
         }
-        filter(context);
+        fillCoarseLevels(context);
     }
     if (params_.bounces > 0) bounces_.release(context.stream);
 }
 
-VoxelIrradiance LightClipmap::light(PassContext& context, const SurfaceVoxels& voxels,
-                                    const std::vector<VoxelBox>& boxes) {
+VoxelIrradiance LightClipmap::directLight(PassContext& context, const SurfaceVoxels& voxels,
+                                          const std::vector<VoxelBox>& boxes) {
     CommandStream& stream = context.stream;
     const Geometry& geometry = context.frame.scene->geometry;
     const uint64_t count = std::max(voxels.voxelCount, 1u);
 
-    // Light that arrives at the clipped fragments in the boxes
+    // Light on the clipped fragments in the boxes
     const VoxelRegion region(voxels.grid, boxes);
-    walk_->select(context, voxels.grid, region, region.triangles(geometry));
+    voxelizer_->select(context, voxels.grid, region, region.triangles(geometry));
     const Buffer litArea(context.device, "lit area", count * kFaces * sizeof(uint32_t));
     stream.fill(litArea, 0);
     flux_.begin(context.device, stream, voxels, totalPower(sources_));
     const Bindings bindings{voxels, flux_.bindings(), shadowMaps_.bindings(), {"litArea", litArea}};
-    walk_->run(context, *light_, voxels.grid, bindings.all(), flux_.unitsPerWatt());
+    voxelizer_->run(context, *lightVoxels_, voxels.grid, bindings.all(), flux_.unitsPerWatt());
     VoxelIrradiance irradiance;
     irradiance.allocate(context.device, uint32_t(count));
     stream.fill(irradiance.indirect, 0);
     flux_.resolve(stream, voxels, irradiance.direct);
     context.dispatch(
-        area_, voxels.voxelCount,
+        litArea_, voxels.voxelCount,
         {voxels, {"litArea", litArea}, {"area", irradiance.area}, {"voxelCount", voxels.voxelCount}});
 
     stream.finish();
-    walk_->release();
+    voxelizer_->release();
     flux_.end();
     return irradiance;
 }
 
-void LightClipmap::reflect(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
-                           const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light,
-                           const LargeBuffer& indirect) {
+void LightClipmap::fillWindow(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
+                              const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light,
+                              const LargeBuffer& indirect) {
     for (const VoxelBox& box : boxes) {
-        context.dispatch(window_, box.count(),
+        context.dispatch(fillWindow_, box.count(),
                          {voxels,
                           context[radiance_].fillBindings(),
                           {"DirectFluxAt", light.direct.at()},
@@ -215,12 +214,12 @@ void LightClipmap::reflect(PassContext& context, uint32_t level, const SurfaceVo
     context.stream.finish();
 }
 
-void LightClipmap::filter(PassContext& context) {
+void LightClipmap::fillCoarseLevels(PassContext& context) {
     const RadianceVoxels& radiance = context[radiance_];
     for (uint32_t l = storage_.windows().firstWhole() + 1; l < radiance.grid.levels; ++l) {
         const glm::uvec3 size = levelResolution(radiance.grid.resolution, l);
         const uint64_t voxels = uint64_t(size.x) * size.y * size.z;
-        context.dispatch(level_, voxels, {radiance.fillBindings(), {"level", l}});
+        context.dispatch(fillLevel_, voxels, {radiance.fillBindings(), {"level", l}});
         updatedVoxels_ += voxels;
     }
 }

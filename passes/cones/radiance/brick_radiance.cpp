@@ -12,7 +12,7 @@ struct Header {
 };
 static_assert(sizeof(gpu::RadianceGrid) % sizeof(VkDeviceAddress) == 0);
 
-Defines ofLayout() {
+Defines brickDefines() {
     RadianceVoxels radiance;
     radiance.layout = RadianceLayout::SvoBricks;
     return radiance.defines();
@@ -21,7 +21,8 @@ Defines ofLayout() {
 }  // namespace
 
 BrickRadiance::BrickRadiance(ProgramOwner& owner)
-    : transfer_(owner, "brick_transfer.comp", ofLayout()), filter_(owner, "brick_filter.comp", ofLayout()) {}
+    : transfer_(owner, "brick_transfer.comp", brickDefines()),
+      filter_(owner, "brick_filter.comp", brickDefines()) {}
 
 void BrickRadiance::plan(PassPlan& plan, RadianceVoxels& radiance) {
     radiance.grid.unit = 1;  // BrickScale has it.
@@ -30,11 +31,12 @@ void BrickRadiance::plan(PassPlan& plan, RadianceVoxels& radiance) {
     plan.buffer(radiance.header, "octree of bricks' header", sizeof(Header));
 }
 
-void BrickRadiance::follow(CommandStream& stream, const BrickOctree& octree, RadianceVoxels& radiance) const {
+void BrickRadiance::setOctree(CommandStream& stream, const BrickOctree& octree,
+                              RadianceVoxels& radiance) const {
     Buffer& bricks = radiance.storage[1];
     uint64_t bytes = octree.brickCount * kBrickBytes;
     if (!bricks || bricks.bytes() < bytes) {
-        if (bricks) bytes += bytes / 8;  // As the pool of nodes.
+        if (bricks) bytes += bytes / 8;  // Spare, as in the pool of nodes.
         bricks = {};
         bricks = Buffer(stream.device(), "octree bricks", bytes);
     }
@@ -48,19 +50,20 @@ void BrickRadiance::filter(CommandStream& stream, const BrickOctree& octree,
     transfer(stream, radiance, octree.levels[0], 0.5f);
     for (size_t level = 1; level < octree.levels.size(); ++level) {
         const gpu::LevelNodes& nodes = octree.levels[level];
-        for (const auto& [from, to] : {std::pair{0u, 0u}, std::pair{1u, 2u}, std::pair{3u, 3u}})
+        for (const auto& [minSides, maxSides] : {std::pair{0u, 0u}, std::pair{1u, 2u}, std::pair{3u, 3u}})
             stream.dispatch(filter_, nodesOf(nodes),
-                            {radiance, {"nodes", nodes}, {"firstSides", from}, {"lastSides", to}});
+                            {radiance, {"nodes", nodes}, {"minSides", minSides}, {"maxSides", maxSides}});
         transfer(stream, radiance, nodes, 1);
     }
 }
 
 void BrickRadiance::transfer(CommandStream& stream, const RadianceVoxels& radiance,
-                             const gpu::LevelNodes& nodes, float part) const {
+                             const gpu::LevelNodes& nodes, float weight) const {
     for (uint32_t axis = 0; axis < 3; ++axis)
         for (const uint32_t isBack : {0u, 1u})
-            stream.dispatch(transfer_, nodesOf(nodes),
-                            {radiance, {"nodes", nodes}, {"axis", axis}, {"part", part}, {"isBack", isBack}});
+            stream.dispatch(
+                transfer_, nodesOf(nodes),
+                {radiance, {"nodes", nodes}, {"axis", axis}, {"weight", weight}, {"isBack", isBack}});
 }
 
 }  // namespace voxray

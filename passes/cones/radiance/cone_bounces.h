@@ -10,7 +10,7 @@
 
 namespace voxray {
 
-/// The parameters of a pass that lets light bounce by cones; it adds schema() to its own with std::tuple_cat.
+/// Parameters of a pass with bounces by cones; it adds schema() to its own with std::tuple_cat.
 struct ConeBounceParams {
     uint32_t bounces = 0;
     uint32_t bounceCones = 6;
@@ -25,33 +25,33 @@ struct ConeBounceParams {
     }
 };
 
-/// Light that voxels throw at each other: irradiance of each voxel's faces by a set of cones through radiance
-/// voxels. Docs: docs/cone-tracing.md.
+/// Diffuse interreflection between surface voxels: irradiance of each voxel's faces by a set of cones through
+/// radiance voxels. Docs: docs/cone-tracing.md.
 class ConeBounces {
  public:
-    /// @param cones of the set, see coneSet().
+    /// @param cones in the set, see coneSet().
     ConeBounces(ProgramOwner& owner, uint32_t cones);
 
-    /// Where light bounces: without it nothing is compiled. @param radiance with its layout.
+    /// Only where there are bounces: without this call nothing is compiled. @param radiance with its layout.
     void plan(PassPlan& plan, const RadianceVoxels& radiance);
-    /// Likewise.
+    /// Only where there are bounces.
     void prepare(PassSetup& setup);
-    /// Flux that arrives at the voxels' faces from what `radiance` holds now, into `flux()`.
-    /// @param injected light, which tells the insides of solids.
+    /// Gathers flux at the voxels' faces from the current contents of `radiance`, into `flux()`.
+    /// @param injected light, by which the insides of solids are recognized.
     void gather(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& injected,
                 const RadianceVoxels& radiance);
-    /// As VoxelIrradiance::indirect.
+    /// Laid out as VoxelIrradiance::indirect.
     const LargeBuffer& flux() const { return flux_; }
-    /// The same, to keep: the next gather() begins again.
+    /// The same, handed over: the next gather() allocates anew.
     LargeBuffer takeFlux() { return std::move(flux_); }
-    /// Frees what gather() took and would keep for the next one. Waits for the device.
+    /// Frees the buffers that gather() keeps for its next call. Waits for the device.
     void release(CommandStream& stream);
 
  private:
-    void list(PassContext& context, const SurfaceVoxels& voxels);
+    void listVoxels(PassContext& context, const SurfaceVoxels& voxels);
 
     uint32_t cones_;
-    Kernel list_, gather_;
+    Kernel listVoxels_, gather_;
     Buffer coneSet_, voxelCoordinates_;
     LargeBuffer flux_;
 };

@@ -7,23 +7,23 @@
 namespace voxray {
 namespace {
 
-/// Strata next to each other round the normal.
+/// A ring of strata round the normal.
 struct Ring {
     uint32_t cones;
-    double within;  ///< The part of an even hemisphere's irradiance that comes from this ring and those in
-                    ///< it: the squared sine of the angle from the normal at which it ends.
+    double within;  ///< Fraction of a uniform hemisphere's irradiance from this ring and those within it: the
+                    ///< squared sine of the angle from the normal at which it ends.
 };
 
 /// Rings from the normal outwards. In the set of six the cap ends halfway between the thesis's cones, at 30°;
-/// in the others each cone weighs the same.
+/// in the others all cones have equal weights.
 const std::map<uint32_t, std::vector<Ring>>& sets() {
-    static const std::map<uint32_t, std::vector<Ring>> all{
+    static const std::map<uint32_t, std::vector<Ring>> rings{
         {5, {{1, 1 / 5.0}, {4, 1}}},
         {6, {{1, 1 / 4.0}, {5, 1}}},
         {16, {{1, 1 / 16.0}, {6, 7 / 16.0}, {9, 1}}},
         {36, {{1, 1 / 36.0}, {6, 7 / 36.0}, {11, 18 / 36.0}, {18, 1}}},
     };
-    return all;
+    return rings;
 }
 
 }  // namespace
@@ -32,8 +32,8 @@ std::vector<gpu::Cone> coneSet(uint32_t count) {
     std::vector<gpu::Cone> cones;
     double inner = 0;
     for (const Ring& ring : sets().at(count)) {
-        // Half as wide as a circular cone of the stratum's solid angle, 2 pi (1 - cosine): directions wander
-        // through the whole stratum, and what a cone blurs comes on top of that.
+        // Half as wide as a circular cone of the stratum's solid angle, 2 pi (1 - cosine): dithered
+        // directions cover the stratum already, and the cone's blur adds to that.
         const double cosine = 1 - (std::sqrt(1 - inner) - std::sqrt(1 - ring.within)) / ring.cones;
         const double width = std::sqrt(1 - cosine * cosine) / cosine;
         for (uint32_t i = 0; i < ring.cones; ++i)

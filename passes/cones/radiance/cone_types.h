@@ -7,10 +7,10 @@
 VOXRAY_SHARED_BEGIN
 
 struct Cone {
-    vec2 sineSquared;  // Of the angles from the normal between which its stratum lies.
+    vec2 sineSquared;  // Of the angles from the normal at which its stratum begins and ends.
     float azimuth;     // Of the stratum's center.
-    float weight;  // Part of the irradiance of an even hemisphere that comes through it; a set's add up to 1.
-    float width;   // Of the cone at unit distance: twice the tangent of half its angle.
+    float weight;      // Fraction of a uniform hemisphere's irradiance; the weights of a set add up to 1.
+    float width;       // At unit distance: twice the tangent of half the cone's angle.
 };
 
 VOXRAY_SHARED_END

@@ -8,39 +8,39 @@ bool inWindow(ClipmapWindow w, ivec3 voxel) {
     return all(greaterThanEqual(voxel, w.first)) && all(lessThan(voxel, w.first + ivec3(w.size)));
 }
 
-// How windows are stored. The file that is included declares
-//  - radianceVoxels, a buffer with a RadianceGrid `grid`; `side`, the voxels along an axis that a window holds at most, a power of
-//    two; `firstWhole`, the first level that is held whole, as are all after it; and the windows by level, `window`;
-//  - CLIPMAP_SLOT clipmapSlot(uint level, ivec3 voxel): where a voxel in the window of a level stands: its coordinates modulo the
-//    window's side, so that what stays in the window stays in place when the window moves;
+// How windows are stored. The included file declares
+//  - radianceVoxels, a buffer with a RadianceGrid `grid`; `side`, the size of a window in voxels at most, a power of two; `firstWhole`,
+//    the first level that is held whole, as are all coarser ones; and the windows by level, `window`;
+//  - CLIPMAP_SLOT clipmapSlot(uint level, ivec3 voxel): the slot of a voxel in the window of a level. Addressing is toroidal
+//    (coordinates modulo `side`), so that a voxel keeps its slot when the window moves;
 //  - vec4 radianceValue(CLIPMAP_SLOT slot, uint face), and storeRadiance(slot, face, value) for shaders that fill windows. `face`: 0 to
 //    5 for +x -x +y -y +z -z, 0 with one value for all;
-//  - vec4 storedRadiance(vec4 value): a value as it is after it was stored;
-//  - vec4 sampleWindow(uint level, vec3 position, vec3 direction): what a window holds, interpolated; nothing outside of it.
+//  - vec4 quantizedRadiance(vec4 value): a value as it reads after it was stored;
+//  - vec4 sampleWindow(uint level, vec3 position, vec3 direction): as sampleLevel(), from one window; 0 outside of it.
 #ifdef RADIANCE_CLIPMAP_TEXTURES
 #include "passes/cones/radiance/radiance_clipmap_textures.glsl"
 #else
 #include "passes/cones/radiance/radiance_clipmap_buffer.glsl"
 #endif
 
-// The weight of a level at a position, against that of the next coarser one: 1 or more, the level alone counts; 0 or less, it does
-// not. It falls linearly over a transition zone before the window's border, by the distance along the nearest axis; with
-// RADIANCE_CLIPMAP_EUCLIDEAN, before the border of a ball, as in Arnebäck 2017, section 4.2.1.
+// Blend weight of a level against the next coarser one: from 1 on the level alone counts, up to 0 it does not count. It falls linearly
+// over a transition zone before the window's border, by the maximum norm; with RADIANCE_CLIPMAP_EUCLIDEAN before the border of a ball,
+// as in Arnebäck 2017, section 4.2.1.
 float windowWeight(uint level, vec3 position) {
     const RadianceGrid g = radianceVoxels.grid;
-    // Outside of the grid there is nothing: its border decides.
+    // Positions outside of the grid take the weight at its border.
     const vec3 inGrid = clamp(position, g.origin, g.origin + g.voxelSize * vec3(g.resolution));
 #ifdef RADIANCE_CLIPMAP_EUCLIDEAN
     return (radianceVoxels.window[level].reach.x - distance(inGrid, radianceVoxels.window[level].center)) *
-           radianceVoxels.window[level].fall;
+           radianceVoxels.window[level].falloff;
 #else
-    const vec3 left = radianceVoxels.window[level].reach - abs(inGrid - radianceVoxels.window[level].center);
-    return min(left.x, min(left.y, left.z)) * radianceVoxels.window[level].fall;
+    const vec3 remaining = radianceVoxels.window[level].reach - abs(inGrid - radianceVoxels.window[level].center);
+    return min(remaining.x, min(remaining.y, remaining.z)) * radianceVoxels.window[level].falloff;
 #endif
 }
 
-// The finest level that counts at a position. Between two levels the fractional part is the coarser one's weight. It follows the
-// camera itself and is 1 before the window ends: so nothing jumps when the window follows the camera in whole voxels.
+// The finest level that counts at a position, fractional in transition zones: its fraction is the coarser level's weight. The zone
+// follows the camera continuously and ends before the window, so that nothing pops when the window moves by a voxel.
 float minimumLevel(vec3 position) {
     for (uint level = 0u; level < radianceVoxels.firstWhole; ++level) {
         const float weight = windowWeight(level, position);
@@ -49,33 +49,34 @@ float minimumLevel(vec3 position) {
     return float(radianceVoxels.firstWhole);
 }
 
-// Where the window of a level ends, coarser levels stand in for it. A layer of a coarser level is thicker: its values are scaled by
-// the ratio of the thicknesses, so that a surface has the same opacity on all levels.
+// Beyond the window of a level coarser levels replace it. Their values are scaled by the ratio of the layers' thicknesses, so that a
+// surface has the same opacity on all levels.
 #ifdef RADIANCE_CLIPMAP_TEXTURES
-// In a loop: lavapipe copies its filter's code to each place that calls it, and takes long to compile.
+// In a loop: lavapipe inlines its texture filter at each call, which takes long to compile.
 vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     const float finest = max(minimumLevel(position), float(level));
     const uint finer = uint(finest);
-    const float part = finest - float(finer);
-    vec4 met = vec4(0.0);
-    for (uint l = finer; l <= (part > 0.0 ? finer + 1u : finer); ++l)
-        met += (l == finer ? 1.0 - part : part) * exp2(float(level) - float(l)) * sampleWindow(l, position, direction);
-    return met;
+    const float coarserWeight = finest - float(finer);
+    vec4 sum = vec4(0.0);
+    for (uint l = finer; l <= (coarserWeight > 0.0 ? finer + 1u : finer); ++l)
+        sum += (l == finer ? 1.0 - coarserWeight : coarserWeight) * exp2(float(level) - float(l)) * sampleWindow(l, position, direction);
+    return sum;
 }
 #else
 vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     const float finest = minimumLevel(position);
     if (float(level) >= finest) return sampleWindow(level, position, direction);
     const uint finer = uint(finest);
-    const float part = finest - float(finer);
-    vec4 met = (1.0 - part) * exp2(float(level) - float(finer)) * sampleWindow(finer, position, direction);
-    if (part > 0.0) met += part * exp2(float(level) - float(finer) - 1.0) * sampleWindow(finer + 1u, position, direction);
-    return met;
+    const float coarserWeight = finest - float(finer);
+    vec4 sum = (1.0 - coarserWeight) * exp2(float(level) - float(finer)) * sampleWindow(finer, position, direction);
+    if (coarserWeight > 0.0)
+        sum += coarserWeight * exp2(float(level) - float(finer) - 1.0) * sampleWindow(finer + 1u, position, direction);
+    return sum;
 }
 #endif
 
-// The next level counts from where a window's weight falls below 1. A cone has to keep clear of its voxels there. In a zone as wide
-// before that a growing part of the cones does so already, chosen by dithering, so that light doesn't jump where the level changes.
+// Where a window's weight is below 1, the next level counts, and cones must start clear of its voxels. In a zone of equal width before
+// that a growing fraction of the cones, chosen by dithering, does so already: light then changes gradually.
 uint startLevel(vec3 position, float dither) {
     for (uint level = 0u; level < radianceVoxels.firstWhole; ++level) {
         const float weight = windowWeight(level, position);

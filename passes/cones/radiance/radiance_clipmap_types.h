@@ -10,15 +10,15 @@
 
 VOXRAY_SHARED_BEGIN
 
-// The part of a level that is held: a box of its voxels.
+// The box of a level's voxels that is held.
 struct ClipmapWindow {
-    ivec3 first;  // Voxel of the level at the box's lower corner.
-    uvec3 size;   // Voxels along each axis.
-    uint begin;   // Voxels of the levels before.
-    vec3 center;  // m
-    vec3 reach;   // m from the center to where its weight in samples has fallen to 0; endless along axes that
-                  // it holds whole.
-    float fall;   // By how much that weight falls for each metre before the reach ends.
+    ivec3 first;      // Voxel of the level at the box's lower corner.
+    uvec3 size;       // Voxels along each axis.
+    uint slotOffset;  // Voxels of all finer levels.
+    vec3 center;      // m
+    vec3 reach;       // m from the center to where its weight in samples is 0; unbounded along axes that are
+                      // held whole.
+    float falloff;    // Decrease of that weight per metre before the reach ends.
 };
 
 VOXRAY_SHARED_END

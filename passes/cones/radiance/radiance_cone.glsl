@@ -1,5 +1,5 @@
-// A cone through prefiltered radiance voxels, traced front to back (Crassin et al. 2011, section 7), by layers of voxels in place
-// of points along its axis.
+// Voxel cone tracing, front to back (Crassin et al. 2011, section 7), with samples in layers of voxels rather than at free distances
+// along the cone.
 //
 //          layer   layer     layer of a coarser level
 //        |   .   |   .   |       .       |
@@ -8,40 +8,40 @@
 //    o---|--_x---|-'     |       .       |
 //        |   .   |   .   |       .       |
 //
-// Along each of the three axes the cone meets every layer of voxels that it crosses exactly once, and reads there the faces that
-// look against it along that axis. A closed surface then has an opacity of 1 whatever its voxels' positions: the parts of its
-// area that project onto the three axes are each counted once. Samples at free distances along the cone would hit a wall of one
-// voxel's thickness twice or not at all. Nothing behind the cone's start contributes.
+// Along each of the three axes the cone samples every layer of voxels that it crosses exactly once, and reads there the faces that
+// oppose it along that axis. A closed surface then has an opacity of 1 wherever its voxels lie: the three projections of its area are
+// each counted once. Samples at free distances would hit a wall of one voxel's thickness twice or not at all. Nothing behind the
+// cone's start contributes.
 #ifndef VOXRAY_RADIANCE_CONE_GLSL
 #define VOXRAY_RADIANCE_CONE_GLSL
 
 #include "passes/cones/radiance/radiance_voxels.glsl"
 #include "shaders/voxels/face.glsl"
 
-// A cone ends where less than this part of what lies behind would still be seen.
+// A cone ends at this transmittance.
 #define MIN_TRANSMITTANCE 0.002
 
 // Where cones start: a point of a surface.
 struct ConeBase {
-    vec3 position;  // m, lifted off the surface by 1/256 of a voxel.
+    vec3 position;  // m, offset from the surface by 1/256 of a voxel.
     vec3 normal;    // The surface's geometric normal, unit length.
-    uint level;     // Finest level of the samples: 0 but in a clipmap's outer windows.
-    float clear;    // m from the start along a cone in which there is known to be no surface.
-    // By axis: height above the surface's plane, in voxels of a sample's level, from which on a sample of a layer across that axis
-    // does not read the surface itself. 0 where the surface has no faces along the axis.
+    uint level;     // Finest level of the samples: above 0 in a clipmap's outer windows.
+    float clear;    // m from the start along the cones that are known to be free of surfaces.
+    // By axis: height above the surface's plane, in voxels of a sample's level, above which a sample of a layer across that axis does
+    // not read the surface itself. 0 where the surface has no faces along the axis.
     vec3 clearHeight;
-    // By face +x -x +y -y +z -z: what a cone that sets out that way meets within the start's own voxel.
-    vec4 ownVoxel[6];
+    // By face +x -x +y -y +z -z: radiance times opacity, and opacity, within the start's voxel, for a cone that leaves it that way.
+    vec4 startVoxel[6];
 };
 
-// Radiance and opacity of a wall that stands on the surface within the start's own voxel, against a cone that goes along `face`.
-// The voxel alone can't tell whether the wall is in front of the start or behind it:
+// Radiance and opacity of a wall that stands on the surface within the start's voxel, for a cone along `face`. The voxel alone can't
+// tell whether the wall is in front of the start or behind it:
 //
 //      in front:   o  |          behind:   |  o
-//              _______|____                |______________     the surface goes on in the next voxel
+//              _______|____                |______________     the surface continues in the next voxel
 //
-// A surface ends at a wall that stands on it. So where the surface goes on in the next voxel along `face`, the wall is behind.
-vec4 wallInOwnVoxel(ConeBase base, uint face) {
+// A surface ends at a wall that stands on it: where it continues in the next voxel along `face`, the wall is behind.
+vec4 wallInStartVoxel(ConeBase base, uint face) {
     const float voxel = radianceVoxelSize(base.level);
     const vec3 forward = faceNormal(face), size = abs(base.normal);
     const uint axis = size.x >= size.y && size.x >= size.z ? 0u : size.y >= size.z ? 1u : 2u;
@@ -53,8 +53,8 @@ vec4 wallInOwnVoxel(ConeBase base, uint face) {
     return sampleLevel(base.level, inWall + voxel * up, forward);
 }
 
-// `dither`, 0 to 1, differs from cone to cone: between two windows of a clipmap it chooses the start level, so that the change from
-// one to the other is gradual. `clear`, m: there is known to be no surface so near to the start along the cones; 0: nothing is known.
+// `dither`, 0 to 1: between two windows of a clipmap it chooses the start level, so that the transition is gradual. `clear`, m: length
+// from the start along the cones that is known to be free of surfaces; 0: unknown.
 ConeBase coneBase(vec3 position, vec3 normal, float dither, float clear) {
     ConeBase base;
     base.position = position + normal * (radianceVoxels.grid.voxelSize / 256.0);
@@ -67,21 +67,21 @@ ConeBase coneBase(vec3 position, vec3 normal, float dither, float clear) {
     base.clearHeight = vec3(1.5 * (size.x + size.y + size.z)) - size;
     if (radianceVoxels.grid.directions == 6u) base.clearHeight = mix(base.clearHeight, vec3(0.0), lessThan(size, vec3(0.1)));
     for (uint face = 0u; face < 6u; ++face)
-        base.ownVoxel[face] = clear > 0.0 || base.clearHeight[face >> 1] > 0.0 ? vec4(0.0) : wallInOwnVoxel(base, face);
+        base.startVoxel[face] = clear > 0.0 || base.clearHeight[face >> 1] > 0.0 ? vec4(0.0) : wallInStartVoxel(base, face);
     return base;
 }
 
-// A cone's way through the layers across one axis. While it crosses a layer it also drifts along it, by several voxels where it is
-// nearly parallel to the layer: then `samples` samples, evenly spaced over the crossing, each count by 1 / samples.
+// State of a cone along one axis. While crossing a layer the cone also moves along it, by several voxels where it is nearly parallel
+// to it: then `samples` samples, evenly spaced over the crossing, count 1 / samples each.
 struct ConeAxis {
     float start;  // In voxels of level 0, in the direction of travel.
     float speed;  // Voxels a metre.
-    int first;    // Where the first layer begins.
-    int next;     // Where the next one does.
-    int end;      // Where the grid ends.
+    int first;    // Begin of the first layer.
+    int next;     // Begin of the next layer.
+    int end;      // End of the grid.
     uint level;   // Of the next layer.
-    int samples;  // Samples in it.
-    int sample_;  // The next one of them.
+    int samples;  // In the next layer.
+    int sample_;  // Index of the next one of them.
     float t;      // m from the cone's start to it.
 };
 
@@ -90,19 +90,18 @@ struct ConeShape {
     float width;   // At unit distance.
     float dither;  // Of levels, -1/2 to 1/2.
     float speed;   // Voxels a metre, of all axes together.
-    float exit_;   // m from its start to where it leaves the grid.
+    float exit_;   // m from the start to where the cone leaves the grid.
     uint finest;   // The finest level that it samples.
 };
 
 void placeSample(inout ConeAxis axis) {
-    const float part = (float(axis.sample_) + 0.5) / float(axis.samples);
-    axis.t = (float(axis.next) + part * float(1u << axis.level) - axis.start) / axis.speed;
+    const float fraction = (float(axis.sample_) + 0.5) / float(axis.samples);
+    axis.t = (float(axis.next) + fraction * float(1u << axis.level) - axis.start) / axis.speed;
 }
 
-// The next layer: the coarsest that begins where the last one ended and is no wider than half the cone there, give or take half a
-// level by dithering. A voxel's filter, a tent two voxels wide convolved with a box of one, then has the variance of the cone's
-// cross-section.
-// `clearance`: width of a voxel, at unit distance, up to which its samples don't read the surface that the cone starts from.
+// Selects the next layer: the coarsest that begins at the end of the last one and is at most half as wide as the cone there, dithered by
+// half a level. A voxel's filter, a tent two voxels wide convolved with a box of one, then has the variance of the cone's cross-section.
+// `clearance`: the largest voxel, per unit of distance, whose samples don't read the surface that the cone starts from.
 void findLayer(inout ConeAxis axis, ConeShape shape, float clearance) {
     axis.t = 1.0e30;
     const float voxel = radianceVoxels.grid.voxelSize;
@@ -125,61 +124,59 @@ void advance(inout ConeAxis axis, ConeShape shape, float clearance) {
     findLayer(axis, shape, clearance);
 }
 
-// What a cone has collected. Opacities of samples closer to each other than a voxel's diagonal belong to one surface and add up;
-// after a gap the next surface is composited behind the last one, as if independent of it.
+// Compositing. Opacities of samples closer to each other than a voxel's diagonal belong to one surface and add up; after a gap the next
+// surface is composited behind the last one, as if independent of it.
 //
-// Columns. Interpolated opacities of a slanted surface add up to 1 only on average: its voxels form stairs, and a cone may slip
-// between two steps.
+// Columns. Interpolated opacities of a slanted surface add up to 1 only on average: its voxels form stairs, and a cone may pass between
+// two steps.
 //
 //        [ ][ ]            the cone ---> passes between the voxels of the upper and the lower step,
 //      -------------->     although along each column (down) the surface is closed
 //              [ ][ ]
 //
-// Along one column of voxels, across the cone's layers, the opacities add up to exactly 1. So a sample also raises the opacity to
-// that of its column: the faces in COLUMN_LAYERS layers up to this one that look against the cone, less those that look the other
-// way, which belong to what lies behind the surface. A plane of any orientation hides 0.97, 0.99, 1.00 of the rays with columns of
-// 2, 3, 4 layers.
+// Along a column of voxels, across the cone's layers, the opacities add up to exactly 1. So a sample also raises the opacity to that of
+// its column: of the faces in COLUMN_LAYERS layers up to this one that oppose the cone, less those that face along it, which belong to
+// what lies behind the surface. A plane of any orientation occludes 0.97, 0.99, 1.00 of the rays with columns of 2, 3, 4 layers.
 #define COLUMN_LAYERS 3
 
 struct ConeLight {
     vec3 radiance;
     float transmittance;  // Through the surfaces before the current one.
     float opacity;        // Of the current surface, so far; at most 1.
-    float backFacing;     // Opacity of its faces that look along the cone, less of those that look against it.
-    float blocked;        // The part of its opacity that is black.
-    float lastT;          // m from the start to where the cone met it last.
-    vec3 column;          // By axis: opacity of the columns that the cone has crossed in the current layer, weighted by sample.
+    float backFacing;     // Opacity of its faces along the cone, less that of the faces that oppose it.
+    float blocked;        // Its opacity that is black.
+    float lastT;          // m from the start to its last sample.
+    vec3 column;          // By axis: opacity of the columns in the current layer, weighted by sample.
 };
 
-// Raises the current surface's opacity to `opacity` with radiance from `met` (radiance times opacity, opacity).
-void raiseOpacity(inout ConeLight light, float opacity, vec4 met) {
+// Raises the current surface's opacity to `opacity` with the radiance of `value` (radiance times opacity, opacity).
+void raiseOpacity(inout ConeLight light, float opacity, vec4 value) {
     const float added = min(opacity, 1.0) - light.opacity;
-    if (added <= 0.0 || met.a <= 0.0) return;
-    light.radiance += light.transmittance * added / met.a * met.rgb;
+    if (added <= 0.0 || value.a <= 0.0) return;
+    light.radiance += light.transmittance * added / value.a * value.rgb;
     light.opacity += added;
 }
 
-// A sample. `met`: faces that look against the cone. `back`: opacity of those that look along it. A surface that shows more back
-// faces than front faces is met from behind: it blocks the cone and is black there. Up to half an opacity of back faces may belong
-// to the stairs of a slanted surface that is met from the front; what goes beyond that half counts twice, so that a full back face
-// blocks in full.
-void meet(inout ConeLight light, vec4 met, float back, float t, float voxel) {
-    if (met.a + back <= 0.0) return;
+// Composites a sample. `front`: of the faces that oppose the cone. `back`: opacity of the faces along it. A surface with more back faces
+// than front faces is seen from behind: it blocks the cone and is black. Up to an opacity of 1/2 of back faces may belong to the stairs
+// of a slanted surface seen from the front; the excess counts twice, so that a full back face blocks in full.
+void addSample(inout ConeLight light, vec4 front, float back, float t, float voxel) {
+    if (front.a + back <= 0.0) return;
     if (t - light.lastT > 1.75 * voxel) {
         light.transmittance *= 1.0 - light.opacity;
         light.opacity = light.backFacing = light.blocked = 0.0;
         light.column = vec3(0.0);
     }
     light.lastT = t;
-    light.backFacing += back - met.a;
+    light.backFacing += back - front.a;
     const float blocked = max(clamp(2.0 * light.backFacing - 1.0, 0.0, 1.0) - light.blocked, 0.0);
     light.blocked += blocked;
     light.opacity = min(light.opacity + blocked, 1.0);
-    raiseOpacity(light, light.opacity + met.a, met);
+    raiseOpacity(light, light.opacity + front.a, front);
 }
 
-// Radiance that arrives at `base` through a cone along `direction` (unit, above the surface), `width` wide at unit distance, whose
-// levels are shifted by `dither`, -1/2 to 1/2.
+// Radiance that arrives at `base` through a cone along `direction` (unit, above the surface), `width` wide at unit distance, with
+// levels shifted by `dither`, -1/2 to 1/2.
 vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
     const RadianceGrid g = radianceVoxels.grid;
     const bool faces = g.directions == 6u;
@@ -188,8 +185,8 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
     const float speed = (abs(direction.x) + abs(direction.y) + abs(direction.z)) / g.voxelSize;
     ConeShape shape = ConeShape(width, dither, speed, 1.0e30, base.level);
 
-    // Coordinates are mirrored where needed, so that the cone travels upwards along each axis: about a multiple of the coarsest voxels'
-    // width, of which the grid may be several wide. Then what it meets in its own voxel.
+    // Axes are mirrored, about a multiple of the coarsest voxels' width, such that the cone travels along each in the positive direction.
+    // Then the contribution of the start's voxel.
     const int coarsest = 1 << (g.levels - 1u);
     const int mirrored = (int(max(g.resolution.x, max(g.resolution.y, g.resolution.z))) + coarsest - 1) & -coarsest;
     ConeAxis axis[3];
@@ -197,24 +194,24 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
     for (uint k = 0u; k < 3u; ++k) {
         const bool up = direction[k] >= 0.0;
         const float inGrid = (base.position[k] - g.origin[k]) / g.voxelSize;
-        const bool still = abs(direction[k]) < 1e-3;
+        const bool parallel_ = abs(direction[k]) < 1e-3;
         axis[k].start = up ? inGrid : float(mirrored) - inGrid;
-        axis[k].speed = still ? 1.0 : abs(direction[k]) / g.voxelSize;
+        axis[k].speed = parallel_ ? 1.0 : abs(direction[k]) / g.voxelSize;
         axis[k].level = base.level;
         axis[k].next = ((int(floor(axis[k].start)) >> base.level) + 1) << base.level;
-        const float reached = axis[k].start + (still ? 0.0 : axis[k].speed * base.clear);
+        const float reached = axis[k].start + (parallel_ ? 0.0 : axis[k].speed * base.clear);
         axis[k].next = max(axis[k].next, (int(floor(reached)) >> base.level) << base.level);
         axis[k].first = axis[k].next;
-        axis[k].end = still ? axis[k].next : up ? int(g.resolution[k]) : mirrored;
-        if (!still) shape.exit_ = min(shape.exit_, (float(axis[k].end) - axis[k].start) / axis[k].speed);
-        const vec4 own = abs(direction[k]) * base.ownVoxel[2u * k + (up ? 0u : 1u)];
-        meet(light, own, 0.0, 0.0, radianceVoxelSize(base.level));
+        axis[k].end = parallel_ ? axis[k].next : up ? int(g.resolution[k]) : mirrored;
+        if (!parallel_) shape.exit_ = min(shape.exit_, (float(axis[k].end) - axis[k].start) / axis[k].speed);
+        const vec4 startValue = abs(direction[k]) * base.startVoxel[2u * k + (up ? 0u : 1u)];
+        addSample(light, startValue, 0.0, 0.0, radianceVoxelSize(base.level));
     }
 
     for (uint k = 0u; k < 3u; ++k) findLayer(axis[k], shape, clearance[k]);
 
-    // The nearest sample of the three axes, over and over. There are at most one and a half samples for each voxel's width of the way,
-    // along all axes together, and those of the first layer of an axis that the cone is nearly perpendicular to.
+    // Each step takes the nearest sample of the three axes. There are at most one and a half samples per voxel width of the path, of all
+    // axes together, and those of the first layer of an axis that the cone is nearly perpendicular to.
     const int maxSteps = 4 * int(g.resolution.x + g.resolution.y + g.resolution.z);
     for (int step_ = 0; step_ < maxSteps && light.transmittance * (1.0 - light.opacity) > MIN_TRANSMITTANCE; ++step_) {
         const uint k = axis[0].t <= axis[1].t ? (axis[0].t <= axis[2].t ? 0u : 2u) : (axis[1].t <= axis[2].t ? 1u : 2u);
@@ -223,15 +220,15 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
         // The last layer may be thicker than the grid.
         if (t > shape.exit_ + 2.0 * voxel) break;
 
-        // A sample that stands for a part of the way that is known to be clear is left out. One that may still read the start's own
-        // surface doesn't block the cone. With one value for all faces it can't be told apart from that surface and is left out.
+        // Samples within the distance known to be clear are skipped. Those that may still read the surface at the start don't block the
+        // cone; with one value for all faces they can't be told apart from that surface and are skipped.
         const bool clear = clearance[k] * t >= voxel;
-        const float partEnd = t + 0.5 * voxel / (axis[k].speed * radianceVoxels.grid.voxelSize * float(axis[k].samples));
-        if ((clear || faces) && partEnd >= base.clear) {
+        const float sampleEnd = t + 0.5 * voxel / (axis[k].speed * radianceVoxels.grid.voxelSize * float(axis[k].samples));
+        if ((clear || faces) && sampleEnd >= base.clear) {
             const bool up = direction[k] >= 0.0;
             const float center = float(axis[k].next) + 0.5 * float(1u << axis[k].level);
-            vec3 place = base.position + t * direction;
-            place[k] = g.origin[k] + (up ? center : float(mirrored) - center) * g.voxelSize;
+            vec3 samplePosition = base.position + t * direction;
+            samplePosition[k] = g.origin[k] + (up ? center : float(mirrored) - center) * g.voxelSize;
             const vec3 forward = faceNormal(2u * k + (up ? 0u : 1u));
             const float weight = 1.0 / float(axis[k].samples);
             const bool solid = clear && faces;
@@ -239,10 +236,10 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
             vec4 column = vec4(0.0);
             float backs = 0.0;
             for (int i = 0; i <= layers; ++i) {
-                const vec3 inColumn = place - float(i) * voxel * forward;
+                const vec3 inColumn = samplePosition - float(i) * voxel * forward;
                 const vec4 front = sampleLevel(axis[k].level, inColumn, forward);
                 const float back = solid ? sampleLevel(axis[k].level, inColumn, -forward).a : 0.0;
-                if (i == 0) meet(light, weight * front, weight * back, t, voxel);
+                if (i == 0) addSample(light, weight * front, weight * back, t, voxel);
                 column += front;
                 backs += back;
                 if (column.a + light.column[k] == 0.0) break;

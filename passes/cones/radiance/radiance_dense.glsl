@@ -2,10 +2,9 @@
 #ifndef VOXRAY_RADIANCE_DENSE_GLSL
 #define VOXRAY_RADIANCE_DENSE_GLSL
 
-
 #include "passes/cones/radiance/radiance_dense_types.h"
 
-// By address: a grid outgrows what devices bind as one buffer.
+// By address: a grid may exceed the maximum size of a bound buffer.
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RadianceValues { uvec2 data[]; };
 layout(scalar) readonly buffer RadianceVoxels {
     RadianceGrid grid;
@@ -13,7 +12,7 @@ layout(scalar) readonly buffer RadianceVoxels {
     DenseLevel level[RADIANCE_DENSE_LEVELS];
 } radianceVoxels;
 
-#define NO_PLACE 0xffffffffu
+#define NO_SLOT 0xffffffffu
 uint radianceIndex(DenseLevel level, ivec3 voxel) {
     const uvec3 v = uvec3(voxel);
     return level.first + (v.z * level.resolution.y + v.y) * level.resolution.x + v.x;
@@ -25,14 +24,14 @@ vec4 radianceValue(uint index, uint face) {
     return vec4(unpackHalf2x16(packed.x), unpackHalf2x16(packed.y));
 }
 
-// Bounded to what half floats hold: 65504 units of radiance.
+// Clamped to the range of half floats.
 void storeRadiance(uint index, uint face, vec4 value) {
-    const vec4 bounded = min(value, vec4(65504.0));
+    const vec4 clamped = min(value, vec4(65504.0));
     radianceVoxels.values.data[index * radianceVoxels.grid.directions + face] =
-        uvec2(packHalf2x16(bounded.rg), packHalf2x16(bounded.ba));
+        uvec2(packHalf2x16(clamped.rg), packHalf2x16(clamped.ba));
 }
 
-// What the shaders that fill levels know a level by.
+// Levels as the shaders that fill them address them.
 #define RADIANCE_LEVEL DenseLevel
 DenseLevel radianceLevel(uint level) { return radianceVoxels.level[level]; }
 
@@ -40,16 +39,16 @@ DenseLevel radianceLevel(uint level) { return radianceVoxels.level[level]; }
 
 vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     const DenseLevel d = radianceVoxels.level[level];
-    vec3 at;
-    const ivec3 corner = cornerVoxel(level, position, at);
-    uint place[8];
+    vec3 fraction;
+    const ivec3 corner = cornerVoxel(level, position, fraction);
+    uint slot[8];
     for (uint octant = 0u; octant < 8u; ++octant) {
         const ivec3 voxel = blockVoxel(corner, octant);
         const bool inside = all(greaterThanEqual(voxel, ivec3(0))) && all(lessThan(voxel, ivec3(d.resolution)));
-        place[octant] = inside && octantWeight(octant, at) > 0.0 ? radianceIndex(d, voxel) : NO_PLACE;
+        slot[octant] = inside && octantWeight(octant, fraction) > 0.0 ? radianceIndex(d, voxel) : NO_SLOT;
     }
-    const vec4 met = interpolateBlock(place, at, direction);
-    return vec4(radianceVoxels.grid.unit * met.rgb, met.a);
+    const vec4 value = interpolateBlock(slot, fraction, direction);
+    return vec4(radianceVoxels.grid.unit * value.rgb, value.a);
 }
 
 uint startLevel(vec3 position, float dither) { return 0u; }

@@ -12,7 +12,7 @@ VOXRAY_SHARED_BEGIN
 
 struct DenseLevel {
     uvec3 resolution;
-    uint first;  // Voxels of the levels before.
+    uint first;  // Voxels of all finer levels.
 };
 
 VOXRAY_SHARED_END

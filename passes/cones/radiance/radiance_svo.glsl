@@ -2,7 +2,6 @@
 #ifndef VOXRAY_RADIANCE_SVO_GLSL
 #define VOXRAY_RADIANCE_SVO_GLSL
 
-
 #include "shaders/octree/octree.glsl"
 #include "passes/cones/radiance/radiance_texel.glsl"
 #include "passes/cones/radiance/radiance_types.h"
@@ -13,28 +12,28 @@ layout(scalar) readonly buffer RadianceVoxels {
     OctreeValues values;  // By direction, then by node: passes/cones/radiance/radiance_texel.glsl.
 } radianceVoxels;
 
-// Where a node's value for a face (0 to 5 by direction, 0 where all share one) stands.
+// Index of a node's value for a face (0 to 5 by direction, 0 where all share one).
 uint octreeValueIndex(uint node, uint face) { return face * octree.shape.nodeCount + node; }
 
-// Radiance times opacity and opacity of a node, nothing for NO_NODE.
+// Radiance times opacity, and opacity, of a node; 0 for NO_NODE.
 vec4 radianceValue(uint node, uint face) { return unpackRadiance(radianceVoxels.values.data[octreeValueIndex(node, face)]); }
 
-#define NO_PLACE NO_NODE
+#define NO_SLOT NO_NODE
 #include "passes/cones/radiance/radiance_interpolation.glsl"
 
 vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
-    vec3 at;
-    const ivec3 corner = cornerVoxel(level, position, at);
+    vec3 fraction;
+    const ivec3 corner = cornerVoxel(level, position, fraction);
     if (!inOctreeBorder(corner, level) || !inOctreeBorder(corner + 1, level)) return vec4(0.0);
     uint node[8];
     if (!octreeNodes(corner, level, node)) return vec4(0.0);
     for (uint octant = 0u; octant < 8u; ++octant)
-        if (octantWeight(octant, at) == 0.0) node[octant] = NO_NODE;
+        if (octantWeight(octant, fraction) == 0.0) node[octant] = NO_NODE;
 
-    return interpolateBlock(node, at, direction);
+    return interpolateBlock(node, fraction, direction);
 }
 
-// That of a uniform node where one stands for all.
+// The level of a uniform node where one replaces its descendants.
 uint startLevel(vec3 position, float dither) {
     const RadianceGrid g = radianceVoxels.grid;
     const ivec3 voxel = ivec3(floor((position - g.origin) / g.voxelSize));

@@ -1,10 +1,10 @@
-// Radiance and opacity in 64 bits: three mantissas of 14 bits with one exponent of 8, and 14 bits of opacity. Radiance has
-// the range of floats and an error of at most 2^-14 of its largest channel (half that but at the top of an exponent);
-// opacity one of 2^-15. Below 2^-113 W/(m² sr) radiance is 0.
+// Radiance and opacity in 64 bits: three mantissas of 14 bits with a shared exponent of 8 bits, and 14 bits of opacity. Radiance has the
+// range of floats and an error of at most 2^-14 of its largest channel; opacity has an error of at most 2^-15. Radiance below 2^-113
+// W/(m² sr) is 0.
 #ifndef VOXRAY_RADIANCE_TEXEL_GLSL
 #define VOXRAY_RADIANCE_TEXEL_GLSL
 
-// Radiance is not negative, opacity from 0 to 1.
+// Radiance is nonnegative, opacity 0 to 1.
 uvec2 packRadiance(vec4 value) {
     const float largest = max(value.r, max(value.g, value.b));
     const uint exponent = floatBitsToUint(largest) >> 23;  // largest < 2^(exponent - 126)
@@ -16,7 +16,7 @@ uvec2 packRadiance(vec4 value) {
 
 vec4 unpackRadiance(uvec2 texel) {
     const uvec3 mantissa = uvec3(texel.x, texel.x >> 14, texel.x >> 28 | texel.y << 4) & 0x3fffu;
-    // The exponent is stored as that of the mantissas' unit in a float; 0 is a unit of 0.
+    // The stored exponent is that of the mantissas' unit as a float; 0 is a unit of 0.
     const float unit = uintBitsToFloat(texel.y << 13 & 0x7f800000u);
     return vec4(vec3(mantissa) * unit, float(texel.y >> 18) * (1.0 / 16383.0));
 }

@@ -7,23 +7,23 @@ namespace voxray {
 Defines RadianceVoxels::defines() const {
     std::string name = "RADIANCE_";
     for (const char letter : enumName(layout)) name += char(std::toupper(letter));
-    Defines all{{name, "1"}};
-    if (euclidean) all.emplace("RADIANCE_CLIPMAP_EUCLIDEAN", "1");
-    return all;
+    Defines defines{{name, "1"}};
+    if (euclidean) defines.emplace("RADIANCE_CLIPMAP_EUCLIDEAN", "1");
+    return defines;
 }
 
 std::vector<Binding> RadianceVoxels::bindings() const {
-    std::vector<Binding> all{{"radianceVoxels", header}};
+    std::vector<Binding> bound{{"radianceVoxels", header}};
     if (octree.header)
-        for (const Binding& binding : octree.bindings()) all.push_back(ifUsed(binding));
-    if (texture) all.push_back(ifUsed({"radianceTexture", texture, sampler}));
-    return all;
+        for (const Binding& binding : octree.bindings()) bound.push_back(ifUsed(binding));
+    if (texture) bound.push_back(ifUsed({"radianceTexture", texture, sampler}));
+    return bound;
 }
 
 std::vector<Binding> RadianceVoxels::fillBindings(uint32_t mipLevel) const {
-    std::vector<Binding> all = bindings();
-    if (texture) all.emplace_back("radianceTarget", texture, mipLevel);
-    return all;
+    std::vector<Binding> bound = bindings();
+    if (texture) bound.emplace_back("radianceTarget", texture, mipLevel);
+    return bound;
 }
 
 }  // namespace voxray

@@ -1,13 +1,12 @@
 // Prefiltered radiance and opacity of surfaces at all scales: one accessor for all layouts. The including shader is compiled with
 // RadianceVoxels::defines() and given RadianceVoxels::bindings() (passes/cones/radiance/radiance_voxels.h).
 //
-// What a voxel stores, for each of its six faces: opacity, the area that its surfaces project onto the face over the face's area, at
-// most 1; and the radiance that they send that way, times the opacity. A ray meets the faces that look against it, those of axis k
-// once for each layer of voxels across k that it passes: |direction_k| layers for each voxel's width of its way. So the opacities
-// that a ray collects in passing a closed surface add up to 1, whatever the angle and however values are interpolated.
+// A voxel stores for each of its six faces the opacity (the area that its surfaces project onto the face over the face's area, at most
+// 1), and the radiance that they send that way, times the opacity. A ray reads the faces that oppose it, those across axis k once per
+// layer of voxels across k: |direction_k| layers per voxel width of its path. So the opacities along a ray through a closed surface add
+// up to 1 for any angle and any interpolation.
 #ifndef VOXRAY_RADIANCE_VOXELS_GLSL
 #define VOXRAY_RADIANCE_VOXELS_GLSL
-
 
 #include "passes/cones/radiance/radiance_types.h"
 
@@ -16,12 +15,11 @@ uvec3 levelResolution(RadianceGrid g, uint level) { return (g.resolution + ((1u 
 
 // A layout declares `radianceVoxels`, a buffer whose first member is a RadianceGrid named `grid`, and defines, for a position in
 // metres:
-//  - vec4 sampleLevel(uint level, vec3 position, vec3 direction): what a ray along `direction` (unit) meets in a cube of a
-//    voxel's face round `position`, interpolated linearly in space: rgb, the radiance that surfaces there send against
-//    `direction`, times their opacity, W/(m² sr); a, the opacity that a beam meets there over one voxel's length: 0 where there is
-//    nothing; above 1 where surfaces hide each other;
-//  - uint startLevel(vec3 position, float dither): the level whose voxels a cone that starts there has to be clear of; between
-//    levels it is drawn by `dither`, 0 to 1.
+//  - vec4 sampleLevel(uint level, vec3 position, vec3 direction): what a ray along `direction` (unit) sees in a cube of a voxel's size
+//    round `position`, trilinearly interpolated: rgb, the radiance that surfaces there send against `direction`, times their opacity,
+//    W/(m² sr); a, the opacity over one voxel's length: 0 in empty space, above 1 where surfaces occlude each other;
+//  - uint startLevel(vec3 position, float dither): the level whose voxels a cone that starts there must be clear of; between levels it
+//    is chosen by `dither`, 0 to 1.
 #if defined(RADIANCE_DENSE)
 #include "passes/cones/radiance/radiance_dense.glsl"
 #elif defined(RADIANCE_TEXTURES)

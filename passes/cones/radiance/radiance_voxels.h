@@ -28,23 +28,25 @@ constexpr const char* kRadianceLayoutHelp =
     "in Arnebäck 2017, to compare hardware filtering with ours; svo_bricks, an octree as published there, "
     "for comparison with svo: 8 bits a channel, one direction.";
 
-/// Radiance that leaves surfaces and their opacity, prefiltered at all scales. A shader that samples it is
-/// compiled with defines(), includes passes/cones/radiance/radiance_voxels.glsl and is given bindings(): it
-/// is written once for all layouts.
+/// Outgoing radiance and opacity of surfaces, prefiltered at all scales. A shader that samples them includes
+/// passes/cones/radiance/radiance_voxels.glsl, is compiled with defines() and given bindings(), whatever the
+/// layout.
 struct RadianceVoxels : Resource {
-    RadianceLayout layout = RadianceLayout::Dense;  ///< Known from plan() on, as is the grid but its unit.
+    // Known from plan() on, except the grid's unit:
+    RadianceLayout layout = RadianceLayout::Dense;
     gpu::RadianceGrid grid{};
-    bool euclidean = false;       ///< Levels of a clipmap are chosen by Euclidean distance. Likewise.
-    bool emission = false;        ///< With what surfaces emit. Known from plan() on.
+    bool euclidean = false;  ///< Levels of a clipmap are chosen by Euclidean distance.
+    bool emission = false;   ///< Radiance includes what surfaces emit.
+
     Buffer header;                ///< RadianceGrid, then what the layout needs to find its values.
-    std::vector<Buffer> storage;  ///< What the header's addresses lead to.
-    Image texture;                ///< Where values stand in one, in half floats.
+    std::vector<Buffer> storage;  ///< What the header's addresses point to.
+    Image texture;                ///< Values of the texture layouts, in half floats.
     Sampler sampler;              ///< Of the texture.
-    Octree octree;                ///< Where there is one: the structure whose nodes' values `storage` holds.
+    Octree octree;                ///< Structure of the svo layout; `storage` holds its nodes' values.
 
     Defines defines() const;
     std::vector<Binding> bindings() const;
-    /// The same for a shader that stores values. @param mipLevel of the texture, if any.
+    /// Bindings of a shader that stores values. @param mipLevel of the texture, if any.
     std::vector<Binding> fillBindings(uint32_t mipLevel = 0) const;
 };
 

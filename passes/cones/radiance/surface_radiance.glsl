@@ -6,7 +6,7 @@
 #include "shaders/voxels/packed_flux.glsl"
 #include "shaders/voxels/voxels.glsl"
 
-// By voxel and face +x -x +y -y +z -z: the area that flux fell on, and the flux (packed_flux.glsl).
+// By voxel and face +x -x +y -y +z -z: the area that flux arrives at, and the flux (packed_flux.glsl).
 layout(scalar) readonly buffer VoxelArea { uint data[]; } voxelArea;
 layout(scalar) buffer DirectFluxAt { LargeUints directFlux; };
 layout(scalar) buffer IndirectFluxAt { LargeUints indirectFlux; };
@@ -18,38 +18,38 @@ float faceArea(uint face) { return areaOf(voxelArea.data[face / 2u], face); }
 // Opacity of a voxel towards one of its faces: the area that its surfaces project onto that face, over the face's area.
 //
 //        n = (nx, ny)          A facet of area A and unit normal n stores A nx² for the faces across x and A ny² for those across
-//           \  ____            y: these add up to A, whatever the axes. Seen along x it projects the area A nx. So the stored part
-//            \/                is divided by nx = sqrt(A nx² / (A nx² + A ny²)).
+//           \  ____            y: these add up to A for any axes. Seen along x it projects the area A nx. So the stored area is
+//            \/                divided by nx = sqrt(A nx² / (A nx² + A ny²)).
 //            /\
 //           /  A
 //
-// With several facets in the voxel the root of the mean square stands for nx: exact where they are parallel, or each lies across an
-// axis. Surfaces that project more than the whole face hide each other: the opacity is clamped to 1.
+// With several facets in the voxel the root mean square replaces nx: exact where they are parallel or perpendicular to axes. Surfaces
+// that project more than the whole face occlude each other: the opacity is clamped to 1.
 float faceOpacity(VoxelMaterial m, uint face) {
     const vec3 squares = max(m.unoccludedPositive, m.unoccludedNegative);
-    const float own = squares[face >> 1];
-    if (own <= 0.0) return 0.0;
-    return min(unoccluded(m, face) * sqrt((squares.x + squares.y + squares.z) / own), 1.0);
+    const float square = squares[face >> 1];
+    if (square <= 0.0) return 0.0;
+    return min(unoccluded(m, face) * sqrt((squares.x + squares.y + squares.z) / square), 1.0);
 }
 
-// Surfaces emit from their front sides alone. Those look the way of the mean normal.
+// Surfaces emit from their front sides alone, which face along the mean normal.
 bool emits(VoxelMaterial m, uint face) {
     return (face & 1u) == 0u ? m.normal[face >> 1] > 0.0 : m.normal[face >> 1] < 0.0;
 }
 
-// Whether a dark face is the back of a lit surface. A surface at a slant to the axes has area for both faces of an axis, though a ray
-// along that axis sees just one of them:
+// Whether a dark face is the back of a lit surface. A slanted surface has area at both faces of an axis, though a ray along that axis
+// sees one of them:
 //
-//        lit   /  dark       A ray that comes from the left meets the lit side, with its full opacity. The dark side, inside of a
-//      ---->  /              solid, belongs to the opposite face: counted as well, it would darken the voxel.
+//        lit   /  dark       A ray from the left sees the lit side, with its full opacity. The dark side, inside of a solid, belongs to
+//      ---->  /              the opposite face: counted as well, it would darken the voxel.
 //            /
 //
-// So of a slanted surface that is lit on one side and dark on the other the dark face has no opacity.
+// So the dark face of a slanted surface that is lit on its other side has no opacity.
 bool isBackOfLit(VoxelMaterial m, uint voxel, uint face, float emission) {
     const vec3 squares = max(m.unoccludedPositive, m.unoccludedNegative);
     if (squares[face >> 1] > 0.9 * (squares.x + squares.y + squares.z)) return false;
-    const uint other = face ^ 1u;
-    return faceFlux(6u * voxel + other) != vec3(0.0) || (emits(m, other) && emission * m.emission != vec3(0.0));
+    const uint opposite = face ^ 1u;
+    return faceFlux(6u * voxel + opposite) != vec3(0.0) || (emits(m, opposite) && emission * m.emission != vec3(0.0));
 }
 
 // Radiance times opacity, W/(m² sr), and opacity. `emission`: 1 to add what the surfaces emit, 0 to leave it out.

@@ -9,7 +9,7 @@
 namespace voxray {
 namespace {
 
-/// A level's grid, whose window is yet to be placed.
+/// A level's grid, without the position of its window.
 gpu::VoxelGrid levelGrid(gpu::VoxelGrid grid, uint32_t level, uint32_t side) {
     grid.voxelSize *= float(1u << level);
     grid.resolution = levelResolution(grid.resolution, level);
@@ -20,8 +20,8 @@ gpu::VoxelGrid levelGrid(gpu::VoxelGrid grid, uint32_t level, uint32_t side) {
 
 }  // namespace
 
-/// Turns triangles into the surface voxels of a clipmap. Windows follow the camera: what scrolls in is
-/// voxelized, and where surfaces moved what they touched, before and after. Docs: docs/clipmap.md.
+/// Voxelizes triangles into a clipmap whose windows follow the camera: what scrolls in is voxelized, and
+/// where surfaces moved, their old and new voxels. Docs: docs/clipmap.md.
 class VoxelizeClipmap final : public Pass {
  public:
     static constexpr const char* kName = "voxelize_clipmap";
@@ -52,9 +52,9 @@ class VoxelizeClipmap final : public Pass {
  private:
     const Params params_;
     Out<ClipmapVoxels> clipmap_{*this, "clipmap", "surface voxels round the camera, at all scales"};
-    VoxelBuilder builder_{*this, makeExactWalk(), params_.visibilityRays};
-    std::vector<gpu::ClipmapWindow> windows_;  ///< By level, as they were in the last frame.
-    uint64_t sceneVersion_ = 0;                ///< Likewise.
+    VoxelBuilder builder_{*this, makeExactVoxelizer(), params_.visibilityRays};
+    std::vector<gpu::ClipmapWindow> windows_;  ///< Of the last frame, by level.
+    uint64_t sceneVersion_ = 0;                ///< Of the last frame.
 };
 
 void VoxelizeClipmap::plan(PassPlan& plan) {
@@ -81,8 +81,9 @@ void VoxelizeClipmap::record(PassContext& context) {
     const Frame& frame = context.frame;
     ClipmapVoxels& clipmap = context[clipmap_];
     const bool moved = frame.sceneVersion != sceneVersion_;
-    const bool known = !moved || (frame.sceneVersion == sceneVersion_ + 1 && frame.changed);
-    const std::vector<gpu::ClipmapWindow> before = known ? windows_ : std::vector<gpu::ClipmapWindow>();
+    const bool changesAreKnown = !moved || (frame.sceneVersion == sceneVersion_ + 1 && frame.changed);
+    const std::vector<gpu::ClipmapWindow> previous =
+        changesAreKnown ? windows_ : std::vector<gpu::ClipmapWindow>();
     windows_.clear();
     uint64_t updated = 0;
     for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
@@ -91,11 +92,11 @@ void VoxelizeClipmap::record(PassContext& context) {
         windows_.push_back(clipmap.windows.window(l, frame.camera.position));
         voxels.grid.first = windows_[l].first;
         level.updated = {};
-        if (before.empty()) {
+        if (previous.empty()) {
             level.boxes = {heldVoxels(voxels.grid)};
             builder_.build(context, voxels);
         } else {
-            level.boxes = scrolledIn(before[l], windows_[l]);
+            level.boxes = scrolledIn(previous[l], windows_[l]);
             if (moved)
                 std::ranges::copy(changedVoxels(voxels.grid, *frame.changed),
                                   std::back_inserter(level.boxes));

@@ -1,4 +1,4 @@
-// Copies the positions of a triangle's corners to one place, where a ray's test finds them. A thread takes a triangle.
+// Gathers the corner positions of triangles for intersection tests.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/hybrid_leaves/hybrid_leaves.glsl"
 #include "shaders/scene/scene.glsl"

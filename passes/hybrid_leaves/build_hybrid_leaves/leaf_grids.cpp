@@ -3,7 +3,7 @@
 #include <span>
 
 #include "base/error.h"
-#include "passes/hybrid_leaves/build_hybrid_leaves/cell_size.h"
+#include "passes/hybrid_leaves/build_hybrid_leaves/cell_layout.h"
 
 namespace voxray {
 namespace {
@@ -16,7 +16,7 @@ struct HybridHeader {
 
 }  // namespace
 
-void requireLeaves(uint64_t count, uint64_t limit, const char* what) {
+void requireBelow(uint64_t count, uint64_t limit, const char* what) {
     if (count >= limit)
         throw Error(
             "build_hybrid_leaves: leaves need {} {}, of which {} are possible: lower voxelize's "
@@ -40,17 +40,17 @@ void writeHeader(CommandStream& stream, HybridLeaves& leaves) {
     stream.upload(leaves.header, std::as_bytes(std::span(&header, 1)));
 }
 
-LeafGrids::LeafGrids(ProgramOwner& owner, CellWrite write, const PrefixSum& sumBits)
+LeafGrids::LeafGrids(ProgramOwner& owner, CellWrite write, const PrefixSum& bitPrefixSum)
     : write_(write),
-      sumBits_(sumBits),
-      mark_(owner, "mark_cells.comp"),
-      writeCells_(owner, write == CellWrite::Average ? "add_cells.comp" : "write_cells.comp"),
-      resolve_(owner, "resolve_cells.comp"),
-      coarsen_(owner, "coarsen_cells.comp"),
-      enclose_(owner, "enclose_cells.comp") {}
+      bitPrefixSum_(bitPrefixSum),
+      markCells_(owner, "mark_cells.comp"),
+      writeCells_(owner, write == CellWrite::Average ? "accumulate_cells.comp" : "write_cells.comp"),
+      averageCells_(owner, "average_cells.comp"),
+      coarsenCells_(owner, "coarsen_cells.comp"),
+      measureThickness_(owner, "measure_thickness.comp") {}
 
-void LeafGrids::fill(PassContext& context, const gpu::VoxelGrid& voxels, const Pairs& pairs,
-                     const KeptLeaves* kept, HybridLeaves& leaves) const {
+void LeafGrids::fill(PassContext& context, const gpu::VoxelGrid& voxels, const TriangleLeafPairs& pairs,
+                     const LeafUpdateCache* updateCache, HybridLeaves& leaves) const {
     CommandStream& stream = context.stream;
     const uint32_t words = leaves.gridCount * leaves.shape.wordsPerGrid;
     leaves.gridBits = Buffer(context.device, "bits of grids", wordBytes(words));
@@ -58,46 +58,46 @@ void LeafGrids::fill(PassContext& context, const gpu::VoxelGrid& voxels, const P
     stream.fill(leaves.gridBits, 0);
     writeHeader(stream, leaves);
 
-    // Each pair is a tile (grid_cells.glsl).
-    const Bindings ofPairs{context.scene,
-                           leaves,
-                           {"PairsAt", pairs.list.at()},
-                           {"grid", voxels},
-                           {"visitorScale", pairs.cellUnit},
-                           {"tiles", pairs.count},
-                           {"axis", 0u},
-                           {"samples", 0u},
-                           {"imageSide", 0u}};
+    // A pair is a tile (voxelize_in_leaf.glsl)
+    const Bindings pairBindings{context.scene,
+                                leaves,
+                                {"PairsAt", pairs.list.at()},
+                                {"grid", voxels},
+                                {"fixedPointScale", pairs.unitsPerFace},
+                                {"tiles", pairs.count},
+                                {"axis", 0u},
+                                {"samples", 0u},
+                                {"imageSide", 0u}};
 
-    // Mark their cells, then number them.
-    stream.dispatch(mark_, pairs.count, ofPairs);
-    if (kept) kept->bits(stream, leaves);
-    leaves.cellCount = sumBits_.run(stream, leaves.gridBits, leaves.gridRanks, words);
-    requireLeaves(leaves.cellCount, kMaxGridCells, "cells of grids");
+    // Mark cells, then rank them
+    stream.dispatch(markCells_, pairs.count, pairBindings);
+    if (updateCache) updateCache->copyGridBits(stream, leaves);
+    leaves.cellCount = bitPrefixSum_.run(stream, leaves.gridBits, leaves.gridRanks, words);
+    requireBelow(leaves.cellCount, kMaxGridCells, "cells of grids");
     leaves.cells = Buffer(context.device, "cells of grids",
                           wordBytes(uint64_t(leaves.cellCount) * leaves.shape.cellWords));
     stream.fill(leaves.cells, 0);
     writeHeader(stream, leaves);
 
-    // What they hold, and how far from their planes.
+    // Values of cells, then their thickness
     LargeBuffer sums;
     if (write_ == CellWrite::Average) {
-        sums =
-            LargeBuffer(context.device, "sums of cells",
-                        wordBytes(uint64_t(leaves.cellCount) * cellSize(*context.frame.scene->scene).sums));
+        sums = LargeBuffer(
+            context.device, "sums of cells",
+            wordBytes(uint64_t(leaves.cellCount) * cellLayout(*context.frame.scene->scene).sumWords));
         stream.fill(sums, 0);
     }
-    stream.dispatch(writeCells_, pairs.count, {ofPairs.all(), ifUsed({"CellSumsAt", sums.at()})});
+    stream.dispatch(writeCells_, pairs.count, {pairBindings.all(), ifUsed({"CellSumsAt", sums.at()})});
     if (sums) {
-        stream.dispatch(resolve_, leaves.cellCount,
+        stream.dispatch(averageCells_, leaves.cellCount,
                         {leaves, {"CellSumsAt", sums.at()}, {"cells", leaves.cellCount}});
         const uint32_t cellsPerGrid = gridCells(leaves.shape.gridResolution, 1, leaves.shape.gridLevels);
         stream.dispatch(
-            coarsen_, leaves.gridCount * cellsPerGrid,
+            coarsenCells_, leaves.gridCount * cellsPerGrid,
             {leaves, {"CellSumsAt", sums.at()}, {"grids", leaves.gridCount}, {"cellsPerGrid", cellsPerGrid}});
     }
-    stream.dispatch(enclose_, pairs.count, ofPairs);
-    if (kept) kept->cells(stream, leaves);
+    stream.dispatch(measureThickness_, pairs.count, pairBindings);
+    if (updateCache) updateCache->copyCells(stream, leaves);
     stream.finish();
 }
 

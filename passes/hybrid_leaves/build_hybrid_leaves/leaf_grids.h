@@ -9,11 +9,11 @@
 #include "passes/common/compute/large_buffer.h"
 #include "passes/common/compute/prefix_sum.h"
 #include "passes/hybrid_leaves/build_hybrid_leaves/cell_sums.h"
-#include "passes/hybrid_leaves/build_hybrid_leaves/kept_leaves.h"
+#include "passes/hybrid_leaves/build_hybrid_leaves/leaf_update_cache.h"
 
 namespace voxray {
 
-/// How the surfaces in a cell become its value.
+/// How a cell's value follows from its surfaces.
 enum class CellWrite { Average, None };
 template <>
 struct EnumNames<CellWrite> {
@@ -21,41 +21,41 @@ struct EnumNames<CellWrite> {
                                       std::pair{CellWrite::None, "none"}};
 };
 
-constexpr uint64_t kMaxGridCells = (1ull << 32) / BRIGHT_SUM_UINTS;  // cell_sums.h, by 32 bits.
+constexpr uint64_t kMaxGridCells = (1ull << 32) / EXTENDED_SUM_UINTS;  // Indices have 32 bits.
 
-/// Bytes of so many words, or of one.
+/// Bytes of so many words, at least one.
 inline uint64_t wordBytes(uint64_t count) {
     return std::max<uint64_t>(count, 1) * sizeof(uint32_t);
 }
 
-/// @throws Error for a count of the limit or more.
-void requireLeaves(uint64_t count, uint64_t limit, const char* what);
+/// @throws Error where `count` reaches the limit.
+void requireBelow(uint64_t count, uint64_t limit, const char* what);
 
 uint64_t hybridHeaderBytes();
-/// Leads shaders to the arrays of hybrid leaves as they are now.
+/// Writes the arrays' addresses for shaders.
 void writeHeader(CommandStream& stream, HybridLeaves& leaves);
 
-/// The grids of finer voxels, cells, in leaves where triangles are many.
+/// Builds the grids of finer voxels, the cells, of leaves with many triangles.
 class LeafGrids {
  public:
-    /// @param sumBits of set bits; it must outlive the grids.
-    LeafGrids(ProgramOwner& owner, CellWrite write, const PrefixSum& sumBits);
+    /// @param bitPrefixSum of set bits; must outlive this object.
+    LeafGrids(ProgramOwner& owner, CellWrite write, const PrefixSum& bitPrefixSum);
 
     /// Pairs of a triangle and a leaf.
-    struct Pairs {
-        const LargeBuffer& list;  ///< As in grid_cells.glsl.
+    struct TriangleLeafPairs {
+        const LargeBuffer& list;  ///< As in voxelize_in_leaf.glsl.
         uint32_t count;
-        float cellUnit;  ///< Units of area for a cell's face.
+        float unitsPerFace;  ///< Fixed-point units of area per cell face.
     };
     /// Voxelizes the triangles of pairs into cells. Waits for the device. @param voxels the grid of leaves.
-    /// @param kept what an update takes over; null where all is built.
-    void fill(PassContext& context, const gpu::VoxelGrid& voxels, const Pairs& pairs, const KeptLeaves* kept,
-              HybridLeaves& leaves) const;
+    /// @param updateCache in an update; null where all is built.
+    void fill(PassContext& context, const gpu::VoxelGrid& voxels, const TriangleLeafPairs& pairs,
+              const LeafUpdateCache* updateCache, HybridLeaves& leaves) const;
 
  private:
     CellWrite write_;
-    const PrefixSum& sumBits_;
-    Kernel mark_, writeCells_, resolve_, coarsen_, enclose_;
+    const PrefixSum& bitPrefixSum_;
+    Kernel markCells_, writeCells_, averageCells_, coarsenCells_, measureThickness_;
 };
 
 }  // namespace voxray

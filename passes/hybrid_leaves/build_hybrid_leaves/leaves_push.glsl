@@ -1,8 +1,8 @@
-// What shaders that take a leaf a thread are told.
+// Push constants of shaders with one invocation per leaf.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
 layout(push_constant) uniform Push {
     uint leaves;
-    uint capacity;  // Triangles of a list, at most.
+    uint capacity;  // Maximum triangles of a list.
 } push;

@@ -1,10 +1,10 @@
-// Sets the bit of each cell that a triangle overlaps, at all levels.
-#include "passes/hybrid_leaves/build_hybrid_leaves/grid_cells.glsl"
+// Sets the occupancy of the cells that a triangle overlaps, at all levels.
+#include "passes/hybrid_leaves/build_hybrid_leaves/voxelize_in_leaf.glsl"
 
-void visitFragment(TriangleFragment cell) {
+void processFragment(TriangleFragment cell) {
     if (!passesAlphaMask(cell)) return;
     for (uint level = 0u; level < hybridLeaves.shape.gridLevels; ++level) {
-        const GridBit at = gridBit(gridLevel(cellGrid, level), cell.voxel >> level);
-        if ((hybridLeaves.gridBits.data[at.word] & at.bit) == 0u) atomicOr(hybridLeaves.gridBits.data[at.word], at.bit);
+        const GridBit cellBit = gridBit(gridLevel(cellGrid, level), cell.voxel >> level);
+        if ((hybridLeaves.gridBits.data[cellBit.word] & cellBit.bit) == 0u) atomicOr(hybridLeaves.gridBits.data[cellBit.word], cellBit.bit);
     }
 }

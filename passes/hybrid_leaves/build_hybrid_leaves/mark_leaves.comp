@@ -1,9 +1,9 @@
-// A walk's visitor: sets the occupancy bit of each voxel that a triangle meets, whatever its alpha mask leaves there.
-#include "passes/common/triangle_walk/exact.glsl"
+// Fragment callback: sets the occupancy of each voxel that a triangle overlaps, nearly transparent ones included.
+#include "passes/common/triangle_voxelizer/exact.glsl"
 #include "shaders/voxels/voxels.glsl"
 
 buffer Occupancy { uint words[]; } occupancy;
 
-void visitFragment(TriangleFragment f) {
-    if (insideGrid(walk.grid, f.voxel)) atomicOr(occupancy.words[voxelWord(walk.grid, f.voxel)], voxelBit(walk.grid, f.voxel));
+void processFragment(TriangleFragment f) {
+    if (insideGrid(voxelizer.grid, f.voxel)) atomicOr(occupancy.words[voxelWord(voxelizer.grid, f.voxel)], voxelBit(voxelizer.grid, f.voxel));
 }

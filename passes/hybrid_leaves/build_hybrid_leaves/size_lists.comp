@@ -1,26 +1,26 @@
-// How long each leaf's list is, and whether it has a grid instead: where it has more triangles than the capacity. A thread takes a leaf.
+// The length of each leaf's list; leaves with more triangles than the capacity have a grid instead.
 #include "passes/hybrid_leaves/build_hybrid_leaves/leaves_push.glsl"
 #include "passes/hybrid_leaves/hybrid_types.h"
 
 readonly buffer Counts { uint triangles[]; } counts;
-readonly buffer Counted { uint triangles[]; } counted;  // Of leaves that are built, 0 of those that are kept.
+readonly buffer RebuiltCounts { uint triangles[]; } rebuiltCounts;  // 0 for unchanged leaves.
 writeonly buffer Sizes { uint items[]; } sizes;
 writeonly buffer Grids { uint isGrid[]; } grids;
-buffer Found {
+buffer LeafStatistics {
     uint empty;
     uint maxTriangles;  // Of a leaf.
-    uint pairs;         // Of a triangle and a leaf with a grid that is built.
+    uint pairs;         // Of a triangle and a rebuilt leaf with a grid.
     uint listed;        // Triangles in lists.
-} found;
+} statistics;
 
 void main() {
     const uint leaf = linearIndex();
     if (leaf >= push.leaves) return;
     const uint count = counts.triangles[leaf];
     sizes.items[leaf] = count <= push.capacity ? LIST_ITEMS(count) : 0u;
-    if (count <= push.capacity) atomicAdd(found.listed, count);
+    if (count <= push.capacity) atomicAdd(statistics.listed, count);
     grids.isGrid[leaf] = count > push.capacity ? 1u : 0u;
-    if (count == 0u) atomicAdd(found.empty, 1u);
-    if (count > push.capacity) atomicAdd(found.pairs, counted.triangles[leaf]);
-    atomicMax(found.maxTriangles, count);
+    if (count == 0u) atomicAdd(statistics.empty, 1u);
+    if (count > push.capacity) atomicAdd(statistics.pairs, rebuiltCounts.triangles[leaf]);
+    atomicMax(statistics.maxTriangles, count);
 }

@@ -15,8 +15,8 @@
 #include "passes/common/view/specular_lobes.h"
 #include "passes/common/voxels/face_irradiance.h"
 #include "passes/cones/radiance/radiance_voxels.h"
-#include "passes/hybrid_leaves/gather_mirror/grazing_table.h"
 #include "passes/hybrid_leaves/gather_mirror/mirror_types.h"
+#include "passes/hybrid_leaves/gather_mirror/schlick_table.h"
 #include "passes/hybrid_leaves/hybrid_tracer.h"
 #include "passes/surfels/surfel_light.h"
 #include "scene/camera_rays.h"
@@ -24,9 +24,9 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBatchSlots = 1u << 18;  // Bounds what a batch takes to 80 MiB, whatever the image.
+constexpr uint32_t kBatchSlots = 1u << 18;  // Bounds the memory of a batch to 80 MiB.
 
-/// As in shade.comp.
+/// As in shade_hits.comp.
 struct MirrorCounts {
     uint32_t next, surfels, triangles, cells, wide, missed;
 };
@@ -42,7 +42,7 @@ uint32_t flagWords(uint64_t slots) {
 
 }  // namespace
 
-/// Where direct light at what mirrors show comes from.
+/// How direct light at hits is computed.
 enum class MirrorDirect { Voxels, ShadowRays };
 template <>
 struct EnumNames<MirrorDirect> {
@@ -50,8 +50,7 @@ struct EnumNames<MirrorDirect> {
                                       std::pair{MirrorDirect::ShadowRays, "shadow_rays"}};
 };
 
-/// What finds the ends of rays: the scene's ray tracer, or one of two walks through hybrid leaves
-/// (HybridWalk).
+/// What traces rays: the scene's ray tracer, or one of two walks through hybrid leaves (HybridWalk).
 enum class MirrorWalk { Exact, Hierarchical, VoxelByVoxel };
 template <>
 struct EnumNames<MirrorWalk> {
@@ -60,15 +59,15 @@ struct EnumNames<MirrorWalk> {
                                       std::pair{MirrorWalk::VoxelByVoxel, "voxel_by_voxel"}};
 };
 
-/// What a ray through hybrid leaves becomes where it is wider than a voxel.
+/// How a ray through hybrid leaves continues where it is wider than a voxel.
 enum class WideRays { Rays, Cones };
 template <>
 struct EnumNames<WideRays> {
     static constexpr std::array names{std::pair{WideRays::Rays, "rays"}, std::pair{WideRays::Cones, "cones"}};
 };
 
-/// What mirror-like surfaces show: reflected rays from each texel of the g-buffer, lit where they end. Docs:
-/// docs/mirrors.md. Source: Seok 2021 (rays for mirrors, cones for all else).
+/// Specular light of mirror-like surfaces: reflected rays from each texel of the G-buffer, shaded at their
+/// hits. Docs: docs/mirrors.md. Source: Seok 2021 (rays for mirrors, cones for all else).
 class GatherMirror final : public Pass {
  public:
     static constexpr const char* kName = "gather_mirror";
@@ -131,23 +130,23 @@ class GatherMirror final : public Pass {
 
     explicit GatherMirror(const Params& params);
     void plan(PassPlan& plan) override;
-    void prepare(PassSetup& setup) override { setup.stream.upload(grazing_, grazingTable()); }
+    void prepare(PassSetup& setup) override { setup.stream.upload(schlickMeans_, schlickTable()); }
     void record(PassContext& context) override;
 
  private:
     bool isHybrid() const { return params_.walk != MirrorWalk::Exact; }
-    bool widens() const { return isHybrid() && params_.wideRays == WideRays::Cones; }
-    bool shadowRays() const { return params_.directAtHits == MirrorDirect::ShadowRays; }
-    Defines ofWalk() const { return isHybrid() ? Defines{{"HYBRID", "1"}} : Defines{}; }
+    bool continuesAsCones() const { return isHybrid() && params_.wideRays == WideRays::Cones; }
+    bool usesShadowRays() const { return params_.directAtHits == MirrorDirect::ShadowRays; }
+    Defines walkDefines() const { return isHybrid() ? Defines{{"HYBRID", "1"}} : Defines{}; }
     gpu::MirrorBatch firstBatch(const Frame& frame, uint32_t samples, uint32_t frameIndex) const;
-    /// Light in voxels, by face; kept until it changes.
-    void updateFaces(PassContext& context);
-    /// Sends the rays of a batch and adds up what they bring.
+    /// Irradiance in voxels by face; updated where it has changed.
+    void updateFaceIrradiance(PassContext& context);
+    /// Traces a batch's paths and adds up their light.
     void gather(PassContext& context, const gpu::MirrorBatch& batch);
-    /// Finds where `count` rays end.
+    /// Traces `count` rays.
     void trace(PassContext& context, uint32_t depth, uint32_t count);
-    /// Lights their ends. @return the number of rays that mirrors send on.
-    uint32_t end(PassContext& context, const gpu::MirrorBatch& batch, uint32_t depth, uint32_t count);
+    /// Shades their hits. @return the number of next rays.
+    uint32_t shadeHits(PassContext& context, const gpu::MirrorBatch& batch, uint32_t depth, uint32_t count);
     void resolve(PassContext& context, const gpu::MirrorBatch& batch);
 
     const Params params_;
@@ -155,38 +154,39 @@ class GatherMirror final : public Pass {
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
     In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
     In<HybridLeaves> leaves_{*this, "hybrid_leaves", "what each leaf of the octree holds", isHybrid()};
-    In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales", widens()};
+    In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales",
+                                 continuesAsCones()};
     InOptional<SpecularLobes> lobes_{*this, "lobes", "specular light by cones, for what is rougher"};
-    InOptional<FrameImage> otherDirect_{*this, "direct", "radiance reflected of direct light"};
-    InOptional<FrameImage> otherIndirect_{*this, "indirect",
+    InOptional<FrameImage> inputDirect_{*this, "direct", "radiance reflected of direct light"};
+    InOptional<FrameImage> inputIndirect_{*this, "indirect",
                                           "radiance that diffuse albedos reflect of indirect light"};
     Out<FrameImage> direct_{*this, "direct", "the same, and what mirrors show of lamps and environment"};
     Out<FrameImage> indirect_{*this, "indirect", "the same, and what else mirrors show"};
     Out<MirrorEnds> ends_{*this, "mirror_ends", "what a pixel's mirror rays ended on, to look at"};
-    Kernel mark_{*this, "mark.comp"};
-    Kernel begin_{*this, "begin.comp", ofWalk()};
-    Kernel wide_{*this, "wide.comp"};
-    Kernel shade_{*this, "shade.comp", ofWalk()};
-    Kernel reflect_{*this, "reflect.comp"};
+    Kernel flagSlots_{*this, "flag_slots.comp"};
+    Kernel generateRays_{*this, "generate_rays.comp", walkDefines()};
+    Kernel traceConeContinuation_{*this, "trace_cone_continuation.comp"};
+    Kernel shadeHits_{*this, "shade_hits.comp", walkDefines()};
+    Kernel addDirectLight_{*this, "add_direct_light.comp"};
     Kernel resolve_{*this, "resolve.comp"};
     Compaction compaction_{*this};
-    FaceIrradiance faces_{*this};
+    FaceIrradiance faceIrradiance_{*this};
     std::vector<LightSource> sources_;
-    std::optional<SurfelLight> hitLight_;  ///< With shadow rays.
-    std::optional<HybridTracer> hybrid_;   ///< With a walk through hybrid leaves.
-    uint64_t triangleHits_ = 0, cellHits_ = 0, wideRays_ = 0, misses_ = 0;  ///< Of a frame.
-    Buffer grid_, grazing_, counts_;
+    std::optional<SurfelLight> directLightAtHits_;  ///< With shadow rays.
+    std::optional<HybridTracer> hybridTracer_;      ///< With a walk through hybrid leaves.
+    uint64_t triangleHitCount_ = 0, cellHitCount_ = 0, coneCount_ = 0, missCount_ = 0;  ///< Of a frame.
+    Buffer grid_, schlickMeans_, counts_;
     Buffer flags_, slots_, light_;        ///< Of a batch.
-    std::array<Buffer, 2> paths_, rays_;  ///< Those on their way, and those that go on.
-    std::array<Buffer, 2> starts_;        ///< Of rays through hybrid leaves, a gpu::RayStart each.
-    Buffer hits_, surfels_, hitDirect_;
+    std::array<Buffer, 2> paths_, rays_;  ///< Current and next ones.
+    std::array<Buffer, 2> starts_;        ///< A gpu::RayStart for each ray through hybrid leaves.
+    Buffer hits_, surfels_, irradianceAtHits_;
 };
 
 GatherMirror::GatherMirror(const Params& params) : params_(params) {
-    if (shadowRays()) hitLight_.emplace(*this);
+    if (usesShadowRays()) directLightAtHits_.emplace(*this);
     if (isHybrid())
-        hybrid_.emplace(*this, params_.walk == MirrorWalk::Hierarchical ? HybridWalk::Hierarchical
-                                                                        : HybridWalk::VoxelByVoxel);
+        hybridTracer_.emplace(*this, params_.walk == MirrorWalk::Hierarchical ? HybridWalk::Hierarchical
+                                                                              : HybridWalk::VoxelByVoxel);
 }
 
 void GatherMirror::plan(PassPlan& plan) {
@@ -195,7 +195,7 @@ void GatherMirror::plan(PassPlan& plan) {
         throw Error(
             "gather_mirror: the cones of 'lobes' bring what surfaces emit, which rays and the direct pass "
             "bring too; set 'emission' of filter_voxels to false");
-    if (widens() && plan[radiance_].emission)
+    if (continuesAsCones() && plan[radiance_].emission)
         throw Error(
             "gather_mirror: wide rays would bring what surfaces emit, which other passes bring, too; set "
             "'emission' of filter_voxels to false");
@@ -205,13 +205,13 @@ void GatherMirror::plan(PassPlan& plan) {
         uint64_t(batchPixels(plan.frame, samples, params_.rays)) * samples * samples * params_.rays;
 
     plan.buffer(grid_, "grid of voxels", sizeof(gpu::VoxelGrid));
-    plan.buffer(grazing_, "what a dielectric layer takes", GRAZING_COSINES * sizeof(float));
+    plan.buffer(schlickMeans_, "what a dielectric layer takes", SCHLICK_TABLE_SIZE * sizeof(float));
     plan.frameImage(direct_);
     plan.frameImage(indirect_);
-    plan.image(plan[ends_].parts, "ends of mirror rays", frameImageDesc(plan.frame));
-    // What voxels hold is reflected once more where rays end; an empty number counts as none.
+    plan.image(plan[ends_].fractions, "ends of mirror rays", frameImageDesc(plan.frame));
+    // Light in voxels is reflected once more at hits; an empty number counts as none
     std::optional<uint32_t> bounces = oneMore(plan[irradiance_].lightBounces);
-    if (const FrameImage* other = plan[otherIndirect_]) bounces = std::max(bounces, other->lightBounces);
+    if (const FrameImage* input = plan[inputIndirect_]) bounces = std::max(bounces, input->lightBounces);
     plan[indirect_].lightBounces = bounces;
     plan[indirect_].hasSpecularLobes = true;
 
@@ -221,22 +221,22 @@ void GatherMirror::plan(PassPlan& plan) {
     plan.buffer(light_, "light of mirror rays", slots * sizeof(gpu::MirrorLight));
     for (Buffer& paths : paths_) plan.buffer(paths, "paths of mirror rays", slots * sizeof(gpu::MirrorPath));
     for (Buffer& rays : rays_) plan.buffer(rays, "mirror rays", slots * sizeof(Ray));
-    if (hybrid_) {
-        hybrid_->plan(plan, plan[voxels_]);
+    if (hybridTracer_) {
+        hybridTracer_->plan(plan, plan[voxels_]);
         for (Buffer& starts : starts_)
             plan.buffer(starts, "starts of mirror rays", slots * sizeof(gpu::RayStart));
     }
     plan.buffer(hits_, "hits of mirror rays", slots * sizeof(Hit));
-    plan.buffer(surfels_, "surfels at hits", (shadowRays() ? slots : 1) * sizeof(gpu::Surfel));
-    wide_.compileIf(widens());
-    if (widens()) wide_.define(plan[radiance_].defines());
-    shade_.specialize({{"kShadowRays", shadowRays()}});
-    reflect_.compileIf(shadowRays());
+    plan.buffer(surfels_, "surfels at hits", (usesShadowRays() ? slots : 1) * sizeof(gpu::Surfel));
+    traceConeContinuation_.compileIf(continuesAsCones());
+    if (continuesAsCones()) traceConeContinuation_.define(plan[radiance_].defines());
+    shadeHits_.specialize({{"kShadowRays", usesShadowRays()}});
+    addDirectLight_.compileIf(usesShadowRays());
     resolve_.specialize({{"kHasLobes", lobes != nullptr}});
-    if (!hitLight_) return;
+    if (!directLightAtHits_) return;
     sources_ = lightSources(*plan.frame.scene);
-    hitLight_->plan(plan, uint32_t(slots));
-    plan.buffer(hitDirect_, "direct light at hits", slots * 4 * sizeof(float));
+    directLightAtHits_->plan(plan, uint32_t(slots));
+    plan.buffer(irradianceAtHits_, "direct light at hits", slots * 4 * sizeof(float));
 }
 
 gpu::MirrorBatch GatherMirror::firstBatch(const Frame& frame, uint32_t samples, uint32_t frameIndex) const {
@@ -256,51 +256,53 @@ gpu::MirrorBatch GatherMirror::firstBatch(const Frame& frame, uint32_t samples, 
 }
 
 void GatherMirror::record(PassContext& context) {
-    updateFaces(context);
+    updateFaceIrradiance(context);
     const Frame& frame = context.frame;
     const uint32_t samples = context[gbuffer_].samples, pixels = frame.width * frame.height;
-    const uint32_t perBatch = batchPixels(frame, samples, params_.rays);
+    const uint32_t pixelsPerBatch = batchPixels(frame, samples, params_.rays);
     gpu::MirrorBatch batch = firstBatch(frame, samples, context.frameIndex);
-    triangleHits_ = cellHits_ = wideRays_ = misses_ = 0;
-    if (hybrid_) {
+    triangleHitCount_ = cellHitCount_ = coneCount_ = missCount_ = 0;
+    if (hybridTracer_) {
         const SurfaceVoxels& voxels = context[voxels_];
-        const float widest = widens() ? voxels.grid.voxelSize : std::numeric_limits<float>::infinity();
-        hybrid_->begin(context.stream, context.scene, voxels, context[leaves_], widest);
+        const float maxWidth =
+            continuesAsCones() ? voxels.grid.voxelSize : std::numeric_limits<float>::infinity();
+        hybridTracer_->begin(context.stream, context.scene, voxels, context[leaves_], maxWidth);
     }
-    for (uint32_t first = 0; first < pixels; first += perBatch) {
+    for (uint32_t first = 0; first < pixels; first += pixelsPerBatch) {
         batch.firstPixel = first;
-        batch.pixels = std::min(perBatch, pixels - first);
+        batch.pixels = std::min(pixelsPerBatch, pixels - first);
         gather(context, batch);
         resolve(context, batch);
     }
-    context.report("mirror rays that hit triangles", double(triangleHits_));
-    context.report("mirror rays that missed", double(misses_));
-    if (!hybrid_) return;
-    context.report("mirror rays that hit cells of grids", double(cellHits_));
-    if (widens()) context.report("mirror rays that went on as cones", double(wideRays_));
-    context.voxelCounts.push_back(&hybrid_->counts());
+    context.report("mirror rays that hit triangles", double(triangleHitCount_));
+    context.report("mirror rays that missed", double(missCount_));
+    if (!hybridTracer_) return;
+    context.report("mirror rays that hit cells of grids", double(cellHitCount_));
+    if (continuesAsCones()) context.report("mirror rays that went on as cones", double(coneCount_));
+    context.voxelCounts.push_back(&hybridTracer_->counts());
 }
 
-void GatherMirror::updateFaces(PassContext& context) {
+void GatherMirror::updateFaceIrradiance(PassContext& context) {
     if (!context.changed(voxels_) && !context.changed(irradiance_)) return;
     const SurfaceVoxels& voxels = context[voxels_];
     const VoxelIrradiance& light = context[irradiance_];
-    faces_.update(context.stream, voxels, light.area, light.indirect, shadowRays() ? nullptr : &light.direct);
+    faceIrradiance_.update(context.stream, voxels, light.area, light.indirect,
+                           usesShadowRays() ? nullptr : &light.direct);
     context.stream.upload(grid_, std::vector{voxels.grid});
 }
 
 void GatherMirror::gather(PassContext& context, const gpu::MirrorBatch& batch) {
-    // List the slots that send a ray.
+    // List the slots that send a ray
     CommandStream& stream = context.stream;
     const uint64_t slots = uint64_t(batch.pixels) * batch.samples * batch.samples * batch.rays;
     stream.fill(light_, 0);
     stream.fill(flags_, 0);
-    context.dispatch(mark_, slots, {context[gbuffer_], {"flags", flags_}, {"batch", batch}});
+    context.dispatch(flagSlots_, slots, {context[gbuffer_], {"flags", flags_}, {"batch", batch}});
     uint32_t count = compaction_.run(stream, flags_, slots_, flagWords(slots));
     if (count == 0) return;
 
-    // Their first rays, and those that mirrors send on.
-    context.dispatch(begin_, count,
+    // Trace paths, bounce by bounce
+    context.dispatch(generateRays_, count,
                      {context.scene,
                       context[gbuffer_],
                       {"slots", slots_},
@@ -311,20 +313,20 @@ void GatherMirror::gather(PassContext& context, const gpu::MirrorBatch& batch) {
                       {"count", count}});
     for (uint32_t depth = 0; depth < params_.bounces && count > 0; ++depth) {
         trace(context, depth, count);
-        count = end(context, batch, depth, count);
+        count = shadeHits(context, batch, depth, count);
     }
 }
 
 void GatherMirror::trace(PassContext& context, uint32_t depth, uint32_t count) {
     const Buffer& rays = rays_[depth % 2];
-    if (!hybrid_) {
+    if (!hybridTracer_) {
         context.tracer.closestHit(context.stream, rays, hits_, count);
         return;
     }
-    hybrid_->closestFrom(context.stream, rays, starts_[depth % 2], hits_, count);
+    hybridTracer_->closestHitWithStarts(context.stream, rays, starts_[depth % 2], hits_, count);
     context.extraRays += count;
-    if (!widens()) return;
-    context.dispatch(wide_, count,
+    if (!continuesAsCones()) return;
+    context.dispatch(traceConeContinuation_, count,
                      {context[radiance_],
                       {"paths", paths_[depth % 2]},
                       {"rays", rays},
@@ -334,16 +336,16 @@ void GatherMirror::trace(PassContext& context, uint32_t depth, uint32_t count) {
                       {"count", count}});
 }
 
-uint32_t GatherMirror::end(PassContext& context, const gpu::MirrorBatch& batch, uint32_t depth,
-                           uint32_t count) {
+uint32_t GatherMirror::shadeHits(PassContext& context, const gpu::MirrorBatch& batch, uint32_t depth,
+                                 uint32_t count) {
     CommandStream& stream = context.stream;
     stream.fill(counts_, 0);
-    context.dispatch(shade_, count,
+    context.dispatch(shadeHits_, count,
                      {context.scene,
                       context[voxels_],
                       isHybrid() ? context[leaves_].bindings() : std::vector<Binding>(),
-                      faces_.binding(),
-                      {"grazing", grazing_},
+                      faceIrradiance_.binding(),
+                      {"schlickMeans", schlickMeans_},
                       {"grid", grid_},
                       {"paths", paths_[depth % 2]},
                       {"rays", rays_[depth % 2]},
@@ -359,18 +361,20 @@ uint32_t GatherMirror::end(PassContext& context, const gpu::MirrorBatch& batch, 
                       {"depth", depth},
                       {"isLast", depth + 1 == params_.bounces}});
     const MirrorCounts counts = stream.readAs<MirrorCounts>(counts_, 1)[0];
-    triangleHits_ += counts.triangles;
-    cellHits_ += counts.cells;
-    wideRays_ += counts.wide;
-    misses_ += counts.missed;
+    triangleHitCount_ += counts.triangles;
+    cellHitCount_ += counts.cells;
+    coneCount_ += counts.wide;
+    missCount_ += counts.missed;
 
-    // Direct light there.
+    // Direct light at hits
     if (counts.surfels > 0) {
-        hitLight_->measure(context, sources_, surfels_, counts.surfels, params_.lightSamples,
-                           batch.seed + 0xa3u + depth * 0x9e3779b9u, hitDirect_);
-        context.dispatch(
-            reflect_, counts.surfels,
-            {{"surfels", surfels_}, {"arriving", hitDirect_}, {"light", light_}, {"count", counts.surfels}});
+        directLightAtHits_->measure(context, sources_, surfels_, counts.surfels, params_.lightSamples,
+                                    batch.seed + 0xa3u + depth * 0x9e3779b9u, irradianceAtHits_);
+        context.dispatch(addDirectLight_, counts.surfels,
+                         {{"surfels", surfels_},
+                          {"surfelIrradiance", irradianceAtHits_},
+                          {"light", light_},
+                          {"count", counts.surfels}});
     }
     return counts.next;
 }
@@ -380,13 +384,13 @@ void GatherMirror::resolve(PassContext& context, const gpu::MirrorBatch& batch) 
     context.dispatch(resolve_, batch.pixels,
                      {context[gbuffer_],
                       {"lobes", lobes ? lobes->reflected : context.black()},
-                      {"direct", context.orBlack(otherDirect_)},
-                      {"indirect", context.orBlack(otherIndirect_)},
-                      {"grazing", grazing_},
+                      {"direct", context.orBlack(inputDirect_)},
+                      {"indirect", context.orBlack(inputIndirect_)},
+                      {"schlickMeans", schlickMeans_},
                       {"light", light_},
                       {"joinedDirect", context[direct_].image},
                       {"joinedIndirect", context[indirect_].image},
-                      {"ends", context[ends_].parts},
+                      {"ends", context[ends_].fractions},
                       {"batch", batch}});
 }
 

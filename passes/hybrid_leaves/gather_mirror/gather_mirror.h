@@ -6,12 +6,13 @@
 
 namespace voxray {
 
-/// What a pixel's first mirror rays ended on.
+/// Where a pixel's first mirror rays ended.
 struct MirrorEnds : Resource {
-    Image parts;  ///< RGBA32F: on triangles, on cells of grids, as cones, nowhere; 0 where none went out.
+    Image fractions;  ///< RGBA32F, fractions of the rays: on triangles, on grid cells, as cones, nowhere; 0
+                      ///< without rays.
 
     std::vector<Aov> aovs() const override {
-        return {{&parts, {"ends.triangles", "ends.cells", "ends.cones", "ends.nowhere"}}};
+        return {{&fractions, {"ends.triangles", "ends.cells", "ends.cones", "ends.nowhere"}}};
     }
 };
 

@@ -1,14 +1,13 @@
-// What gather_mirror's shaders and its host code agree on.
+// Shared by gather_mirror's shaders and host code.
 #ifndef VOXRAY_MIRROR_TYPES_H
 #define VOXRAY_MIRROR_TYPES_H
 
 #include "shaders/shared/types.h"
 
-// Values of the table of what a dielectric layer takes from diffuse light: by roots of the cosine to the
-// viewer, evenly spaced from 0 to 1.
-#define GRAZING_COSINES 64
+// Entries of schlickTable(): by the square root of the viewer's cosine, evenly spaced from 0 to 1.
+#define SCHLICK_TABLE_SIZE 64
 
-// What a ray from the camera's mirror ended on.
+// Where the first ray of a slot ended.
 #define ENDS_ON_TRIANGLE 1u
 #define ENDS_ON_CELL 2u
 #define ENDS_AS_CONE 3u
@@ -16,36 +15,35 @@
 
 VOXRAY_SHARED_BEGIN
 
-// A batch of pixels. Its slots for rays: those of its pixels one after another, of a pixel those of its
-// texels.
+// A batch of pixels. A slot holds a ray: slots are ordered by pixel, then by texel.
 struct MirrorBatch {
     vec3 camera;   // World position, m.
-    uint width;    // Pixels of a row.
-    vec3 forward;  // Unit direction that the camera looks in.
+    uint width;    // Of the image, pixels.
+    vec3 forward;  // Unit view direction of the camera.
     uint firstPixel;
     uint pixels;
-    uint samples;          // Texels along each side of a pixel.
-    uint rays;             // Slots of a texel. A mirror uses one.
-    float maxRoughness;    // Up to here rays alone bring specular light,
-    float blendRoughness;  // over so much more their weight falls to 0.
+    uint samples;          // Texels along an edge of a pixel.
+    uint rays;             // Slots per texel. A perfect mirror uses one.
+    float maxRoughness;    // Up to here only rays bring specular light,
+    float blendRoughness;  // over this range more their weight falls to 0.
     float texelArea;       // Of a texel at unit distance in front of the camera.
     uint seed;
 };
 
-// A ray on its way from surface to surface.
+// Path of a slot, with the footprint of its current ray (a ray cone).
 struct MirrorPath {
-    vec3 throughput;  // Radiance that reaches the camera's texel over what the ray brings.
+    vec3 throughput;
     uint slot;
-    float width;     // m, of its footprint where it starts; squared it is an area across the ray.
-    float spread;    // Growth of the width for each metre.
-    uint seesLamps;  // 1: what it meets of emitted light counts; 0: another pass brings that.
+    float width;          // Of the footprint at the ray's origin, m: the root of its area across the ray.
+    float spread;         // Growth of the width per metre.
+    uint countsEmission;  // 1: emission at hits counts; 0: another pass brings it.
 };
 
-// What the rays of a slot bring, W/(m² sr), as the reference splits it.
+// Radiance of a slot's path, W/(m² sr), divided as the reference divides it.
 struct MirrorLight {
-    vec3 direct;    // Emission and environment by one reflection.
-    vec3 indirect;  // All else.
-    uint end;       // Of the first ray: ENDS_ON_TRIANGLE and so on; 0 where none went out.
+    vec3 direct;    // Emission and environment after one reflection.
+    vec3 indirect;  // All other light.
+    uint end;       // Of the first ray: ENDS_ON_TRIANGLE and so on; 0 for an inactive slot.
 };
 
 VOXRAY_SHARED_END

@@ -12,7 +12,7 @@
 
 namespace voxray {
 
-/// How colors that meet in a voxel's word are merged (passes/published/packed_write.glsl).
+/// How a color is merged into a voxel's word (passes/published/packed_write.glsl).
 enum class PackedWrite { MovingAverage, Max, None };
 template <>
 struct EnumNames<PackedWrite> {
@@ -21,7 +21,7 @@ struct EnumNames<PackedWrite> {
                                       std::pair{PackedWrite::None, "none"}};
 };
 
-/// The parameter of a pass that writes packed words.
+/// The parameter of passes that write packed words.
 struct PackedWriteParams {
     PackedWrite write = PackedWrite::MovingAverage;
     static constexpr auto schema() {
@@ -32,7 +32,7 @@ struct PackedWriteParams {
             "word, so that blue decides (section 5.2.4). none: a plain store, the last one stays, whichever "
             "that is.")};
     }
-    /// For a shader that includes passes/published/packed_write.glsl.
+    /// Definitions of passes/published/packed_write.glsl.
     Defines defines() const {
         switch (write) {
             case PackedWrite::MovingAverage:
@@ -45,9 +45,9 @@ struct PackedWriteParams {
     }
 };
 
-/// Volumes of one RGBA8 word a voxel, as published in Magalhães 2020 (section 4.2.1, table 4.1): no faces, no
-/// areas, and a word for each voxel of the grid, empty ones too, which hold 0. Buffers stand for the thesis's
-/// 3D textures. GLSL access: passes/published/magalhaes_2020/packed_voxels.glsl.
+/// Volumes of one RGBA8 word per voxel, as published in Magalhães 2020 (section 4.2.1, table 4.1): no faces,
+/// no areas, and a word for empty voxels, too, which is 0. Buffers stand for the thesis's 3D textures. GLSL
+/// access: passes/published/magalhaes_2020/packed_voxels.glsl.
 struct PackedVoxels : Resource {
     gpu::VoxelGrid grid{};
     LargeBuffer normals;  ///< Mean of the front-side normals n, as 0.5 n + 0.5.
@@ -59,11 +59,11 @@ struct PackedVoxels : Resource {
     }
 };
 
-/// Light that arrives at the surfaces in each voxel of PackedVoxels, from all sides in one.
+/// Irradiance in the voxels of PackedVoxels, of all faces in one.
 struct PackedLight : Resource {
-    std::string basisPort() const override { return "packed_voxels"; }
+    std::string indexedBy() const override { return "packed_voxels"; }
 
-    LargeBuffer irradiance;  ///< In units of `white`; what is brighter was clamped.
+    LargeBuffer irradiance;  ///< In units of `white`, clamped.
     float white = 1;         ///< W/m²
 };
 

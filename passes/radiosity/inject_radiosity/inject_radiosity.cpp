@@ -18,8 +18,8 @@ constexpr uint64_t kSurfelIrradianceBytes = 4 * sizeof(float), kRadiosityBytes =
 
 }  // namespace
 
-/// Light between surfels along links that were found beforehand: shadow rays to the lights, and no ray for
-/// any bounce. Source: Goral et al. 1984; Lehtinen et al. 2008; docs/radiosity.md.
+/// Radiosity along precomputed links between surfels: direct light by shadow rays, then bounces without rays.
+/// Source: Goral et al. 1984; Lehtinen et al. 2008; docs/radiosity.md.
 class InjectRadiosity final : public Pass {
  public:
     static constexpr const char* kName = "inject_radiosity";
@@ -48,17 +48,17 @@ class InjectRadiosity final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Of a chunk of surfels, W/m², 4 floats each.
+    /// Irradiance of a chunk's surfels, W/m², 4 floats each.
     struct ChunkLight {
         Buffer direct, indirect;
     };
-    /// Direct irradiance of all chunks, and what it leaves of radiosity.
-    std::vector<ChunkLight> measure(PassContext& context);
-    /// Bounce 1, 2 ...: adds to the indirect irradiance of all chunks.
-    void bounce(PassContext& context, uint32_t number, const std::vector<ChunkLight>& light);
+    /// Measures the direct irradiance of all chunks, and initializes radiosity.
+    std::vector<ChunkLight> measureDirect(PassContext& context);
+    /// Adds bounce `bounce`, from 1 on, to the indirect irradiance of all chunks.
+    void gatherRadiosity(PassContext& context, uint32_t bounce, const std::vector<ChunkLight>& light);
 
-    /// Leaves the indirect irradiance of all chunks in the surfels' slots.
-    void keep(PassContext& context, const std::vector<ChunkLight>& light);
+    /// Stores the indirect irradiance of all chunks by slot.
+    void storeSurfelIrradiance(PassContext& context, const std::vector<ChunkLight>& light);
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels to light"};
@@ -68,21 +68,21 @@ class InjectRadiosity final : public Pass {
     Out<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
     Out<SurfelIrradiance> surfelIrradiance_{*this, "surfel_irradiance", "light that arrives at surfels"};
     std::vector<LightSource> sources_;
-    SurfelLight light_{*this};
+    SurfelLight directLight_{*this};
     SurfelInjection injection_{*this};
-    Kernel reflect_{*this, "reflect.comp"};
-    Kernel bounce_{*this, "bounce.comp"};
-    Kernel keep_{*this, "keep.comp"};
-    LargeBuffer radiosity_[2];  ///< Scratch: of all surfels, packed; before and after a bounce.
+    Kernel initRadiosity_{*this, "init_radiosity.comp"};
+    Kernel gatherRadiosity_{*this, "gather_radiosity.comp"};
+    Kernel storeSurfelIrradiance_{*this, "store_surfel_irradiance.comp"};
+    LargeBuffer radiosity_[2];  ///< Scratch: of all surfels, packed; previous and next.
 };
 
 void InjectRadiosity::plan(PassPlan& plan) {
     plan[irradiance_].lightBounces = params_.bounces;
     sources_ = requireLightSources(*plan.frame.scene, kName);
     injection_.plan(plan, kName, params_, plan[voxels_]);
-    light_.plan(plan, Surfels::kChunk);
+    directLight_.plan(plan, Surfels::kChunk);
     plan.lightRays = uint64_t(plan[surfels_].estimatedCount) * plan.frame.scene->lights.size();
-    // A ray's is about 1.
+    // That of one ray is about 1
     plan[surfelIrradiance_].relativeVariance = 1.0f / float(plan[links_].raysPerSurfel);
 }
 
@@ -91,85 +91,86 @@ void InjectRadiosity::record(PassContext& context) {
     VoxelIrradiance& irradiance = context[irradiance_];
     injection_.begin(context, scene, irradiance);
 
-    // Light by light paths of no, one, two ... bounces.
-    const std::vector<ChunkLight> light = measure(context);
-    for (uint32_t number = 1; number <= params_.bounces; ++number) bounce(context, number, light);
+    const std::vector<ChunkLight> light = measureDirect(context);
+    for (uint32_t bounce = 1; bounce <= params_.bounces; ++bounce) gatherRadiosity(context, bounce, light);
 
-    // Into the voxels.
     const std::vector<Surfels::Chunk>& chunks = context[surfels_].chunks;
     for (size_t i = 0; i < chunks.size(); ++i) {
         injection_.writeDirect(context, chunks[i].surfels, chunks[i].count, light[i].direct);
         injection_.writeIndirect(context, chunks[i].surfels, chunks[i].count, light[i].indirect);
     }
-    if (context[surfelIrradiance_].isRead) keep(context, light);
+    if (context[surfelIrradiance_].isRead) storeSurfelIrradiance(context, light);
     injection_.finish(context, scene.voxels, irradiance);
     radiosity_[0] = {}, radiosity_[1] = {};
     requireLight(context.stream, scene.voxels, irradiance, *context.frame.scene);
     injection_.fillUnknown(context, scene.voxels, irradiance);
 }
 
-std::vector<InjectRadiosity::ChunkLight> InjectRadiosity::measure(PassContext& context) {
+std::vector<InjectRadiosity::ChunkLight> InjectRadiosity::measureDirect(PassContext& context) {
     const SurfelLinks& links = context[links_];
     for (LargeBuffer& radiosity : radiosity_)
         radiosity = LargeBuffer(context.device, "radiosity of surfels", links.surfelCount * kRadiosityBytes);
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
     std::vector<ChunkLight> light;
-    uint32_t first = 0;
+    uint32_t firstSurfel = 0;
     for (const Surfels::Chunk& chunk : context[surfels_].chunks) {
         const uint64_t bytes = chunk.count * kSurfelIrradianceBytes;
-        ChunkLight& l = light.emplace_back(Buffer(context.device, "direct irradiance of surfels", bytes),
-                                           Buffer(context.device, "indirect irradiance of surfels", bytes));
-        context.stream.fill(l.indirect, 0);
-        light_.measure(context, sources_, chunk.surfels, chunk.count, params_.lightSamples, seed, l.direct);
-        context.dispatch(reflect_, chunk.count,
+        ChunkLight& chunkLight =
+            light.emplace_back(Buffer(context.device, "direct irradiance of surfels", bytes),
+                               Buffer(context.device, "indirect irradiance of surfels", bytes));
+        context.stream.fill(chunkLight.indirect, 0);
+        directLight_.measure(context, sources_, chunk.surfels, chunk.count, params_.lightSamples, seed,
+                             chunkLight.direct);
+        context.dispatch(initRadiosity_, chunk.count,
                          {{"surfels", chunk.surfels},
-                          {"direct", l.direct},
+                          {"direct", chunkLight.direct},
                           {"RadiosityAt", radiosity_[0].at()},
                           {"count", chunk.count},
-                          {"firstNumber", first}});
-        first += chunk.count;
+                          {"firstSurfel", firstSurfel}});
+        firstSurfel += chunk.count;
     }
     return light;
 }
 
-void InjectRadiosity::bounce(PassContext& context, uint32_t number, const std::vector<ChunkLight>& light) {
+void InjectRadiosity::gatherRadiosity(PassContext& context, uint32_t bounce,
+                                      const std::vector<ChunkLight>& light) {
     const SurfelLinks& links = context[links_];
-    // Later bounces carry less light, and more even light: fewer rays measure it as well.
-    const uint32_t rays = (links.raysPerSurfel + number - 1) / number;
+    // Later bounces carry less and smoother light: fewer rays suffice
+    const uint32_t rays = (links.raysPerSurfel + bounce - 1) / bounce;
     const std::vector<Surfels::Chunk>& chunks = context[surfels_].chunks;
-    uint32_t first = 0;
+    uint32_t firstSurfel = 0;
     for (size_t i = 0; i < chunks.size(); ++i) {
-        context.dispatch(bounce_, chunks[i].count,
+        context.dispatch(gatherRadiosity_, chunks[i].count,
                          {{"surfels", chunks[i].surfels},
                           {"LinksAt", links.links.at()},
-                          {"SentAt", radiosity_[0].at()},
-                          {"ReflectedAt", radiosity_[1].at()},
+                          {"PreviousRadiosityAt", radiosity_[0].at()},
+                          {"NextRadiosityAt", radiosity_[1].at()},
                           {"indirect", light[i].indirect},
                           {"count", chunks[i].count},
-                          {"firstNumber", first},
+                          {"firstSurfel", firstSurfel},
                           {"rays", rays},
                           {"surfelCount", links.surfelCount}});
-        first += chunks[i].count;
+        firstSurfel += chunks[i].count;
     }
     std::swap(radiosity_[0], radiosity_[1]);
 }
 
-void InjectRadiosity::keep(PassContext& context, const std::vector<ChunkLight>& light) {
+void InjectRadiosity::storeSurfelIrradiance(PassContext& context, const std::vector<ChunkLight>& light) {
     const SurfelsByVoxel& byVoxel = context[byVoxel_];
-    SurfelIrradiance& kept = context[surfelIrradiance_];
-    makeOrKeep(kept.lit, context.device, "indirect irradiance of surfels",
+    SurfelIrradiance& surfelIrradiance = context[surfelIrradiance_];
+    makeOrKeep(surfelIrradiance.lit, context.device, "indirect irradiance of surfels",
                std::max(byVoxel.slotCount, 1u) * kLitBytes);
     const std::vector<Surfels::Chunk>& chunks = context[surfels_].chunks;
-    uint32_t first = 0;
+    uint32_t firstSurfel = 0;
     for (size_t i = 0; i < chunks.size(); ++i) {
-        context.dispatch(keep_, chunks[i].count,
+        context.dispatch(storeSurfelIrradiance_, chunks[i].count,
                          {{"indirect", light[i].indirect},
                           {"SlotsAt", byVoxel.slots.at()},
                           {"PackedAt", byVoxel.packed.at()},
-                          {"LitAt", kept.lit.at()},
+                          {"LitAt", surfelIrradiance.lit.at()},
                           {"count", chunks[i].count},
-                          {"firstNumber", first}});
-        first += chunks[i].count;
+                          {"firstSurfel", firstSurfel}});
+        firstSurfel += chunks[i].count;
     }
 }
 

@@ -41,16 +41,14 @@ class LinkSurfels final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Traces the rays of a chunk, whose first surfel has number `first`, and links them. `inverseDistances`
-    /// gets, by slot, the mean of 1 / distance of what each surfel sees, 1 / voxel.
-    void link(PassContext& context, const Surfels::Chunk& chunk, uint32_t first, SurfelLinks& links,
-              const LargeBuffer& inverseDistances) const;
+    /// Traces the rays of a chunk, whose first surfel has the index `firstSurfel`, and links their hits.
+    /// @param inverseDistances by slot, means over a surfel's rays, 1/voxel.
+    void linkHits(PassContext& context, const Surfels::Chunk& chunk, uint32_t firstSurfel, SurfelLinks& links,
+                  const LargeBuffer& inverseDistances) const;
 
-    /// Packs means of these with the surfels.
-    void packDistance(PassContext& context, const LargeBuffer& inverseDistances) const;
+    void packMeanDistances(PassContext& context, const LargeBuffer& inverseDistances) const;
 
-    /// What lookups read of the surfels that are sorted by voxel.
-    void pack(PassContext& context) const;
+    void packSurfels(PassContext& context) const;
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels, by which surfels are found"};
@@ -60,13 +58,13 @@ class LinkSurfels final : public Pass {
     Out<SurfelNeighbours> neighbours_{*this, "neighbours", "the surfels around each surfel"};
     SurfelSort sort_{*this};
     NeighbourSearch neighbourSearch_{*this};
-    Kernel pack_{*this, "pack.comp"};
-    Kernel emit_{*this, "emit.comp"};
-    Kernel probe_{*this, "probe.comp"};
-    Kernel link_{*this, "link.comp"};
-    Kernel distance_{*this, "inverse_distance.comp"};
-    Kernel packDistance_{*this, "pack_distance.comp"};
-    Buffer rays_, hits_, probes_, covered_, unlinked_;  ///< Scratch, of a batch of rays.
+    Kernel packSurfels_{*this, "pack_surfels.comp"};
+    Kernel generateRays_{*this, "generate_rays.comp"};
+    Kernel generateOcclusionRays_{*this, "generate_occlusion_rays.comp"};
+    Kernel linkHits_{*this, "link_hits.comp"};
+    Kernel meanInverseDistance_{*this, "mean_inverse_distance.comp"};
+    Kernel packMeanDistances_{*this, "pack_mean_distances.comp"};
+    Buffer rays_, hits_, occlusionRays_, occluded_, unlinkedHits_;  ///< Scratch, of a batch of rays.
 };
 
 void LinkSurfels::plan(PassPlan& plan) {
@@ -75,14 +73,14 @@ void LinkSurfels::plan(PassPlan& plan) {
                   (params_.raysPerSurfel * sizeof(uint32_t) + sizeof(gpu::SortedSurfel)));
     plan.scratchBuffer(rays_, "link rays", uint64_t(kBatchRays) * sizeof(Ray));
     plan.scratchBuffer(hits_, "link hits", uint64_t(kBatchRays) * sizeof(Hit));
-    plan.scratchBuffer(probes_, "rays that tell covered hits", uint64_t(kBatchRays) * sizeof(Ray));
-    plan.scratchBuffer(covered_, "link hits on covered sides", uint64_t(kBatchRays) * sizeof(uint32_t));
-    plan.scratchBuffer(unlinked_, "number of hits without surfel", sizeof(uint32_t));
+    plan.scratchBuffer(occlusionRays_, "rays that tell covered hits", uint64_t(kBatchRays) * sizeof(Ray));
+    plan.scratchBuffer(occluded_, "link hits on covered sides", uint64_t(kBatchRays) * sizeof(uint32_t));
+    plan.scratchBuffer(unlinkedHits_, "number of hits without surfel", sizeof(uint32_t));
     plan[byVoxel_].coveredSides = plan[surfels_].coveredSides;
 }
 
 void LinkSurfels::record(PassContext& context) {
-    if (!context.inputsChanged()) return;  // Light alone has changed.
+    if (!context.inputsChanged()) return;  // Only light has changed.
     SurfelLinks& links = context[links_];
     const Surfels& surfels = context[surfels_];
     const uint64_t count = surfels.count;
@@ -95,32 +93,32 @@ void LinkSurfels::record(PassContext& context) {
     makeOrKeep(links.links, context.device, "surfel links", count * params_.raysPerSurfel * sizeof(uint32_t));
 
     sort_.run(context.stream, surfels, context[voxels_].voxelCount, context[byVoxel_]);
-    pack(context);
+    packSurfels(context);
     const LargeBuffer inverseDistances(context.device, "inverse distances of surfels",
                                        std::max(context[byVoxel_].slotCount, 1u) * sizeof(float));
-    context.stream.fill(unlinked_, 0);
-    uint32_t first = 0;
+    context.stream.fill(unlinkedHits_, 0);
+    uint32_t firstSurfel = 0;
     for (const Surfels::Chunk& chunk : surfels.chunks) {
-        link(context, chunk, first, links, inverseDistances);
-        first += chunk.count;
+        linkHits(context, chunk, firstSurfel, links, inverseDistances);
+        firstSurfel += chunk.count;
     }
-    packDistance(context, inverseDistances);
+    packMeanDistances(context, inverseDistances);
     if (context[neighbours_].isRead)
         context.report("radius of neighbours, voxels",
                        neighbourSearch_.run(context.stream, context[voxels_], surfels.pointCount,
                                             context[byVoxel_], context[neighbours_]));
-    const uint32_t unlinked = context.stream.readAs<uint32_t>(unlinked_, 1)[0];
+    const uint32_t unlinkedHits = context.stream.readAs<uint32_t>(unlinkedHits_, 1)[0];
     context.report("links", double(count) * params_.raysPerSurfel);
     context.report("hits without surfel, % of rays",
-                   100.0 * unlinked / (double(count) * params_.raysPerSurfel));
+                   100.0 * unlinkedHits / (double(count) * params_.raysPerSurfel));
 }
 
-void LinkSurfels::pack(PassContext& context) const {
+void LinkSurfels::packSurfels(PassContext& context) const {
     const SurfaceVoxels& voxels = context[voxels_];
     SurfelsByVoxel& byVoxel = context[byVoxel_];
     makeOrKeep(byVoxel.packed, context.device, "packed surfels",
                std::max(byVoxel.slotCount, 1u) * kPackedSurfelBytes);
-    context.dispatch(pack_, voxels.voxelCount,
+    context.dispatch(packSurfels_, voxels.voxelCount,
                      {voxels,
                       {"SortedAt", byVoxel.sorted.at()},
                       {"PackedAt", byVoxel.packed.at()},
@@ -128,63 +126,64 @@ void LinkSurfels::pack(PassContext& context) const {
                       {"voxels", voxels.voxelCount}});
 }
 
-void LinkSurfels::link(PassContext& context, const Surfels::Chunk& chunk, uint32_t first, SurfelLinks& links,
-                       const LargeBuffer& inverseDistances) const {
+void LinkSurfels::linkHits(PassContext& context, const Surfels::Chunk& chunk, uint32_t firstSurfel,
+                           SurfelLinks& links, const LargeBuffer& inverseDistances) const {
     const SurfaceVoxels& voxels = context[voxels_];
     const SurfelsByVoxel& byVoxel = context[byVoxel_];
-    const bool probe = context[surfels_].coveredSides;
-    if (!probe) context.stream.fill(covered_, 0);
-    const uint32_t perSurfel = params_.raysPerSurfel, batch = kBatchRays / perSurfel;
-    for (uint32_t begin = 0; begin < chunk.count; begin += batch) {
-        const uint32_t surfels = std::min(batch, chunk.count - begin), rays = surfels * perSurfel;
-        context.dispatch(emit_, rays,
+    const bool testsOcclusion = context[surfels_].coveredSides;
+    if (!testsOcclusion) context.stream.fill(occluded_, 0);
+    const uint32_t raysPerSurfel = params_.raysPerSurfel, surfelsPerBatch = kBatchRays / raysPerSurfel;
+    for (uint32_t firstInChunk = 0; firstInChunk < chunk.count; firstInChunk += surfelsPerBatch) {
+        const uint32_t surfels = std::min(surfelsPerBatch, chunk.count - firstInChunk),
+                       rays = surfels * raysPerSurfel;
+        context.dispatch(generateRays_, rays,
                          {{"surfels", chunk.surfels},
                           {"rays", rays_},
-                          {"firstSurfel", begin},
+                          {"firstSurfel", firstInChunk},
                           {"rayCount", rays},
-                          {"raysPerSurfel", perSurfel},
+                          {"raysPerSurfel", raysPerSurfel},
                           {"seed", randomSeed(context.frame)}});
         context.tracer.closestHit(context.stream, rays_, hits_, rays);
-        if (probe) {
-            context.dispatch(probe_, rays,
+        if (testsOcclusion) {
+            context.dispatch(generateOcclusionRays_, rays,
                              {context.scene,
                               {"rays", rays_},
                               {"hits", hits_},
-                              {"probes", probes_},
+                              {"occlusionRays", occlusionRays_},
                               {"rayCount", rays},
                               {"voxelSize", voxels.grid.voxelSize}});
-            context.tracer.occluded(context.stream, probes_, covered_, rays);
+            context.tracer.occluded(context.stream, occlusionRays_, occluded_, rays);
         }
-        context.dispatch(link_, rays,
+        context.dispatch(linkHits_, rays,
                          {context.scene,
                           voxels,
                           {"rays", rays_},
                           {"hits", hits_},
-                          {"covered", covered_},
+                          {"occluded", occluded_},
                           {"SortedAt", byVoxel.sorted.at()},
                           {"lists", byVoxel.lists},
                           {"LinksAt", links.links.at()},
-                          {"unlinked", unlinked_},
-                          {"firstNumber", first + begin},
+                          {"unlinkedHits", unlinkedHits_},
+                          {"firstSurfel", firstSurfel + firstInChunk},
                           {"rayCount", rays},
-                          {"raysPerSurfel", perSurfel},
+                          {"raysPerSurfel", raysPerSurfel},
                           {"surfelCount", links.surfelCount}});
-        context.dispatch(distance_, surfels,
+        context.dispatch(meanInverseDistance_, surfels,
                          {{"hits", hits_},
                           {"SlotsAt", byVoxel.slots.at()},
                           {"InverseDistancesAt", inverseDistances.at()},
-                          {"firstNumber", first + begin},
+                          {"firstSurfel", firstSurfel + firstInChunk},
                           {"surfelCount", surfels},
-                          {"raysPerSurfel", perSurfel},
+                          {"raysPerSurfel", raysPerSurfel},
                           {"voxelSize", voxels.grid.voxelSize}});
     }
     context.stream.finish();
 }
 
-void LinkSurfels::packDistance(PassContext& context, const LargeBuffer& inverseDistances) const {
+void LinkSurfels::packMeanDistances(PassContext& context, const LargeBuffer& inverseDistances) const {
     const SurfelsByVoxel& byVoxel = context[byVoxel_];
     const uint32_t voxels = context[voxels_].voxelCount;
-    context.dispatch(packDistance_, voxels,
+    context.dispatch(packMeanDistances_, voxels,
                      {{"InverseDistancesAt", inverseDistances.at()},
                       {"PackedAt", byVoxel.packed.at()},
                       {"lists", byVoxel.lists},

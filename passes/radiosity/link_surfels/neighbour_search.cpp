@@ -9,42 +9,45 @@ namespace {
 
 constexpr uint64_t kPairBytes = 2 * sizeof(uint32_t);
 
-/// Pairs on flat surfaces with so many points. A plane cuts through up to the root of 3 voxels for each
-/// square of their size, and a disk whose radius is a voxel's size is pi of these.
-uint64_t pairsOnPlanes(uint64_t points, uint32_t voxels) {
-    const double around = std::numbers::pi * std::numbers::sqrt3 * double(points) / std::max(voxels, 1u);
-    return std::min(uint64_t(2 * double(points) * around) + 2 * points,
+/// Pairs on flat surfaces with that many points. A plane passes through at most sqrt(3) voxels per square of
+/// their size, and a disk with a voxel's size as radius covers pi squares.
+uint64_t pairsOnFlatSurfaces(uint64_t points, uint32_t voxels) {
+    const double neighboursPerPoint =
+        std::numbers::pi * std::numbers::sqrt3 * double(points) / std::max(voxels, 1u);
+    return std::min(uint64_t(2 * double(points) * neighboursPerPoint) + 2 * points,
                     uint64_t(std::numeric_limits<uint32_t>::max()));
 }
 
 }  // namespace
 
 NeighbourSearch::NeighbourSearch(ProgramOwner& owner)
-    : count_(owner, "neighbours.comp", {{"COUNT", "1"}}),
-      list_(owner, "neighbours.comp"),
+    : count_(owner, "list_neighbours.comp", {{"COUNT", "1"}}),
+      list_(owner, "list_neighbours.comp"),
       prefixSum_(owner, PrefixSum::Of::Values) {}
 
 float NeighbourSearch::run(CommandStream& stream, const SurfaceVoxels& voxels, uint64_t points,
-                           const SurfelsByVoxel& surfels, SurfelNeighbours& to) const {
+                           const SurfelsByVoxel& surfels, SurfelNeighbours& neighbours) const {
     Device& device = stream.device();
     const uint32_t slots = surfels.slotCount;
-    to.begins = {}, to.pairs = {};
-    to.begins = Buffer(device, "first neighbour of each surfel", (uint64_t(slots) + 1) * sizeof(uint32_t));
-    const uint64_t most = pairsOnPlanes(points, voxels.voxelCount);
+    neighbours.begins = {}, neighbours.pairs = {};
+    neighbours.begins =
+        Buffer(device, "first neighbour of each surfel", (uint64_t(slots) + 1) * sizeof(uint32_t));
+    const uint64_t maxPairs = pairsOnFlatSurfaces(points, voxels.voxelCount);
     float radius = 1;
-    uint64_t pairs = count(stream, voxels, surfels, radius * voxels.grid.voxelSize, to);
-    while (pairs > most) {  // At radius 0 there are none.
-        radius = radius > 0.01f ? kShrink * radius : 0;
-        pairs = count(stream, voxels, surfels, radius * voxels.grid.voxelSize, to);
+    uint64_t pairs = count(stream, voxels, surfels, radius * voxels.grid.voxelSize, neighbours);
+    while (pairs > maxPairs) {  // At radius 0 there are none.
+        radius = radius > 0.01f ? kRadiusStep * radius : 0;
+        pairs = count(stream, voxels, surfels, radius * voxels.grid.voxelSize, neighbours);
     }
-    to.pairs = LargeBuffer(device, "neighbours of surfels", std::max<uint64_t>(pairs, 1) * kPairBytes);
+    neighbours.pairs =
+        LargeBuffer(device, "neighbours of surfels", std::max<uint64_t>(pairs, 1) * kPairBytes);
     stream.dispatch(list_, slots,
                     {voxels,
                      {"SortedAt", surfels.sorted.at()},
                      {"lists", surfels.lists},
-                     {"begins", to.begins},
+                     {"begins", neighbours.begins},
                      {"PackedAt", surfels.packed.at()},
-                     {"PairsAt", to.pairs.at()},
+                     {"PairsAt", neighbours.pairs.at()},
                      {"slots", slots},
                      {"radius", radius * voxels.grid.voxelSize}});
     stream.finish();
@@ -52,22 +55,23 @@ float NeighbourSearch::run(CommandStream& stream, const SurfaceVoxels& voxels, u
 }
 
 uint64_t NeighbourSearch::count(CommandStream& stream, const SurfaceVoxels& voxels,
-                                const SurfelsByVoxel& surfels, float radius, SurfelNeighbours& to) const {
+                                const SurfelsByVoxel& surfels, float radius,
+                                SurfelNeighbours& neighbours) const {
     const uint32_t slots = surfels.slotCount;
     const Buffer largest(stream.device(), "neighbours of a surfel, at most", sizeof(uint32_t));
-    stream.fill(to.begins, 0);
+    stream.fill(neighbours.begins, 0);
     stream.fill(largest, 0);
     stream.dispatch(count_, slots,
                     {voxels,
                      {"SortedAt", surfels.sorted.at()},
                      {"lists", surfels.lists},
-                     {"counts", to.begins},
+                     {"counts", neighbours.begins},
                      {"largest", largest},
                      {"slots", slots},
                      {"radius", radius}});
-    const uint64_t bound = uint64_t(stream.readAs<uint32_t>(largest, 1)[0]) * slots;
-    const uint32_t sum = prefixSum_.run(stream, to.begins, to.begins, slots + 1);
-    return bound > std::numeric_limits<uint32_t>::max() ? bound : sum;
+    const uint64_t upperBound = uint64_t(stream.readAs<uint32_t>(largest, 1)[0]) * slots;
+    const uint32_t sum = prefixSum_.run(stream, neighbours.begins, neighbours.begins, slots + 1);
+    return upperBound > std::numeric_limits<uint32_t>::max() ? upperBound : sum;
 }
 
 }  // namespace voxray

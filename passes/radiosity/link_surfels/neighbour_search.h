@@ -7,24 +7,24 @@
 
 namespace voxray {
 
-/// Finds the surfels around each surfel, for smooth_surfels.
+/// Finds the neighbours of surfels, for smooth_surfels.
 class NeighbourSearch {
  public:
     explicit NeighbourSearch(ProgramOwner& owner);
 
-    /// Lists those within a voxel's size. Where these are more than a flat surface has that cuts through as
-    /// many voxels as one can: within the largest of the radii that shrink by kShrink that has no more.
-    /// @param points that surfels were placed at (Surfels::pointCount). @return the radius, in voxels.
+    /// Lists the surfels within a voxel's size of each surfel. Where these pairs exceed those of flat
+    /// surfaces with as many points, the radius shrinks by factors of kRadiusStep until they don't. @param
+    /// points that surfels were placed at (Surfels::pointCount). @return the radius, in voxels.
     float run(CommandStream& stream, const SurfaceVoxels& voxels, uint64_t points,
-              const SurfelsByVoxel& surfels, SurfelNeighbours& to) const;
+              const SurfelsByVoxel& surfels, SurfelNeighbours& neighbours) const;
 
  private:
-    static constexpr float kShrink = 0.8f;
+    static constexpr float kRadiusStep = 0.8f;
 
-    /// Counts the pairs within a radius (m) and leaves the first of each slot in to.begins. @return their
-    /// number, which may be larger than can be numbered: then an upper bound.
+    /// Counts the pairs within a radius (m), and writes the first of each slot to neighbours.begins. @return
+    /// their number, or an upper bound where it exceeds 32 bits.
     uint64_t count(CommandStream& stream, const SurfaceVoxels& voxels, const SurfelsByVoxel& surfels,
-                   float radius, SurfelNeighbours& to) const;
+                   float radius, SurfelNeighbours& neighbours) const;
 
     Kernel count_, list_;
     PrefixSum prefixSum_;

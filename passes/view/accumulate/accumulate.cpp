@@ -44,7 +44,7 @@ class Accumulate final : public Pass {
     };
 
     explicit Accumulate(const Params& params) : params_(params) {}
-    uint32_t framesBefore() const override { return params_.history - 1; }
+    uint32_t warmupFrames() const override { return params_.history - 1; }
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
 

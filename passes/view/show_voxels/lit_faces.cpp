@@ -16,24 +16,24 @@ LitFaces::LitFaces(ProgramOwner& owner)
 
 void LitFaces::count(CommandStream& stream, uint32_t voxels, const VoxelPatches& patches,
                      const ClusterVisibility& visibility, const ClusterLight& light) {
-    makeOrKeep(litOfParts_, stream.device(), "lit faces of parts", ofFaces(patches.partCount));
+    makeOrKeep(litOfParts_, stream.device(), "lit faces of parts", ofFaces(patches.componentCount));
     makeOrKeep(seenByFaces_, stream.device(), "lit faces that faces see", ofFaces(voxels));
-    stream.dispatch(countLit_, patches.partCount,
-                    {{"sides", patches.sides},
-                     {"parts", patches.parts},
-                     {"members", patches.members},
+    stream.dispatch(countLit_, patches.componentCount,
+                    {{"groups", patches.groups},
+                     {"components", patches.components},
+                     {"memberGroups", patches.memberGroups},
                      {"PatchDirectAt", light.direct.at()},
                      {"litOfParts", litOfParts_},
-                     {"count", patches.partCount}});
+                     {"count", patches.componentCount}});
     stream.fill(seenByFaces_, 0);
-    stream.dispatch(countSeen_, patches.sideCount,
-                    {{"seenChunks", visibility.addresses},
-                     {"sides", patches.sides},
+    stream.dispatch(countSeen_, patches.groupCount,
+                    {{"visibilityLists", visibility.chunkAddresses},
+                     {"groups", patches.groups},
                      {"PatchDirectAt", light.direct.at()},
                      {"litOfParts", litOfParts_},
                      {"seenByFaces", seenByFaces_},
                      {"lists", visibility.layout},
-                     {"count", patches.sideCount}});
+                     {"count", patches.groupCount}});
 }
 
 }  // namespace voxray

@@ -78,8 +78,7 @@ class ShowVoxels final : public Pass {
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels", !showsLevel()};
     In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces",
                                     showsLight()};
-    In<VoxelPatches> patches_{*this, "patches", "surfaces by the open space that they look into",
-                              showsLitFaces()};
+    In<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels", showsLitFaces()};
     In<ClusterVisibility> visibility_{*this, "cluster_visibility", "what each patch sees", showsLitFaces()};
     In<ClusterLight> clusterLight_{*this, "cluster_light", "which patches are lit", showsLitFaces()};
     Out<FrameImage> final_{*this, "final", "voxels, as cubes"};

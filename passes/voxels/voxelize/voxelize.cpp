@@ -48,21 +48,21 @@ class VoxelizePass final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    std::unique_ptr<TriangleWalk> makeWalk();
+    std::unique_ptr<TriangleVoxelizer> makeVoxelizer();
 
     const Params params_;
     Out<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels with their materials"};
-    VoxelBuilder builder_{*this, makeWalk(), params_.visibilityRays};
+    VoxelBuilder builder_{*this, makeVoxelizer(), params_.visibilityRays};
 };
 
-std::unique_ptr<TriangleWalk> VoxelizePass::makeWalk() {
+std::unique_ptr<TriangleVoxelizer> VoxelizePass::makeVoxelizer() {
     switch (params_.method) {
         case VoxelizeMethodName::ThreeAxis:
-            return makeThreeAxisWalk(params_.samplesPerVoxelEdge);
+            return makeThreeAxisVoxelizer(params_.samplesPerVoxelEdge);
         case VoxelizeMethodName::DominantAxis:
-            return makeDominantAxisWalk();
+            return makeDominantAxisVoxelizer();
         default:
-            return makeExactWalk();
+            return makeExactVoxelizer();
     }
 }
 

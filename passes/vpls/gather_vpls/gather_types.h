@@ -1,4 +1,4 @@
-// Which shadow rays a batch traces, shared by C++ and GLSL.
+// The shadow rays of a batch, shared by C++ and GLSL.
 #ifndef VOXRAY_GATHER_VPLS_TYPES_H
 #define VOXRAY_GATHER_VPLS_TYPES_H
 
@@ -6,17 +6,16 @@
 
 VOXRAY_SHARED_BEGIN
 
-// Rays from so many receivers of a subset to so many of the subset's virtual lights. Receivers follow each
-// other, then lights. Receivers are texels of the G-buffer, or surfels that rays from texels hit (SURFELS).
+// A batch: shadow rays between receivers and virtual lights of one subset. Ray v * receiverCount + r connects
+// receiver r with light v. Receivers are texels of the G-buffer, or surfels (SURFELS).
 struct VplBatch {
-    uvec2 receivers;          // Texels of the G-buffer; or the number of surfels, and 1.
-    uint block;               // Texels along its edge; subsets are its square.
-    uint subset;              // Row by row within the block.
-    uint first, count;        // Receivers, of those of the subset.
-    uint firstVpl, vplCount;  // Of the list of virtual lights.
-    uint bounces;             // Of a path: virtual light v is of bounce v % bounces.
-    uint reflections;  // Between the receiver and the texel: virtual lights of the last so many bounces count
-                       // no more.
+    uvec2 receiverExtent;               // Texels of the G-buffer; for surfels their number, and 1.
+    uint block;                         // Edge of an interleaving block, texels; there are block² subsets.
+    uint subset;                        // Index within the block, row by row.
+    uint firstReceiver, receiverCount;  // Range of the subset's receivers.
+    uint firstVpl, vplCount;            // Range of the subset's virtual lights in Vpls::activeIndices.
+    uint bounces;                       // Per path: virtual light v belongs to bounce v % bounces.
+    uint reflections;                   // Between receiver and texel: the last so many bounces are left out.
 };
 
 VOXRAY_SHARED_END

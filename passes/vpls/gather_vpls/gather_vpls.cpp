@@ -10,12 +10,12 @@
 #include "passes/common/voxel_march/voxel_tracer.h"
 #include "passes/hybrid_leaves/hybrid_tracer.h"
 #include "passes/vpls/gather_vpls/compensation.h"
-#include "passes/vpls/gather_vpls/point_maps.h"
-#include "passes/vpls/gather_vpls/traced_maps.h"
+#include "passes/vpls/gather_vpls/imperfect_shadow_maps.h"
+#include "passes/vpls/gather_vpls/traced_shadow_maps.h"
 
 namespace voxray {
 
-/// What hides a virtual point light from a surface.
+/// What decides whether a virtual point light is occluded.
 enum class VplVisibility {
     Svo,
     SvoRestart,
@@ -42,16 +42,16 @@ struct EnumNames<VplVisibility> {
 
 namespace {
 
-bool hasMaps(VplVisibility visibility) {
+bool usesShadowMaps(VplVisibility visibility) {
     return visibility == VplVisibility::ShadowMap || visibility == VplVisibility::ImperfectShadowMap;
 }
 
-bool meetsVoxels(VplVisibility visibility) {
-    return !hasMaps(visibility) && visibility != VplVisibility::HybridLeaves &&
+bool tracesVoxels(VplVisibility visibility) {
+    return !usesShadowMaps(visibility) && visibility != VplVisibility::HybridLeaves &&
            visibility != VplVisibility::Exact && visibility != VplVisibility::None;
 }
 
-VoxelWalk walkOf(VplVisibility visibility) {
+VoxelWalk voxelWalk(VplVisibility visibility) {
     switch (visibility) {
         case VplVisibility::SvoRestart:
             return VoxelWalk::SvoRestart;
@@ -68,7 +68,7 @@ VoxelWalk walkOf(VplVisibility visibility) {
 
 /// Irradiance from virtual point lights, each texel from every n-th of them (interleaved sampling, Segovia et
 /// al. 2006), with shadow rays through voxels. Source: Sun and Agu 2015, sections 3.1 and 3.2, equations 1 to
-/// 4; there without the 1/pi that makes radiant intensity of flux (docs/many-lights.md).
+/// 4, which lack the 1/pi between flux and radiant intensity (docs/many-lights.md).
 class GatherVpls final : public Pass {
  public:
     static constexpr const char* kName = "gather_vpls";
@@ -152,48 +152,49 @@ class GatherVpls final : public Pass {
     In<Vpls> vpls_{*this, "vpls", "virtual point lights"};
     In<SurfaceVoxels> voxels_{
         *this, "voxels",
-        meetsVoxels(params_.visibility) ? "what shadow rays meet" : "whose octree shadow rays walk through",
-        meetsVoxels(params_.visibility) || params_.visibility == VplVisibility::HybridLeaves};
+        tracesVoxels(params_.visibility) ? "what shadow rays meet" : "whose octree shadow rays walk through",
+        tracesVoxels(params_.visibility) || params_.visibility == VplVisibility::HybridLeaves};
     In<HybridLeaves> leaves_{*this, "hybrid_leaves", "what shadow rays meet",
                              params_.visibility == VplVisibility::HybridLeaves};
     Out<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "irradiance from a subset of lights a texel"};
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light, unfiltered"};
     std::optional<VoxelTracer> voxelTracer_;
     std::optional<HybridTracer> hybridTracer_;
-    std::unique_ptr<VplMaps> maps_;  ///< With shadow maps of either kind.
-    VplLight light_{*this};
-    std::optional<VplCompensation> compensation_;  ///< Where something is taken away and comes back.
-    Image sums_;                                   ///< Of the G-buffer's extent.
-    Kernel finish_{*this, "finish.comp"};
+    std::unique_ptr<VplShadowMaps> shadowMaps_;  ///< For both kinds of shadow maps.
+    VplGather vplGather_{*this};
+    std::optional<VplCompensation> compensation_;  ///< Where a bound takes light away and rays restore it.
+    Image texelMoments_;                           ///< Of the G-buffer's extent.
+    Kernel resolveMoments_{*this, "resolve_moments.comp"};
     std::optional<IrradianceResolve> resolve_;  ///< Where `indirect` is read.
 };
 
 GatherVpls::GatherVpls(const Params& params) : params_(params) {
-    if (meetsVoxels(params_.visibility))
-        voxelTracer_.emplace(*this, walkOf(params_.visibility), params_.restartEpsilon);
+    if (tracesVoxels(params_.visibility))
+        voxelTracer_.emplace(*this, voxelWalk(params_.visibility), params_.restartEpsilon);
     if (params_.visibility == VplVisibility::HybridLeaves)
         hybridTracer_.emplace(*this, HybridWalk::Hierarchical);
     if (params_.visibility == VplVisibility::ShadowMap)
-        maps_ = std::make_unique<TracedMaps>(*this, params_.mapResolution);
+        shadowMaps_ = std::make_unique<TracedShadowMaps>(*this, params_.mapResolution);
     if (params_.visibility == VplVisibility::ImperfectShadowMap)
-        maps_ = std::make_unique<PointMaps>(*this, params_.mapResolution, params_.mapPoints);
+        shadowMaps_ = std::make_unique<ImperfectShadowMaps>(*this, params_.mapResolution, params_.mapPoints);
 }
 
 void GatherVpls::plan(PassPlan& plan) {
     const Vpls& vpls = plan[vpls_];
     const uint32_t samples = plan[gbuffer_].samples;
     const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
-    // The disc of that area has the squared radius area / pi. Things move without changing their area
+    // Squared radius of the disc of that area. Moving surfaces keep their area
     const float minDistanceSquared = params_.bound * params_.bound * vpls.areaPerPath / glm::pi<float>();
     const bool isCompensated = params_.compensationRays > 0 && minDistanceSquared > 0;
-    if (maps_) maps_->plan(plan);
-    const bool isByChance = params_.roulette > 0;
-    const VplLight::Dim dim{isByChance ? params_.roulette : params_.earlyOut, isByChance};
+    if (shadowMaps_) shadowMaps_->plan(plan);
+    const bool usesRoulette = params_.roulette > 0;
+    const VplGather::DimLightCulling culling{usesRoulette ? params_.roulette : params_.earlyOut,
+                                             usesRoulette};
     const float endEpsilon = params_.visibility == VplVisibility::SvoRestart ? params_.endEpsilon : 0;
-    light_.plan(plan,
-                {params_.block, minDistanceSquared, dim, endEpsilon, maps_.get(), isCompensated,
-                 hybridTracer_.has_value()},
-                texels, uint64_t(vpls.paths) * vpls.bounces);
+    vplGather_.plan(plan,
+                    {params_.block, minDistanceSquared, culling, endEpsilon, shadowMaps_.get(), isCompensated,
+                     hybridTracer_.has_value()},
+                    texels, uint64_t(vpls.paths) * vpls.bounces);
     if (isCompensated)
         compensation_.emplace(*this).plan(plan, {params_.compensationRays, vpls.bounces, minDistanceSquared},
                                           texels);
@@ -201,7 +202,7 @@ void GatherVpls::plan(PassPlan& plan) {
     noisy.blockSize = params_.block;
     noisy.lightBounces = plan[indirect_].lightBounces = vpls.lightBounces;
     plan.image(noisy.irradiance, "noisy irradiance", NoisyIrradiance::desc(plan.frame, samples));
-    plan.image(sums_, "sums over virtual point lights", NoisyIrradiance::desc(plan.frame, samples));
+    plan.image(texelMoments_, "sums over virtual point lights", NoisyIrradiance::desc(plan.frame, samples));
     plan.buffer(noisy.moments, "moments of virtual point lights", noisy.momentsBytes(texels));
     if (FrameImage& indirect = plan[indirect_]; indirect.isRead) {
         plan.frameImage(indirect_);
@@ -216,9 +217,9 @@ void GatherVpls::record(PassContext& context) {
     const GBuffer& gbuffer = context[gbuffer_];
     const Vpls& vpls = context[vpls_];
     const NoisyIrradiance& noisy = context[noisy_];
-    VplLight::Visibility visibility{&context.tracer};
+    VplGather::Visibility visibility{&context.tracer};
     if (params_.visibility == VplVisibility::None) visibility.tracer = nullptr;
-    if (maps_) maps_->begin(context);
+    if (shadowMaps_) shadowMaps_->beginFrame(context);
     if (voxelTracer_) {
         const SurfaceVoxels& voxels = context[voxels_];
         voxelTracer_->begin(stream, voxels);
@@ -226,23 +227,23 @@ void GatherVpls::record(PassContext& context) {
     }
     if (hybridTracer_) {
         hybridTracer_->begin(stream, context.scene, context[voxels_], context[leaves_]);
-        hybridTracer_->setStarts(&light_.starts());
+        hybridTracer_->setStarts(&vplGather_.starts());
         visibility.tracer = &*hybridTracer_;
     }
     const uint64_t voxelRaysBefore = voxelTracer_ ? voxelTracer_->raysTraced() : 0;
     const uint64_t hybridRaysBefore = hybridTracer_ ? hybridTracer_->raysTraced() : 0;
 
-    // All that virtual lights bring, and what they bring too little.
-    const VplTarget target{noisy.irradiance, sums_};
+    // Sum over virtual lights, and what the bound takes away
+    const VplTarget target{noisy.irradiance, texelMoments_};
     stream.clear(target.irradiance, {});
-    stream.clear(target.sums, {});
-    light_.addToTexels(context, vpls, visibility, gbuffer, target);
-    if (compensation_) compensation_->record(context, vpls, light_, visibility, gbuffer, target);
+    stream.clear(target.texelMoments, {});
+    vplGather_.gatherAtTexels(context, vpls, visibility, gbuffer, target);
+    if (compensation_) compensation_->record(context, vpls, vplGather_, visibility, gbuffer, target);
     const glm::uvec2 blocks = noisy.blocks(gbufferExtent(context.frame, gbuffer.samples));
-    context.dispatch(finish_, uint64_t(blocks.x) * blocks.y,
+    context.dispatch(resolveMoments_, uint64_t(blocks.x) * blocks.y,
                      {gbuffer,
                       {"irradiance", noisy.irradiance},
-                      {"sums", sums_},
+                      {"texelMoments", texelMoments_},
                       {"moments", noisy.moments},
                       {"blocks", blocks},
                       {"block", params_.block}});

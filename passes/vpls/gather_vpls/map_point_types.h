@@ -1,4 +1,4 @@
-// Points that imperfect shadow maps are made of, shared by C++ and GLSL.
+// Points that imperfect shadow maps are splatted from, shared by C++ and GLSL.
 #ifndef VOXRAY_MAP_POINT_TYPES_H
 #define VOXRAY_MAP_POINT_TYPES_H
 
@@ -8,7 +8,7 @@ VOXRAY_SHARED_BEGIN
 
 struct MapPoint {
     vec3 position;  // m
-    vec3 normal;    // Of its triangle, unit length; 0 where there is nothing.
+    vec3 normal;    // Unit normal of its triangle; 0 where an alpha mask cuts the point away.
 };
 
 VOXRAY_SHARED_END

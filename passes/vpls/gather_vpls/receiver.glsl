@@ -3,8 +3,8 @@
 
 struct Receiver {
     vec3 position;    // m; off the surface, where rays may begin.
-    vec3 normal;      // Unit length: the shading normal.
-    vec3 faceNormal;  // Unit length: the triangle's, on the same side.
+    vec3 normal;      // Unit shading normal.
+    vec3 faceNormal;  // Unit normal of the triangle, on the same side.
 };
 
 #ifdef SURFELS
@@ -14,12 +14,12 @@ struct Receiver {
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
 readonly buffer FaceNormals { uint data[]; } faceNormals;  // Octahedral.
 
-// False where there is none.
+// False past the last surfel.
 bool receiver(VplBatch b, uint i, out Receiver r) {
-    const uint number = batchSurfel(b, i);
-    if (isOutside(b, number)) return false;
-    const Surfel s = surfels.data[number];
-    r = Receiver(s.position, s.normal, fromOctahedral(faceNormals.data[number]));
+    const uint index = batchSurfel(b, i);
+    if (isOutside(b, index)) return false;
+    const Surfel s = surfels.data[index];
+    r = Receiver(s.position, s.normal, fromOctahedral(faceNormals.data[index]));
     return true;
 }
 #else
@@ -27,7 +27,7 @@ uniform sampler2D position;
 uniform sampler2D normal;
 uniform sampler2D geometricNormal;
 
-// False where there is none.
+// False where the texel shows no surface.
 bool receiver(VplBatch b, uint i, out Receiver r) {
     const ivec2 texel = batchTexel(b, i);
     if (isOutside(b, texel)) return false;

@@ -5,15 +5,15 @@
 namespace voxray {
 namespace {
 
-// A source's weights in all. What texels add up to differs from the source's power by the size of texels, by
-// less than a factor of 2 at the smallest resolution, so that the sum stays below 2^32.
+// Sum of a source's weights. The texels' sum differs from the source's power by less than a factor of 2 at
+// the smallest resolution, so it stays below 2^32.
 constexpr float kUnits = 1u << 30;
 
 }  // namespace
 
 RsmSampling::RsmSampling(ProgramOwner& owner)
-    : weigh_(owner, "rsm_weigh.comp"),
-      pick_(owner, "rsm_pick.comp"),
+    : computeWeights_(owner, "rsm_texel_weights.comp"),
+      sampleTexels_(owner, "rsm_sample_texels.comp"),
       prefixSum_(owner, PrefixSum::Of::Values) {}
 
 void RsmSampling::plan(PassPlan& plan, const Rsm& rsm) {
@@ -27,7 +27,7 @@ void RsmSampling::plan(PassPlan& plan, const Rsm& rsm) {
 void RsmSampling::emit(PassContext& context, const Rsm& rsm, size_t source, const Target& target) const {
     const uint32_t firstView = rsm.firstView[source], views = rsm.firstView[source + 1] - firstView;
     const uint32_t texels = views * rsm.texelsPerView();
-    context.dispatch(weigh_, texels,
+    context.dispatch(computeWeights_, texels,
                      {context.scene,
                       rsm,
                       {"weights", weights_},
@@ -35,18 +35,18 @@ void RsmSampling::emit(PassContext& context, const Rsm& rsm, size_t source, cons
                       {"firstView", firstView},
                       {"texels", texels},
                       {"unitsPerWatt", kUnits / rsm.sources[source].power}});
-    const uint32_t sum = prefixSum_.run(context.stream, weights_, weights_, texels);
-    context.dispatch(pick_, target.batch.count,
+    const uint32_t weightSum = prefixSum_.run(context.stream, weights_, weights_, texels);
+    context.dispatch(sampleTexels_, target.batch.count,
                      {context.scene,
                       rsm,
-                      {"before", weights_},
+                      {"prefixSums", weights_},
                       {"rays", target.rays},
                       {"hits", target.hits},
                       {"paths", target.paths},
                       {"resolution", rsm.resolution},
                       {"firstView", firstView},
                       {"rows", views * rsm.resolution},
-                      {"sum", sum},
+                      {"weightSum", weightSum},
                       {"firstPath", target.batch.first},
                       {"count", target.batch.count},
                       {"lightPaths", target.batch.rays},

@@ -6,19 +6,19 @@
 
 namespace voxray {
 
-/// First vertices of light paths out of reflective shadow maps, by importance: a texel is picked with a
-/// probability in proportion to the flux that the point which it sees reflects. One set of points in the
-/// square is warped by each light's maps, rows first and then within a row (Clarberg et al. 2005 warp level
-/// by level), so that paths move with the flux and don't jump.
+/// Importance sampling of reflective shadow maps, for the first vertices of light paths: a texel is sampled
+/// in proportion to the flux that its point reflects. One point set in the unit square is warped by each
+/// light's maps, rows first, then texels (compare Clarberg et al. 2005, hierarchical warping), so that paths
+/// follow the flux continuously.
 class RsmSampling {
  public:
     explicit RsmSampling(ProgramOwner& owner);
 
     void plan(PassPlan& plan, const Rsm& rsm);
 
-    /// Writes a batch of the first rays of a source, with the hits that the maps hold, and what each carries:
-    /// the power through its texel over the texel's probability and the number of paths. Where a source's
-    /// maps are black its rays are inactive.
+    /// A batch of the first rays of a source, with their hits from the maps and the power that each carries:
+    /// that of its texel over the texel's probability and the number of paths. Rays are inactive where a
+    /// source's maps are black.
     struct Target {
         const Buffer& rays;   ///< Ray each.
         const Buffer& hits;   ///< Hit each.
@@ -28,9 +28,9 @@ class RsmSampling {
     void emit(PassContext& context, const Rsm& rsm, size_t source, const Target& target) const;
 
  private:
-    Kernel weigh_, pick_;
+    Kernel computeWeights_, sampleTexels_;
     PrefixSum prefixSum_;
-    Buffer weights_;  ///< Of a source's texels, then what is before each.
+    Buffer weights_;  ///< Of a source's texels, then their prefix sums.
 };
 
 }  // namespace voxray

@@ -20,8 +20,8 @@ namespace {
 
 constexpr uint32_t kBatchPaths = 1u << 20;  // Bounds the memory of rays to 84 MiB.
 
-/// How many of `paths` each source sends: by its power, at least one.
-std::vector<uint32_t> pathsBySource(const std::vector<LightSource>& sources, uint32_t paths) {
+/// Divides `paths` among the sources by power; each gets at least one.
+std::vector<uint32_t> pathCountsBySource(const std::vector<LightSource>& sources, uint32_t paths) {
     const double power = totalPower(sources);
     std::vector<uint32_t> counts;
     for (const LightSource& source : sources)
@@ -29,30 +29,31 @@ std::vector<uint32_t> pathsBySource(const std::vector<LightSource>& sources, uin
     return counts;
 }
 
-/// The place of each path, source by source, where paths of all sources are mixed evenly: any run of places
-/// then holds runs of each source's own numbers, which complement each other.
-std::vector<uint32_t> orderOfPaths(const std::vector<uint32_t>& pathsOf) {
-    std::vector<double> at;
-    for (const uint32_t paths : pathsOf)
-        for (uint32_t i = 0; i < paths; ++i) at.push_back((i + 0.5) / paths);
-    std::vector<uint32_t> paths(at.size()), places(at.size());
+/// Interleaves the paths of all sources evenly: the index of each path, source by source. Any range of
+/// indices then holds a range of each source's Sobol sequence.
+std::vector<uint32_t> interleavedPathOrder(const std::vector<uint32_t>& pathCounts) {
+    std::vector<double> position;
+    for (const uint32_t paths : pathCounts)
+        for (uint32_t i = 0; i < paths; ++i) position.push_back((i + 0.5) / paths);
+    std::vector<uint32_t> paths(position.size()), order(position.size());
     std::iota(paths.begin(), paths.end(), 0u);
-    std::stable_sort(paths.begin(), paths.end(), [&](uint32_t a, uint32_t b) { return at[a] < at[b]; });
-    for (uint32_t place = 0; place < paths.size(); ++place) places[paths[place]] = place;
-    return places;
+    std::stable_sort(paths.begin(), paths.end(),
+                     [&](uint32_t a, uint32_t b) { return position[a] < position[b]; });
+    for (uint32_t index = 0; index < paths.size(); ++index) order[paths[index]] = index;
+    return order;
 }
 
-/// The same source among those that shine now, nullptr where it does not.
-const LightSource* find(const std::vector<LightSource>& sources, const LightSource& source) {
-    const auto found = std::ranges::find_if(sources, [&](const LightSource& other) {
-        return other.kind == source.kind && other.light == source.light;
+/// The same source among those that are on now, or nullptr.
+const LightSource* findSource(const std::vector<LightSource>& sources, const LightSource& source) {
+    const auto it = std::ranges::find_if(sources, [&](const LightSource& candidate) {
+        return candidate.kind == source.kind && candidate.light == source.light;
     });
-    return found == sources.end() ? nullptr : &*found;
+    return it == sources.end() ? nullptr : &*it;
 }
 
 }  // namespace
 
-/// How the first vertices of paths of light are found.
+/// How first path vertices are sampled.
 enum class FirstVertices { LightRays, Rsm };
 template <>
 struct EnumNames<FirstVertices> {
@@ -60,16 +61,16 @@ struct EnumNames<FirstVertices> {
                                       std::pair{FirstVertices::Rsm, "rsm"}};
 };
 
-/// What rays of the second bounce and further ones meet.
+/// What rays after the first bounce hit.
 enum class VplBounce { Exact, Svo };
 template <>
 struct EnumNames<VplBounce> {
     static constexpr std::array names{std::pair{VplBounce::Exact, "exact"}, std::pair{VplBounce::Svo, "svo"}};
 };
 
-/// Virtual point lights at the vertices of paths from the lights (instant radiosity, Keller 1997); with
-/// FirstVertices::Rsm as Sun and Agu 2015, sections 3 and 3.2: the first out of reflective shadow maps by
-/// importance, further ones by rays from there.
+/// Virtual point lights at the vertices of light paths (instant radiosity, Keller 1997). FirstVertices::Rsm
+/// follows Sun and Agu 2015, sections 3 and 3.2: first vertices by importance sampling of reflective shadow
+/// maps, further ones by rays.
 class SampleVpls final : public Pass {
  public:
     static constexpr const char* kName = "sample_vpls";
@@ -120,17 +121,16 @@ class SampleVpls final : public Pass {
     In<SurfaceVoxels> voxels_{*this, "voxels", "what rays of further bounces meet",
                               params_.bounce == VplBounce::Svo};
     Out<Vpls> vpls_{*this, "vpls", "virtual point lights"};
-    std::vector<LightSource> sources_;        ///< Those that shone when paths were divided among them.
-    std::vector<uint32_t> pathsOf_;           ///< Each one's.
+    std::vector<LightSource> sources_;        ///< Those that were on when paths were divided.
+    std::vector<uint32_t> pathCounts_;        ///< By source.
     std::optional<LightEmission> emission_;   ///< With FirstVertices::LightRays.
     std::optional<RsmSampling> rsmSampling_;  ///< With FirstVertices::Rsm.
     std::optional<VoxelTracer> voxelTracer_;  ///< With VplBounce::Svo.
-    /// Hits of triangles, and of voxels.
-    Kernel record_{*this, "record.comp",
-                   params_.bounce == VplBounce::Svo ? Defines{{"VOXEL_NEXT", "1"}} : Defines{}};
-    Kernel recordVoxels_{*this, "record.comp", {{"VOXEL_HITS", "1"}, {"VOXEL_NEXT", "1"}}};
+    Kernel depositVpls_{*this, "deposit_vpls.comp",
+                        params_.bounce == VplBounce::Svo ? Defines{{"VOXEL_NEXT", "1"}} : Defines{}};
+    Kernel depositVplsInVoxels_{*this, "deposit_vpls.comp", {{"VOXEL_HITS", "1"}, {"VOXEL_NEXT", "1"}}};
     Compaction compaction_{*this};
-    Buffer rays_, hits_, paths_, order_, flags_;
+    Buffer rays_, hits_, paths_, pathOrder_, flags_;
     PaneTint tint_{*this};
 };
 
@@ -144,17 +144,17 @@ SampleVpls::SampleVpls(const Params& params) : params_(params) {
 
 void SampleVpls::plan(PassPlan& plan) {
     sources_ = requireLightSources(*plan.frame.scene, kName);
-    pathsOf_ = pathsBySource(sources_, params_.vplsPerBounce);
+    pathCounts_ = pathCountsBySource(sources_, params_.vplsPerBounce);
     Vpls& vpls = plan[vpls_];
-    vpls.paths = std::accumulate(pathsOf_.begin(), pathsOf_.end(), 0u);
+    vpls.paths = std::accumulate(pathCounts_.begin(), pathCounts_.end(), 0u);
     vpls.areaPerPath = float(surfaceArea(plan.frame.scene->geometry) / vpls.paths);
     vpls.bounces = params_.bounces;
     vpls.lightBounces = params_.bounces;
-    const uint64_t points = vpls.places(kName);
-    const uint64_t batch = std::min(*std::max_element(pathsOf_.begin(), pathsOf_.end()), kBatchPaths);
+    const uint64_t points = vpls.capacity(kName);
+    const uint64_t batch = std::min(*std::max_element(pathCounts_.begin(), pathCounts_.end()), kBatchPaths);
     plan.buffer(vpls.points, "virtual point lights", points * sizeof(gpu::Vpl));
-    plan.buffer(vpls.list, "list of virtual point lights", points * sizeof(uint32_t));
-    plan.buffer(order_, "order of light paths", vpls.paths * sizeof(uint32_t));
+    plan.buffer(vpls.activeIndices, "list of virtual point lights", points * sizeof(uint32_t));
+    plan.buffer(pathOrder_, "order of light paths", vpls.paths * sizeof(uint32_t));
     plan.buffer(flags_, "flags of virtual point lights", (points + 31) / 32 * sizeof(uint32_t));
     plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
@@ -165,63 +165,64 @@ void SampleVpls::plan(PassPlan& plan) {
     else
         emission_->plan(plan, batch);
     if (voxelTracer_) voxelTracer_->plan(plan, plan[voxels_]);
-    recordVoxels_.compileIf(voxelTracer_.has_value());
+    depositVplsInVoxels_.compileIf(voxelTracer_.has_value());
 }
 
 void SampleVpls::prepare(PassSetup& setup) {
-    setup.stream.upload(order_, orderOfPaths(pathsOf_));
+    setup.stream.upload(pathOrder_, interleavedPathOrder(pathCounts_));
 }
 
 void SampleVpls::record(PassContext& context) {
     CommandStream& stream = context.stream;
     Vpls& vpls = context[vpls_];
-    const std::vector<LightSource> shining = lightSources(*context.frame.scene);
-    for (const LightSource& source : shining)
-        if (!find(sources_, source))
+    const std::vector<LightSource> activeSources = lightSources(*context.frame.scene);
+    for (const LightSource& source : activeSources)
+        if (!findSource(sources_, source))
             throw Error(
                 "{}: a light began to shine after the first frame, when paths were divided among lights",
                 kName);
     stream.fill(flags_, 0);
     stream.fill(vpls.points, 0);
-    RayTracer* furtherTracer = &context.tracer;
-    std::vector<Binding> ofVoxels{{"grid", gpu::VoxelGrid{}}};
+    RayTracer* bounceTracer = &context.tracer;
+    std::vector<Binding> voxelBindings{{"grid", gpu::VoxelGrid{}}};
     if (voxelTracer_) {
         const SurfaceVoxels& voxels = context[voxels_];
         voxelTracer_->begin(stream, voxels);
-        furtherTracer = &*voxelTracer_;
-        ofVoxels = voxels.bindings();
+        bounceTracer = &*voxelTracer_;
+        voxelBindings = voxels.bindings();
     }
     const uint64_t voxelRaysBefore = voxelTracer_ ? voxelTracer_->raysTraced() : 0;
 
-    // The paths of each light in batches, hit after hit. One that was switched off sends none
+    // Each light's paths in batches, bounce by bounce. A light that is off now sends none
     uint32_t firstPath = 0;
-    for (uint32_t s = 0; s < sources_.size(); firstPath += pathsOf_[s], ++s) {
-        const LightSource* source = find(shining, sources_[s]);
+    for (uint32_t s = 0; s < sources_.size(); firstPath += pathCounts_[s], ++s) {
+        const LightSource* source = findSource(activeSources, sources_[s]);
         if (!source) continue;
-        const auto number = uint32_t(s + (params_.resample ? context.frameIndex * sources_.size() : 0));
-        LightEmission::Batch batch{randomSeed(context.frame, number), pathsOf_[s], 0, 0};
-        const bool areHitsKnown = rsmSampling_.has_value();
+        const auto seedIndex = uint32_t(s + (params_.resample ? context.frameIndex * sources_.size() : 0));
+        LightEmission::Batch batch{randomSeed(context.frame, seedIndex), pathCounts_[s], 0, 0};
+        const bool hasRsmHits = rsmSampling_.has_value();
         for (; batch.first < batch.rays; batch.first += batch.count) {
             batch.count = std::min(batch.rays - batch.first, kBatchPaths);
-            if (areHitsKnown)
+            if (hasRsmHits)
                 rsmSampling_->emit(context, context[rsm_], s, {rays_, hits_, paths_, batch});
             else
                 emission_->emit(context, *source, batch, rays_, paths_);
             for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {
                 if (bounce > 0)
-                    furtherTracer->closestHit(stream, rays_, hits_, batch.count);
-                else if (!areHitsKnown)
+                    bounceTracer->closestHit(stream, rays_, hits_, batch.count);
+                else if (!hasRsmHits)
                     context.tracer.closestHit(stream, rays_, hits_, batch.count);
                 if (bounce == 0)
                     tint_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float), batch.count,
                                 &hits_);
-                context.dispatch(bounce > 0 && voxelTracer_ ? recordVoxels_ : record_, batch.count,
+                context.dispatch(bounce > 0 && voxelTracer_ ? depositVplsInVoxels_ : depositVpls_,
+                                 batch.count,
                                  {context.scene,
-                                  ofVoxels,
+                                  voxelBindings,
                                   {"rays", rays_},
                                   {"hits", hits_},
                                   {"paths", paths_},
-                                  {"order", order_},
+                                  {"pathOrder", pathOrder_},
                                   {"VplsAt", vpls.points.at()},
                                   {"flags", flags_},
                                   {"count", batch.count},
@@ -237,9 +238,10 @@ void SampleVpls::record(PassContext& context) {
         context.extraRays += voxelTracer_->raysTraced() - voxelRaysBefore;
         context.voxelCounts.push_back(&voxelTracer_->march().counts());
     }
-    vpls.count = compaction_.run(stream, flags_, vpls.list, uint32_t(flags_.bytes() / sizeof(uint32_t)));
-    context.report("vpls", vpls.count);
-    if (vpls.count == 0 && !shining.empty())
+    vpls.activeCount =
+        compaction_.run(stream, flags_, vpls.activeIndices, uint32_t(flags_.bytes() / sizeof(uint32_t)));
+    context.report("vpls", vpls.activeCount);
+    if (vpls.activeCount == 0 && !activeSources.empty())
         throw Error(
             "{}: none of {} rays from the lights hit a surface that reflects light; let lights shine on "
             "the scene, or raise 'vpls_per_bounce'",

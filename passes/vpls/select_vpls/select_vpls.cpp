@@ -6,14 +6,14 @@
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/lights/light_sources.h"
 #include "passes/common/view/gbuffer.h"
-#include "passes/vpls/select_vpls/resample.h"
+#include "passes/vpls/select_vpls/systematic_resampling.h"
 #include "passes/vpls/vpls.h"
 
 namespace voxray {
 
-/// Of many virtual point lights those that light what the camera sees: each is kept with a probability by
-/// what it brings to a few random texels, and counts for more by as much. Source: Georgiev and Slusallek
-/// 2010, "Simple and Robust Iterative Importance Sampling of Virtual Point Lights".
+/// Selects virtual point lights by what they bring to the camera's image: each is kept with a probability by
+/// its irradiance at a few random texels, and weighted by the inverse. Source: Georgiev and Slusallek 2010,
+/// "Simple and Robust Iterative Importance Sampling of Virtual Point Lights".
 class SelectVpls final : public Pass {
  public:
     static constexpr const char* kName = "select_vpls";
@@ -51,8 +51,8 @@ class SelectVpls final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Luminance of what each light of the list brings to a texel, W/m², and of its flux, W.
-    std::vector<glm::vec2> importance(PassContext& context) const;
+    /// Luminance of each candidate's mean irradiance at texels, W/m², and of its flux, W.
+    std::vector<glm::vec2> estimateImportance(PassContext& context) const;
 
     static constexpr uint32_t kBatchShadowRays = 1u << 19;  ///< Bounds the memory of rays to 20 MiB.
 
@@ -60,10 +60,10 @@ class SelectVpls final : public Pass {
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     In<Vpls> candidates_{*this, "vpls", "virtual point lights to choose from"};
     Out<Vpls> vpls_{*this, "vpls", "those that stay"};
-    Kernel aim_{*this, "aim.comp"};
-    Kernel importanceProgram_{*this, "importance.comp"};
-    Kernel scale_{*this, "scale.comp"};
-    Buffer rays_, carried_, occluded_, importance_, places_, weights_;
+    Kernel generateRays_{*this, "generate_shadow_rays.comp"};
+    Kernel estimateImportance_{*this, "estimate_importance.comp"};
+    Kernel storeSelected_{*this, "store_selected.comp"};
+    Buffer rays_, geometryTerms_, occluded_, importance_, selectedCandidates_, weights_;
 };
 
 void SelectVpls::plan(PassPlan& plan) {
@@ -74,14 +74,15 @@ void SelectVpls::plan(PassPlan& plan) {
     vpls.lightBounces = candidates.lightBounces;
     vpls.paths = uint32_t(std::min<uint64_t>(params_.count, points));
     vpls.areaPerPath = float(surfaceArea(plan.frame.scene->geometry) * vpls.bounces / vpls.paths);
-    plan.buffer(vpls.points, "selected virtual point lights", vpls.places(kName) * sizeof(gpu::Vpl));
-    plan.buffer(vpls.list, "list of selected virtual point lights", vpls.paths * sizeof(uint32_t));
-    plan.buffer(places_, "places of selected virtual point lights", vpls.paths * sizeof(uint32_t));
+    plan.buffer(vpls.points, "selected virtual point lights", vpls.capacity(kName) * sizeof(gpu::Vpl));
+    plan.buffer(vpls.activeIndices, "list of selected virtual point lights", vpls.paths * sizeof(uint32_t));
+    plan.buffer(selectedCandidates_, "places of selected virtual point lights",
+                vpls.paths * sizeof(uint32_t));
     plan.buffer(weights_, "weights of selected virtual point lights", vpls.paths * sizeof(float));
     const uint64_t batch = std::min(points, uint64_t(kBatchShadowRays / params_.points)),
                    rays = batch * params_.points;
     plan.scratchBuffer(rays_, "shadow rays", rays * sizeof(Ray));
-    plan.scratchBuffer(carried_, "kernels of shadow rays", rays * sizeof(float));
+    plan.scratchBuffer(geometryTerms_, "kernels of shadow rays", rays * sizeof(float));
     plan.scratchBuffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
     plan.scratchBuffer(importance_, "importance of virtual point lights", batch * sizeof(glm::vec2));
 }
@@ -90,83 +91,84 @@ void SelectVpls::record(PassContext& context) {
     CommandStream& stream = context.stream;
     const Vpls& candidates = context[candidates_];
     Vpls& vpls = context[vpls_];
-    if (candidates.count == 0) {  // Every light was switched off.
-        vpls.count = 0;
+    if (candidates.activeCount == 0) {  // Every light was switched off.
+        vpls.activeCount = 0;
         context.report("selected vpls", 0);
         return;
     }
 
-    // Most go to lights by what they bring to the image, some by their flux.
-    const std::vector<glm::vec2> found = importance(context);
+    // A mixture: mostly by irradiance, partly by flux
+    const std::vector<glm::vec2> importance = estimateImportance(context);
     double irradiance = 0, flux = 0;
-    for (const glm::vec2& light : found) {
+    for (const glm::vec2& light : importance) {
         irradiance += light.x;
         flux += light.y;
     }
-    const double byFlux = irradiance > 0 ? params_.unseen : 1;
+    const double fluxFraction = irradiance > 0 ? params_.unseen : 1;
     std::vector<double> probabilities;
-    for (const glm::vec2& light : found)
-        probabilities.push_back((irradiance > 0 ? (1 - byFlux) * light.x / irradiance : 0) +
-                                byFlux * light.y / flux);
+    for (const glm::vec2& light : importance)
+        probabilities.push_back((irradiance > 0 ? (1 - fluxFraction) * light.x / irradiance : 0) +
+                                fluxFraction * light.y / flux);
     const double offset = double(randomSeed(context.frame, 0x92u) >> 8) / (1 << 24);
-    const Resampled kept = resample(probabilities, vpls.paths, offset);
+    const Resampled selected = systematicResampling(probabilities, vpls.paths, offset);
 
-    // Each becomes the only vertex of a path of its own, at the bounce that it had.
-    const auto numbers = stream.readAs<uint32_t>(candidates.list, candidates.count);
-    std::vector<uint32_t> list;
-    for (const uint32_t place : kept.places)
-        list.push_back(uint32_t(list.size()) * vpls.bounces + numbers[place] % vpls.bounces);
+    // Each becomes the only vertex of its own path, at the bounce that it had
+    const auto candidateIndices = stream.readAs<uint32_t>(candidates.activeIndices, candidates.activeCount);
+    std::vector<uint32_t> activeIndices;
+    for (const uint32_t i : selected.indices)
+        activeIndices.push_back(uint32_t(activeIndices.size()) * vpls.bounces +
+                                candidateIndices[i] % vpls.bounces);
     stream.fill(vpls.points, 0);
-    stream.upload(vpls.list, list);
-    stream.upload(places_, kept.places);
-    stream.upload(weights_, kept.weights);
-    stream.dispatch(scale_, list.size(),
+    stream.upload(vpls.activeIndices, activeIndices);
+    stream.upload(selectedCandidates_, selected.indices);
+    stream.upload(weights_, selected.weights);
+    stream.dispatch(storeSelected_, activeIndices.size(),
                     {{"VplsAt", candidates.points.at()},
-                     {"candidateList", candidates.list},
-                     {"places", places_},
+                     {"candidateIndices", candidates.activeIndices},
+                     {"selectedCandidates", selectedCandidates_},
                      {"weights", weights_},
-                     {"list", vpls.list},
+                     {"activeVpls", vpls.activeIndices},
                      {"SelectedAt", vpls.points.at()},
-                     {"count", uint32_t(list.size())}});
-    vpls.count = uint32_t(list.size());
-    context.report("selected vpls", vpls.count);
+                     {"count", uint32_t(activeIndices.size())}});
+    vpls.activeCount = uint32_t(activeIndices.size());
+    context.report("selected vpls", vpls.activeCount);
 }
 
-std::vector<glm::vec2> SelectVpls::importance(PassContext& context) const {
+std::vector<glm::vec2> SelectVpls::estimateImportance(PassContext& context) const {
     CommandStream& stream = context.stream;
     const Vpls& candidates = context[candidates_];
     const uint32_t batch = uint32_t(occluded_.bytes() / sizeof(uint32_t)) / params_.points;
     const float minDistanceSquared =
         params_.bound * params_.bound * context[vpls_].areaPerPath / glm::pi<float>();
-    std::vector<glm::vec2> all;
-    for (uint32_t first = 0; first < candidates.count; first += batch) {
-        const uint32_t count = std::min(candidates.count - first, batch), rays = count * params_.points;
-        context.dispatch(aim_, rays,
+    std::vector<glm::vec2> result;
+    for (uint32_t first = 0; first < candidates.activeCount; first += batch) {
+        const uint32_t count = std::min(candidates.activeCount - first, batch), rays = count * params_.points;
+        context.dispatch(generateRays_, rays,
                          {context.scene,
                           context[gbuffer_],
                           {"VplsAt", candidates.points.at()},
-                          {"list", candidates.list},
+                          {"activeVpls", candidates.activeIndices},
                           {"rays", rays_},
-                          {"carried", carried_},
+                          {"geometryTerms", geometryTerms_},
                           {"first", first},
                           {"count", count},
-                          {"points", params_.points},
+                          {"texelsPerVpl", params_.points},
                           {"seed", randomSeed(context.frame, 0x91u)},
                           {"minDistanceSquared", minDistanceSquared}});
         context.tracer.occluded(stream, rays_, occluded_, rays);
-        context.dispatch(importanceProgram_, count,
+        context.dispatch(estimateImportance_, count,
                          {{"VplsAt", candidates.points.at()},
-                          {"list", candidates.list},
-                          {"carried", carried_},
+                          {"activeVpls", candidates.activeIndices},
+                          {"geometryTerms", geometryTerms_},
                           {"occluded", occluded_},
                           {"importance", importance_},
                           {"first", first},
                           {"count", count},
-                          {"points", params_.points}});
-        const auto found = stream.readAs<glm::vec2>(importance_, count);
-        all.insert(all.end(), found.begin(), found.end());
+                          {"texelsPerVpl", params_.points}});
+        const auto importance = stream.readAs<glm::vec2>(importance_, count);
+        result.insert(result.end(), importance.begin(), importance.end());
     }
-    return all;
+    return result;
 }
 
 VOXRAY_REGISTER_PASS(SelectVpls);

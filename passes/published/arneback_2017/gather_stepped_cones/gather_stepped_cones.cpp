@@ -32,10 +32,10 @@ class GatherSteppedCones final : public Pass {
     void plan(PassPlan& plan) override {
         plan[indirect_].lightBounces = plan[radiance_].lightBounces;
         plan.frameImage(indirect_);
-        trace_.define(plan[radiance_].defines());
+        traceCones_.define(plan[radiance_].defines());
     }
     void record(PassContext& context) override {
-        context.dispatch(trace_, context.frame.pixels(),
+        context.dispatch(traceCones_, context.frame.pixels(),
                          {context[gbuffer_],
                           context[radiance_],
                           {"result", context[indirect_].image},
@@ -48,7 +48,7 @@ class GatherSteppedCones final : public Pass {
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales"};
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light"};
-    Kernel trace_{*this, "trace.comp"};
+    Kernel traceCones_{*this, "trace_cones.comp"};
 };
 VOXRAY_REGISTER_PASS(GatherSteppedCones);
 

@@ -1,4 +1,4 @@
-// Sums over the texels that a leaf is seen by. Fixed point: order does not matter.
+// Sums over the RSM texels that see a leaf. Fixed point: order does not matter.
 #ifndef VOXRAY_LEAF_SUMS_GLSL
 #define VOXRAY_LEAF_SUMS_GLSL
 
@@ -6,9 +6,9 @@
 
 struct LeafSum {
     uint texels;
-    uint radiance[3];  // Parts by texel, of the light's brightest; they add up to at most 1, which is kWhole.
+    uint radiance[3];  // Contributions of texels to their mean, relative to the brightest texel: they add up to at most 1.
 };
-const float kWhole = 1073741824.0;  // 2^30: each of 2^30 texels may round up.
+const float kFixedPointOne = 1073741824.0;  // 2^30: each of 2^30 texels may round up.
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LeafSums { LeafSum data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LeafRadiance { vec3 data[]; };

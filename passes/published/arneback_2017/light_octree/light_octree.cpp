@@ -12,9 +12,9 @@ constexpr uint64_t kLeafSumBytes = 4 * sizeof(uint32_t), kLeafRadianceBytes = 3 
 
 }  // namespace
 
-/// Light into the leaves of an octree of bricks, and up its levels, as published in Arnebäck 2017, sections
-/// 3.2.3 and 3.2.4: each texel of a light's reflective shadow map lights the leaf that it sees, by the leaf's
-/// own color and normal.
+/// Light injection into the leaves of an octree of bricks, and filtering up its levels, as published in
+/// Arnebäck 2017, sections 3.2.3 and 3.2.4: each texel of a light's reflective shadow map lights the leaf
+/// that it sees, by the leaf's mean color and normal.
 class LightOctree final : public Pass {
  public:
     static constexpr const char* kName = "light_octree";
@@ -30,19 +30,19 @@ class LightOctree final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Radiance of the leaves that a light sees, added to `leafRadiance_`.
-    void scatter(PassContext& context, uint32_t source);
+    /// Adds the radiance of the leaves that a light sees to `leafRadiance_`.
+    void injectLight(PassContext& context, uint32_t source);
 
     In<BrickOctree> octree_{*this, "brick_octree", "octree to light"};
     In<Rsm> rsm_{*this, "rsm", "what each light sees"};
     Out<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales"};
-    BrickRadiance bricks_{*this};
-    Kernel scatter_{*this, "scatter.comp"};
-    Kernel resolve_{*this, "resolve.comp"};
-    Kernel write_{*this, "write.comp"};
-    LargeBuffer sums_;          ///< gpu::LeafSum a leaf, of one light.
-    LargeBuffer leafRadiance_;  ///< W/(m² sr), three floats a leaf.
-    Buffer brightest_;          ///< Of what a texel of a light brings, as the bits of a float.
+    BrickRadiance brickRadiance_{*this};
+    Kernel injectTexels_{*this, "inject_rsm_texels.comp"};
+    Kernel resolveRadiance_{*this, "resolve_leaf_radiance.comp"};
+    Kernel writeBricks_{*this, "write_leaf_bricks.comp"};
+    LargeBuffer sums_;          ///< gpu::LeafSum per leaf, of one light.
+    LargeBuffer leafRadiance_;  ///< W/(m² sr), three floats per leaf.
+    Buffer brightest_;          ///< Brightest texel contribution of a light, as float bits.
 };
 
 void LightOctree::plan(PassPlan& plan) {
@@ -53,49 +53,48 @@ void LightOctree::plan(PassPlan& plan) {
     radiance.layout = RadianceLayout::SvoBricks;
     const gpu::VoxelGrid& grid = octree.grid;
     radiance.grid = {grid.origin, grid.voxelSize, grid.resolution, gridLevels(grid.resolution), 1, 1};
-    // With `brick_neighbors`; half as many without.
+    // With `brick_neighbors`; half as many without
     plan.estimate(estimateVoxels(plan.frame.scene->geometry, grid) * 8 / 3 * kBrickBytes);
     BrickRadiance::plan(plan, radiance);
     plan.buffer(brightest_, "brightest texel", sizeof(uint32_t));
-    write_.define(radiance.defines());
+    writeBricks_.define(radiance.defines());
 }
 
 void LightOctree::record(PassContext& context) {
     const BrickOctree& octree = context[octree_];
     RadianceVoxels& radiance = context[radiance_];
     CommandStream& stream = context.stream;
-    if (context.changed(octree_)) bricks_.follow(stream, octree, radiance);
+    if (context.changed(octree_)) brickRadiance_.setOctree(stream, octree, radiance);
 
-    // Light of each leaf
     const uint32_t leaves = nodesOf(octree.levels[0]);
     sums_ = LargeBuffer(context.device, "sums over texels", leaves * kLeafSumBytes);
     leafRadiance_ = LargeBuffer(context.device, "leaves' radiance", leaves * kLeafRadianceBytes);
     stream.fill(leafRadiance_, 0);
-    for (uint32_t source = 0; source < context[rsm_].sources.size(); ++source) scatter(context, source);
+    for (uint32_t source = 0; source < context[rsm_].sources.size(); ++source) injectLight(context, source);
 
-    // Into bricks, and up
+    // Write bricks, then filter them upwards
     stream.fill(radiance.storage[0], 0);
-    for (const uint32_t isMeasured : {0u, 1u})
-        context.dispatch(write_, leaves,
+    for (const uint32_t isWriting : {0u, 1u})
+        context.dispatch(writeBricks_, leaves,
                          {radiance,
                           {"LeafRadianceAt", leafRadiance_.at()},
                           {"nodes", octree.levels[0]},
-                          {"isMeasured", isMeasured}});
-    bricks_.filter(stream, octree, radiance);
+                          {"isWriting", isWriting}});
+    brickRadiance_.filter(stream, octree, radiance);
     stream.finish();
     sums_ = {};
     leafRadiance_ = {};
 }
 
-void LightOctree::scatter(PassContext& context, uint32_t source) {
+void LightOctree::injectLight(PassContext& context, uint32_t source) {
     const BrickOctree& octree = context[octree_];
     const Rsm& rsm = context[rsm_];
     const uint32_t leaves = nodesOf(octree.levels[0]);
     const uint32_t texels = (rsm.firstView[source + 1] - rsm.firstView[source]) * rsm.texelsPerView();
     context.stream.fill(sums_, 0);
     context.stream.fill(brightest_, 0);
-    for (const uint32_t isCounted : {0u, 1u})
-        context.dispatch(scatter_, texels,
+    for (const uint32_t isAccumulating : {0u, 1u})
+        context.dispatch(injectTexels_, texels,
                          {context.scene,
                           {"LeafSumsAt", sums_.at()},
                           {"OctreeNodesAt", octree.nodes.at()},
@@ -107,8 +106,8 @@ void LightOctree::scatter(PassContext& context, uint32_t source) {
                           {"light", rsm.sources[source].light},
                           {"firstTexel", rsm.firstView[source] * rsm.texelsPerView()},
                           {"texels", texels},
-                          {"isCounted", isCounted}});
-    context.dispatch(resolve_, leaves,
+                          {"isAccumulating", isAccumulating}});
+    context.dispatch(resolveRadiance_, leaves,
                      {{"LeafSumsAt", sums_.at()},
                       {"LeafRadianceAt", leafRadiance_.at()},
                       {"brightest", brightest_},

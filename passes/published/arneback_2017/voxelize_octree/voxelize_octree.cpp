@@ -4,25 +4,26 @@
 
 #include "graph/registry.h"
 #include "passes/common/octree/brick_octree_builder.h"
-#include "passes/common/triangle_walk/triangle_walk.h"
+#include "passes/common/triangle_voxelizer/triangle_voxelizer.h"
 #include "passes/common/voxels/voxels.h"
 #include "passes/published/arneback_2017/voxelize_octree/fragment_list.h"
 
 namespace voxray {
 namespace {
 
-/// The cube round a box, as wide as its longest side, with the box in its center.
-gpu::VoxelGrid cubeRound(glm::vec3 low, glm::vec3 high, uint32_t resolution) {
+/// The cube around a box's center with the edge of its longest side.
+gpu::VoxelGrid boundingCube(glm::vec3 low, glm::vec3 high, uint32_t resolution) {
     const glm::vec3 size = high - low, center = 0.5f * (low + high);
-    const float half = 0.5f * std::max({size.x, size.y, size.z});
-    return makeVoxelGrid(center - half, center + half, resolution);
+    const float halfEdge = 0.5f * std::max({size.x, size.y, size.z});
+    return makeVoxelGrid(center - halfEdge, center + halfEdge, resolution);
 }
 
 }  // namespace
 
-/// Voxelization and octree as published in Arnebäck 2017, sections 3.2.1 and 3.2.2: triangles are drawn into
-/// a list of fragments, the octree is built over them level by level, and its leaves get the mean color and
-/// normal of their fragments. What stays is done once; what moves follows in a section of its own.
+/// Voxelization and octree construction as published in Arnebäck 2017, sections 3.2.1 and 3.2.2: triangles
+/// are rasterized into a fragment list, the octree is built over it level by level, and leaves get the mean
+/// color and normal of their fragments. The static section is built once; moving surfaces have a section of
+/// their own.
 class VoxelizeOctree final : public Pass {
  public:
     static constexpr const char* kName = "voxelize_octree";
@@ -59,45 +60,45 @@ class VoxelizeOctree final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// The fragments of some triangles.
+    /// Voxelizes triangles into fragments.
     FragmentList voxelize(PassContext& context, const std::vector<uint32_t>& triangles);
     /// Merges fragments into the colors and normals of their leaves.
-    void assign(PassContext& context, const FragmentList& fragments);
+    void assignLeafValues(PassContext& context, const FragmentList& fragments);
 
     const Params params_;
     Out<BrickOctree> octree_{*this, "brick_octree", "nodes of an octree, colors and normals of its leaves"};
-    std::unique_ptr<TriangleWalk> walk_ = makeSampledAxisWalk(params_.samples);
-    std::unique_ptr<PassProgram> count_ =
-        walk_->makeVisitor(*this, "passes/published/arneback_2017/voxelize_octree/count");
-    std::unique_ptr<PassProgram> list_ =
-        walk_->makeVisitor(*this, "passes/published/arneback_2017/voxelize_octree/list");
-    Kernel assign_{*this, "assign.comp", {{"PACKED_WRITE", "PACKED_MOVING_AVERAGE"}}};
-    Kernel mark_{*this, "mark.comp"};
+    std::unique_ptr<TriangleVoxelizer> voxelizer_ = makeSampledAxisVoxelizer(params_.samples);
+    std::unique_ptr<PassProgram> countFragments_ =
+        voxelizer_->makeProgram(*this, "passes/published/arneback_2017/voxelize_octree/count_fragments");
+    std::unique_ptr<PassProgram> appendFragments_ =
+        voxelizer_->makeProgram(*this, "passes/published/arneback_2017/voxelize_octree/append_fragments");
+    Kernel assignLeafValues_{*this, "assign_leaf_values.comp", {{"PACKED_WRITE", "PACKED_MOVING_AVERAGE"}}};
+    Kernel markStaticLeaves_{*this, "mark_static_leaves.comp"};
     BrickOctreeBuilder builder_{*this, params_.brickNeighbors};
-    std::vector<uint32_t> still_, moving_;  ///< Triangles.
-    bool hasStatic_ = false;                ///< Whether the static section is built.
+    std::vector<uint32_t> staticTriangles_, movingTriangles_;
+    bool hasStatic_ = false;  ///< Whether the static section is built.
 };
 
 void VoxelizeOctree::plan(PassPlan& plan) {
     const Geometry& geometry = plan.frame.scene->geometry;
     BrickOctree& octree = plan[octree_];
-    octree.grid = cubeRound(geometry.region.min, geometry.region.max, params_.resolution);
-    // With its neighbours a surface is some two layers thick at the grid's border, three elsewhere; each
-    // level has a quarter of the one below, and eight nodes for each brick of the one above.
+    octree.grid = boundingCube(geometry.region.min, geometry.region.max, params_.resolution);
+    // With its neighbors a surface is about two layers thick at the grid's border, three elsewhere; each
+    // level has a quarter of the nodes of the one below, and eight nodes for each brick of the one above
     plan.estimate(estimateVoxels(geometry, octree.grid) * (params_.brickNeighbors ? 16.0 / 3 : 8.0 / 3) *
                   kBrickNodeBytes);
 
-    // What stays and what moves
-    still_.clear();
-    moving_.clear();
+    // Divide triangles into static and moving ones
+    staticTriangles_.clear();
+    movingTriangles_.clear();
     for (const InstanceRange& instance : geometry.instances) {
-        std::vector<uint32_t>& triangles = instance.moves ? moving_ : still_;
-        const size_t before = triangles.size();
-        triangles.resize(before + instance.triangleCount);
-        std::iota(triangles.begin() + ptrdiff_t(before), triangles.end(), instance.firstTriangle);
+        std::vector<uint32_t>& triangles = instance.moves ? movingTriangles_ : staticTriangles_;
+        const size_t firstNew = triangles.size();
+        triangles.resize(firstNew + instance.triangleCount);
+        std::iota(triangles.begin() + ptrdiff_t(firstNew), triangles.end(), instance.firstTriangle);
     }
-    octree.moves = !moving_.empty();
-    walk_->plan(plan);
+    octree.moves = !movingTriangles_.empty();
+    voxelizer_->plan(plan);
 }
 
 void VoxelizeOctree::record(PassContext& context) {
@@ -109,21 +110,21 @@ void VoxelizeOctree::record(PassContext& context) {
         return;
     }
     if (!hasStatic_ || !changed) {
-        const FragmentList fragments = voxelize(context, still_);
+        const FragmentList fragments = voxelize(context, staticTriangles_);
         builder_.build(stream, octree, fragments.cells, fragments.count);
-        assign(context, fragments);
+        assignLeafValues(context, fragments);
         const gpu::LevelNodes& leaves = octree.levels[0];
-        context.dispatch(mark_, leaves.staticCount,
+        context.dispatch(markStaticLeaves_, leaves.staticCount,
                          {{"OctreeNodesAt", octree.nodes.at()},
                           {"firstNode", leaves.staticFirst},
                           {"count", leaves.staticCount}});
         stream.finish();
         hasStatic_ = true;
     }
-    if (!moving_.empty()) {
-        const FragmentList fragments = voxelize(context, moving_);
+    if (!movingTriangles_.empty()) {
+        const FragmentList fragments = voxelize(context, movingTriangles_);
         builder_.rebuildDynamic(stream, octree, fragments.cells, fragments.count);
-        assign(context, fragments);
+        assignLeafValues(context, fragments);
         stream.finish();
     }
     context.report("dynamic nodes", double(octree.nodeCount - octree.staticNodes));
@@ -133,9 +134,9 @@ FragmentList VoxelizeOctree::voxelize(PassContext& context, const std::vector<ui
     CommandStream& stream = context.stream;
     const gpu::VoxelGrid& grid = context[octree_].grid;
     const Buffer counter(context.device, "number of fragments", sizeof(uint32_t));
-    walk_->select(context, grid, VoxelRegion(grid), triangles);
+    voxelizer_->select(context, grid, VoxelRegion(grid), triangles);
     stream.fill(counter, 0);
-    walk_->run(context, *count_, grid, std::array{Binding{"fragmentCount", counter}}, 0);
+    voxelizer_->run(context, *countFragments_, grid, std::array{Binding{"fragmentCount", counter}}, 0);
 
     FragmentList list;
     list.count = stream.readAs<uint32_t>(counter, 1)[0];
@@ -144,18 +145,19 @@ FragmentList VoxelizeOctree::voxelize(PassContext& context, const std::vector<ui
     list.colors = LargeBuffer(context.device, "fragments' colors", bytes);
     list.normals = LargeBuffer(context.device, "fragments' normals", bytes);
     stream.fill(counter, 0);
-    walk_->run(context, *list_, grid,
-               std::array{Binding{"fragmentCount", counter}, Binding{"CellsAt", list.cells.at()},
-                          Binding{"ColorsAt", list.colors.at()}, Binding{"NormalsAt", list.normals.at()}},
-               0);
+    voxelizer_->run(
+        context, *appendFragments_, grid,
+        std::array{Binding{"fragmentCount", counter}, Binding{"CellsAt", list.cells.at()},
+                   Binding{"ColorsAt", list.colors.at()}, Binding{"NormalsAt", list.normals.at()}},
+        0);
     stream.finish();
-    walk_->release();
+    voxelizer_->release();
     return list;
 }
 
-void VoxelizeOctree::assign(PassContext& context, const FragmentList& fragments) {
+void VoxelizeOctree::assignLeafValues(PassContext& context, const FragmentList& fragments) {
     const BrickOctree& octree = context[octree_];
-    context.dispatch(assign_, fragments.count,
+    context.dispatch(assignLeafValues_, fragments.count,
                      {{"CellsAt", fragments.cells.at()},
                       {"ColorsAt", fragments.colors.at()},
                       {"NormalsAt", fragments.normals.at()},

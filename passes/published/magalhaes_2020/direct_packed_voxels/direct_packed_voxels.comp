@@ -1,4 +1,4 @@
-// Radiance that each pixel's surface reflects of the irradiance in packed voxels, filtered between their centers with empty ones as
+// Radiance that each pixel reflects of the irradiance in packed voxels, interpolated between voxel centers; empty voxels count as
 // black.
 #include "passes/published/magalhaes_2020/packed_voxels.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -12,27 +12,27 @@ layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     float white;  // W/m²
-    int samples;  // Texels of the g-buffer along each side of a pixel.
+    int samples;  // Texels of the G-buffer along an edge of a pixel.
 } push;
 
-vec3 filtered(vec3 place) {
-    const vec3 corner = floor(place - 0.5), along = place - 0.5 - corner;
+vec3 trilinear(vec3 p) {
+    const vec3 corner = floor(p - 0.5), fraction = p - 0.5 - corner;
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < 8u; ++k) {
         const ivec3 offset = ivec3(k & 1u, (k >> 1) & 1u, k >> 2);
-        const vec3 weight = mix(1.0 - along, along, vec3(offset));
+        const vec3 weight = mix(1.0 - fraction, fraction, vec3(offset));
         sum += weight.x * weight.y * weight.z * packedColor(irradiance.data[packedIndex(push.grid, ivec3(corner) + offset)]);
     }
     return sum;
 }
 
 // Listing 4.8
-vec3 sevenTap(vec3 place) {
-    vec3 sum = filtered(place);
+vec3 sevenTap(vec3 p) {
+    vec3 sum = trilinear(p);
     for (uint axis = 0u; axis < 3u; ++axis) {
-        vec3 voxel = vec3(0.0);
-        voxel[axis] = 1.0;
-        sum += filtered(place + voxel) + filtered(place - voxel);
+        vec3 axisOffset = vec3(0.0);
+        axisOffset[axis] = 1.0;
+        sum += trilinear(p + axisOffset) + trilinear(p - axisOffset);
     }
     return sum / 7.0;
 }
@@ -40,9 +40,9 @@ vec3 sevenTap(vec3 place) {
 vec3 reflected(ivec2 texel) {
     const vec4 p = texelFetch(position, texel, 0);
     if (p.w == 0.0) return vec3(0.0);
-    const vec3 place = packedPlace(push.grid, p.xyz);
-    const vec3 arriving = push.white * (kSevenTap ? sevenTap(place) : filtered(place));
-    return texelFetch(albedo, texel, 0).rgb / 3.14159265358979 * arriving;
+    const vec3 coordinates = voxelCoordinates(push.grid, p.xyz);
+    const vec3 irradiance_ = push.white * (kSevenTap ? sevenTap(coordinates) : trilinear(coordinates));
+    return texelFetch(albedo, texel, 0).rgb / 3.14159265358979 * irradiance_;
 }
 
 void main() {

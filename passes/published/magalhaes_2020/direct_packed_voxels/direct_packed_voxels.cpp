@@ -14,8 +14,8 @@ struct EnumNames<PackedLookup> {
                                       std::pair{PackedLookup::SevenTap, "seven_tap"}};
 };
 
-/// The final pass as published in Magalhães 2020, sections 3.4.1 and 4.4: the light at a pixel's surface, its
-/// normal aside, times the albedo. composite.ambient adds the thesis's ambient light.
+/// The final pass as published in Magalhães 2020, sections 3.4.1 and 4.4: irradiance at a pixel's surface,
+/// whatever its normal, times the albedo. composite.ambient adds the thesis's ambient light.
 class DirectPackedVoxels final : public Pass {
  public:
     static constexpr const char* kName = "direct_packed_voxels";
@@ -39,11 +39,11 @@ class DirectPackedVoxels final : public Pass {
     void plan(PassPlan& plan) override {
         plan[direct_].lightBounces = plan[light_].lightBounces;
         plan.frameImage(direct_);
-        program_.specialize({{"kSevenTap", params_.lookup == PackedLookup::SevenTap}});
+        lookUp_.specialize({{"kSevenTap", params_.lookup == PackedLookup::SevenTap}});
     }
     void record(PassContext& context) override {
         const PackedLight& light = context[light_];
-        context.dispatch(program_, context.frame.pixels(),
+        context.dispatch(lookUp_, context.frame.pixels(),
                          {context[gbuffer_],
                           {"IrradianceAt", light.irradiance.at()},
                           {"result", context[direct_].image},
@@ -57,7 +57,7 @@ class DirectPackedVoxels final : public Pass {
     In<PackedVoxels> voxels_{*this, "packed_voxels", "the voxels that hold the light"};
     In<PackedLight> light_{*this, "packed_light", "light that arrives in voxels, one word a voxel"};
     Out<FrameImage> direct_{*this, "direct", "radiance reflected of the light in voxels"};
-    Kernel program_{*this, "direct_packed_voxels.comp"};
+    Kernel lookUp_{*this, "direct_packed_voxels.comp"};
 };
 VOXRAY_REGISTER_PASS(DirectPackedVoxels);
 

@@ -11,24 +11,23 @@
 namespace voxray {
 namespace {
 
-/// Bounds the memory of rays and what they carry to 60 MiB.
+/// Bounds the memory of rays and intensities to 60 MiB.
 constexpr uint32_t kMaxPackedBatchRays = 1u << 20;
-constexpr float kNearest = 0.02f;  // m; no hit is nearer (listing 7.7).
+constexpr float kTMin = 0.02f;  // m (listing 7.7).
 
 }  // namespace
 
 /// Light tracing as published in Magalhães 2020, sections 3.3.1 and 4.3.
 ///  - Rays leave a spot light through a planar grid that spans 90 degrees about its axis (listing 4.4). The
 ///    thesis's light has no cone; rays outside of this one's are not traced.
-///  - A hit leaves intensity * cosine / length² in its voxel, by the voxel's mean normal and the length of
-///    this segment alone.
-///  - Secondary rays go on mirrored about the mean normal; their intensity is the irradiance at the hit,
-///    times the albedo there. By units this is no intensity: metres stand where steradians should.
+///  - A hit deposits intensity * cosine / length² in its voxel, by the voxel's mean normal and the length of
+///    this segment only.
+///  - Secondary rays are mirrored about the mean normal; their intensity is the irradiance at the hit times
+///    the albedo there. By its unit this is no intensity: metres stand where steradians should.
 ///
 /// The text is followed where the listings differ from it: listing 7.7 stores a debug color, disables
-/// secondary rays, starts them at the origin, and leaves the albedo out, which sections 3.2.7.1 and 4.3.2.2
-/// have. Empty voxels, whose word of 0 would be the normal (-1, -1, -1), are the misses that the listing
-/// means them to be.
+/// secondary rays, starts them at the origin, and omits the albedo, which sections 3.2.7.1 and 4.3.2.2 have.
+/// Empty voxels, whose word of 0 would decode to the normal (-1, -1, -1), are misses, as the listing intends.
 class InjectPackedLightRays final : public Pass {
  public:
     static constexpr const char* kName = "inject_packed_light_rays";
@@ -65,14 +64,15 @@ class InjectPackedLightRays final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// The number of the scene's only light. @throws Error where it is none, or not a spot light.
+    /// Index of the scene's only light. @throws Error where there is none, several, or another kind than a
+    /// spot light.
     static uint32_t spotLight(const SceneState& scene);
 
     const Params params_;
     In<PackedVoxels> voxels_{*this, "packed_voxels", "normals and albedos, one word a voxel"};
     Out<PackedLight> light_{*this, "packed_light", "light that arrives in voxels, one word a voxel"};
-    Kernel gridRays_{*this, "grid_rays.comp"};
-    Kernel deposit_{*this, "deposit.comp", params_.defines()};
+    Kernel generateGridRays_{*this, "generate_grid_rays.comp"};
+    Kernel depositIrradiance_{*this, "deposit_irradiance.comp", params_.defines()};
     uint32_t raysPerEdge_ = 0;
     Buffer rays_, hits_, intensities_;
     PaneTint tint_{*this};
@@ -108,24 +108,24 @@ void InjectPackedLightRays::plan(PassPlan& plan) {
 void InjectPackedLightRays::record(PassContext& context) {
     const PackedVoxels& voxels = context[voxels_];
     const PackedLight& light = context[light_];
-    const uint32_t number = spotLight(*context.frame.scene);
+    const uint32_t lightIndex = spotLight(*context.frame.scene);
     context.stream.fill(light.irradiance, 0);
     for (uint32_t first = 0; first < params_.raysPerLight; first += kMaxPackedBatchRays) {
         const uint32_t count = std::min(kMaxPackedBatchRays, params_.raysPerLight - first);
-        context.dispatch(gridRays_, count,
+        context.dispatch(generateGridRays_, count,
                          {context.scene,
                           {"rays", rays_},
                           {"intensities", intensities_},
-                          {"light", number},
+                          {"light", lightIndex},
                           {"raysPerEdge", raysPerEdge_},
                           {"firstRay", first},
                           {"batchRays", count},
-                          {"nearest", kNearest}});
+                          {"tMin", kTMin}});
         for (uint32_t bounce = 0; bounce <= params_.bounces; ++bounce) {
             context.tracer.closestHit(context.stream, rays_, hits_, count,
                                       bounce == 0 ? Coherence::Coherent : Coherence::Incoherent);
             if (bounce == 0) tint_.apply(context, rays_, intensities_, 3, count, &hits_);
-            context.dispatch(deposit_, count,
+            context.dispatch(depositIrradiance_, count,
                              {{"rays", rays_},
                               {"intensities", intensities_},
                               {"hits", hits_},
@@ -136,7 +136,7 @@ void InjectPackedLightRays::record(PassContext& context) {
                               {"batchRays", count},
                               {"isLast", bounce == params_.bounces},
                               {"white", light.white},
-                              {"nearest", kNearest}});
+                              {"tMin", kTMin}});
         }
     }
 }

@@ -2,15 +2,15 @@
 #include <vector>
 
 #include "graph/registry.h"
-#include "passes/common/triangle_walk/triangle_walk.h"
+#include "passes/common/triangle_voxelizer/triangle_voxelizer.h"
 #include "passes/common/voxels/voxels.h"
 #include "passes/published/magalhaes_2020/packed_voxels.h"
 
 namespace voxray {
 
-/// Voxelization as published in Magalhães 2020, sections 3.2.4.2 and 4.2: triangles are drawn along each axis
-/// onto an image of a pixel a voxel or more, and each fragment merges its normal and its albedo into its
-/// voxel's words. The thesis's other volumes (occupancy, specular) are left out: nothing there reads them.
+/// Voxelization as published in Magalhães 2020, sections 3.2.4.2 and 4.2: triangles are rasterized along each
+/// axis at one pixel per voxel or more, and each fragment merges its normal and albedo into its voxel's
+/// words. The thesis's other volumes (occupancy, specular) are omitted: nothing reads them there.
 class VoxelizePacked final : public Pass {
  public:
     static constexpr const char* kName = "voxelize_packed";
@@ -42,28 +42,29 @@ class VoxelizePacked final : public Pass {
         voxels.grid = makeVoxelGrid(geometry.region.min, geometry.region.max, params_.resolution);
         plan.buffer(voxels.normals, "packed normals", voxels.bytes());
         plan.buffer(voxels.albedos, "packed albedos", voxels.bytes());
-        walk_->plan(plan);
+        voxelizer_->plan(plan);
     }
     void record(PassContext& context) override {
         const PackedVoxels& voxels = context[voxels_];
         context.stream.fill(voxels.normals, 0);
         context.stream.fill(voxels.albedos, 0);
 
-        // Everything is drawn again each time, as published
-        const VoxelRegion all(voxels.grid);
-        walk_->select(context, voxels.grid, all, all.triangles(context.frame.scene->geometry));
+        // All triangles are voxelized in each update, as published
+        const VoxelRegion wholeGrid(voxels.grid);
+        voxelizer_->select(context, voxels.grid, wholeGrid,
+                           wholeGrid.triangles(context.frame.scene->geometry));
         const std::vector<Binding> volumes{{"NormalsAt", voxels.normals.at()},
                                            {"AlbedosAt", voxels.albedos.at()}};
-        walk_->run(context, *write_, voxels.grid, volumes, 0);
+        voxelizer_->run(context, *write_, voxels.grid, volumes, 0);
         context.stream.finish();
-        walk_->release();
+        voxelizer_->release();
     }
 
  private:
     const Params params_;
     Out<PackedVoxels> voxels_{*this, "packed_voxels", "normals and albedos, one word a voxel"};
-    std::unique_ptr<TriangleWalk> walk_ = makeThreeAxisWalk(params_.samplesPerVoxelEdge);
-    std::unique_ptr<PassProgram> write_ = walk_->makeVisitor(
+    std::unique_ptr<TriangleVoxelizer> voxelizer_ = makeThreeAxisVoxelizer(params_.samplesPerVoxelEdge);
+    std::unique_ptr<PassProgram> write_ = voxelizer_->makeProgram(
         *this, "passes/published/magalhaes_2020/voxelize_packed/voxelize_packed", params_.defines());
 };
 VOXRAY_REGISTER_PASS(VoxelizePacked);

@@ -1,0 +1,32 @@
+// The target of each ray's hit: a component face or, near by, the patch itself. NO_TARGET where the hit group has no patch at the face
+// or no component: it sends no light.
+#include "passes/clusters/cluster_visibility/packed_hit.glsl"
+#include "passes/clusters/visibility_list_types.h"
+#include "passes/clusters/group_patches.glsl"
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+readonly buffer PackedHits { uint data[]; } packedHits;
+layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
+readonly buffer ComponentOfGroup { uint data[]; } componentOfGroup;
+layout(scalar) writeonly buffer Targets { uint data[]; } targets;
+buffer Missed { uint counts[2]; } missed;  // Rays with HIT_NOTHING, with HIT_NO_GROUP.
+layout(push_constant, scalar) uniform Push {
+    VisibilityListLayout lists;
+    uint rays;
+} push;
+
+uint targetOf(uint packedHit) {
+    const uint group = hitGroup(packedHit), face = hitFace(packedHit), component = componentOfGroup.data[group];
+    if (component == NO_COMPONENT || face == NO_FACE || !hasPatch(groups.data[group], face)) return NO_TARGET;
+    return isNear(packedHit) ? push.lists.firstPatchTarget + patchIndex(groups.data[group], face) : 6u * component + face;
+}
+
+void main() {
+    const uint ray = linearIndex();
+    if (ray >= push.rays) return;
+    const uint packedHit = packedHits.data[ray];
+    if (packedHit == HIT_NOTHING) atomicAdd(missed.counts[0], 1u);
+    if (packedHit == HIT_NO_GROUP) atomicAdd(missed.counts[1], 1u);
+    targets.data[ray] = hitsGroup(packedHit) ? targetOf(packedHit) : NO_TARGET;
+}

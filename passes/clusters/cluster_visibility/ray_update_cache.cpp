@@ -1,0 +1,99 @@
+#include "passes/clusters/cluster_visibility/ray_update_cache.h"
+
+#include <glm/common.hpp>
+
+#include "passes/common/compute/uints.h"
+#include "passes/common/voxel_builder/changed_voxels.h"
+
+namespace voxray {
+namespace {
+
+/// Voxels. A ray's group lies in the voxel that it hit or next to it, and depends on what lies next to that.
+constexpr uint32_t kHitReach = 2;
+
+/// `changed`, m, with a margin, behind their common bounding box.
+std::vector<Box> boxesWithBounds(const std::vector<Box>& changed, float voxelSize) {
+    const glm::vec3 margin(voxelSize / 64);  // For rounding.
+    std::vector<Box> boxes(1, changed.at(0));
+    for (const Box& box : changed) {
+        boxes[0] = {glm::min(boxes[0].min, box.min), glm::max(boxes[0].max, box.max)};
+        boxes.push_back(box);
+    }
+    for (Box& box : boxes) box = {box.min - margin, box.max + margin};
+    return boxes;
+}
+
+}  // namespace
+
+RayUpdateCache::RayUpdateCache(ProgramOwner& owner)
+    : storeFirstPatches_(owner, "store_first_patches.comp"),
+      renumberGroups_(owner, "renumber_groups.comp"),
+      reuseHits_(owner, "reuse_hits.comp"),
+      regions_(owner) {}
+
+void RayUpdateCache::begin(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
+                           const VoxelPatches& patches, const std::vector<Box>& changed) {
+    Device& device = stream.device();
+    const Buffer nearChange = regions_.bits(
+        stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, kHitReach)), voxels);
+    newGroups_ = Buffer(device, "new numbers of groups", uints(groupCount_));
+    previousFirstPatches_ = Buffer(device, "previous first patches of groups", uints(patches.groupCount));
+    stream.fill(newGroups_, NO_GROUP);
+    stream.dispatch(renumberGroups_, patches.groupCount,
+                    {{"groups", patches.groups},
+                     {"previousGroups", patches.previousGroups},
+                     {"coordinates", clusters.coordinates},
+                     {"nearChange", nearChange},
+                     {"firstPatches", firstPatches_},
+                     {"newGroups", newGroups_},
+                     {"previousFirstPatches", previousFirstPatches_},
+                     {"grid", voxels.grid},
+                     {"groupCount", patches.groupCount}});
+
+    previousHits_ = std::move(packedHits_);
+    packedHits_.clear();
+    std::vector<uint64_t> addresses;
+    for (const Buffer& chunk : previousHits_) addresses.push_back(chunk.address());
+    if (addresses.empty()) addresses.resize(1);
+    previousHitAddresses_ = Buffer(device, "addresses of previous hits", addresses.size() * sizeof(uint64_t));
+    stream.upload(previousHitAddresses_, addresses);
+    const std::vector<Box> boxes = boxesWithBounds(changed, voxels.grid.voxelSize);
+    boxes_ = Buffer(device, "changed boxes", boxes.size() * sizeof(Box));
+    stream.upload(boxes_, boxes);
+    stream.finish();
+    isActive_ = true;
+}
+
+void RayUpdateCache::reuse(CommandStream& stream, const Bindings& rays, uint32_t count) const {
+    stream.dispatch(reuseHits_, count,
+                    {rays.all(),
+                     {"boxes", boxes_},
+                     {"previousHits", previousHitAddresses_},
+                     {"newGroups", newGroups_},
+                     {"previousFirstPatches", previousFirstPatches_}});
+}
+
+const Buffer& RayUpdateCache::addChunk(Device& device, uint64_t rays) {
+    return packedHits_.emplace_back(device, "packed hits", uints(rays));
+}
+
+void RayUpdateCache::store(CommandStream& stream, const VoxelPatches& patches) {
+    stream.finish();
+    isActive_ = false;
+    previousHits_.clear();
+    previousHitAddresses_ = {}, newGroups_ = {}, previousFirstPatches_ = {}, boxes_ = {}, firstPatches_ = {};
+    groupCount_ = patches.groupCount;
+    firstPatches_ = Buffer(stream.device(), "first patches of groups", uints(groupCount_));
+    stream.dispatch(
+        storeFirstPatches_, groupCount_,
+        {{"groups", patches.groups}, {"firstPatches", firstPatches_}, {"groupCount", groupCount_}});
+    stream.finish();
+}
+
+void RayUpdateCache::clear() {
+    packedHits_.clear();
+    firstPatches_ = {};
+    groupCount_ = 0;
+}
+
+}  // namespace voxray

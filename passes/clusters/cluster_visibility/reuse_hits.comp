@@ -1,0 +1,58 @@
+// Hits of the build before that still hold. Flags the other rays to be traced again: those from changed voxels, those that hit something
+// in one, and those that pass a changed box on their way.
+#include "passes/clusters/cluster_visibility/patch_ray.glsl"
+#include "shaders/compute/large_buffer.glsl"
+layout(local_size_x = 64) in;
+
+struct Box {
+    vec3 low;
+    vec3 high;
+};
+layout(scalar) readonly buffer Boxes { Box data[]; } boxes;  // The first one holds all others.
+layout(scalar) readonly buffer PreviousHits { LargeUints data[]; } previousHits;  // By chunk; with the previous numbers of groups.
+readonly buffer NewGroups { uint data[]; } newGroups;
+readonly buffer PreviousFirstPatches { uint data[]; } previousFirstPatches;
+writeonly buffer PackedHits { uint data[]; } packedHits;
+buffer Flags { uint words[]; } flags;  // 0 before.
+
+uint previousHit(uint ray) {
+    const uint patchNumber = push.firstPatch + ray / push.lists.raysPerPatch, group = patchFaces.data[patchNumber] / 6u;
+    if (previousFirstPatches.data[group] == NO_GROUP) return HIT_UNKNOWN;
+    const uint previous = previousFirstPatches.data[group] + patchNumber - groups.data[group].firstPatch;
+    const uint packedHit =
+        previousHits.data[previous / push.lists.patchesPerChunk]
+            .data[previous % push.lists.patchesPerChunk * push.lists.raysPerPatch + ray % push.lists.raysPerPatch];
+    // Where a surface without a group lies is unknown
+    if (!hitsGroup(packedHit)) return packedHit == HIT_NO_GROUP ? HIT_UNKNOWN : packedHit;
+    const uint newGroup = newGroups.data[hitGroup(packedHit)];
+    return newGroup == NO_GROUP ? HIT_UNKNOWN : withGroup(packedHit, newGroup);
+}
+
+bool intersects(Ray ray, Box box) {
+    const vec3 direction = mix(ray.direction, vec3(1.0e-9), lessThan(abs(ray.direction), vec3(1.0e-9)));
+    const vec3 a = (box.low - ray.origin) / direction, b = (box.high - ray.origin) / direction;
+    const vec3 near = min(a, b), far = max(a, b);
+    return max(max(near.x, near.y), max(near.z, 0.0)) <= min(min(far.x, far.y), min(far.z, ray.tMax));
+}
+
+// Whether a ray passes a changed box before its hit, which lies within two voxels along each axis of the hit group's surfels.
+bool passesChange(uint ray, uint packedHit) {
+    Ray r = patchRay(ray);
+    if (hitsGroup(packedHit)) {
+        const vec3 toGroup = groupedSurfels.data[groups.data[hitGroup(packedHit)].firstSurfel].position - r.origin;
+        r.tMax = min(r.tMax, length(toGroup) + 3.5 * push.grid.voxelSize);
+    }
+    if (!intersects(r, boxes.data[0])) return false;
+    for (uint i = 1u; i < boxes.data.length(); ++i)
+        if (intersects(r, boxes.data[i])) return true;
+    return false;
+}
+
+void main() {
+    const uint ray = linearIndex();
+    if (ray >= push.rayCount) return;
+    uint packedHit = previousHit(ray);
+    if (packedHit != HIT_UNKNOWN && passesChange(ray, packedHit)) packedHit = HIT_UNKNOWN;
+    packedHits.data[ray] = packedHit;
+    if (packedHit == HIT_UNKNOWN) atomicOr(flags.words[ray / 32u], 1u << (ray % 32u));
+}

@@ -1,0 +1,8 @@
+// Sums over a cluster's voxels in whole numbers, so that their order doesn't matter: positions (3), normals (3), count.
+#include "shaders/compute/linear_index.glsl"
+
+#define SUMS 7u
+#define NORMAL_UNITS 1048576.0
+
+layout(scalar) buffer Sums { uint64_t data[]; } sums;
+layout(push_constant, scalar) uniform Push { uint count; } push;

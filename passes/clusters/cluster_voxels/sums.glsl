@@ -1,8 +1,0 @@
-// What a cluster's voxels add up to: places (3), normals (3), their number.
-#include "shaders/compute/linear_index.glsl"
-
-#define SUMS 7u
-#define NORMAL_UNITS 1048576.0
-
-layout(scalar) buffer Sums { uint64_t data[]; } sums;
-layout(push_constant, scalar) uniform Push { uint count; } push;

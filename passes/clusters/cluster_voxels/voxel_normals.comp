@@ -1,0 +1,118 @@
+// Normal of each surface voxel, by the unoccluded area at its faces. OPEN_SPACE: where its surfaces disagree, by the free voxels around
+// it (Cosin and Patow 2022, section 4.2, figure 7).
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/voxels/face.glsl"
+#include "shaders/voxels/voxels.glsl"
+#ifdef FRAGMENTS
+#include "passes/clusters/cluster_voxels/fragment_angles.glsl"
+#endif
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
+layout(scalar) writeonly buffer Normals { vec3 data[]; } normals;
+layout(scalar) buffer Counts {
+    uint disagreeing;  // Voxels whose surfaces disagree.
+    uint tied;         // Of these, those that are equally open along several directions.
+    uint decided;      // Of these, those for which fragments choose another direction than surfaces do.
+    uint changed;      // Voxels whose normal is not the one by area.
+} counts;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint count;
+    float unitsPerRadian;  // Of fragments' angles.
+} push;
+
+// A plane of area A and unit normal n has areas A n² at the faces before it: their roots are along n. Where both sides of a sheet have the
+// same area, the front-side normals decide; where these cancel each other, too, the largest face.
+vec3 normalOfArea(VoxelMaterial m) {
+    const vec3 difference = m.unoccludedPositive - m.unoccludedNegative;
+    const vec3 sum = m.unoccludedPositive + m.unoccludedNegative;
+    if (dot(abs(difference), vec3(1.0)) > 0.01 * dot(sum, vec3(1.0))) return normalize(sign(difference) * sqrt(abs(difference)));
+    if (dot(m.normal, m.normal) > 1e-4) return normalize(m.normal);
+    return faceNormal(sum.x >= sum.y && sum.x >= sum.z ? 0u : sum.y >= sum.z ? 2u : 4u);
+}
+
+#ifdef OPEN_SPACE
+// Of the 3 x 3 voxels before a face.
+uint occupiedBefore(ivec3 voxel, uint face) {
+    const int axis = int(face >> 1);
+    uint occupied = 0u;
+    for (int i = 0; i < 9; ++i) {
+        ivec3 neighbour = voxel + ivec3(faceNormal(face));
+        neighbour[(axis + 1) % 3] += i % 3 - 1;
+        neighbour[(axis + 2) % 3] += i / 3 - 1;
+        if (isOccupied(push.grid, neighbour)) ++occupied;
+    }
+    return occupied;
+}
+
+// A bit for each face that has the fewest occupied voxels before it.
+uint mostOpenFaces(ivec3 voxel) {
+    uint open = 0u, fewest = 10u;
+    for (uint face = 0u; face < 6u; ++face) {
+        const uint occupied = occupiedBefore(voxel, face);
+        if (occupied > fewest) continue;
+        open = occupied < fewest ? 1u << face : open | 1u << face;
+        fewest = occupied;
+    }
+    return open;
+}
+
+// The one of several faces that is nearest to a normal.
+uint nearestFace(uint faces, vec3 normal) {
+    uint best = uint(findLSB(faces));
+    for (uint face = best + 1u; face < 6u; ++face)
+        if ((faces >> face & 1u) != 0u && dot(faceNormal(face), normal) > dot(faceNormal(best), normal) + 1e-4) best = face;
+    return best;
+}
+
+#ifdef FRAGMENTS
+// Sum of the angles between a face's normal and those of a voxel's fragments, in units of push.unitsPerRadian.
+float angleTo(uint voxel, uint face) {
+    const float positive = float(fragmentAngles.data[ANGLE_SUMS * voxel + (face >> 1)]);
+    const float pi = 3.14159265358979 * push.unitsPerRadian * float(fragmentAngles.data[ANGLE_SUMS * voxel + 3u]);
+    return (face & 1u) == 0u ? positive : pi - positive;
+}
+
+// Of several faces those with the least angle to the fragments, within a thousandth of a radian a fragment.
+uint facesOfFragments(uint voxel, uint faces) {
+    float least = 1.0e30;
+    for (uint face = 0u; face < 6u; ++face)
+        if ((faces >> face & 1u) != 0u) least = min(least, angleTo(voxel, face));
+    const float tolerance = 1.0e-3 * push.unitsPerRadian * float(fragmentAngles.data[ANGLE_SUMS * voxel + 3u]);
+    uint nearest = 0u;
+    for (uint face = 0u; face < 6u; ++face)
+        if ((faces >> face & 1u) != 0u && angleTo(voxel, face) <= least + tolerance) nearest |= 1u << face;
+    return nearest;
+}
+#endif
+
+vec3 normalOfOpenSpace(uint voxel, vec3 areaNormal) {
+    uint open = mostOpenFaces(ivec3(coordinates.data[voxel]));
+    if (bitCount(open) > 1) atomicAdd(counts.tied, 1u);
+    const uint faceByArea = nearestFace(open, areaNormal);
+#ifdef FRAGMENTS
+    open = facesOfFragments(voxel, open);
+#endif
+    const uint face = nearestFace(open, areaNormal);
+    if (face != faceByArea) atomicAdd(counts.decided, 1u);
+    return faceNormal(face);
+}
+#endif
+
+void main() {
+    const uint voxel = linearIndex();
+    if (voxel >= push.count) return;
+    const VoxelMaterial m = voxelMaterial(voxel);
+    vec3 normal = normalOfArea(m);
+#ifdef OPEN_SPACE
+    // The normals of the surfaces disagree: their mean is short.
+    if (dot(m.normal, m.normal) < 0.98) {
+        const vec3 openNormal = normalOfOpenSpace(voxel, normal);
+        atomicAdd(counts.disagreeing, 1u);
+        if (dot(openNormal, normal) < 0.999) atomicAdd(counts.changed, 1u);
+        normal = openNormal;
+    }
+#endif
+    normals.data[voxel] = normal;
+}

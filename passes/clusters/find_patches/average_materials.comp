@@ -1,0 +1,68 @@
+// Material of each surface group: its mean normal and reflectance, and its share of the voxel's area at each face, by its surfels. Where
+// it has area at a face it has a patch.
+//
+// Unoccluded groups share the voxel's unoccluded area. Occluded ones exist only if each sample point has surfels on both sides; a surfel
+// then stands for the same part of the whole area.
+#include "passes/clusters/grouped_surfels.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) buffer Groups { SurfaceGroup data[]; } groups;
+readonly buffer FirstGroup { uint data[]; } firstGroup;
+layout(scalar) readonly buffer GroupMaterialsAt { VoxelMaterials groupMaterials; };
+writeonly buffer PatchCounts { uint data[]; } patchCounts;  // By group.
+layout(push_constant) uniform Push { uint voxels; } push;
+
+// Projected area of a surfel at the faces before it.
+void addArea(vec3 normal, inout vec3 positive, inout vec3 negative) {
+    const vec3 area = normal * normal;
+    positive += mix(area, vec3(0.0), lessThan(normal, vec3(0.0)));
+    negative += mix(vec3(0.0), area, lessThan(normal, vec3(0.0)));
+}
+
+vec3 shareOf(vec3 groupSum, vec3 voxelSum, vec3 area) {
+    return mix(area * groupSum / voxelSum, vec3(0.0), equal(groupSum, vec3(0.0)));
+}
+
+void main() {
+    const uint voxel = linearIndex();
+    if (voxel >= push.voxels) return;
+    const uint first = firstGroup.data[voxel], end = firstGroup.data[voxel + 1u];
+    vec3 voxelPositive = vec3(0.0), voxelNegative = vec3(0.0);
+    float points = 0.0;
+    for (uint group = first; group < end; ++group) {
+        points += 0.5 * float(groups.data[group].surfelCount);
+        for (uint i = 0u; i < groups.data[group].surfelCount && groups.data[group].isOccluded == 0u; ++i)
+            addArea(groupedSurfels.data[groups.data[group].firstSurfel + i].normal, voxelPositive, voxelNegative);
+    }
+    const VoxelMaterial whole = voxelMaterial(voxel);
+    for (uint group = first; group < end; ++group) {
+        VoxelMaterial m = whole;
+        vec3 positive = vec3(0.0), negative = vec3(0.0);
+        m.albedo = m.normal = vec3(0.0);
+        const uint surfelCount = groups.data[group].surfelCount;
+        for (uint i = 0u; i < surfelCount; ++i) {
+            const GroupedSurfel s = groupedSurfels.data[groups.data[group].firstSurfel + i];
+            addArea(s.normal, positive, negative);
+            m.albedo += s.reflectance / float(surfelCount);
+            m.normal += s.normal / float(surfelCount);
+        }
+        if (groups.data[group].isOccluded == 1u) {
+            m.unoccludedPositive = whole.area / points * positive;
+            m.unoccludedNegative = whole.area / points * negative;
+        } else {
+            m.unoccludedPositive = shareOf(positive, voxelPositive, whole.unoccludedPositive);
+            m.unoccludedNegative = shareOf(negative, voxelNegative, whole.unoccludedNegative);
+        }
+        m.area = dot(m.unoccludedPositive + m.unoccludedNegative, vec3(1.0));
+        const PackedVoxelMaterial packed = packMaterial(m);
+        groupMaterials.data[group] = packed;
+        const VoxelMaterial stored = unpackMaterial(packed);
+        uint faces = 0u;
+        for (uint face = 0u; face < 6u; ++face)
+            if (unoccluded(stored, face) > 0.0) faces |= 1u << face;
+        groups.data[group].faces = faces;
+        patchCounts.data[group] = uint(bitCount(faces));
+    }
+}

@@ -1,0 +1,53 @@
+// Adjacency of surface groups, before occlusion: groups of the 26 voxels around that have area at a common face. Counts them; LIST:
+// lists them.
+#include "passes/clusters/grouped_surfels.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
+layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
+readonly buffer FirstGroup { uint data[]; } firstGroup;
+layout(scalar) readonly buffer GroupMaterialsAt { VoxelMaterials groupMaterials; };
+#ifdef LIST
+readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
+layout(scalar) readonly buffer NeighboursAt { LargeUints neighbours; };
+layout(scalar) readonly buffer NeighbourOfAt { LargeUints neighbourOf; };  // The group whose neighbour each is.
+#else
+writeonly buffer Counts { uint data[]; } counts;  // By group, then 0 for the prefix sum.
+#endif
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint groupCount;
+} push;
+
+bool haveCommonFace(VoxelMaterial a, VoxelMaterial b) {
+    const vec3 area = min(a.unoccludedPositive, b.unoccludedPositive) + min(a.unoccludedNegative, b.unoccludedNegative);
+    return any(greaterThan(area, vec3(0.0)));
+}
+
+void main() {
+    const uint group = linearIndex();
+    if (group > push.groupCount) return;
+    uint count = 0u;
+    if (group < push.groupCount) {
+        const VoxelMaterial m = unpackMaterial(groupMaterials.data[group]);
+        const ivec3 center = ivec3(coordinates.data[groups.data[group].voxel]);
+        for (int i = 0; i < 27; ++i) {
+            const uint voxel = voxelNumber(push.grid, center + ivec3(i % 3, i / 3 % 3, i / 9) - 1);
+            if (i == 13 || voxel == NO_VOXEL) continue;
+            for (uint neighbour = firstGroup.data[voxel]; neighbour < firstGroup.data[voxel + 1u]; ++neighbour) {
+                if (groups.data[neighbour].isOccluded != groups.data[group].isOccluded) continue;
+                if (!haveCommonFace(m, unpackMaterial(groupMaterials.data[neighbour]))) continue;
+#ifdef LIST
+                neighbours.data[firstNeighbour.data[group] + count] = neighbour;
+                neighbourOf.data[firstNeighbour.data[group] + count] = group;
+#endif
+                ++count;
+            }
+        }
+    }
+#ifndef LIST
+    counts.data[group] = count;
+#endif
+}

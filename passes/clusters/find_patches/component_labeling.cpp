@@ -1,0 +1,83 @@
+#include "passes/clusters/find_patches/component_labeling.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "passes/common/compute/uints.h"
+
+namespace voxray {
+
+ComponentLabeling::ComponentLabeling(ProgramOwner& owner)
+    : prefixSum_(owner, PrefixSum::Of::Values),
+      compaction_(owner),
+      histogram_(owner),
+      radixSort_(owner),
+      iota_(owner, "passes/clusters/iota.comp"),
+      propagateLabels_(owner, "propagate_labels.comp"),
+      flagRoots_(owner, "flag_component_roots.comp"),
+      numberComponents_(owner, "number_components.comp"),
+      assignComponents_(owner, "assign_components.comp"),
+      initComponents_(owner, "init_components.comp") {}
+
+void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters, VoxelPatches& patches) {
+    Device& device = stream.device();
+    const uint32_t groups = patches.groupCount, words = (groups + 31) / 32;
+    const Buffer labels(device, "labels of surface groups", uints(groups));
+    const Buffer changed(device, "labels that changed", uints(1));
+    stream.dispatch(iota_, groups, {{"values", labels}, {"count", groups}});
+    for (bool isDone = false; !isDone;) {
+        stream.fill(changed, 0);
+        stream.dispatch(propagateLabels_, groups,
+                        {{"groups", patches.groups},
+                         {"firstNeighbour", patches.firstNeighbour},
+                         {"NeighboursAt", patches.neighbours.at()},
+                         {"clusterOfVoxel", clusters.clusterOfVoxel},
+                         {"labels", labels},
+                         {"changed", changed},
+                         {"groupCount", groups}});
+        isDone = stream.readAs<uint32_t>(changed, 1)[0] == 0;
+    }
+    const Buffer flags(device, "flags of roots", uints(words));
+    const Buffer roots(device, "list of roots", uints(groups));
+    const Buffer componentOfRoot(device, "components of roots", uints(groups));
+    stream.dispatch(flagRoots_, words,
+                    {{"groups", patches.groups},
+                     {"clusterOfVoxel", clusters.clusterOfVoxel},
+                     {"labels", labels},
+                     {"flags", flags},
+                     {"groupCount", groups}});
+    patches.componentCount = compaction_.run(stream, flags, roots, words);
+    stream.fill(componentOfRoot, NO_COMPONENT);
+    stream.dispatch(
+        numberComponents_, patches.componentCount,
+        {{"roots", roots}, {"componentOfRoot", componentOfRoot}, {"components", patches.componentCount}});
+
+    // Groups by component: the sort is stable, so those of a component stay ascending
+    Buffer keys(device, "components of groups", uints(groups));
+    patches.componentOfGroup = Buffer(device, "components of groups", uints(groups));
+    patches.memberGroups = Buffer(device, "groups by component", uints(groups));
+    patches.components = Buffer(device, "components of clusters",
+                                std::max(patches.componentCount, 1u) * sizeof(gpu::ClusterComponent));
+    stream.dispatch(assignComponents_, groups,
+                    {{"labels", labels},
+                     {"componentOfRoot", componentOfRoot},
+                     {"componentOfGroup", patches.componentOfGroup},
+                     {"keys", keys},
+                     {"memberGroups", patches.memberGroups},
+                     {"groupCount", groups},
+                     {"components", patches.componentCount}});
+    radixSort_.record(stream, keys, patches.memberGroups, groups,
+                      uint32_t(std::bit_width(patches.componentCount)));
+    const Buffer memberCounts(device, "group counts of components", uints(patches.componentCount));
+    const Buffer firstMembers(device, "first groups of components", uints(patches.componentCount));
+    histogram_.record(stream, patches.componentOfGroup, memberCounts, groups, patches.componentCount);
+    prefixSum_.run(stream, memberCounts, firstMembers, patches.componentCount);
+    stream.dispatch(initComponents_, patches.componentCount,
+                    {{"memberCounts", memberCounts},
+                     {"firstMembers", firstMembers},
+                     {"components", patches.components},
+                     {"count", patches.componentCount}});
+    stream.finish();
+}
+
+}  // namespace voxray

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "passes/clusters/voxel_clusters.h"
+#include "passes/clusters/voxel_patches.h"
+#include "passes/common/compute/compaction.h"
+#include "passes/common/compute/histogram.h"
+#include "passes/common/compute/radix_sort.h"
+
+namespace voxray {
+
+/// Components of clusters: the connected surface groups of their voxels, by label propagation.
+class ComponentLabeling {
+ public:
+    explicit ComponentLabeling(ProgramOwner& owner);
+
+    /// Fills the components of `patches`, whose groups and neighbours are there. Waits for the device.
+    void run(CommandStream& stream, const VoxelClusters& clusters, VoxelPatches& patches);
+
+ private:
+    PrefixSum prefixSum_;
+    Compaction compaction_;
+    Histogram histogram_;
+    RadixSort radixSort_;
+    Kernel iota_, propagateLabels_, flagRoots_, numberComponents_, assignComponents_, initComponents_;
+};
+
+}  // namespace voxray

@@ -1,0 +1,33 @@
+// Rays between the spaces before adjacent surface groups. UPDATE: not where the last build's result holds.
+#include "passes/clusters/grouped_surfels.glsl"
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/trace/ray_types.h"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
+layout(scalar) readonly buffer NeighboursAt { LargeUints neighbours; };
+layout(scalar) readonly buffer NeighbourOfAt { LargeUints neighbourOf; };
+#ifdef UPDATE
+readonly buffer ReusedGroup { uint data[]; } reusedGroup;
+#endif
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(push_constant) uniform Push {
+    uint first;
+    uint count;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const uint group = neighbourOf.data[push.first + i];
+#ifdef UPDATE
+    if (reusedGroup.data[group] != NO_GROUP) {
+        rays.data[i] = kNoRay;
+        return;
+    }
+#endif
+    const vec3 origin = groups.data[group].pointAbove;
+    const vec3 toNeighbour = groups.data[neighbours.data[push.first + i]].pointAbove - origin;
+    rays.data[i] = dot(toNeighbour, toNeighbour) > 0.0 ? Ray(origin, 0.0, normalize(toNeighbour), length(toNeighbour)) : kNoRay;
+}

@@ -1,0 +1,26 @@
+// Rays from above each surfel without a group to above the seed of its voxel's new group.
+#include "passes/clusters/grouped_surfels.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/trace/ray_types.h"
+layout(local_size_x = 64) in;
+
+readonly buffer Seeds { uint data[]; } seeds;  // By voxel: a surfel.
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(push_constant) uniform Push {
+    uint first;
+    uint count;
+    uint groupsOccluded;  // 1: occluded surfels are grouped. 0: unoccluded ones.
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    Ray ray = kNoRay;
+    const GroupedSurfel s = groupedSurfels.data[push.first + i];
+    if (s.group == NO_GROUP && s.isOccluded == push.groupsOccluded) {
+        const vec3 origin = pointAbove(s);
+        const vec3 toSeed = pointAbove(groupedSurfels.data[seeds.data[s.voxel]]) - origin;
+        if (dot(toSeed, toSeed) > 0.0) ray = Ray(origin, 0.0, normalize(toSeed), length(toSeed));
+    }
+    rays.data[i] = ray;
+}

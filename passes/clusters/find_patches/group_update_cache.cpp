@@ -1,0 +1,89 @@
+#include "passes/clusters/find_patches/group_update_cache.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "passes/clusters/find_patches/stored_group.h"
+#include "passes/common/compute/uints.h"
+#include "passes/common/voxel_builder/changed_voxels.h"
+
+namespace voxray {
+
+GroupUpdateCache::GroupUpdateCache(ProgramOwner& owner)
+    : storeSurfelGroups_(owner, "store_surfel_groups.comp"),
+      findPreviousGroups_(owner, "find_previous_groups.comp"),
+      regions_(owner) {}
+
+void GroupUpdateCache::begin(CommandStream& stream, const SurfaceVoxels& voxels, VoxelPatches& patches,
+                             const std::vector<Box>& changed) {
+    const auto changedBits = [&](uint32_t margin) {
+        return regions_.bits(stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, margin)),
+                             voxels);
+    };
+    changed_ = changedBits(0);
+    nearChange_ = changedBits(1);
+    firstGroup_ = std::move(patches.firstGroup);
+    firstNeighbour_ = std::move(patches.firstNeighbour);
+    neighbours_ = std::move(patches.neighbours);
+    isActive_ = true;
+}
+
+std::vector<Binding> GroupUpdateCache::surfelBindings(const VoxelClusters& clusters) const {
+    return {
+        {"coordinates", clusters.coordinates}, {"changed", changed_}, {"StoredGroupsAt", storedGroups_.at()}};
+}
+
+void GroupUpdateCache::findPrevious(CommandStream& stream, const SurfaceVoxels& voxels,
+                                    const VoxelClusters& clusters, VoxelPatches& patches) {
+    patches.previousGroups = Buffer(stream.device(), "previous groups", uints(patches.groupCount));
+    reusedGroup_ = Buffer(stream.device(), "groups whose neighbours are reused", uints(patches.groupCount));
+    stream.dispatch(findPreviousGroups_, patches.groupCount,
+                    {{"groups", patches.groups},
+                     {"firstGroup", patches.firstGroup},
+                     {"coordinates", clusters.coordinates},
+                     {"changed", changed_},
+                     {"nearChange", nearChange_},
+                     {"previousOccupancy", occupancy_},
+                     {"previousRank", rank_},
+                     {"previousFirstGroup", firstGroup_},
+                     {"previousGroups", patches.previousGroups},
+                     {"reusedGroup", reusedGroup_},
+                     {"grid", voxels.grid},
+                     {"groupCount", patches.groupCount}});
+}
+
+std::vector<Binding> GroupUpdateCache::neighbourRayBindings() const {
+    return {{"reusedGroup", reusedGroup_}};
+}
+
+std::vector<Binding> GroupUpdateCache::previousNeighbourBindings(const VoxelPatches& patches) const {
+    return {{"reusedGroup", reusedGroup_},
+            {"firstNeighbour", patches.firstNeighbour},
+            {"previousFirstNeighbour", firstNeighbour_},
+            {"PreviousNeighboursAt", neighbours_.at()}};
+}
+
+void GroupUpdateCache::end() {
+    changed_ = {}, nearChange_ = {}, reusedGroup_ = {}, firstGroup_ = {}, firstNeighbour_ = {},
+    neighbours_ = {};
+    isActive_ = false;
+}
+
+void GroupUpdateCache::storeSurfels(CommandStream& stream, const VoxelPatches& patches, uint64_t idCount) {
+    makeOrKeep(storedGroups_, stream.device(), "groups of surfels",
+               std::max<uint64_t>(idCount, 1) * sizeof(gpu::StoredGroup));
+    stream.dispatch(storeSurfelGroups_, patches.surfelCount,
+                    {{"GroupedSurfelsAt", patches.surfels.at()},
+                     {"StoredGroupsAt", storedGroups_.at()},
+                     {"surfels", patches.surfelCount}});
+}
+
+void GroupUpdateCache::storeVoxels(CommandStream& stream, const SurfaceVoxels& voxels) {
+    makeOrKeep(occupancy_, stream.device(), "previous occupancy", voxels.occupancy.bytes());
+    makeOrKeep(rank_, stream.device(), "previous ranks", voxels.rank.bytes());
+    stream.copy(voxels.occupancy, occupancy_, voxels.occupancy.bytes());
+    stream.copy(voxels.rank, rank_, voxels.rank.bytes());
+    stream.finish();
+}
+
+}  // namespace voxray

@@ -1,0 +1,40 @@
+// Surfels of a chunk, by voxel, without a group. UPDATE: where voxels have not changed, in the group that they were in.
+#include "passes/clusters/grouped_surfels.glsl"
+#include "passes/clusters/find_patches/stored_group.h"
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "passes/surfels/surfel_types.h"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(scalar) readonly buffer SlotsAt { LargeUints slots; };
+#ifdef UPDATE
+layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
+readonly buffer Changed { uint words[]; } changed;  // A bit a voxel.
+layout(scalar) readonly buffer StoredGroupsAt { StoredGroups storedGroups; };
+#endif
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint count;
+    uint firstIndex;  // Of the chunk's surfels among all.
+} push;
+
+StoredGroup initialGroup(Surfel s) {
+#ifdef UPDATE
+    const ivec3 voxel = ivec3(coordinates.data[s.voxel]);
+    if ((changed.words[voxelWord(push.grid, voxel)] & voxelBit(push.grid, voxel)) == 0u) return storedGroups.data[s.id];
+#endif
+    return StoredGroup(NO_GROUP, 0.5 * push.grid.voxelSize);
+}
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const Surfel s = surfels.data[i];
+    const uint index = push.firstIndex + i, slot = slots.data[index];
+    if (slot == NO_GROUP) return;
+    const StoredGroup initial = initialGroup(s);
+    groupedSurfels.data[slot] = GroupedSurfel(s.position, index, s.normal, s.id, s.reflectance, s.voxel, initial.group, initial.height,
+                                              s.area == 0.0 ? 1u : 0u);
+}

@@ -1,0 +1,21 @@
+// Surfels from which the seed of their voxel's new group is visible join that group.
+#include "passes/clusters/grouped_surfels.glsl"
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+readonly buffer Occluded { uint data[]; } occluded;  // Of rays to the seeds.
+layout(push_constant) uniform Push {
+    uint first;
+    uint count;
+    uint round;
+    uint isLast;          // 1: all remaining surfels join.
+    uint groupsOccluded;  // 1: occluded surfels are grouped. 0: unoccluded ones.
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const GroupedSurfel s = groupedSurfels.data[push.first + i];
+    if (s.group != NO_GROUP || s.isOccluded != push.groupsOccluded) return;
+    if (push.isLast == 1u || occluded.data[i] == 0u) groupedSurfels.data[push.first + i].group = push.round;
+}

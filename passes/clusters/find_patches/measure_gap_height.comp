@@ -1,0 +1,17 @@
+// Height of visibility rays above occluded surfels: half of the gap before them.
+#include "passes/clusters/grouped_surfels.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/trace/ray_types.h"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+layout(push_constant) uniform Push {
+    uint first;
+    uint count;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count || hits.data[i].triangle == NO_HIT) return;
+    groupedSurfels.data[push.first + i].height = 0.5 * hits.data[i].t;
+}

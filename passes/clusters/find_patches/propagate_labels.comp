@@ -1,0 +1,29 @@
+// Connected components by label propagation: each group takes the least label among its neighbours in the same cluster, until none
+// changes. The order of threads doesn't matter: in the end a component's label is its least group.
+#include "passes/clusters/surface_group_types.h"
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
+readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
+layout(scalar) readonly buffer NeighboursAt { LargeUints neighbours; };
+readonly buffer ClusterOfVoxel { uint data[]; } clusterOfVoxel;
+buffer Labels { uint data[]; } labels;
+buffer Changed { uint count; } changed;
+layout(push_constant) uniform Push { uint groupCount; } push;
+
+void main() {
+    const uint group = linearIndex();
+    if (group >= push.groupCount) return;
+    const uint cluster = clusterOfVoxel.data[groups.data[group].voxel];
+    uint label = labels.data[labels.data[group]];
+    for (uint i = firstNeighbour.data[group]; i < firstNeighbour.data[group + 1u]; ++i) {
+        const uint neighbour = neighbours.data[i];
+        if (neighbour == NO_GROUP || clusterOfVoxel.data[groups.data[neighbour].voxel] != cluster) continue;
+        label = min(label, labels.data[neighbour]);
+    }
+    if (label == labels.data[group]) return;
+    labels.data[group] = label;
+    atomicAdd(changed.count, 1u);
+}

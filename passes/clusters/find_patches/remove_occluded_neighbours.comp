@@ -1,0 +1,36 @@
+// Removes neighbours that are occluded from each other. UPDATE: reuses the last build's result where it holds; there the group has as many
+// neighbours as before, in the same order.
+#include "passes/clusters/surface_group_types.h"
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+readonly buffer Occluded { uint data[]; } occluded;
+layout(scalar) readonly buffer NeighboursAt { LargeUints neighbours; };
+#ifdef UPDATE
+layout(scalar) readonly buffer NeighbourOfAt { LargeUints neighbourOf; };
+readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
+readonly buffer ReusedGroup { uint data[]; } reusedGroup;
+readonly buffer PreviousFirstNeighbour { uint data[]; } previousFirstNeighbour;
+layout(scalar) readonly buffer PreviousNeighboursAt { LargeUints previousNeighbours; };
+#endif
+layout(push_constant) uniform Push {
+    uint first;
+    uint count;
+} push;
+
+bool isOccluded(uint i) {
+#ifdef UPDATE
+    const uint group = neighbourOf.data[push.first + i], previous = reusedGroup.data[group];
+    if (previous != NO_GROUP) {
+        const uint indexInList = push.first + i - firstNeighbour.data[group];
+        return previousNeighbours.data[previousFirstNeighbour.data[previous] + indexInList] == NO_GROUP;
+    }
+#endif
+    return occluded.data[i] != 0u;
+}
+
+void main() {
+    const uint i = linearIndex();
+    if (i < push.count && isOccluded(i)) neighbours.data[push.first + i] = NO_GROUP;
+}

@@ -1,0 +1,93 @@
+#include "passes/clusters/find_patches/surfel_grouping.h"
+
+#include "passes/common/compute/uints.h"
+#include "trace/ray.h"
+
+namespace voxray {
+namespace {
+
+/// Of a voxel, unoccluded and occluded each; the last one takes all remaining surfels.
+constexpr uint32_t kMaxGroupsPerVoxel = 8;
+
+}  // namespace
+
+void RayBatch::plan(MemoryPlan& plan, bool needsHits) {
+    plan.scratchBuffer(rays, "rays between surfels", uint64_t(kRays) * sizeof(Ray));
+    plan.scratchBuffer(occluded, "visibility of surfels", uint64_t(kRays) * sizeof(uint32_t));
+    if (needsHits) plan.scratchBuffer(hits, "gaps before surfels", uint64_t(kRays) * sizeof(Hit));
+}
+
+SurfelGrouping::SurfelGrouping(ProgramOwner& owner)
+    : generateGapRays_(owner, "generate_gap_rays.comp"),
+      measureGapHeight_(owner, "measure_gap_height.comp"),
+      selectSeed_(owner, "select_seed.comp"),
+      generateVisibilityRays_(owner, "generate_visibility_rays.comp"),
+      joinGroup_(owner, "join_group.comp") {}
+
+void SurfelGrouping::run(PassContext& context, const RayBatch& batch, const SurfaceVoxels& voxels,
+                         bool hasOccluded, const SurfelsByVoxel& lists, const VoxelPatches& patches) const {
+    groupByVisibility(context, batch, voxels.voxelCount, lists, patches, false);
+    if (!hasOccluded) return;
+    measureGaps(context, batch, voxels.grid.voxelSize, patches);
+    groupByVisibility(context, batch, voxels.voxelCount, lists, patches, true);
+}
+
+void SurfelGrouping::measureGaps(PassContext& context, const RayBatch& batch, float voxelSize,
+                                 const VoxelPatches& patches) const {
+    RayBatch::inBatches(patches.surfelCount, [&](uint32_t first, uint32_t count) {
+        context.dispatch(generateGapRays_, count,
+                         {{"rays", batch.rays},
+                          {"GroupedSurfelsAt", patches.surfels.at()},
+                          {"first", first},
+                          {"count", count},
+                          {"voxelSize", voxelSize}});
+        context.tracer.closestHit(context.stream, batch.rays, batch.hits, count);
+        context.dispatch(measureGapHeight_, count,
+                         {{"hits", batch.hits},
+                          {"GroupedSurfelsAt", patches.surfels.at()},
+                          {"first", first},
+                          {"count", count}});
+    });
+}
+
+void SurfelGrouping::groupByVisibility(PassContext& context, const RayBatch& batch, uint32_t voxels,
+                                       const SurfelsByVoxel& lists, const VoxelPatches& patches,
+                                       bool occluded) const {
+    CommandStream& stream = context.stream;
+    const Buffer seeds(context.device, "seeds of surface groups", uints(voxels));
+    const Buffer remaining(context.device, "voxels with surfels without a group", uints(1));
+    for (uint32_t i = 0; i < kMaxGroupsPerVoxel; ++i) {
+        const uint32_t round = (occluded ? kMaxGroupsPerVoxel : 0) + i;
+        stream.fill(remaining, 0);
+        context.dispatch(selectSeed_, voxels,
+                         {{"lists", lists.lists},
+                          {"seeds", seeds},
+                          {"remaining", remaining},
+                          {"GroupedSurfelsAt", patches.surfels.at()},
+                          {"voxels", voxels},
+                          {"round", round},
+                          {"groupsOccluded", occluded}});
+        if (stream.readAs<uint32_t>(remaining, 1)[0] == 0) break;
+        RayBatch::inBatches(patches.surfelCount, [&](uint32_t first, uint32_t count) {
+            context.dispatch(generateVisibilityRays_, count,
+                             {{"seeds", seeds},
+                              {"rays", batch.rays},
+                              {"GroupedSurfelsAt", patches.surfels.at()},
+                              {"first", first},
+                              {"count", count},
+                              {"groupsOccluded", occluded}});
+            context.tracer.occluded(stream, batch.rays, batch.occluded, count);
+            context.dispatch(joinGroup_, count,
+                             {{"occluded", batch.occluded},
+                              {"GroupedSurfelsAt", patches.surfels.at()},
+                              {"first", first},
+                              {"count", count},
+                              {"round", round},
+                              {"isLast", i + 1 == kMaxGroupsPerVoxel},
+                              {"groupsOccluded", occluded}});
+        });
+    }
+    stream.finish();
+}
+
+}  // namespace voxray

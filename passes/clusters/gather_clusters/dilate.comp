@@ -1,0 +1,26 @@
+// Dilates the listed groups by their neighbours, which one pass of the filter reads.
+#include "passes/clusters/surface_group_types.h"
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
+layout(scalar) readonly buffer NeighboursAt { LargeUints neighbours; };
+buffer IsListed { uint data[]; } isListed;  // By group.
+buffer ListedGroups { uint data[]; } listedGroups;
+buffer Count { uint value; } count;
+layout(push_constant) uniform Push {
+    uint first;  // Of the groups that the last step added to the list.
+    uint groupCount;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.groupCount) return;
+    const uint group = listedGroups.data[push.first + i];
+    for (uint k = firstNeighbour.data[group]; k < firstNeighbour.data[group + 1u]; ++k) {
+        const uint neighbour = neighbours.data[k];
+        if (neighbour != NO_GROUP && atomicExchange(isListed.data[neighbour], 1u) == 0u)
+            listedGroups.data[atomicAdd(count.value, 1u)] = neighbour;
+    }
+}

@@ -1,0 +1,53 @@
+// Filters irradiance of patches by binomial weights over the same face of neighbouring surface groups (Cosin and Patow 2022, section
+// 4.4; the paper's filter also crosses walls). LIT_ALONE: unlit patches don't count.
+#include "passes/clusters/gather_clusters/listed_groups.glsl"
+#include "passes/clusters/group_patches.glsl"
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PatchValues { vec3 data[]; };
+layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
+layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;  // By voxel.
+readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
+layout(scalar) readonly buffer NeighboursAt { LargeUints neighbours; };
+layout(scalar) readonly buffer GatheredAt { PatchValues gathered; };
+layout(scalar) readonly buffer FilteredAt { PatchValues filtered; };
+layout(push_constant) uniform Push { uint count; } push;
+
+// 1 2 1 along each axis.
+float binomialWeight(vec3 offset) {
+    const vec3 weight = 2.0 - abs(offset);
+    return weight.x * weight.y * weight.z;
+}
+
+void addPatches(SurfaceGroup group, float weight, inout vec4 sums[6]) {
+    uint patchNumber = group.firstPatch;
+    for (uint face = 0u; face < 6u; ++face) {
+        if (!hasPatch(group, face)) continue;
+        const vec3 irradiance = gathered.data[patchNumber++];
+#ifdef LIT_ALONE
+        if (all(equal(irradiance, vec3(0.0)))) continue;
+#endif
+        sums[face] += weight * vec4(irradiance, 1.0);
+    }
+}
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const uint number = groupIndex(i);
+    const SurfaceGroup group = groups.data[number];
+    vec4 sums[6];
+    for (uint face = 0u; face < 6u; ++face) sums[face] = vec4(0.0);
+    addPatches(group, binomialWeight(vec3(0.0)), sums);
+    const vec3 center = vec3(coordinates.data[group.voxel]);
+    for (uint k = firstNeighbour.data[number]; k < firstNeighbour.data[number + 1u]; ++k) {
+        if (neighbours.data[k] == NO_GROUP) continue;
+        const SurfaceGroup neighbour = groups.data[neighbours.data[k]];
+        addPatches(neighbour, binomialWeight(vec3(coordinates.data[neighbour.voxel]) - center), sums);
+    }
+    uint patchNumber = group.firstPatch;
+    for (uint face = 0u; face < 6u; ++face)
+        if (hasPatch(group, face)) filtered.data[patchNumber++] = sums[face].w > 0.0 ? sums[face].rgb / sums[face].w : vec3(0.0);
+}

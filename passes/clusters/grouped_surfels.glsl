@@ -1,0 +1,13 @@
+// The surfels of voxels, sorted by surface group (passes/clusters/voxel_patches.h).
+#ifndef VOXRAY_GROUPED_SURFELS_GLSL
+#define VOXRAY_GROUPED_SURFELS_GLSL
+
+#include "passes/clusters/surface_group_types.h"
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer GroupedSurfels { GroupedSurfel data[]; };
+layout(scalar) readonly buffer GroupedSurfelsAt { GroupedSurfels groupedSurfels; };
+
+// A point in the space before a surfel, m.
+vec3 pointAbove(GroupedSurfel s) { return s.position + s.height * s.normal; }
+
+#endif

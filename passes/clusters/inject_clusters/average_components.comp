@@ -1,0 +1,40 @@
+// Radiosity of component faces: the mean over their patches, weighted by area (Cosin and Patow 2022, section 4.4: irradiance is pulled up
+// to clusters). Groups, whose materials are bound, are summed in their order: the same in each run.
+//
+// The ratio of two small samples could outshine a scene, so patches smaller than SMALL_FACE_AREA get the mean.
+#include "passes/clusters/group_patches.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "passes/surfels/radiosity.glsl"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
+layout(scalar) readonly buffer Components { ClusterComponent data[]; } components;
+layout(scalar) readonly buffer MemberGroups { uint data[]; } memberGroups;
+layout(scalar) readonly buffer RadiosityAt { LargeUints radiosity; };
+layout(scalar) writeonly buffer ComponentRadiosity { uint data[]; } componentRadiosity;
+layout(push_constant) uniform Push { uint count; } push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const uint first = components.data[i].firstMember, count = components.data[i].memberCount;
+    for (uint face = 0u; face < 6u; ++face) {
+        vec3 sum = vec3(0.0);
+        float totalArea = 0.0;
+        for (uint k = 0u; k < count; ++k) {
+            const uint group = memberGroups.data[first + k];
+            if (!hasPatch(groups.data[group], face)) continue;
+            const float area = unoccluded(voxelMaterial(group), face);
+            sum += area * unpackRadiosity(radiosity.data[patchIndex(groups.data[group], face)]);
+            totalArea += area;
+        }
+        const uint mean = packRadiosity(totalArea > 0.0 ? sum / totalArea : vec3(0.0));
+        componentRadiosity.data[6u * i + face] = mean;
+        for (uint k = 0u; k < count; ++k) {
+            const uint group = memberGroups.data[first + k];
+            if (hasPatch(groups.data[group], face) && unoccluded(voxelMaterial(group), face) < SMALL_FACE_AREA)
+                radiosity.data[patchIndex(groups.data[group], face)] = mean;
+        }
+    }
+}

@@ -1,0 +1,30 @@
+// Direct irradiance of each patch: the mean over the surfels of its group, weighted by their projected area at its face.
+#include "passes/clusters/grouped_surfels.glsl"
+#include "passes/clusters/group_patches.glsl"
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "passes/surfels/radiosity.glsl"
+#include "shaders/voxels/face.glsl"
+layout(local_size_x = 64) in;
+
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SurfelValues { vec3 data[]; };
+layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
+layout(scalar) readonly buffer SurfelIrradianceAt { SurfelValues surfelIrradiance; };
+layout(scalar) readonly buffer PatchDirectAt { LargeUints patchDirect; };
+layout(push_constant) uniform Push { uint count; } push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const SurfaceGroup group = groups.data[i];
+    vec4 sums[6];
+    for (uint face = 0u; face < 6u; ++face) sums[face] = vec4(0.0);
+    for (uint k = group.firstSurfel; k < group.firstSurfel + group.surfelCount; ++k) {
+        const vec3 normal = groupedSurfels.data[k].normal;
+        for (uint axis = 0u; axis < 3u; ++axis)
+            sums[faceOf(normal, axis)] += normal[axis] * normal[axis] * vec4(surfelIrradiance.data[k], 1.0);
+    }
+    for (uint face = 0u; face < 6u; ++face)
+        if (hasPatch(group, face))
+            patchDirect.data[patchIndex(group, face)] = packRadiosity(sums[face].w > 0.0 ? sums[face].rgb / sums[face].w : vec3(0.0));
+}

@@ -1,0 +1,16 @@
+// A face of a cluster component, shared by C++ and GLSL.
+#ifndef VOXRAY_SHARED_COMPONENT_FACE_TYPES_H
+#define VOXRAY_SHARED_COMPONENT_FACE_TYPES_H
+
+#include "shaders/shared/types.h"
+
+VOXRAY_SHARED_BEGIN
+
+struct ComponentFace {
+    float area;       // Of its patches, in faces of a voxel.
+    uint patchCount;  // Of the component at this face.
+};
+
+VOXRAY_SHARED_END
+
+#endif

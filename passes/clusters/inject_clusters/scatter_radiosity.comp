@@ -1,0 +1,36 @@
+// Radiosity of patches after bounces between components: what each reflects of its initial irradiance, plus its component face's bounced
+// radiosity. Small patches have that of their component face.
+#include "passes/clusters/group_patches.glsl"
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "passes/surfels/radiosity.glsl"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
+layout(scalar) readonly buffer Components { ClusterComponent data[]; } components;
+layout(scalar) readonly buffer MemberGroups { uint data[]; } memberGroups;
+layout(scalar) readonly buffer ComponentRadiosity { uint data[]; } componentRadiosity;  // By component and face, packed.
+layout(scalar) readonly buffer BouncedRadiosity { uint data[]; } bouncedRadiosity;      // What bounces added to it.
+layout(scalar) readonly buffer InitialIrradianceAt { LargeUints initialIrradiance; };   // Before the first bounce, W/m², packed.
+layout(scalar) readonly buffer RadiosityAt { LargeUints radiosity; };
+layout(push_constant) uniform Push { uint componentCount; } push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.componentCount) return;
+    const ClusterComponent component = components.data[i];
+    for (uint k = component.firstMember; k < component.firstMember + component.memberCount; ++k) {
+        const uint number = memberGroups.data[k];
+        const SurfaceGroup group = groups.data[number];
+        const VoxelMaterial m = voxelMaterial(number);
+        for (uint face = 0u; face < 6u; ++face) {
+            if (!hasPatch(group, face)) continue;
+            const uint patchNumber = patchIndex(group, face), target = 6u * i + face;
+            radiosity.data[patchNumber] = unoccluded(m, face) < SMALL_FACE_AREA
+                                              ? componentRadiosity.data[target]
+                                              : packRadiosity(m.albedo * unpackRadiosity(initialIrradiance.data[patchNumber]) +
+                                                              unpackRadiosity(bouncedRadiosity.data[target]));
+        }
+    }
+}

@@ -1,0 +1,22 @@
+// Resolves the rays of paths that continue from near hits.
+#include "passes/cones/gather_cones/resolve_near_field_ray.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/sampling.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Origins { Surfel data[]; } origins;             // Surfels that the rays start from.
+layout(scalar) readonly buffer OriginNormals { uvec2 data[]; } originNormals;  // y: their geometric normals, octahedral.
+layout(push_constant, scalar) uniform Push {
+    uint rayCount;
+    float range;  // m; 0: all paths end.
+    float width;  // Of the cones, at unit distance.
+    uint seed;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.rayCount) return;
+    const Surfel origin = origins.data[i];
+    resolveNearFieldRay(i, origin.parent, fromOctahedral(originNormals.data[i].y), origin.reflectance, push.width, push.range, origin.id,
+                        sobol2(origin.id, push.seed));
+}

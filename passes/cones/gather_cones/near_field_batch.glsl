@@ -1,0 +1,27 @@
+// A batch of traced texels' cones, whose near field is traced by rays.
+#ifndef VOXRAY_NEAR_FIELD_BATCH_GLSL
+#define VOXRAY_NEAR_FIELD_BATCH_GLSL
+
+#include "passes/cones/gather_cones/texel_stride.glsl"
+#include "shaders/compute/linear_index.glsl"
+
+uniform sampler2D position;
+uniform sampler2D normal;
+uniform sampler2D geometricNormal;
+layout(push_constant, scalar) uniform Push {
+    uvec2 tracedExtent;  // Traced texels: columns and rows.
+    uint firstTexel;     // Index of the batch's first traced texel, row by row.
+    uint batchCones;     // Cones of the batch, texel by texel.
+    uint conesPerTexel;
+    int stride;
+    float range;  // Length of the rays, m.
+    uint seed;
+} push;
+
+// The g-buffer's texel that cone i of the batch starts from; outside of the g-buffer at the ends of some rows.
+ivec2 texelOfCone(uint i) {
+    const uint traced = push.firstTexel + i / push.conesPerTexel;
+    return tracedTexel(ivec2(traced % push.tracedExtent.x, traced / push.tracedExtent.x), push.stride);
+}
+
+#endif

@@ -1,0 +1,33 @@
+// One bounce by gathering: each surfel takes the mean radiosity of the surfels that it is linked to, and reflects it. Links are
+// cosine-distributed, so that irradiance is that mean; a link without surfel counts as black.
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "passes/surfels/radiosity.glsl"
+#include "passes/surfels/surfel_types.h"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(scalar) readonly buffer LinksAt { LargeUints links; };
+layout(scalar) readonly buffer PreviousRadiosityAt { LargeUints previousRadiosity; };  // Of all surfels, packed.
+layout(scalar) readonly buffer NextRadiosityAt { LargeUints nextRadiosity; };
+layout(scalar) buffer Indirect { vec4 data[]; } indirect;  // W/m², sum over bounces.
+layout(push_constant) uniform Push {
+    uint count;
+    uint firstSurfel;
+    uint rays;  // Links per surfel that are read.
+    uint surfelCount;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const uint surfel = push.firstSurfel + i;
+    vec3 sum = vec3(0.0);
+    for (uint ray = 0u; ray < push.rays; ++ray) {
+        const uint linked = links.data[ray * push.surfelCount + surfel];
+        if (linked != 0xffffffffu) sum += unpackRadiosity(previousRadiosity.data[linked]);
+    }
+    const vec3 irradiance = sum / float(push.rays);
+    indirect.data[i] += vec4(irradiance, 0.0);
+    nextRadiosity.data[surfel] = packRadiosity(surfels.data[i].reflectance * irradiance);
+}

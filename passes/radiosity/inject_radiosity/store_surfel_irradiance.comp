@@ -1,0 +1,22 @@
+// Stores the indirect irradiance of surfels by slot, for gathers that read surfels.
+#include "shaders/compute/large_buffer.glsl"
+#include "shaders/compute/linear_index.glsl"
+#include "passes/surfels/packed_surfel.glsl"
+#include "passes/surfels/radiosity.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Indirect { vec4 data[]; } indirect;  // W/m²
+layout(scalar) readonly buffer SlotsAt { LargeUints slots; };
+layout(scalar) readonly buffer PackedAt { PackedSurfels packed_; };
+layout(scalar) readonly buffer LitAt { LitSurfels lit; };
+layout(push_constant) uniform Push {
+    uint count;
+    uint firstSurfel;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const uint slot = slots.data[push.firstSurfel + i];
+    if (slot != 0xffffffffu) lit.data[slot] = uvec3(packed_.data[slot], packRadiosity(indirect.data[i].rgb));
+}

@@ -1,0 +1,78 @@
+// Links each ray to the surfel that best stands for its hit.
+#include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/scene.glsl"
+#include "passes/surfels/sorted_surfels.glsl"
+#include "passes/surfels/surfel_bias.glsl"
+#include "shaders/trace/ray_types.h"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer Rays { Ray data[]; } rays;
+layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+readonly buffer Occluded { uint data[]; } occluded;  // Of the hit: 0 where no surface lies within a voxel before it.
+layout(scalar) readonly buffer SortedAt { SortedSurfelWords sorted; };
+readonly buffer Lists { uvec2 data[]; } lists;
+layout(scalar) readonly buffer LinksAt { LargeUints links; };
+buffer UnlinkedHits { uint value; } unlinkedHits;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint firstSurfel;  // Of the batch.
+    uint rayCount;
+    uint raysPerSurfel;
+    uint surfelCount;
+} push;
+
+const uint NO_SURFEL = 0xffffffffu;
+const float MAX_NEAR_ERROR = 0.5;  // 0.7 voxels on one plane, or half a voxel and a plane 20 degrees off.
+
+// The best surfel so far, by squared distance in voxels plus squared bias (surfel_bias.glsl).
+struct NearestSurfel {
+    float error;
+    uint surfel;
+    uint id;
+};
+
+// Squared bias between an unoccluded and an occluded surface point: that of two unrelated values.
+const float OCCLUSION_MISMATCH = 2.0;
+
+void searchVoxel(ivec3 voxel, vec3 position, vec3 normal, uint occlusion, inout NearestSurfel nearest) {
+    const uint list = voxelNumber(push.grid, voxel);
+    if (list == NO_VOXEL) return;
+    const uvec2 slots = lists.data[list];
+    SortedSurfelWords words = sorted;  // Loop-invariant load, which compilers do not hoist.
+    for (uint i = slots.x; i < slots.y; ++i) {
+        const SortedSurfel s = sortedSurfel(words, i);
+        if (dot(s.normal, normal) <= 0.0) continue;
+        const vec3 offset = s.position - position;
+        const float error = dot(offset, offset) / (push.grid.voxelSize * push.grid.voxelSize) +
+                            surfelBias(position, normal, s.position, s.normal) +
+                            ((s.id & VOXRAY_COVERED) == occlusion ? 0.0 : OCCLUSION_MISMATCH);
+        if (error < nearest.error || (error == nearest.error && s.id < nearest.id))
+            nearest = NearestSurfel(error, s.number, s.id);
+    }
+}
+
+// Searches the voxel of the hit, and its 26 neighbours where that has no surfel within MAX_NEAR_ERROR.
+uint nearestSurfel(vec3 position, vec3 normal, uint occlusion) {
+    const ivec3 voxel = voxelAt(push.grid, position);
+    NearestSurfel nearest = NearestSurfel(1.0e30, NO_SURFEL, NO_SURFEL);
+    searchVoxel(voxel, position, normal, occlusion, nearest);
+    if (nearest.error < MAX_NEAR_ERROR) return nearest.surfel;
+    for (int i = 0; i < 27; ++i)
+        if (i != 13) searchVoxel(voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, position, normal, occlusion, nearest);
+    return nearest.surfel;
+}
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.rayCount) return;
+    uint surfel = NO_SURFEL;
+    if (hits.data[i].triangle != NO_HIT) {
+        const uint occlusion = occluded.data[i] != 0u ? VOXRAY_COVERED : 0u;
+        const SurfacePoint p = surfacePoint(hits.data[i].triangle, vec2(hits.data[i].u, hits.data[i].v));
+        const vec3 n = dot(p.geometricNormal, rays.data[i].direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
+        surfel = nearestSurfel(p.position, n, occlusion);
+        if (surfel == NO_SURFEL) atomicAdd(unlinkedHits.value, 1u);
+    }
+    links.data[(i % push.raysPerSurfel) * push.surfelCount + push.firstSurfel + i / push.raysPerSurfel] = surfel;
+}

@@ -1,0 +1,64 @@
+// Lists the neighbours of each surfel: surfels in the 27 voxels around it within a radius, of similar normals and equal
+// occlusion. COUNT counts them; then they are written by the counts' prefix sums.
+#include "shaders/compute/linear_index.glsl"
+#include "passes/surfels/neighbours.glsl"
+#include "passes/surfels/packed_surfel.glsl"
+#include "passes/surfels/sorted_surfels.glsl"
+#include "passes/surfels/surfel_bias.glsl"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer SortedAt { SortedSurfelWords sorted; };
+readonly buffer Lists { uvec2 data[]; } lists;
+#ifdef COUNT
+buffer Counts { uint data[]; } counts;
+buffer Largest { uint value; } largest;
+#else
+readonly buffer Begins { uint data[]; } begins;
+layout(scalar) readonly buffer PackedAt { PackedSurfels packed_; };
+layout(scalar) readonly buffer PairsAt { NeighbourPairs pairs; };
+#endif
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint slots;
+    float radius;  // m, at most a voxel.
+} push;
+
+void main() {
+    const uint slot = linearIndex();
+    if (slot >= push.slots) return;
+    SortedSurfelWords words = sorted;  // Loop-invariant load, which compilers do not hoist.
+    const SortedSurfel center = sortedSurfel(words, slot);
+    const ivec3 voxel = voxelAt(push.grid, center.position);
+    const float squaredRadius = push.radius * push.radius;
+#ifdef COUNT
+    uint count = 0u;
+#else
+    uint next = begins.data[slot];
+    const float centerInverse = inverseDistanceOf(packed_.data[slot].y);
+#endif
+    for (int i = 0; i < 27; ++i) {
+        const uint list = voxelNumber(push.grid, voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1);
+        if (list == NO_VOXEL) continue;
+        const uvec2 slots = lists.data[list];
+        for (uint j = slots.x; j < slots.y; ++j) {
+            const SortedSurfel neighbour = sortedSurfel(words, j);
+            const vec3 offset = neighbour.position - center.position;
+            const float distanceSquared = dot(offset, offset);
+            if (j == slot || distanceSquared >= squaredRadius || dot(neighbour.normal, center.normal) <= 0.0) continue;
+            if (((neighbour.id ^ center.id) & VOXRAY_COVERED) != 0u) continue;  // Light in a gap is independent.
+#ifdef COUNT
+            ++count;
+#else
+            const float meanInverse = 0.5 * (centerInverse + inverseDistanceOf(packed_.data[j].y)) / push.grid.voxelSize;
+            const float bias = surfelBias(center.position, center.normal, neighbour.position, neighbour.normal) +
+                               distanceBias(distanceSquared, meanInverse);
+            pairs.data[next++] = packNeighbour(j, bias, 1.0 - distanceSquared / squaredRadius);
+#endif
+        }
+    }
+#ifdef COUNT
+    counts.data[slot] = count;
+    atomicMax(largest.value, count);
+#endif
+}

@@ -1,0 +1,37 @@
+// Packs surfels by slot for lookups.
+#include "shaders/compute/linear_index.glsl"
+#include "passes/surfels/packed_surfel.glsl"
+#include "passes/surfels/sorted_surfels.glsl"
+#include "shaders/voxels/voxels.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer SortedAt { SortedSurfelWords sorted; };
+layout(scalar) readonly buffer PackedAt { PackedSurfels packed_; };
+readonly buffer Lists { uvec2 data[]; } lists;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint voxels;
+} push;
+
+// The voxel of a list. A surfel lies in it or, where its own voxel is empty, in a neighbour.
+ivec3 voxelOfList(uint list, vec3 position) {
+    const ivec3 voxel = voxelAt(push.grid, position);
+    if (voxelNumber(push.grid, voxel) == list) return voxel;
+    for (int i = 0; i < 27; ++i) {
+        const ivec3 neighbour = voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
+        if (voxelNumber(push.grid, neighbour) == list) return neighbour;
+    }
+    return voxel;
+}
+
+void main() {
+    const uint list = linearIndex();
+    if (list >= push.voxels) return;
+    const uvec2 slots = lists.data[list];
+    SortedSurfelWords words = sorted;
+    for (uint i = slots.x; i < slots.y; ++i) {
+        const SortedSurfel s = sortedSurfel(words, i);
+        const vec3 inGrid = (s.position - push.grid.origin) / push.grid.voxelSize;
+        packed_.data[i] = packSurfel(inGrid - vec3(voxelOfList(list, s.position)), s.normal, (s.id & VOXRAY_COVERED) != 0u);
+    }
+}

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "graph/pass.h"
+#include "passes/vpls/vpls.h"
+
+namespace voxray {
+
+/// Hemi-octahedral shadow maps of virtual point lights (hemi_octahedral.glsl), for a range of the lights at a
+/// time.
+class VplShadowMaps {
+ public:
+    static constexpr uint32_t kTexels = 1u << 20;  ///< Of all maps of a range: bounds the memory.
+
+    /// @param resolution texels along an edge of each map.
+    explicit VplShadowMaps(uint32_t resolution) : resolution_(resolution) {}
+    virtual ~VplShadowMaps() = default;
+
+    virtual void plan(PassPlan& plan) = 0;
+    /// Called before the first render() of a frame.
+    virtual void beginFrame(PassContext& context) = 0;
+    /// Renders the maps of active lights [first, first + count), at most capacity().
+    virtual void render(PassContext& context, const Vpls& vpls, uint32_t first, uint32_t count) const = 0;
+
+    /// Definitions and buffer of test_shadow_maps.comp.
+    virtual Defines defines() const = 0;
+    virtual Binding binding() const = 0;
+
+    uint32_t resolution() const { return resolution_; }
+    uint32_t capacity() const { return kTexels / (resolution_ * resolution_); }
+
+ private:
+    uint32_t resolution_;
+};
+
+}  // namespace voxray
