@@ -32,7 +32,7 @@ void applyTracerOption(Study& study, const std::string& name) {
     for (Variant& variant : study.variants) variant.setup.general.tracer = kind;
 }
 
-/// Whether all that the experiment runs does without Vulkan.
+/// Whether no pass of the experiment needs Vulkan.
 bool runsOnHost(const Study& study) {
     const auto doesWithout = [&](const Graph& graph) {
         return std::ranges::none_of(graph.passes(), [&](const Graph::PassInfo& pass) {
@@ -43,6 +43,7 @@ bool runsOnHost(const Study& study) {
            (study.reference.isNull() || doesWithout(study.referenceGraph()));
 }
 
+/// No limit of memory.
 constexpr uint64_t kAnySize = std::numeric_limits<uint64_t>::max();
 
 /// The reference's graph, planned once for variants in a row that share scene and size of the image.
@@ -69,7 +70,7 @@ class ReferencePlan {
     Place place_;
 };
 
-/// What is said of variants: each thing once, with the first one's name.
+/// Diagnostics of variants. Equal ones are reported once, with the name of the first variant.
 class Notices {
  public:
     void add(const Diagnostics& found, const Variant& variant) {
@@ -83,10 +84,11 @@ class Notices {
     }
 
  private:
-    std::map<std::string, std::vector<std::string>> variants_;  ///< By what is said.
+    std::map<std::string, std::vector<std::string>> variants_;  ///< Names by message.
 };
 
-/// Plans and looks at variants one after another: those in a row mostly share a scene.
+/// Plans and checks variants one after another. Consecutive variants usually share a scene, which is prepared
+/// once.
 class Planner {
  public:
     Planner(Study& study, SceneLoader& loader, ViewChecks& views, const DeviceInfo& device)

@@ -7,9 +7,9 @@
 #include "base/one_line.h"
 #include "config/overrides.h"
 #include "experiment/checks/timing_outliers.h"
-#include "experiment/forecast.h"
 #include "experiment/merge.h"
 #include "experiment/part_runner.h"
+#include "experiment/parts.h"
 #include "experiment/report_process.h"
 #include "experiment/results_folder.h"
 

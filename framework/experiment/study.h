@@ -13,46 +13,47 @@
 
 namespace voxray {
 
-/// The port whose image is compared with the reference, and that of the indirect light in it.
+/// Ports: the image that is compared with the reference, and its indirect light.
 inline constexpr const char* kComparedImage = "final";
 inline constexpr const char* kIndirectImage = "indirect";
-/// The ports of which the compared image is made.
+/// Ports whose sum is the compared image.
 inline constexpr const char* kPartsOfLight[] = {"direct", kIndirectImage};
 
-/// A point of the sweep, filled in on its way: wired, planned, run.
+/// One combination of the sweep's values. Its members are filled in step by step: graph (wireExperiment),
+/// memory (planVariants), reference (PreparedExperiment), result (run).
 struct Variant : SweepPoint {
-    /// Wires its graph. @throws UsageError with file and line.
+    /// Makes its graph and connects the ports. @throws UsageError with file and line.
     Variant(SweepPoint point, const Registry& registry);
 
-    Graph graph;     ///< Without passes that nothing of what is compared depends on; for one run of it.
+    Graph graph;     ///< Only passes that the compared images depend on. A graph keeps state: one a run.
     Value resolved;  ///< The graph with every default filled in.
-    std::vector<std::string> leftOut;  ///< Ids of the passes that the graph does without.
-    /// By port of what is compared: what lowers its noise (Graph::noiseParameters()).
+    std::vector<std::string> leftOut;  ///< Ids of the passes that were culled.
+    /// By compared image: the parameters that lower its noise (Graph::noiseParameters()).
     std::map<std::string, std::vector<std::string>> noiseParameters;
-    std::vector<UnusedSetting> unused;  ///< What is written in the graph without effect: "<id>.<parameter>".
+    std::vector<UnusedSetting> unused;  ///< Parameters without effect: "<id>.<parameter>".
 
     // From planVariants() on
     std::string sceneKey;            ///< SceneLoader::key() of its scene.
-    std::vector<PassMemory> memory;  ///< That its passes are predicted to take.
+    std::vector<PassMemory> memory;  ///< Memory of its passes, as planned.
 
     // From PreparedExperiment on
     std::string referenceHash;  ///< "" where the experiment has no reference.
 
-    std::optional<VariantResult> result;  ///< Once it was run, or taken over from an earlier run.
+    std::optional<VariantResult> result;  ///< Measured now, or read from an earlier run.
 };
 
-/// An experiment with its variants, whose graphs are known to be right.
+/// An experiment with its variants, whose graphs have passed all checks that need no scene.
 struct Study {
     Experiment experiment;
     std::vector<Variant> variants;
     Value reference;  ///< Its graph with every default filled in; null where there is none.
-    /// Ids of passes that run in variants which the command line left out: no mistake of the config.
+    /// Ids of passes that run only in variants which --only excludes. They are not reported as unused.
     std::vector<std::string> deselected;
     const Registry* registry = nullptr;  ///< Outlives the study.
 
     // From planVariants() on
-    std::vector<std::string> warnings;  ///< What may make a result misleading, most with file and line.
-    MaskSelections masks;               ///< Of all scenes and sizes of images, where there is a reference.
+    std::vector<std::string> warnings;  ///< Warnings, most with file and line.
+    MaskSelections masks;               ///< Pixels that masks select, by scene and image size.
 
     /// A variant's graph, wired for one more run of it.
     Graph graphOf(const Variant& variant) const;
@@ -60,14 +61,14 @@ struct Study {
     Graph referenceGraph() const;
 };
 
-/// Expands the sweep and wires the graph of every variant, once, and the reference's. Touches no device and
-/// no scene.
-/// @throws UsageError with file and line; also for a value of a sweep whose pass runs in no variant, while
-/// another value's does, and for a pass whose image is written over by one that needs none of the passes
-/// before it.
+/// Expands the sweep, makes the graph of every variant, and checks the reference's. Touches no device and no
+/// scene.
+/// @throws UsageError with file and line: a wrong graph; a swept pass that no image of its variants depends
+/// on, while one of another value is used; a pass that overwrites the compared image of an earlier pass
+/// without reading anything of it.
 Study wireExperiment(Experiment experiment, const Registry& registry);
 
-/// Passes that no image of a variant depends on, by id: in how many variants that is so.
+/// Culled passes by id, with the number of variants that cull them.
 std::map<std::string, size_t> variantsWithout(const Study& study);
 
 /// Whether any variant runs the pass of this id.

@@ -1,4 +1,4 @@
-"""A graph with stages swapped for their exact counterparts, which passes/counterparts.toml lists."""
+"""A graph with stages swapped for their exact counterparts, which passes/common/counterparts.toml lists."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 
 from orchestration.errors import Mistake
 
-TABLE = Path(__file__).resolve().parents[2] / "passes" / "counterparts.toml"
+TABLE = Path(__file__).resolve().parents[2] / "passes" / "common" / "counterparts.toml"
 
 Entry = dict[str, Any]  # of a graph, as a config has it
 Graph = list[Entry]

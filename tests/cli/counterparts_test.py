@@ -36,7 +36,7 @@ class Counterparts(CommandTest):
     def test_the_table_knows_every_pass_once(self):
         staged = {name for stage in TABLE["stages"].values() for name in stage["passes"]}
         self.assertEqual(sorted([*TABLE["exact"], *TABLE["unknown"], *staged]), sorted(PASSES),
-                         "a new pass belongs into passes/counterparts.toml, into one of stages, exact and unknown")
+                         "a new pass belongs into passes/common/counterparts.toml, into one of stages, exact and unknown")
 
     def test_gather_rays(self):
         swaps = self.swaps_of(LIGHT_RAYS + RAYS)

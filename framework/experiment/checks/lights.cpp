@@ -14,9 +14,9 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kRays = 4096;  ///< Of each kind, of a light.
+constexpr uint32_t kRays = 4096;  ///< A light, sent out and towards triangles.
 
-/// What a light's rays met so far.
+/// What a light's rays have hit so far.
 enum class Met { Nothing, Backs, Fronts };
 
 struct Axes {
@@ -69,8 +69,8 @@ Ray rayTo(const Light& light, const Geometry& g, uint32_t triangle) {
     return {light.position, 0, distance > 0 ? way / distance : light.direction, end};
 }
 
-/// Which sides of surfaces parallel light comes to: looked for from points of them, since its rays begin
-/// nowhere.
+/// Whether a directional light reaches fronts or backs of surfaces: rays are traced from the surfaces to the
+/// light, which has no position.
 Met whatIsMetByParallel(const Light& light, const SceneState& state, const EmbreeScene& tracer, size_t step) {
     const Geometry& g = state.geometry;
     const size_t triangles = g.triangles.size();
@@ -109,7 +109,7 @@ Met whatIsMet(const Light& light, const SceneState& state, const EmbreeScene& tr
     return met;
 }
 
-/// The way from a point to a light, inactive where it does not shine there.
+/// A shadow ray from a point to a light; inactive outside of a spot's cone.
 Ray rayFrom(const SeenPoint& point, const Light& light) {
     constexpr float kShorter = 1 - 1e-4f;
     const Ray inactive{point.position, 0, light.direction, -1};
@@ -132,8 +132,8 @@ std::vector<Ray> raysFrom(std::span<const SeenPoint> seen, const Light& light) {
     return rays;
 }
 
-/// "it stands 298 m away from a scene that reaches from [...] to [...]" of a lamp that is farther off than
-/// the scene is large; else "".
+/// A hint for a light that is farther from the scene than the scene is large, such as "it stands 298 m away
+/// from a scene that reaches from [...] to [...]"; else "".
 std::string howFar(const Light& light, const Geometry& g) {
     if (light.type == LightType::Directional) return {};
     const float distance =
@@ -146,12 +146,12 @@ std::string howFar(const Light& light, const Geometry& g) {
 bool isInSight(std::span<const Ray> ways, const EmbreeScene& tracer) {
     const auto inSight = std::ranges::count_if(
         ways, [&](const Ray& ray) { return ray.tMax > ray.tMin && !tracer.occluded(ray); });
-    // Where surfaces meet, rays along one of them may slip through the edge, which is seen as a line of
-    // points
+    // Rays may slip through edges where surfaces meet. Such pixels form a line, about sqrt(n) of n, so only
+    // more than that count as lit
     return inSight * inSight > ptrdiff_t(ways.size());
 }
 
-/// What to say of a light, and of what is in its way.
+/// A message about a light, and what blocks it.
 struct Finding {
     const char* text = "";  ///< "": nothing.
     std::string blocker;
@@ -159,7 +159,7 @@ struct Finding {
 
 Finding findingOf(const ConfigLight& entry, const View& view) {
     if (entry.light.intensity == glm::vec3(0.0f)) return {"it is black and lights nothing", ""};
-    if (entry.move != glm::vec3(0.0f)) return {};  // It may yet come to something.
+    if (entry.move != glm::vec3(0.0f)) return {};  // It moves: later frames may be lit.
     const std::vector<Ray> ways = raysFrom(view.points, entry.light);
     switch (whatIsMet(entry.light, view.state(), view.tracer)) {
         case Met::Nothing:
@@ -186,7 +186,8 @@ Finding findingOf(const ConfigLight& entry, const View& view) {
 
 }  // namespace
 
-/// A sun that the scene brings and that its own surfaces shut out. Lamps may well be in other rooms.
+/// Reports suns of the scene file whose light is blocked everywhere that the camera sees. Other lights of the
+/// file are not reported: they may light other rooms.
 void sunsThatAreShutOut(const View& view, Diagnostics& found) {
     const std::vector<Light>& lights = view.state().lights;
     for (const Light& light : std::span(lights).first(lights.size() - view.scene().lights.size())) {
@@ -200,8 +201,8 @@ void sunsThatAreShutOut(const View& view, Diagnostics& found) {
     }
 }
 
-/// A light of the config whose rays, in all directions that it shines in and to triangles all over the scene,
-/// meet no surface or only backs, or whose light does not come to what is seen.
+/// Reports lights of the config that hit no surface, hit only backs of surfaces, or light nothing that the
+/// camera sees. Rays are traced in all directions of a light, and to triangles all over the scene.
 void lightsThatLightNothing(const View& view, Diagnostics& found) {
     const std::vector<ConfigLight>& lights = view.scene().lights;
     for (size_t i = 0; i < lights.size(); ++i) {
@@ -215,7 +216,7 @@ void lightsThatLightNothing(const View& view, Diagnostics& found) {
     }
 }
 
-/// A spot whose cone is no wider than any angle in radians.
+/// Reports spot lights whose cone angle in degrees is below pi / 2: it was probably given in radians.
 void spotAngleInRadians(const View& view, Diagnostics& found) {
     const std::vector<ConfigLight>& lights = view.scene().lights;
     for (size_t i = 0; i < lights.size(); ++i) {

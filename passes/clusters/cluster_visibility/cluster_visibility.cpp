@@ -30,8 +30,8 @@ struct Candidate {
     uint32_t rejectedGroups[kRounds];
 };
 
-/// Means, for estimates of memory. Several rays of a patch hit the same cluster, so lists without patches
-/// grow with the square root of the number of rays (docs/papers/cosin2022.md).
+/// Mean lengths, for estimates of memory. Rays of a patch often hit the same cluster: lists without patches
+/// were measured to grow with the square root of the number of rays (docs/papers/cosin2022.md).
 constexpr double kPatchesPerVoxel = 6, kEntriesPerRootOfRays = 4;
 
 }  // namespace
@@ -99,9 +99,10 @@ class FindClusterVisibility final : public Pass {
     bool isExact() const { return params_.visibility == RayTraversal::Exact; }
     /// The lists of `count` patches from `first` on.
     void buildChunk(PassContext& context, uint32_t first, uint32_t count);
-    /// Of patch_samples.glsl, but for `rayCount` and `round`.
+    /// Bindings of patch_samples.glsl, without `rayCount` and `round`.
     std::vector<Binding> rayBindings(PassContext& context, uint32_t firstPatch) const;
-    /// Hits of `count` rays through the scene; those that still hold are reused. @return rays traced.
+    /// Finds the hits of `count` rays; hits of the previous build that are still valid are reused. @return
+    /// rays traced.
     uint32_t traceRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
                        const Buffer& packedHits);
     void marchRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
@@ -119,7 +120,7 @@ class FindClusterVisibility final : public Pass {
     PrefixSum prefixSum_{*this, PrefixSum::Of::Values};
     std::optional<Compaction> compaction_;       ///< Where surfaces move.
     std::optional<RayUpdateCache> updateCache_;  ///< Likewise.
-    uint64_t tracedRays_ = 0;                    ///< In this build.
+    uint64_t tracedRays_ = 0;                    ///< Since record() began.
     Kernel listPatchFaces_{*this, "list_patch_faces.comp"};
     Kernel marchRays_{*this, "march_voxels.comp"};
     Kernel listAllRays_{*this, "passes/clusters/iota.comp"};

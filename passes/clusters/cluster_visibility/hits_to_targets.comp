@@ -1,5 +1,5 @@
-// The target of each ray's hit: a component face or, near by, the patch itself. NO_TARGET where the hit group has no patch at the face
-// or no component: it sends no light.
+// The target of each ray's hit: a face of a cluster component or, closer than nearDistance, the patch itself. NO_TARGET where the hit
+// group sends no light: it has no patch at the face, or its voxel is in no cluster.
 #include "passes/clusters/cluster_visibility/packed_hit.glsl"
 #include "passes/clusters/visibility_list_types.h"
 #include "passes/clusters/group_patches.glsl"

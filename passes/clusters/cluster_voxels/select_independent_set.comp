@@ -1,5 +1,5 @@
-// New seeds among the unassigned voxels: a maximal independent set (Luby 1986) of the graph that joins voxels within reach and within the
-// angle limit. One round: a voxel is selected if it comes before all its neighbours in a random order.
+// New seeds among the unassigned voxels: one round of Luby's algorithm (1986) for a maximal independent set of the graph that joins
+// voxels within reach and within the angle limit. A voxel is selected if it comes before all its neighbours in a random order.
 #include "passes/clusters/cluster_voxels/assignment.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 64) in;

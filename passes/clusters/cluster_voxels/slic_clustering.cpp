@@ -10,7 +10,7 @@ namespace voxray {
 namespace {
 
 constexpr uint64_t kSumBytes = 7 * sizeof(uint64_t);  // Of a seed (cluster_sums.glsl).
-constexpr uint32_t kMaxRounds = 256;                  // About ten are needed, as the order is random.
+constexpr uint32_t kMaxRounds = 256;                  // Expected are about ten (Luby 1986).
 
 Defines normalDefines(const ClusterParams& params) {
     Defines defines;
@@ -38,8 +38,8 @@ SlicClustering::SlicClustering(ProgramOwner& owner, const ClusterParams& params)
       joinNearestCluster_(owner, "join_nearest_cluster.comp") {}
 
 glm::uvec3 SlicClustering::seedCells(const gpu::VoxelGrid& grid, uint32_t voxelCount) const {
-    // Cells of w³ voxels. `initial` of them fill a cube. A flat surface has w² voxels in each; with `first`
-    // a cluster takes all within reach, (2w)².
+    // Seeds stand in a grid of cells of w³ voxels; a cube has `initial` cells. A flat surface has w² voxels
+    // in each; with `first` a cluster takes all within reach, (2w)².
     const double longest = std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z});
     double width = longest / std::cbrt(double(std::max(params_.initial, 1u)));
     if (params_.initial == 0) {

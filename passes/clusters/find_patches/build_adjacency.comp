@@ -1,5 +1,5 @@
-// Adjacency of surface groups, before occlusion: groups of the 26 voxels around that have area at a common face. Counts them; LIST:
-// lists them.
+// Candidates for adjacent surface groups: two groups in neighbouring voxels (of 26) that both have area towards the same axis
+// direction. Rays test later whether something lies between them. Without LIST they are counted, with it stored.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -12,7 +12,7 @@ layout(scalar) readonly buffer GroupMaterialsAt { VoxelMaterials groupMaterials;
 #ifdef LIST
 readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
 layout(scalar) readonly buffer NeighboursAt { LargeUints neighbours; };
-layout(scalar) readonly buffer NeighbourOfAt { LargeUints neighbourOf; };  // The group whose neighbour each is.
+layout(scalar) readonly buffer NeighbourOfAt { LargeUints neighbourOf; };  // By entry of `neighbours`: the group that it is a neighbour of.
 #else
 writeonly buffer Counts { uint data[]; } counts;  // By group, then 0 for the prefix sum.
 #endif

@@ -52,7 +52,7 @@ void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters
         numberComponents_, patches.componentCount,
         {{"roots", roots}, {"componentOfRoot", componentOfRoot}, {"components", patches.componentCount}});
 
-    // Groups by component: the sort is stable, so those of a component stay ascending
+    // Sort the groups by component. The sort is stable: groups of a component stay ascending
     Buffer keys(device, "components of groups", uints(groups));
     patches.componentOfGroup = Buffer(device, "components of groups", uints(groups));
     patches.memberGroups = Buffer(device, "groups by component", uints(groups));

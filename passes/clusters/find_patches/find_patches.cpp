@@ -15,9 +15,10 @@
 
 namespace voxray {
 
-/// Groups the surfels of each voxel by the space that they look into, and splits clusters into connected
-/// components of these surface groups, so that light does not leak through walls thinner than a voxel. Beyond
-/// Cosin and Patow 2022; docs/clusters.md.
+/// Groups the surfels of each voxel that see each other (surface groups), and splits clusters into connected
+/// components of these groups, so that light does not leak through walls thinner than a voxel. A patch is
+/// what a surface group shows towards one of the six axis directions. Not in Cosin and Patow 2022;
+/// docs/clusters.md.
 class FindPatches final : public Pass {
  public:
     static constexpr const char* kName = "find_patches";
