@@ -87,10 +87,10 @@ class Jobs(Parts):
         self.run_part("merge", "--dry-run", status=2)
 
     def test_a_variant_that_would_fail_says_so(self):
-        jobs = self.jobs("--set", "sweep.voxelize.resolution=[8, 512]", "--set", "measure.memory_limit_mb=64")
+        jobs = self.jobs("--set", "sweep.voxelize.resolution=[8, 1024]", "--set", "measure.memory_limit_mb=64")
         errors = {job["id"]: job.get("error") for job in jobs if job["kind"] == "variant"}
         self.assertIsNone(errors["variant.resolution-8"])
-        self.assertIn("MiB", errors["variant.resolution-512"])
+        self.assertIn("MiB", errors["variant.resolution-1024"])
 
 
 class RunParts(Parts):

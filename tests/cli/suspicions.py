@@ -65,6 +65,6 @@ WARNINGS = {
     "a mask of all that is in view": (VIEW_TO_MASKS, NARROW_VIEW.replace("material: grey", "max_roughness: 1"), 21,
                                       "measure.masks.floor: it selects every pixel, so that its scores are those of the whole image"),
     "a variant that needs more memory": (
-        SWEEP + "measure: {frames: 2", "sweep:\n  voxelize.resolution: [16, 512]\nmeasure: {memory_limit_mb: 40, frames: 2", 21,
-        "too few for 1 of 2 variants: resolution-512 takes"),
+        SWEEP + "measure: {frames: 2", "sweep:\n  voxelize.resolution: [16, 1024]\nmeasure: {memory_limit_mb: 40, frames: 2", 21,
+        "too few for 1 of 2 variants: resolution-1024 takes at least"),
 }

@@ -133,8 +133,9 @@ TEST_F(GraphMemory, WhatIsTooLargeNamesThePassAndWhatToLower) {
     Registry registry;
     registry.add<Hoard>();
     const std::string advice =
-        "lower what it grows with, of greedy.described, greedy.prepare_kept, first.record_kept, image.width, "
-        "image.height";
+        "lower what it grows with, of greedy.described, greedy.prepare_kept, first.described, "
+        "first.record_kept, "
+        "image.width, image.height";
     Graph graph(registry, parseYaml("- {pass: hoard, id: unread}\n"
                                     "- {pass: hoard, id: first, record_kept: 1}\n"
                                     "- {pass: hoard, id: greedy, described: 8192, prepare_kept: 8192}\n",

@@ -24,8 +24,9 @@ class GatherClusters final : public Pass {
  public:
     static constexpr const char* kName = "gather_clusters";
     static constexpr const char* kHelp =
-        "Gathers each patch's irradiance from the voxel clusters that it sees: from the visibility lists of "
-        "cluster_visibility and the light of inject_clusters. It is filtered over neighbours that look into "
+        "Gathers each patch's irradiance from the voxel clusters that it sees. It sums the light of "
+        "inject_clusters over the lists of cluster_visibility, then is filtered over neighbours that look "
+        "into "
         "the same space. The result is irradiance of voxels, with the direct light of inject_clusters: "
         "gather_irradiance or gather_rays show it. Biased by: voxel and cluster size, the filter (light "
         "creeps round edges). Noisy by: the lists' rays. Source: Cosin "
