@@ -54,9 +54,9 @@ std::string unknownArguments(const CLI::App& app) {
     const std::string option = first.substr(0, first.find('='));
     std::string near = option.starts_with('-') ? nearest(option, names) : "";
 
-    // A single letter: options have no short names here
-    const auto begins = [&](const std::string& name) { return name.starts_with("-" + option); };
-    if (option.size() == 2 && std::ranges::any_of(names, begins)) near = *std::ranges::find_if(names, begins);
+    // A single letter: options have no short names here. The shortest name is the most common option
+    std::erase_if(names, [&](const std::string& name) { return !name.starts_with("-" + option); });
+    if (option.size() == 2 && !names.empty()) near = *std::ranges::min_element(names, {}, &std::string::size);
     return fmt::format("unknown {} '{}'{}", option.starts_with('-') ? "option" : "argument", option,
                        near.empty() ? seeHelp(app) : fmt::format("; did you mean '{}'?", near));
 }

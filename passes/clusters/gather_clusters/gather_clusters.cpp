@@ -26,8 +26,7 @@ class GatherClusters final : public Pass {
     static constexpr const char* kHelp =
         "Gathers each patch's irradiance from the voxel clusters that it sees. It sums the light of "
         "inject_clusters over the lists of cluster_visibility, then is filtered over neighbours that look "
-        "into "
-        "the same space. The result is irradiance of voxels, with the direct light of inject_clusters: "
+        "into the same space. The result is irradiance of voxels, with the direct light of inject_clusters: "
         "gather_irradiance or gather_rays show it. Biased by: voxel and cluster size, the filter (light "
         "creeps round edges). Noisy by: the lists' rays. Source: Cosin "
         "and Patow 2022, section 4.4.";
