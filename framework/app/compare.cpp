@@ -170,11 +170,10 @@ void compare(const CompareOptions& options) {
 
     for (const std::filesystem::path& file : {options.test, options.reference})
         if (isPreview(file)) {
-            fmt::print(
-                stderr,
-                "voxray: warning: {}: it holds sRGB of 8 bits, clamped to [0, 1], so that these are not the "
-                "scores of results.csv: compare .exr files for those\n",
-                file.string());
+            fmt::print(stderr,
+                       "voxray: warning: {}: it holds sRGB of 8 bits, clamped to [0, 1], "
+                       "so that these are not the scores of results.csv: compare .exr files for those\n",
+                       file.string());
             break;
         }
     if (options.json)
@@ -192,16 +191,15 @@ void addCompareCommand(CLI::App& app, int&) {
     auto options = std::make_shared<CompareOptions>();
     command->add_option("TEST", options->test, "Image to compare (EXR, HDR, PNG, JPEG).")->required();
     command
-        ->add_option(
-            "REFERENCE", options->reference,
-            "Image that is right. Where its halves stand next to it (final_a.exr, final_b.exr), its noise is "
-            "taken off nRMSE and relMSE, which then have 95 % confidence intervals.")
+        ->add_option("REFERENCE", options->reference,
+                     "Image that is right. Where its halves stand next to it (final_a.exr, final_b.exr), "
+                     "its noise is taken off nRMSE and relMSE, which then have 95 % confidence intervals.")
         ->required();
     command->add_flag("--json", options->json, "Print JSON.");
     command->add_option(
         "--layer", options->layer,
-        "Layer of EXR files that have several, as in View.Combined, or its last word. Without: "
-        "plain R, G, B, else the one called Combined, Beauty, RGBA, RGB, Color or Final.");
+        "Layer of EXR files that have several, as in View.Combined, or its last word. "
+        "Without: plain R, G, B, else the one called Combined, Beauty, RGBA, RGB, Color or Final.");
     command->add_option("--flip-map", options->flipMap, "Write the HDR-FLIP error map to this PNG.")
         ->check(endsWith(".png"));
     command

@@ -22,16 +22,15 @@ inline void addConfigOptions(CLI::App& command, ConfigArguments& arguments) {
     command.add_option("--profile", arguments.config.profile, "Apply this block of the config's profiles.");
     command
         .add_option("--set", arguments.config.assignments,
-                    "PATH=VALUE: change a key of the config or a pass's parameter, as in image.width=320 or "
-                    "voxelize.resolution=64. May be given many times.")
+                    "PATH=VALUE: change a key of the config or a pass's parameter, "
+                    "as in image.width=320 or voxelize.resolution=64. May be given many times.")
         ->type_name("PATH=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     command
-        .add_option(
-            "--only", arguments.config.only,
-            "AXIS=VALUE: run this value of an axis of the sweep, and others that are named so. May be "
-            "given many times.")
+        .add_option("--only", arguments.config.only,
+                    "AXIS=VALUE: run this value of an axis of the sweep, and others that are named so. "
+                    "May be given many times.")
         ->type_name("AXIS=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

@@ -37,8 +37,8 @@ void exportScene(const ExportArguments& arguments) {
     for (const std::string& warning : loader.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     if (scene.state.scene->environment.radiance != glm::vec3(0.0f))
         throw UsageError(locationOf(experiment.config, "scene.environment"),
-                         "scene.environment: glTF can't carry one: leave it out of the file with --set "
-                         "scene.environment=none");
+                         "scene.environment: glTF can't carry one: "
+                         "leave it out of the file with --set scene.environment=none");
     exportGlb(scene.state, arguments.target);
     fmt::print("{}: {} triangles, {} lights\n", arguments.target.string(),
                scene.state.geometry.triangles.size(), scene.state.lights.size());

@@ -58,11 +58,10 @@ void addPlaceOptions(CLI::App& command) {
 }
 
 void addPartOptions(CLI::App& command) {
-    addCount(
-        command, "--reference-parts",
-        "How many parts each reference's samples are divided into. Default: one for each of --cores, else "
-        "1.",
-        1 << 20);
+    addCount(command, "--reference-parts",
+             "How many parts each reference's samples are divided into. "
+             "Default: one for each of --cores, else 1.",
+             1 << 20);
     addFlag(command, "--untimed",
             "Times don't matter: variants share machines, and a warning on the page says so.");
     addCount(command, "--threads", "Threads of each part that shares a machine.")->default_str("1");
@@ -82,11 +81,11 @@ void addPartOptions(CLI::App& command) {
 
 void addTuneCommand(CLI::App& app, int&) {
     const auto bound = std::make_shared<Bound>();
-    CLI::App& command =
-        *handedOver(app, "tune",
-                    "Search the variants of a config's sweep for the cheapest one whose error "
-                    "meets a target: small images first, the best of them at the config's own.",
-                    bound);
+    CLI::App& command = *handedOver(app, "tune",
+                                    "Search the variants of a config's sweep "
+                                    "for the cheapest one whose error meets a target: "
+                                    "small images first, the best of them at the config's own.",
+                                    bound);
     addConfig(command);
     addTexts(
         command, "--target", "NAME=VALUE",
@@ -96,10 +95,9 @@ void addTuneCommand(CLI::App& app, int&) {
             "What is to be cheap: ms or rays (of one build and one frame) or bytes.")
         ->check(CLI::IsMember({"ms", "rays", "bytes"}))
         ->default_str("ms");
-    addTexts(
-        command, "--vary", "ID.PARAMETER",
-        "A pass's parameter that is searched besides the sweep, over halves and doubles of its value, as in "
-        "gather.rays. May be given many times.");
+    addTexts(command, "--vary", "ID.PARAMETER",
+             "A pass's parameter that is searched besides the sweep, over halves and doubles of its value, "
+             "as in gather.rays. May be given many times.");
     addText(command, "--budget", "FLOAT",
             "What trials may cost, in variants of mean cost; 0: a fifth of the sweep.")
         ->check(CLI::NonNegativeNumber)
@@ -115,15 +113,14 @@ void addTuneCommand(CLI::App& app, int&) {
 void addExplainCommand(CLI::App& app, int&) {
     const auto bound = std::make_shared<Bound>();
     CLI::App& command = *handedOver(app, "explain",
-                                    "Say where a config's error comes from: render it with each stage "
-                                    "swapped for an exact counterpart, and "
-                                    "give each its part of the error of the indirect light.",
+                                    "Say where a config's error comes from: "
+                                    "render it with each stage swapped for an exact counterpart, "
+                                    "and give each its part of the error of the indirect light.",
                                     bound);
     addConfig(command);
     addText(command, "--variant", "NAME",
-            "Which variant of the config's sweep is explained, by its name in results.csv or the end of it, "
-            "as in "
-            "lookup for indirect-lookup.");
+            "Which variant of the config's sweep is explained, "
+            "by its name in results.csv or the end of it, as in lookup for indirect-lookup.");
     addConfigOptions(command, *bound);
     addRunOptions(command, bound->run, "Results folder; default results/explain_<experiment>.");
 }
@@ -131,9 +128,9 @@ void addExplainCommand(CLI::App& app, int&) {
 void addStabilityCommand(CLI::App& app, int&) {
     const auto bound = std::make_shared<Bound>();
     CLI::App& command = *handedOver(app, "stability",
-                                    "Show where methods fail: run each in scenes that provoke one failure "
-                                    "each (leaks, lost energy, flicker "
-                                    "...), and hold every result against its limit.",
+                                    "Show where methods fail: "
+                                    "run each in scenes that provoke one failure each (leaks, lost energy, "
+                                    "flicker ...), and hold every result against its limit.",
                                     bound);
     addText(command, "METHOD", "TEXT", "Methods of the matrix; all by default.")
         ->expected(1, -1)
@@ -141,11 +138,12 @@ void addStabilityCommand(CLI::App& app, int&) {
     addTexts(command, "--scenario", "NAME",
              "Run this scene of the matrix, and the first of its profile. May be given many times.");
     addText(command, "--config", "CONFIG",
-            "The matrix, its limits next to it in a .csv of the same name; default "
-            "configs/stability/matrix.yaml.");
+            "The matrix, its limits next to it in a .csv of the same name; "
+            "default configs/stability/matrix.yaml.");
     addFlag(command, "--remedies",
-            "Run what fails again with finer settings, one kind at a time, and say which of them lowers "
-            "each error; they stand next to the matrix, in a file that ends in _remedies.json.");
+            "Run what fails again with finer settings, one kind at a time, "
+            "and say which of them lowers each error; "
+            "they stand next to the matrix, in a file that ends in _remedies.json.");
     addConfigOptions(command, *bound);
     addRunOptions(
         command, bound->run,
@@ -156,8 +154,8 @@ void addSweepCommand(CLI::App& app, int&) {
     const auto bound = std::make_shared<Bound>();
     CLI::App& command = *handedOver(
         app, "sweep",
-        "Run the parts of an experiment at once, by Snakemake: on this machine's cores, on Slurm, or "
-        "wherever a profile of Snakemake says. Started again, it goes on with what is left.",
+        "Run the parts of an experiment at once, by Snakemake: on this machine's cores, on Slurm, "
+        "or wherever a profile of Snakemake says. Started again, it goes on with what is left.",
         bound);
     addConfig(command);
     addText(command, "SNAKEMAKE", "TEXT", "After --: more options for Snakemake.")
@@ -175,9 +173,9 @@ void addSweepCommand(CLI::App& app, int&) {
 
 void addParetoCommand(CLI::App& app, int&) {
     CLI::App& command = *handedOver(app, "pareto",
-                                    "Chart the methods of many runs, speed against accuracy: which are on "
-                                    "the front, scene by scene, which "
-                                    "are beaten everywhere, and what each saves over filtered path tracing.");
+                                    "Chart the methods of many runs, speed against accuracy: "
+                                    "which are on the front, scene by scene, which are beaten everywhere, "
+                                    "and what each saves over filtered path tracing.");
     addText(command, "RESULTS", "DIR", "Results folders of runs, also of several machines.")
         ->required()
         ->expected(1, -1)

@@ -68,9 +68,9 @@ Value planValue(const Study& study, const std::filesystem::path& file) {
 void addPlanCommand(CLI::App& app, int&) {
     auto arguments = std::make_shared<PlanArguments>();
     CLI::App* command = app.add_subcommand("plan",
-                                           "Print as JSON, for other programs, what a config asks for: its "
-                                           "variants with their values and graphs, "
-                                           "the sweep's axes, the columns of results.csv.");
+                                           "Print as JSON, for other programs, what a config asks for: "
+                                           "its variants with their values and graphs, the sweep's axes, "
+                                           "the columns of results.csv.");
     command->add_option("CONFIG", arguments->file, "Config file.")->required();
     addConfigOptions(*command, *arguments);
     command->callback([arguments] {

@@ -97,16 +97,15 @@ void addRunCommand(CLI::App& app, int& status) {
     addRunOptions(
         *command, options,
         "Results folder; default results/<experiment>. With many configs, each gets a folder in it.");
-    command->add_flag(
-        "--aovs", options.aovs,
-        "Write what passes offer to look at in frame 0 (position, normals, albedo, depth, ids) into "
-        "aovs.PASS.exr of each variant.");
+    command->add_flag("--aovs", options.aovs,
+                      "Write what passes offer to look at in frame 0 (position, normals, albedo, depth, "
+                      "ids) into aovs.PASS.exr of each variant.");
     command->add_flag_callback(
         "--no-report", [&options] { options.report = false; }, "Write result files alone, no report.html.");
     command
         ->add_option("--part", options.part,
-                     "Do one part of the experiment alone, next to others in other processes, by its id in "
-                     "'voxray jobs'.")
+                     "Do one part of the experiment alone, next to others in other processes, "
+                     "by its id in 'voxray jobs'.")
         ->type_name("ID")
         ->excludes("--dry-run");
     command
@@ -119,8 +118,9 @@ void addRunCommand(CLI::App& app, int& status) {
         ->type_name("N")
         ->check(CLI::Range(1u, 1u << 16));
     command->add_flag("--validate", options.validation,
-                      "Turn Vulkan's validation layer on: its messages are printed and fail the run (exit "
-                      "status 1). Times are then not the method's.");
+                      "Turn Vulkan's validation layer on: "
+                      "its messages are printed and fail the run (exit status 1). "
+                      "Times are then not the method's.");
     command->callback([arguments, &status] { status = run(*arguments); });
 }
 

@@ -256,17 +256,16 @@ void addSceneCommand(CLI::App& app, int&) {
     auto arguments = std::make_shared<SceneArguments>();
     command
         ->add_option("SCENE", arguments->what,
-                     "A .glb or .gltf file, the name of a built-in scene, or a config, whose scene it is "
-                     "with all that the config changes. Sweeps are left out.")
+                     "A .glb or .gltf file, the name of a built-in scene, or a config, "
+                     "whose scene it is with all that the config changes. Sweeps are left out.")
         ->required();
     command->add_option("--picture", arguments->picture, "Write a small path-traced picture.")
         ->type_name("OUT.png")
         ->check(endsWith(".png"));
     command
-        ->add_option(
-            "--write-config", arguments->newConfig,
-            "Write a config to begin with: this scene, a camera, a light where none is seen, and methods "
-            "to compare.")
+        ->add_option("--write-config", arguments->newConfig,
+                     "Write a config to begin with: "
+                     "this scene, a camera, a light where none is seen, and methods to compare.")
         ->type_name("OUT.yaml")
         ->check(endsWith(".yaml"));
     addConfigOptions(*command, *arguments);

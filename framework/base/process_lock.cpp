@@ -63,8 +63,8 @@ ProcessLock::ProcessLock(std::filesystem::path file, Kind kind, const std::files
             attempt = -1;  // The limit is for files that are removed and created again.
         } else if (isHeld && lock.l_type != F_UNLCK) {
             throw UsageError(
-                "{}: process {} is writing results there; wait until it ends or choose another "
-                "folder with --out",
+                "{}: process {} is writing results there; "
+                "wait until it ends or choose another folder with --out",
                 what.string(), lock.l_pid);
         }
         if (!isLocked && !isHeld)

@@ -135,8 +135,8 @@ bool hasReference(const Value& config) {
 void checkEmptyBlocks(const Value& root, const Value& config) {
     if (const Value* sweep = root.find("sweep"); sweep && sweep->isMap() && sweep->members.empty())
         throw UsageError(sweep->where,
-                         "sweep: an empty map varies nothing: leave it out, or write paths and values, as in "
-                         "{{voxelize.resolution: [64, 128]}}");
+                         "sweep: an empty map varies nothing: "
+                         "leave it out, or write paths and values, as in {{voxelize.resolution: [64, 128]}}");
     bool isCompared = hasReference(root) || hasReference(config);
     if (const Value* profiles = root.find("profiles"))
         for (const auto& profile : profiles->members)
@@ -148,8 +148,8 @@ void checkEmptyBlocks(const Value& root, const Value& config) {
         if (const Value* value = measure->find(key);
             value && !value->isNull() && value->scalar != "false" && value->scalar != "0")
             throw UsageError(value->where,
-                             "measure.{}: no effect without a 'reference' to compare with; add one, as in "
-                             "reference: {{pass: path_trace, spp: 64}}, or leave it out",
+                             "measure.{}: no effect without a 'reference' to compare with; "
+                             "add one, as in reference: {{pass: path_trace, spp: 64}}, or leave it out",
                              key);
 }
 
@@ -176,13 +176,11 @@ std::vector<std::string> idleAxes(const Value& root, const Experiment& experimen
         if (values != 1 || !effective || effective->where.str() != axis.where.str()) continue;
         const Value& value = axis.isMap() ? axis.members[0].value : axis.items[0];
         if (isWritten(experiment.config, path, value))
-            warnings.push_back(
-                UsageError(
-                    axis.where,
-                    "sweep.{}: its one value, {}, is the one that is written anyway, so that it varies "
-                    "nothing: write more values, or leave it out",
-                    path, value.text())
-                    .what());
+            warnings.push_back(UsageError(axis.where,
+                                          "sweep.{}: its one value, {}, is the one that is written anyway, "
+                                          "so that it varies nothing: write more values, or leave it out",
+                                          path, value.text())
+                                   .what());
     }
     return warnings;
 }
@@ -192,8 +190,8 @@ Value readConfig(const std::filesystem::path& path) {
     const std::filesystem::path ending = path.extension();
     if (ending == ".glb" || ending == ".gltf")
         throw UsageError(
-            "{0}: a scene, not a config; './voxray scene {0} --write-config {1}' writes one that compares "
-            "methods in it, "
+            "{0}: a scene, not a config; "
+            "'./voxray scene {0} --write-config {1}' writes one that compares methods in it, "
             "with a camera, see docs/tutorial.md",
             path.string(), path.stem().string() + ".yaml");
     return readYaml(path);

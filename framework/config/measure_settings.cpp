@@ -53,8 +53,8 @@ MeasureSettings readMeasureSettings(const Value& map) {
     MeasureSettings measure = readParams<MeasureSettings>(map, "measure", {"masks", "metrics"});
     if (measure.compareEvery > 0 && comparedFrames(measure) < 3)
         throw UsageError(map.find("compare_every")->where,
-                         "measure.compare_every: {} compares {} of {} frames; temporal error needs at least "
-                         "3: raise 'frames'",
+                         "measure.compare_every: {} compares {} of {} frames; "
+                         "temporal error needs at least 3: raise 'frames'",
                          measure.compareEvery, comparedFrames(measure), measure.frames);
     if (const Value* masks = map.find("masks"); masks && !masks->isNull()) measure.masks = readMasks(*masks);
     const Value* list = map.find("metrics");

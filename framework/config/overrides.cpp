@@ -63,8 +63,8 @@ void setAtPath(Value& root, std::string_view path, const std::string& fullPath, 
         if (!child->isMap())
             throw UsageError(value.where, "{}: '{}' is {}, which has no keys{}", fullPath, key, child->text(),
                              child->isList()
-                                 ? fmt::format("; give it as a whole: in a sweep write a list of "
-                                               "lists, as in {}: [[...], [...]]",
+                                 ? fmt::format("; give it as a whole: "
+                                               "in a sweep write a list of lists, as in {}: [[...], [...]]",
                                                fullPath.substr(0, fullPath.size() - path.size() - 1))
                                  : "");
         parent = child;

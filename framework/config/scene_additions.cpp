@@ -96,8 +96,9 @@ std::vector<MaterialOverride> readMaterialOverrides(const Value& map) {
         for (const auto& [key, value] : settings.members)
             if (value.isMap())
                 throw UsageError(value.where,
-                                 "{0}: no setting of a material is called '{1}'; in a path a name with dots "
-                                 "stands in double quotes: scene.override.\"{2}.{1}\"",
+                                 "{0}: no setting of a material is called '{1}'; "
+                                 "in a path a name with dots stands in double quotes: "
+                                 "scene.override.\"{2}.{1}\"",
                                  owner, key, name);
         MaterialOverride change{name, {readParams<MaterialSettings>(settings, owner), {}}, settings.where};
         for (const auto& member : settings.members) change.change.keys.push_back(member.key);

@@ -32,8 +32,8 @@ void checkLightKeys(const Value& entry, const std::string& what) {
                              isDirectional ? "'directional' is the way that its light travels"
                              : entry.find("spot")
                                  ? "write direction: [x, y, z], the target less the light's place"
-                                 : "a point light shines all round; write spot in place of "
-                                   "point, and direction: [x, y, z]");
+                                 : "a point light shines all round; "
+                                   "write spot in place of point, and direction: [x, y, z]");
     }
 }
 
@@ -81,8 +81,9 @@ ConfigLight readLight(const Value& entry, size_t index) {
         const std::string first = entry.members.empty() ? std::string() : entry.members[0].key;
         throw UsageError(
             entry.where, "{}: not a type of light: '{}'{}{}", what, first, didYouMean(first, kinds),
-            nearest(first, kinds).empty() ? "; as in {point: [0, 2, 0], intensity: 5}; to let a "
-                                            "surface shine, write override: {MATERIAL: {emission: 5}}"
+            nearest(first, kinds).empty() ? "; as in {point: [0, 2, 0], intensity: 5}; "
+                                            "to let a surface shine, write override: {MATERIAL: {emission: "
+                                            "5}}"
                                           : "");
     }
     return read;
@@ -118,8 +119,8 @@ void readEnvironment(const Value& value, SceneSettings& settings) {
         for (const auto& [key, radiance] : value.members)
             if (std::ranges::count(kRadianceWords, key) > 0)
                 throw UsageError(radiance.where,
-                                 "scene.environment: unknown parameter '{}'; a radiance stands alone: write "
-                                 "environment: {}",
+                                 "scene.environment: unknown parameter '{}'; a radiance stands alone: "
+                                 "write environment: {}",
                                  key, radiance.text());
         environment = readParams<EnvironmentSettings>(value, "scene.environment");
         const Value* scale = value.find("scale");
@@ -136,8 +137,8 @@ void readEnvironment(const Value& value, SceneSettings& settings) {
         if (!isNumber && !isFile)
             throw UsageError(
                 value.where,
-                "scene.environment: expected none, a radiance as in 0.5 or [1, 1, 1], or a map as "
-                "in sky.exr, not '{}'",
+                "scene.environment: "
+                "expected none, a radiance as in 0.5 or [1, 1, 1], or a map as in sky.exr, not '{}'",
                 value.text());
         if (isNumber)
             readParam(environment, &EnvironmentSettings::scale, value, "scene.environment");
@@ -235,9 +236,9 @@ SceneSettings readSceneSettings(const Value& map) {
     if (const Value* lights = map.find("lights");
         lights && lights->isList() && lights->items.empty() && settings.options.keepFileLights)
         throw UsageError(lights->where,
-                         "scene.lights: an empty list adds no light to the scene's own, which stay: leave it "
-                         "out, or write 'keep_file_lights: false' next to it; 'override: {{MATERIAL: "
-                         "{{emission: 0}}}}' puts out a surface that shines");
+                         "scene.lights: an empty list adds no light to the scene's own, which stay: "
+                         "leave it out, or write 'keep_file_lights: false' next to it; 'override: "
+                         "{{MATERIAL: {{emission: 0}}}}' puts out a surface that shines");
     return settings;
 }
 

@@ -102,18 +102,16 @@ struct MeasureSettings {
             field("warmup", &MeasureSettings::warmup, "Frames before the measured ones, not timed.", 0u,
                   100000u),
             field("compare_every", &MeasureSettings::compareEvery,
-                  "0: frame 0 alone is compared with a reference. n: every n-th measured frame is, each with "
-                  "the "
-                  "reference of its own time, and temporal error is reported.",
+                  "0: frame 0 alone is compared with a reference. n: every n-th measured frame is, "
+                  "each with the reference of its own time, and temporal error is reported.",
                   0u, 100000u),
             field("build_repeats", &MeasureSettings::buildRepeats,
-                  "Timed runs of the build passes, after one that is not timed. 0: that first one is timed, "
-                  "with "
-                  "all that only a first run takes.",
+                  "Timed runs of the build passes, after one that is not timed. "
+                  "0: that first one is timed, with all that only a first run takes.",
                   0u, 1000u),
             field("second_seed", &MeasureSettings::secondSeed,
-                  "Render each variant once more with other random numbers, not timed: splits its error into "
-                  "bias and noise."),
+                  "Render each variant once more with other random numbers, not timed: "
+                  "splits its error into bias and noise."),
             field("memory_limit_mb", &MeasureSettings::memoryLimitMb,
                   "Device memory in MiB that a graph may take; 0: what the device has.", uint64_t(0),
                   uint64_t(1) << 24)};
@@ -139,22 +137,20 @@ struct SceneOptions {
     static constexpr auto schema() {
         return std::tuple{
             field("keep_file_lights", &SceneOptions::keepFileLights,
-                  "Keep the scene's own punctual lights; false leaves those of `lights` alone. Emissive "
-                  "surfaces "
-                  "always stay."),
+                  "Keep the scene's own punctual lights; false leaves those of `lights` alone. "
+                  "Emissive surfaces always stay."),
             field("materials", &SceneOptions::materials,
-                  "as_is, or lambert: drop specular, metal and transmission of what scenes bring, keep base "
-                  "colour and emission."),
+                  "as_is, or lambert: drop specular, metal and transmission of what scenes bring, "
+                  "keep base colour and emission."),
             field("subdivide", &SceneOptions::subdivide,
                   "Splits every triangle in four in place, so often: the same surfaces of more triangles.",
                   0u, 4u),
             field("time", &SceneOptions::time, "Time of the compared frame in the animation, seconds.", 0.0,
                   1e6),
-            field(
-                "time_step", &SceneOptions::timeStep,
-                "Seconds of animation from one frame to the next; 0: everything stands still. Warm-up frames "
-                "lead up to `time`; the animation repeats after its last key.",
-                0.0, 1e6)};
+            field("time_step", &SceneOptions::timeStep,
+                  "Seconds of animation from one frame to the next; 0: everything stands still. "
+                  "Warm-up frames lead up to `time`; the animation repeats after its last key.",
+                  0.0, 1e6)};
     }
 };
 
@@ -175,8 +171,9 @@ struct CameraSettings {
             field("up", &CameraSettings::up, "The direction that is up in the image.", low, high).asVector(),
             field("fov_deg", &CameraSettings::fovDegrees, "Vertical field of view in degrees.", 1.0f, 179.0f),
             field("move", &CameraSettings::move,
-                  "How far the camera moves from one frame to the next, metres: warm-up frames lead up to "
-                  "`position`, where the first measured frame is taken; the others go on from there.",
+                  "How far the camera moves from one frame to the next, metres: "
+                  "warm-up frames lead up to `position`, where the first measured frame is taken; "
+                  "the others go on from there.",
                   low, high)
                 .asVector()};
     }
@@ -198,8 +195,8 @@ struct RegionSettings {
 template <typename Light>
 constexpr auto lightOffField(uint32_t Light::*offAt) {
     return field("off_at", offAt,
-                 "The measured frame from which on it does not shine, so that one sees how long it stays in "
-                 "the picture; 0: it always shines.",
+                 "The measured frame from which on it does not shine, "
+                 "so that one sees how long it stays in the picture; 0: it always shines.",
                  0u, 100000u);
 }
 
@@ -217,8 +214,8 @@ struct DirectionalLightSettings {
                           field("irradiance", &DirectionalLightSettings::irradiance,
                                 "On a surface that faces it, W/m².", glm::vec3(0.0f), glm::vec3(kMaxLight)),
                           field("move", &DirectionalLightSettings::move,
-                                "Added to the direction from one frame to the next; in the compared frame it "
-                                "shines along `directional`.",
+                                "Added to the direction from one frame to the next; "
+                                "in the compared frame it shines along `directional`.",
                                 glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
                               .asVector(),
                           lightOffField(&DirectionalLightSettings::offAt)};

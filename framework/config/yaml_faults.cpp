@@ -80,26 +80,24 @@ std::optional<YamlFault> indentation(const std::vector<Line>& lines) {
     if (lines.size() < 2 || lines.back().key.empty() || lines.back().isEntry()) return {};
     const Line &line = lines.back(), &before = lines[lines.size() - 2];
     if (before.hasValue && line.indent > before.inner)
-        return YamlFault{
-            line.number,
-            fmt::format("'{}' is indented unlike '{}' in line {}, which has its value: indent it "
-                        "as far, by {}",
-                        line.key, before.key, before.number, spaces(before.inner))};
+        return YamlFault{line.number,
+                         fmt::format("'{}' is indented unlike '{}' in line {}, which has its value: "
+                                     "indent it as far, by {}",
+                                     line.key, before.key, before.number, spaces(before.inner))};
 
     // Below the dash of an entry, or between the dash and its contents
     const auto above = std::find_if(lines.rbegin() + 1, lines.rend(),
                                     [&](const Line& previous) { return previous.indent <= line.indent; });
     if (above == lines.rend() || !above->isEntry() || line.indent >= above->inner) return {};
     if (line.key == above->key)
-        return YamlFault{line.number, fmt::format("a dash is missing before '{0}', as in line {1}: write '- "
-                                                  "{0}: ...'",
+        return YamlFault{line.number, fmt::format("a dash is missing before '{0}', as in line {1}: "
+                                                  "write '- {0}: ...'",
                                                   line.key, above->number)};
     const bool isTop = std::ranges::count(configKeys(), line.key) > 0;
-    return YamlFault{line.number,
-                     fmt::format("'{}' is indented unlike what the dash in line {} begins with: indent it by "
-                                 "{}{}",
-                                 line.key, above->number, spaces(isTop ? 0 : above->inner),
-                                 isTop ? ", as the config's other keys" : "")};
+    return YamlFault{line.number, fmt::format("'{}' is indented unlike what the dash in line {} begins with: "
+                                              "indent it by {}{}",
+                                              line.key, above->number, spaces(isTop ? 0 : above->inner),
+                                              isTop ? ", as the config's other keys" : "")};
 }
 
 /// Whether a list entry's dash is directly before its contents.
@@ -199,8 +197,8 @@ YamlFault yamlFault(const std::string& text, int line, const std::string& messag
     if (const auto fault = otherSpace(text)) return *fault;
     if (const auto open = isOfBraces(message) ? openBrace(text, line) : std::nullopt)
         return {open->line,
-                fmt::format("the '{}' in this line is not closed: a '{}' is missing, or a comma "
-                            "before line {}{}",
+                fmt::format("the '{}' in this line is not closed: "
+                            "a '{}' is missing, or a comma before line {}{}",
                             open->brace, open->brace == '{' ? '}' : ']', line, afterComment(text, *open))};
     const std::vector<Line> lines = linesUpTo(text, line);
     const bool isThere = !lines.empty() && lines.back().number == line;

@@ -176,11 +176,10 @@ Value sceneSchema() {
     properties.set("override", object({{"type", text("object")},
                                        {"additionalProperties", overrideSchema()},
                                        {"description", text("Name of a material: its new settings.")}}));
-    const Value names =
-        object({{"type", text("array")},
-                {"items", string},
-                {"description", text("Names of nodes, meshes or materials: what goes by one of "
-                                     "them is left out of the scene.")}});
+    const Value names = object({{"type", text("array")},
+                                {"items", string},
+                                {"description", text("Names of nodes, meshes or materials: "
+                                                     "what goes by one of them is left out of the scene.")}});
     properties.set("hide", anyOf({string, names}));
     addSource(schema);
     return schema;

@@ -86,9 +86,8 @@ const PreparedReference* PartRunner::referenceOf(const Variant& variant, Progres
     const std::vector<float>& radiance = images.final.mean.data;
     if (std::ranges::all_of(radiance, [](float value) { return value == 0; }))
         warnings_.push_back(
-            fmt::format("the reference of '{}' is black: no light reaches what the camera sees; './voxray "
-                        "scene' tells where "
-                        "the scene is, and what shines",
+            fmt::format("the reference of '{}' is black: no light reaches what the camera sees; "
+                        "'./voxray scene' tells where the scene is, and what shines",
                         variant.name));
     printWarnings(progress);
     reference_ = prepareReference(images, std::move(masks), variant.setup.image, referenceFolder(hash));

@@ -214,8 +214,8 @@ void PreparedExperiment::recordInputs() {
         if (runsSomewhere(study_, id)) leftOut.push_back(fmt::format("'{}' in {}", id, count));
     if (!leftOut.empty())
         manifest_.notes.push_back(
-            fmt::format("passes without a use are left out: {} of {} variants: no image that is compared "
-                        "depends on them there",
+            fmt::format("passes without a use are left out: {} of {} variants: "
+                        "no image that is compared depends on them there",
                         fmt::join(leftOut, ", "), study_.variants.size()));
     if (!study_.reference.isNull()) manifest_.referencePass = study_.reference.items[0];
     manifest_.device = session_->device().info();

@@ -167,8 +167,8 @@ std::optional<VariantResult> ResultsFolder::finished(const std::string& variant,
             if (name == oldName && text != oldText) {
                 const auto [before, now] = differingParts(oldText, text);
                 throw UsageError(
-                    "{}: holds another experiment: '{}' was run with another {} ({}, now {}); choose another "
-                    "folder with --out or leave out --resume",
+                    "{}: holds another experiment: '{}' was run with another {} ({}, now {}); "
+                    "choose another folder with --out or leave out --resume",
                     path_.string(), variant, name, before, now);
             }
     throw UsageError("{}: '{}' was run by another version of Voxray; leave out --resume", path_.string(),

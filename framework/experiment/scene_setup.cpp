@@ -54,16 +54,15 @@ Camera chooseCamera(const SceneSettings& settings, const SceneState& state, cons
     }
     const std::vector<std::string>& others = state.scene->orthographicCameras;
     if (std::ranges::count(others, settings.cameraName) > 0)
-        throw UsageError(
-            settings.cameraWhere,
-            "scene.camera: '{}' is orthographic, which Voxray does not render; name another or give "
-            "one by position and target",
-            settings.cameraName);
+        throw UsageError(settings.cameraWhere,
+                         "scene.camera: '{}' is orthographic, which Voxray does not render; "
+                         "name another or give one by position and target",
+                         settings.cameraName);
     if (names.empty()) {
         throw UsageError(
             settings.where,
-            "scene: it has no {}camera{}; './voxray scene {}' gives one that sees it, to write as in camera: "
-            "{{position: [0, 1, 4], target: [0, 1, 0], fov_deg: 60}}",
+            "scene: it has no {}camera{}; './voxray scene {}' gives one that sees it, "
+            "to write as in camera: {{position: [0, 1, 4], target: [0, 1, 0], fov_deg: 60}}",
             others.empty() ? "" : "perspective ",
             others.empty() ? "" : " ('" + others[0] + "' is orthographic, which Voxray does not render)",
             settings.source.builtin.empty() ? settings.where.file : settings.source.builtin);
@@ -98,8 +97,8 @@ void chooseLightsAndCamera(PreparedScene& prepared, const SceneSettings& setting
             const float length = glm::length(light.direction + way);
             if (!(length > 1e-6f))
                 throw Error(
-                    "{}: 'move' leaves it without a direction {} frames from the compared one; change it or "
-                    "measure fewer frames",
+                    "{}: 'move' leaves it without a direction {} frames from the compared one; "
+                    "change it or measure fewer frames",
                     light.name, frame);
             light.direction = (light.direction + way) / length;
         } else {
@@ -175,9 +174,8 @@ std::shared_ptr<const Scene> SceneLoader::compose(const SceneSettings& settings)
         for (Mesh& mesh : composed->meshes)
             if (limitColors(mesh, composed->materials[mesh.material]) > 0)
                 changes_.insert(
-                    fmt::format("mesh '{}': its vertex colours are limited, so that times 'base_color' of "
-                                "'{}' they are from "
-                                "0 to 1",
+                    fmt::format("mesh '{}': its vertex colours are limited, "
+                                "so that times 'base_color' of '{}' they are from 0 to 1",
                                 mesh.name, composed->materials[mesh.material].name));
     hideObjects(settings, *composed);
     subdivide(*composed, settings.options.subdivide);

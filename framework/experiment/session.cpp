@@ -18,10 +18,10 @@ Session::Session(const DeviceOptions& device, const std::filesystem::path& sourc
       loader_(std::move(sceneFolders)),
       cache_(cacheFolder() / "references") {
     if (!cacheError_.empty())
-        warnings_.push_back(fmt::format(
-            "{}: shaders and references are not cached, which costs time; point VOXRAY_CACHE to a folder "
-            "that can be written",
-            cacheError_));
+        warnings_.push_back(
+            fmt::format("{}: shaders and references are not cached, which costs time; "
+                        "point VOXRAY_CACHE to a folder that can be written",
+                        cacheError_));
 }
 
 std::string Session::tracerName(const Setup& setup) const {

@@ -102,8 +102,8 @@ Value checkedReference(const Study& study) {
     // Of a single sample there are no halves, which tell the reference's noise
     if (const Value* spp = experiment.reference.find("spp"); spp && spp->asInteger("reference.spp") < 2)
         throw UsageError(spp->where,
-                         "reference.spp: 2 or more, best a power of two, as in spp: 64: from its two halves "
-                         "comes the reference's noise");
+                         "reference.spp: 2 or more, best a power of two, as in spp: 64: "
+                         "from its two halves comes the reference's noise");
     if (const Value* light = experiment.reference.find("light"); light && light->scalar != "all")
         throw UsageError(light->where,
                          "reference.light: 'all', or left out: direct and indirect light are compared");

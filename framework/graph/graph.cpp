@@ -120,11 +120,10 @@ void Graph::checkReadsLast(const std::string& output, const std::string& input) 
         }
     const Value* inputs = reader->resolved.find("inputs");
     if (!reads || read == lastWritten || (inputs && inputs->find(input))) return;
-    throw UsageError(
-        lastWriter->where,
-        "{0}: writes '{1}', but that is not what '{2}' reads, so '{3}' lacks what it brings: put '{0}' "
-        "right before '{2}', or choose with inputs of '{2}'",
-        lastWriter->id, input, reader->id, output);
+    throw UsageError(lastWriter->where,
+                     "{0}: writes '{1}', but that is not what '{2}' reads, so '{3}' lacks what it brings: "
+                     "put '{0}' right before '{2}', or choose with inputs of '{2}'",
+                     lastWriter->id, input, reader->id, output);
 }
 
 std::vector<Graph::Input> Graph::unboundInputs(const std::string& portName) const {
@@ -233,8 +232,8 @@ std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device
     }
     if (const uint64_t peak = peakBytes(memory); peak > memoryLimitBytes)
         throw Error(largestPass->where,
-                    "the graph needs {:.1f} MiB, the limit is {:.1f} MiB; the largest part is {} with {:.1f} "
-                    "MiB: {}",
+                    "the graph needs {:.1f} MiB, the limit is {:.1f} MiB; "
+                    "the largest part is {} with {:.1f} MiB: {}",
                     double(peak) / kMiB, double(memoryLimitBytes) / kMiB, largest,
                     double(largestBytes) / kMiB, sizeAdvice(impl_->nodes, *largestPass));
     return memory;

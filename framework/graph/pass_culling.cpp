@@ -57,8 +57,8 @@ std::string whyLeftOut(const std::vector<GraphNode>& nodes, const std::string& i
         else if (std::any_of(laterWriter + 1, nodes.end(),
                              [&](const GraphNode& node) { return reads(node, port); }))
             why = fmt::format(
-                "'{0}', after it, writes '{1}' too, and passes read the nearest: take one of the two out, or "
-                "write 'inputs: {{{1}: {2}}}' in what shall read it",
+                "'{0}', after it, writes '{1}' too, and passes read the nearest: "
+                "take one of the two out, or write 'inputs: {{{1}: {2}}}' in what shall read it",
                 laterWriter->id, port, id);
         else
             why = fmt::format(

@@ -12,8 +12,8 @@ constexpr Metric kMetrics[] = {
          return c.halves ? nRmse(c.test, *c.halves, mask) : Estimate(nRmse(c.test, c.reference, mask));
      }},
     {{"relmse", "relMSE", "", Better::Lower,
-      "mean of squared error over (reference² + 0.01), in units of the reference's mean; weighs dark places, "
-      "leaks among them",
+      "mean of squared error over (reference² + 0.01), in units of the reference's mean; "
+      "weighs dark places, leaks among them",
       true},
      [](const Comparison& c, PixelMask mask) {
          return c.halves ? relMse(c.test, *c.halves, mask) : Estimate(relMse(c.test, c.reference, mask));

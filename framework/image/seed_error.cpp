@@ -7,8 +7,8 @@ namespace {
 
 constexpr MetricInfo kSeedMetrics[] = {
     {"bias_nrmse", "bias", "", Better::Lower,
-     "the part of nRMSE that stays when random numbers change: more rays lower it only where a filter "
-     "blurs less with them",
+     "the part of nRMSE that stays when random numbers change: "
+     "more rays lower it only where a filter blurs less with them",
      true},
     {"noise_nrmse", "noise", "", Better::Lower,
      "the part of nRMSE that changes with random numbers: more rays or a filter lower it", true},

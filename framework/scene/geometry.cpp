@@ -156,8 +156,8 @@ void checkCoordinates(const glm::vec3& p, const Scene& scene, const Instance& in
     for (int axis = 0; axis < 3; ++axis)
         if (!(std::abs(p[axis]) <= kMaxPosition))
             throw Error(
-                "{}: it has a vertex at ({:g}, {:g}, {:g}) m; coordinates go to {:g} m, for areas beyond are "
-                "not finite: correct the vertex, or scale the scene down",
+                "{}: it has a vertex at ({:g}, {:g}, {:g}) m; coordinates go to {:g} m, "
+                "for areas beyond are not finite: correct the vertex, or scale the scene down",
                 nameOf(scene, instance), p.x, p.y, p.z, kMaxPosition);
 }
 

@@ -165,8 +165,8 @@ Material MaterialReader::read(int index) {
     // Unsupported properties.
     if (isPane(m))
         file_.warn(
-            "{}: {} makes it a pane: light passes it straight, times its colour, and nothing is reflected or "
-            "bent; 'materials: lambert' makes it opaque",
+            "{}: {} makes it a pane: light passes it straight, times its colour, "
+            "and nothing is reflected or bent; 'materials: lambert' makes it opaque",
             what, transmission);
     else if (m.transmission > 0)
         file_.warn("{}: {} is rendered as opaque: it emits, or transmits less than half", what, transmission);

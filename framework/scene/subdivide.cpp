@@ -68,8 +68,8 @@ void subdivide(Scene& scene, uint32_t times) {
     for (Mesh& mesh : scene.meshes) {
         if (times > 0 && !mesh.skinWeights.empty())
             throw Error(
-                "scene.subdivide: joints carry the vertices of mesh '{}'; export it at one time first "
-                "(export-scene)",
+                "scene.subdivide: joints carry the vertices of mesh '{}'; "
+                "export it at one time first (export-scene)",
                 mesh.name);
         for (uint32_t i = 0; i < times; ++i) subdivide(mesh);
     }

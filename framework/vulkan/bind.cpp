@@ -145,8 +145,8 @@ class Writes {
         const uint64_t limit = device_.properties().limits.maxStorageBufferRange;
         if (buffer.bytes() > limit)
             throw Error(
-                "{}: buffer '{}' bound to '{}' holds {} bytes, but device '{}' binds at most {}; use the "
-                "buffer's address instead (GL_EXT_buffer_reference)",
+                "{}: buffer '{}' bound to '{}' holds {} bytes, but device '{}' binds at most {}; "
+                "use the buffer's address instead (GL_EXT_buffer_reference)",
                 program_.name(), buffer.name(), shaderBinding.name, buffer.bytes(), device_.info().name,
                 limit);
         if (!buffer)

@@ -52,8 +52,8 @@ class Reflection {
                 binding.set == 1 && isArray && type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
             if (!isTextureArray && (binding.set != 0 || isArray))
                 throw Error(
-                    "{}: '{}' (set {}) is not supported: use single bindings in set 0, and "
-                    "'sampler2D textures[]' in set 1",
+                    "{}: '{}' (set {}) is not supported: "
+                    "use single bindings in set 0, and 'sampler2D textures[]' in set 1",
                     file_, name, binding.set);
             bindings.push_back(std::move(binding));
         }

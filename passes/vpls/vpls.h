@@ -28,8 +28,8 @@ struct Vpls : Resource {
         const uint64_t vertices = uint64_t(paths) * bounces, bytes = vertices * sizeof(uint32_t);
         if (bytes > kMaxBytes)
             throw Error(
-                "{}: a list of {} paths of up to {} virtual lights takes {} MiB, a buffer at most 128; lower "
-                "the one or the other",
+                "{}: a list of {} paths of up to {} virtual lights takes {} MiB, a buffer at most 128; "
+                "lower the one or the other",
                 pass, paths, bounces, bytes >> 20);
         return vertices;
     }

@@ -6,8 +6,8 @@
 
 VOXRAY_SHARED_BEGIN
 
-// Sums over the rays of a block of texels. L: luminance of what a ray brings, π times its radiance, W/m²; r: distance of its
-// hit, m (1/r is 0 for a miss).
+// Sums over the rays of a block of texels. L: luminance of what a ray brings, π times its radiance, W/m²; r:
+// distance of its hit, m (1/r is 0 for a miss).
 struct RayMoments {
     float rays;                   // Sum of 1
     float luminance;              // L

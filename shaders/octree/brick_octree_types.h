@@ -23,7 +23,8 @@ struct BrickNode {
     uint cell;         // Its place on its level, 10 bits an axis; the thesis has its center.
 };
 
-// The nodes of a level: in the static section of the node pool, and in the dynamic one, which stands behind all of it.
+// The nodes of a level: in the static section of the node pool, and in the dynamic one, which stands behind
+// all of it.
 struct LevelNodes {
     uint staticFirst;
     uint staticCount;

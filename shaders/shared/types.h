@@ -1,5 +1,6 @@
 // Scalar types under the same names in C++ and GLSL. GLSL blocks use scalar layout, as C++ structs of
-// 4-byte members do, so that one definition serves both; tests/gpu/shared_structs_test.cpp checks the offsets.
+// 4-byte members do, so that one definition serves both; tests/gpu/shared_structs_test.cpp checks the
+// offsets.
 #ifndef VOXRAY_SHARED_TYPES_H
 #define VOXRAY_SHARED_TYPES_H
 

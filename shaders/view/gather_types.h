@@ -1,4 +1,5 @@
-// The layout of gather rays, shared by C++ (passes/common/view/gather_hits.h) and GLSL (shaders/view/gather_layout.glsl).
+// The layout of gather rays, shared by C++ (passes/common/view/gather_hits.h) and GLSL
+// (shaders/view/gather_layout.glsl).
 #ifndef VOXRAY_SHARED_GATHER_TYPES_H
 #define VOXRAY_SHARED_GATHER_TYPES_H
 
@@ -7,9 +8,9 @@
 VOXRAY_SHARED_BEGIN
 
 struct GatherLayout {
-    uvec2 texels;       // Of the G-buffer.
-    uvec2 blocks;       // ceil(texels / blockSize)
-    uint blockSize;     // Texels along a block's edge; a power of two.
+    uvec2 texels;    // Of the G-buffer.
+    uvec2 blocks;    // ceil(texels / blockSize)
+    uint blockSize;  // Texels along a block's edge; a power of two.
     uint raysPerBlock;
     uint seed;
 };

@@ -1,7 +1,7 @@
 // What surface voxels hold, packed: shared by C++ and GLSL. Precision: docs/voxels.md.
 //
-// A word of packed data is NaN or infinite as a float where a value in it was, and nowhere else: so buffers of packed data are
-// checked for such values as buffers of floats are.
+// A word of packed data is NaN or infinite as a float where a value in it was, and nowhere else: so buffers
+// of packed data are checked for such values as buffers of floats are.
 #ifndef VOXRAY_VOXEL_PACKING_H
 #define VOXRAY_VOXEL_PACKING_H
 
@@ -38,7 +38,8 @@ VOXRAY_SHARED_FUNCTION bool isFinite(float x) {
     return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
 }
 
-// Two numbers of 16 bits in a word. The upper one lies where floats have their exponent: below 0xff00 the word is a finite float.
+// Two numbers of 16 bits in a word. The upper one lies where floats have their exponent: below 0xff00 the
+// word is a finite float.
 #define NOT_FINITE 0xffffu
 VOXRAY_SHARED_FUNCTION uint packPair(uint lower, uint upper) {
     if (lower == NOT_FINITE) upper = NOT_FINITE;
@@ -65,8 +66,9 @@ VOXRAY_SHARED_FUNCTION float unpackSnorm(uint x) {
     return (float(x) - 32639.0f) / 32639.0f;
 }
 
-// An area in units of a voxel's face: a float without sign, with 5 bits of exponent and 11 of mantissa, from 2^-20 to 1919. The
-// factor of 2^-106 moves that range to the smallest normal floats, so that of their exponent 5 bits are left.
+// An area in units of a voxel's face: a float without sign, with 5 bits of exponent and 11 of mantissa, from
+// 2^-20 to 1919. The factor of 2^-106 moves that range to the smallest normal floats, so that of their
+// exponent 5 bits are left.
 VOXRAY_SHARED_FUNCTION uint packArea(float area) {
     if (!isFinite(area)) return NOT_FINITE;
     if (area < 9.5367431640625e-7f) return 0u;
@@ -76,15 +78,17 @@ VOXRAY_SHARED_FUNCTION float unpackArea(uint x) {
     return uintBitsToFloat(x << 12) * 8.112963841460668e31f;
 }
 
-// Red, green and blue that are not negative, as 13 bits each, with the exponent of the largest in common: 8 bits, where a float has
-// them. 15 bits do not fit into the word with the exponent: x, and y. Values below 2^-114 are lost.
+// Red, green and blue that are not negative, as 13 bits each, with the exponent of the largest in common: 8
+// bits, where a float has them. 15 bits do not fit into the word with the exponent: x, and y. Values below
+// 2^-114 are lost.
 VOXRAY_SHARED_FUNCTION uvec2 packRgb(vec3 rgb) {
     const float largest = max(rgb.x, max(rgb.y, rgb.z));
     if (!isFinite(rgb.x) || !isFinite(rgb.y) || !isFinite(rgb.z)) return uvec2(0x7f800000u, 0u);
     if (largest < 4.8148248609680896e-35f) return uvec2(0u, 0u);
     const uint exponent = (floatBitsToUint(largest) + 0x400u) >> 23;  // After rounding.
     if (exponent == 255u) return uvec2(0x7f800000u, 0u);
-    const float unitsPerValue = uintBitsToFloat((266u - exponent) << 23);  // The largest becomes 2^12 to 2^13.
+    const float unitsPerValue =
+        uintBitsToFloat((266u - exponent) << 23);  // The largest becomes 2^12 to 2^13.
     const uint r = uint(max(rgb.x, 0.0f) * unitsPerValue + 0.5f);
     const uint g = uint(max(rgb.y, 0.0f) * unitsPerValue + 0.5f);
     const uint b = uint(max(rgb.z, 0.0f) * unitsPerValue + 0.5f);
@@ -99,7 +103,8 @@ VOXRAY_SHARED_FUNCTION vec3 unpackRgb(uvec2 packed) {
     return vec3(float(r), float(g), float(b)) * uintBitsToFloat((exponent - 12u) << 23);
 }
 
-// The flux of the faces +a and -a of a voxel: what packRgb() gives for each, and the rest of both in a word of its own.
+// The flux of the faces +a and -a of a voxel: what packRgb() gives for each, and the rest of both in a word
+// of its own.
 VOXRAY_SHARED_FUNCTION uvec3 packFlux(vec3 positive, vec3 negative) {
     const uvec2 p = packRgb(positive), n = packRgb(negative);
     return uvec3(p.x, n.x, p.y | (n.y << 15));
@@ -119,15 +124,20 @@ VOXRAY_SHARED_FUNCTION PackedVoxelMaterial packMaterial(VoxelMaterial m) {
     p.words[5] = packPair(packArea(m.unoccludedPositive.z), packArea(m.unoccludedNegative.z));
     p.words[6] = packPair(packArea(m.area), emission.y);
     p.words[7] = emission.x;
-    p.words[8] = uint(m.opacity * 16.0f + 0.5f) | (uint(m.metallic * 255.0f + 0.5f) << 8) | (uint(m.roughness * 255.0f + 0.5f) << 16);
+    p.words[8] = uint(m.opacity * 16.0f + 0.5f) | (uint(m.metallic * 255.0f + 0.5f) << 8) |
+                 (uint(m.roughness * 255.0f + 0.5f) << 16);
     return p;
 }
 VOXRAY_SHARED_FUNCTION VoxelMaterial unpackMaterial(PackedVoxelMaterial p) {
     VoxelMaterial m;
-    m.albedo = vec3(unpackUnorm(lowerOf(p.words[0])), unpackUnorm(upperOf(p.words[0])), unpackUnorm(lowerOf(p.words[1])));
-    m.normal = vec3(unpackSnorm(upperOf(p.words[1])), unpackSnorm(lowerOf(p.words[2])), unpackSnorm(upperOf(p.words[2])));
-    m.unoccludedPositive = vec3(unpackArea(lowerOf(p.words[3])), unpackArea(lowerOf(p.words[4])), unpackArea(lowerOf(p.words[5])));
-    m.unoccludedNegative = vec3(unpackArea(upperOf(p.words[3])), unpackArea(upperOf(p.words[4])), unpackArea(upperOf(p.words[5])));
+    m.albedo = vec3(unpackUnorm(lowerOf(p.words[0])), unpackUnorm(upperOf(p.words[0])),
+                    unpackUnorm(lowerOf(p.words[1])));
+    m.normal = vec3(unpackSnorm(upperOf(p.words[1])), unpackSnorm(lowerOf(p.words[2])),
+                    unpackSnorm(upperOf(p.words[2])));
+    m.unoccludedPositive = vec3(unpackArea(lowerOf(p.words[3])), unpackArea(lowerOf(p.words[4])),
+                                unpackArea(lowerOf(p.words[5])));
+    m.unoccludedNegative = vec3(unpackArea(upperOf(p.words[3])), unpackArea(upperOf(p.words[4])),
+                                unpackArea(upperOf(p.words[5])));
     m.area = unpackArea(lowerOf(p.words[6]));
     m.emission = unpackRgb(uvec2(p.words[7], upperOf(p.words[6])));
     m.opacity = float(p.words[8] & 0xffu) / 16.0f;

@@ -64,8 +64,8 @@ void hybridListsMissing(benchmark::State& state, const std::string& file) {
         std::make_shared<SceneState>(evaluate(loadGltf(test::scenesFolder() / (file + ".glb")), 0.0));
     scene->cameras.emplace_back();
     test::Chain chain(scene,
-                      "[{pass: voxelize, resolution: 128, directions: 1, visibility_rays: 0}, "
-                      "{pass: build_hybrid_leaves, primitives: 1048576}]",
+                      "[{pass: voxelize, resolution: 128, directions: 1, visibility_rays: 0}, {pass: "
+                      "build_hybrid_leaves, primitives: 1048576}]",
                       16, 16, 1);
     const HybridLeaves& leaves = *chain.graph().resource<HybridLeaves>("hybrid_leaves");
     const SurfaceVoxels& voxels = leaves.voxels(*chain.graph().resource<SurfaceVoxels>("voxels"));

@@ -61,8 +61,8 @@ inline std::unique_ptr<test::Chain> litScene(const std::string& scene, uint32_t 
         std::make_shared<SceneState>(loader.prepare(loadExperiment(file).setup.scene).state);
     return std::make_unique<test::Chain>(
         prepared,
-        fmt::format("[{{pass: gbuffer}}, {{pass: voxelize, resolution: {}}}{}, {{pass: sample_vpls, "
-                    "vpls_per_bounce: 2048}}, {{pass: gather_vpls, visibility: none}}]",
+        fmt::format("[{{pass: gbuffer}}, {{pass: voxelize, resolution: {}}}{}, {{pass: "
+                    "sample_vpls, vpls_per_bounce: 2048}}, {{pass: gather_vpls, visibility: none}}]",
                     resolution, more),
         96, 54, 1);
 }

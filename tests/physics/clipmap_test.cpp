@@ -294,8 +294,8 @@ TEST(Clipmap, ConesKeepTheEnergyOfAFurnaceWithFewLevels) {
     Chain chain("furnace", "{shape: box, albedo: 0.5, emission: 1}",
                 graphYaml({"gbuffer", "voxelize, resolution: 72",
                            "inject_light_rays, rays_per_light: 131072, bounces: 2",
-                           "filter_voxels, emission: true, layout: clipmap, clipmap_resolution: 32, "
-                           "clipmap_levels: 3",
+                           "filter_voxels, emission: true, layout: clipmap, clipmap_resolution: "
+                           "32, clipmap_levels: 3",
                            "gather_cones, cones: 6"}),
                 16, 16);
     EXPECT_EQ(radiance(chain).grid.levels, 3u);

@@ -281,9 +281,9 @@ TEST(FilterIrradiance, FollowsAnySource) {
     const ImageF expected = reference.image("indirect");
     const auto image = [](const std::string& source, const std::string& end) {
         return Chain("cornell", "{lights: point}",
-                     "[{pass: gbuffer, samples_per_pixel_edge: 2}, {pass: voxelize, resolution: 48}, {pass: "
-                     "inject_light_rays, "
-                     "rays_per_light: 131072, bounces: 3}, {pass: trace_gather_rays, rays_per_block: 4}, " +
+                     "[{pass: gbuffer, samples_per_pixel_edge: 2}, {pass: voxelize, resolution: "
+                     "48}, {pass: inject_light_rays, rays_per_light: 131072, bounces: 3}, {pass: "
+                     "trace_gather_rays, rays_per_block: 4}, " +
                          source + end,
                      64, 64)
             .image("indirect");

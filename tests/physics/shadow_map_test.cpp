@@ -187,8 +187,8 @@ TEST(ShadowMap, OfPixelsComesNearToRays) {
 
 TEST(ShadowMap, OfPixelsNamesLightsWithoutAViewpoint) {
     EXPECT_CONTAINS(errorOf([] { directImage("cornell", "{lights: area}", "direct_shadow_maps"); }),
-                    "render_rsm: emissive surfaces have no single viewpoint to render a shadow map from; use "
-                    "direct_shadow_rays");
+                    "render_rsm: emissive surfaces have no single viewpoint to render a shadow map from; "
+                    "use direct_shadow_rays");
 }
 
 TEST(ShadowMap, BadInputIsNamed) {
@@ -201,10 +201,9 @@ TEST(ShadowMap, BadInputIsNamed) {
         const std::string graph = injectGraph(kMaps + parameters, "8");
         EXPECT_CONTAINS(errorOf([&] { Chain(scene, graph, 8, 8, 1); }), text);
     };
-    expectError(
-        state("cornell", "{lights: area}"), "",
-        "inject_voxel_rays: emissive surfaces have no single viewpoint to render a shadow map from; use "
-        "'direct: shadow_rays'");
+    expectError(state("cornell", "{lights: area}"), "",
+                "inject_voxel_rays: emissive surfaces have no single viewpoint to render a shadow map from; "
+                "use 'direct: shadow_rays'");
     SceneState sky = *state("white_room", "{}");
     Scene scene = *sky.scene;
     scene.environment.radiance = glm::vec3(1.0f);

@@ -110,8 +110,8 @@ TEST(VoxelVisibility, ShadowsNarrowToThoseOfSurfaces) {
     // a band shows or doesn't for a whole line of them.
     const auto chain = [](const std::string& visibility, int resolution) {
         return Chain("cornell", "{lights: point}",
-                     fmt::format("[{{pass: gbuffer}}, {{pass: voxelize, resolution: {}}}, "
-                                 "{{pass: direct_shadow_rays, visibility: {}}}]",
+                     fmt::format("[{{pass: gbuffer}}, {{pass: voxelize, resolution: {}}}, {{pass: "
+                                 "direct_shadow_rays, visibility: {}}}]",
                                  resolution, visibility),
                      640, 640);
     };

@@ -200,8 +200,8 @@ TEST(Schema, KnowsParametersWithoutEffect) {
         return text;
     };
     EXPECT_EQ(unused(mapOf({{"edge", "2"}, {"offset", "1"}})),
-              "f.yaml:3: edge: no effect with fruit: pear, offset: 1; only with fruit: apple or offset other "
-              "than 0 | 1");
+              "f.yaml:3: edge: no effect with fruit: pear, offset: 1; only with fruit: "
+              "apple or offset other than 0 | 1");
     for (const auto& map : {mapOf({{"fruit", "apple"}, {"edge", "2"}}),
                             mapOf({{"offset", "2"}, {"edge", "2"}}), mapOf({{"fruit", "pear"}})})
         EXPECT_EQ(unused(map), "");

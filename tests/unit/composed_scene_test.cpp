@@ -94,9 +94,9 @@ TEST(ComposedSceneLoader, AScenesOwnTransformTakesItsCameraAlongAndNothingOfTheC
         EXPECT_EQ(placed.state.geometry.positions[i], plain.state.geometry.positions[i] + way);
     EXPECT_EQ(placed.state.geometry.boundsMin.x, -5) << "what is added stays";
 
-    const PreparedScene looked = loader.prepare(
-        settingsOf("  transform: {translate: [100, 0, 0]}\n  camera: {position: [0, 1, 4], target: [0, 1, "
-                   "0]}\n"));
+    const PreparedScene looked =
+        loader.prepare(settingsOf("  transform: {translate: [100, 0, 0]}\n  "
+                                  "camera: {position: [0, 1, 4], target: [0, 1, 0]}\n"));
     EXPECT_EQ(looked.camera.position, glm::vec3(0, 1, 4));
 }
 

@@ -68,8 +68,8 @@ TEST(Sweep, ChainReplacesOnePassAndItsLastKeepsTheId) {
     ASSERT_EQ(variants.size(), 2u);
     EXPECT_EQ(variants[0].setup.graph.items.size(), 2u);
     EXPECT_EQ(variants[1].setup.graph.text(),
-              "[{pass: voxelize, resolution: 64}, {pass: place_surfels}, "
-              "{pass: inject_voxel_rays, id: inject, paths_per_point: 4, write: max}]");
+              "[{pass: voxelize, resolution: 64}, {pass: place_surfels}, {pass: inject_voxel_rays, id: "
+              "inject, paths_per_point: 4, write: max}]");
     EXPECT_EQ(variants[1].name, "inject-place_surfels-inject_voxel_rays_write-max");
 
     EXPECT_CONTAINS(sweepError("  inject: [[]]\n"), "demo.yaml:7: inject: a chain needs at least one pass");
@@ -131,8 +131,8 @@ TEST(Sweep, AMapNamesItsValues) {
     EXPECT_EQ(variants[0].name, "inject-from-lights_resolution-coarse");
     EXPECT_EQ(variants[3].values, (std::vector<std::string>{"from the camera", "fine"}));
     EXPECT_EQ(variants[3].setup.graph.text(),
-              "[{pass: voxelize, resolution: 64}, {pass: place_surfels}, "
-              "{pass: inject_camera_rays, bounces: 2, id: inject}]");
+              "[{pass: voxelize, resolution: 64}, {pass: place_surfels}, {pass: "
+              "inject_camera_rays, bounces: 2, id: inject}]");
 
     EXPECT_CONTAINS(sweepError("  inject: {}\n"), "demo.yaml:7: sweep.inject: expected a list of values");
     EXPECT_CONTAINS(sweepError("  inject: {pass: inject_rsm}\n"), "as in [{pass: inject_rsm}]");
@@ -168,10 +168,9 @@ TEST(Sweep, NamesWithDotsAreOneKey) {
         EXPECT_EQ(changed.material, "Wood.001");
         EXPECT_EQ(changed.change.settings.metallic, 1);
     }
-    EXPECT_CONTAINS(
-        errorOf<UsageError>([&] { variantsOf("", "scene.override.Wood.001.metallic"); }),
-        "scene.override.Wood: no setting of a material is called '001'; in a path a name with dots stands "
-        "in double quotes: scene.override.\"Wood.001\"");
+    EXPECT_CONTAINS(errorOf<UsageError>([&] { variantsOf("", "scene.override.Wood.001.metallic"); }),
+                    "scene.override.Wood: no setting of a material is called '001'; "
+                    "in a path a name with dots stands in double quotes: scene.override.\"Wood.001\"");
 }
 
 TEST(Sweep, NamesAreSafeAndUnique) {

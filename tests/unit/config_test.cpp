@@ -350,10 +350,9 @@ TEST(Yaml, KeysThatAreIndentedUnlikeTheirNeighbours) {
                     "f.yaml:2: bad YAML: 'seed' is indented unlike");
 
     // Too shallow: between the dash and what it begins with
-    EXPECT_CONTAINS(
-        failure("graph:\n  - pass: a\n  size: 16\n"),
-        "f.yaml:3: bad YAML: 'size' is indented unlike what the dash in line 2 begins with: indent "
-        "it by 4 spaces");
+    EXPECT_CONTAINS(failure("graph:\n  - pass: a\n  size: 16\n"),
+                    "f.yaml:3: bad YAML: 'size' is indented unlike what the dash in line 2 begins with: "
+                    "indent it by 4 spaces");
     EXPECT_CONTAINS(failure("graph:\n  - pass: a\n    inputs:\n      b: c\n   size: 16\n"),
                     "f.yaml:5: bad YAML: 'size' is indented unlike what the dash in line 2 begins with");
     EXPECT_CONTAINS(failure("graph:\n  - pass: a\n  pass: b\n"),

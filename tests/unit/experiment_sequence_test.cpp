@@ -144,8 +144,8 @@ TEST_F(PartsTest, MasksHaveTheirOwnScores) {
     EXPECT_EQ(cell("default", "nrmse@mirrors"), "");
     const auto json = manifest();
     EXPECT_CONTAINS(json["warnings"].dump(),
-                    "measure.masks.mirrors: it selects no pixel and has no scores: no surface of the scene "
-                    "meets all of its conditions (default)");
+                    "measure.masks.mirrors: it selects no pixel and has no scores: "
+                    "no surface of the scene meets all of its conditions (default)");
 
     // Its pixels, its part of the image, and what noise and a black image score there.
     EXPECT_EQ(json["config"]["measure"]["masks"]["box"]["object"], "tall box");

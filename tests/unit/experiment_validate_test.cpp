@@ -73,8 +73,11 @@ TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
 
 TEST(Validate, AValueWhosePassNeverRunsIsRefusedWhereAnothersRuns) {
     expectError(
-        "graph:\n  - {pass: constant}\nsweep:\n  constant:\n    - constant\n    - [{pass: constant, id: "
-        "other}, layers]\n",
+        "graph:\n  "
+        "- {pass: constant}\nsweep:\n  "
+        "constant:\n    "
+        "- constant\n    "
+        "- [{pass: constant, id: other}, layers]\n",
         {"x.yaml:8: ", "sweep.constant: 'layers' is never run",
          "'constant' in its place writes 'final', 'indirect'"});
     // Values that have names
@@ -111,8 +114,11 @@ TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
     expectError("graph:\n  - {pass: constant, id: c}\nsweep:\n  c: [[witness, {pass: constnat}]]\n",
                 {"x.yaml:6: ", "did you mean 'constant'?"});
     expectError(
-        "graph:\n  - {pass: constant, id: c}\nsweep:\n  c:\n    - constant\n    - [witness, witness, "
-        "constant]\n",
+        "graph:\n  "
+        "- {pass: constant, id: c}\nsweep:\n  "
+        "c:\n    "
+        "- constant\n    "
+        "- [witness, witness, constant]\n",
         {"x.yaml:8: ", "two passes have the id 'witness'"});
     expectError("graph:\n  - {pass: constnat}\nsweep:\n  constant.value: [1]\n",
                 {"x.yaml:4: ", "unknown pass 'constnat'", "did you mean 'constant'?"});

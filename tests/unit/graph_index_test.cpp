@@ -69,8 +69,9 @@ TEST(GraphIndex, OtherVoxelsAreRefused) {
             "- {pass: show_faces}\n");
     });
     EXPECT_CONTAINS(message,
-                    "g.yaml:4: show_faces: 'faces' of 'light_faces' belongs to the voxels of "
-                    "'make_voxels', but show_faces reads those of 'finer'");
+                    "g.yaml:4: show_faces: "
+                    "'faces' of 'light_faces' belongs to the voxels of 'make_voxels', "
+                    "but show_faces reads those of 'finer'");
     EXPECT_CONTAINS(message,
                     "write 'inputs: {voxels: make_voxels}' here, or put 'finer' before 'light_faces'");
 }

@@ -134,8 +134,7 @@ TEST_F(GraphMemory, WhatIsTooLargeNamesThePassAndWhatToLower) {
     registry.add<Hoard>();
     const std::string advice =
         "lower what it grows with, of greedy.described, greedy.prepare_kept, first.described, "
-        "first.record_kept, "
-        "image.width, image.height";
+        "first.record_kept, image.width, image.height";
     Graph graph(registry, parseYaml("- {pass: hoard, id: unread}\n"
                                     "- {pass: hoard, id: first, record_kept: 1}\n"
                                     "- {pass: hoard, id: greedy, described: 8192, prepare_kept: 8192}\n",

@@ -179,8 +179,7 @@ TEST(GraphWiring, SortsWritersBeforeReaders) {
 TEST(GraphWiring, ReadersOfFramePassesRunInEachFrame) {
     const Graph g = graph(
         "[{pass: make_voxels}, {pass: light_voxels, id: once}, {pass: light_voxels, id: second, inputs: "
-        "{light: "
-        "first}}, {pass: light_voxels, id: first, inputs: {light: blink}}, {pass: blink}]");
+        "{light: first}}, {pass: light_voxels, id: first, inputs: {light: blink}}, {pass: blink}]");
     const auto passes = g.passes();
     ASSERT_EQ(passes.size(), 5u);
     for (const Graph::PassInfo& pass : passes)
@@ -195,9 +194,9 @@ TEST(GraphWiring, RecordsEveryDefault) {
 
 TEST(GraphWiring, KeepsOnlyWhatIsAskedFor) {
     Graph g = graph(
-        "[{pass: make_voxels}, {pass: make_voxels, id: unread}, {pass: light_voxels, id: a, inputs: {voxels: "
-        "make_voxels}}, {pass: light_voxels, id: reads_unread, inputs: {light: a}}, "
-        "{pass: light_voxels, id: b, inputs: {voxels: make_voxels, light: a}}]");
+        "[{pass: make_voxels}, {pass: make_voxels, id: unread}, {pass: light_voxels, id: a, inputs: "
+        "{voxels: make_voxels}}, {pass: light_voxels, id: reads_unread, inputs: {light: a}}, {pass: "
+        "light_voxels, id: b, inputs: {voxels: make_voxels, light: a}}]");
     EXPECT_EQ(g.keepOnly({"light", "indirect"}), (std::vector<std::string>{"unread", "reads_unread"}));
     const auto passes = g.passes();
     ASSERT_EQ(passes.size(), 3u);
@@ -246,8 +245,8 @@ TEST(GraphWiring, TellsProducersWhatIsRead) {
 
 TEST(GraphWiring, KeepsWhatOnlyReports) {
     Graph g = graph(
-        "[{pass: make_voxels}, {pass: light_voxels}, {pass: make_voxels, id: counted}, {pass: count_voxels}, "
-        "{pass: make_voxels, id: unread}]");
+        "[{pass: make_voxels}, {pass: light_voxels}, {pass: make_voxels, id: counted}, {pass: "
+        "count_voxels}, {pass: make_voxels, id: unread}]");
     EXPECT_EQ(g.keepOnly({"light"}), std::vector<std::string>{"unread"});
     EXPECT_EQ(g.passes().back().id, "count_voxels");
 }

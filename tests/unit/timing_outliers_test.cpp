@@ -22,10 +22,9 @@ TEST(TimingOutliers, EqualBuildsThatDifferByMoreThanAFifth) {
     EXPECT_TRUE(timingOutliers({{&a, "x"}, {&b, "x"}, {&c, "y"}}).empty());
     const auto said = timingOutliers({{&a, "x"}, {&b, "y"}, {&c, "x"}});
     ASSERT_EQ(said.size(), 1u);
-    EXPECT_EQ(
-        said[0],
-        "times were disturbed: the same build took 100.0 ms in 'a' and 122.0 ms in 'c': run it again on "
-        "an idle machine");
+    EXPECT_EQ(said[0],
+              "times were disturbed: the same build took 100.0 ms in 'a' and 122.0 ms in 'c': "
+              "run it again on an idle machine");
 
     // Builds that nothing is known of, that failed, or that are too short
     EXPECT_TRUE(timingOutliers({{&a, ""}, {&c, ""}}).empty());
@@ -42,10 +41,9 @@ TEST(TimingOutliers, FramesThatAreUneven) {
     EXPECT_TRUE(timingOutliers({{&even, ""}, {&brief, ""}, {&uneven, "", false}}).empty());
     const auto said = timingOutliers({{&uneven, ""}, {&even, ""}, {&more, ""}});
     ASSERT_EQ(said.size(), 1u);
-    EXPECT_EQ(
-        said[0],
-        "times were disturbed: frames of 'more' took 10.0 to 30.0 ms (5th to 95th percentile), and those "
-        "of 1 more differ as much: run it again on an idle machine");
+    EXPECT_EQ(said[0],
+              "times were disturbed: frames of 'more' took 10.0 to 30.0 ms (5th to 95th percentile), "
+              "and those of 1 more differ as much: run it again on an idle machine");
 }
 
 }  // namespace

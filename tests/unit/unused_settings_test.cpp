@@ -42,13 +42,13 @@ TEST(UnusedSettings, AreRefusedWhereTheyStand) {
               "x.yaml:5: voxelize.samples_per_voxel_edge: no effect with method: exact; only with method: "
               "three_axis; leave it out");
     EXPECT_EQ(message(graphWith("") + "sweep: {voxelize.samples_per_voxel_edge: [1, 2]}\n"),
-              "x.yaml:10: sweep.voxelize.samples_per_voxel_edge: changes nothing in any variant: no effect "
-              "with method: exact; only with method: three_axis");
+              "x.yaml:10: sweep.voxelize.samples_per_voxel_edge: changes nothing in any variant: "
+              "no effect with method: exact; only with method: three_axis");
     // Swept values of whole passes bring parameters of their own
     EXPECT_EQ(message(graphWith("") + "sweep:\n  inject:\n    - inject_light_rays\n"
                                       "    - {pass: inject_light_rays, secondary: none, bounces: 3}\n"),
-              "x.yaml:13: inject.bounces: no effect with secondary: none; only with secondary other than "
-              "none; leave it out");
+              "x.yaml:13: inject.bounces: no effect with secondary: none; "
+              "only with secondary other than none; leave it out");
 }
 
 TEST(UnusedSettings, StayWhereASweepUsesThem) {
@@ -71,19 +71,19 @@ TEST(UnusedSettings, ShadowMapsAreForAllPointsAndTakeNoSamples) {
         return errorOf<UsageError>([&] { wired(graph(inject)); });
     };
     EXPECT_EQ(message("points: gather_hits, direct: shadow_maps"),
-              "x.yaml:8: inject.direct: no effect with points: gather_hits; only with points: all; leave it "
-              "out");
+              "x.yaml:8: inject.direct: no effect with points: gather_hits; only with points: all; "
+              "leave it out");
     EXPECT_EQ(message("shadow_resolution: 64"),
               "x.yaml:8: inject.shadow_resolution: no effect with direct: shadow_rays; only with direct: "
               "shadow_maps; leave it out");
     EXPECT_EQ(message("direct: shadow_maps, light_samples: 4"),
-              "x.yaml:8: inject.light_samples: no effect with direct: shadow_maps, points: all; only with "
-              "direct: shadow_rays or points: gather_hits; leave it out");
-    EXPECT_EQ(namesOf(wired(graph("points: all") +
-                            "sweep: {inject.points: [all, gather_hits], inject.direct: [shadow_rays, "
-                            "shadow_maps]}\n"))
-                  .size(),
-              3u);
+              "x.yaml:8: inject.light_samples: no effect with direct: shadow_maps, points: all; "
+              "only with direct: shadow_rays or points: gather_hits; leave it out");
+    EXPECT_EQ(
+        namesOf(wired(graph("points: all") + "sweep: {inject.points: [all, gather_hits], inject.direct: "
+                                             "[shadow_rays, shadow_maps]}\n"))
+            .size(),
+        3u);
 }
 
 TEST(UnusedSettings, OfGatherRaysGoWithTheirSource) {

@@ -83,8 +83,7 @@ TEST(ViewCheck, AllowsBacksThatAreLit) {
 TEST(ViewCheck, FindsLightThatFewPathsMeet) {
     // A spot of two degrees on a part of the ceiling
     EXPECT_EQ(saidOf("builtin: white_room, keep_file_lights: false, lights: [{spot: [0, 0, 0], direction: "
-                     "[0, 1, 0.2], "
-                     "intensity: 100000, outer_deg: 2}]"),
+                     "[0, 1, 0.2], intensity: 100000, outer_deg: 2}]"),
               "");
 }
 
@@ -140,11 +139,10 @@ TEST(ViewCheck, NamesWhatIsInTheWayOfASun) {
 
 TEST(ViewCheck, AStrayTriangleHidesNoSun) {
     for (const char* away : {"1e3", "1e5", "1e6"})
-        EXPECT_EQ(
-            saidOf(fmt::format("builtin: plane, add: [{{builtin: plane, transform: {{translate: [{0}, {0}, "
-                               "0]}}}}], lights: [{{directional: [0, -1, 0]}}]",
-                               away)),
-            "");
+        EXPECT_EQ(saidOf(fmt::format("builtin: plane, add: [{{builtin: plane, transform: {{translate: "
+                                     "[{0}, {0}, 0]}}}}], lights: [{{directional: [0, -1, 0]}}]",
+                                     away)),
+                  "");
 }
 
 TEST(ViewCheck, WarnsOfVoxelsOverMoreThanIsSeen) {

@@ -37,8 +37,8 @@ void shortHistory(const PlannedVariant& v, Diagnostics& found) {
         if (pass.warmupFrames > measure.warmup)
             found.push_back(
                 {pass.where,
-                 fmt::format("{}: it goes on from frame to frame, and {} of the {} frames that it looks back "
-                             "on come before the one that is compared:",
+                 fmt::format("{}: it goes on from frame to frame, and {} of the {} frames "
+                             "that it looks back on come before the one that is compared:",
                              pass.id, measure.warmup, pass.warmupFrames),
                  fmt::format("write measure: {{warmup: {}}}, or compare a sequence with 'compare_every'",
                              pass.warmupFrames)});
@@ -93,8 +93,8 @@ void missingLobes(const PlannedVariant& v, Diagnostics& found) {
              "scene: {:.0f} % of the surfaces in view are metal, which reflects by specular lobes alone: "
              "the reference has what they reflect of indirect light, and this variant lacks it",
              100 * v.metal),
-         "write 'materials: lambert' for a scene without lobes, or take gather_mirror, or gather_cones with "
-         "'specular'"});
+         "write 'materials: "
+         "lambert' for a scene without lobes, or take gather_mirror, or gather_cones with 'specular'"});
 }
 
 /// A reference whose halves have different numbers of samples.
@@ -104,8 +104,8 @@ void unequalHalves(const Study& study, Diagnostics& found) {
     const int64_t samples = spp->asInteger("reference.spp");
     if (samples % 2 == 0) return;
     found.push_back({spp->where,
-                     fmt::format("reference.spp: of {} samples a pixel one half of the reference has {}, the "
-                                 "other {}, and both count the same:",
+                     fmt::format("reference.spp: of {} samples a pixel one half of the reference has {}, "
+                                 "the other {}, and both count the same:",
                                  samples, samples / 2, samples - samples / 2),
                      "write an even number, best a power of two"});
 }

@@ -97,11 +97,11 @@ void LightRays::check(std::span<const Graph::PassInfo> passes, Diagnostics& foun
         found.push_back(
             {pass.where,
              fmt::format(
-                 "{}: {} lights take {:.0f} million rays, about {} on this machine's CPU each time that "
-                 "it runs: it takes as long for each light",
+                 "{}: {} lights take {:.0f} million rays, "
+                 "about {} on this machine's CPU each time that it runs: it takes as long for each light",
                  pass.id, state_.lights.size(), double(pass.lightRays) / 1e6, duration(seconds)),
-             "lower the size of the image or its own parameters, or leave lights out with 'keep_file_lights: "
-             "false'"});
+             "lower the size of the image or its own parameters, "
+             "or leave lights out with 'keep_file_lights: false'"});
     }
 }
 
@@ -123,9 +123,9 @@ void overTheMemoryLimit(const Study& study, Diagnostics& found) {
     std::ranges::stable_sort(needs, {}, &MemoryNeed::bytes);
     const auto& [variant, bytes, largest] = *std::ranges::find_if(needs, isOver);
     const Diagnostic finding{locationOf(study.experiment.config, "measure.memory_limit_mb"),
-                             fmt::format("measure.memory_limit_mb: {} MiB are too few for {} of {} variants: "
-                                         "{} takes at least {:.1f} MiB, "
-                                         "the largest part of it by '{}'",
+                             fmt::format("measure.memory_limit_mb: "
+                                         "{} MiB are too few for {} of {} variants: "
+                                         "{} takes at least {:.1f} MiB, the largest part of it by '{}'",
                                          limitMb, over, needs.size(), variant, double(bytes) / kMiB, largest),
                              ""};
     if (over == needs.size()) throw UsageError("{}", finding.str());

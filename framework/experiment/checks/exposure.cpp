@@ -90,12 +90,11 @@ Diagnostic nearlyAll(const Setup& setup, double radiance, const char* color) {
         ways.push_back(fmt::format("write image: {{exposure_stops: {}}}", int(wanted)));
     std::string advice = fmt::format("{}", fmt::join(ways, ", or "));
     if (factor > 1 && !shining.hint.empty()) advice += "; " + shining.hint;
-    return {
-        shining.where,
-        fmt::format("{}: nearly all of the view is {}: its radiance is about {:.2g} W/(m² sr), and {:.3g} "
-                    "is white at exposure_stops: {:g}",
-                    fmt::join(shining.names, ", "), color, radiance, 1 / scaleOf(stops), stops),
-        advice};
+    return {shining.where,
+            fmt::format("{}: nearly all of the view is {}: "
+                        "its radiance is about {:.2g} W/(m² sr), and {:.3g} is white at exposure_stops: {:g}",
+                        fmt::join(shining.names, ", "), color, radiance, 1 / scaleOf(stops), stops),
+            advice};
 }
 
 }  // namespace

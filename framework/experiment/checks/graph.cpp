@@ -83,8 +83,8 @@ void checkPassNames(const Experiment& experiment, const Registry& registry) {
                     if (value.isScalar() &&
                         value.scalar.find_first_not_of("0123456789.") == std::string::npos)
                         throw UsageError(value.where,
-                                         "sweep.{0}: '{1}' is no pass: to vary a parameter of '{0}', write "
-                                         "{0}.PARAMETER: {2}",
+                                         "sweep.{0}: '{1}' is no pass: "
+                                         "to vary a parameter of '{0}', write {0}.PARAMETER: {2}",
                                          path, value.scalar, values.text());
                     checkPassName(value, registry);
                 }
@@ -123,8 +123,8 @@ void checkSwaps(const Study& study) {
         for (const PortDoc& port : study.registry->require(right, {}).ports)
             if (port.output) ports.push_back("'" + port.name + "'");
         throw UsageError(wrong.where,
-                         "sweep.{}: '{}' is never run: no image depends on what it writes; '{}' in its place "
-                         "writes {}: end a chain with a pass that does",
+                         "sweep.{}: '{}' is never run: no image depends on what it writes; "
+                         "'{}' in its place writes {}: end a chain with a pass that does",
                          axes[a].key, lastPass(wrong), right, fmt::join(ports, ", "));
     }
 }
@@ -133,8 +133,8 @@ void checkLightsGoOff(const SceneSettings& scene, const MeasureSettings& measure
     for (size_t i = 0; i < scene.lights.size(); ++i)
         if (const ConfigLight& light = scene.lights[i]; light.offAt >= measure.frames)
             throw UsageError(light.where,
-                             "scene.lights[{}].off_at: {} is after the last frame, {}, so that it always "
-                             "shines: lower it, or raise measure.frames",
+                             "scene.lights[{}].off_at: {} is after the last frame, {}, "
+                             "so that it always shines: lower it, or raise measure.frames",
                              i, light.offAt, measure.frames - 1);
 }
 

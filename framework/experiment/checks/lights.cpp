@@ -164,23 +164,23 @@ Finding findingOf(const ConfigLight& entry, const View& view) {
     switch (whatIsMet(entry.light, view.state(), view.tracer)) {
         case Met::Nothing:
             return {
-                "it lights nothing: no surface lies where it shines; is its direction the way that the light "
-                "travels, and are its numbers metres?",
+                "it lights nothing: no surface lies where it shines; "
+                "is its direction the way that the light travels, and are its numbers metres?",
                 ""};
         case Met::Backs:
             return {
-                "it lights the backs of surfaces alone, from outside of a room or within a solid; is its "
-                "direction the way that the light travels, and are its numbers metres?",
+                "it lights the backs of surfaces alone, from outside of a room or within a solid; "
+                "is its direction the way that the light travels, and are its numbers metres?",
                 blockerAdvice(ways, view.state(), view.tracer)};
         case Met::Fronts:
             break;
     }
     if (isInSight(ways, view.tracer) || view.isFound(entry.light)) return {};
     return {entry.light.type == LightType::Directional
-                ? "none of its light comes to what the camera sees: is its direction the way that the light "
-                  "travels?"
-                : "none of its light comes to what the camera sees: does it stand inside of an object, or "
-                  "behind a wall?",
+                ? "none of its light comes to what the camera sees: "
+                  "is its direction the way that the light travels?"
+                : "none of its light comes to what the camera sees: "
+                  "does it stand inside of an object, or behind a wall?",
             blockerAdvice(ways, view.state(), view.tracer)};
 }
 

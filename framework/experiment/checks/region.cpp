@@ -79,8 +79,8 @@ void sceneMuchLargerThanView(const View& view, Diagnostics& found) {
     found.push_back(
         {view.scene().where,
          fmt::format("scene: it is {:.3g} m across, and voxels are spread over all of it", longest(whole)),
-         fmt::format("the camera sees {:.3g} m of it. To have voxels there alone write into 'scene'  region: "
-                     "{{min: {}, max: {}}}",
+         fmt::format("the camera sees {:.3g} m of it. "
+                     "To have voxels there alone write into 'scene'  region: {{min: {}, max: {}}}",
                      longest(box), corner(box.min, [](double x) { return std::floor(x); }),
                      corner(box.max, [](double x) { return std::ceil(x); }))});
 }

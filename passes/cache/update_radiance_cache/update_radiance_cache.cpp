@@ -37,12 +37,12 @@ class UpdateRadianceCache final : public Pass {
  public:
     static constexpr const char* kName = "update_radiance_cache";
     static constexpr const char* kHelp =
-        "Fills a hashed radiance cache by paths traced from the camera. Shadow rays measure direct light at "
-        "each vertex. The first four vertices of a path leave in hashed cells the irradiance that the rest "
-        "of it brings. Unbiased in the mean of a cell. Leaves without cells: what no path meets, and what "
-        "finds the table full. Biased by: the size of cells; with history_frames, light that changed since; "
-        "samples_to_end. Noisy by: rays_per_image, the more so the smaller cells are. Source: NVIDIA's "
-        "SHaRC.";
+        "Fills a hashed radiance cache by paths traced from the camera. "
+        "Shadow rays measure direct light at each vertex. The first four vertices of a path leave "
+        "in hashed cells the irradiance that the rest of it brings. Unbiased in the mean of a cell. "
+        "Leaves without cells: what no path meets, and what finds the table full. "
+        "Biased by: the size of cells; with history_frames, light that changed since; samples_to_end. "
+        "Noisy by: rays_per_image, the more so the smaller cells are. Source: NVIDIA's SHaRC.";
     struct Params {
         CacheUpdate update = CacheUpdate::EachFrame;
         uint32_t raysPerImage = 65536;
@@ -55,10 +55,10 @@ class UpdateRadianceCache final : public Pass {
         uint32_t samplesToEnd = 0;
         static constexpr auto schema() {
             return std::tuple{
-                field(
-                    "update", &Params::update,
-                    "once: the cache is built before the frames, from where the camera is then. each_frame: "
-                    "it is made again in each frame, or goes on where history_frames is more than 1."),
+                field("update", &Params::update,
+                      "once: the cache is built before the frames, from where the camera is then. "
+                      "each_frame: "
+                      "it is made again in each frame, or goes on where history_frames is more than 1."),
                 field("rays_per_image", &Params::raysPerImage, "Paths from the camera in an update.", 1u,
                       1u << 24)
                     .lessNoise(),
@@ -68,27 +68,27 @@ class UpdateRadianceCache final : public Pass {
                       "Shadow rays at each vertex to the emissive surfaces, and to the environment.", 1u,
                       64u),
                 field("cell_size", &Params::cellSize,
-                      "Largest edge of a cell over its distance from the camera; edges are the scene's size "
-                      "over powers of two.",
+                      "Largest edge of a cell over its distance from the camera; "
+                      "edges are the scene's size over powers of two.",
                       0.0005f, 4.0f),
                 field("normal_bins", &Params::normalBins,
-                      "Normals are told apart by the face of a cube that they pass, and on each face by this "
-                      "many bins along each edge.",
+                      "Normals are told apart by the face of a cube that they pass, "
+                      "and on each face by this many bins along each edge.",
                       {1, 2, 3, 4, 5, 6}),
                 field("capacity", &Params::capacity, "Slots of the hash table, 40 bytes each.",
                       powersOfTwo(1u << 6, 1u << 22)),
                 field("history_frames", &Params::historyFrames,
-                      "Each frame keeps all but one part in this many of the samples so far, so that cells "
-                      "hold the samples of about this many frames; light that changes lags behind as long. "
-                      "1: nothing is kept.",
+                      "Each frame keeps all but one part in this many of the samples so far, "
+                      "so that cells hold the samples of about this many frames; "
+                      "light that changes lags behind as long. 1: nothing is kept.",
                       1u, 1024u)
                     .onlyWith(oneOf(&Params::update, {CacheUpdate::EachFrame})),
-                field(
-                    "samples_to_end", &Params::samplesToEnd,
-                    "A path ends at its second vertex or a later one where the cell there had this many "
-                    "samples in the previous frame, and takes its light. Biased: light of all bounces, with "
-                    "the errors of cells and a lag of their own. 0: no path ends so.",
-                    0u, 65536u)
+                field("samples_to_end", &Params::samplesToEnd,
+                      "A path ends at its second vertex or a later one "
+                      "where the cell there had this many samples in the previous frame, "
+                      "and takes its light. Biased: light of all bounces, "
+                      "with the errors of cells and a lag of their own. 0: no path ends so.",
+                      0u, 65536u)
                     .onlyWith(noneOf(&Params::historyFrames, {1u}))};
         }
     };

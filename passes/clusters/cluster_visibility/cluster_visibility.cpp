@@ -60,11 +60,12 @@ class FindClusterVisibility final : public Pass {
  public:
     static constexpr const char* kName = "cluster_visibility";
     static constexpr const char* kHelp =
-        "Measures form factors from each patch of surfels to voxel clusters. Sends cosine-distributed rays "
-        "from the surfels of each patch (a face of a surface group, find_patches). Lists the cluster "
-        "components that they hit, with the number of rays for each: a form factor. What is near is listed "
-        "by its voxels. Biased by: cluster size; through voxels also by voxel size (surfaces are as thick as "
-        "their voxels). Noisy by: rays. Source: Cosin and Patow 2022, section 4.3.";
+        "Measures form factors from each patch of surfels to voxel clusters. "
+        "Sends cosine-distributed rays from the surfels of each patch (a face of a surface group, "
+        "find_patches). Lists the cluster components that they hit, with the number of rays for each: "
+        "a form factor. What is near is listed by its voxels. Biased by: cluster size; "
+        "through voxels also by voxel size (surfaces are as thick as their voxels). Noisy by: rays. "
+        "Source: Cosin and Patow 2022, section 4.3.";
     struct Params {
         uint32_t rays = 128;
         float nearDistance = 4;
@@ -73,18 +74,17 @@ class FindClusterVisibility final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("rays", &Params::rays, "From each patch.", 1u, MAX_RAYS_PER_PATCH).lessNoise(),
-                field(
-                    "near_distance", &Params::nearDistance,
-                    "What is nearer than this many voxels is seen by its voxels, and what is farther by its "
-                    "clusters. 0: all by clusters. 10000: all by voxels, for comparison.",
-                    0.0f, 10000.0f),
+                field("near_distance", &Params::nearDistance,
+                      "What is nearer than this many voxels is seen by its voxels, "
+                      "and what is farther by its clusters. 0: all by clusters. "
+                      "10000: all by voxels, for comparison.",
+                      0.0f, 10000.0f),
                 field("visibility", &Params::visibility,
                       "exact: rays go through the scene. voxels: through voxels, all that they meet. "
                       "bresenham: the paper's walk through voxels, which passes some by."),
-                field(
-                    "hemisphere", &Params::hemisphere,
-                    "surface: rays leave by the cosine about the surfels' normal. face: about the face's own "
-                    "axis (the paper's).")};
+                field("hemisphere", &Params::hemisphere,
+                      "surface: rays leave by the cosine about the surfels' normal. "
+                      "face: about the face's own axis (the paper's).")};
         }
     };
 
@@ -191,8 +191,8 @@ void FindClusterVisibility::record(PassContext& context) {
     layout.entryBits = std::max(layout.rayBits + uint32_t(std::bit_width(targets)), 1u);
     if (layout.entryBits > 32 || patches.groupCount > kMaxGroups)
         throw Error(
-            "{}: {} faces of clusters and patches and {} rays don't fit into 32 bits; set "
-            "'near_distance: 0', or lower 'rays', cluster_voxels's 'target' or voxelize's 'resolution'",
+            "{}: {} faces of clusters and patches and {} rays don't fit into 32 bits; set 'near_distance: "
+            "0', or lower 'rays', cluster_voxels's 'target' or voxelize's 'resolution'",
             kName, targets, params_.rays);
 
     CommandStream& stream = context.stream;

@@ -14,10 +14,12 @@ class ClusterVoxels final : public Pass {
  public:
     static constexpr const char* kName = "cluster_voxels";
     static constexpr const char* kHelp =
-        "Groups surface voxels into clusters by position and normal. Clusters stand for their voxels where "
-        "light is gathered (cluster_visibility, inject_clusters, gather_clusters). Seeds in a uniform grid "
-        "take the voxels around them of like normals and move to their mean, repeatedly. Biased by: the size "
-        "of clusters, over which light is averaged. No noise: the same clusters in each run. "
+        "Groups surface voxels into clusters by position and normal. "
+        "Clusters stand for their voxels where light is gathered (cluster_visibility, inject_clusters, "
+        "gather_clusters). "
+        "Seeds in a uniform grid take the voxels around them of like normals and move to their mean, "
+        "repeatedly. Biased by: the size of clusters, over which light is averaged. "
+        "No noise: the same clusters in each run. "
         "Source: Cosin and Patow 2022, section 4.2; Achanta et al. 2012 (SLIC).";
     using Params = ClusterParams;
 

@@ -60,45 +60,46 @@ struct ClusterParams {
     }
     static constexpr auto schema() {
         return std::tuple{
-            field(
-                "initial", &ClusterParams::initial,
-                "Seeds in a cube as wide as the grid's longest axis, about, as the paper counts its clusters "
-                "before the first iteration; those outside of the grid are left out, and most others have no "
-                "voxel. 0: as many as `target` asks for.",
-                0u, 1u << 24),
+            field("initial", &ClusterParams::initial,
+                  "Seeds in a cube as wide as the grid's longest axis, about, "
+                  "as the paper counts its clusters before the first iteration; "
+                  "those outside of the grid are left out, and most others have no voxel. "
+                  "0: as many as `target` asks for.",
+                  0u, 1u << 24),
             field("target", &ClusterParams::target,
-                  "Approximate number of clusters, if surfaces are flat: one is sqrt(voxels / target) voxels "
-                  "wide. Thin and curved surfaces take more.",
+                  "Approximate number of clusters, if surfaces are flat: "
+                  "one is sqrt(voxels / target) voxels wide. Thin and curved surfaces take more.",
                   1u, 1u << 22)
                 .onlyWith(oneOf(&ClusterParams::initial, {0u})),
             field("iterations", &ClusterParams::iterations,
                   "Times that voxels are assigned; in between, clusters move to the mean of their voxels.",
                   1u, 100u),
             field("reach", &ClusterParams::reach,
-                  "How far from a cluster's center its voxels may lie along each axis, in widths of a seed's "
-                  "cell. 1: SLIC's, so that neighbours' boxes overlap. More: fewer voxels stay without a "
-                  "cluster, and `first` makes fewer, larger clusters.",
+                  "How far from a cluster's center its voxels may lie along each axis, "
+                  "in widths of a seed's cell. 1: SLIC's, so that neighbours' boxes overlap. "
+                  "More: fewer voxels stay without a cluster, and `first` makes fewer, larger clusters.",
                   0.5f, 8.0f),
             field("max_angle", &ClusterParams::maxAngle,
-                  "Largest angle between a cluster's normal and its voxels', degrees; with `first` of voxels "
-                  "that a cluster within it reaches.",
+                  "Largest angle between a cluster's normal and its voxels', degrees; "
+                  "with `first` of voxels that a cluster within it reaches.",
                   1.0f, 89.0f),
-            field(
-                "assign", &ClusterParams::assign,
-                "nearest: a voxel goes to the cluster that is nearest by place and normal. first: to the "
-                "first within the angle limit in a random order of clusters, else to the first that reaches "
-                "it, as in the paper, where the order is that of threads."),
+            field("assign", &ClusterParams::assign,
+                  "nearest: a voxel goes to the cluster that is nearest by place and normal. "
+                  "first: to the first within the angle limit in a random order of clusters, "
+                  "else to the first that reaches it, as in the paper, where the order is that of threads."),
             field("unassigned", &ClusterParams::unassigned,
-                  "Voxels that no cluster took. own: they form clusters of their own. nearest: they join the "
-                  "nearest, whatever its normal. leave: they belong to none, block light and send none."),
+                  "Voxels that no cluster took. own: they form clusters of their own. "
+                  "nearest: they join the nearest, whatever its normal. "
+                  "leave: they belong to none, block light and send none."),
             field("normals", &ClusterParams::normals,
-                  "Of a voxel. area: by the unoccluded area at its faces. open_space: where its surfaces "
-                  "disagree, the axis direction in which fewest of 3x3 voxels are occupied (the paper's)."),
-            field(
-                "ties", &ClusterParams::ties,
-                "Between directions in which as few voxels are occupied. surfaces: the nearest to the normal "
-                "by area. fragments: the one to which the normals of the triangles in the voxel have the "
-                "smallest sum of angles, each counted once whatever its area (the paper's).")
+                  "Of a voxel. area: by the unoccluded area at its faces. "
+                  "open_space: where its surfaces disagree, "
+                  "the axis direction in which fewest of 3x3 voxels are occupied (the paper's)."),
+            field("ties", &ClusterParams::ties,
+                  "Between directions in which as few voxels are occupied. "
+                  "surfaces: the nearest to the normal by area. fragments: "
+                  "the one to which the normals of the triangles in the voxel have the smallest sum "
+                  "of angles, each counted once whatever its area (the paper's).")
                 .onlyWith(oneOf(&ClusterParams::normals, {ClusterNormals::OpenSpace}))};
     }
 };

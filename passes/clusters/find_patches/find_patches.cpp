@@ -23,13 +23,14 @@ class FindPatches final : public Pass {
  public:
     static constexpr const char* kName = "find_patches";
     static constexpr const char* kHelp =
-        "Splits voxels' surfels and clusters at walls thinner than a voxel. Surfels of a voxel that see each "
-        "other form a surface group; clusters are split into connected components of these groups. So both "
-        "sides of a wall thinner than a voxel have their own light (cluster_visibility, inject_clusters, "
-        "gather_clusters). With place_surfels' 'sides: all' gaps narrower than a voxel have groups, too, "
-        "which send and receive light. Biased by: voxel size (occluders lower than half a voxel split "
-        "nothing). Noisy by: points_per_voxel (a surface without a point is in no group). Source: "
-        "docs/clusters.md.";
+        "Splits voxels' surfels and clusters at walls thinner than a voxel. "
+        "Surfels of a voxel that see each other form a surface group; "
+        "clusters are split into connected components of these groups. "
+        "So both sides of a wall thinner than a voxel have their own light (cluster_visibility, "
+        "inject_clusters, gather_clusters). With place_surfels' 'sides: "
+        "all' gaps narrower than a voxel have groups, too, which send and receive light. "
+        "Biased by: voxel size (occluders lower than half a voxel split nothing). "
+        "Noisy by: points_per_voxel (a surface without a point is in no group). Source: docs/clusters.md.";
 
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
@@ -81,8 +82,8 @@ void FindPatches::record(PassContext& context) {
     const std::optional<std::vector<Box>>& changed = context.frame.changed;
     if (!voxels.unoccludedOnly)
         throw Error(
-            "{}: surfels without open space before them have no side; leave voxelize's 'visibility_rays' "
-            "above 0",
+            "{}: surfels without open space before them have no side; "
+            "leave voxelize's 'visibility_rays' above 0",
             kName);
     VoxelPatches& patches = context[patches_];
     if (updateCache_ && changed && !context.isFirstRun())

@@ -24,12 +24,13 @@ class GatherClusters final : public Pass {
  public:
     static constexpr const char* kName = "gather_clusters";
     static constexpr const char* kHelp =
-        "Gathers each patch's irradiance from the voxel clusters that it sees. It sums the light of "
-        "inject_clusters over the lists of cluster_visibility, then is filtered over neighbours that look "
-        "into the same space. The result is irradiance of voxels, with the direct light of inject_clusters: "
-        "gather_irradiance or gather_rays show it. Biased by: voxel and cluster size, the filter (light "
-        "creeps round edges). Noisy by: the lists' rays. Source: Cosin "
-        "and Patow 2022, section 4.4.";
+        "Gathers each patch's irradiance from the voxel clusters that it sees. "
+        "It sums the light of inject_clusters over the lists of cluster_visibility, "
+        "then is filtered over neighbours that look into the same space. "
+        "The result is irradiance of voxels, with the direct light of inject_clusters: "
+        "gather_irradiance or gather_rays show it. "
+        "Biased by: voxel and cluster size, the filter (light creeps round edges). "
+        "Noisy by: the lists' rays. Source: Cosin and Patow 2022, section 4.4.";
     struct Params {
         GatherUpdate update = GatherUpdate::All;
         uint32_t reach = 4;
@@ -39,33 +40,33 @@ class GatherClusters final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("update", &Params::update,
-                      "all: every voxel, whenever light or voxels have changed. seen: voxels around what the "
-                      "camera sees, when they come into view; they keep their light until light or voxels "
-                      "change. For gather_irradiance, which reads no others. seen_points: likewise, but "
-                      "voxels of which the camera sees one of 12 points, 2 voxels from their centers (the "
-                      "paper's test); lookups leave other voxels out of their mean."),
-                field(
-                    "reach", &Params::reach,
-                    "How many voxels along each axis count as around what the camera sees. It must be as far "
-                    "as the lookup that follows reads: 4 times gather_irradiance's 'radius', where little "
-                    "surface is near, and one more with 'lookup: seven_tap'. A lookup that reads farther is "
-                    "refused.",
-                    1u, 64u)
+                      "all: every voxel, whenever light or voxels have changed. "
+                      "seen: voxels around what the camera sees, when they come into view; "
+                      "they keep their light until light or voxels change. "
+                      "For gather_irradiance, which reads no others. "
+                      "seen_points: likewise, but voxels of which the camera sees one of 12 points, "
+                      "2 voxels from their centers (the paper's test); "
+                      "lookups leave other voxels out of their mean."),
+                field("reach", &Params::reach,
+                      "How many voxels along each axis count as around what the camera sees. "
+                      "It must be as far as the lookup that follows reads: "
+                      "4 times gather_irradiance's 'radius', where little surface is near, "
+                      "and one more with 'lookup: seven_tap'. A lookup that reads farther is refused.",
+                      1u, 64u)
                     .onlyWith(oneOf(&Params::update, {GatherUpdate::Seen})),
                 field("filter_passes", &Params::filterPasses,
-                      "Times that patches are averaged with those at the same faces of neighbouring surface "
-                      "groups. The paper: 2, of size 5.",
+                      "Times that patches are averaged with those at the same faces "
+                      "of neighbouring surface groups. The paper: 2, of size 5.",
                       0u, 8u),
-                field(
-                    "filter_size", &Params::filterSize,
-                    "Voxels along each edge of the filter's cube, with binomial weights (about a Gaussian). "
-                    "Occluded neighbours and faces without surfaces don't count.",
-                    std::vector{3u, 5u})
+                field("filter_size", &Params::filterSize,
+                      "Voxels along each edge of the filter's cube, "
+                      "with binomial weights (about a Gaussian). "
+                      "Occluded neighbours and faces without surfaces don't count.",
+                      std::vector{3u, 5u})
                     .onlyWith(noneOf(&Params::filterPasses, {0u})),
-                field(
-                    "filter_over", &Params::filterOver,
-                    "all: every face in the cube. lit: those that any light reaches, as in the paper; light "
-                    "then spreads into what is dark and none of it is lost for that, so it grows.")
+                field("filter_over", &Params::filterOver,
+                      "all: every face in the cube. lit: those that any light reaches, as in the paper; "
+                      "light then spreads into what is dark and none of it is lost for that, so it grows.")
                     .onlyWith(noneOf(&Params::filterPasses, {0u}))};
         }
     };

@@ -46,11 +46,13 @@ class InjectClusters final : public Pass {
  public:
     static constexpr const char* kName = "inject_clusters";
     static constexpr const char* kHelp =
-        "Averages the reflected light of voxels, or of their surfels, over their clusters. Any pass may have "
-        "injected the voxels' light. The mean is what each component of a cluster sends from each of its six "
-        "faces. Further bounces follow the visibility lists of cluster_visibility. Biased by: the size of "
-        "clusters, over which light is averaged; injected light by that of voxels, too, which may hold both "
-        "sides of a wall. Noisy by: bounce_patches. Source: Cosin and Patow 2022, section 4.4.";
+        "Averages the reflected light of voxels, or of their surfels, over their clusters. "
+        "Any pass may have injected the voxels' light. "
+        "The mean is what each component of a cluster sends from each of its six faces. "
+        "Further bounces follow the visibility lists of cluster_visibility. "
+        "Biased by: the size of clusters, over which light is averaged; "
+        "injected light by that of voxels, too, which may hold both sides of a wall. "
+        "Noisy by: bounce_patches. Source: Cosin and Patow 2022, section 4.4.";
     struct Params {
         uint32_t bounces = 0;
         uint32_t bouncePatches = 0;
@@ -60,23 +62,24 @@ class InjectClusters final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("bounces", &Params::bounces,
-                      "Bounces between clusters, after those of the injection and before the one of "
-                      "gather_clusters.",
+                      "Bounces between clusters, "
+                      "after those of the injection and before the one of gather_clusters.",
                       0u, 64u),
                 field("bounce_patches", &Params::bouncePatches,
-                      "How many patches of each component face are sampled in a bounce, by area and anew in "
-                      "each bounce. 0: all, one by one.",
+                      "How many patches of each component face are sampled in a bounce, "
+                      "by area and anew in each bounce. 0: all, one by one.",
                       0u, 64u)
                     .lessNoise()
                     .onlyWith(noneOf(&Params::bounces, {0u})),
                 field("direct", &Params::direct,
-                      "injected: the light that an injection left in the voxels. shadow_rays: direct light "
-                      "of the surfels (place_surfels) by rays to the lights, without an injection."),
-                field(
-                    "lit_test", &Params::litTest,
-                    "surfels: by a shadow ray from each surfel. points: all surfels of a voxel are lit if a "
-                    "light sees one of 18 points 1.5 voxels from its center and no surface in the adjacent "
-                    "voxel towards the light looks away from it (the paper's); for punctual lights.")
+                      "injected: the light that an injection left in the voxels. "
+                      "shadow_rays: direct light of the surfels (place_surfels) by rays to the lights, "
+                      "without an injection."),
+                field("lit_test", &Params::litTest,
+                      "surfels: by a shadow ray from each surfel. "
+                      "points: all surfels of a voxel are lit if a light sees one of 18 points 1.5 voxels "
+                      "from its center and no surface in the adjacent voxel towards the light looks away "
+                      "from it (the paper's); for punctual lights.")
                     .onlyWith(oneOf(&Params::direct, {ClusterDirect::ShadowRays})),
                 field("light_samples", &Params::lightSamples,
                       "Shadow rays from each surfel to the emissive surfaces, and to the environment.", 1u,
@@ -166,8 +169,8 @@ void InjectClusters::plan(PassPlan& plan) {
     }
     if (std::ranges::any_of(sources_, [](const LightSource& s) { return s.kind != LightSource::Punctual; }))
         throw Error(
-            "{}: 'lit_test: points' looks for lights that are points or directions, and the scene has "
-            "emissive surfaces or an environment; set 'lit_test: surfels'",
+            "{}: 'lit_test: points' looks for lights that are points or directions, "
+            "and the scene has emissive surfaces or an environment; set 'lit_test: surfels'",
             kName);
     litPoints_->plan(plan);
 }

@@ -58,8 +58,9 @@ std::vector<LightSource> requireLightSources(const SceneState& state, const std:
     std::vector<LightSource> all = lightSources(state);
     if (all.empty())
         throw Error(
-            "{}: the scene has no lights, emissive surfaces or environment; write some into 'scene', as in "
-            "lights: [{{point: [0, 2, 0], intensity: 5}}], and leave 'keep_file_lights' true for its own",
+            "{}: the scene has no lights, emissive surfaces or environment; "
+            "write some into 'scene', as in lights: [{{point: [0, 2, 0], intensity: "
+            "5}}], and leave 'keep_file_lights' true for its own",
             pass);
     return all;
 }

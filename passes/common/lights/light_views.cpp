@@ -27,8 +27,8 @@ std::vector<LightSource> requireViewpoints(const SceneState& state, const std::s
     for (const LightSource& source : sources)
         if (source.kind != LightSource::Punctual)
             throw Error(
-                "{}: {} no single viewpoint to render a shadow map from; use {}, or point, spot and "
-                "directional lights alone{}",
+                "{}: {} no single viewpoint to render a shadow map from; "
+                "use {}, or point, spot and directional lights alone{}",
                 pass, source.kind == LightSource::Emitters ? "emissive surfaces have" : "an environment has",
                 instead, source.kind == LightSource::Environment ? " with 'scene.environment: none'" : "");
     return sources;

@@ -16,8 +16,9 @@ void requireClearPanes(const SceneState& state, const std::string& pass) {
     const Scene& panes = *state.panes->scene;
     const Mesh& mesh = panes.meshes[panes.instances.front().mesh];
     throw Error(
-        "{}: its light takes on no colour of the scene's panes, such as '{}'; take them out with "
-        "'scene.hide', make them opaque with 'materials: lambert', or light by shadow rays or light rays",
+        "{}: its light takes on no colour of the scene's panes, such as '{}'; "
+        "take them out with 'scene.hide', make them opaque with 'materials: "
+        "lambert', or light by shadow rays or light rays",
         pass, panes.materials[mesh.material].name);
 }
 

@@ -20,13 +20,13 @@ struct VoxelBuildParams {
     static constexpr auto schema() {
         return std::tuple{
             field("directions", &VoxelBuildParams::directions,
-                  "6: a voxel has light of its own for each of its six faces. 1: one value for all of a "
-                  "voxel, so that light from both sides of a thin wall mixes.",
+                  "6: a voxel has light of its own for each of its six faces. "
+                  "1: one value for all of a voxel, so that light from both sides of a thin wall mixes.",
                   {1, 6}),
             field("visibility_rays", &VoxelBuildParams::visibilityRays,
-                  "Visibility probes on a surface as large as a voxel's face: points that look for open "
-                  "space in front of the surface and behind it. 0: all surfaces count as visible from both "
-                  "sides, which darkens thin closed walls.",
+                  "Visibility probes on a surface as large as a voxel's face: "
+                  "points that look for open space in front of the surface and behind it. "
+                  "0: all surfaces count as visible from both sides, which darkens thin closed walls.",
                   0u, 256u)};
     }
 };

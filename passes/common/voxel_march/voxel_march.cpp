@@ -46,8 +46,8 @@ void require(const gpu::VoxelGrid& grid) {
     const glm::uvec3 size = grid.resolution;
     if (glm::any(glm::greaterThan(size, glm::uvec3(std::min(kMaxResolution, grid.side)))))
         throw Error(
-            "rays walk through at most {0} voxels along an axis, all of them held; this grid has "
-            "{1}x{2}x{3}, of which {4} are held: lower voxelize's 'resolution'",
+            "rays walk through at most {0} voxels along an axis, all of them held; "
+            "this grid has {1}x{2}x{3}, of which {4} are held: lower voxelize's 'resolution'",
             kMaxResolution, size.x, size.y, size.z, grid.side);
 }
 

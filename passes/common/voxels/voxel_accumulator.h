@@ -25,15 +25,15 @@ struct WriteParams {
     float white = 1.0f;
     static constexpr auto schema() {
         return std::tuple{
-            field(
-                "write", &WriteParams::write,
-                "How light that meets in a voxel is merged: average is exact and independent of order; max "
-                "keeps the brightest sample; moving_average is the 8-bit compare-and-swap loop of Magalhães "
-                "2020; none stores each sample over the one before, so that whichever comes last stays: "
-                "what a write costs at least."),
+            field("write", &WriteParams::write,
+                  "How light that meets in a voxel is merged: average is exact and independent of order; "
+                  "max keeps the brightest sample; "
+                  "moving_average is the 8-bit compare-and-swap loop of Magalhães 2020; "
+                  "none stores each sample over the one before, so that whichever comes last stays: "
+                  "what a write costs at least."),
             field("white", &WriteParams::white,
-                  "Irradiance, W/m², that white stands for in the 8 bits of moving_average; what is brighter "
-                  "is clamped.",
+                  "Irradiance, W/m², that white stands for in the 8 bits of moving_average; "
+                  "what is brighter is clamped.",
                   1e-6f, 1e9f)
                 .onlyWith(oneOf(&WriteParams::write, {Write::MovingAverage}))};
     }

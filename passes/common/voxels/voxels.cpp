@@ -37,10 +37,10 @@ void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const Voxe
         stream.readAs<uint32_t>(irradiance.direct, irradiance.direct.bytes() / sizeof(uint32_t));
     if (std::ranges::none_of(direct, [](uint32_t word) { return word != 0; }))
         throw Error(
-            "no light falls on any voxel: either the lights shine past the scene, or all that they reach has "
-            "another surface within one voxel ({:.3g} m); raise voxelize's 'resolution', give the "
-            "part of a large scene that is looked at as 'scene.region', or set voxelize's "
-            "'visibility_rays: 0'",
+            "no light falls on any voxel: either the lights shine past the scene, "
+            "or all that they reach has another surface within one voxel ({:.3g} m); "
+            "raise voxelize's 'resolution', give the part of a large scene that is looked at "
+            "as 'scene.region', or set voxelize's 'visibility_rays: 0'",
             voxels.grid.voxelSize);
 }
 

@@ -28,8 +28,8 @@ uint32_t clipmapLevels(glm::uvec3 resolution, const ClipmapParams& params, const
     while (glm::compMax(levelResolution(resolution, least - 1)) > params.clipmapResolution) ++least;
     if (params.clipmapLevels < least)
         throw Error(
-            "{}: with {} levels no window of {} voxels holds the whole scene of {}x{}x{}; set "
-            "'clipmap_levels' to {} or more, or raise 'clipmap_resolution'",
+            "{}: with {} levels no window of {} voxels holds the whole scene of {}x{}x{}; "
+            "set 'clipmap_levels' to {} or more, or raise 'clipmap_resolution'",
             pass, params.clipmapLevels, params.clipmapResolution, resolution.x, resolution.y, resolution.z,
             least);
     return std::min(params.clipmapLevels, gridLevels(resolution));

@@ -16,13 +16,13 @@ struct ClipmapParams {
     uint32_t clipmapResolution = 64;
     uint32_t clipmapLevels = RADIANCE_CLIPMAP_LEVELS;
     static constexpr auto schema() {
-        return std::tuple{
-            field("clipmap_resolution", &ClipmapParams::clipmapResolution,
-                  "Voxels along an edge of a clipmap's window.", powersOfTwo(16, 1024)),
-            field("clipmap_levels", &ClipmapParams::clipmapLevels,
-                  "Levels of a clipmap at most. The coarsest must hold the whole scene; cones that are wider "
-                  "than its voxels read these. By default down to a single voxel; Arnebäck 2017 has 5.",
-                  1u, uint32_t(RADIANCE_CLIPMAP_LEVELS))};
+        return std::tuple{field("clipmap_resolution", &ClipmapParams::clipmapResolution,
+                                "Voxels along an edge of a clipmap's window.", powersOfTwo(16, 1024)),
+                          field("clipmap_levels", &ClipmapParams::clipmapLevels,
+                                "Levels of a clipmap at most. The coarsest must hold the whole scene; "
+                                "cones that are wider than its voxels read these. "
+                                "By default down to a single voxel; Arnebäck 2017 has 5.",
+                                1u, uint32_t(RADIANCE_CLIPMAP_LEVELS))};
     }
 };
 

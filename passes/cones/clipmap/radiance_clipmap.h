@@ -20,11 +20,12 @@ struct EnumNames<LevelDistance> {
 struct ClipmapLevelParams {
     LevelDistance levelDistance = LevelDistance::Axis;
     static constexpr auto schema() {
-        return std::tuple{field(
-            "level_distance", &ClipmapLevelParams::levelDistance,
-            "By which distance from the camera coarser levels of a clipmap take over. axis: that along the "
-            "axis where it is largest, so that all of a window counts. euclidean: as published in Arnebäck "
-            "2017 (section 4.2.1), for comparison: a ball in each window counts, half of its voxels.")};
+        return std::tuple{
+            field("level_distance", &ClipmapLevelParams::levelDistance,
+                  "By which distance from the camera coarser levels of a clipmap take over. "
+                  "axis: that along the axis where it is largest, so that all of a window counts. "
+                  "euclidean: as published in Arnebäck 2017 (section 4.2.1), for comparison: "
+                  "a ball in each window counts, half of its voxels.")};
     }
 };
 

@@ -15,12 +15,13 @@ class FilterVoxels final : public Pass {
  public:
     static constexpr const char* kName = "filter_voxels";
     static constexpr const char* kHelp =
-        "Prefilters surface voxels into radiance and opacity at all scales. Radiance is the light that "
-        "leaves them, and opacity is the part of a beam that surfaces hide. The result is for gather_cones. "
-        "Biased by: voxel size; what shares a larger voxel and faces the same way is averaged; in a clipmap "
-        "distance from the camera. Bounces by cones are for dense and svo; over a clipmap's windows "
-        "light_clipmap has its own. Source: Crassin et al. 2011, section 4 (anisotropic voxels); Arnebäck "
-        "2017, section 3.1.4.";
+        "Prefilters surface voxels into radiance and opacity at all scales. "
+        "Radiance is the light that leaves them, and opacity is the part of a beam that surfaces hide. "
+        "The result is for gather_cones. "
+        "Biased by: voxel size; what shares a larger voxel and faces the same way is averaged; "
+        "in a clipmap distance from the camera. "
+        "Bounces by cones are for dense and svo; over a clipmap's windows light_clipmap has its own. "
+        "Source: Crassin et al. 2011, section 4 (anisotropic voxels); Arnebäck 2017, section 3.1.4.";
     struct Params : ClipmapParams, ClipmapLevelParams, BrickParams, ConeBounceParams {
         RadianceLayout layout = RadianceLayout::Dense;
         bool emission = false;
@@ -31,8 +32,8 @@ class FilterVoxels final : public Pass {
             return std::tuple_cat(
                 std::tuple{field("layout", &Params::layout, kRadianceLayoutHelp),
                            field("emission", &Params::emission,
-                                 "Whether what surfaces emit is in. Off, cones bring indirect light alone: a "
-                                 "direct_* pass adds the rest.")},
+                                 "Whether what surfaces emit is in. "
+                                 "Off, cones bring indirect light alone: a direct_* pass adds the rest.")},
                 std::tuple{std::get<0>(ClipmapParams::schema()).onlyWith(ifClipmap()),
                            std::get<1>(ClipmapParams::schema()).onlyWith(ifClipmap()),
                            std::get<0>(ClipmapLevelParams::schema()).onlyWith(ifClipmap()),
@@ -64,8 +65,8 @@ void FilterVoxels::plan(PassPlan& plan) {
     if (params_.bounces > 0 && storage_->followsCamera())
         throw Error(
             "filter_voxels: 'bounces' needs all voxels, of which this layout holds those near the camera; "
-            "set 'layout' to dense or svo, or the injection's own 'bounces', or take voxelize_clipmap and "
-            "light_clipmap");
+            "set 'layout' to dense or svo, or the injection's own 'bounces', "
+            "or take voxelize_clipmap and light_clipmap");
     RadianceVoxels& radiance = plan[radiance_];
     if (const auto injected = plan[irradiance_].lightBounces)
         radiance.lightBounces = *injected + params_.bounces + 1;

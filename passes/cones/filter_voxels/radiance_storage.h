@@ -44,9 +44,10 @@ struct BrickParams {
     bool brickNeighbors = true;
     static constexpr auto schema() {
         return std::tuple{field("brick_neighbors", &BrickParams::brickNeighbors,
-                                "Whether the 26 neighbours of each node that surfaces pass through are made "
-                                "to exist. Off, values that bricks share differ where one is missing, as in "
-                                "Arnebäck 2017, figure 28.")};
+                                "Whether the 26 neighbours of each node "
+                                "that surfaces pass through are made to exist. "
+                                "Off, values that bricks share differ where one is missing, "
+                                "as in Arnebäck 2017, figure 28.")};
     }
 };
 

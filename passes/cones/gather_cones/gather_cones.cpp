@@ -24,12 +24,13 @@ class GatherCones final : public Pass {
  public:
     static constexpr const char* kName = "gather_cones";
     static constexpr const char* kHelp =
-        "Gathers indirect light by cone tracing through prefiltered voxels. A few cones go from each pixel "
-        "through the voxels (filter_voxels). Biased by: voxel size; the number of cones; a mean over some 25 "
-        "pixels of the same surface, which evens out the fixed pattern of directions; the shape of specular "
-        "lobes. Noisy by near_field_voxels alone. Time grows with the cones of each texel, so on a CPU begin "
-        "with `stride: 4`, a quarter of them, and `specular: 0` where nothing is glossy. Source: Crassin et "
-        "al. 2011; Arnebäck 2017, section 3.1.5.";
+        "Gathers indirect light by cone tracing through prefiltered voxels. "
+        "A few cones go from each pixel through the voxels (filter_voxels). "
+        "Biased by: voxel size; the number of cones; a mean over some 25 pixels of the same surface, "
+        "which evens out the fixed pattern of directions; the shape of specular lobes. "
+        "Noisy by near_field_voxels alone. Time grows with the cones of each texel, "
+        "so on a CPU begin with `stride: 4`, a quarter of them, and `specular: 0` where nothing is glossy. "
+        "Source: Crassin et al. 2011; Arnebäck 2017, section 3.1.5.";
     struct Params {
         uint32_t cones = 16;
         uint32_t stride = 1;
@@ -41,17 +42,17 @@ class GatherCones final : public Pass {
                       "Cones that divide up the hemisphere; the set of 6 is that of Arnebäck 2017.",
                       coneSetSizes()),
                 field("stride", &Params::stride,
-                      "Traces every n-th texel of the g-buffer; the others take the mean of the traced ones "
-                      "around them that lie on the same surface.",
+                      "Traces every n-th texel of the g-buffer; the others take the mean "
+                      "of the traced ones around them that lie on the same surface.",
                       1u, 64u),
                 field("specular", &Params::specular,
-                      "Cones that divide up the specular lobe of each texel of the g-buffer; a mirror takes "
-                      "one. 0: surfaces reflect by their diffuse albedo alone.",
+                      "Cones that divide up the specular lobe of each texel of the g-buffer; "
+                      "a mirror takes one. 0: surfaces reflect by their diffuse albedo alone.",
                       {0, 1, 7, 19}),
                 field("near_field_voxels", &Params::nearFieldVoxels,
-                      "Diffuse cones begin with a ray, so many voxels of the finest level long. Where it "
-                      "hits, light is measured by shadow rays and a ray goes on as a path does, up to twice; "
-                      "where not, the cone begins behind it. 0: no rays.",
+                      "Diffuse cones begin with a ray, so many voxels of the finest level long. "
+                      "Where it hits, light is measured by shadow rays and a ray goes on as a path does, "
+                      "up to twice; where not, the cone begins behind it. 0: no rays.",
                       0.0f, 64.0f)};
         }
     };
@@ -92,8 +93,8 @@ void GatherCones::plan(PassPlan& plan) {
     if (nearField_) {
         if (radiance.emission)
             throw Error(
-                "gather_cones: 'near_field_voxels' measures light at near hits without what they emit, which "
-                "the radiance voxels hold; set it to 0, or 'emission' of filter_voxels to false");
+                "gather_cones: 'near_field_voxels' measures light at near hits without what they emit, "
+                "which the radiance voxels hold; set it to 0, or 'emission' of filter_voxels to false");
         nearField_->plan(plan, radiance,
                          {params_.nearFieldVoxels, params_.cones, params_.stride, traced.extent,
                           coneSet(params_.cones).back().width});

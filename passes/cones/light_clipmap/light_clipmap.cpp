@@ -30,13 +30,15 @@ class LightClipmap final : public Pass {
  public:
     static constexpr const char* kName = "light_clipmap";
     static constexpr const char* kHelp =
-        "Lights the voxel clipmap by a shadow map of every light. Tests the part of each triangle in a voxel "
-        "of voxelize_clipmap against the maps. What voxels reflect is made radiance voxels for gather_cones. "
-        "The cones bring one bounce more than 'bounces'. What scrolled in is lit in each frame; all of the "
-        "windows where a light or a surface has moved, and with bounces wherever anything scrolled in. No "
-        "emissive surfaces as lights and no environment: they have no single viewpoint. Biased by: voxel "
-        "size, so distance from the camera; shadow_resolution. Source: Arnebäck 2017, section 4.1.2, after "
-        "Panteleev 2014.";
+        "Lights the voxel clipmap by a shadow map of every light. "
+        "Tests the part of each triangle in a voxel of voxelize_clipmap against the maps. "
+        "What voxels reflect is made radiance voxels for gather_cones. "
+        "The cones bring one bounce more than 'bounces'. "
+        "What scrolled in is lit in each frame; all of the windows where a light or a surface has moved, "
+        "and with bounces wherever anything scrolled in. "
+        "No emissive surfaces as lights and no environment: they have no single viewpoint. "
+        "Biased by: voxel size, so distance from the camera; shadow_resolution. "
+        "Source: Arnebäck 2017, section 4.1.2, after Panteleev 2014.";
     struct Params : ClipmapLevelParams, ConeBounceParams {
         uint32_t shadowResolution = 512;
         ClipmapLayout layout = ClipmapLayout::Clipmap;
@@ -46,8 +48,9 @@ class LightClipmap final : public Pass {
                     field("shadow_resolution", &Params::shadowResolution,
                           "Texels along an edge of each shadow map; a point light has six.", 2u, 4096u),
                     field("layout", &Params::layout,
-                          "How voxels are stored: clipmap, in a buffer; clipmap_textures, as published "
-                          "in Arnebäck 2017: in a 3D texture that the device's sampler filters.")},
+                          "How voxels are stored: clipmap, in a buffer; "
+                          "clipmap_textures, as published in Arnebäck 2017: "
+                          "in a 3D texture that the device's sampler filters.")},
                 ClipmapLevelParams::schema(), ConeBounceParams::schema());
         }
     };

@@ -16,8 +16,9 @@ void planRadianceTexture(PassPlan& plan, const std::string& pass, const std::str
             pass, plan.device.name, remedy);
     if (std::max({extent.x, extent.y, extent.z}) > largest)
         throw Error(
-            "{}: the 3D texture has {}x{}x{} texels, device '{}' takes at most {} along an axis "
-            "(maxImageDimension3D); lower the voxels' resolution or 'directions', or {}",
+            "{}: the 3D texture has {}x{}x{} texels, "
+            "device '{}' takes at most {} along an axis (maxImageDimension3D); "
+            "lower the voxels' resolution or 'directions', or {}",
             pass, extent.x, extent.y, extent.z, plan.device.name, largest, remedy);
     ImageDesc desc;
     desc.format = VK_FORMAT_R16G16B16A16_SFLOAT;

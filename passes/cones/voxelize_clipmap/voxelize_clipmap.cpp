@@ -26,19 +26,20 @@ class VoxelizeClipmap final : public Pass {
  public:
     static constexpr const char* kName = "voxelize_clipmap";
     static constexpr const char* kHelp =
-        "Voxelizes the scene's surfaces into a clipmap around the camera. Large voxels hold all of the "
-        "scene. Each finer level holds those of a window. Takes memory by the windows, not by the scene, but "
-        "for 8 bytes a triangle or more. In each frame voxelizes what scrolled in, and what moved. For "
-        "light_clipmap. Finds voxels as voxelize's method exact. Biased by: distance from the camera; a gap "
-        "narrower than a voxel of its level is closed. Source: Arnebäck 2017, section 4.1.1, after Panteleev "
-        "2014.";
+        "Voxelizes the scene's surfaces into a clipmap around the camera. "
+        "Large voxels hold all of the scene. Each finer level holds those of a window. "
+        "Takes memory by the windows, not by the scene, but for 8 bytes a triangle or more. "
+        "In each frame voxelizes what scrolled in, and what moved. For light_clipmap. "
+        "Finds voxels as voxelize's method exact. "
+        "Biased by: distance from the camera; a gap narrower than a voxel of its level is closed. "
+        "Source: Arnebäck 2017, section 4.1.1, after Panteleev 2014.";
     struct Params : ClipmapParams, VoxelBuildParams {
         uint32_t resolution = 128;
         static constexpr auto schema() {
             return std::tuple_cat(
                 std::tuple{field("resolution", &Params::resolution,
-                                 "Voxels of the finest level along the scene's longest side, if it were held "
-                                 "whole.",
+                                 "Voxels of the finest level along the scene's longest side, "
+                                 "if it were held whole.",
                                  1u, 1024u)},
                 ClipmapParams::schema(), VoxelBuildParams::schema());
         }

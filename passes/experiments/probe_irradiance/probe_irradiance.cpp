@@ -26,11 +26,12 @@ class ProbeIrradiance final : public Pass {
  public:
     static constexpr const char* kName = "probe_irradiance";
     static constexpr const char* kHelp =
-        "Measures how stable irradiance is over frames, by cones at fixed points. The points stand still on "
-        "the surfaces. For each frame it reports the mean irradiance (W/m²) and its change since the last "
-        "frame over that mean: on average over the points and where it is largest. Tests stability: with a "
-        "moving camera and all else at rest the change is the method's own. Surfaces may not move: points "
-        "could not be told apart.";
+        "Measures how stable irradiance is over frames, by cones at fixed points. "
+        "The points stand still on the surfaces. "
+        "For each frame it reports the mean irradiance (W/m²) and its change since the last frame over "
+        "that mean: on average over the points and where it is largest. "
+        "Tests stability: with a moving camera and all else at rest the change is the method's own. "
+        "Surfaces may not move: points could not be told apart.";
     struct Params {
         uint32_t maxPoints = 1024;
         uint32_t cones = 6;
@@ -41,8 +42,9 @@ class ProbeIrradiance final : public Pass {
                       "Largest number of points, taken from those of place_surfels.", 1u, 1u << 20),
                 field("cones", &Params::cones, "Cones from each point.", coneSetSizes()),
                 field("cone_sets", &Params::coneSets,
-                      "Sets of cones from each point, whose directions and levels are shifted against each "
-                      "other. gather_cones sends one from a texel and takes the mean over some 25 texels.",
+                      "Sets of cones from each point, "
+                      "whose directions and levels are shifted against each other. "
+                      "gather_cones sends one from a texel and takes the mean over some 25 texels.",
                       1u, 256u)};
         }
     };
@@ -65,8 +67,8 @@ class ProbeIrradiance final : public Pass {
 void ProbeIrradiance::plan(PassPlan& plan) {
     if (!movingRuns(plan.frame.scene->geometry).empty())
         throw Error(
-            "{}: surfaces move, and with them the points that it would compare; set scene.time_step to 0 and "
-            "take out scene.moving_spheres",
+            "{}: surfaces move, and with them the points that it would compare; "
+            "set scene.time_step to 0 and take out scene.moving_spheres",
             kName);
     plan.buffer(cones_, "cones", coneSet(params_.cones).size() * sizeof(gpu::Cone));
     gather_.define(plan[radiance_].defines());

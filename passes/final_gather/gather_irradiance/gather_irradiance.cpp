@@ -31,10 +31,11 @@ class GatherIrradiance final : public Pass {
  public:
     static constexpr const char* kName = "gather_irradiance";
     static constexpr const char* kHelp =
-        "Looks light up in the voxels' irradiance at each pixel. The irradiance is interpolated at the "
-        "pixel's surface, for the surface's normal; no ray is traced. Biased by: voxel size (detail below it "
-        "is lost, shadows too with `light: direct`; light creeps round thin edges). Noisy by: the "
-        "injection's rays. Lambert surfaces only. Source: Magalhães 2020, section 3.4.";
+        "Looks light up in the voxels' irradiance at each pixel. "
+        "The irradiance is interpolated at the pixel's surface, for the surface's normal; "
+        "no ray is traced. Biased by: voxel size (detail below it is lost, shadows too with `light: "
+        "direct`; light creeps round thin edges). Noisy by: the injection's rays. Lambert surfaces only. "
+        "Source: Magalhães 2020, section 3.4.";
     struct Params {
         GatheredLight light = GatheredLight::Indirect;
         float radius = 1.0f;
@@ -42,17 +43,19 @@ class GatherIrradiance final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("light", &Params::light,
-                      "indirect: light that was reflected before it arrived. direct: light from its sources, "
-                      "in place of direct_shadow_rays."),
+                      "indirect: light that was reflected before it arrived. "
+                      "direct: light from its sources, in place of direct_shadow_rays."),
                 field("radius", &Params::radius,
                       "Reach of the interpolation in voxels; 1 is trilinear, more is smoother and blurs.",
                       0.5f, 8.0f)
                     .onlyWith(noneOf(&Params::lookup, {VoxelLookup::BilinearFace})),
                 field("lookup", &Params::lookup,
-                      "trilinear: at the surface. seven_tap: there and at one voxel's distance along each "
-                      "axis, which hides holes in the voxels and blurs (Magalhães 2020, listing 4.8; there "
-                      "empty voxels count as black, here they are left out). bilinear_face: the face most "
-                      "like the normal alone, between four voxels of one layer (Cosin and Patow 2022).")};
+                      "trilinear: at the surface. "
+                      "seven_tap: there and at one voxel's distance along each axis, "
+                      "which hides holes in the voxels and blurs (Magalhães 2020, listing 4.8; "
+                      "there empty voxels count as black, here they are left out). "
+                      "bilinear_face: the face most like the normal alone, "
+                      "between four voxels of one layer (Cosin and Patow 2022).")};
         }
     };
 
@@ -86,8 +89,8 @@ void GatherIrradiance::plan(PassPlan& plan) {
     const std::optional<uint32_t> known = plan[irradiance_].reach;
     if (known && *known < reach())
         throw Error(
-            "the lookup reads voxels up to {} from what the camera sees, and light is gathered for those up "
-            "to {}; set the 'reach' of gather_clusters to {}",
+            "the lookup reads voxels up to {} from what the camera sees, "
+            "and light is gathered for those up to {}; set the 'reach' of gather_clusters to {}",
             reach(), *known, reach());
     if (!isDirect()) plan[reflected_].lightBounces = plan[irradiance_].lightBounces;
     plan.frameImage(reflected_);

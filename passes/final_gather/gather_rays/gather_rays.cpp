@@ -29,11 +29,13 @@ class GatherRays final : public Pass {
  public:
     static constexpr const char* kName = "gather_rays";
     static constexpr const char* kHelp =
-        "Gathers indirect light by shading ray hits with stored light. The hits of trace_gather_rays take "
-        "the irradiance that `source` holds there and their own albedo. Hits near the pixel and those "
-        "without stored light are measured by paths, which bring a bounce more than is stored. Biased by: "
-        "the size of voxels or of the cache's cells (light at the hits is as coarse as they are, not at the "
-        "pixel; with `direct_at_hits: shadow_rays` only indirect light is) and merge_voxels' tolerance. "
+        "Gathers indirect light by shading ray hits with stored light. "
+        "The hits of trace_gather_rays take the irradiance that `source` holds there and their own albedo. "
+        "Hits near the pixel and those without stored light are measured by paths, "
+        "which bring a bounce more than is stored. Biased by: "
+        "the size of voxels or of the cache's cells (light at the hits is as coarse as they are, "
+        "not at the pixel; with `direct_at_hits: "
+        "shadow_rays` only indirect light is) and merge_voxels' tolerance. "
         "Noisy by: rays_per_block, which filter_irradiance lowers; few samples in a cell of the cache. "
         "Lambert surfaces only. Reports how many hits find no light.";
     struct Params {
@@ -44,31 +46,32 @@ class GatherRays final : public Pass {
         uint32_t minSamples = 1;
         static constexpr auto schema() {
             return std::tuple{
-                field(
-                    "source", &Params::source,
-                    "Where light is stored. voxels: in their faces, by any injection. merged_voxels: in the "
-                    "trees of merge_voxels. radiance_cache: in the hashed cells of update_radiance_cache."),
+                field("source", &Params::source,
+                      "Where light is stored. voxels: in their faces, by any injection. "
+                      "merged_voxels: in the trees of merge_voxels. "
+                      "radiance_cache: in the hashed cells of update_radiance_cache."),
                 field(
                     "direct_at_hits", &Params::directAtHits,
-                    "Direct light at the hits. voxels: as coarse as voxels. shadow_rays: exact, by a shadow "
-                    "ray from each hit to each light; voxels bring indirect light alone.")
+                    "Direct light at the hits. voxels: as coarse as voxels. shadow_rays: "
+                    "exact, by a shadow ray from each hit to each light; voxels bring indirect light alone.")
                     .onlyWith(oneOf(&Params::source, {GatherSource::Voxels})),
                 field("light_samples", &Params::lightSamples,
-                      "Shadow rays to the emissive surfaces, and to the environment, from each hit where "
-                      "direct light is measured.",
+                      "Shadow rays to the emissive surfaces, and to the environment, "
+                      "from each hit where direct light is measured.",
                       1u, 256u)
                     .onlyWith(oneOf(&Params::directAtHits, {DirectAtHits::ShadowRays}),
                               noneOf(&Params::nearFieldCells, {0.0f}),
                               oneOf(&Params::source, {GatherSource::MergedVoxels})),
                 field("near_field_cells", &Params::nearFieldCells,
-                      "A ray shorter than this many cells, or one that hits where no light is stored, goes "
-                      "on as a path does instead of reading the cell there: up to three times, over a "
-                      "radiance cache up to seven. Cells are voxels, as they were before they were merged, "
-                      "or those of the cache. 0: every hit is read, and is black where no light is stored.",
+                      "A ray shorter than this many cells, or one that hits where no light is stored, "
+                      "goes on as a path does instead of reading the cell there: "
+                      "up to three times, over a radiance cache up to seven. "
+                      "Cells are voxels, as they were before they were merged, or those of the cache. "
+                      "0: every hit is read, and is black where no light is stored.",
                       0.0f, 64.0f),
                 field("min_samples", &Params::minSamples,
-                      "A cell with fewer samples counts as one without light: a ray that hits there goes on. "
-                      "With a near_field_cells of 0 it is read all the same.",
+                      "A cell with fewer samples counts as one without light: "
+                      "a ray that hits there goes on. With a near_field_cells of 0 it is read all the same.",
                       1u, 65536u)
                     .onlyWith(oneOf(&Params::source, {GatherSource::RadianceCache}))};
         }
@@ -110,8 +113,8 @@ void GatherRays::plan(PassPlan& plan) {
     noisy.spacing = hits.layout.raysPerBlock < texelsPerBlock ? hits.layout.blockSize : 1;
     if (plan[indirect_].isRead && noisy.spacing > 1)
         throw Error(
-            "{3}: blocks of {0}x{0} texels have {1} rays, which leaves texels without any; let "
-            "filter_irradiance follow, or raise 'rays_per_block' of trace_gather_rays to {2}",
+            "{3}: blocks of {0}x{0} texels have {1} rays, which leaves texels without any; "
+            "let filter_irradiance follow, or raise 'rays_per_block' of trace_gather_rays to {2}",
             hits.layout.blockSize, hits.layout.raysPerBlock, texelsPerBlock, kName);
     plan.image(noisy.irradiance, "noisy irradiance",
                NoisyIrradiance::desc(plan.frame, plan[gbuffer_].samples));

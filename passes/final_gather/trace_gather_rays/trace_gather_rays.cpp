@@ -20,9 +20,9 @@ class TraceGatherRays final : public Pass {
  public:
     static constexpr const char* kName = "trace_gather_rays";
     static constexpr const char* kHelp =
-        "Traces cosine-distributed gather rays from what the camera sees. They are for gather_rays to shade. "
-        "Exact geometry; noisy by: rays_per_block. Where a block has fewer rays than texels, "
-        "filter_irradiance fills the texels without any.";
+        "Traces cosine-distributed gather rays from what the camera sees. "
+        "They are for gather_rays to shade. Exact geometry; noisy by: rays_per_block. "
+        "Where a block has fewer rays than texels, filter_irradiance fills the texels without any.";
     struct Params {
         uint32_t raysPerBlock = 16;
         uint32_t block = 1;

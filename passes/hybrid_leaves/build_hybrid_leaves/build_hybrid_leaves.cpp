@@ -71,12 +71,12 @@ class BuildHybridLeaves final : public Pass {
  public:
     static constexpr const char* kName = "build_hybrid_leaves";
     static constexpr const char* kHelp =
-        "Gives the leaves of the voxel octree their triangles or finer voxels. Each leaf of the octree over "
-        "surface voxels takes the list of the triangles in it or, where they are more than a capacity, a "
-        "grid of finer voxels. This is for rays sharper than voxels are. "
-        "Biased by: grid, where leaves hold grids: surfaces are as thick as its cells. lists: fragments "
-        "misses triangles, write: none flickers. "
-        "Source: Seok 2021, chapter 3.";
+        "Gives the leaves of the voxel octree their triangles or finer voxels. "
+        "Each leaf of the octree over surface voxels takes the list of the triangles in it or, "
+        "where they are more than a capacity, a grid of finer voxels. "
+        "This is for rays sharper than voxels are. "
+        "Biased by: grid, where leaves hold grids: surfaces are as thick as its cells. "
+        "lists: fragments misses triangles, write: none flickers. Source: Seok 2021, chapter 3.";
     struct Params {
         uint32_t primitives = 64;
         uint32_t grid = 16;
@@ -86,25 +86,25 @@ class BuildHybridLeaves final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("primitives", &Params::primitives,
-                      "Capacity p of a leaf: the most triangles that it lists; a leaf with more gets a grid "
-                      "(Seok 2021, section 3.2).",
+                      "Capacity p of a leaf: the most triangles that it lists; "
+                      "a leaf with more gets a grid (Seok 2021, section 3.2).",
                       1u, 1u << 20),
-                field(
-                    "grid", &Params::grid,
-                    "Resolution m of a leaf's grid: cells along its edge. Only those that hold surfaces take "
-                    "memory besides two bits.",
-                    2u, 16u),
+                field("grid", &Params::grid,
+                      "Resolution m of a leaf's grid: cells along its edge. "
+                      "Only those that hold surfaces take memory besides two bits.",
+                      2u, 16u),
                 field("lists", &Params::lists,
-                      "exact: every triangle that overlaps the leaf. fragments: those of which a raster pass "
-                      "makes a fragment there, which misses some (Seok 2021, figures 24 and 25)."),
+                      "exact: every triangle that overlaps the leaf. "
+                      "fragments: those of which a raster pass makes a fragment there, "
+                      "which misses some (Seok 2021, figures 24 and 25)."),
                 field(
                     "write", &Params::write,
-                    "average: a cell is the mean of its surfaces, weighted by area. none: the last one that "
-                    "is written, which changes from run to run (Seok 2021, section 3.2)."),
+                    "average: a cell is the mean of its surfaces, weighted by area. none: "
+                    "the last one that is written, which changes from run to run (Seok 2021, section 3.2)."),
                 field("grid_levels", &Params::gridLevels,
-                      "finest: every ray meets cells of 1/m of the leaf's edge. footprint: grids also have "
-                      "cells of twice the edge, and so on up to half the leaf; a ray meets the largest that "
-                      "are not wider than it is.")
+                      "finest: every ray meets cells of 1/m of the leaf's edge. "
+                      "footprint: grids also have cells of twice the edge, and so on up to half the leaf; "
+                      "a ray meets the largest that are not wider than it is.")
                     .onlyWith(oneOf(&Params::write, {CellWrite::Average}))};
         }
     };

@@ -19,8 +19,8 @@ struct HybridHeader {
 void requireBelow(uint64_t count, uint64_t limit, const char* what) {
     if (count >= limit)
         throw Error(
-            "build_hybrid_leaves: leaves need {} {}, of which {} are possible: lower voxelize's "
-            "'resolution', or change 'primitives' or 'grid'",
+            "build_hybrid_leaves: leaves need {} {}, of which {} are possible: "
+            "lower voxelize's 'resolution', or change 'primitives' or 'grid'",
             count, what, limit - 1);
 }
 

@@ -72,15 +72,14 @@ class GatherMirror final : public Pass {
  public:
     static constexpr const char* kName = "gather_mirror";
     static constexpr const char* kHelp =
-        "Traces reflected rays for the specular light of mirror-like surfaces. Their light is joined with "
-        "the direct and the indirect light of other passes. It includes lamps and environment that a mirror "
-        "shows, and mirrors in mirrors. "
+        "Traces reflected rays for the specular light of mirror-like surfaces. "
+        "Their light is joined with the direct and the indirect light of other passes. "
+        "It includes lamps and environment that a mirror shows, and mirrors in mirrors. "
         "Biased by: voxel size (indirect light where rays end; direct light too with `direct_at_hits: "
         "voxels`); specular light of what mirrors show is left out where it is rougher than the hand-over; "
         "light that mirrors throw at other surfaces is in voxels only where their injection follows it; "
-        "cells of hybrid leaves' grids reach a little farther than their surfaces. "
-        "Noisy by: `rays` where surfaces are no perfect mirrors; light_samples. "
-        "Source: Seok 2021, chapter 4.";
+        "cells of hybrid leaves' grids reach a little farther than their surfaces. Noisy by: "
+        "`rays` where surfaces are no perfect mirrors; light_samples. Source: Seok 2021, chapter 4.";
     struct Params {
         float maxRoughness = 0.1f;
         float blendRoughness = 0.1f;
@@ -96,30 +95,31 @@ class GatherMirror final : public Pass {
                       "Up to this roughness rays alone bring specular light. Perfect mirrors end at 0.0316.",
                       0.0f, 1.0f),
                 field("blend_roughness", &Params::blendRoughness,
-                      "Over this much more roughness rays hand over to the cones of gather_cones, or to none "
-                      "where no pass writes 'lobes'.",
+                      "Over this much more roughness rays hand over to the cones of gather_cones, "
+                      "or to none where no pass writes 'lobes'.",
                       0.0f, 1.0f),
                 field("rays", &Params::rays,
                       "Rays of each g-buffer texel whose surface is no perfect mirror; a mirror sends one.",
                       1u, 64u)
                     .lessNoise(),
                 field("bounces", &Params::bounces,
-                      "Mirrors that light meets one after another, at most, the one that the camera sees "
-                      "among them; what the last one shows of further mirrors is black.",
+                      "Mirrors that light meets one after another, at most, "
+                      "the one that the camera sees among them; "
+                      "what the last one shows of further mirrors is black.",
                       1u, 32u),
                 field("walk", &Params::walk,
-                      "What finds the ends of rays. exact: the ray tracer. hierarchical, voxel_by_voxel: "
-                      "leaves of the octree, which hold triangles or grids of fine voxels, past empty space "
-                      "of all sizes or, as in the paper, through each finest voxel on the way, from the root "
-                      "each time."),
+                      "What finds the ends of rays. exact: the ray tracer. "
+                      "hierarchical, voxel_by_voxel: leaves of the octree, "
+                      "which hold triangles or grids of fine voxels, past empty space of all sizes or, "
+                      "as in the paper, through each finest voxel on the way, from the root each time."),
                 field("wide_rays", &Params::wideRays,
-                      "Rays through hybrid leaves that are wider than a voxel where they come to a surface. "
-                      "rays: they stay rays. cones: a cone through larger voxels goes on, which hold direct "
-                      "light, too.")
+                      "Rays through hybrid leaves that are wider than a voxel where they come "
+                      "to a surface. rays: they stay rays. "
+                      "cones: a cone through larger voxels goes on, which hold direct light, too.")
                     .onlyWith(noneOf(&Params::walk, {MirrorWalk::Exact})),
                 field("direct_at_hits", &Params::directAtHits,
-                      "Direct light where rays end. voxels: as coarse as voxels. shadow_rays: exact, by a "
-                      "shadow ray to each light; voxels bring indirect light alone."),
+                      "Direct light where rays end. voxels: as coarse as voxels. shadow_rays: "
+                      "exact, by a shadow ray to each light; voxels bring indirect light alone."),
                 field("light_samples", &Params::lightSamples,
                       "Shadow rays to the emissive surfaces, and to the environment, from each ray's end.",
                       1u, 256u)
@@ -193,12 +193,12 @@ void GatherMirror::plan(PassPlan& plan) {
     const SpecularLobes* lobes = plan[lobes_];
     if (lobes && lobes->emission)
         throw Error(
-            "gather_mirror: the cones of 'lobes' bring what surfaces emit, which rays and the direct pass "
-            "bring too; set 'emission' of filter_voxels to false");
+            "gather_mirror: the cones of 'lobes' bring what surfaces emit, "
+            "which rays and the direct pass bring too; set 'emission' of filter_voxels to false");
     if (continuesAsCones() && plan[radiance_].emission)
         throw Error(
-            "gather_mirror: wide rays would bring what surfaces emit, which other passes bring, too; set "
-            "'emission' of filter_voxels to false");
+            "gather_mirror: wide rays would bring what surfaces emit, which other passes bring, too; "
+            "set 'emission' of filter_voxels to false");
     if (lobes) lobes->isJoined = true;
     const uint32_t samples = plan[gbuffer_].samples;
     const uint64_t slots =

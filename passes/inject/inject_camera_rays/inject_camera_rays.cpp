@@ -18,11 +18,12 @@ class InjectCameraRays final : public Pass {
  public:
     static constexpr const char* kName = "inject_camera_rays";
     static constexpr const char* kHelp =
-        "Lights voxels by shadow rays at the hits of rays from the camera. Shadow rays measure the "
-        "irradiance at these hits and at those of one diffuse ray from each. Each hit counts by the area "
-        "that it stands for. Leaves unlit: what neither the view nor its secondary rays reach. Biased by: "
-        "voxel size; voxels seen in part count the part that is seen. Noisy by: rays_per_image. Source: "
-        "Magalhães 2020, section 3.3.2.";
+        "Lights voxels by shadow rays at the hits of rays from the camera. "
+        "Shadow rays measure the irradiance at these hits and at those of one diffuse ray from each. "
+        "Each hit counts by the area that it stands for. "
+        "Leaves unlit: what neither the view nor its secondary rays reach. "
+        "Biased by: voxel size; voxels seen in part count the part that is seen. Noisy by: rays_per_image. "
+        "Source: Magalhães 2020, section 3.3.2.";
     struct Params : WriteParams {
         uint32_t raysPerImage = 1048576;
         uint32_t bounces = 8;

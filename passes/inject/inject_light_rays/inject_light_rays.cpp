@@ -16,21 +16,22 @@ class InjectLightRays final : public Pass {
  public:
     static constexpr const char* kName = "inject_light_rays";
     static constexpr const char* kHelp =
-        "Traces rays from every light and leaves their power in the voxels hit. Then the rays bounce. Biased "
-        "by: voxel size; write other than average; secondary: mirror, which takes every surface for a "
-        "coloured mirror. Noisy by: rays_per_light. Leaves unlit: nothing that light reaches, given rays "
-        "enough. With diffuse bounces all surfaces are Lambert surfaces of their base colour. Source: "
-        "Magalhães 2020, section 3.3.";
+        "Traces rays from every light and leaves their power in the voxels hit. Then the rays bounce. "
+        "Biased by: voxel size; write other than average; secondary: "
+        "mirror, which takes every surface for a coloured mirror. Noisy by: rays_per_light. "
+        "Leaves unlit: nothing that light reaches, given rays enough. "
+        "With diffuse bounces all surfaces are Lambert surfaces of their base colour. "
+        "Source: Magalhães 2020, section 3.3.";
     struct Params : LightPathParams {
         uint32_t raysPerLight = 1048576;
         static constexpr auto schema() {
-            return std::tuple_cat(
-                std::tuple{field("rays_per_light", &Params::raysPerLight,
-                                 "Rays that each punctual light sends; all emissive surfaces together count "
-                                 "as one light, the environment as another.",
-                                 1u, 1u << 26)
-                               .lessNoise()},
-                LightPathParams::schema());
+            return std::tuple_cat(std::tuple{field("rays_per_light", &Params::raysPerLight,
+                                                   "Rays that each punctual light sends; "
+                                                   "all emissive surfaces together count as one light, "
+                                                   "the environment as another.",
+                                                   1u, 1u << 26)
+                                                 .lessNoise()},
+                                  LightPathParams::schema());
         }
     };
 

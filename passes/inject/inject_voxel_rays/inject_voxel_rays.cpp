@@ -37,17 +37,20 @@ class InjectVoxelRays final : public Pass {
  public:
     static constexpr const char* kName = "inject_voxel_rays";
     static constexpr const char* kHelp =
-        "Lights voxels by shadow rays and paths from their surfels. The surfels are points on the voxels' "
-        "surfaces (place_surfels). With `points: gather_hits` it lights, in each frame, only the faces that "
-        "the rays of trace_gather_rays (which must come before) hit. With `direct: shadow_maps` surfels are "
-        "tested against each light's shadow map, and light bounces by paths with shadow rays. Point lights "
-        "take a cube of six maps, spots one (wider than 90° across: the cube), directional lights one over "
-        "the scene's bounding sphere; no emissive surfaces and no environment: they have no single "
-        "viewpoint. Biased by: voxel size; of shadow maps also shadow_resolution (shadow edges and gaps "
-        "below a texel). Noisy by: points_per_voxel, paths_per_point. Leaves unlit: nothing; with "
-        "gather_hits all that no gather ray hits. In shadow maps what lies nearer to a light than 0.0001 of "
-        "the scene's extent casts no shadow. Source: Magalhães 2020, section 6.1; shadow maps: Arnebäck "
-        "2017.";
+        "Lights voxels by shadow rays and paths from their surfels. "
+        "The surfels are points on the voxels' surfaces (place_surfels). "
+        "With `points: gather_hits` it lights, in each frame, "
+        "only the faces that the rays of trace_gather_rays (which must come before) hit. "
+        "With `direct: shadow_maps` surfels are tested against each light's shadow map, "
+        "and light bounces by paths with shadow rays. "
+        "Point lights take a cube of six maps, spots one (wider than 90° across: "
+        "the cube), directional lights one over the scene's bounding sphere; "
+        "no emissive surfaces and no environment: they have no single viewpoint. Biased by: voxel size; "
+        "of shadow maps also shadow_resolution (shadow edges and gaps below a texel). "
+        "Noisy by: points_per_voxel, paths_per_point. "
+        "Leaves unlit: nothing; with gather_hits all that no gather ray hits. "
+        "In shadow maps what lies nearer to a light than 0.0001 of the scene's extent casts no shadow. "
+        "Source: Magalhães 2020, section 6.1; shadow maps: Arnebäck 2017.";
     struct Params : WriteParams {
         VoxelRayPoints points = VoxelRayPoints::All;
         VoxelRayDirect direct = VoxelRayDirect::ShadowRays;
@@ -62,18 +65,17 @@ class InjectVoxelRays final : public Pass {
         }
         static constexpr auto schema() {
             return std::tuple_cat(
-                std::tuple{
-                    field("points", &Params::points,
-                          "Which surfels are lit. all: those of every voxel. gather_hits: those on the faces "
-                          "that the frame's gather rays hit; few paths_per_point do, for a gather averages "
-                          "over many faces."),
-                    field("direct", &Params::direct,
-                          "How their direct light is measured. shadow_rays: by rays to the lights. "
-                          "shadow_maps: by a depth view from each light.")
-                        .onlyWith(oneOf(&Params::points, {VoxelRayPoints::All})),
-                    field("shadow_resolution", &Params::shadowResolution,
-                          "Texels along an edge of each shadow map.", 2u, 8192u)
-                        .onlyWith(oneOf(&Params::direct, {VoxelRayDirect::ShadowMaps}))},
+                std::tuple{field("points", &Params::points,
+                                 "Which surfels are lit. all: those of every voxel. "
+                                 "gather_hits: those on the faces that the frame's gather rays hit; "
+                                 "few paths_per_point do, for a gather averages over many faces."),
+                           field("direct", &Params::direct,
+                                 "How their direct light is measured. shadow_rays: by rays to the lights. "
+                                 "shadow_maps: by a depth view from each light.")
+                               .onlyWith(oneOf(&Params::points, {VoxelRayPoints::All})),
+                           field("shadow_resolution", &Params::shadowResolution,
+                                 "Texels along an edge of each shadow map.", 2u, 8192u)
+                               .onlyWith(oneOf(&Params::direct, {VoxelRayDirect::ShadowMaps}))},
                 WriteParams::schema(),
                 std::tuple{
                     field("paths_per_point", &Params::pathsPerPoint, "Paths from each point.", 1u, 1024u)

@@ -15,8 +15,8 @@ void checkBeams(const std::string& pass, const LightPathParams& params,
     const bool isDiffuse = params.secondary == Secondary::Diffuse || params.secondary == Secondary::Material;
     if (isDiffuse && params.bounces > 0)
         throw Error(
-            "{}: 'write: {}' merges irradiances, and a diffusely reflected ray has none, only power; use "
-            "'secondary: mirror' or 'none', or 'write: average'",
+            "{}: 'write: {}' merges irradiances, and a diffusely reflected ray has none, only power; "
+            "use 'secondary: mirror' or 'none', or 'write: average'",
             pass, write);
     for (const LightSource& source : sources)
         if (source.kind != LightSource::Punctual)

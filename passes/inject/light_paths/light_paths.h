@@ -31,15 +31,17 @@ struct LightPathParams : WriteParams {
             WriteParams::schema(),
             std::tuple{
                 field("secondary", &LightPathParams::secondary,
-                      "How rays continue after a hit: none gives direct light only; mirror is that of "
-                      "Magalhães 2020, about the normal and times the albedo; diffuse is a Lambert "
-                      "surface's, with Russian roulette by albedo; material goes by the surface's "
-                      "own lobes, so that mirrors and glossy surfaces throw light at others."),
+                      "How rays continue after a hit: none gives direct light only; "
+                      "mirror is that of Magalhães 2020, about the normal and times the albedo; "
+                      "diffuse is a Lambert surface's, with Russian roulette by albedo; "
+                      "material goes by the surface's own lobes, "
+                      "so that mirrors and glossy surfaces throw light at others."),
                 field("bounces", &LightPathParams::bounces, "Bounces after a ray's first hit.", 0u, 64u)
                     .onlyWith(noneOf(&LightPathParams::secondary, {Secondary::None})),
                 field("caustics", &LightPathParams::caustics,
-                      "Whether perfect mirrors throw what comes straight from a point, spot or directional "
-                      "light at other surfaces. The reference does not: no path from the eye finds it.")
+                      "Whether perfect mirrors throw what comes straight from a point, "
+                      "spot or directional light at other surfaces. "
+                      "The reference does not: no path from the eye finds it.")
                     .onlyWith(oneOf(&LightPathParams::secondary, {Secondary::Material}))});
     }
     uint32_t lastBounce() const { return secondary == Secondary::None ? 0 : bounces; }

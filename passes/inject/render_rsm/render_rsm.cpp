@@ -11,12 +11,13 @@ class RenderRsm final : public Pass {
  public:
     static constexpr const char* kName = "render_rsm";
     static constexpr const char* kHelp =
-        "Rasterises the scene from every light into reflective shadow maps (RSM). They tell which point each "
-        "texel sees. They are for sample_vpls and direct_shadow_maps. Point lights take a cube of six views, "
-        "spots one (wider than 90° across: the cube), directional lights one over the scene's bounding "
-        "sphere. No emissive surfaces and no environment: they have no single viewpoint. Biased by: "
-        "rsm_resolution. Sees nothing nearer to a light than 0.0001 of the scene's extent. Source: "
-        "Dachsbacher and Stamminger 2005.";
+        "Rasterises the scene from every light into reflective shadow maps (RSM). "
+        "They tell which point each texel sees. They are for sample_vpls and direct_shadow_maps. "
+        "Point lights take a cube of six views, spots one (wider than 90° across: "
+        "the cube), directional lights one over the scene's bounding sphere. "
+        "No emissive surfaces and no environment: they have no single viewpoint. "
+        "Biased by: rsm_resolution. Sees nothing nearer to a light than 0.0001 of the scene's extent. "
+        "Source: Dachsbacher and Stamminger 2005.";
     struct Params {
         uint32_t rsmResolution = 512;
         static constexpr auto schema() {

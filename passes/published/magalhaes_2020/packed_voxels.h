@@ -25,12 +25,12 @@ struct EnumNames<PackedWrite> {
 struct PackedWriteParams {
     PackedWrite write = PackedWrite::MovingAverage;
     static constexpr auto schema() {
-        return std::tuple{field(
-            "write", &PackedWriteParams::write,
-            "How what meets in a voxel's word is merged, as published in Magalhães 2020. moving_average: "
-            "compare and swap, the count in alpha (section 4.2.5.3). max: one atomic maximum of the packed "
-            "word, so that blue decides (section 5.2.4). none: a plain store, the last one stays, whichever "
-            "that is.")};
+        return std::tuple{
+            field("write", &PackedWriteParams::write,
+                  "How what meets in a voxel's word is merged, as published in Magalhães 2020. "
+                  "moving_average: compare and swap, the count in alpha (section 4.2.5.3). "
+                  "max: one atomic maximum of the packed word, so that blue decides (section 5.2.4). "
+                  "none: a plain store, the last one stays, whichever that is.")};
     }
     /// Definitions of passes/published/packed_write.glsl.
     Defines defines() const {

@@ -24,10 +24,11 @@ class InjectRadiosity final : public Pass {
  public:
     static constexpr const char* kName = "inject_radiosity";
     static constexpr const char* kHelp =
-        "Lights surfels by shadow rays and by radiosity along their links. Direct light of the voxels' "
-        "surfels comes by shadow rays. Indirect light comes along the links of link_surfels: a sum over "
-        "links for each bounce, no rays. For light that changes where surfaces don't. Biased by: voxel size, "
-        "surfels' distance; textures' normals are left out. Noisy by: points_per_voxel, rays_per_surfel. "
+        "Lights surfels by shadow rays and by radiosity along their links. "
+        "Direct light of the voxels' surfels comes by shadow rays. "
+        "Indirect light comes along the links of link_surfels: a sum over links for each bounce, no rays. "
+        "For light that changes where surfaces don't. Biased by: voxel size, surfels' distance; "
+        "textures' normals are left out. Noisy by: points_per_voxel, rays_per_surfel. "
         "Leaves unlit: nothing. Source: Goral et al. 1984; Lehtinen et al. 2008.";
     struct Params : WriteParams {
         uint32_t bounces = 8;

@@ -23,10 +23,10 @@ class LinkSurfels final : public Pass {
  public:
     static constexpr const char* kName = "link_surfels";
     static constexpr const char* kHelp =
-        "Links the surfels that see each other, for radiosity. Finds the links by rays, once for a geometry. "
-        "Light then travels along them without rays (inject_radiosity). Biased by: surfels' distance (a hit "
-        "takes the light of the nearest surfel in its voxel). Noisy by: rays_per_surfel. Source: Goral et "
-        "al. 1984; Lehtinen et al. 2008.";
+        "Links the surfels that see each other, for radiosity. Finds the links by rays, "
+        "once for a geometry. Light then travels along them without rays (inject_radiosity). "
+        "Biased by: surfels' distance (a hit takes the light of the nearest surfel in its voxel). "
+        "Noisy by: rays_per_surfel. Source: Goral et al. 1984; Lehtinen et al. 2008.";
     struct Params {
         uint32_t raysPerSurfel = 64;
         static constexpr auto schema() {
@@ -86,8 +86,8 @@ void LinkSurfels::record(PassContext& context) {
     const uint64_t count = surfels.count;
     if (count * params_.raysPerSurfel >= std::numeric_limits<uint32_t>::max())
         throw Error(
-            "{}: {} surfels with {} rays each are more links than can be numbered (2^32); lower "
-            "'rays_per_surfel', or place_surfels's 'points_per_voxel'",
+            "{}: {} surfels with {} rays each are more links than can be numbered (2^32); "
+            "lower 'rays_per_surfel', or place_surfels's 'points_per_voxel'",
             kName, count, params_.raysPerSurfel);
     links.surfelCount = uint32_t(count);
     makeOrKeep(links.links, context.device, "surfel links", count * params_.raysPerSurfel * sizeof(uint32_t));

@@ -19,10 +19,11 @@ class GatherSurfels final : public Pass {
  public:
     static constexpr const char* kName = "gather_surfels";
     static constexpr const char* kHelp =
-        "Reads indirect light at each pixel from the surfels around it. Takes the mean irradiance of the "
-        "surfels in the eight voxels around the pixel's surface, those of the same plane before others. "
-        "Tells two surfaces in one voxel apart. Biased by: the distance of surfels. Noisy by: "
-        "points_per_voxel, rays_per_surfel. Lambert surfaces only. Source: Ward, Rubinstein and Clear 1988.";
+        "Reads indirect light at each pixel from the surfels around it. "
+        "Takes the mean irradiance of the surfels in the eight voxels around the pixel's surface, "
+        "those of the same plane before others. Tells two surfaces in one voxel apart. "
+        "Biased by: the distance of surfels. Noisy by: points_per_voxel, rays_per_surfel. "
+        "Lambert surfaces only. Source: Ward, Rubinstein and Clear 1988.";
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
 

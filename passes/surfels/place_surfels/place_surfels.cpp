@@ -39,24 +39,24 @@ class PlaceSurfels final : public Pass {
  public:
     static constexpr const char* kName = "place_surfels";
     static constexpr const char* kHelp =
-        "Spreads points (surfels) evenly over the surfaces. There inject_voxel_rays and inject_radiosity "
-        "measure the irradiance of voxels. Depends on geometry alone. Noisy by: points_per_voxel. Misses: "
-        "voxels that hold little surface may get no point.";
+        "Spreads points (surfels) evenly over the surfaces. "
+        "There inject_voxel_rays and inject_radiosity measure the irradiance of voxels. "
+        "Depends on geometry alone. Noisy by: points_per_voxel. "
+        "Misses: voxels that hold little surface may get no point.";
     struct Params {
         uint32_t pointsPerVoxel = 4;
         SurfelSides sides = SurfelSides::Open;
         static constexpr auto schema() {
             return std::tuple{
-                field(
-                    "points_per_voxel", &Params::pointsPerVoxel,
-                    "Points for each surface voxel, on average; where surfaces move, for each of those that "
-                    "what stays passes through.",
-                    1u, 256u)
+                field("points_per_voxel", &Params::pointsPerVoxel,
+                      "Points for each surface voxel, on average; "
+                      "where surfaces move, for each of those that what stays passes through.",
+                      1u, 256u)
                     .lessNoise(),
                 field("sides", &Params::sides,
-                      "open: sides with open space before them, as far as a voxel. all: covered "
-                      "ones, too, which gather_surfels and links read: inside of gaps narrower "
-                      "than a voxel; voxels are lit by open ones alone.")};
+                      "open: sides with open space before them, as far as a voxel. "
+                      "all: covered ones, too, which gather_surfels and links read: "
+                      "inside of gaps narrower than a voxel; voxels are lit by open ones alone.")};
         }
     };
 
@@ -153,9 +153,9 @@ void PlaceSurfels::record(PassContext& context) {
     stream.finish();
     if (surfels.chunks.empty())
         throw Error(
-            "place_surfels: every surface has another within one voxel ({:.3g} m) before it, so none is open "
-            "to light; raise voxelize's 'resolution', set its 'visibility_rays: 0', or place_surfels's "
-            "'sides: all'",
+            "place_surfels: "
+            "every surface has another within one voxel ({:.3g} m) before it, so none is open to light; "
+            "raise voxelize's 'resolution', set its 'visibility_rays: 0', or place_surfels's 'sides: all'",
             voxels.grid.voxelSize);
 }
 

@@ -17,10 +17,11 @@ class SmoothSurfels final : public Pass {
  public:
     static constexpr const char* kName = "smooth_surfels";
     static constexpr const char* kHelp =
-        "Denoises the surfels' irradiance by means over neighbours. This lowers the noise of what "
-        "gather_surfels reads. A surfel takes the mean irradiance of the surfels within a voxel's size, as "
-        "far as they lie on the same surface in the same light. Once for a light, so that frames cost the "
-        "same. Biased by: iterations (blurs what is smaller than a voxel).";
+        "Denoises the surfels' irradiance by means over neighbours. "
+        "This lowers the noise of what gather_surfels reads. "
+        "A surfel takes the mean irradiance of the surfels within a voxel's size, "
+        "as far as they lie on the same surface in the same light. Once for a light, "
+        "so that frames cost the same. Biased by: iterations (blurs what is smaller than a voxel).";
     struct Params {
         uint32_t iterations = 2;
         static constexpr auto schema() {

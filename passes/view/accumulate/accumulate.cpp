@@ -21,24 +21,25 @@ class Accumulate final : public Pass {
  public:
     static constexpr const char* kName = "accumulate";
     static constexpr const char* kHelp =
-        "Averages a gather's irradiance over frames by temporal reprojection. What a surface had in the "
-        "frame before is looked up where it was seen then. Lowers noise; the result serves as "
-        "'noisy_irradiance' of filter_irradiance, or as an image. Biased where light changes, by lag, which "
-        "'clamp' bounds, and, while the camera moves, by the blur of lookups between texels. Source: Schied "
-        "et al. 2017; Salvi 2016; docs/accumulation.md.";
+        "Averages a gather's irradiance over frames by temporal reprojection. "
+        "What a surface had in the frame before is looked up where it was seen then. "
+        "Lowers noise; the result serves as 'noisy_irradiance' of filter_irradiance, or as an image. "
+        "Biased where light changes, by lag, which 'clamp' bounds, and, while the camera moves, "
+        "by the blur of lookups between texels. Source: Schied et al. "
+        "2017; Salvi 2016; docs/accumulation.md.";
     struct Params {
         uint32_t history = 16;
         float clamp = 0.0f;
         static constexpr auto schema() {
             return std::tuple{
                 field("history", &Params::history,
-                      "Frames in the mean, this one included. Once so many have come, each new one counts as "
-                      "one in so many. 1: this frame alone.",
+                      "Frames in the mean, this one included. "
+                      "Once so many have come, each new one counts as one in so many. 1: this frame alone.",
                       1u, 64u),
                 field("clamp", &Params::clamp,
-                      "How far history may be off the mean of this frame's surroundings, in standard "
-                      "deviations of what these surroundings hold. 0: as far as it is. Smaller: less lag, "
-                      "more noise.",
+                      "How far history may be off the mean of this frame's surroundings, "
+                      "in standard deviations of what these surroundings hold. 0: as far as it is. "
+                      "Smaller: less lag, more noise.",
                       0.0f, 100.0f)};
         }
     };

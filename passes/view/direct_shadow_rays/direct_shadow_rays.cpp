@@ -36,10 +36,11 @@ class DirectShadowRays final : public Pass {
  public:
     static constexpr const char* kName = "direct_shadow_rays";
     static constexpr const char* kHelp =
-        "Computes direct light by shadow rays from every pixel to every light. Exact for point, spot and "
-        "directional lights; noisy by `light_samples` for emissive surfaces (picked by power, uniform over "
-        "area) and for the environment (by cosine). Mirrors reflect no lamp and no environment: "
-        "gather_mirror brings what they show of these. With `visibility: voxels` biased by voxel size. "
+        "Computes direct light by shadow rays from every pixel to every light. Exact for point, "
+        "spot and directional lights; noisy by `light_samples` for emissive surfaces (picked by power, "
+        "uniform over area) and for the environment (by cosine). "
+        "Mirrors reflect no lamp and no environment: gather_mirror brings what they show of these. "
+        "With `visibility: voxels` biased by voxel size. "
         "Compare with gather_irradiance with `light: direct`.";
     struct Params {
         uint32_t lightSamples = 4;
@@ -47,15 +48,15 @@ class DirectShadowRays final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("light_samples", &Params::lightSamples,
-                      "Shadow rays for each g-buffer texel to all emissive surfaces together, and as many to "
-                      "the environment.",
+                      "Shadow rays for each g-buffer texel to all emissive surfaces together, "
+                      "and as many to the environment.",
                       1u, 4096u)
                     .lessNoise(),
                 field("visibility", &Params::visibility,
-                      "What shadow rays meet. exact: the scene's triangles. voxels: those of the port "
-                      "`voxels`, those of their own surface left out; shadows are wider by about a voxel, "
-                      "contacts and corners too dark or too bright within three (Magalhães 2020, section "
-                      "3.3.3.2).")};
+                      "What shadow rays meet. exact: the scene's triangles. "
+                      "voxels: those of the port `voxels`, those of their own surface left out; "
+                      "shadows are wider by about a voxel, contacts and corners too dark "
+                      "or too bright within three (Magalhães 2020, section 3.3.3.2).")};
         }
     };
 

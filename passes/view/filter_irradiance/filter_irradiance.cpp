@@ -30,25 +30,26 @@ class FilterIrradiance final : public Pass {
  public:
     static constexpr const char* kName = "filter_irradiance";
     static constexpr const char* kHelp =
-        "Denoises a gather's irradiance along surfaces and multiplies by albedo. The noisy irradiance is "
-        "that of a gather (gather_rays, path_trace). An edge-avoiding wavelet whose width follows from the "
-        "number of rays and, where the gather tells them, from their variance, the distances of their hits, "
-        "and how much the light around texels differs. Biased by: edge_stopping_scale and levels, less the "
-        "more rays. Lambert surfaces only. Source: Dammertz et al. 2010; Ward et al. 1988; "
-        "docs/filtering.md.";
+        "Denoises a gather's irradiance along surfaces and multiplies by albedo. "
+        "The noisy irradiance is that of a gather (gather_rays, path_trace). "
+        "An edge-avoiding wavelet whose width follows from the number of rays and, "
+        "where the gather tells them, from their variance, the distances of their hits, "
+        "and how much the light around texels differs. "
+        "Biased by: edge_stopping_scale and levels, less the more rays. Lambert surfaces only. "
+        "Source: Dammertz et al. 2010; Ward et al. 1988; docs/filtering.md.";
     struct Params {
         uint32_t levels = 4;
         float edgeStoppingScale = 0.1f;
         static constexpr auto schema() {
             return std::tuple{
                 field("levels", &Params::levels,
-                      "Levels of the wavelet, each of twice the reach of the one before: n levels reach "
-                      "2^n - 1 pixels.",
+                      "Levels of the wavelet, each of twice the reach of the one before: "
+                      "n levels reach 2^n - 1 pixels.",
                       1u, 6u),
                 field("edge_stopping_scale", &Params::edgeStoppingScale,
-                      "Factor of the bound on how much irradiance differs between two texels. 1: the whole "
-                      "bound, sharp and noisy. Smaller: smoother, and shadows blur. Most changes cancel, so "
-                      "a tenth is a good start.",
+                      "Factor of the bound on how much irradiance differs between two texels. "
+                      "1: the whole bound, sharp and noisy. Smaller: smoother, and shadows blur. "
+                      "Most changes cancel, so a tenth is a good start.",
                       0.01f, 100.0f)};
         }
     };
@@ -89,8 +90,8 @@ void FilterIrradiance::plan(PassPlan& plan) {
     while ((samples << minLevels) < 2 * noisy.spacing) ++minLevels;
     if (noisy.spacing > samples && params_.levels < minLevels)
         throw Error(
-            "filter_irradiance: the gather has rays for one texel in each {0}x{0}, which {1} levels leave "
-            "with gaps; raise 'levels' to {2} or the gather's rays",
+            "filter_irradiance: the gather has rays for one texel in each {0}x{0}, "
+            "which {1} levels leave with gaps; raise 'levels' to {2} or the gather's rays",
             noisy.spacing, params_.levels, minLevels);
     plan[indirect_].lightBounces = noisy.lightBounces;
     plan.frameImage(indirect_);

@@ -88,9 +88,9 @@ class GBufferPass final : public Pass {
  public:
     static constexpr const char* kName = "gbuffer";
     static constexpr const char* kHelp =
-        "Writes the G-buffer: position, normals, albedo and emission. It holds what the camera sees, samples "
-        "x samples a pixel. Biased at edges, where the reference averages over the pixel; less so the more "
-        "samples.";
+        "Writes the G-buffer: position, normals, albedo and emission. "
+        "It holds what the camera sees, samples x samples a pixel. "
+        "Biased at edges, where the reference averages over the pixel; less so the more samples.";
     struct Params {
         GBufferMethod method = GBufferMethod::Rays;
         uint32_t samplesPerPixelEdge = 1;
@@ -99,20 +99,22 @@ class GBufferPass final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("method", &Params::method,
-                      "rays: camera rays, which meet the same surfaces as every other ray; on a CPU a tenth "
-                      "of raster's time in a large scene. raster: for GPUs whose rays are slow or missing."),
+                      "rays: camera rays, which meet the same surfaces as every other ray; "
+                      "on a CPU a tenth of raster's time in a large scene. "
+                      "raster: for GPUs whose rays are slow or missing."),
                 field("samples_per_pixel_edge", &Params::samplesPerPixelEdge,
-                      "Samples along each edge of a pixel: 2 takes 4 a pixel, on a regular grid. Passes that "
-                      "read the g-buffer do their work for each.",
+                      "Samples along each edge of a pixel: 2 takes 4 a pixel, on a regular grid. "
+                      "Passes that read the g-buffer do their work for each.",
                       1u, 8u),
                 field("normal_maps", &Params::normalMaps,
-                      "filtered: the mean normal of a sample's footprint, which is flatter than each of "
-                      "them: a bias. sharp: the normal at the very point: noise instead, which "
-                      "samples_per_pixel_edge lowers."),
+                      "filtered: the mean normal of a sample's footprint, "
+                      "which is flatter than each of them: a bias. sharp: the normal at the very point: "
+                      "noise instead, which samples_per_pixel_edge lowers."),
                 field("colors", &Params::colors,
-                      "filtered: the mean color of a sample's footprint, by mip levels. sharp: the color at "
-                      "the very point: patterns where texels are smaller than samples are apart, as "
-                      "published in Magalhães 2020 (section 5.1.4), for comparison.")};
+                      "filtered: the mean color of a sample's footprint, by mip levels. "
+                      "sharp: the color at the very point: "
+                      "patterns where texels are smaller than samples are apart, "
+                      "as published in Magalhães 2020 (section 5.1.4), for comparison.")};
         }
     };
 

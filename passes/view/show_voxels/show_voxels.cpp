@@ -30,9 +30,10 @@ class ShowVoxels final : public Pass {
  public:
     static constexpr const char* kName = "show_voxels";
     static constexpr const char* kHelp =
-        "Draws voxels as cubes, each in the color of what it holds. A pixel shows the first voxel on the ray "
-        "through its center, without antialiasing. Surface voxels, or prefiltered ones of any level. For "
-        "looking at, not for scores. Exact, no noise of its own.";
+        "Draws voxels as cubes, each in the color of what it holds. "
+        "A pixel shows the first voxel on the ray through its center, without antialiasing. "
+        "Surface voxels, or prefiltered ones of any level. For looking at, not for scores. "
+        "Exact, no noise of its own.";
     struct Params {
         ShownValue show = ShownValue::Albedo;
         uint32_t redAt = 225;
@@ -40,14 +41,17 @@ class ShowVoxels final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("show", &Params::show,
-                      "Of surface voxels. albedo: diffuse reflectance. irradiance: what arrives at the face "
-                      "that is seen, as the radiance of a white surface there (over pi); magenta where the "
-                      "injection did not look. opacity: 0 to 1. normal: each component from -1 to 1 as 0 to "
-                      "1. lit_faces: how many lit faces of voxels the face sees by its list "
-                      "(cluster_visibility), none as green, red_at as red; of a part of a cluster all count "
-                      "(Cosin and Patow 2022, figure 13); magenta where no surfel looks that way. Of "
-                      "prefiltered voxels, which cones read. radiance: what their surfaces send through the "
-                      "face that is seen. radiance_opacity: the part of a beam that they hide there."),
+                      "Of surface voxels. albedo: diffuse reflectance. "
+                      "irradiance: what arrives at the face that is seen, "
+                      "as the radiance of a white surface there (over pi); "
+                      "magenta where the injection did not look. opacity: 0 to 1. "
+                      "normal: each component from -1 to 1 as 0 to 1. lit_faces: "
+                      "how many lit faces of voxels the face sees by its list (cluster_visibility), "
+                      "none as green, red_at as red; "
+                      "of a part of a cluster all count (Cosin and Patow 2022, figure 13); "
+                      "magenta where no surfel looks that way. Of prefiltered voxels, which cones read. "
+                      "radiance: what their surfaces send through the face that is seen. "
+                      "radiance_opacity: the part of a beam that they hide there."),
                 field("red_at", &Params::redAt, "So many lit faces, and more, are red.", 1u, 1u << 24)
                     .onlyWith(oneOf(&Params::show, {ShownValue::LitFaces})),
                 field("level", &Params::level,

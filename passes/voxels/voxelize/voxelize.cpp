@@ -17,12 +17,14 @@ class VoxelizePass final : public Pass {
  public:
     static constexpr const char* kName = "voxelize";
     static constexpr const char* kHelp =
-        "Turns the scene into surface voxels that hold its materials. A voxel holds albedo, normal, "
-        "emission, metallic, roughness, opacity and area. method exact tests triangles against voxels' "
-        "boxes; dominant_axis rasterises once and conservatively: it adds voxels that are only grazed, and "
-        "samples areas; three_axis rasterises three times and misses surfaces between its sample points: "
-        "those thinner than a voxel / samples_per_voxel_edge in two directions. Source: Magalhães 2020, "
-        "section 3.2; Schwarz and Seidel 2010 (exact).";
+        "Turns the scene into surface voxels that hold its materials. "
+        "A voxel holds albedo, normal, emission, metallic, roughness, opacity and area. "
+        "method exact tests triangles against voxels' boxes; "
+        "dominant_axis rasterises once and conservatively: "
+        "it adds voxels that are only grazed, and samples areas; "
+        "three_axis rasterises three times and misses surfaces between its sample points: "
+        "those thinner than a voxel / samples_per_voxel_edge in two directions. "
+        "Source: Magalhães 2020, section 3.2; Schwarz and Seidel 2010 (exact).";
     struct Params : VoxelBuildParams {
         VoxelizeMethodName method = VoxelizeMethodName::Exact;
         uint32_t resolution = 128;
@@ -31,9 +33,9 @@ class VoxelizePass final : public Pass {
             return std::tuple_cat(
                 std::tuple{
                     field("method", &Params::method,
-                          "How the voxels that triangles meet are found: exact (compute shader, overlap of "
-                          "triangles and boxes), dominant_axis (one conservative raster pass), three_axis "
-                          "(three raster passes)."),
+                          "How the voxels that triangles meet are found: "
+                          "exact (compute shader, overlap of triangles and boxes), "
+                          "dominant_axis (one conservative raster pass), three_axis (three raster passes)."),
                     field("resolution", &Params::resolution, "Voxels along the scene's longest side.", 1u,
                           1024u),
                     field("samples_per_voxel_edge", &Params::samplesPerVoxelEdge,
@@ -89,8 +91,8 @@ void VoxelizePass::record(PassContext& context) {
         context.keepOutputs();
     if (v.voxelCount == 0)
         throw Error(
-            "voxelize: no surface meets the grid of {}x{}x{} voxels; the scene needs triangles with an area, "
-            "and three_axis more 'samples_per_voxel_edge'",
+            "voxelize: no surface meets the grid of {}x{}x{} voxels; "
+            "the scene needs triangles with an area, and three_axis more 'samples_per_voxel_edge'",
             v.grid.resolution.x, v.grid.resolution.y, v.grid.resolution.z);
 }
 

@@ -73,12 +73,12 @@ class GatherVpls final : public Pass {
  public:
     static constexpr const char* kName = "gather_vpls";
     static constexpr const char* kHelp =
-        "Gathers indirect light from virtual point lights (VPLs) by shadow rays. A shadow ray, through "
-        "voxels or exact, goes to each of the lights of sample_vpls. Each texel of a block takes another "
-        "part of them; let filter_irradiance follow. Biased by: bound without compensation_rays, which "
-        "darkens contacts and corners; voxel size or map_resolution, unless visibility is exact. Noisy by: "
-        "the number of virtual lights, as blotches that all texels share. Source: Sun and Agu 2015; Kollig "
-        "and Keller 2004.";
+        "Gathers indirect light from virtual point lights (VPLs) by shadow rays. "
+        "A shadow ray, through voxels or exact, goes to each of the lights of sample_vpls. "
+        "Each texel of a block takes another part of them; let filter_irradiance follow. "
+        "Biased by: bound without compensation_rays, which darkens contacts and corners; "
+        "voxel size or map_resolution, unless visibility is exact. Noisy by: the number of virtual lights, "
+        "as blotches that all texels share. Source: Sun and Agu 2015; Kollig and Keller 2004.";
     struct Params {
         uint32_t block = 4;
         float bound = 1;
@@ -95,41 +95,43 @@ class GatherVpls final : public Pass {
                 field("block", &Params::block,
                       "Texels along the edge of blocks whose texels share all virtual lights out among them.",
                       powersOfTwo(1, 16)),
-                field(
-                    "bound", &Params::bound,
-                    "Virtual lights nearer than this give no more light than at it: factor of the radius of "
-                    "the disc that has as much area as there is surface for each path of light. 0: no bound.",
-                    0.0f, 1000.0f),
+                field("bound", &Params::bound,
+                      "Virtual lights nearer than this give no more light than at it: factor of the radius "
+                      "of the disc that has as much area as there is surface for each path of light. "
+                      "0: no bound.",
+                      0.0f, 1000.0f),
                 field("compensation_rays", &Params::compensationRays,
-                      "Rays of each texel that bring back what 'bound' takes away, which is then no bias but "
-                      "noise near contacts; 0: it is left out.",
+                      "Rays of each texel that bring back what 'bound' takes away, "
+                      "which is then no bias but noise near contacts; 0: it is left out.",
                       0u, 256u)
                     .onlyWith(noneOf(&Params::bound, {0.0f})),
-                field(
-                    "roulette", &Params::roulette,
-                    "Virtual lights that, were nothing in the way, would bring a texel less than this times "
-                    "what its lights do on average, get a shadow ray with a chance in proportion, and count "
-                    "for more by as much. Saves rays for noise; 0: each gets one that faces the texel.",
-                    0.0f, 100.0f),
+                field("roulette", &Params::roulette,
+                      "Virtual lights that, were nothing in the way, "
+                      "would bring a texel less than this times what its lights do on average, "
+                      "get a shadow ray with a chance in proportion, and count for more by as much. "
+                      "Saves rays for noise; 0: each gets one that faces the texel.",
+                      0.0f, 100.0f),
                 field("early_out", &Params::earlyOut,
                       "As 'roulette', but such virtual lights are left out altogether, as the paper does: "
                       "the image is darker by what they would bring. 0: none is.",
                       0.0f, 100.0f)
                     .onlyWith(oneOf(&Params::roulette, {0.0f})),
                 field("visibility", &Params::visibility,
-                      "What hides virtual lights. svo, bricks, bits: surface voxels, on three walks that "
-                      "find the same ones. svo_restart: these by the paper's walk. hybrid_leaves: triangles "
-                      "and grids that the octree's leaves hold (build_hybrid_leaves). shadow_map: what a map "
-                      "of each virtual light's hemisphere sees, by a ray a texel. imperfect_shadow_map: the "
-                      "same, made of points (Ritschel et al. 2008). exact: triangles. none: nothing."),
+                      "What hides virtual lights. "
+                      "svo, bricks, bits: surface voxels, on three walks that find the same ones. "
+                      "svo_restart: these by the paper's walk. hybrid_leaves: "
+                      "triangles and grids that the octree's leaves hold (build_hybrid_leaves). "
+                      "shadow_map: what a map of each virtual light's hemisphere sees, by a ray a texel. "
+                      "imperfect_shadow_map: the same, made of points (Ritschel et al. 2008). "
+                      "exact: triangles. none: nothing."),
                 field("restart_epsilon", &Params::restartEpsilon,
-                      "Voxels by which the walk steps past each node, as the paper does, which skips what is "
-                      "thinner; 0 steps exactly.",
+                      "Voxels by which the walk steps past each node, as the paper does, "
+                      "which skips what is thinner; 0 steps exactly.",
                       0.0f, 1.0f)
                     .onlyWith(oneOf(&Params::visibility, {VplVisibility::SvoRestart})),
                 field("end_epsilon", &Params::endEpsilon,
-                      "Voxels by which both ends of a shadow ray are moved along it, as the paper does; 0 "
-                      "moves them out of their surfaces' voxels along normals.",
+                      "Voxels by which both ends of a shadow ray are moved along it, as the paper does; "
+                      "0 moves them out of their surfaces' voxels along normals.",
                       0.0f, 64.0f)
                     .onlyWith(oneOf(&Params::visibility, {VplVisibility::SvoRestart})),
                 field("map_resolution", &Params::mapResolution,

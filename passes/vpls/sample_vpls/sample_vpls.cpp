@@ -75,12 +75,13 @@ class SampleVpls final : public Pass {
  public:
     static constexpr const char* kName = "sample_vpls";
     static constexpr const char* kHelp =
-        "Places virtual point lights (VPLs) where rays from the lights hit. The rays go on, bounce after "
-        "bounce. From these points gather_vpls sends indirect light. Lights of every kind send rays by their "
-        "power. All surfaces are Lambert surfaces of their base colour. Biased by: shading normals, whose "
-        "factor on light paths is left out; voxel size with 'bounce: svo'. Noisy by: vpls_per_bounce. Each "
-        "frame draws the same numbers, so that virtual lights move with a light, unless 'resample' is set. "
-        "Source: Keller 1997; Sun and Agu 2015, section 3.2.";
+        "Places virtual point lights (VPLs) where rays from the lights hit. "
+        "The rays go on, bounce after bounce. From these points gather_vpls sends indirect light. "
+        "Lights of every kind send rays by their power. "
+        "All surfaces are Lambert surfaces of their base colour. Biased by: shading normals, "
+        "whose factor on light paths is left out; voxel size with 'bounce: svo'. Noisy by: "
+        "vpls_per_bounce. Each frame draws the same numbers, so that virtual lights move with a light, "
+        "unless 'resample' is set. Source: Keller 1997; Sun and Agu 2015, section 3.2.";
     struct Params {
         uint32_t vplsPerBounce = 1024;
         uint32_t bounces = 3;
@@ -90,22 +91,23 @@ class SampleVpls final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("vpls_per_bounce", &Params::vplsPerBounce,
-                      "Paths of light. Each leaves a virtual point light at each of its hits, until Russian "
-                      "roulette by albedo ends it. Each light sends at least one.",
+                      "Paths of light. Each leaves a virtual point light at each of its hits, "
+                      "until Russian roulette by albedo ends it. Each light sends at least one.",
                       1u, 1u << 24)
                     .lessNoise(),
                 field("bounces", &Params::bounces, "Bounces of light: hits of a path that count.", 1u, 16u),
                 field("first", &Params::first,
-                      "Where paths begin. light_rays: where rays from lights of every kind hit, which carry "
-                      "equal power. rsm: at texels of reflective shadow maps (render_rsm), picked by the "
-                      "flux that their points reflect; point, spot and directional lights alone."),
+                      "Where paths begin. light_rays: where rays from lights of every kind hit, "
+                      "which carry equal power. rsm: at texels of reflective shadow maps (render_rsm), "
+                      "picked by the flux that their points reflect; "
+                      "point, spot and directional lights alone."),
                 field("bounce", &Params::bounce,
-                      "What rays from one virtual light to the next meet. exact: triangles. svo: surface "
-                      "voxels, and virtual lights past the first bounce stand before them, with the voxel's "
-                      "mean normal and albedo."),
+                      "What rays from one virtual light to the next meet. exact: triangles. "
+                      "svo: surface voxels, and virtual lights past the first bounce stand before them, "
+                      "with the voxel's mean normal and albedo."),
                 field("resample", &Params::resample,
-                      "Whether each frame draws numbers of its own, for comparison: virtual lights then "
-                      "jump.")};
+                      "Whether each frame draws numbers of its own, for comparison: "
+                      "virtual lights then jump.")};
         }
     };
 
@@ -243,8 +245,8 @@ void SampleVpls::record(PassContext& context) {
     context.report("vpls", vpls.activeCount);
     if (vpls.activeCount == 0 && !activeSources.empty())
         throw Error(
-            "{}: none of {} rays from the lights hit a surface that reflects light; let lights shine on "
-            "the scene, or raise 'vpls_per_bounce'",
+            "{}: none of {} rays from the lights hit a surface that reflects light; "
+            "let lights shine on the scene, or raise 'vpls_per_bounce'",
             kName, vpls.paths);
 }
 

@@ -18,10 +18,11 @@ class SelectVpls final : public Pass {
  public:
     static constexpr const char* kName = "select_vpls";
     static constexpr const char* kHelp =
-        "Picks virtual point lights (VPLs) by what they bring to random texels. Keeps a number of those of "
-        "sample_vpls for gather_vpls. Exact shadow rays measure what they bring to a few random texels. "
-        "Those that stay count for more. No bias: any may stay. Noisy by: count; and points, which miss "
-        "where a light is seen from few places. Source: Georgiev and Slusallek 2010.";
+        "Picks virtual point lights (VPLs) by what they bring to random texels. "
+        "Keeps a number of those of sample_vpls for gather_vpls. "
+        "Exact shadow rays measure what they bring to a few random texels. Those that stay count for more. "
+        "No bias: any may stay. Noisy by: count; "
+        "and points, which miss where a light is seen from few places. Source: Georgiev and Slusallek 2010.";
     struct Params {
         uint32_t count = 2048;
         uint32_t points = 32;
@@ -34,14 +35,15 @@ class SelectVpls final : public Pass {
                 field("points", &Params::points,
                       "Texels that each virtual light is tried on, others for each.", 1u, 1024u)
                     .lessNoise(),
-                field(
-                    "unseen", &Params::unseen,
-                    "Fraction of 'count' that goes by flux alone, to virtual lights that these texels don't "
-                    "see too. Smaller: they are rarer and brighter.",
-                    0.001f, 1.0f),
+                field("unseen", &Params::unseen,
+                      "Fraction of 'count' that goes by flux alone, "
+                      "to virtual lights that these texels don't see too. "
+                      "Smaller: they are rarer and brighter.",
+                      0.001f, 1.0f),
                 field("bound", &Params::bound,
-                      "That of gather_vpls, so that virtual lights near the texels are weighed by what it "
-                      "will let them bring. Another one biases nothing.",
+                      "That of gather_vpls, "
+                      "so that virtual lights near the texels are weighed by what it will let them bring. "
+                      "Another one biases nothing.",
                       0.0f, 1000.0f)};
         }
     };

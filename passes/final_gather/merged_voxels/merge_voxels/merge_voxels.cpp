@@ -33,25 +33,25 @@ class MergeVoxels final : public Pass {
  public:
     static constexpr const char* kName = "merge_voxels";
     static constexpr const char* kHelp =
-        "Merges neighbouring voxels of nearly the same light into k-d trees. Each face has its own tree, "
-        "whose leaves stand for merged voxels. The trees are for gather_rays. The tree is grown down to "
-        "voxels and pruned where leaves are not worth their memory. Runs on the host. Biased by: tolerance; "
-        "flux is kept. Source: cost-complexity pruning (Breiman et al. 1984; Chou, Lookabaugh and Gray "
-        "1989).";
+        "Merges neighbouring voxels of nearly the same light into k-d trees. "
+        "Each face has its own tree, whose leaves stand for merged voxels. The trees are for gather_rays. "
+        "The tree is grown down to voxels and pruned where leaves are not worth their memory. "
+        "Runs on the host. Biased by: tolerance; flux is kept. "
+        "Source: cost-complexity pruning (Breiman et al. 1984; Chou, Lookabaugh and Gray 1989).";
     struct Params {
         float tolerance = 0.3f;
         MergedLight light = MergedLight::All;
         static constexpr auto schema() {
             return std::tuple{
                 field("tolerance", &Params::tolerance,
-                      "Relative error of irradiance that is allowed over one voxel's face: a leaf is kept "
-                      "where it lowers the squared relative error, times area, by more than this squared "
-                      "voxel faces. 0: voxels are merged only where they hold the same. Black is merged with "
-                      "black alone.",
+                      "Relative error of irradiance that is allowed over one voxel's face: "
+                      "a leaf is kept where it lowers the squared relative error, times area, "
+                      "by more than this squared voxel faces. 0: "
+                      "voxels are merged only where they hold the same. Black is merged with black alone.",
                       0.0f, 30.0f),
                 field("light", &Params::light,
-                      "all: direct and indirect light. indirect: gather_rays measures direct light at each "
-                      "hit.")};
+                      "all: direct and indirect light. "
+                      "indirect: gather_rays measures direct light at each hit.")};
         }
     };
 

@@ -19,13 +19,14 @@ class LightOctree final : public Pass {
  public:
     static constexpr const char* kName = "light_octree";
     static constexpr const char* kHelp =
-        "Lights an octree's leaves by RSM texels and filters them upwards. The leaves are those of "
-        "voxelize_octree, each lit by the texels of render_rsm that see it. The result is radiance voxels "
-        "for gather_stepped_cones or gather_cones. As published in Arnebäck 2017 (sections 3.2.3 and 3.2.4), "
-        "for comparison: an injection and filter_voxels with layout svo are the method to use. Point, spot "
-        "and directional lights; no bounces, and nothing that surfaces emit. Biased by: voxel size; "
-        "rsm_resolution (leaves between texels stay dark); mean normals of leaves; 8 bits. Source: Arnebäck "
-        "2017, section 3.2.3.";
+        "Lights an octree's leaves by RSM texels and filters them upwards. "
+        "The leaves are those of voxelize_octree, each lit by the texels of render_rsm that see it. "
+        "The result is radiance voxels for gather_stepped_cones or gather_cones. "
+        "As published in Arnebäck 2017 (sections 3.2.3 and 3.2.4), for comparison: "
+        "an injection and filter_voxels with layout svo are the method to use. "
+        "Point, spot and directional lights; no bounces, and nothing that surfaces emit. Biased by: "
+        "voxel size; rsm_resolution (leaves between texels stay dark); mean normals of leaves; 8 bits. "
+        "Source: Arnebäck 2017, section 3.2.3.";
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
 
