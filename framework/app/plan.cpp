@@ -76,7 +76,7 @@ void addPlanCommand(CLI::App& app, int&) {
     command->callback([arguments] {
         Registry registry;
         registerPasses(registry);
-        const Study study = wireConfig(arguments->file, arguments->config, registry);
+        const Study study = loadStudy(arguments->file, arguments->config, registry);
         fmt::print("{}\n", planValue(study, arguments->file).json(-1));
     });
 }

@@ -11,12 +11,12 @@
 
 namespace voxray {
 
-Study wireConfig(const std::filesystem::path& file, const ConfigOptions& options, const Registry& registry) {
-    Study study = wireExperiment(loadExperiment(file, options), registry);
+Study loadStudy(const std::filesystem::path& file, const ConfigOptions& options, const Registry& registry) {
+    Study study = makeStudy(loadExperiment(file, options), registry);
     if (options.only.empty()) return study;
     ConfigOptions everything = options;
     everything.only.clear();
-    const Study whole = wireExperiment(loadExperiment(file, everything), registry);
+    const Study whole = makeStudy(loadExperiment(file, everything), registry);
     for (const auto& [id, count] : variantsWithout(study))
         if (runsSomewhere(whole, id)) study.deselected.push_back(id);
     return study;
@@ -29,7 +29,7 @@ void planExperiment(const std::filesystem::path& file, const ConfigArguments& ar
     options.scenes = arguments.scenes;
     options.sourceRoot = sourceRoot();
     options.preview = pathTracedPreview;
-    PreparedExperiment prepared(wireConfig(file, arguments.config, registry), options);
+    PreparedExperiment prepared(loadStudy(file, arguments.config, registry), options);
     for (const std::string& warning : prepared.warnings())
         fmt::print(stderr, "voxray: warning: {}\n", warning);
     use(prepared);

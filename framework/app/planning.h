@@ -9,10 +9,10 @@
 namespace voxray {
 
 /// Reads a config and wires it. Passes that values which --only leaves out would run are no mistake.
-Study wireConfig(const std::filesystem::path& file, const ConfigOptions& options, const Registry& registry);
+Study loadStudy(const std::filesystem::path& file, const ConfigOptions& options, const Registry& registry);
 
 /// Plans the experiment of a config as a run would, prints what may mislead, and hands it over.
-/// @throws UsageError as loadExperiment(), wireExperiment() and runExperiment().
+/// @throws UsageError as loadExperiment(), makeStudy() and runExperiment().
 void planExperiment(const std::filesystem::path& file, const ConfigArguments& arguments, RunOptions options,
                     const std::function<void(PreparedExperiment&)>& use);
 

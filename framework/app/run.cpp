@@ -57,9 +57,9 @@ int run(const RunArguments& arguments) {
     // Nothing runs while any of the configs is wrong.
     std::vector<Study> experiments;
     for (const std::filesystem::path& config : arguments.configs) {
-        experiments.push_back(wireConfig(config, arguments.config, registry));
+        experiments.push_back(loadStudy(config, arguments.config, registry));
         for (const std::string& profile : profileNames(config))
-            wireExperiment(loadExperiment(config, {profile, {}}), registry);
+            makeStudy(loadExperiment(config, {profile, {}}), registry);
     }
     if (!arguments.options.part.empty() && experiments.size() > 1)
         throw UsageError("--part: it is of one config, and {} are given", experiments.size());

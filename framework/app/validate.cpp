@@ -60,7 +60,7 @@ void validate(const std::filesystem::path& config, const ConfigOptions& options,
     for (const std::string& profile : profiles) {
         const std::string under =
             profile.empty() || profile == options.profile ? "" : fmt::format(" (with --profile {})", profile);
-        Study study = wireConfig(config, {profile, options.assignments, options.only}, registry);
+        Study study = loadStudy(config, {profile, options.assignments, options.only}, registry);
         planVariants(study, loader, views, capableDevice());
         for (const std::string& warning : study.warnings)
             if (said.insert(warning).second)

@@ -211,7 +211,7 @@ Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
     Value config = root;
     if (!options.profile.empty()) applyProfile(config, options.profile);
     for (const std::string& assignment : options.assignments) applyAssignment(config, assignment);
-    keepOnly(config, options.only);
+    selectSweepValues(config, options.only);
     Experiment experiment = readExperiment(std::move(config));
     checkEmptyBlocks(root, experiment.config);
     experiment.warnings = idleAxes(root, experiment);

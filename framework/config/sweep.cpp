@@ -148,7 +148,7 @@ std::vector<std::string> sweepLabels(const Value& axis) {
     return names;
 }
 
-void keepOnly(Value& config, const std::vector<std::string>& choices) {
+void selectSweepValues(Value& config, const std::vector<std::string>& choices) {
     std::map<std::string, std::set<std::string>> chosen;
     for (const std::string& choice : choices) {
         const size_t equals = choice.find('=');

@@ -28,7 +28,7 @@ std::vector<std::string> sweepLabels(const Value& axis);
 /// Takes all values out of a config's sweep but the chosen ones; axes without a choice stay whole.
 /// @param choices "axis=value", the value as sweepLabels() has it. @throws UsageError for one that isn't
 /// there.
-void keepOnly(Value& config, const std::vector<std::string>& choices);
+void selectSweepValues(Value& config, const std::vector<std::string>& choices);
 
 /// Label if a variant doesn't have an axis.
 inline constexpr const char* kNoValue = "-";

@@ -278,7 +278,7 @@ RunSummary runExperiment(Study study, const RunOptions& options) {
 }
 
 RunSummary runExperiment(const Experiment& experiment, const RunOptions& options, const Registry& registry) {
-    return runExperiment(wireExperiment(experiment, registry), options);
+    return runExperiment(makeStudy(experiment, registry), options);
 }
 
 }  // namespace voxray

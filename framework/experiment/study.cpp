@@ -120,7 +120,7 @@ Variant::Variant(SweepPoint point, const Registry& registry)
                          kComparedImage, fmt::join(registry.writersOf(kComparedImage), ", "));
     for (const char* part : kPartsOfLight) graph.checkReadsLast(kComparedImage, part);
     unused = graph.unused();
-    leftOut = graph.keepOnly(comparedPorts());
+    leftOut = graph.cullUnused(comparedPorts());
     resolved = graph.resolved();
     for (const std::string& port : comparedPorts()) noiseParameters[port] = graph.noiseParameters(port);
 }
@@ -130,17 +130,17 @@ Graph Study::referenceGraph() const {
     list.where = experiment.reference.where;
     list.items.push_back(experiment.reference);
     Graph graph(*registry, list);
-    graph.keepOnly(referencePorts());
+    graph.cullUnused(referencePorts());
     return graph;
 }
 
 Graph Study::graphOf(const Variant& variant) const {
     Graph graph(*registry, variant.setup.graph);
-    graph.keepOnly(comparedPorts());
+    graph.cullUnused(comparedPorts());
     return graph;
 }
 
-Study wireExperiment(Experiment experiment, const Registry& registry) {
+Study makeStudy(Experiment experiment, const Registry& registry) {
     checkPassNames(experiment, registry);
     Study study;
     study.registry = &registry;

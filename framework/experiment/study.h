@@ -19,7 +19,7 @@ inline constexpr const char* kIndirectImage = "indirect";
 /// Ports whose sum is the compared image.
 inline constexpr const char* kPartsOfLight[] = {"direct", kIndirectImage};
 
-/// One combination of the sweep's values. Its members are filled in step by step: graph (wireExperiment),
+/// One combination of the sweep's values. Its members are filled in step by step: graph (makeStudy),
 /// memory (planVariants), reference (PreparedExperiment), result (run).
 struct Variant : SweepPoint {
     /// Makes its graph and connects the ports. @throws UsageError with file and line.
@@ -66,7 +66,7 @@ struct Study {
 /// @throws UsageError with file and line: a wrong graph; a swept pass that no image of its variants depends
 /// on, while one of another value is used; a pass that overwrites the compared image of an earlier pass
 /// without reading anything of it.
-Study wireExperiment(Experiment experiment, const Registry& registry);
+Study makeStudy(Experiment experiment, const Registry& registry);
 
 /// Culled passes by id, with the number of variants that cull them.
 std::map<std::string, size_t> variantsWithout(const Study& study);

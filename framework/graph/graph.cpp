@@ -35,8 +35,8 @@ class MemoryLimit {
 };
 
 /// Increments the versions of the outputs, and records which versions of all resources the pass has seen.
-void updateVersions(GraphNode& node, bool outputsKept) {
-    if (!outputsKept)
+void updateVersions(GraphNode& node, bool outputsUnchanged) {
+    if (!outputsUnchanged)
         for (const std::unique_ptr<Resource>& output : node.outputs) ++output->version;
     node.seenVersions.emplace();
     for (const Resource* resource : node.resources)
@@ -137,11 +137,11 @@ std::vector<Graph::Input> Graph::unboundInputs(const std::string& portName) cons
     return inputs;
 }
 
-std::string Graph::whyLeftOut(const std::string& id) const {
-    return voxray::whyLeftOut(impl_->nodes, id);
+std::string Graph::whyCulled(const std::string& id) const {
+    return voxray::whyCulled(impl_->nodes, id);
 }
 
-std::vector<std::string> Graph::keepOnly(const std::vector<std::string>& portNames) {
+std::vector<std::string> Graph::cullUnused(const std::vector<std::string>& portNames) {
     std::vector<GraphNode>& nodes = impl_->nodes;
     const Needed needed = neededFor(nodes, portNames);
     std::vector<GraphNode> kept;
@@ -290,7 +290,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
             stream.endLabel();
         };
         impl_->withSizeAdvice(node, [&] { impl_->memory[n].record(stream, record); });
-        updateVersions(node, context.outputsKept());
+        updateVersions(node, context.outputsUnchanged());
 
         PassSample sample;
         sample.rays = tracer.raysTraced() - raysBefore + context.extraRays;

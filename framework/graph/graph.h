@@ -62,7 +62,7 @@ class Graph {
 
     /// Culls passes that none of the last writers of `portNames` depends on. Passes without outputs, which
     /// report values, stay. @return the culled passes' ids.
-    std::vector<std::string> keepOnly(const std::vector<std::string>& portNames);
+    std::vector<std::string> cullUnused(const std::vector<std::string>& portNames);
 
     /// Parameters whose larger values lower the noise of the last output of a name: "<id>.<parameter>", in
     /// execution order, without those that have no effect.
@@ -82,8 +82,8 @@ class Graph {
     std::vector<Input> unboundInputs(const std::string& portName) const;
 
     /// Why a pass that no compared image depends on is never run, and a remedy, with file and line. Before
-    /// keepOnly().
-    std::string whyLeftOut(const std::string& id) const;
+    /// cullUnused().
+    std::string whyCulled(const std::string& id) const;
 
     /// Whether any pass has an output of this name.
     bool writes(const std::string& portName) const;

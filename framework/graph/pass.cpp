@@ -16,7 +16,7 @@ bool PassContext::inputsChanged() {
     const bool isChanged = !seenVersions_ || std::ranges::any_of(resources(), [&](const Resource* resource) {
         return resource && changed(*resource);
     });
-    outputsKept_ = !isChanged;
+    outputsUnchanged_ = !isChanged;
     return isChanged;
 }
 

@@ -127,8 +127,8 @@ class PassContext : public PortAccess {
     /// return without writing them.
     bool inputsChanged();
     /// Tells the graph that this run leaves the outputs unchanged.
-    void keepOutputs() { outputsKept_ = true; }
-    bool outputsKept() const { return outputsKept_; }
+    void markOutputsUnchanged() { outputsUnchanged_ = true; }
+    bool outputsUnchanged() const { return outputsUnchanged_; }
 
     /// Runs a compute program (CommandStream::dispatch).
     void dispatch(const Program& program, const Invocations& invocations, const Bindings& bindings) {
@@ -158,7 +158,7 @@ class PassContext : public PortAccess {
  private:
     const std::vector<uint64_t>* seenVersions_;
     const Image& black_;
-    bool outputsKept_ = false;
+    bool outputsUnchanged_ = false;
 };
 
 /// A stage of a graph. A pass class also has `struct Params` with a schema, a constructor from Params,

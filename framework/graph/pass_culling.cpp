@@ -37,7 +37,7 @@ Needed neededFor(const std::vector<GraphNode>& nodes, const std::vector<std::str
     return needed;
 }
 
-std::string whyLeftOut(const std::vector<GraphNode>& nodes, const std::string& id) {
+std::string whyCulled(const std::vector<GraphNode>& nodes, const std::string& id) {
     const auto pass = std::ranges::find(nodes, id, &GraphNode::id);
     std::string why =
         "no pass reads what it writes, and no image that is compared depends on it: leave it out";

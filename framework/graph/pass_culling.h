@@ -20,6 +20,6 @@ Needed neededFor(const std::vector<GraphNode>& nodes, const std::vector<std::str
 
 /// "graph.yaml:5: 'a' is never run: ...", with the reason and a remedy, for a pass that no compared image
 /// depends on. @param nodes of the whole graph, in execution order.
-std::string whyLeftOut(const std::vector<GraphNode>& nodes, const std::string& id);
+std::string whyCulled(const std::vector<GraphNode>& nodes, const std::string& id);
 
 }  // namespace voxray

@@ -40,7 +40,7 @@ struct Resource {
 };
 
 /// Bounces of stored light after surfaces reflect it, from its Resource::lightBounces.
-inline std::optional<uint32_t> oneMore(std::optional<uint32_t> bounces) {
+inline std::optional<uint32_t> oneMoreBounce(std::optional<uint32_t> bounces) {
     return bounces ? std::optional(*bounces + 1) : std::nullopt;
 }
 

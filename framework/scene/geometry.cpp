@@ -268,7 +268,7 @@ uint32_t instanceOf(const Geometry& geometry, uint32_t triangle) {
     return uint32_t(next - geometry.instances.begin()) - 1;
 }
 
-std::vector<InstanceRange> movingRuns(const Geometry& geometry) {
+std::vector<InstanceRange> movingInstanceRanges(const Geometry& geometry) {
     std::vector<InstanceRange> runs;
     bool follows = false;
     for (const InstanceRange& range : geometry.instances) {

@@ -74,7 +74,7 @@ SceneState evaluate(std::shared_ptr<const Scene> scene, double timeSeconds,
 uint32_t instanceOf(const Geometry& geometry, uint32_t triangle);
 
 /// Ranges of consecutive moving instances.
-std::vector<InstanceRange> movingRuns(const Geometry& geometry);
+std::vector<InstanceRange> movingInstanceRanges(const Geometry& geometry);
 
 /// Updates a state to another time, in place: moving instances, lights, cameras and panes, as `evaluate`
 /// would. Triangle indices and bounds don't change, nor do the triangles of a frozen state.

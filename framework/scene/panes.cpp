@@ -46,10 +46,10 @@ SplitScene splitPanes(std::shared_ptr<const Scene> scene) {
 
     SplitScene split;
     auto surfaces = std::make_shared<Scene>(*scene);
-    keepInstances(*surfaces, [&](const Instance& instance) { return !isPaneInstance(instance); });
+    filterInstances(*surfaces, [&](const Instance& instance) { return !isPaneInstance(instance); });
     split.surfaces = std::move(surfaces);
     auto onlyPanes = std::make_shared<Scene>(*scene);
-    keepInstances(*onlyPanes, isPaneInstance);
+    filterInstances(*onlyPanes, isPaneInstance);
     dropUnusedTextures(*onlyPanes);
     onlyPanes->lights.clear();
     onlyPanes->environment = {};

@@ -4,7 +4,7 @@
 
 namespace voxray {
 
-void keepInstances(Scene& scene, const std::function<bool(const Instance&)>& isKept) {
+void filterInstances(Scene& scene, const std::function<bool(const Instance&)>& isKept) {
     std::erase_if(scene.instances, [&](const Instance& instance) { return !isKept(instance); });
 
     // Unused meshes are emptied, which keeps indices
@@ -30,7 +30,7 @@ std::vector<std::string> namesOfInstance(const Scene& scene, const Instance& ins
 
 size_t hide(Scene& scene, const std::string& name) {
     const size_t before = scene.instances.size();
-    keepInstances(scene, [&](const Instance& instance) {
+    filterInstances(scene, [&](const Instance& instance) {
         return std::ranges::count(namesOfInstance(scene, instance), name) == 0;
     });
     return before - scene.instances.size();

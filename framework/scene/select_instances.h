@@ -9,7 +9,7 @@
 namespace voxray {
 
 /// Removes instances for which `isKept` is false. Nodes, materials, lights and the content hash don't change.
-void keepInstances(Scene& scene, const std::function<bool(const Instance&)>& isKept);
+void filterInstances(Scene& scene, const std::function<bool(const Instance&)>& isKept);
 
 /// Nonempty names of an instance's mesh, material, node and ancestors.
 std::vector<std::string> namesOfInstance(const Scene& scene, const Instance& instance);

@@ -191,7 +191,7 @@ SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const 
 void updateSceneStructure(Device& device, CommandStream& stream, const SceneState& state,
                           const TracingOrder& order, SceneStructure& scene) {
     const Geometry& geometry = state.geometry;
-    for (const InstanceRange& range : movingRuns(geometry))
+    for (const InstanceRange& range : movingInstanceRanges(geometry))
         stream.upload(
             scene.positions,
             std::as_bytes(std::span(geometry.positions).subspan(range.firstVertex, range.vertexCount)),

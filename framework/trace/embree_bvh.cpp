@@ -67,7 +67,7 @@ void EmbreeBvh::sort(const SceneState& state) {
         return group;
     };
     uint32_t next = 0, vertices = 0;
-    dynamicBvh.instances = movingRuns(geometry);
+    dynamicBvh.instances = movingInstanceRanges(geometry);
     for (const InstanceRange& range : dynamicBvh.instances) {
         for (; next < range.firstTriangle; ++next) add(staticBvh, next);
         for (; next < range.firstTriangle + range.triangleCount; ++next)

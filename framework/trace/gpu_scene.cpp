@@ -249,7 +249,7 @@ void updateGpuScene(CommandStream& stream, const SceneState& state, GpuScene& sc
         stream.upload(to, std::as_bytes(std::span(elements).subspan(first, count)),
                       first * sizeof(elements[0]));
     };
-    for (const InstanceRange& run : movingRuns(g)) {
+    for (const InstanceRange& run : movingInstanceRanges(g)) {
         upload(scene.positions, g.positions, run.firstVertex, run.vertexCount);
         upload(scene.attributes, g.attributes, run.firstVertex, run.vertexCount);
         upload(scene.triangles, g.triangles, run.firstTriangle, run.triangleCount);

@@ -84,7 +84,7 @@ std::vector<uint32_t> sortIntoChunks(TracingOrder& order, const TracingOrder::Ra
 TracingOrder tracingOrder(const SceneState& state, uint32_t maxChunk) {
     const Geometry& geometry = state.geometry;
     std::vector<bool> moves(geometry.triangles.size());
-    for (const InstanceRange& range : movingRuns(geometry))
+    for (const InstanceRange& range : movingInstanceRanges(geometry))
         std::fill_n(moves.begin() + ptrdiff_t(range.firstTriangle), range.triangleCount, true);
 
     // Opaque static, opaque moving, masked static, masked moving.

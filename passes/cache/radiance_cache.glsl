@@ -7,7 +7,7 @@
 #include "passes/cache/radiance_cache_types.h"
 #include "shaders/scene/sampling.glsl"
 
-layout(scalar) readonly buffer RadianceCacheGridAt { RadianceCacheGrid data; } radianceCacheGrid;
+layout(scalar) readonly buffer RadianceCacheGridRef { RadianceCacheGrid data; } radianceCacheGrid;
 layout(scalar) coherent buffer RadianceCacheKeys { uint64_t data[]; } radianceCacheKeys;  // 0: an empty slot.
 // By slot: red, green and blue irradiance, and the number of samples.
 layout(scalar) buffer RadianceCacheSums { uint64_t data[]; } radianceCacheSums;
@@ -60,7 +60,7 @@ uint findRadianceCell(RadianceCacheGrid g, uint64_t key) {
 // The same, which takes an empty slot where there is none; NO_CELL where all slots that it may lie in are taken. Slots are never
 // emptied meanwhile, so that a key has one slot, in whichever order threads come. `collisions`: slots that a new cell found taken
 // by others. Their sum over all cells does not depend on the order either, which is a property of linear probing.
-uint takeRadianceCell(RadianceCacheGrid g, uint64_t key, out bool isNew, out uint collisions) {
+uint insertRadianceCell(RadianceCacheGrid g, uint64_t key, out bool isNew, out uint collisions) {
     isNew = false;
     collisions = 0u;
     const uint first = radianceCacheFirstSlot(key);

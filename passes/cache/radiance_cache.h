@@ -14,14 +14,14 @@ namespace voxray {
 /// hashing); NVIDIA's SHaRC.
 struct RadianceCache : Resource {
     gpu::RadianceCacheGrid grid{};
-    Buffer gridAt;  ///< The same, on the device.
-    Buffer keys;    ///< uint64_t a slot, 0: empty.
-    Buffer sums;    ///< 4 uint64_t a slot: irradiance of all samples, and their number.
+    Buffer gridBuffer;  ///< The same, on the device.
+    Buffer keys;        ///< uint64_t a slot, 0: empty.
+    Buffer sums;        ///< 4 uint64_t a slot: irradiance of all samples, and their number.
 
     static constexpr uint64_t kKeyBytes = sizeof(uint64_t), kSumBytes = 4 * sizeof(uint64_t);
     /// What a shader binds that includes radiance_cache.glsl.
     std::vector<Binding> bindings() const {
-        return {ifUsed({"radianceCacheGrid", gridAt}), ifUsed({"radianceCacheKeys", keys}),
+        return {ifUsed({"radianceCacheGrid", gridBuffer}), ifUsed({"radianceCacheKeys", keys}),
                 ifUsed({"radianceCacheSums", sums})};
     }
 };

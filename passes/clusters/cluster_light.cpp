@@ -5,14 +5,14 @@ namespace voxray {
 std::vector<Binding> gatherBindings(const ClusterVisibility& visibility, const ClusterLight& light) {
     return {{"visibilityLists", visibility.chunkAddresses},
             {"componentRadiosity", light.components},
-            {"PatchRadiosityAt", light.patches.at()}};
+            {"PatchRadiosityRef", light.patches.ref()}};
 }
 
 void ClusterGather::gather(CommandStream& stream, const ClusterVisibility& visibility,
                            const ClusterLight& light, const LargeBuffer& irradiance) const {
     stream.dispatch(gather_, visibility.patchCount,
                     {gatherBindings(visibility, light),
-                     {"IrradianceAt", irradiance.at()},
+                     {"IrradianceRef", irradiance.ref()},
                      {"lists", visibility.layout},
                      {"patches", visibility.patchCount}});
 }

@@ -7,7 +7,7 @@
 #include "passes/surfels/radiosity.glsl"
 
 layout(scalar) readonly buffer ComponentRadiosity { uint data[]; } componentRadiosity;  // By component and face.
-layout(scalar) readonly buffer PatchRadiosityAt { LargeUints patchRadiosity; };
+layout(scalar) readonly buffer PatchRadiosityRef { LargeUints patchRadiosity; };
 
 // W/m²
 vec3 gatherPatch(VisibilityListLayout lists, uint patchNumber) {

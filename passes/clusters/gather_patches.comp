@@ -3,7 +3,7 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer IrradianceAt { LargeUints irradiance; };
+layout(scalar) readonly buffer IrradianceRef { LargeUints irradiance; };
 layout(push_constant, scalar) uniform Push {
     VisibilityListLayout lists;
     uint patches;

@@ -5,7 +5,7 @@
 #include "passes/clusters/surface_group_types.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer GroupedSurfels { GroupedSurfel data[]; };
-layout(scalar) readonly buffer GroupedSurfelsAt { GroupedSurfels groupedSurfels; };
+layout(scalar) readonly buffer GroupedSurfelsRef { GroupedSurfels groupedSurfels; };
 
 // A point in the space before a surfel, m.
 vec3 pointAbove(GroupedSurfel s) { return s.position + s.height * s.normal; }

@@ -1,6 +1,6 @@
 // A stream of rays through hybrid leaves.
 #include "shaders/compute/linear_index.glsl"
-#include "passes/hybrid_leaves/hybrid_walk.glsl"
+#include "passes/hybrid_leaves/hybrid_traversal.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kOccluded = false;
 

@@ -11,8 +11,9 @@ constexpr uint32_t kRaysPerLaunch = 1u << 26;
 
 }  // namespace
 
-HybridTracer::HybridTracer(ProgramOwner& owner, HybridWalk walk)
-    : march_(owner, walk == HybridWalk::Hierarchical ? VoxelWalk::Bricks : VoxelWalk::SvoVoxels),
+HybridTracer::HybridTracer(ProgramOwner& owner, HybridTraversal walk)
+    : march_(owner,
+             walk == HybridTraversal::Hierarchical ? VoxelTraversal::Bricks : VoxelTraversal::SvoVoxels),
       closestHit_(owner, "hybrid_tracer.comp", march_.defines()),
       occluded_(owner, "hybrid_tracer.comp", march_.defines()) {}
 

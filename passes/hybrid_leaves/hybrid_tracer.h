@@ -10,24 +10,24 @@
 namespace voxray {
 
 /// How a ray traverses leaves.
-enum class HybridWalk {
-    Hierarchical,  ///< Skips empty space at all scales (VoxelWalk::Bricks).
+enum class HybridTraversal {
+    Hierarchical,  ///< Skips empty space at all scales (VoxelTraversal::Bricks).
     VoxelByVoxel,  ///< From the root for each finest voxel, empty ones included (Seok 2021, figure 12).
 };
 template <>
-struct EnumNames<HybridWalk> {
-    static constexpr std::array names{std::pair{HybridWalk::Hierarchical, "hierarchical"},
-                                      std::pair{HybridWalk::VoxelByVoxel, "voxel_by_voxel"}};
+struct EnumNames<HybridTraversal> {
+    static constexpr std::array names{std::pair{HybridTraversal::Hierarchical, "hierarchical"},
+                                      std::pair{HybridTraversal::VoxelByVoxel, "voxel_by_voxel"}};
 };
 
 /// Traces streams of rays through hybrid leaves. Hit::triangle is encoded as in
 /// passes/hybrid_leaves/hybrid_types.h. A pass calls plan() from its own.
 class HybridTracer final : public RayTracer {
  public:
-    HybridTracer(ProgramOwner& owner, HybridWalk walk);
+    HybridTracer(ProgramOwner& owner, HybridTraversal walk);
 
-    /// Describes bricks, for HybridWalk::Hierarchical; begin() builds the octree for the other. @throws Error
-    /// as VoxelMarch::plan().
+    /// Describes bricks, for HybridTraversal::Hierarchical; begin() builds the octree for the other. @throws
+    /// Error as VoxelMarch::plan().
     void plan(MemoryPlan& plan, const SurfaceVoxels& voxels);
     std::string_view name() const override { return "hybrid"; }
     /// Sets voxels and leaves, and resets counts: before the first rays and after either has changed. All

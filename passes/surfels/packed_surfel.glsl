@@ -48,6 +48,6 @@ vec3 placeInVoxel(uint place) {
     return (vec3(place & 1023u, place >> 10 & 1023u, place >> 20 & 1023u) + 0.5) / PLACE_STEPS - 1.0;
 }
 
-bool isCoveredSurfel(uint place) { return (place >> 30) != 0u; }
+bool isOccludedSurfel(uint place) { return (place >> 30) != 0u; }
 
 #endif

@@ -16,7 +16,7 @@ double areaOf(const Geometry& g, uint32_t triangle) {
 /// Calls visit(triangle) for all of the region that stay, then visit(triangle) for all that move.
 template <typename Still, typename Moving>
 void visitTriangles(const Geometry& g, const Still& visitStill, const Moving& visitMoving) {
-    const std::vector<InstanceRange> runs = movingRuns(g);
+    const std::vector<InstanceRange> runs = movingInstanceRanges(g);
     uint32_t next = 0;
     for (const InstanceRange& run : runs) {
         for (; next < run.firstTriangle; ++next)

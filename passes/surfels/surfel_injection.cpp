@@ -4,7 +4,7 @@ namespace voxray {
 
 SurfelInjection::SurfelInjection(ProgramOwner& owner)
     : owner_(owner),
-      write_(owner, "surfel_write.comp"),
+      write_(owner, "write_irradiance.comp"),
       fillUnknown_(owner, "passes/common/voxels/fill_unknown.comp") {}
 
 void SurfelInjection::plan(PassPlan& plan, const std::string& pass, const WriteParams& params,
@@ -61,8 +61,8 @@ void SurfelInjection::fillUnknown(PassContext& context, const SurfaceVoxels& vox
                      {voxels,
                       {"measured", measured},
                       {"area", irradiance.area},
-                      {"DirectAt", irradiance.direct.at()},
-                      {"IndirectAt", irradiance.indirect.at()},
+                      {"DirectRef", irradiance.direct.ref()},
+                      {"IndirectRef", irradiance.indirect.ref()},
                       {"words", words}});
     context.stream.finish();
 }

@@ -5,9 +5,9 @@
 namespace voxray {
 
 SurfelPaths::SurfelPaths(ProgramOwner& owner)
-    : begin_(owner, "path_begin.comp"),
-      extend_(owner, "path_extend.comp"),
-      reflect_(owner, "path_reflect.comp"),
+    : begin_(owner, "init_paths.comp"),
+      extend_(owner, "extend_paths.comp"),
+      reflect_(owner, "accumulate_paths.comp"),
       light_(owner) {}
 
 void SurfelPaths::plan(PassPlan& plan, uint32_t batch, uint32_t lightSamples, bool extends) {

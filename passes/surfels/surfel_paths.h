@@ -1,7 +1,7 @@
 #pragma once
 
 #include "passes/common/voxels/voxels.h"
-#include "passes/surfels/surfel_light.h"
+#include "passes/surfels/surfel_direct_light.h"
 
 namespace voxray {
 
@@ -48,7 +48,7 @@ class SurfelPaths {
  private:
     uint32_t lightSamples_ = 1, count_ = 0, seed_ = 0;
     Kernel begin_, extend_, reflect_;
-    SurfelLight light_;
+    SurfelDirectLight light_;
     Buffer ends_[2], rays_[2];  ///< Present ones first.
     Buffer hits_, direct_, counter_;
 };

@@ -18,12 +18,12 @@ struct Surfels : Resource {
         uint32_t count = 0;
     };
     /// Surfels of a chunk, at most.
-    static constexpr uint32_t kChunk = 1u << 18;
+    static constexpr uint32_t kMaxChunkSurfels = 1u << 18;
     std::vector<Chunk> chunks;
-    uint64_t count = 0;         ///< Of all chunks.
-    uint64_t pointCount = 0;    ///< Points that were spread: each has a surfel on either side, at most.
-    double estimatedCount = 0;  ///< About as many surfels, for estimates of memory. Set in plan().
-    bool coveredSides = false;  ///< Whether covered sides have surfels. Set in plan().
+    uint64_t count = 0;               ///< Of all chunks.
+    uint64_t pointCount = 0;          ///< Points that were spread: each has a surfel on either side, at most.
+    double estimatedCount = 0;        ///< About as many surfels, for estimates of memory. Set in plan().
+    bool hasOccludedSurfels = false;  ///< Whether covered sides have surfels. Set in plan().
 };
 
 }  // namespace voxray

@@ -10,12 +10,12 @@ namespace voxray {
 struct SurfelsByVoxel : Resource {
     std::string indexedBy() const override { return "voxels"; }
 
-    bool coveredSides = false;  ///< Whether covered sides have surfels. Set in plan().
-    uint32_t slotCount = 0;
+    bool hasOccludedSurfels = false;  ///< Whether covered sides have surfels. Set in plan().
+    uint32_t sortedCount = 0;
     Buffer lists;        ///< By voxel: its first slot, and the one after its last; two uint32_t.
     LargeBuffer sorted;  ///< gpu::SortedSurfel in each slot; within a voxel by rising id.
     LargeBuffer packed;  ///< What lookups read of them (passes/surfels/packed_surfel.glsl): 8 bytes a slot.
-    LargeBuffer slots;   ///< Slot of each surfel by its number, or SurfelLinks::kNone; uint32_t.
+    LargeBuffer sortedIndices;  ///< Slot of each surfel by its number, or SurfelLinks::kNone; uint32_t.
 };
 
 /// Light that arrives at surfels, in the slots of SurfelsByVoxel.

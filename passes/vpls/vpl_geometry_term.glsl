@@ -24,7 +24,7 @@ float vplGeometryTerm(Vpl vpl, vec3 position, vec3 normal, vec3 faceNormal, floa
 // Shadow ray to a virtual light from `position`, which is off the surface. `direction`: of vplGeometryTerm(). Inactive where the
 // light is too near for an occluder.
 Ray vplRay(Vpl vpl, vec3 position, vec3 direction) {
-    return Ray(position, 0.0, direction, reachOf(distance(vpl.position, position), pointOffset(vpl.position), position));
+    return Ray(position, 0.0, direction, shadowRayLength(distance(vpl.position, position), pointOffset(vpl.position), position));
 }
 
 #endif

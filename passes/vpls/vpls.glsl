@@ -5,6 +5,6 @@
 #include "passes/vpls/vpl_types.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VplArray { Vpl data[]; };
-layout(scalar) readonly buffer VplsAt { VplArray vpls; };
+layout(scalar) readonly buffer VplsRef { VplArray vpls; };
 
 #endif

@@ -46,7 +46,7 @@ ivec2 nearestTexels(LightView view, uint resolution, vec3 position, out vec4 wei
 }
 
 // The side of a cube of views that sees a direction, in the order +x -x +y -y +z -z.
-uint cubeSide(vec3 v) {
+uint cubeFace(vec3 v) {
     const vec3 a = abs(v);
     const uint axis = a.x >= a.y && a.x >= a.z ? 0u : a.y >= a.z ? 1u : 2u;
     return 2u * axis + (v[axis] < 0.0 ? 1u : 0u);
@@ -55,7 +55,7 @@ uint cubeSide(vec3 v) {
 // Whether a texel of a shadow map sees a surface's point: if nothing lies before the point's tangent plane on the texel's own ray.
 // So flat surfaces do not shade themselves at any slope. Half a texel's width is to spare for what is curved, and for rounding.
 // @param depth what the map holds there. @param normal of the side that faces the light.
-bool texelSees(LightView view, uint resolution, ivec2 texel, float depth, vec3 position, vec3 normal) {
+bool texelPassesShadowTest(LightView view, uint resolution, ivec2 texel, float depth, vec3 position, vec3 normal) {
     const TexelRay ray = texelRay(view, texelOnView(view, resolution, texel));
     const float towards = dot(ray.along, normal);
     const float plane = towards < 0.0 ? min(dot(position - ray.start, normal) / towards, view.farthest) : view.farthest;

@@ -29,7 +29,7 @@ LightSample samplePunctual(GpuLight light, vec3 position) {
     }
     const vec3 away = light.position - position;
     s.distance_ = max(length(away), 1e-6);
-    s.reach = reachOf(s.distance_, pointOffset(light.position), position);
+    s.reach = shadowRayLength(s.distance_, pointOffset(light.position), position);
     s.direction = away / s.distance_;
     s.irradiance = light.intensity / (s.distance_ * s.distance_);
     if (light.type == LIGHT_SPOT) s.irradiance *= spotFalloff(light, dot(-s.direction, light.direction));
@@ -60,7 +60,7 @@ LightSample sampleEmitters(uint emitterCount, vec3 position, float pick, vec2 u)
     const vec3 away = e.position - position;
     LightSample s;
     s.distance_ = max(length(away), 1e-6);
-    s.reach = reachOf(s.distance_, e.offset, position);
+    s.reach = shadowRayLength(s.distance_, e.offset, position);
     s.direction = away / s.distance_;
     float cosine = -dot(e.geometricNormal, s.direction);
     if (m.doubleSided != 0u) cosine = abs(cosine);

@@ -7,7 +7,7 @@
 #include "shaders/lights/rsm_types.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer RsmTexels { RsmTexel data[]; };
-layout(scalar) readonly buffer RsmTexelsAt { RsmTexels rsmTexels; };
+layout(scalar) readonly buffer RsmTexelsRef { RsmTexels rsmTexels; };
 // By light, then by view.
 layout(scalar) readonly buffer RsmViews { RsmView data[]; } rsmViews;
 

@@ -10,7 +10,7 @@ VOXRAY_SHARED_BEGIN
 struct RsmView {
     LightView view;
     uint light;
-    uint side;  // Which side of a cube the view is, in the order +x -x +y -y +z -z; 6: it is no cube's.
+    uint cubeFace;  // In the order +x -x +y -y +z -z; 6: the view is not one of a cube's.
 };
 
 // The point that a texel sees.

@@ -17,16 +17,16 @@ layout(scalar) readonly buffer ShadowLights {
 } shadowLights;
 layout(scalar) readonly buffer ShadowViews { LightView data[]; } shadowViews;
 // By view and texel: depth relative to the view's farthest.
-layout(scalar) readonly buffer ShadowDepthsAt { LargeFloats shadowDepths; };
+layout(scalar) readonly buffer ShadowDepthsRef { LargeFloats shadowDepths; };
 
 // Whether a light sees a surface's point, by the texel that it falls into. @param normal of the side that faces the light.
-bool lightSees(ShadowLight l, vec3 position, vec3 normal) {
+bool passesShadowTest(ShadowLight l, vec3 position, vec3 normal) {
     const uint resolution = shadowLights.resolution;
-    const uint at = l.firstView + (l.views == 6u ? cubeSide(position - shadowViews.data[l.firstView].origin) : 0u);
+    const uint at = l.firstView + (l.views == 6u ? cubeFace(position - shadowViews.data[l.firstView].origin) : 0u);
     const LightView view = shadowViews.data[at];
     const ivec2 texel = clamp(ivec2(floor(inTexels(view, resolution, position))), ivec2(0), ivec2(resolution) - 1);
     const float depth = shadowDepths.data[(at * resolution + uint(texel.y)) * resolution + uint(texel.x)];
-    return texelSees(view, resolution, texel, depth, position, normal);
+    return texelPassesShadowTest(view, resolution, texel, depth, position, normal);
 }
 
 #endif

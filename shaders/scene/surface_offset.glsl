@@ -16,6 +16,6 @@ float planeOffset(vec3 a, vec3 b, vec3 c, vec3 normal) { return COORDINATE_ERROR
 
 // How far a ray from one point is traced towards another, `distance_` away, m, so that it does not meet the surface there. `offset`: of
 // that point. Where the ray meets that surface is as uncertain as the coordinates of both ends are.
-float reachOf(float distance_, float offset, vec3 from) { return distance_ - 2.0 * max(offset, pointOffset(from)); }
+float shadowRayLength(float distance_, float offset, vec3 from) { return distance_ - 2.0 * max(offset, pointOffset(from)); }
 
 #endif

@@ -46,7 +46,7 @@ uint firstRay(GatherLayout g, uint t) {
 }
 
 // The ray in whose run texel t lies, where rays are fewer than texels.
-uint rayNear(GatherLayout g, uint t) { return ((t + 1u) * g.raysPerBlock - 1u) / (g.blockSize * g.blockSize); }
+uint nearestRay(GatherLayout g, uint t) { return ((t + 1u) * g.raysPerBlock - 1u) / (g.blockSize * g.blockSize); }
 
 uvec2 texelOf(GatherLayout g, uvec2 block, uint t) { return block * g.blockSize + mortonInverse(t); }
 

@@ -9,18 +9,18 @@
 #define VOXEL_MARGIN 1e-3
 
 // A point in voxels from the grid's corner.
-vec3 inVoxels(VoxelGrid g, vec3 position) { return (position - g.origin) / g.voxelSize; }
+vec3 gridCoordinates(VoxelGrid g, vec3 position) { return (position - g.origin) / g.voxelSize; }
 
 // A point of a surface, moved along the surface's unit normal n out of all voxels that its plane touches: the points of a voxel
 // project onto a range of |n.x| + |n.y| + |n.z| voxels along n.
-vec3 offSurface(VoxelGrid g, vec3 position, vec3 normal) {
+vec3 offsetFromSurface(VoxelGrid g, vec3 position, vec3 normal) {
     return position + (dot(abs(normal), vec3(1.0)) + VOXEL_MARGIN) * g.voxelSize * normal;
 }
 
 // Where a ray from a point of a surface in a unit direction begins: off the surface, and past the voxel that it then is in. Near a
 // concave edge that is one of the other surface's, before which the point lies in the open.
-vec3 beginOffSurface(VoxelGrid g, vec3 position, vec3 normal, vec3 direction) {
-    const vec3 from = offSurface(g, position, normal), at = inVoxels(g, from), corner = floor(at);
+vec3 offsetRayOrigin(VoxelGrid g, vec3 position, vec3 normal, vec3 direction) {
+    const vec3 from = offsetFromSurface(g, position, normal), at = gridCoordinates(g, from), corner = floor(at);
     const vec3 parts = (mix(corner, corner + 1.0, greaterThan(direction, vec3(0.0))) - at) / direction;
     const vec3 leaves = mix(parts, vec3(2.0), lessThan(abs(direction), vec3(1e-6)));
     return from + (min(leaves.x, min(leaves.y, leaves.z)) + VOXEL_MARGIN) * g.voxelSize * direction;
@@ -29,12 +29,12 @@ vec3 beginOffSurface(VoxelGrid g, vec3 position, vec3 normal, vec3 direction) {
 // The part of the way between points of two surfaces in which voxels can hide them from each other, on the sides that their unit
 // normals point to. False where both ends have passed each other: then nothing can.
 bool segmentBetweenSurfaces(VoxelGrid g, vec3 a, vec3 normalA, vec3 b, vec3 normalB, out vec3 from, out vec3 to) {
-    const vec3 raised = offSurface(g, b, normalB) - offSurface(g, a, normalA), way = b - a;
+    const vec3 raised = offsetFromSurface(g, b, normalB) - offsetFromSurface(g, a, normalA), way = b - a;
     from = to = a;
     if (dot(raised, way) <= 0.0) return false;
     const vec3 direction = normalize(raised);
-    from = beginOffSurface(g, a, normalA, direction);
-    to = beginOffSurface(g, b, normalB, -direction);
+    from = offsetRayOrigin(g, a, normalA, direction);
+    to = offsetRayOrigin(g, b, normalB, -direction);
     return dot(to - from, direction) > 0.0;
 }
 

@@ -86,7 +86,7 @@ bool clipToGrid(VoxelGrid g, vec3 origin, vec3 direction, inout float from, inou
 
 // Whether an occupied voxel lies on the way from a to b (m), both ends included.
 bool occluded(VoxelGrid g, vec3 a, vec3 b) {
-    const vec3 from = inVoxels(g, a), to = inVoxels(g, b), way = to - from;
+    const vec3 from = gridCoordinates(g, a), to = gridCoordinates(g, b), way = to - from;
     float begin = 0.0, end = 1.0;
     if (!clipToGrid(g, from, way, begin, end)) return false;
     // Ends within the grid stay as they are: from b to a the answer is the same.
@@ -121,7 +121,7 @@ VoxelHit makeVoxelHit(VoxelSegment s, ivec3 voxel, float begin, float end) {
 // The part of a ray in the grid, and the segment that it is there; false where the ray passes the grid. A ray without a direction is
 // a point.
 bool segmentOfRay(VoxelGrid g, vec3 origin, vec3 direction, inout float tMin, inout float tMax, out VoxelSegment s) {
-    const vec3 from = inVoxels(g, origin), way = direction / g.voxelSize;
+    const vec3 from = gridCoordinates(g, origin), way = direction / g.voxelSize;
     if (way == vec3(0.0)) tMax = tMin;
     if (!clipToGrid(g, from, way, tMin, tMax)) return false;
     s = makeSegment(pointAt(from, way, tMin), pointAt(from, way, tMax), g.resolution);

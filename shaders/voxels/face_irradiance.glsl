@@ -6,7 +6,7 @@
 
 // By voxel and face: as faceLight() of face_lookup.glsl.
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer FaceIrradiance { vec4 data[]; };
-layout(scalar) readonly buffer FaceIrradianceAt { FaceIrradiance faceIrradiance; };
+layout(scalar) readonly buffer FaceIrradianceRef { FaceIrradiance faceIrradiance; };
 
 vec4 faceLight(uint number, ivec3 voxel, uint face) { return faceIrradiance.data[number * 6u + face]; }
 

@@ -10,7 +10,7 @@
 #define FLUX_POWER_BITS 56.0
 
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer FluxAccumulator { uint64_t data[]; };
-layout(scalar) readonly buffer FluxAccumulatorAt { FluxAccumulator fluxAccumulator; };  // 3 a face
+layout(scalar) readonly buffer FluxAccumulatorRef { FluxAccumulator fluxAccumulator; };  // 3 a face
 
 // A surface's flux goes to the three faces that it turns to, by the squares of its normal's components.
 void addFlux(uint voxel, vec3 normal, vec3 watts, float unitsPerWatt) {

@@ -5,7 +5,7 @@
 #include "shaders/voxels/packed_flux.glsl"
 #include "shaders/voxels/voxels.glsl"
 
-layout(scalar) buffer VoxelFluxAt { LargeUints voxelFlux; };
+layout(scalar) buffer VoxelFluxRef { LargeUints voxelFlux; };
 layout(scalar) readonly buffer VoxelArea { uint data[]; } voxelArea;
 
 // Adds up the flux and the area of surfaces that face a normal, with tent weights of `radius` voxels about a point.

@@ -18,9 +18,9 @@ struct VoxelGrid {
     uint wordsPerRow;  // ceil(min(resolution.x, side) / 32)
     uint directions;   // 6: a voxel's light is read by the face that a surface turns to; 1: all faces share
                        // one value.
-    uint
-        side;  // A power of two; no less than the resolution where all is held, as everywhere but in windows.
-    ivec3 first;  // 0 along axes that are held whole.
+    uint windowSize;   // A power of two; no less than the resolution where all is held, as everywhere but in
+                       // windows.
+    ivec3 first;       // 0 along axes that are held whole.
 };
 
 // What a surface voxel holds of the surfaces in it; packed: voxel_packing.h. Averages are weighted by area.

@@ -12,7 +12,7 @@
 layout(scalar) readonly buffer VoxelOccupancy { uint words[]; } voxelOccupancy;
 layout(scalar) readonly buffer VoxelRank { uint before[]; } voxelRank;
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelMaterials { PackedVoxelMaterial data[]; };
-layout(scalar) readonly buffer VoxelMaterialsAt { VoxelMaterials voxelMaterials; };
+layout(scalar) readonly buffer VoxelMaterialsRef { VoxelMaterials voxelMaterials; };
 
 VoxelMaterial voxelMaterial(uint voxel) { return unpackMaterial(voxelMaterials.data[voxel]); }
 
@@ -27,7 +27,7 @@ float unoccluded(VoxelMaterial m, uint face) {
 }
 
 // Voxels that are held along each axis.
-uvec3 heldVoxels(VoxelGrid g) { return min(g.resolution, uvec3(g.side)); }
+uvec3 heldVoxels(VoxelGrid g) { return min(g.resolution, uvec3(g.windowSize)); }
 
 bool insideGrid(VoxelGrid g, ivec3 voxel) {
     return all(greaterThanEqual(voxel, g.first)) && all(lessThan(voxel, g.first + ivec3(heldVoxels(g))));
@@ -35,14 +35,14 @@ bool insideGrid(VoxelGrid g, ivec3 voxel) {
 
 // The word and the bit in it of a voxel that is held.
 uint voxelWord(VoxelGrid g, ivec3 voxel) {
-    const uvec3 slot = uvec3(voxel) & (g.side - 1u);
+    const uvec3 slot = uvec3(voxel) & (g.windowSize - 1u);
     return (slot.z * heldVoxels(g).y + slot.y) * g.wordsPerRow + (slot.x >> 5);
 }
 
 // The voxel that is held in a slot.
-uvec3 voxelInSlot(VoxelGrid g, uvec3 slot) { return uvec3(g.first) + ((slot - uvec3(g.first)) & (g.side - 1u)); }
+uvec3 voxelInSlot(VoxelGrid g, uvec3 slot) { return uvec3(g.first) + ((slot - uvec3(g.first)) & (g.windowSize - 1u)); }
 
-uint voxelBit(VoxelGrid g, ivec3 voxel) { return 1u << (uint(voxel.x) & (g.side - 1u) & 31u); }
+uint voxelBit(VoxelGrid g, ivec3 voxel) { return 1u << (uint(voxel.x) & (g.windowSize - 1u) & 31u); }
 
 bool isOccupied(VoxelGrid g, ivec3 voxel) {
     return insideGrid(g, voxel) && (voxelOccupancy.words[voxelWord(g, voxel)] & voxelBit(g, voxel)) != 0u;

@@ -115,7 +115,7 @@ void hybridLeaves(benchmark::State& state, const std::string& config) {
     // Once each outside of the measurement
     test::TestPrograms programs;
     std::vector<std::pair<std::string, std::unique_ptr<RayTracer>>> tracers;
-    for (const auto& [walk, name] : EnumNames<HybridWalk>::names) {
+    for (const auto& [walk, name] : EnumNames<HybridTraversal>::names) {
         auto tracer = std::make_unique<HybridTracer>(programs, walk);
         test::prepare(programs, *tracer, voxels);
         tracer->begin(stream, scene, voxels, leaves);

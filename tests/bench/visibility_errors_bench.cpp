@@ -67,7 +67,7 @@ std::vector<Hit> voxelsBetween(const Disagreement& d, const std::vector<test::Be
                                float begin, float end) {
     CommandStream stream(test::device());
     test::TestPrograms programs;
-    VoxelTracer tracer(programs, VoxelWalk::Bricks);
+    VoxelTracer tracer(programs, VoxelTraversal::Bricks);
     test::prepare(programs, tracer, d.voxels);
     tracer.begin(stream, d.voxels);
     const float size = d.voxels.grid.voxelSize;
@@ -139,7 +139,7 @@ void voxelsWithExactEnds(benchmark::State& state, const std::string& scene) {
     std::vector<uint32_t> hidden(kRays);
     CommandStream stream(test::device());
     test::TestPrograms programs;
-    VoxelTracer tracer(programs, VoxelWalk::Bricks);
+    VoxelTracer tracer(programs, VoxelTraversal::Bricks);
     test::prepare(programs, tracer, d.voxels);
     tracer.begin(stream, d.voxels);
     for (auto _ : state) {
@@ -173,7 +173,7 @@ void hybridLeafVisibility(benchmark::State& state, const std::string& scene) {
     CommandStream stream(test::device());
     const GpuScene scene_ = makeGpuScene(test::device(), stream, d.chain->state());
     test::TestPrograms programs;
-    HybridTracer tracer(programs, HybridWalk::Hierarchical);
+    HybridTracer tracer(programs, HybridTraversal::Hierarchical);
     test::prepare(programs, tracer, d.voxels);
     tracer.begin(stream, scene_, d.voxels, leaves);
     std::vector<Ray> rays;
@@ -265,7 +265,7 @@ void voxelCascades(benchmark::State& state, const std::string& scene) {
     CommandStream stream(test::device());
     const auto hits = [&](const Disagreement& d, const std::vector<Ray>& rays) {
         test::TestPrograms programs;
-        VoxelTracer tracer(programs, VoxelWalk::Bricks);
+        VoxelTracer tracer(programs, VoxelTraversal::Bricks);
         test::prepare(programs, tracer, d.voxels);
         tracer.begin(stream, d.voxels);
         return closestHits(tracer, rays);

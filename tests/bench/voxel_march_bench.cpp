@@ -65,7 +65,7 @@ std::vector<Ray> shadowRays(const Geometry& geometry, float voxelSize, uint32_t 
 /// builds besides the voxels.
 void voxelMarch(benchmark::State& state) {
     constexpr uint32_t kRays = 1u << 19;
-    constexpr size_t kWalks = EnumNames<VoxelWalk>::names.size();
+    constexpr size_t kWalks = EnumNames<VoxelTraversal>::names.size();
     test::Chain& chain = sponza(uint32_t(state.range(0)));
     const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
     CommandStream stream(test::device());
@@ -77,7 +77,7 @@ void voxelMarch(benchmark::State& state) {
     test::TestPrograms programs;
     std::vector<std::unique_ptr<VoxelTracer>> tracers;
     std::vector<uint32_t> first;
-    for (const auto& [walk, name] : EnumNames<VoxelWalk>::names) {
+    for (const auto& [walk, name] : EnumNames<VoxelTraversal>::names) {
         VoxelTracer& tracer = *tracers.emplace_back(std::make_unique<VoxelTracer>(programs, walk));
         test::prepare(programs, tracer, voxels);
         const double begin = cpuSeconds();
@@ -104,11 +104,13 @@ void voxelMarch(benchmark::State& state) {
             seconds[walk] += cpuSeconds() - begin;
         }
     for (size_t walk = 0; walk < kWalks; ++walk)
-        state.counters[std::string(EnumNames<VoxelWalk>::names[walk].second) + "_Mrays_s"] =
+        state.counters[std::string(EnumNames<VoxelTraversal>::names[walk].second) + "_Mrays_s"] =
             double(state.iterations()) * kRays / 1e6 / seconds[walk];
-    const auto over = [&](VoxelWalk a, VoxelWalk b) { return seconds[size_t(b)] / seconds[size_t(a)]; };
-    state.counters["bricks_over_bits"] = over(VoxelWalk::Bricks, VoxelWalk::Bits);
-    state.counters["svo_over_svo_restart"] = over(VoxelWalk::Svo, VoxelWalk::SvoRestart);
+    const auto over = [&](VoxelTraversal a, VoxelTraversal b) {
+        return seconds[size_t(b)] / seconds[size_t(a)];
+    };
+    state.counters["bricks_over_bits"] = over(VoxelTraversal::Bricks, VoxelTraversal::Bits);
+    state.counters["svo_over_svo_restart"] = over(VoxelTraversal::Svo, VoxelTraversal::SvoRestart);
 }
 BENCHMARK(voxelMarch)
     ->ArgName("resolution")

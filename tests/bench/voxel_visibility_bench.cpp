@@ -105,7 +105,7 @@ void vplRayOrder(benchmark::State& state) {
     const Buffer out(test::device(), "answers", rays.size() * sizeof(uint32_t));
     stream.upload(in, rays);
     test::TestPrograms programs;
-    VoxelTracer restart(programs, VoxelWalk::SvoRestart), ours(programs, VoxelWalk::Svo);
+    VoxelTracer restart(programs, VoxelTraversal::SvoRestart), ours(programs, VoxelTraversal::Svo);
     double seconds[2] = {};
     const auto trace = [&](VoxelTracer& tracer) {
         const double begin = cpuSeconds();

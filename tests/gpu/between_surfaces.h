@@ -24,7 +24,7 @@ inline std::vector<BetweenVoxels> betweenVoxels(const SurfaceVoxels& voxels,
                                                 const std::vector<SurfacePair>& pairs) {
     CommandStream stream(device());
     TestPrograms programs;
-    VoxelMarch march(programs, VoxelWalk::Bricks);
+    VoxelMarch march(programs, VoxelTraversal::Bricks);
     const Kernel kernel(programs, "between_surfaces.comp", march.defines());
     prepare(programs, march, voxels);
     march.begin(stream, voxels);

@@ -2,7 +2,7 @@
 #include "passes/published/packed_write.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) buffer WordsAt { LargeUints words; };
+layout(scalar) buffer WordsRef { LargeUints words; };
 layout(push_constant, scalar) uniform Push {
     uint wordCount;
     uint threads;

@@ -214,7 +214,7 @@ TEST(HybridLeaves, CellsKeepPlaneNormalAndMeanColour) {
         rays.push_back({origin, 0, target - origin, kInfinity});
     }
     const std::vector<Hit> expected = hybrid.embree(rays),
-                           hits = hybrid.closest(HybridWalk::Hierarchical, rays);
+                           hits = hybrid.closest(HybridTraversal::Hierarchical, rays);
     const float cell = hybrid.voxels().grid.voxelSize / 8;
     float worst = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
@@ -253,7 +253,7 @@ TEST(HybridLeaves, ALeafOfManyTrianglesKeepsTheirMean) {
     Hybrid hybrid(state, 6, "primitives: 64, grid: 4");
     EXPECT_GE(hybrid.leaves().gridCount, 1u);
     const std::vector<Ray> rays{{{0.02f, 0.5f, 0.03f}, 0, {0, -1, 0}, kInfinity}};
-    const Hit hit = hybrid.closest(HybridWalk::Hierarchical, rays)[0];
+    const Hit hit = hybrid.closest(HybridTraversal::Hierarchical, rays)[0];
     ASSERT_TRUE(isCell(hit));
     EXPECT_NEAR(hit.t, 0.5f, 1e-3f);
     const std::vector<uint32_t> cells = hybrid.chain().read<uint32_t>(hybrid.leaves().cells);
@@ -263,7 +263,7 @@ TEST(HybridLeaves, ALeafOfManyTrianglesKeepsTheirMean) {
     EXPECT_GT(value.normal.y, 0.9999f);
     // As a list they are all tested.
     Hybrid listed(state, 6, "primitives: 1048576");
-    EXPECT_NEAR(listed.closest(HybridWalk::Hierarchical, rays)[0].t, 0.5f, 1e-6f);
+    EXPECT_NEAR(listed.closest(HybridTraversal::Hierarchical, rays)[0].t, 0.5f, 1e-6f);
     EXPECT_GT(listed.tests, 50000u);
 }
 

@@ -174,8 +174,8 @@ TEST(HybridLevels, BareRaysMeetTheFinestCells) {
         const float edge = finest.voxels().grid.voxelSize / 5;
         for (const std::optional<gpu::RayStart>& start :
              {std::optional<gpu::RayStart>(), std::optional(gpu::RayStart{glm::vec3(0), 1.99f * edge, 0})}) {
-            const std::vector<Hit> expected = finest.closest(HybridWalk::Hierarchical, rays, start),
-                                   hits = levels.closest(HybridWalk::Hierarchical, rays, start);
+            const std::vector<Hit> expected = finest.closest(HybridTraversal::Hierarchical, rays, start),
+                                   hits = levels.closest(HybridTraversal::Hierarchical, rays, start);
             size_t cells = 0;
             for (size_t i = 0; i < rays.size(); ++i) {
                 ASSERT_EQ(std::memcmp(&hits[i].t, &expected[i].t, sizeof(float)), 0) << i;
@@ -210,7 +210,7 @@ TEST(HybridLevels, WideRaysMeetCoarserCellsAndMissNoSurface) {
             const float edge = hybrid.voxels().grid.voxelSize / 7 * float(1u << level);
             const float width = edge * (level == 2 ? 100.0f : 1.01f);
             const gpu::RayStart start{glm::vec3(0), width, 0};
-            const std::vector<Hit> hits = hybrid.closest(HybridWalk::Hierarchical, rays, start);
+            const std::vector<Hit> hits = hybrid.closest(HybridTraversal::Hierarchical, rays, start);
             size_t missed = 0, cells = 0, far = 0;
             for (size_t i = 0; i < rays.size(); ++i) {
                 ASSERT_NE(hits[i].triangle, HIT_IS_WIDE);
@@ -228,7 +228,7 @@ TEST(HybridLevels, WideRaysMeetCoarserCellsAndMissNoSurface) {
             EXPECT_EQ(missed, 0u) << name << " " << level;
             std::printf("%s, level %u: %zu of %zu rays meet a cell, %zu too early\n", name, level, cells,
                         rays.size(), far);
-            const std::vector<Hit> other = hybrid.closest(HybridWalk::VoxelByVoxel, rays, start);
+            const std::vector<Hit> other = hybrid.closest(HybridTraversal::VoxelByVoxel, rays, start);
             EXPECT_EQ(std::memcmp(hits.data(), other.data(), hits.size() * sizeof(Hit)), 0) << name;
         }
     }
@@ -241,7 +241,7 @@ TEST(HybridLevels, CellsAreNotWiderThanTheRay) {
     const std::vector<Ray> rays = raysThrough(hybrid.chain().state().geometry, 30000);
     const gpu::RayStart start{glm::vec3(0), 0.5f * edge, 2 * edge};
     std::set<float> edges;
-    for (const Hit& hit : hybrid.closest(HybridWalk::Hierarchical, rays, start)) {
+    for (const Hit& hit : hybrid.closest(HybridTraversal::Hierarchical, rays, start)) {
         if (!isCell(hit)) continue;
         edges.insert(hit.u);
         EXPECT_LE(hit.u, 1.00001f * std::max(edge, start.width + start.spread * hit.t));

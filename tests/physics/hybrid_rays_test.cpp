@@ -16,7 +16,7 @@ TEST(HybridRays, RaysMeetTheTrianglesThatEmbreeMeets) {
         Hybrid hybrid(state, 48, "primitives: 100000");
         EXPECT_EQ(hybrid.leaves().gridCount, 0u);
         const std::vector<Ray> rays = raysThrough(state->geometry, 60000);
-        const std::vector<Hit> hits = hybrid.closest(HybridWalk::Hierarchical, rays);
+        const std::vector<Hit> hits = hybrid.closest(HybridTraversal::Hierarchical, rays);
         const double part = differing(hybrid.embree(rays), hits);
         EXPECT_LE(part, 1e-4) << name;
         std::printf("%s: %.2g of the rays differ; a ray: %.3g steps, %.3g visits, %.3g tests\n", name, part,
@@ -24,7 +24,7 @@ TEST(HybridRays, RaysMeetTheTrianglesThatEmbreeMeets) {
                     double(hybrid.counts[1]) / double(rays.size()),
                     double(hybrid.tests) / double(rays.size()));
         const uint64_t steps = hybrid.counts[0], tests = hybrid.tests;
-        const std::vector<Hit> other = hybrid.closest(HybridWalk::VoxelByVoxel, rays);
+        const std::vector<Hit> other = hybrid.closest(HybridTraversal::VoxelByVoxel, rays);
         EXPECT_EQ(std::memcmp(hits.data(), other.data(), hits.size() * sizeof(Hit)), 0) << name;
         EXPECT_EQ(hybrid.tests, tests);
         EXPECT_GT(hybrid.counts[0], steps);
@@ -44,7 +44,7 @@ TEST(HybridRays, RaysThatStartOnATriangleMeetWhatEmbreeMeets) {
         const glm::vec3 p = (1 - u - v) * g.positions[t.x] + u * g.positions[t.y] + v * g.positions[t.z];
         rays.push_back({p, 1e-4f, glm::normalize(random.vector(-1, 1)), kInfinity});
     }
-    EXPECT_LE(differing(hybrid.embree(rays), hybrid.closest(HybridWalk::Hierarchical, rays)), 1e-4);
+    EXPECT_LE(differing(hybrid.embree(rays), hybrid.closest(HybridTraversal::Hierarchical, rays)), 1e-4);
 }
 
 TEST(HybridRays, GridsNeverMissASurface) {
@@ -56,7 +56,7 @@ TEST(HybridRays, GridsNeverMissASurface) {
         EXPECT_GT(hybrid.leaves().gridCount, 10u);
         const std::vector<Ray> rays = raysThrough(state->geometry, 60000);
         const std::vector<Hit> expected = hybrid.embree(rays),
-                               hits = hybrid.closest(HybridWalk::Hierarchical, rays);
+                               hits = hybrid.closest(HybridTraversal::Hierarchical, rays);
         size_t missed = 0, cells = 0, far = 0;
         for (size_t i = 0; i < rays.size(); ++i) {
             cells += isCell(hits[i]);
@@ -72,7 +72,7 @@ TEST(HybridRays, GridsNeverMissASurface) {
         EXPECT_LT(double(far), 0.05 * double(rays.size())) << name;
         std::printf("%s: %zu of %zu rays meet a cell, %zu of them too early\n", name, cells, rays.size(),
                     far);
-        const std::vector<Hit> other = hybrid.closest(HybridWalk::VoxelByVoxel, rays);
+        const std::vector<Hit> other = hybrid.closest(HybridTraversal::VoxelByVoxel, rays);
         EXPECT_EQ(std::memcmp(hits.data(), other.data(), hits.size() * sizeof(Hit)), 0) << name;
     }
 }
@@ -92,7 +92,7 @@ TEST(HybridRays, CellsAreAsThinAsTheirSurfaces) {
         across.push_back({start, 0, end - start - 0.2f * cell * normal, 1});
     }
     const auto cells = [&](const std::vector<Ray>& rays) {
-        return std::ranges::count_if(hybrid.closest(HybridWalk::Hierarchical, rays), isCell);
+        return std::ranges::count_if(hybrid.closest(HybridTraversal::Hierarchical, rays), isCell);
     };
     EXPECT_EQ(cells(along), 0);
     EXPECT_EQ(cells(across), 5000);
@@ -131,9 +131,9 @@ TEST(HybridRays, MasksLeaveHolesInListsAndGrids) {
     Hybrid grids(state, 16, "primitives: 1, grid: 8"), lists(state, 16, "primitives: 4");
     EXPECT_GT(grids.leaves().cellCount, 0u);
     EXPECT_EQ(lists.leaves().gridCount, 0u);
-    EXPECT_EQ(differing(lists.embree(rays), lists.closest(HybridWalk::Hierarchical, rays)), 0);
+    EXPECT_EQ(differing(lists.embree(rays), lists.closest(HybridTraversal::Hierarchical, rays)), 0);
     const float cell = grids.voxels().grid.voxelSize / 8;
-    const std::vector<Hit> hits = grids.closest(HybridWalk::Hierarchical, rays);
+    const std::vector<Hit> hits = grids.closest(HybridTraversal::Hierarchical, rays);
     for (size_t i = 0; i < rays.size(); ++i) {
         const float x = rays[i].origin.x;
         if (std::abs(x) < 1.5f * cell) continue;
@@ -153,7 +153,7 @@ TEST(HybridRays, RaysDoNotMeetTheSurfaceThatTheyLeave) {
             rays.push_back({origin, 1e-4f, glm::normalize(direction), kInfinity});
     }
     const auto hits = [&](const std::optional<gpu::RayStart>& start) {
-        return std::ranges::count_if(hybrid.closest(HybridWalk::Hierarchical, rays, start),
+        return std::ranges::count_if(hybrid.closest(HybridTraversal::Hierarchical, rays, start),
                                      [](const Hit& hit) { return hit.triangle != Hit::kMiss; });
     };
     EXPECT_EQ(hits(gpu::RayStart{normal, 0, 0}), 0);
@@ -164,10 +164,10 @@ TEST(HybridRays, RaysWiderThanAVoxelEnd) {
     const std::shared_ptr<const SceneState> state = builtin("cornell");
     Hybrid hybrid(state, 32, "primitives: 1000");
     const std::vector<Ray> rays = raysThrough(state->geometry, 20000);
-    const std::vector<Hit> bare = hybrid.closest(HybridWalk::Hierarchical, rays);
+    const std::vector<Hit> bare = hybrid.closest(HybridTraversal::Hierarchical, rays);
     const float spread = 0.1f, voxel = hybrid.voxels().grid.voxelSize;
     const std::vector<Hit> wide =
-        hybrid.closest(HybridWalk::Hierarchical, rays, gpu::RayStart{glm::vec3(0), 0, spread}, voxel);
+        hybrid.closest(HybridTraversal::Hierarchical, rays, gpu::RayStart{glm::vec3(0), 0, spread}, voxel);
     size_t ended = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
         if (wide[i].triangle != HIT_IS_WIDE) {
@@ -187,9 +187,9 @@ TEST(HybridRays, FragmentsMissTriangles) {
     EXPECT_LT(fragments.leaves().primitiveCount, exact.leaves().primitiveCount);
     const std::vector<Ray> rays = raysThrough(state->geometry, 20000);
     const std::vector<Hit> expected = exact.embree(rays);
-    const double missed = differing(expected, fragments.closest(HybridWalk::Hierarchical, rays));
+    const double missed = differing(expected, fragments.closest(HybridTraversal::Hierarchical, rays));
     EXPECT_GT(missed, 0.001);
-    EXPECT_LE(differing(expected, exact.closest(HybridWalk::Hierarchical, rays)), 1e-4);
+    EXPECT_LE(differing(expected, exact.closest(HybridTraversal::Hierarchical, rays)), 1e-4);
     std::printf("fragments: %u of %u triangles in lists, %.2g of the rays differ\n",
                 fragments.leaves().primitiveCount, exact.leaves().primitiveCount, missed);
 }

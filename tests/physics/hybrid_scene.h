@@ -43,7 +43,7 @@ class Hybrid {
     Chain& chain() { return chain_; }
 
     /// @param start what all rays leave behind. @param maxWidth m, beyond which rays end.
-    std::vector<Hit> closest(HybridWalk walk, const std::vector<Ray>& rays,
+    std::vector<Hit> closest(HybridTraversal walk, const std::vector<Ray>& rays,
                              const std::optional<gpu::RayStart>& start = {}, float maxWidth = kInfinity) {
         TestPrograms programs;
         HybridTracer tracer(programs, walk);

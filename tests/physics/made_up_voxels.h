@@ -16,7 +16,7 @@ inline gpu::VoxelGrid madeUpGrid(glm::uvec3 resolution, float voxelSize) {
     grid.resolution = resolution;
     grid.wordsPerRow = (resolution.x + 31) / 32;
     grid.directions = 1;
-    grid.side = 1024;
+    grid.windowSize = 1024;
     return grid;
 }
 

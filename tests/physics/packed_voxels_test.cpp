@@ -35,7 +35,7 @@ glm::ivec4 merged(PackedWrite write, uint32_t threads, uint32_t firstSamples, gl
     const LargeBuffer words(device(), "words", kWords * sizeof(uint32_t));
     stream.fill(words, 0);
     stream.dispatch(kernel, uint64_t(kWords) * threads,
-                    {{"WordsAt", words.at()},
+                    {{"WordsRef", words.ref()},
                      {"wordCount", kWords},
                      {"threads", threads},
                      {"firstSamples", firstSamples},

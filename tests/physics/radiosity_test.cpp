@@ -95,7 +95,7 @@ TEST(Radiosity, NeighboursAreTheSurfelsWithinAVoxel) {
         for (uint32_t j = 0; j < surfels.size(); ++j) {
             const gpu::SortedSurfel &a = surfels[i], &b = surfels[j];
             const bool isNear = i != j && glm::distance(a.position, b.position) < size &&
-                                glm::dot(a.normal, b.normal) > 0 && ((a.id ^ b.id) & VOXRAY_COVERED) == 0;
+                                glm::dot(a.normal, b.normal) > 0 && ((a.id ^ b.id) & VOXRAY_OCCLUDED) == 0;
             ASSERT_TRUE(isNear || !isListed[j]) << i << " " << j;
             missing += isNear && !isListed[j];
             isListed[j] = false;

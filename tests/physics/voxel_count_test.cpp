@@ -1,6 +1,6 @@
 // Voxels counted on the host and those that the device fills follow one rule: random boxes, and sheets on
 // borders between voxels.
-#include "passes/surfels/still_voxels.h"
+#include "passes/surfels/static_voxels.h"
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ TEST(StillVoxels, AreAllThatIsFilledWhereSheetsLieOnBorders) {
                                                resolution, method)}),
                         8, 8, 1);
             const Voxels voxels(chain);
-            const uint32_t counted = countStillVoxels(state->geometry, voxels.grid);
+            const uint32_t counted = countStaticVoxels(state->geometry, voxels.grid);
             EXPECT_GE(counted, voxels.count) << "seed " << seed << ", " << method;
             EXPECT_LE(counted, 1.25 * voxels.count) << "seed " << seed << ", " << method;
         }
@@ -78,7 +78,7 @@ TEST(StillVoxels, AreOnBothSidesOfAFloorAtHalfTheHeightOfABox) {
     builder.camera({0, 1, 9}, {0, 1, 0}, 60);
     const auto state = std::make_shared<SceneState>(evaluate(builder.finish(), 0));
     Chain chain(state, graphYaml({"voxelize, resolution: 64"}), 8, 8, 1);
-    EXPECT_GE(countStillVoxels(state->geometry, Voxels(chain).grid), Voxels(chain).count);
+    EXPECT_GE(countStaticVoxels(state->geometry, Voxels(chain).grid), Voxels(chain).count);
 }
 
 }  // namespace

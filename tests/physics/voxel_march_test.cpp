@@ -77,7 +77,7 @@ std::vector<Ray> adversarialRays(const gpu::VoxelGrid& grid, size_t count) {
 
 /// Checks the walks' common answers against the brute-force walk along the segments that they walked.
 void expectBruteForce(WalkedVoxels& voxels, const std::vector<Ray>& rays) {
-    const std::vector<WalkAnswer> answers = voxels.walk(VoxelWalk::Bits, rays);
+    const std::vector<WalkAnswer> answers = voxels.walk(VoxelTraversal::Bits, rays);
     uint64_t steps = 0, hits = 0, inGrid = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
         const WalkAnswer& a = answers[i];
@@ -102,8 +102,8 @@ void expectBruteForce(WalkedVoxels& voxels, const std::vector<Ray>& rays) {
     EXPECT_GT(hits, rays.size() / 100);
     EXPECT_GT(inGrid, hits);
 
-    for (const VoxelWalk walk :
-         {VoxelWalk::Bricks, VoxelWalk::SvoRestart, VoxelWalk::SvoVoxels, VoxelWalk::Svo}) {
+    for (const VoxelTraversal walk : {VoxelTraversal::Bricks, VoxelTraversal::SvoRestart,
+                                      VoxelTraversal::SvoVoxels, VoxelTraversal::Svo}) {
         const std::vector<WalkAnswer> others = voxels.walk(walk, rays);
         for (size_t i = 0; i < rays.size(); ++i) {
             WalkAnswer expected = answers[i];
@@ -111,7 +111,7 @@ void expectBruteForce(WalkedVoxels& voxels, const std::vector<Ray>& rays) {
             expected.steps = others[i].steps;
             ASSERT_EQ(others[i], expected) << i << " by walk " << int(walk);
         }
-        if (walk == VoxelWalk::SvoVoxels)
+        if (walk == VoxelTraversal::SvoVoxels)
             EXPECT_EQ(voxels.counts[0], steps);
         else
             EXPECT_LT(voxels.counts[0], steps);
@@ -137,7 +137,7 @@ TEST(VoxelMarch, WalksAlongTheRayThatItIsGiven) {
     // computed in floats; where both find a voxel it begins at the same place.
     WalkedVoxels voxels = sparseVoxels();
     const std::vector<Ray> rays = raysThroughGrid(voxels.grid, 200000, 4);
-    const std::vector<WalkAnswer> answers = voxels.walk(VoxelWalk::Svo, rays);
+    const std::vector<WalkAnswer> answers = voxels.walk(VoxelTraversal::Svo, rays);
     const glm::dvec3 size(voxels.grid.resolution);
     size_t different = 0;
     for (size_t i = 0; i < rays.size(); ++i) {

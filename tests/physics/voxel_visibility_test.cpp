@@ -20,7 +20,7 @@ TEST(VoxelVisibility, SeesTheSameFromBothEnds) {
         ray.origin = point();
         ray.direction = 0.3f * (point() - ray.origin);
     }
-    for (const VoxelWalk walk : {VoxelWalk::Bits, VoxelWalk::Bricks, VoxelWalk::Svo}) {
+    for (const VoxelTraversal walk : {VoxelTraversal::Bits, VoxelTraversal::Bricks, VoxelTraversal::Svo}) {
         size_t seen = 0;
         for (const WalkAnswer& answer : voxels.walk(walk, pairs, 0, true)) {
             ASSERT_TRUE(answer.hit == 0 || answer.hit == 3);
@@ -35,10 +35,10 @@ TEST(VoxelVisibility, StepsByAnEpsilonSkipSlivers) {
     // Sun and Agu 2015, figure 3, line 20: the larger the epsilon, the more corners of voxels are missed.
     WalkedVoxels voxels = sparseVoxels();
     const std::vector<Ray> rays = raysThroughGrid(voxels.grid, 200000, 6);
-    const std::vector<WalkAnswer> exact = voxels.walk(VoxelWalk::SvoRestart, rays);
+    const std::vector<WalkAnswer> exact = voxels.walk(VoxelTraversal::SvoRestart, rays);
     double before = 0;
     for (const float epsilon : {1e-4f, 1e-3f, 1e-2f, 1e-1f}) {
-        const std::vector<WalkAnswer> steps = voxels.walk(VoxelWalk::SvoRestart, rays, epsilon);
+        const std::vector<WalkAnswer> steps = voxels.walk(VoxelTraversal::SvoRestart, rays, epsilon);
         size_t occlusion = 0, closest = 0;
         for (size_t i = 0; i < rays.size(); ++i) {
             occlusion += steps[i].hit != exact[i].hit;
@@ -62,9 +62,10 @@ TEST(VoxelVisibility, PassesAFullGridAndAnEmptyOne) {
             WalkedVoxels voxels(glm::uvec3(resolution), 0.125f,
                                 [&](glm::ivec3 v) { return full || v == glm::ivec3(int(resolution) - 1); });
             const std::vector<Ray> rays = raysThroughGrid(voxels.grid, 2000, 7);
-            const std::vector<WalkAnswer> expected = voxels.walk(VoxelWalk::Bits, rays);
+            const std::vector<WalkAnswer> expected = voxels.walk(VoxelTraversal::Bits, rays);
             for (const WalkAnswer& a : expected) ASSERT_TRUE(!full || (a.hit != 0) == (a.start.x >= 0));
-            for (const VoxelWalk walk : {VoxelWalk::Bricks, VoxelWalk::SvoRestart, VoxelWalk::Svo}) {
+            for (const VoxelTraversal walk :
+                 {VoxelTraversal::Bricks, VoxelTraversal::SvoRestart, VoxelTraversal::Svo}) {
                 const std::vector<WalkAnswer> answers = voxels.walk(walk, rays);
                 for (size_t i = 0; i < rays.size(); ++i) {
                     ASSERT_EQ(answers[i].hit, expected[i].hit) << i;
@@ -78,12 +79,12 @@ TEST(VoxelVisibility, PassesAFullGridAndAnEmptyOne) {
 TEST(VoxelVisibility, StreamsHaveTheTracersInterface) {
     WalkedVoxels voxels = sphereVoxels();
     std::vector<Ray> rays = raysThroughGrid(voxels.grid, 20000, 8);
-    const std::vector<WalkAnswer> expected = voxels.walk(VoxelWalk::Bits, rays);
+    const std::vector<WalkAnswer> expected = voxels.walk(VoxelTraversal::Bits, rays);
     rays.push_back({glm::vec3(0), 0, glm::vec3(1), -1});         // Inactive.
     rays.push_back({glm::vec3(kInfinity), 0, glm::vec3(1), 1});  // Not finite.
     rays.push_back({glm::vec3(0), 0, glm::vec3(0, std::nanf(""), 1), 1});
     std::mt19937 random(1);
-    for (const auto& [walk, name] : EnumNames<VoxelWalk>::names) {
+    for (const auto& [walk, name] : EnumNames<VoxelTraversal>::names) {
         const std::vector<Hit> hits = voxels.closestHits(walk, rays);
         for (size_t i = 0; i < expected.size(); ++i) {
             ASSERT_EQ(hits[i].triangle != Hit::kMiss, expected[i].hit != 0) << name;
@@ -96,10 +97,10 @@ TEST(VoxelVisibility, StreamsHaveTheTracersInterface) {
 
 TEST(VoxelVisibility, RefusesGridsThatItCantWalkThrough) {
     TestPrograms programs;
-    VoxelMarch march(programs, VoxelWalk::Bits);
+    VoxelMarch march(programs, VoxelTraversal::Bits);
     SurfaceVoxels window;
     window.grid = madeUpGrid(glm::uvec3(64), 1);
-    window.grid.side = 32;
+    window.grid.windowSize = 32;
     MemoryPlan plan;
     EXPECT_CONTAINS(errorOf([&] { march.plan(plan, window); }), "64x64x64, of which 32 are held");
 }

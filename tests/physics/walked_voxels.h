@@ -44,7 +44,7 @@ class WalkedVoxels {
 
     /// @param segments whether both ways of occlusion are asked for (in WalkAnswer::hit), instead of the
     /// closest voxel.
-    std::vector<WalkAnswer> walk(VoxelWalk walk, const std::vector<Ray>& rays, float epsilon = 0,
+    std::vector<WalkAnswer> walk(VoxelTraversal walk, const std::vector<Ray>& rays, float epsilon = 0,
                                  bool segments = false) {
         TestPrograms programs;
         VoxelMarch march(programs, walk, epsilon);
@@ -63,7 +63,7 @@ class WalkedVoxels {
     }
 
     /// By a stream of rays.
-    std::vector<Hit> closestHits(VoxelWalk walk, const std::vector<Ray>& rays) {
+    std::vector<Hit> closestHits(VoxelTraversal walk, const std::vector<Ray>& rays) {
         TestPrograms programs;
         VoxelTracer tracer(programs, walk);
         prepare(programs, tracer, voxels_);

@@ -230,7 +230,7 @@ TEST(ComposedSceneLoader, WarnsOfAdditionsInAnotherUnit) {
         SceneLoader loader({});
         const SceneSettings scene = settingsOf("  add: [" + additions + "]\n");
         std::vector<std::string> lines;
-        for (const Diagnostic& found : addedScenesOfOtherUnits(scene, loader.prepare(scene), loader))
+        for (const Diagnostic& found : checkAddedSceneUnits(scene, loader.prepare(scene), loader))
             lines.push_back(found.str());
         return lines;
     };
@@ -258,7 +258,7 @@ TEST(ComposedSceneLoader, WarnsOfAdditionsInAnotherUnit) {
     SceneLoader loader({});
     const SceneSettings hidden = settingsOf("  hide: [red, sphere]\n  add: [" + room("scale: 2") + ", " +
                                             room("scale: 101") + ", {builtin: mirror_row}]\n");
-    const Diagnostics rest = addedScenesOfOtherUnits(hidden, loader.prepare(hidden), loader);
+    const Diagnostics rest = checkAddedSceneUnits(hidden, loader.prepare(hidden), loader);
     ASSERT_EQ(rest.size(), 1u);
     EXPECT_CONTAINS(rest[0].str(), "scene.add[1]: ");
 }

@@ -31,7 +31,7 @@ TEST(ShippedConfigs, ReadAndValidate) {
         for (const std::string& profile : profiles) {
             SCOPED_TRACE(entry.path().string() + " " + profile);
             try {
-                const Study wired = wireExperiment(loadExperiment(entry.path(), {profile, {}}), registry);
+                const Study wired = makeStudy(loadExperiment(entry.path(), {profile, {}}), registry);
                 SceneLoader loader({});
                 for (const Variant& variant : wired.variants)
                     if (!needsFiles(variant.setup.scene)) loader.prepare(variant.setup.scene);

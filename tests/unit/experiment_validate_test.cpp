@@ -19,7 +19,7 @@ namespace {
 void expectError(const std::string& graph, std::initializer_list<const char*> parts) {
     const std::string text = "name: x\nscene: {builtin: cornell}\n" + graph;
     const std::string message =
-        errorOf<UsageError>([&] { wireExperiment(parseExperiment(text, "x.yaml"), fakes::registry()); });
+        errorOf<UsageError>([&] { makeStudy(parseExperiment(text, "x.yaml"), fakes::registry()); });
     for (const char* part : parts) EXPECT_CONTAINS(message, part);
 }
 
@@ -42,7 +42,7 @@ TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
     // Of two passes that write the image the last one counts, unless it reads the first one's
     Registry registry = fakes::registry();
     registry.add<Veil>();
-    const auto wired = wireExperiment(
+    const auto wired = makeStudy(
         parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: a}\n"
                         "  - {pass: constant, id: b}\nsweep: {b: [constant, veil], a.value: [4, 5]}\n",
                         "x.yaml"),
@@ -53,7 +53,7 @@ TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
     EXPECT_EQ(wired.variants[0].values, (std::vector<std::string>{"constant", "-"}));
 
     // A whole pass neither, where nothing of what stands in its place runs
-    const auto swapped = wireExperiment(
+    const auto swapped = makeStudy(
         parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: a}\n"
                         "  - {pass: constant, id: b}\nsweep:\n  a: {x: {pass: constant, value: 4}, y: "
                         "[layers, constant]}\n"
@@ -85,10 +85,10 @@ TEST(Validate, AValueWhosePassNeverRunsIsRefusedWhereAnothersRuns) {
         "graph:\n  - {pass: constant, id: c}\nsweep:\n  c: {whole: constant, part: [constant, layers]}\n",
         {"x.yaml:6: ", "sweep.c: 'layers' is never run"});
     // Different passes that are read
-    wireExperiment(parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: layers, id: l}\n"
-                                   "  - {pass: constant}\nsweep: {l: [layers, witness]}\n",
-                                   "x.yaml"),
-                   fakes::registry());
+    makeStudy(parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: layers, id: l}\n"
+                              "  - {pass: constant}\nsweep: {l: [layers, witness]}\n",
+                              "x.yaml"),
+              fakes::registry());
 }
 
 TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
@@ -148,7 +148,7 @@ TEST(Validate, MotionIsRefusedWhereItHasNoEffectInAnyVariant) {
         const std::string text = "name: x\nscene: {" + scene + "}\n" + rest + "\ngraph: [{pass: constant}]\n";
         try {
             const Registry registry = fakes::registry();
-            Study study = wireExperiment(parseExperiment(text, "x.yaml"), registry);
+            Study study = makeStudy(parseExperiment(text, "x.yaml"), registry);
             SceneLoader loader({});
             ViewChecks views({});
             planVariants(study, loader, views, DeviceInfo());

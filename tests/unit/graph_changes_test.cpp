@@ -20,7 +20,7 @@ struct Write final : Pass {
     void plan(PassPlan&) override {}
     void record(PassContext& context) override {
         if (!context.isFirstRun() && context[number_].value == context.frame.sceneVersion)
-            return context.keepOutputs();
+            return context.markOutputsUnchanged();
         context[number_].value = uint32_t(context.frame.sceneVersion);
     }
     Out<Number> number_{*this, "number", "a number"};

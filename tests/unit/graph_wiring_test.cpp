@@ -197,37 +197,37 @@ TEST(GraphWiring, KeepsOnlyWhatIsAskedFor) {
         "[{pass: make_voxels}, {pass: make_voxels, id: unread}, {pass: light_voxels, id: a, inputs: "
         "{voxels: make_voxels}}, {pass: light_voxels, id: reads_unread, inputs: {light: a}}, {pass: "
         "light_voxels, id: b, inputs: {voxels: make_voxels, light: a}}]");
-    EXPECT_EQ(g.keepOnly({"light", "indirect"}), (std::vector<std::string>{"unread", "reads_unread"}));
+    EXPECT_EQ(g.cullUnused({"light", "indirect"}), (std::vector<std::string>{"unread", "reads_unread"}));
     const auto passes = g.passes();
     ASSERT_EQ(passes.size(), 3u);
     EXPECT_EQ(passes[0].id, "make_voxels");
     EXPECT_EQ(passes[1].id, "a");
     EXPECT_EQ(passes[2].id, "b");
-    EXPECT_EQ(g.keepOnly({"light"}), std::vector<std::string>{});
+    EXPECT_EQ(g.cullUnused({"light"}), std::vector<std::string>{});
 }
 
 TEST(GraphWiring, TellsWhyAPassIsLeftOut) {
     const Graph g = graph(
         "- {pass: make_voxels}\n- {pass: make_voxels, id: nearer}\n- {pass: light_voxels}\n"
         "- {pass: make_voxels, id: late}\n");
-    const std::string overwritten = g.whyLeftOut("make_voxels");
+    const std::string overwritten = g.whyCulled("make_voxels");
     EXPECT_CONTAINS(overwritten,
                     "g.yaml:1: 'make_voxels' is never run: 'nearer', after it, writes 'voxels' too");
     EXPECT_CONTAINS(overwritten, "write 'inputs: {voxels: make_voxels}' in what shall read it");
-    EXPECT_CONTAINS(g.whyLeftOut("late"), "g.yaml:4: 'late' is never run: no pass reads what it writes");
+    EXPECT_CONTAINS(g.whyCulled("late"), "g.yaml:4: 'late' is never run: no pass reads what it writes");
 
     const Graph chain = graph(
         "- {pass: make_voxels}\n- {pass: make_voxels, id: unread}\n"
         "- {pass: light_voxels, id: a, inputs: {voxels: make_voxels}}\n"
         "- {pass: light_voxels, id: reads_unread, inputs: {light: a}}\n"
         "- {pass: light_voxels, id: b, inputs: {voxels: make_voxels, light: a}}\n");
-    EXPECT_CONTAINS(chain.whyLeftOut("unread"), "'reads_unread' reads it, but no image that is compared");
-    EXPECT_CONTAINS(chain.whyLeftOut("reads_unread"),
+    EXPECT_CONTAINS(chain.whyCulled("unread"), "'reads_unread' reads it, but no image that is compared");
+    EXPECT_CONTAINS(chain.whyCulled("reads_unread"),
                     "'b', after it, writes 'light' too, and the last one counts");
 }
 
 TEST(GraphWiring, TellsProducersWhatIsRead) {
-    // From outside, only the last output of a name can be read; keepOnly says which names are.
+    // From outside, only the last output of a name can be read; cullUnused says which names are.
     const auto bytes = [](Graph g) {
         std::vector<uint64_t> all;
         for (const PassMemory& pass : g.plan(Frame(), DeviceInfo(), 1u << 20)) all.push_back(pass.bytes);
@@ -239,7 +239,7 @@ TEST(GraphWiring, TellsProducersWhatIsRead) {
         "[{pass: two_outputs}, {pass: two_outputs, id: last, inputs: {before: two_outputs.light}}]";
     EXPECT_EQ(bytes(graph(linked)), (std::vector<uint64_t>{1, 3}));
     Graph kept = graph(linked);
-    kept.keepOnly({"spare"});
+    kept.cullUnused({"spare"});
     EXPECT_EQ(bytes(std::move(kept)), (std::vector<uint64_t>{1, 2}));
 }
 
@@ -247,7 +247,7 @@ TEST(GraphWiring, KeepsWhatOnlyReports) {
     Graph g = graph(
         "[{pass: make_voxels}, {pass: light_voxels}, {pass: make_voxels, id: counted}, {pass: "
         "count_voxels}, {pass: make_voxels, id: unread}]");
-    EXPECT_EQ(g.keepOnly({"light"}), std::vector<std::string>{"unread"});
+    EXPECT_EQ(g.cullUnused({"light"}), std::vector<std::string>{"unread"});
     EXPECT_EQ(g.passes().back().id, "count_voxels");
 }
 

@@ -30,9 +30,7 @@ Names noiseOf(const std::string& injection, const std::string& image) {
         "}\n"
         "  - {pass: trace_gather_rays, id: trace}\n  - {pass: gather_rays}\n"
         "  - {pass: direct_shadow_rays, id: direct}\n  - {pass: composite}\n";
-    return wireExperiment(parseExperiment(config, "x.yaml"), registry)
-        .variants.at(0)
-        .graph.noiseParameters(image);
+    return makeStudy(parseExperiment(config, "x.yaml"), registry).variants.at(0).graph.noiseParameters(image);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ class RunInParts : public RunTest {
     std::vector<Part> parts(uint32_t referenceParts, const std::string& rest = kSweep) const {
         const Registry passes = registry();
         const RunOptions o = options();
-        PreparedExperiment prepared(wireExperiment(parseExperiment(config(rest), "fake.yaml"), passes), o);
+        PreparedExperiment prepared(makeStudy(parseExperiment(config(rest), "fake.yaml"), passes), o);
         return partsOf(prepared, referenceParts);
     }
     RunSummary runPart(const std::string& id, const std::string& out = "out",
@@ -168,7 +168,7 @@ TEST_F(RunInParts, AFailedReferenceIsWhyVariantsFailed) {
     const std::string pass = "pass: truth";
     text.replace(text.find(pass), pass.size(), pass + ", fail: true");
     const Registry passes = registry();
-    const auto wired = [&] { return wireExperiment(parseExperiment(text, "fake.yaml"), passes); };
+    const auto wired = [&] { return makeStudy(parseExperiment(text, "fake.yaml"), passes); };
     RunOptions o = options();
     PreparedExperiment prepared(wired(), o);
     const std::string id = partsOf(prepared, 1)[0].id;

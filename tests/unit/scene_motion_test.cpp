@@ -113,7 +113,7 @@ TEST(Motion, FrozenSceneStaysWithItsOwnBounds) {
 
 TEST(Motion, RunsOfMovingInstancesAreOneRange) {
     const Geometry g = evaluate(jumble(), 0, Playback::Looping).geometry;
-    const std::vector<InstanceRange> runs = movingRuns(g);
+    const std::vector<InstanceRange> runs = movingInstanceRanges(g);
     ASSERT_EQ(runs.size(), 1u);
     EXPECT_EQ(runs[0].firstTriangle, 2u);
     EXPECT_EQ(runs[0].triangleCount, 4 * 80u);

@@ -18,7 +18,7 @@ Study wired(const std::string& text) {
         registerPasses(all);
         return all;
     }();
-    return wireExperiment(parseExperiment("name: x\nscene: {builtin: cornell}\n" + text, "x.yaml"), registry);
+    return makeStudy(parseExperiment("name: x\nscene: {builtin: cornell}\n" + text, "x.yaml"), registry);
 }
 
 /// A graph with a voxelize pass and its parameters in line 5.

@@ -38,7 +38,7 @@ Registry allPasses() {
 
 std::string errorIn(const std::string& graph) {
     const std::string config = "name: x\nscene: {builtin: cornell}\ngraph:\n" + graph;
-    return errorOf<UsageError>([&] { wireExperiment(parseExperiment(config, "x.yaml"), allPasses()); });
+    return errorOf<UsageError>([&] { makeStudy(parseExperiment(config, "x.yaml"), allPasses()); });
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ class MutualVisibility final : public Pass {
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees, a texel a pixel"};
     In<SurfaceVoxels> voxels_{*this, "voxels", "what hides surfaces from each other"};
     Out<FrameImage> seen_{*this, "seen", "1 or 0"};
-    VoxelMarch march_{*this, VoxelWalk::Bricks};
+    VoxelMarch march_{*this, VoxelTraversal::Bricks};
     Kernel kernel_{*this, "mutual_visibility.comp", march_.defines()};
 };
 VOXRAY_REGISTER_PASS(MutualVisibility);

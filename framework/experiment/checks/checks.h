@@ -44,12 +44,12 @@ inline constexpr Check<View> kViewChecks[] = {
     spotAngleInRadians, cameraSeesLittle,       exposureOfAllWhiteOrBlack, cameraSeesNoLight};
 
 // The scene (scene.cpp)
-void addedScenesOfOtherUnits(const PlannedVariant&, Diagnostics&);
+void checkAddedSceneUnits(const PlannedVariant&, Diagnostics&);
 /// A scene in centimetres is 100 times too large among metres. A flat one, such as a ground, may have any
 /// size.
 /// @param prepared of `scene`; `loader` has loaded it.
-Diagnostics addedScenesOfOtherUnits(const SceneSettings& scene, const PreparedScene& prepared,
-                                    SceneLoader& loader);
+Diagnostics checkAddedSceneUnits(const SceneSettings& scene, const PreparedScene& prepared,
+                                 SceneLoader& loader);
 void lightsThatAreNotThere(const PlannedVariant&, Diagnostics&);
 void spheresThatStandStill(const PlannedVariant&, Diagnostics&);
 // Time and memory (cost.cpp)
@@ -61,14 +61,9 @@ void otherBounces(const PlannedVariant&, Diagnostics&);
 void missingLobes(const PlannedVariant&, Diagnostics&);
 
 /// Of each variant.
-inline constexpr Check<PlannedVariant> kVariantChecks[] = {addedScenesOfOtherUnits,
-                                                           lightsThatAreNotThere,
-                                                           spheresThatStandStill,
-                                                           lightRaysThatTakeLong,
-                                                           shortHistory,
-                                                           missingLight,
-                                                           otherBounces,
-                                                           missingLobes};
+inline constexpr Check<PlannedVariant> kVariantChecks[] = {
+    checkAddedSceneUnits, lightsThatAreNotThere, spheresThatStandStill, lightRaysThatTakeLong,
+    shortHistory,         missingLight,          otherBounces,          missingLobes};
 
 void unequalHalves(const Study&, Diagnostics&);       // comparison.cpp
 void overTheMemoryLimit(const Study&, Diagnostics&);  // cost.cpp

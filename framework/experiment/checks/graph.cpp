@@ -157,7 +157,7 @@ std::string overwrittenPass(const Study& study) {
 std::string whyNeverRun(const Study& study, const std::string& id) {
     const auto lacks = [&](const Variant& v) { return std::ranges::count(v.leftOut, id) > 0; };
     const auto variant = std::ranges::find_if(study.variants, lacks);
-    return Graph(*study.registry, variant->setup.graph).whyLeftOut(id);
+    return Graph(*study.registry, variant->setup.graph).whyCulled(id);
 }
 
 void checkIsNotOverwritten(const Study& study) {

@@ -31,7 +31,7 @@ void checkIsNotOverwritten(const Study& study);
 /// where there is none.
 std::string overwrittenPass(const Study& study);
 
-/// Why a pass runs in no variant, with file and line, and what to do (Graph::whyLeftOut()).
+/// Why a pass runs in no variant, with file and line, and what to do (Graph::whyCulled()).
 std::string whyNeverRun(const Study& study, const std::string& id);
 
 }  // namespace voxray

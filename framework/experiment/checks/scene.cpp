@@ -64,8 +64,8 @@ Diagnostic findingOf(const SceneAddition& addition, const Box& added, const Box&
 
 }  // namespace
 
-Diagnostics addedScenesOfOtherUnits(const SceneSettings& scene, const PreparedScene& prepared,
-                                    SceneLoader& loader) {
+Diagnostics checkAddedSceneUnits(const SceneSettings& scene, const PreparedScene& prepared,
+                                 SceneLoader& loader) {
     // Meshes of what is added follow the scene's own, and keep their numbers where instances are hidden
     Diagnostics all;
     size_t first = loader.load(scene.source)->meshes.size();
@@ -79,9 +79,9 @@ Diagnostics addedScenesOfOtherUnits(const SceneSettings& scene, const PreparedSc
     return all;
 }
 
-void addedScenesOfOtherUnits(const PlannedVariant& v, Diagnostics& found) {
+void checkAddedSceneUnits(const PlannedVariant& v, Diagnostics& found) {
     if (!v.isNewScene) return;
-    for (Diagnostic& own : addedScenesOfOtherUnits(v.variant.setup.scene, v.scene, v.loader))
+    for (Diagnostic& own : checkAddedSceneUnits(v.variant.setup.scene, v.scene, v.loader))
         found.push_back(std::move(own));
 }
 

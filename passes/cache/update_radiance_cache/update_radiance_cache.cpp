@@ -9,7 +9,7 @@
 #include "passes/cache/update_radiance_cache/path_types.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/view/image_rays.h"
-#include "passes/surfels/surfel_light.h"
+#include "passes/surfels/surfel_direct_light.h"
 
 namespace voxray {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 constexpr uint32_t kMaxVertices = 1u << 19;  // Of a batch of paths: 74 MiB.
 constexpr uint32_t kWrittenVertices = 4;     // Of a path: what it sees, and what rays that go on see.
 
-// As in write.comp.
+// As in write_cells.comp.
 struct CellCounts {
     uint32_t cells, lost, collisions;
 };
@@ -102,31 +102,29 @@ class UpdateRadianceCache final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    bool keepsHistory() const {
-        return params_.update == CacheUpdate::EachFrame && params_.historyFrames > 1;
-    }
-    bool endsInCache() const { return keepsHistory() && params_.samplesToEnd > 0; }
+    bool usesHistory() const { return params_.update == CacheUpdate::EachFrame && params_.historyFrames > 1; }
+    bool endsInCache() const { return usesHistory() && params_.samplesToEnd > 0; }
     /// Vertices of a path, at most: those that are written, and the bounces that the last of them still
     /// needs.
-    uint32_t pathVertices() const { return kWrittenVertices + params_.bounces; }
-    uint32_t batchPaths() const { return std::min(params_.raysPerImage, kMaxVertices / pathVertices()); }
+    uint32_t maxPathVertices() const { return kWrittenVertices + params_.bounces; }
+    uint32_t batchPaths() const { return std::min(params_.raysPerImage, kMaxVertices / maxPathVertices()); }
     gpu::RadianceCacheGrid makeGrid(const Frame& frame) const;
     /// Empties the table, or hands on what is kept of the previous frame.
     void begin(PassContext& context, RadianceCache& cache);
     /// Traces paths [first, first + count) of an update and leaves their light in the cache. @return
     /// vertices.
-    uint32_t follow(PassContext& context, const RadianceCache& cache, uint32_t first, uint32_t count,
-                    uint32_t seed);
+    uint32_t tracePaths(PassContext& context, const RadianceCache& cache, uint32_t first, uint32_t count,
+                        uint32_t seed);
 
     const Params params_;
     Out<RadianceCache> cache_{*this, "radiance_cache", "light that arrives at surfaces, by hashed cells"};
     std::vector<LightSource> sources_;
     float unitsPerIrradiance_ = 1;
     ImageRays imageRays_{*this};
-    SurfelLight light_{*this};
-    Kernel follow_{*this, "follow.comp"};
-    Kernel write_{*this, "write.comp"};
-    Kernel age_{*this, "age.comp"};
+    SurfelDirectLight light_{*this};
+    Kernel extendPaths_{*this, "extend_paths.comp"};
+    Kernel writeCells_{*this, "write_cells.comp"};
+    Kernel decayCells_{*this, "decay_cells.comp"};
     std::array<Buffer, 2> rays_, origins_;  ///< Of a path's step, and of the next one.
     Buffer hits_, surfels_, vertices_, direct_, vertexCount_, cellCounts_;
     Buffer oldKeys_, oldSums_;  ///< Of the previous frame, with history_frames.
@@ -143,14 +141,14 @@ void UpdateRadianceCache::plan(PassPlan& plan) {
 
     RadianceCache& cache = plan[cache_];
     if (!endsInCache()) cache.lightBounces = params_.bounces;  // Else light of all bounces.
-    plan.buffer(cache.gridAt, "grid of the radiance cache", sizeof(gpu::RadianceCacheGrid));
+    plan.buffer(cache.gridBuffer, "grid of the radiance cache", sizeof(gpu::RadianceCacheGrid));
     plan.buffer(cache.keys, "keys of the radiance cache", params_.capacity * RadianceCache::kKeyBytes);
     plan.buffer(cache.sums, "sums of the radiance cache", params_.capacity * RadianceCache::kSumBytes);
-    if (keepsHistory()) {
+    if (usesHistory()) {
         plan.buffer(oldKeys_, "keys of the previous frame", params_.capacity * RadianceCache::kKeyBytes);
         plan.buffer(oldSums_, "sums of the previous frame", params_.capacity * RadianceCache::kSumBytes);
     }
-    const uint64_t paths = batchPaths(), vertices = paths * pathVertices();
+    const uint64_t paths = batchPaths(), vertices = paths * maxPathVertices();
     for (Buffer& rays : rays_) plan.buffer(rays, "path rays", paths * sizeof(Ray));
     for (Buffer& origins : origins_) plan.buffer(origins, "origins of path rays", paths * sizeof(uint32_t));
     plan.buffer(hits_, "path hits", paths * sizeof(Hit));
@@ -160,8 +158,8 @@ void UpdateRadianceCache::plan(PassPlan& plan) {
     plan.buffer(vertexCount_, "number of vertices", sizeof(uint32_t));
     plan.buffer(cellCounts_, "counts of cells", sizeof(CellCounts));
     light_.plan(plan, uint32_t(vertices));
-    follow_.specialize({{"samplesToEnd", endsInCache() ? params_.samplesToEnd : 0}});
-    age_.compileIf(keepsHistory());
+    extendPaths_.specialize({{"samplesToEnd", endsInCache() ? params_.samplesToEnd : 0}});
+    decayCells_.compileIf(usesHistory());
 }
 
 void UpdateRadianceCache::record(PassContext& context) {
@@ -170,7 +168,8 @@ void UpdateRadianceCache::record(PassContext& context) {
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
     double vertices = 0;
     for (uint32_t first = 0; first < params_.raysPerImage; first += batchPaths())
-        vertices += follow(context, cache, first, std::min(batchPaths(), params_.raysPerImage - first), seed);
+        vertices +=
+            tracePaths(context, cache, first, std::min(batchPaths(), params_.raysPerImage - first), seed);
     const CellCounts counts = context.stream.readAs<CellCounts>(cellCounts_, 1)[0];
     context.report("cells", counts.cells);
     context.report("occupancy", double(counts.cells) / params_.capacity);
@@ -193,8 +192,8 @@ gpu::RadianceCacheGrid UpdateRadianceCache::makeGrid(const Frame& frame) const {
 void UpdateRadianceCache::begin(PassContext& context, RadianceCache& cache) {
     CommandStream& stream = context.stream;
     cache.grid = makeGrid(context.frame);
-    stream.upload(cache.gridAt, std::vector{cache.grid});
-    if (keepsHistory()) {
+    stream.upload(cache.gridBuffer, std::vector{cache.grid});
+    if (usesHistory()) {
         if (!hasHistory_) stream.fill(cache.keys, 0);
         std::swap(cache.keys, oldKeys_);
         std::swap(cache.sums, oldSums_);
@@ -202,27 +201,27 @@ void UpdateRadianceCache::begin(PassContext& context, RadianceCache& cache) {
     stream.fill(cache.keys, 0);
     stream.fill(cache.sums, 0);
     stream.fill(cellCounts_, 0);
-    if (keepsHistory())
-        context.dispatch(age_, params_.capacity,
+    if (usesHistory())
+        context.dispatch(decayCells_, params_.capacity,
                          {cache,
                           {"oldKeys", oldKeys_},
                           {"oldSums", oldSums_},
                           {"cellCounts", cellCounts_},
                           {"historyFrames", params_.historyFrames}});
-    hasHistory_ = keepsHistory();
+    hasHistory_ = usesHistory();
 }
 
-uint32_t UpdateRadianceCache::follow(PassContext& context, const RadianceCache& cache, uint32_t first,
-                                     uint32_t count, uint32_t seed) {
+uint32_t UpdateRadianceCache::tracePaths(PassContext& context, const RadianceCache& cache, uint32_t first,
+                                         uint32_t count, uint32_t seed) {
     CommandStream& stream = context.stream;
     // Trace the paths, all of them a step at a time.
     stream.fill(vertexCount_, 0);
     imageRays_.record(context, rays_[0], first, count, seed);
     uint32_t vertices = 0, written = 0, rays = count;
-    for (uint32_t step = 0; step < pathVertices() && rays > 0; ++step) {
+    for (uint32_t step = 0; step < maxPathVertices() && rays > 0; ++step) {
         const size_t from = step % 2, to = 1 - from;
         context.tracer.closestHit(stream, rays_[from], hits_, rays);
-        context.dispatch(follow_, rays,
+        context.dispatch(extendPaths_, rays,
                          {context.scene,
                           {"rays", rays_[from]},
                           {"hits", hits_},
@@ -232,7 +231,7 @@ uint32_t UpdateRadianceCache::follow(PassContext& context, const RadianceCache& 
                           {"surfels", surfels_},
                           {"vertices", vertices_},
                           {"vertexCount", vertexCount_},
-                          {"radianceCacheGrid", cache.gridAt},
+                          {"radianceCacheGrid", cache.gridBuffer},
                           {"radianceCacheKeys", endsInCache() ? oldKeys_ : cache.keys},
                           {"radianceCacheSums", endsInCache() ? oldSums_ : cache.sums},
                           {"rayCount", rays},
@@ -251,7 +250,7 @@ uint32_t UpdateRadianceCache::follow(PassContext& context, const RadianceCache& 
     // Direct light at all vertices, then what each receives from those that follow it.
     if (vertices > 0) {
         light_.measure(context, sources_, surfels_, vertices, params_.lightSamples, seed + 0xa3u, direct_);
-        context.dispatch(write_, written,
+        context.dispatch(writeCells_, written,
                          {cache,
                           {"surfels", surfels_},
                           {"vertices", vertices_},

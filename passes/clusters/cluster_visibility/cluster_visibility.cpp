@@ -89,7 +89,7 @@ class FindClusterVisibility final : public Pass {
     };
 
     explicit FindClusterVisibility(const Params& params) : params_(params) {
-        if (!isExact()) march_.emplace(*this, VoxelWalk::Bricks);
+        if (!isExact()) march_.emplace(*this, VoxelTraversal::Bricks);
     }
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
@@ -143,7 +143,7 @@ void FindClusterVisibility::plan(PassPlan& plan) {
     plan.scratchBuffer(targets_, "targets of rays", rays * sizeof(uint32_t));
     plan.scratchBuffer(entryCounts_, "entry counts of patches", (chunk + 1) * sizeof(uint32_t));
     plan.scratchBuffer(missed_, "rays without a target", 2 * sizeof(uint32_t));
-    const bool reusesHits = isExact() && !movingRuns(plan.frame.scene->geometry).empty();
+    const bool reusesHits = isExact() && !movingInstanceRanges(plan.frame.scene->geometry).empty();
     if (reusesHits) {
         compaction_.emplace(*this);
         updateCache_.emplace(*this);
@@ -238,7 +238,7 @@ std::vector<Binding> FindClusterVisibility::rayBindings(PassContext& context, ui
     const VoxelPatches& patches = context[patches_];
     return {{"patchFaces", patchFaces_},
             {"groups", patches.groups},
-            {"GroupedSurfelsAt", patches.surfels.at()},
+            {"GroupedSurfelsRef", patches.surfels.ref()},
             {"grid", context[voxels_].grid},
             {"lists", context[visibility_].layout},
             {"firstPatch", firstPatch},
@@ -281,7 +281,7 @@ uint32_t FindClusterVisibility::traceRays(PassContext& context, const std::vecto
                          {listedRays.all(),
                           context[voxels_],
                           {"firstGroup", patches.firstGroup},
-                          {"VoxelMaterialsAt", patches.materials.at()},
+                          {"VoxelMaterialsRef", patches.materials.ref()},
                           {"hits", hits_},
                           {"candidates", candidates_},
                           {"visibilityRays", visibilityRays_},
@@ -302,7 +302,7 @@ void FindClusterVisibility::marchRays(PassContext& context, const std::vector<Bi
                      {march,
                       rays,
                       {"firstGroup", patches.firstGroup},
-                      {"VoxelMaterialsAt", patches.materials.at()},
+                      {"VoxelMaterialsRef", patches.materials.ref()},
                       {"packedHits", packedHits},
                       {"rayCount", count},
                       {"round", 0u}});

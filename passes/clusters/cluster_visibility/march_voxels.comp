@@ -68,7 +68,7 @@ uint marchRay(uint rayNumber) {
     const GroupedSurfel s = sampleSurfel(rayNumber);
     const ivec3 startVoxel = voxelAt(push.grid, s.position);
     MarchingRay ray = MarchingRay(s.normal, sampleDirection(rayNumber, s), startVoxel, true);
-    const vec3 start = inVoxels(push.grid, marchOrigin(s, startVoxel)), size = abs(ray.direction);
+    const vec3 start = gridCoordinates(push.grid, marchOrigin(s, startVoxel)), size = abs(ray.direction);
     const float longest = max(size.x, max(size.y, size.z));
     for (uint i = 0u;; ++i) {
         const ivec3 voxel = ivec3(floor(start)) + ivec3(round(float(i) / longest * ray.direction));
@@ -84,7 +84,7 @@ uint marchRay(uint rayNumber) {
 #else
 // Distance to where a ray leaves a voxel that it is in, plus a margin, m.
 float exitDistance(ivec3 voxel, vec3 origin, vec3 direction) {
-    const vec3 start = inVoxels(push.grid, origin), far = mix(vec3(voxel), vec3(voxel) + 1.0, greaterThan(direction, vec3(0.0)));
+    const vec3 start = gridCoordinates(push.grid, origin), far = mix(vec3(voxel), vec3(voxel) + 1.0, greaterThan(direction, vec3(0.0)));
     const vec3 distances = mix((far - start) / direction, vec3(1.0e30), lessThan(abs(direction), vec3(1e-9)));
     return (min(distances.x, min(distances.y, distances.z)) + VOXEL_MARGIN) * push.grid.voxelSize;
 }

@@ -2,7 +2,7 @@
 
 #include <glm/common.hpp>
 
-#include "passes/common/compute/uints.h"
+#include "passes/common/compute/uint_bytes.h"
 #include "passes/common/voxel_builder/changed_voxels.h"
 
 namespace voxray {
@@ -36,8 +36,8 @@ void RayUpdateCache::begin(CommandStream& stream, const SurfaceVoxels& voxels, c
     Device& device = stream.device();
     const Buffer nearChange = regions_.bits(
         stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, kHitReach)), voxels);
-    newGroups_ = Buffer(device, "new numbers of groups", uints(groupCount_));
-    previousFirstPatches_ = Buffer(device, "previous first patches of groups", uints(patches.groupCount));
+    newGroups_ = Buffer(device, "new numbers of groups", uintBytes(groupCount_));
+    previousFirstPatches_ = Buffer(device, "previous first patches of groups", uintBytes(patches.groupCount));
     stream.fill(newGroups_, NO_GROUP);
     stream.dispatch(renumberGroups_, patches.groupCount,
                     {{"groups", patches.groups},
@@ -74,7 +74,7 @@ void RayUpdateCache::reuse(CommandStream& stream, const Bindings& rays, uint32_t
 }
 
 const Buffer& RayUpdateCache::addChunk(Device& device, uint64_t rays) {
-    return packedHits_.emplace_back(device, "packed hits", uints(rays));
+    return packedHits_.emplace_back(device, "packed hits", uintBytes(rays));
 }
 
 void RayUpdateCache::store(CommandStream& stream, const VoxelPatches& patches) {
@@ -83,7 +83,7 @@ void RayUpdateCache::store(CommandStream& stream, const VoxelPatches& patches) {
     previousHits_.clear();
     previousHitAddresses_ = {}, newGroups_ = {}, previousFirstPatches_ = {}, boxes_ = {}, firstPatches_ = {};
     groupCount_ = patches.groupCount;
-    firstPatches_ = Buffer(stream.device(), "first patches of groups", uints(groupCount_));
+    firstPatches_ = Buffer(stream.device(), "first patches of groups", uintBytes(groupCount_));
     stream.dispatch(
         storeFirstPatches_, groupCount_,
         {{"groups", patches.groups}, {"firstPatches", firstPatches_}, {"groupCount", groupCount_}});

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "passes/common/compute/uints.h"
+#include "passes/common/compute/uint_bytes.h"
 
 namespace voxray {
 namespace {
@@ -24,7 +24,7 @@ FragmentAngles::FragmentAngles(ProgramOwner& owner)
 
 FragmentAngles::Sums FragmentAngles::measure(PassContext& context, const SurfaceVoxels& voxels) {
     const Geometry& geometry = context.frame.scene->geometry;
-    Sums sums{Buffer(context.device, "angles of fragments", uints(4 * uint64_t(voxels.voxelCount))),
+    Sums sums{Buffer(context.device, "angles of fragments", uintBytes(4 * uint64_t(voxels.voxelCount))),
               unitsFor(geometry.triangles.size())};
     context.stream.fill(sums.angles, 0);
     const VoxelRegion region(voxels.grid);

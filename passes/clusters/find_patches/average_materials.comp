@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 
 layout(scalar) buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer FirstGroup { uint data[]; } firstGroup;
-layout(scalar) readonly buffer GroupMaterialsAt { VoxelMaterials groupMaterials; };
+layout(scalar) readonly buffer GroupMaterialsRef { VoxelMaterials groupMaterials; };
 writeonly buffer PatchCounts { uint data[]; } patchCounts;  // By group.
 layout(push_constant) uniform Push { uint voxels; } push;
 

@@ -8,11 +8,11 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer FirstGroup { uint data[]; } firstGroup;
-layout(scalar) readonly buffer GroupMaterialsAt { VoxelMaterials groupMaterials; };
+layout(scalar) readonly buffer GroupMaterialsRef { VoxelMaterials groupMaterials; };
 #ifdef LIST
 readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
-layout(scalar) readonly buffer NeighboursAt { LargeUints neighbours; };
-layout(scalar) readonly buffer NeighbourOfAt { LargeUints neighbourOf; };  // By entry of `neighbours`: the group that it is a neighbour of.
+layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
+layout(scalar) readonly buffer NeighbourOfRef { LargeUints neighbourOf; };  // By entry of `neighbours`: the group that it is a neighbour of.
 #else
 writeonly buffer Counts { uint data[]; } counts;  // By group, then 0 for the prefix sum.
 #endif

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-#include "passes/common/compute/uints.h"
+#include "passes/common/compute/uint_bytes.h"
 
 namespace voxray {
 
@@ -22,24 +22,24 @@ ComponentLabeling::ComponentLabeling(ProgramOwner& owner)
 void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters, VoxelPatches& patches) {
     Device& device = stream.device();
     const uint32_t groups = patches.groupCount, words = (groups + 31) / 32;
-    const Buffer labels(device, "labels of surface groups", uints(groups));
-    const Buffer changed(device, "labels that changed", uints(1));
+    const Buffer labels(device, "labels of surface groups", uintBytes(groups));
+    const Buffer changed(device, "labels that changed", uintBytes(1));
     stream.dispatch(iota_, groups, {{"values", labels}, {"count", groups}});
     for (bool isDone = false; !isDone;) {
         stream.fill(changed, 0);
         stream.dispatch(propagateLabels_, groups,
                         {{"groups", patches.groups},
                          {"firstNeighbour", patches.firstNeighbour},
-                         {"NeighboursAt", patches.neighbours.at()},
+                         {"NeighboursRef", patches.neighbours.ref()},
                          {"clusterOfVoxel", clusters.clusterOfVoxel},
                          {"labels", labels},
                          {"changed", changed},
                          {"groupCount", groups}});
         isDone = stream.readAs<uint32_t>(changed, 1)[0] == 0;
     }
-    const Buffer flags(device, "flags of roots", uints(words));
-    const Buffer roots(device, "list of roots", uints(groups));
-    const Buffer componentOfRoot(device, "components of roots", uints(groups));
+    const Buffer flags(device, "flags of roots", uintBytes(words));
+    const Buffer roots(device, "list of roots", uintBytes(groups));
+    const Buffer componentOfRoot(device, "components of roots", uintBytes(groups));
     stream.dispatch(flagRoots_, words,
                     {{"groups", patches.groups},
                      {"clusterOfVoxel", clusters.clusterOfVoxel},
@@ -53,9 +53,9 @@ void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters
         {{"roots", roots}, {"componentOfRoot", componentOfRoot}, {"components", patches.componentCount}});
 
     // Sort the groups by component. The sort is stable: groups of a component stay ascending
-    Buffer keys(device, "components of groups", uints(groups));
-    patches.componentOfGroup = Buffer(device, "components of groups", uints(groups));
-    patches.memberGroups = Buffer(device, "groups by component", uints(groups));
+    Buffer keys(device, "components of groups", uintBytes(groups));
+    patches.componentOfGroup = Buffer(device, "components of groups", uintBytes(groups));
+    patches.memberGroups = Buffer(device, "groups by component", uintBytes(groups));
     patches.components = Buffer(device, "components of clusters",
                                 std::max(patches.componentCount, 1u) * sizeof(gpu::ClusterComponent));
     stream.dispatch(assignComponents_, groups,
@@ -68,8 +68,8 @@ void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters
                      {"components", patches.componentCount}});
     radixSort_.record(stream, keys, patches.memberGroups, groups,
                       uint32_t(std::bit_width(patches.componentCount)));
-    const Buffer memberCounts(device, "group counts of components", uints(patches.componentCount));
-    const Buffer firstMembers(device, "first groups of components", uints(patches.componentCount));
+    const Buffer memberCounts(device, "group counts of components", uintBytes(patches.componentCount));
+    const Buffer firstMembers(device, "first groups of components", uintBytes(patches.componentCount));
     histogram_.record(stream, patches.componentOfGroup, memberCounts, groups, patches.componentCount);
     prefixSum_.run(stream, memberCounts, firstMembers, patches.componentCount);
     stream.dispatch(initComponents_, patches.componentCount,

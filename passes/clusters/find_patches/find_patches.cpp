@@ -10,7 +10,7 @@
 #include "passes/clusters/find_patches/surfel_grouping.h"
 #include "passes/clusters/voxel_clusters.h"
 #include "passes/clusters/voxel_patches.h"
-#include "passes/common/compute/uints.h"
+#include "passes/common/compute/uint_bytes.h"
 #include "passes/surfels/surfel_sort.h"
 
 namespace voxray {
@@ -69,8 +69,8 @@ class FindPatches final : public Pass {
 };
 
 void FindPatches::plan(PassPlan& plan) {
-    batch_.plan(plan, plan[surfels_].coveredSides);
-    const bool surfacesMove = !movingRuns(plan.frame.scene->geometry).empty();
+    batch_.plan(plan, plan[surfels_].hasOccludedSurfels);
+    const bool surfacesMove = !movingInstanceRanges(plan.frame.scene->geometry).empty();
     for (Kernel* kernel : {&initKnownSurfels_, &generateNewNeighbourRays_, &reuseNeighbours_})
         kernel->compileIf(surfacesMove);
     if (surfacesMove) updateCache_.emplace(*this);
@@ -80,7 +80,7 @@ void FindPatches::record(PassContext& context) {
     if (!context.inputsChanged()) return;
     const SurfaceVoxels& voxels = context[voxels_];
     const std::optional<std::vector<Box>>& changed = context.frame.changed;
-    if (!voxels.unoccludedOnly)
+    if (!voxels.unoccludedAreaOnly)
         throw Error(
             "{}: surfels without open space before them have no side; "
             "leave voxelize's 'visibility_rays' above 0",
@@ -111,9 +111,9 @@ void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& lists) {
     const SurfaceVoxels& voxels = context[voxels_];
     VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
-    patches.surfelCount = lists.slotCount;
+    patches.surfelCount = lists.sortedCount;
     patches.surfels = LargeBuffer(context.device, "surfels by group",
-                                  std::max(lists.slotCount, 1u) * sizeof(gpu::GroupedSurfel));
+                                  std::max(lists.sortedCount, 1u) * sizeof(gpu::GroupedSurfel));
     std::vector<Binding> stored;
     if (isUpdate()) stored = updateCache_->surfelBindings(context[clusters_]);
     uint32_t firstIndex = 0;
@@ -121,17 +121,17 @@ void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& lists) {
         context.dispatch(isUpdate() ? initKnownSurfels_ : initSurfels_, chunk.count,
                          {stored,
                           {"surfels", chunk.surfels},
-                          {"SlotsAt", lists.slots.at()},
-                          {"GroupedSurfelsAt", patches.surfels.at()},
+                          {"SortedIndicesRef", lists.sortedIndices.ref()},
+                          {"GroupedSurfelsRef", patches.surfels.ref()},
                           {"grid", voxels.grid},
                           {"count", chunk.count},
                           {"firstIndex", firstIndex}});
         firstIndex += chunk.count;
     }
     stream.finish();
-    patches.surfelIndex = std::move(lists.slots);
+    patches.surfelIndex = std::move(lists.sortedIndices);
     lists.sorted = {};
-    grouping_.run(context, batch_, voxels, context[surfels_].coveredSides, lists, patches);
+    grouping_.run(context, batch_, voxels, context[surfels_].hasOccludedSurfels, lists, patches);
     if (updateCache_) updateCache_->storeSurfels(stream, patches, 2 * context[surfels_].pointCount);
 }
 
@@ -140,11 +140,11 @@ void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& lists) 
     VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
     const uint32_t count = voxels.voxelCount;
-    patches.firstGroup = Buffer(context.device, "first groups of voxels", uints(count + 1));
+    patches.firstGroup = Buffer(context.device, "first groups of voxels", uintBytes(count + 1));
     context.dispatch(sortSurfels_, count + 1,
                      {{"lists", lists.lists},
                       {"counts", patches.firstGroup},
-                      {"GroupedSurfelsAt", patches.surfels.at()},
+                      {"GroupedSurfelsRef", patches.surfels.ref()},
                       {"voxels", count}});
     patches.groupCount = prefixSum_.run(stream, patches.firstGroup, patches.firstGroup, count + 1);
     const uint64_t groups = std::max(patches.groupCount, 1u);
@@ -154,18 +154,18 @@ void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& lists) 
     context.dispatch(listGroups_, count,
                      {{"lists", lists.lists},
                       {"firstGroup", patches.firstGroup},
-                      {"SurfelIndexAt", patches.surfelIndex.at()},
+                      {"SurfelIndexRef", patches.surfelIndex.ref()},
                       {"groups", patches.groups},
-                      {"GroupedSurfelsAt", patches.surfels.at()},
+                      {"GroupedSurfelsRef", patches.surfels.ref()},
                       {"voxels", count}});
-    const Buffer patchCounts(context.device, "patch counts of surface groups", uints(groups));
+    const Buffer patchCounts(context.device, "patch counts of surface groups", uintBytes(groups));
     context.dispatch(averageMaterials_, count,
                      {voxels,
                       {"groups", patches.groups},
                       {"firstGroup", patches.firstGroup},
-                      {"GroupMaterialsAt", patches.materials.at()},
+                      {"GroupMaterialsRef", patches.materials.ref()},
                       {"patchCounts", patchCounts},
-                      {"GroupedSurfelsAt", patches.surfels.at()},
+                      {"GroupedSurfelsRef", patches.surfels.ref()},
                       {"voxels", count}});
     patches.patchCount = prefixSum_.run(stream, patchCounts, patchCounts, patches.groupCount);
     context.dispatch(
@@ -184,19 +184,20 @@ void FindPatches::findNeighbours(PassContext& context) {
                              {"coordinates", context[clusters_].coordinates},
                              {"groups", patches.groups},
                              {"firstGroup", patches.firstGroup},
-                             {"GroupMaterialsAt", patches.materials.at()},
+                             {"GroupMaterialsRef", patches.materials.ref()},
                              {"groupCount", groups}};
-    patches.firstNeighbour = Buffer(context.device, "first neighbours of surface groups", uints(groups + 1));
+    patches.firstNeighbour =
+        Buffer(context.device, "first neighbours of surface groups", uintBytes(groups + 1));
     context.dispatch(countNeighbours_, groups + 1, {adjacency.all(), {"counts", patches.firstNeighbour}});
     const uint32_t neighbours =
         prefixSum_.run(stream, patches.firstNeighbour, patches.firstNeighbour, groups + 1);
-    patches.neighbours = LargeBuffer(context.device, "neighbours of surface groups", uints(neighbours));
-    const LargeBuffer neighbourOf(context.device, "groups by neighbour", uints(neighbours));
+    patches.neighbours = LargeBuffer(context.device, "neighbours of surface groups", uintBytes(neighbours));
+    const LargeBuffer neighbourOf(context.device, "groups by neighbour", uintBytes(neighbours));
     context.dispatch(listNeighbours_, groups + 1,
                      {adjacency.all(),
                       {"firstNeighbour", patches.firstNeighbour},
-                      {"NeighboursAt", patches.neighbours.at()},
-                      {"NeighbourOfAt", neighbourOf.at()}});
+                      {"NeighboursRef", patches.neighbours.ref()},
+                      {"NeighbourOfRef", neighbourOf.ref()}});
     std::vector<Binding> reused, previous;
     if (isUpdate()) {
         reused = updateCache_->neighbourRayBindings();
@@ -206,8 +207,8 @@ void FindPatches::findNeighbours(PassContext& context) {
         context.dispatch(isUpdate() ? generateNewNeighbourRays_ : generateNeighbourRays_, count,
                          {reused,
                           {"groups", patches.groups},
-                          {"NeighboursAt", patches.neighbours.at()},
-                          {"NeighbourOfAt", neighbourOf.at()},
+                          {"NeighboursRef", patches.neighbours.ref()},
+                          {"NeighbourOfRef", neighbourOf.ref()},
                           {"rays", batch_.rays},
                           {"first", first},
                           {"count", count}});
@@ -215,8 +216,8 @@ void FindPatches::findNeighbours(PassContext& context) {
         context.dispatch(isUpdate() ? reuseNeighbours_ : removeOccludedNeighbours_, count,
                          {previous,
                           {"occluded", batch_.occluded},
-                          {"NeighboursAt", patches.neighbours.at()},
-                          ifUsed({"NeighbourOfAt", neighbourOf.at()}),
+                          {"NeighboursRef", patches.neighbours.ref()},
+                          ifUsed({"NeighbourOfRef", neighbourOf.ref()}),
                           {"first", first},
                           {"count", count}});
     });

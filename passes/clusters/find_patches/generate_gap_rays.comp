@@ -1,7 +1,7 @@
 // Rays from occluded surfels without a group across the gap before them.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "shaders/compute/linear_index.glsl"
-#include "passes/surfels/open_space.glsl"
+#include "passes/surfels/occlusion_ray.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
@@ -15,5 +15,5 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const GroupedSurfel s = groupedSurfels.data[push.first + i];
-    rays.data[i] = s.isOccluded == 1u && s.group == NO_GROUP ? openSpaceRay(s.position, s.normal, push.voxelSize) : kNoRay;
+    rays.data[i] = s.isOccluded == 1u && s.group == NO_GROUP ? occlusionRay(s.position, s.normal, push.voxelSize) : kNoRay;
 }

@@ -6,8 +6,8 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-layout(scalar) readonly buffer NeighboursAt { LargeUints neighbours; };
-layout(scalar) readonly buffer NeighbourOfAt { LargeUints neighbourOf; };
+layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
+layout(scalar) readonly buffer NeighbourOfRef { LargeUints neighbourOf; };
 #ifdef UPDATE
 readonly buffer ReusedGroup { uint data[]; } reusedGroup;
 #endif

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "passes/clusters/find_patches/stored_group.h"
-#include "passes/common/compute/uints.h"
+#include "passes/common/compute/uint_bytes.h"
 #include "passes/common/voxel_builder/changed_voxels.h"
 
 namespace voxray {
@@ -29,14 +29,16 @@ void GroupUpdateCache::begin(CommandStream& stream, const SurfaceVoxels& voxels,
 }
 
 std::vector<Binding> GroupUpdateCache::surfelBindings(const VoxelClusters& clusters) const {
-    return {
-        {"coordinates", clusters.coordinates}, {"changed", changed_}, {"StoredGroupsAt", storedGroups_.at()}};
+    return {{"coordinates", clusters.coordinates},
+            {"changed", changed_},
+            {"StoredGroupsRef", storedGroups_.ref()}};
 }
 
 void GroupUpdateCache::findPrevious(CommandStream& stream, const SurfaceVoxels& voxels,
                                     const VoxelClusters& clusters, VoxelPatches& patches) {
-    patches.previousGroups = Buffer(stream.device(), "previous groups", uints(patches.groupCount));
-    reusedGroup_ = Buffer(stream.device(), "groups whose neighbours are reused", uints(patches.groupCount));
+    patches.previousGroups = Buffer(stream.device(), "previous groups", uintBytes(patches.groupCount));
+    reusedGroup_ =
+        Buffer(stream.device(), "groups whose neighbours are reused", uintBytes(patches.groupCount));
     stream.dispatch(findPreviousGroups_, patches.groupCount,
                     {{"groups", patches.groups},
                      {"firstGroup", patches.firstGroup},
@@ -60,7 +62,7 @@ std::vector<Binding> GroupUpdateCache::previousNeighbourBindings(const VoxelPatc
     return {{"reusedGroup", reusedGroup_},
             {"firstNeighbour", patches.firstNeighbour},
             {"previousFirstNeighbour", firstNeighbour_},
-            {"PreviousNeighboursAt", neighbours_.at()}};
+            {"PreviousNeighboursRef", neighbours_.ref()}};
 }
 
 void GroupUpdateCache::end() {
@@ -70,17 +72,17 @@ void GroupUpdateCache::end() {
 }
 
 void GroupUpdateCache::storeSurfels(CommandStream& stream, const VoxelPatches& patches, uint64_t idCount) {
-    makeOrKeep(storedGroups_, stream.device(), "groups of surfels",
+    ensureSize(storedGroups_, stream.device(), "groups of surfels",
                std::max<uint64_t>(idCount, 1) * sizeof(gpu::StoredGroup));
     stream.dispatch(storeSurfelGroups_, patches.surfelCount,
-                    {{"GroupedSurfelsAt", patches.surfels.at()},
-                     {"StoredGroupsAt", storedGroups_.at()},
+                    {{"GroupedSurfelsRef", patches.surfels.ref()},
+                     {"StoredGroupsRef", storedGroups_.ref()},
                      {"surfels", patches.surfelCount}});
 }
 
 void GroupUpdateCache::storeVoxels(CommandStream& stream, const SurfaceVoxels& voxels) {
-    makeOrKeep(occupancy_, stream.device(), "previous occupancy", voxels.occupancy.bytes());
-    makeOrKeep(rank_, stream.device(), "previous ranks", voxels.rank.bytes());
+    ensureSize(occupancy_, stream.device(), "previous occupancy", voxels.occupancy.bytes());
+    ensureSize(rank_, stream.device(), "previous ranks", voxels.rank.bytes());
     stream.copy(voxels.occupancy, occupancy_, voxels.occupancy.bytes());
     stream.copy(voxels.rank, rank_, voxels.rank.bytes());
     stream.finish();

@@ -8,11 +8,11 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(scalar) readonly buffer SlotsAt { LargeUints slots; };
+layout(scalar) readonly buffer SortedIndicesRef { LargeUints sortedIndices; };
 #ifdef UPDATE
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
 readonly buffer Changed { uint words[]; } changed;  // A bit a voxel.
-layout(scalar) readonly buffer StoredGroupsAt { StoredGroups storedGroups; };
+layout(scalar) readonly buffer StoredGroupsRef { StoredGroups storedGroups; };
 #endif
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
@@ -32,7 +32,7 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
-    const uint index = push.firstIndex + i, slot = slots.data[index];
+    const uint index = push.firstIndex + i, slot = sortedIndices.data[index];
     if (slot == NO_GROUP) return;
     const StoredGroup initial = initialGroup(s);
     groupedSurfels.data[slot] = GroupedSurfel(s.position, index, s.normal, s.id, s.reflectance, s.voxel, initial.group, initial.height,

@@ -6,7 +6,7 @@ layout(local_size_x = 64) in;
 
 readonly buffer Lists { uvec2 data[]; } lists;  // By voxel: its first surfel, and the end.
 readonly buffer FirstGroup { uint data[]; } firstGroup;
-layout(scalar) readonly buffer SurfelIndexAt { LargeUints surfelIndex; };
+layout(scalar) readonly buffer SurfelIndexRef { LargeUints surfelIndex; };
 layout(scalar) writeonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(push_constant) uniform Push { uint voxels; } push;
 

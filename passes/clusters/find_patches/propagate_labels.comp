@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
-layout(scalar) readonly buffer NeighboursAt { LargeUints neighbours; };
+layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
 readonly buffer ClusterOfVoxel { uint data[]; } clusterOfVoxel;
 buffer Labels { uint data[]; } labels;
 buffer Changed { uint count; } changed;

@@ -6,13 +6,13 @@
 layout(local_size_x = 64) in;
 
 readonly buffer Occluded { uint data[]; } occluded;
-layout(scalar) readonly buffer NeighboursAt { LargeUints neighbours; };
+layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
 #ifdef UPDATE
-layout(scalar) readonly buffer NeighbourOfAt { LargeUints neighbourOf; };
+layout(scalar) readonly buffer NeighbourOfRef { LargeUints neighbourOf; };
 readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
 readonly buffer ReusedGroup { uint data[]; } reusedGroup;
 readonly buffer PreviousFirstNeighbour { uint data[]; } previousFirstNeighbour;
-layout(scalar) readonly buffer PreviousNeighboursAt { LargeUints previousNeighbours; };
+layout(scalar) readonly buffer PreviousNeighboursRef { LargeUints previousNeighbours; };
 #endif
 layout(push_constant) uniform Push {
     uint first;

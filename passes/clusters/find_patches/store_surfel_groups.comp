@@ -4,7 +4,7 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer StoredGroupsAt { StoredGroups storedGroups; };
+layout(scalar) readonly buffer StoredGroupsRef { StoredGroups storedGroups; };
 layout(push_constant) uniform Push { uint surfels; } push;
 
 void main() {

@@ -1,6 +1,6 @@
 #include "passes/clusters/find_patches/surfel_grouping.h"
 
-#include "passes/common/compute/uints.h"
+#include "passes/common/compute/uint_bytes.h"
 #include "trace/ray.h"
 
 namespace voxray {
@@ -37,14 +37,14 @@ void SurfelGrouping::measureGaps(PassContext& context, const RayBatch& batch, fl
     RayBatch::inBatches(patches.surfelCount, [&](uint32_t first, uint32_t count) {
         context.dispatch(generateGapRays_, count,
                          {{"rays", batch.rays},
-                          {"GroupedSurfelsAt", patches.surfels.at()},
+                          {"GroupedSurfelsRef", patches.surfels.ref()},
                           {"first", first},
                           {"count", count},
                           {"voxelSize", voxelSize}});
         context.tracer.closestHit(context.stream, batch.rays, batch.hits, count);
         context.dispatch(measureGapHeight_, count,
                          {{"hits", batch.hits},
-                          {"GroupedSurfelsAt", patches.surfels.at()},
+                          {"GroupedSurfelsRef", patches.surfels.ref()},
                           {"first", first},
                           {"count", count}});
     });
@@ -54,8 +54,8 @@ void SurfelGrouping::groupByVisibility(PassContext& context, const RayBatch& bat
                                        const SurfelsByVoxel& lists, const VoxelPatches& patches,
                                        bool occluded) const {
     CommandStream& stream = context.stream;
-    const Buffer seeds(context.device, "seeds of surface groups", uints(voxels));
-    const Buffer remaining(context.device, "voxels with surfels without a group", uints(1));
+    const Buffer seeds(context.device, "seeds of surface groups", uintBytes(voxels));
+    const Buffer remaining(context.device, "voxels with surfels without a group", uintBytes(1));
     for (uint32_t i = 0; i < kMaxGroupsPerVoxel; ++i) {
         const uint32_t round = (occluded ? kMaxGroupsPerVoxel : 0) + i;
         stream.fill(remaining, 0);
@@ -63,7 +63,7 @@ void SurfelGrouping::groupByVisibility(PassContext& context, const RayBatch& bat
                          {{"lists", lists.lists},
                           {"seeds", seeds},
                           {"remaining", remaining},
-                          {"GroupedSurfelsAt", patches.surfels.at()},
+                          {"GroupedSurfelsRef", patches.surfels.ref()},
                           {"voxels", voxels},
                           {"round", round},
                           {"groupsOccluded", occluded}});
@@ -72,14 +72,14 @@ void SurfelGrouping::groupByVisibility(PassContext& context, const RayBatch& bat
             context.dispatch(generateVisibilityRays_, count,
                              {{"seeds", seeds},
                               {"rays", batch.rays},
-                              {"GroupedSurfelsAt", patches.surfels.at()},
+                              {"GroupedSurfelsRef", patches.surfels.ref()},
                               {"first", first},
                               {"count", count},
                               {"groupsOccluded", occluded}});
             context.tracer.occluded(stream, batch.rays, batch.occluded, count);
             context.dispatch(joinGroup_, count,
                              {{"occluded", batch.occluded},
-                              {"GroupedSurfelsAt", patches.surfels.at()},
+                              {"GroupedSurfelsRef", patches.surfels.ref()},
                               {"first", first},
                               {"count", count},
                               {"round", round},

@@ -5,7 +5,7 @@
 layout(local_size_x = 64) in;
 
 readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
-layout(scalar) readonly buffer NeighboursAt { LargeUints neighbours; };
+layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
 buffer IsListed { uint data[]; } isListed;  // By group.
 buffer ListedGroups { uint data[]; } listedGroups;
 buffer Count { uint value; } count;

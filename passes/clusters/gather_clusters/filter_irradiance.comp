@@ -10,9 +10,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PatchValues 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;  // By voxel.
 readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
-layout(scalar) readonly buffer NeighboursAt { LargeUints neighbours; };
-layout(scalar) readonly buffer GatheredAt { PatchValues gathered; };
-layout(scalar) readonly buffer FilteredAt { PatchValues filtered; };
+layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
+layout(scalar) readonly buffer GatheredRef { PatchValues gathered; };
+layout(scalar) readonly buffer FilteredRef { PatchValues filtered; };
 layout(push_constant) uniform Push { uint count; } push;
 
 // 1 2 1 along each axis.

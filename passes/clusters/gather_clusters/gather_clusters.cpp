@@ -110,7 +110,7 @@ Defines GatherClusters::defines() const {
 }
 
 void GatherClusters::plan(PassPlan& plan) {
-    plan[irradiance_].lightBounces = oneMore(plan[light_].lightBounces);
+    plan[irradiance_].lightBounces = oneMoreBounce(plan[light_].lightBounces);
     if (readsGBuffer()) plan[irradiance_].reach = params_.reach;
     plan.estimate(plan[voxels_].estimatedCount * VoxelIrradiance::bytes(1));
     if (visible_) visible_->plan(plan);
@@ -123,7 +123,7 @@ void GatherClusters::record(PassContext& context) {
     VoxelIrradiance& result = context[irradiance_];
     if (isNew) result.allocate(context.device, voxels.voxelCount);
     if (!isLazy()) {
-        if (!isNew) return context.keepOutputs();
+        if (!isNew) return context.markOutputsUnchanged();
         VisibleVoxels::NewVoxels all;
         all.voxelCount = voxels.voxelCount;
         all.groupCounts.assign(filterSteps() + 1, patches.groupCount);
@@ -142,7 +142,7 @@ void GatherClusters::record(PassContext& context) {
     if (newVoxels.voxelCount > 0)
         gather(context, newVoxels);
     else if (!isNew)
-        context.keepOutputs();
+        context.markOutputsUnchanged();
 }
 
 void GatherClusters::gather(PassContext& context, const VisibleVoxels::NewVoxels& voxels) {
@@ -157,14 +157,14 @@ void GatherClusters::gather(PassContext& context, const VisibleVoxels::NewVoxels
         newVoxels.emplace_back("newVoxels", visible_->voxels());
     }
     const uint64_t bytes = std::max(patches.patchCount, 1u) * sizeof(glm::vec3);
-    makeOrKeep(gathered_, context.device, "irradiance of patches", bytes);
-    makeOrKeep(filtered_, context.device, "filtered irradiance", bytes);
+    ensureSize(gathered_, context.device, "irradiance of patches", bytes);
+    ensureSize(filtered_, context.device, "filtered irradiance", bytes);
     const uint32_t steps = filterSteps(), groups = voxels.groupCounts[steps];
     context.dispatch(gatherGroups_, groups,
                      {gatherBindings(visibility, light),
                       listedGroups,
                       {"groups", patches.groups},
-                      {"GatheredAt", gathered_.at()},
+                      {"GatheredRef", gathered_.ref()},
                       {"lists", visibility.layout},
                       {"count", groups}});
     for (uint32_t i = 0; i < steps; ++i) {
@@ -174,9 +174,9 @@ void GatherClusters::gather(PassContext& context, const VisibleVoxels::NewVoxels
                           {"groups", patches.groups},
                           {"coordinates", context[clusters_].coordinates},
                           {"firstNeighbour", patches.firstNeighbour},
-                          {"NeighboursAt", patches.neighbours.at()},
-                          {"GatheredAt", gathered_.at()},
-                          {"FilteredAt", filtered_.at()},
+                          {"NeighboursRef", patches.neighbours.ref()},
+                          {"GatheredRef", gathered_.ref()},
+                          {"FilteredRef", filtered_.ref()},
                           {"count", count}});
         stream.finish();
         std::swap(gathered_, filtered_);
@@ -187,11 +187,11 @@ void GatherClusters::gather(PassContext& context, const VisibleVoxels::NewVoxels
                      {newVoxels,
                       {"groups", patches.groups},
                       {"firstGroup", patches.firstGroup},
-                      {"VoxelMaterialsAt", patches.materials.at()},
-                      {"GatheredAt", gathered_.at()},
-                      {"PatchDirectAt", light.direct.at()},
-                      {"DirectAt", result.direct.at()},
-                      {"IndirectAt", result.indirect.at()},
+                      {"VoxelMaterialsRef", patches.materials.ref()},
+                      {"GatheredRef", gathered_.ref()},
+                      {"PatchDirectRef", light.direct.ref()},
+                      {"DirectRef", result.direct.ref()},
+                      {"IndirectRef", result.indirect.ref()},
                       {"area", result.area},
                       {"pairs", pairs},
                       {"voxelFaceArea", voxelSize * voxelSize}});

@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PatchValues { vec3 data[]; };
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-layout(scalar) readonly buffer GatheredAt { PatchValues gathered; };  // W/m²
+layout(scalar) readonly buffer GatheredRef { PatchValues gathered; };  // W/m²
 layout(push_constant, scalar) uniform Push {
     VisibilityListLayout lists;
     uint count;

@@ -13,10 +13,10 @@ readonly buffer FirstGroup { uint data[]; } firstGroup;
 #ifdef LISTED
 readonly buffer NewVoxels { uint data[]; } newVoxels;
 #endif
-layout(scalar) readonly buffer GatheredAt { PatchValues gathered; };
-layout(scalar) readonly buffer PatchDirectAt { LargeUints patchDirect; };
-layout(scalar) buffer DirectAt { LargeUints direct; };
-layout(scalar) buffer IndirectAt { LargeUints indirect; };
+layout(scalar) readonly buffer GatheredRef { PatchValues gathered; };
+layout(scalar) readonly buffer PatchDirectRef { LargeUints patchDirect; };
+layout(scalar) buffer DirectRef { LargeUints direct; };
+layout(scalar) buffer IndirectRef { LargeUints indirect; };
 writeonly buffer Area { uint data[]; } area;
 layout(push_constant) uniform Push {
     uint pairs;

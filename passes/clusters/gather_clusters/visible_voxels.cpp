@@ -1,6 +1,6 @@
 #include "passes/clusters/gather_clusters/visible_voxels.h"
 
-#include "passes/common/compute/uints.h"
+#include "passes/common/compute/uint_bytes.h"
 
 namespace voxray {
 
@@ -18,7 +18,7 @@ void VisibleVoxels::plan(PassPlan& plan) {
 
 void VisibleVoxels::reset(PassContext& context, const SurfaceVoxels& voxels, const VoxelPatches& patches) {
     const auto make = [&](Buffer& buffer, const char* name, uint64_t count) {
-        makeOrKeep(buffer, context.device, name, uints(count));
+        ensureSize(buffer, context.device, name, uintBytes(count));
     };
     make(requestedVoxels_, "requested voxels", voxels.voxelCount);
     make(newVoxels_, "new voxels", voxels.voxelCount);
@@ -72,7 +72,7 @@ VisibleVoxels::NewVoxels VisibleVoxels::find(PassContext& context, const GBuffer
         const uint32_t end = found.groupCounts.back();
         context.dispatch(dilate_, end - first,
                          {{"firstNeighbour", patches.firstNeighbour},
-                          {"NeighboursAt", patches.neighbours.at()},
+                          {"NeighboursRef", patches.neighbours.ref()},
                           {"isListed", isListed_},
                           {"listedGroups", listedGroups_},
                           {"count", count_},

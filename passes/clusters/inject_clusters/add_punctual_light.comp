@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SurfelValues { vec3 data[]; };
 readonly buffer FirstGroup { uint data[]; } firstGroup;
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-layout(scalar) readonly buffer SurfelIrradianceAt { SurfelValues surfelIrradiance; };
+layout(scalar) readonly buffer SurfelIrradianceRef { SurfelValues surfelIrradiance; };
 
 // Whether each of two groups lies before the other, by their first surfels.
 bool faceEachOther(SurfaceGroup a, SurfaceGroup b) {

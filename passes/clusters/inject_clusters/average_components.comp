@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(scalar) readonly buffer Components { ClusterComponent data[]; } components;
 layout(scalar) readonly buffer MemberGroups { uint data[]; } memberGroups;
-layout(scalar) readonly buffer RadiosityAt { LargeUints radiosity; };
+layout(scalar) readonly buffer RadiosityRef { LargeUints radiosity; };
 layout(scalar) writeonly buffer ComponentRadiosity { uint data[]; } componentRadiosity;
 layout(push_constant) uniform Push { uint count; } push;
 

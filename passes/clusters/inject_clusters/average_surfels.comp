@@ -9,8 +9,8 @@ layout(local_size_x = 64) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SurfelValues { vec3 data[]; };
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-layout(scalar) readonly buffer SurfelIrradianceAt { SurfelValues surfelIrradiance; };
-layout(scalar) readonly buffer PatchDirectAt { LargeUints patchDirect; };
+layout(scalar) readonly buffer SurfelIrradianceRef { SurfelValues surfelIrradiance; };
+layout(scalar) readonly buffer PatchDirectRef { LargeUints patchDirect; };
 layout(push_constant) uniform Push { uint count; } push;
 
 void main() {

@@ -13,8 +13,8 @@
 #include "passes/common/compute/compaction.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/lights/light_sources.h"
-#include "passes/common/lights/pane_tint.h"
-#include "passes/surfels/surfel_light.h"
+#include "passes/common/lights/pane_transmittance.h"
+#include "passes/surfels/surfel_direct_light.h"
 #include "passes/surfels/surfels.h"
 
 namespace voxray {
@@ -130,8 +130,8 @@ class InjectClusters final : public Pass {
     In<ClusterVisibility> visibility_{*this, "cluster_visibility", "visibility lists of patches"};
     Out<ClusterLight> light_{*this, "cluster_light", "what clusters send"};
     std::vector<LightSource> sources_;
-    std::optional<SurfelLight> surfelLight_;  ///< For `lit_test: surfels`.
-    std::optional<LitPoints> litPoints_;      ///< For `lit_test: points`.
+    std::optional<SurfelDirectLight> surfelLight_;  ///< For `lit_test: surfels`.
+    std::optional<LitPoints> litPoints_;            ///< For `lit_test: points`.
     ClusterGather gather_{*this};
     std::optional<Compaction> compaction_;  ///< For bounces between components.
     Kernel readInjected_{*this, "read_injected.comp"};
@@ -162,9 +162,9 @@ void InjectClusters::plan(PassPlan& plan) {
     plan[light_].lightBounces = params_.bounces;
     sources_ = requireLightSources(*plan.frame.scene, kName);
     if (!testsPoints()) {
-        surfelLight_->plan(plan, Surfels::kChunk);
+        surfelLight_->plan(plan, Surfels::kMaxChunkSurfels);
         plan.scratchBuffer(chunkIrradiance_, "direct irradiance of surfels",
-                           Surfels::kChunk * kIrradianceBytes);
+                           Surfels::kMaxChunkSurfels * kIrradianceBytes);
         return;
     }
     if (std::ranges::any_of(sources_, [](const LightSource& s) { return s.kind != LightSource::Punctual; }))
@@ -181,7 +181,7 @@ void InjectClusters::record(PassContext& context) {
     const VoxelPatches& patches = context[patches_];
     ClusterLight& light = context[light_];
     const auto make = [&](auto& buffer, const char* name, uint64_t count) {
-        makeOrKeep(buffer, context.device, name, ClusterLight::bytes(count));
+        ensureSize(buffer, context.device, name, ClusterLight::bytes(count));
     };
     make(light.components, "radiosity of components", uint64_t(kFaces) * patches.componentCount);
     make(light.patches, "radiosity of patches", patches.patchCount);
@@ -202,7 +202,7 @@ void InjectClusters::record(PassContext& context) {
 
 void InjectClusters::bouncePatches(PassContext& context, ClusterLight& light) {
     if (params_.bounces == 0) return;
-    makeOrKeep(bouncedIrradiance_, context.device, "bounced irradiance of patches", light.patches.bytes());
+    ensureSize(bouncedIrradiance_, context.device, "bounced irradiance of patches", light.patches.bytes());
     for (uint32_t i = 0; i < params_.bounces; ++i) {
         gather_.gather(context.stream, context[visibility_], light, bouncedIrradiance_);
         reflect(context, true);
@@ -218,7 +218,7 @@ uint32_t InjectClusters::listSendingFaces(PassContext& context, const Buffer& co
     const Buffer flags(context.device, "flags of sending faces", std::max(words, 1u) * sizeof(uint32_t));
     context.stream.fill(flags, 0);
     context.dispatch(flagSendingFaces_, patches.componentCount,
-                     {{"VoxelMaterialsAt", patches.materials.at()},
+                     {{"VoxelMaterialsRef", patches.materials.ref()},
                       {"groups", patches.groups},
                       {"components", patches.components},
                       {"memberGroups", patches.memberGroups},
@@ -245,7 +245,7 @@ void InjectClusters::bounceComponents(PassContext& context, ClusterLight& light)
     for (uint32_t i = 0; i < params_.bounces; ++i) {
         context.dispatch(bounceComponents_, count,
                          {gatherBindings(visibility, light),
-                          {"VoxelMaterialsAt", patches.materials.at()},
+                          {"VoxelMaterialsRef", patches.materials.ref()},
                           {"groups", patches.groups},
                           {"components", patches.components},
                           {"memberGroups", patches.memberGroups},
@@ -269,14 +269,14 @@ void InjectClusters::scatter(PassContext& context, const ClusterLight& light,
                              const Buffer& bouncedRadiosity) const {
     const VoxelPatches& patches = context[patches_];
     context.dispatch(scatterRadiosity_, patches.componentCount,
-                     {{"VoxelMaterialsAt", patches.materials.at()},
+                     {{"VoxelMaterialsRef", patches.materials.ref()},
                       {"groups", patches.groups},
                       {"components", patches.components},
                       {"memberGroups", patches.memberGroups},
                       {"componentRadiosity", light.components},
                       {"bouncedRadiosity", bouncedRadiosity},
-                      {"InitialIrradianceAt", initialIrradiance_.at()},
-                      {"RadiosityAt", light.patches.at()},
+                      {"InitialIrradianceRef", initialIrradiance_.ref()},
+                      {"RadiosityRef", light.patches.ref()},
                       {"componentCount", patches.componentCount}});
 }
 
@@ -286,11 +286,11 @@ void InjectClusters::readInjected(PassContext& context, const ClusterLight& ligh
     const float voxelSize = context[voxels_].grid.voxelSize;
     context.dispatch(readInjected_, patches.groupCount,
                      {{"groups", patches.groups},
-                      {"DirectAt", irradiance.direct.at()},
-                      {"IndirectAt", irradiance.indirect.at()},
+                      {"DirectRef", irradiance.direct.ref()},
+                      {"IndirectRef", irradiance.indirect.ref()},
                       {"area", irradiance.area},
-                      {"PatchDirectAt", light.direct.at()},
-                      {"InitialIrradianceAt", initialIrradiance_.at()},
+                      {"PatchDirectRef", light.direct.ref()},
+                      {"InitialIrradianceRef", initialIrradiance_.ref()},
                       {"groupCount", patches.groupCount},
                       {"voxelFaceArea", voxelSize * voxelSize}});
 }
@@ -309,9 +309,9 @@ void InjectClusters::measure(PassContext& context, const ClusterLight& light) {
     }
     context.dispatch(averageSurfels_, patches.groupCount,
                      {{"groups", patches.groups},
-                      {"GroupedSurfelsAt", patches.surfels.at()},
-                      {"SurfelIrradianceAt", surfelIrradiance.at()},
-                      {"PatchDirectAt", light.direct.at()},
+                      {"GroupedSurfelsRef", patches.surfels.ref()},
+                      {"SurfelIrradianceRef", surfelIrradiance.ref()},
+                      {"PatchDirectRef", light.direct.ref()},
                       {"count", patches.groupCount}});
     stream.copy(light.direct, initialIrradiance_, light.direct.bytes());
     stream.finish();
@@ -326,8 +326,8 @@ void InjectClusters::traceSurfels(PassContext& context, const LargeBuffer& surfe
                               chunkIrradiance_);
         context.dispatch(reorderIrradiance_, chunk.count,
                          {{"direct", chunkIrradiance_},
-                          {"SurfelIndexAt", patches.surfelIndex.at()},
-                          {"SurfelIrradianceAt", surfelIrradiance.at()},
+                          {"SurfelIndexRef", patches.surfelIndex.ref()},
+                          {"SurfelIrradianceRef", surfelIrradiance.ref()},
                           {"count", chunk.count},
                           {"firstIndex", firstIndex}});
         firstIndex += chunk.count;
@@ -337,20 +337,21 @@ void InjectClusters::traceSurfels(PassContext& context, const LargeBuffer& surfe
 void InjectClusters::reflect(PassContext& context, bool hasBounced) {
     const VoxelPatches& patches = context[patches_];
     const ClusterLight& light = context[light_];
-    context.dispatch(reflectPatches_, patches.groupCount,
-                     {{"VoxelMaterialsAt", patches.materials.at()},
-                      {"groups", patches.groups},
-                      {"InitialIrradianceAt", initialIrradiance_.at()},
-                      {"BouncedIrradianceAt", hasBounced ? bouncedIrradiance_.at() : initialIrradiance_.at()},
-                      {"RadiosityAt", light.patches.at()},
-                      {"groupCount", patches.groupCount},
-                      {"hasBounced", hasBounced}});
+    context.dispatch(
+        reflectPatches_, patches.groupCount,
+        {{"VoxelMaterialsRef", patches.materials.ref()},
+         {"groups", patches.groups},
+         {"InitialIrradianceRef", initialIrradiance_.ref()},
+         {"BouncedIrradianceRef", hasBounced ? bouncedIrradiance_.ref() : initialIrradiance_.ref()},
+         {"RadiosityRef", light.patches.ref()},
+         {"groupCount", patches.groupCount},
+         {"hasBounced", hasBounced}});
     context.dispatch(averageComponents_, patches.componentCount,
-                     {{"VoxelMaterialsAt", patches.materials.at()},
+                     {{"VoxelMaterialsRef", patches.materials.ref()},
                       {"groups", patches.groups},
                       {"components", patches.components},
                       {"memberGroups", patches.memberGroups},
-                      {"RadiosityAt", light.patches.at()},
+                      {"RadiosityRef", light.patches.ref()},
                       {"componentRadiosity", light.components},
                       {"count", patches.componentCount}});
 }

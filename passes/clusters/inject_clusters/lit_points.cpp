@@ -25,12 +25,12 @@ void LitPoints::measure(PassContext& context, const std::vector<LightSource>& so
         const auto add = [&](const VoxelPointRays::Batch& batch) {
             context.dispatch(addLight_, batch.voxels,
                              {batchBindings(batch),
-                              {"VoxelMaterialsAt", patches.materials.at()},
+                              {"VoxelMaterialsRef", patches.materials.ref()},
                               {"occluded", rays_.occluded()},
                               {"firstGroup", patches.firstGroup},
                               {"groups", patches.groups},
-                              {"GroupedSurfelsAt", patches.surfels.at()},
-                              {"SurfelIrradianceAt", surfelIrradiance.at()}});
+                              {"GroupedSurfelsRef", patches.surfels.ref()},
+                              {"SurfelIrradianceRef", surfelIrradiance.ref()}});
         };
         rays_.trace(context, voxels.voxelCount, generate, add);
     }

@@ -8,11 +8,11 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-layout(scalar) buffer DirectAt { LargeUints direct; };
-layout(scalar) buffer IndirectAt { LargeUints indirect; };
+layout(scalar) buffer DirectRef { LargeUints direct; };
+layout(scalar) buffer IndirectRef { LargeUints indirect; };
 layout(scalar) readonly buffer Area { uint data[]; } area;
-layout(scalar) readonly buffer PatchDirectAt { LargeUints patchDirect; };
-layout(scalar) readonly buffer InitialIrradianceAt { LargeUints initialIrradiance; };  // Direct and indirect, W/m².
+layout(scalar) readonly buffer PatchDirectRef { LargeUints patchDirect; };
+layout(scalar) readonly buffer InitialIrradianceRef { LargeUints initialIrradiance; };  // Direct and indirect, W/m².
 layout(push_constant) uniform Push {
     uint groupCount;
     float voxelFaceArea;  // m²

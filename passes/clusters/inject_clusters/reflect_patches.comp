@@ -6,9 +6,9 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-layout(scalar) readonly buffer InitialIrradianceAt { LargeUints initialIrradiance; };  // Before the first bounce, W/m², packed.
-layout(scalar) readonly buffer BouncedIrradianceAt { LargeUints bouncedIrradiance; };  // By bounces, likewise.
-layout(scalar) readonly buffer RadiosityAt { LargeUints radiosity; };
+layout(scalar) readonly buffer InitialIrradianceRef { LargeUints initialIrradiance; };  // Before the first bounce, W/m², packed.
+layout(scalar) readonly buffer BouncedIrradianceRef { LargeUints bouncedIrradiance; };  // By bounces, likewise.
+layout(scalar) readonly buffer RadiosityRef { LargeUints radiosity; };
 layout(push_constant) uniform Push {
     uint groupCount;
     uint hasBounced;

@@ -6,8 +6,8 @@ layout(local_size_x = 64) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SurfelValues { vec3 data[]; };
 layout(scalar) readonly buffer Direct { vec4 data[]; } direct;
-layout(scalar) readonly buffer SurfelIndexAt { LargeUints surfelIndex; };
-layout(scalar) readonly buffer SurfelIrradianceAt { SurfelValues surfelIrradiance; };
+layout(scalar) readonly buffer SurfelIndexRef { LargeUints surfelIndex; };
+layout(scalar) readonly buffer SurfelIrradianceRef { SurfelValues surfelIrradiance; };
 layout(push_constant) uniform Push {
     uint count;
     uint firstIndex;  // Of the chunk's surfels among all.

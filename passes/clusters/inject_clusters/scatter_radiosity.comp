@@ -12,8 +12,8 @@ layout(scalar) readonly buffer Components { ClusterComponent data[]; } component
 layout(scalar) readonly buffer MemberGroups { uint data[]; } memberGroups;
 layout(scalar) readonly buffer ComponentRadiosity { uint data[]; } componentRadiosity;  // By component and face, packed.
 layout(scalar) readonly buffer BouncedRadiosity { uint data[]; } bouncedRadiosity;      // What bounces added to it.
-layout(scalar) readonly buffer InitialIrradianceAt { LargeUints initialIrradiance; };   // Before the first bounce, W/m², packed.
-layout(scalar) readonly buffer RadiosityAt { LargeUints radiosity; };
+layout(scalar) readonly buffer InitialIrradianceRef { LargeUints initialIrradiance; };   // Before the first bounce, W/m², packed.
+layout(scalar) readonly buffer RadiosityRef { LargeUints radiosity; };
 layout(push_constant) uniform Push { uint componentCount; } push;
 
 void main() {

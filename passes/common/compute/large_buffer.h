@@ -15,21 +15,21 @@ class LargeBuffer : public Buffer {
     /// As Buffer.
     LargeBuffer(Device& device, const std::string& name, uint64_t bytes)
         : Buffer(device, name, bytes),
-          at_(device, name + "'s address", sizeof(uint64_t), MemoryKind::Upload) {
-        at_.mappedAs<uint64_t>()[0] = address();
+          ref_(device, name + "'s address", sizeof(uint64_t), MemoryKind::Upload) {
+        ref_.mappedAs<uint64_t>()[0] = address();
     }
 
     /// What to bind.
-    const Buffer& at() const { return at_; }
+    const Buffer& ref() const { return ref_; }
 
  private:
-    Buffer at_;
+    Buffer ref_;
 };
 
 /// Makes a buffer of so many bytes, or keeps the one that is there where it has as many; another one goes
 /// first. Its content is undefined.
 template <std::derived_from<Buffer> T>
-void makeOrKeep(T& buffer, Device& device, const std::string& name, uint64_t bytes) {
+void ensureSize(T& buffer, Device& device, const std::string& name, uint64_t bytes) {
     if (buffer && buffer.bytes() == bytes) return;
     buffer = {};
     buffer = T(device, name, bytes);

@@ -21,8 +21,8 @@ gpu::LightView makeView(glm::vec3 origin, glm::vec3 forward, float halfExtent) {
 
 }  // namespace
 
-std::vector<LightSource> requireViewpoints(const SceneState& state, const std::string& pass,
-                                           const std::string& instead) {
+std::vector<LightSource> requirePunctualLights(const SceneState& state, const std::string& pass,
+                                               const std::string& instead) {
     std::vector<LightSource> sources = requireLightSources(state, pass);
     for (const LightSource& source : sources)
         if (source.kind != LightSource::Punctual)

@@ -32,7 +32,7 @@ struct Rsm : Resource {
     LargeBuffer texels;                ///< gpu::RsmTexel each, by view, row and column.
 
     uint32_t texelsPerView() const { return resolution * resolution; }
-    std::vector<Binding> bindings() const { return {{"rsmViews", views}, {"RsmTexelsAt", texels.at()}}; }
+    std::vector<Binding> bindings() const { return {{"rsmViews", views}, {"RsmTexelsRef", texels.ref()}}; }
 };
 
 }  // namespace voxray

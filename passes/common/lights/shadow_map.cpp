@@ -86,7 +86,7 @@ void ShadowMaps::draw(PassContext& context, const std::vector<LightSource>& sour
 }
 
 std::vector<Binding> ShadowMaps::bindings() const {
-    return {{"shadowLights", lights_}, {"shadowViews", views_}, {"ShadowDepthsAt", depths_.at()}};
+    return {{"shadowLights", lights_}, {"shadowViews", views_}, {"ShadowDepthsRef", depths_.ref()}};
 }
 
 }  // namespace voxray

@@ -59,7 +59,7 @@ void BrickOctreeBuilder::build(CommandStream& stream, BrickOctree& octree, const
 void BrickOctreeBuilder::rebuildDynamic(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells,
                                         uint32_t fragments) const {
     stream.dispatch(clear_, octree.staticNodes,
-                    {{"OctreeNodesAt", octree.nodes.at()},
+                    {{"OctreeNodesRef", octree.nodes.ref()},
                      {"staticNodes", octree.staticNodes},
                      {"staticBricks", octree.staticBricks}});
     octree.nodeCount = octree.staticNodes;
@@ -82,8 +82,8 @@ void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Se
         stream.fill(visited, 0);
         stream.fill(flags, 0);
         stream.dispatch(flag_, fragments,
-                        {{"FragmentCellsAt", cells.at()},
-                         {"OctreeNodesAt", octree.nodes.at()},
+                        {{"FragmentCellsRef", cells.ref()},
+                         {"OctreeNodesRef", octree.nodes.ref()},
                          {"visited", visited},
                          {"flags", flags},
                          {"nodes", nodes},
@@ -93,7 +93,7 @@ void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Se
                          {"fragments", fragments},
                          {"neighbors", neighbors_}});
         stream.dispatch(link_, count,
-                        {{"OctreeNodesAt", octree.nodes.at()}, {"nodes", nodes}, {"belowRoot", belowRoot}});
+                        {{"OctreeNodesRef", octree.nodes.ref()}, {"nodes", nodes}, {"belowRoot", belowRoot}});
         const uint32_t flagged = prefixSum_.run(stream, flags, before, count);
         const uint32_t firstChild = level == 0 ? NO_CHILDREN : octree.nodeCount;
         if (level > 0) {
@@ -104,7 +104,7 @@ void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Se
             octree.nodeCount += 8 * flagged;
         }
         stream.dispatch(subdivide_, count,
-                        {{"OctreeNodesAt", octree.nodes.at()},
+                        {{"OctreeNodesRef", octree.nodes.ref()},
                          {"flags", flags},
                          {"before", before},
                          {"nodes", nodes},

@@ -5,8 +5,8 @@
 #include "shaders/octree/brick_octree.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer FragmentCellsAt { LargeUints cells; };
-layout(scalar) buffer OctreeNodesAt { BrickNodes nodes; };
+layout(scalar) readonly buffer FragmentCellsRef { LargeUints cells; };
+layout(scalar) buffer OctreeNodesRef { BrickNodes nodes; };
 buffer Visited { uint data[]; } visited;  // By node of the level: 1 once a fragment was there.
 buffer Flags { uint data[]; } flags;      // Likewise: 1 for those that get a brick.
 layout(push_constant, scalar) uniform Push {

@@ -3,7 +3,7 @@
 #include "shaders/octree/brick_octree.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) buffer OctreeNodesAt { BrickNodes nodes; };
+layout(scalar) buffer OctreeNodesRef { BrickNodes nodes; };
 layout(push_constant, scalar) uniform Push {
     LevelNodes nodes;
     uint belowRoot;  // Levels.

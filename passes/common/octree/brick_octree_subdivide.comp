@@ -4,7 +4,7 @@
 #include "shaders/octree/brick_octree.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) buffer OctreeNodesAt { BrickNodes nodes; };
+layout(scalar) buffer OctreeNodesRef { BrickNodes nodes; };
 readonly buffer Flags { uint data[]; } flags;
 readonly buffer Before { uint data[]; } before;
 layout(push_constant, scalar) uniform Push {

@@ -30,7 +30,7 @@ VoxelRegion::VoxelRegion(const gpu::VoxelGrid& grid, std::vector<VoxelBox> boxes
 }
 
 std::vector<VoxelBox> VoxelRegion::slots() const {
-    const int side = int(grid_.side);
+    const int side = int(grid_.windowSize);
     std::vector<VoxelBox> split = boxes_;
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<VoxelBox> whole = std::move(split);

@@ -7,7 +7,7 @@
 #include "passes/common/voxel_builder/surface_accumulator.h"
 #include "shaders/voxels/voxels.glsl"
 
-layout(scalar) readonly buffer SurfaceAccumulatorAt { LargeUints surfaceAccumulator; };
+layout(scalar) readonly buffer SurfaceAccumulatorRef { LargeUints surfaceAccumulator; };
 
 void add(uint at, float units) {
     const int rounded = int(round(units));

@@ -6,10 +6,10 @@ layout(local_size_x = 64) in;
 
 readonly buffer Rebuilt { uint words[]; } rebuilt;
 readonly buffer RebuiltRank { uint before[]; } rebuiltRank;
-layout(scalar) readonly buffer RebuiltMaterialsAt { VoxelMaterials rebuiltMaterials; };
+layout(scalar) readonly buffer RebuiltMaterialsRef { VoxelMaterials rebuiltMaterials; };
 readonly buffer Previous { uint words[]; } previous;
 readonly buffer PreviousRank { uint before[]; } previousRank;
-layout(scalar) readonly buffer PreviousMaterialsAt { VoxelMaterials previousMaterials; };
+layout(scalar) readonly buffer PreviousMaterialsRef { VoxelMaterials previousMaterials; };
 layout(push_constant) uniform Push { uint words; } push;
 
 void main() {

@@ -69,13 +69,13 @@ void RegionMerge::materials(CommandStream& stream, const PrefixSum& prefixSum, c
     stream.dispatch(materials_, words,
                     {{"rebuilt", rebuilt.occupancy},
                      {"rebuiltRank", rebuilt.rank},
-                     {"RebuiltMaterialsAt", rebuilt.materials.at()},
+                     {"RebuiltMaterialsRef", rebuilt.materials.ref()},
                      {"previous", previous.occupancy},
                      {"previousRank", previous.rank},
-                     {"PreviousMaterialsAt", previous.materials.at()},
+                     {"PreviousMaterialsRef", previous.materials.ref()},
                      {"voxelOccupancy", merged_},
                      {"voxelRank", rank},
-                     {"VoxelMaterialsAt", materials.at()},
+                     {"VoxelMaterialsRef", materials.ref()},
                      {"words", words}});
     stream.finish();
     previous.occupancy = std::move(merged_);

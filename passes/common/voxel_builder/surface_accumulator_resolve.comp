@@ -4,7 +4,7 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer SurfaceAccumulatorAt { LargeUints surfaceAccumulator; };
+layout(scalar) readonly buffer SurfaceAccumulatorRef { LargeUints surfaceAccumulator; };
 // Nine a voxel, as visibility_count.comp adds them up: visible points by face +x -x +y -y +z -z, then all points by axis.
 readonly buffer Visibility { uint data[]; } visibility;
 layout(push_constant) uniform Push {

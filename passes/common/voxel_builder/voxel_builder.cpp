@@ -36,7 +36,7 @@ void VoxelBuilder::build(PassContext& context, SurfaceVoxels& voxels) {
 SurfaceVoxels VoxelBuilder::update(PassContext& context, const VoxelRegion& region, SurfaceVoxels& voxels) {
     SurfaceVoxels rebuilt;
     rebuilt.grid = voxels.grid;
-    rebuilt.unoccludedOnly = voxels.unoccludedOnly;
+    rebuilt.unoccludedAreaOnly = voxels.unoccludedAreaOnly;
     rebuilt.occupancy = Buffer(context.device, "voxel occupancy", voxels.occupancy.bytes());
     rebuilt.rank = Buffer(context.device, "voxel ranks", voxels.rank.bytes());
     voxelize(context, region, rebuilt, &voxels);
@@ -57,7 +57,7 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
     if (previous) merge_.occupancy(stream, region, *previous, target);
     target.voxelCount = prefixSum_.run(stream, target.occupancy, target.rank, uint32_t(target.words()));
     const uint64_t count = std::max(target.voxelCount, 1u);
-    makeOrKeep(target.materials, context.device, "voxel materials", count * sizeof(gpu::PackedVoxelMaterial));
+    ensureSize(target.materials, context.device, "voxel materials", count * sizeof(gpu::PackedVoxelMaterial));
     if (target.voxelCount == 0) stream.fill(target.materials, 0);
 
     // Accumulate the surfaces' materials in fixed point, probe their visibility, and turn sums into averages.
@@ -65,14 +65,14 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
                                   count * ACCUMULATOR_UINTS * sizeof(uint32_t));
     stream.fill(accumulator, 0);
     voxelizer_->run(context, *addSurfaces_, target.grid,
-                    std::vector<Binding>{{"SurfaceAccumulatorAt", accumulator.at()},
+                    std::vector<Binding>{{"SurfaceAccumulatorRef", accumulator.ref()},
                                          {"voxelOccupancy", target.occupancy},
                                          {"voxelRank", target.rank}},
                     largestEmission_ > 0 ? 1.0f / largestEmission_ : 0.0f);
     const Buffer visibility = visibilityProbe_.run(context, target, triangles, visibilityRays_);
     stream.dispatch(resolve_, target.voxelCount,
-                    {{"SurfaceAccumulatorAt", accumulator.at()},
-                     {"VoxelMaterialsAt", target.materials.at()},
+                    {{"SurfaceAccumulatorRef", accumulator.ref()},
+                     {"VoxelMaterialsRef", target.materials.ref()},
                      {"visibility", visibility},
                      {"voxelCount", target.voxelCount},
                      {"largestEmission", largestEmission_}});

@@ -33,22 +33,23 @@ uint32_t distanceLevel(const OctreeSize& size) {
     return std::min(size.tableLevel() + 1, size.levels());
 }
 
-bool isOctree(VoxelWalk walk) {
-    return walk == VoxelWalk::SvoRestart || walk == VoxelWalk::SvoVoxels || walk == VoxelWalk::Svo;
+bool isOctree(VoxelTraversal walk) {
+    return walk == VoxelTraversal::SvoRestart || walk == VoxelTraversal::SvoVoxels ||
+           walk == VoxelTraversal::Svo;
 }
 
-bool hasDistances(VoxelWalk walk) {
-    return walk == VoxelWalk::Bricks || walk == VoxelWalk::Svo;
+bool hasDistances(VoxelTraversal walk) {
+    return walk == VoxelTraversal::Bricks || walk == VoxelTraversal::Svo;
 }
 
 /// @throws Error for voxels that no walk takes.
 void require(const gpu::VoxelGrid& grid) {
     const glm::uvec3 size = grid.resolution;
-    if (glm::any(glm::greaterThan(size, glm::uvec3(std::min(kMaxResolution, grid.side)))))
+    if (glm::any(glm::greaterThan(size, glm::uvec3(std::min(kMaxResolution, grid.windowSize)))))
         throw Error(
             "rays walk through at most {0} voxels along an axis, all of them held; "
             "this grid has {1}x{2}x{3}, of which {4} are held: lower voxelize's 'resolution'",
-            kMaxResolution, size.x, size.y, size.z, grid.side);
+            kMaxResolution, size.x, size.y, size.z, grid.windowSize);
 }
 
 Kernel alongAxis(ProgramOwner& owner, const char* axis) {
@@ -57,7 +58,7 @@ Kernel alongAxis(ProgramOwner& owner, const char* axis) {
 
 }  // namespace
 
-VoxelMarch::VoxelMarch(ProgramOwner& owner, VoxelWalk walk, float epsilon)
+VoxelMarch::VoxelMarch(ProgramOwner& owner, VoxelTraversal walk, float epsilon)
     : walk_(walk),
       epsilon_(epsilon),
       cells_(owner, "distances.comp", {{isOctree(walk) ? "OF_NODES" : "OF_VOXELS", "1"}}),
@@ -70,7 +71,7 @@ void VoxelMarch::plan(MemoryPlan& plan, const SurfaceVoxels& voxels) {
     for (Kernel* kernel : {&cells_, &along_[0], &along_[1], &along_[2]})
         kernel->compileIf(hasDistances(walk_));
     plan.buffer(counts_, "voxel march counts", kCountBytes);
-    if (walk_ != VoxelWalk::Bricks) return;
+    if (walk_ != VoxelTraversal::Bricks) return;
     const glm::uvec3 resolution = voxels.grid.resolution;
     const uint64_t bytes = distanceBytes(resolution, kBrickLevel);
     plan.buffer(bricks_, "bricks of voxels", brickBytes(resolution));
@@ -121,17 +122,17 @@ void VoxelMarch::measureDistances(CommandStream& stream) {
 
 Defines VoxelMarch::defines() const {
     switch (walk_) {
-        case VoxelWalk::Bits:
+        case VoxelTraversal::Bits:
             return {{"MARCH_WALK_BITS", "1"}};
-        case VoxelWalk::Bricks:
+        case VoxelTraversal::Bricks:
             return {{"MARCH_WALK_BRICKS", "1"}};
-        case VoxelWalk::SvoRestart:
+        case VoxelTraversal::SvoRestart:
             if (epsilon_ > 0)
                 return {{"MARCH_WALK_SVO_RESTART", "1"}, {"MARCH_EPSILON", fmt::format("{:.9e}", epsilon_)}};
             return {{"MARCH_WALK_SVO_RESTART", "1"}};
-        case VoxelWalk::SvoVoxels:
+        case VoxelTraversal::SvoVoxels:
             return {{"MARCH_WALK_SVO_VOXELS", "1"}};
-        case VoxelWalk::Svo:
+        case VoxelTraversal::Svo:
             return {{"MARCH_WALK_SVO", "1"}};
     }
     return {};
@@ -142,8 +143,8 @@ std::vector<Binding> VoxelMarch::bindings() const {
                              ifUsed({"voxelRank", voxels_->rank}), ifUsed({"voxelMarchCounts", counts_})};
     if (isOctree(walk_)) all.push_back({"octree", octree_.header});
     if (hasDistances(walk_)) all.push_back({"voxelDistances", distances_});
-    if (walk_ == VoxelWalk::Bricks) all.push_back({"voxelBricks", bricks_});
-    if (walk_ == VoxelWalk::Svo) all.push_back({"voxelNodes", octree_.nodes});
+    if (walk_ == VoxelTraversal::Bricks) all.push_back({"voxelBricks", bricks_});
+    if (walk_ == VoxelTraversal::Svo) all.push_back({"voxelNodes", octree_.nodes});
     return all;
 }
 

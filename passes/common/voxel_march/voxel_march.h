@@ -11,7 +11,7 @@
 namespace voxray {
 
 /// How a ray finds the occupied voxels on its way. All find the same ones.
-enum class VoxelWalk {
+enum class VoxelTraversal {
     Bits,        ///< Voxel by voxel over the occupancy bits.
     Bricks,      ///< Bits by bricks of 4^3 voxels, and how far space is empty before each.
     SvoRestart,  ///< The octree, from its root down in each step (Sun and Agu 2015, figure 3).
@@ -19,11 +19,11 @@ enum class VoxelWalk {
     Svo,         ///< The octree, from a level with distances on down.
 };
 template <>
-struct EnumNames<VoxelWalk> {
+struct EnumNames<VoxelTraversal> {
     static constexpr std::array names{
-        std::pair{VoxelWalk::Bits, "bits"}, std::pair{VoxelWalk::Bricks, "bricks"},
-        std::pair{VoxelWalk::SvoRestart, "svo_restart"}, std::pair{VoxelWalk::SvoVoxels, "svo_voxels"},
-        std::pair{VoxelWalk::Svo, "svo"}};
+        std::pair{VoxelTraversal::Bits, "bits"}, std::pair{VoxelTraversal::Bricks, "bricks"},
+        std::pair{VoxelTraversal::SvoRestart, "svo_restart"},
+        std::pair{VoxelTraversal::SvoVoxels, "svo_voxels"}, std::pair{VoxelTraversal::Svo, "svo"}};
 };
 
 /// What rays walk through: surface voxels and what a walk needs besides, built of them. A shader that walks
@@ -33,7 +33,7 @@ class VoxelMarch {
  public:
     /// @param epsilon for SvoRestart: steps in floats, past each node by this many voxels, as in the
     /// paper, which skips what is thinner; 0 steps exactly.
-    VoxelMarch(ProgramOwner& owner, VoxelWalk walk, float epsilon = 0);
+    VoxelMarch(ProgramOwner& owner, VoxelTraversal walk, float epsilon = 0);
 
     /// Describes what a walk takes besides the voxels.
     /// @throws Error for a grid that it can't walk through.
@@ -55,7 +55,7 @@ class VoxelMarch {
     /// Makes what shaders/voxel_march/distances.glsl tells of the voxels or of the octree.
     void measureDistances(CommandStream& stream);
 
-    VoxelWalk walk_;
+    VoxelTraversal walk_;
     float epsilon_;
     std::optional<OctreeBuilder> builder_;  ///< Of walks through an octree.
     Kernel cells_;

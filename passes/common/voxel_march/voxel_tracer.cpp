@@ -9,7 +9,7 @@ constexpr uint32_t kRaysPerLaunch = 1u << 26;
 
 }  // namespace
 
-VoxelTracer::VoxelTracer(ProgramOwner& owner, VoxelWalk walk, float epsilon)
+VoxelTracer::VoxelTracer(ProgramOwner& owner, VoxelTraversal walk, float epsilon)
     : march_(owner, walk, epsilon),
       closestHit_(owner, "voxel_tracer.comp", march_.defines()),
       occluded_(owner, "voxel_tracer.comp", march_.defines()) {}

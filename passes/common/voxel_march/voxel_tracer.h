@@ -12,7 +12,7 @@ namespace voxray {
 /// (shaders/voxel_march/surface_segment.glsl).
 class VoxelTracer final : public RayTracer {
  public:
-    VoxelTracer(ProgramOwner& owner, VoxelWalk walk, float epsilon = 0);
+    VoxelTracer(ProgramOwner& owner, VoxelTraversal walk, float epsilon = 0);
 
     /// As VoxelMarch::plan().
     void plan(MemoryPlan& plan, const SurfaceVoxels& voxels);

@@ -3,11 +3,11 @@
 #include "shaders/voxels/packed_flux.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) buffer FluxAt { LargeUints flux; };
-layout(scalar) buffer AddedAt { LargeUints added; };
+layout(scalar) buffer FluxRef { LargeUints flux; };
+layout(scalar) buffer AddedRef { LargeUints added; };
 layout(scalar) readonly buffer Area { uint data[]; } area;
 layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Faces { vec4 data[]; };
-layout(scalar) readonly buffer FacesAt { Faces faces; };
+layout(scalar) readonly buffer FacesRef { Faces faces; };
 layout(push_constant) uniform Push {
     uint count;           // Faces.
     float voxelFaceArea;  // m²

@@ -7,12 +7,12 @@ FaceIrradiance::FaceIrradiance(ProgramOwner& owner) : program_(owner, "face_irra
 void FaceIrradiance::update(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& area,
                             const LargeBuffer& flux, const LargeBuffer* added) {
     const uint32_t faces = voxels.voxelCount * kFaces;
-    makeOrKeep(faces_, stream.device(), "face irradiance", uint64_t(faces) * 4 * sizeof(float));
+    ensureSize(faces_, stream.device(), "face irradiance", uint64_t(faces) * 4 * sizeof(float));
     stream.dispatch(program_, faces,
-                    {{"FluxAt", flux.at()},
-                     {"AddedAt", (added ? *added : flux).at()},
+                    {{"FluxRef", flux.ref()},
+                     {"AddedRef", (added ? *added : flux).ref()},
                      {"area", area},
-                     {"FacesAt", faces_.at()},
+                     {"FacesRef", faces_.ref()},
                      {"count", faces},
                      {"voxelFaceArea", voxels.grid.voxelSize * voxels.grid.voxelSize},
                      {"addedWeight", added ? 1.0f : 0.0f}});

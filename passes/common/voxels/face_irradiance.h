@@ -16,7 +16,7 @@ class FaceIrradiance {
                 const LargeBuffer& flux, const LargeBuffer* added = nullptr);
     /// Frees the irradiance, once the stream has finished.
     void end() { faces_ = {}; }
-    Binding binding() const { return {"FaceIrradianceAt", faces_.at()}; }
+    Binding binding() const { return {"FaceIrradianceRef", faces_.ref()}; }
 
  private:
     Kernel program_;

@@ -7,8 +7,8 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Measured { uint data[]; } measured;  // Areas of faces that were measured; 0: unknown.
 layout(scalar) buffer Area { uint data[]; } area;
-layout(scalar) buffer DirectAt { LargeUints direct; };
-layout(scalar) buffer IndirectAt { LargeUints indirect; };
+layout(scalar) buffer DirectRef { LargeUints direct; };
+layout(scalar) buffer IndirectRef { LargeUints indirect; };
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint words;

@@ -16,14 +16,15 @@ void FluxAccumulator::begin(Device& device, CommandStream& stream, const Surface
 }
 
 std::vector<Binding> FluxAccumulator::bindings() const {
-    return {{"FluxAccumulatorAt", sums_.at()}};
+    return {{"FluxAccumulatorRef", sums_.ref()}};
 }
 
 void FluxAccumulator::resolve(CommandStream& stream, const SurfaceVoxels& voxels,
                               const LargeBuffer& flux) const {
     const uint32_t pairs = voxels.voxelCount * 3;
-    stream.dispatch(resolve_, pairs,
-                    {*this, {"FluxAt", flux.at()}, {"pairs", pairs}, {"wattsPerUnit", 1.0f / unitsPerWatt_}});
+    stream.dispatch(
+        resolve_, pairs,
+        {*this, {"FluxRef", flux.ref()}, {"pairs", pairs}, {"wattsPerUnit", 1.0f / unitsPerWatt_}});
 }
 
 }  // namespace voxray

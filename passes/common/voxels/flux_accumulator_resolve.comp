@@ -4,7 +4,7 @@
 #include "shaders/voxels/packed_flux.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) buffer FluxAt { LargeUints flux; };
+layout(scalar) buffer FluxRef { LargeUints flux; };
 layout(push_constant) uniform Push {
     uint pairs;
     float wattsPerUnit;

@@ -53,7 +53,7 @@ void VoxelAccumulator::begin(Device& device, CommandStream& stream, const Surfac
                              float typicalIrradiance) {
     const BytesPerVoxel bytes = bytesPerVoxel(params_.write);
     const auto clear = [&](Buffer& buffer, const char* name, uint64_t size) {
-        makeOrKeep(buffer, device, name, size);
+        ensureSize(buffer, device, name, size);
         stream.fill(buffer, 0);
     };
     clear(sums_, "voxel irradiance sums", voxels.voxelCount * bytes.sums);
@@ -74,8 +74,8 @@ void VoxelAccumulator::resolve(CommandStream& stream, const SurfaceVoxels& voxel
                                const Buffer& area) const {
     stream.dispatch(resolve_, voxels.voxelCount,
                     {*this,
-                     {"VoxelMaterialsAt", voxels.materials.at()},
-                     {"FluxAt", flux.at()},
+                     {"VoxelMaterialsRef", voxels.materials.ref()},
+                     {"FluxRef", flux.ref()},
                      {"area", area},
                      {"voxelCount", voxels.voxelCount},
                      {"voxelSize", voxels.grid.voxelSize},

@@ -5,7 +5,7 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) buffer FluxAt { LargeUints flux; };
+layout(scalar) buffer FluxRef { LargeUints flux; };
 layout(scalar) buffer Area { uint data[]; } area;
 layout(push_constant) uniform Push {
     uint voxelCount;

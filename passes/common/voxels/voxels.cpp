@@ -12,7 +12,7 @@ namespace voxray {
 
 std::vector<Binding> SurfaceVoxels::bindings(std::vector<Binding> more) const {
     more.insert(more.begin(), {ifUsed({"voxelOccupancy", occupancy}), ifUsed({"voxelRank", rank}),
-                               ifUsed({"VoxelMaterialsAt", materials.at()}), ifUsed({"grid", grid})});
+                               ifUsed({"VoxelMaterialsRef", materials.ref()}), ifUsed({"grid", grid})});
     return more;
 }
 
@@ -56,7 +56,7 @@ gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t 
     // The scene in the center of the grid.
     grid.origin = 0.5f * (boundsMin + boundsMax) - 0.5f * grid.voxelSize * glm::vec3(grid.resolution);
     grid.wordsPerRow = (grid.resolution.x + 31) / 32;
-    grid.side = std::bit_ceil(resolution);
+    grid.windowSize = std::bit_ceil(resolution);
     grid.directions = 6;
     return grid;
 }

@@ -15,7 +15,7 @@ namespace voxray {
 
 /// The voxels of a grid that are held: all of it, or a window.
 inline VoxelBox heldVoxels(const gpu::VoxelGrid& grid) {
-    return {grid.first, glm::min(grid.resolution, glm::uvec3(grid.side))};
+    return {grid.first, glm::min(grid.resolution, glm::uvec3(grid.windowSize))};
 }
 
 /// The voxels that surfaces pass through: an occupancy bit for each voxel of the grid, ranks that number the
@@ -24,7 +24,7 @@ inline VoxelBox heldVoxels(const gpu::VoxelGrid& grid) {
 struct SurfaceVoxels : Resource {
     gpu::VoxelGrid grid{};
     /// Areas count only sides of surfaces with open space in front of them, and so must the light on them.
-    bool unoccludedOnly = false;
+    bool unoccludedAreaOnly = false;
     uint32_t voxelCount = 0;    ///< Occupied voxels; known once the voxelizing pass has run.
     double estimatedCount = 0;  ///< About as many, for estimates of memory; known from plan() on.
     Buffer occupancy;           ///< 1 bit a voxel of the grid.

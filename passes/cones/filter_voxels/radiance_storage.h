@@ -17,7 +17,7 @@ struct SurfaceLight {
 
     /// Bindings of passes/cones/radiance/surface_radiance.glsl, besides those of the voxels.
     std::vector<Binding> bindings() const {
-        return {{"DirectFluxAt", direct.at()}, {"IndirectFluxAt", indirect.at()}, {"voxelArea", area}};
+        return {{"DirectFluxRef", direct.ref()}, {"IndirectFluxRef", indirect.ref()}, {"voxelArea", area}};
     }
 };
 

@@ -27,7 +27,7 @@ class SvoBricksStorage final : public RadianceStorage {
                 "here are {}. Set voxelize's 'directions' to 1, or set 'layout' to svo",
                 radiance.grid.directions);
         octree_.grid = voxels.grid;
-        octree_.moves = !movingRuns(plan.frame.scene->geometry).empty();
+        octree_.moves = !movingInstanceRanges(plan.frame.scene->geometry).empty();
         // With neighbors a surface is about two layers thick at the grid's border, three elsewhere. Each
         // level has a quarter of the voxels of the one below, and eight nodes for each brick of the one
         // above.
@@ -63,7 +63,7 @@ class SvoBricksStorage final : public RadianceStorage {
     void build(CommandStream& stream, const SurfaceVoxels& voxels) {
         const LargeBuffer cells(stream.device(), "voxels of leaves",
                                 std::max(voxels.voxelCount, 1u) * sizeof(uint32_t));
-        stream.dispatch(listCells_, voxels.words(), {voxels, {"FragmentCellsAt", cells.at()}});
+        stream.dispatch(listCells_, voxels.words(), {voxels, {"FragmentCellsRef", cells.ref()}});
         builder_.build(stream, octree_, cells, voxels.voxelCount);
         stream.finish();
     }

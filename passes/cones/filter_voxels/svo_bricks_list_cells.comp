@@ -4,7 +4,7 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) writeonly buffer FragmentCellsAt { LargeUints cells; };
+layout(scalar) writeonly buffer FragmentCellsRef { LargeUints cells; };
 layout(push_constant, scalar) uniform Push { VoxelGrid grid; } push;
 
 void main() {

@@ -93,7 +93,7 @@ void NearField::continuePaths(PassContext& context, const RadianceVoxels& radian
                           {"surfels", surfels_[from]},
                           {"direct", direct_},
                           {"light", light_},
-                          {"goesOn", continuations_[from]},
+                          {"continuations", continuations_[from]},
                           {"rays", rays_},
                           {"count", surfels},
                           {"seed", seed + 0xa3u}});

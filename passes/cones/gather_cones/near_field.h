@@ -5,7 +5,7 @@
 
 #include "passes/common/view/gbuffer.h"
 #include "passes/cones/radiance/radiance_voxels.h"
-#include "passes/surfels/surfel_light.h"
+#include "passes/surfels/surfel_direct_light.h"
 
 namespace voxray {
 
@@ -35,7 +35,7 @@ class NearField {
 
     Settings settings_;
     std::vector<LightSource> sources_;
-    SurfelLight hitLight_;
+    SurfelDirectLight hitLight_;
     Kernel generateRays_, resolveRays_, reflect_, continuePaths_, sumCones_;
     Buffer rays_, hits_, light_, count_, direct_;
     std::array<Buffer, 2> surfels_, continuations_;  ///< Near hits of this bounce and of the last one.

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "graph/registry.h"
 #include "passes/common/lights/light_sources.h"
-#include "passes/common/lights/pane_tint.h"
+#include "passes/common/lights/pane_transmittance.h"
 #include "passes/common/lights/shadow_map.h"
 #include "passes/common/triangle_voxelizer/triangle_voxelizer.h"
 #include "passes/common/voxels/flux_accumulator.h"
@@ -96,7 +96,7 @@ void LightClipmap::plan(PassPlan& plan) {
     if (!plan.device.shaderInt64Atomics)
         throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", kName,
                     plan.device.name);
-    sources_ = requireViewpoints(*plan.frame.scene, kName);
+    sources_ = requirePunctualLights(*plan.frame.scene, kName);
     const ClipmapVoxels& clipmap = plan[clipmap_];
     RadianceVoxels& radiance = plan[radiance_];
     radiance.lightBounces = params_.bounces + 1;
@@ -206,8 +206,8 @@ void LightClipmap::fillWindow(PassContext& context, uint32_t level, const Surfac
         context.dispatch(fillWindow_, box.count(),
                          {voxels,
                           context[radiance_].fillBindings(),
-                          {"DirectFluxAt", light.direct.at()},
-                          {"IndirectFluxAt", indirect.at()},
+                          {"DirectFluxRef", light.direct.ref()},
+                          {"IndirectFluxRef", indirect.ref()},
                           {"voxelArea", light.area},
                           {"boxFirst", box.first},
                           {"boxSize", box.size},

@@ -46,7 +46,7 @@ void processFragment(TriangleFragment f) {
             const vec3 position = p0 + b.x * e1 + b.y * e2;
             const LightSample s = samplePunctual(light, position);
             const vec3 incident = s.irradiance * max(dot(normal, s.direction), 0.0);
-            if (incident == vec3(0.0) || !lightSees(shadowed, position, normal)) continue;
+            if (incident == vec3(0.0) || !passesShadowTest(shadowed, position, normal)) continue;
             irradiance += incident;
             lit[back] |= 1u << i;
         }

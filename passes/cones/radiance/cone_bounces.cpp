@@ -28,9 +28,9 @@ void ConeBounces::prepare(PassSetup& setup) {
 
 void ConeBounces::listVoxels(PassContext& context, const SurfaceVoxels& voxels) {
     const uint64_t count = voxels.voxelCount;
-    makeOrKeep(voxelCoordinates_, context.device, "coordinates of surface voxels",
+    ensureSize(voxelCoordinates_, context.device, "coordinates of surface voxels",
                count * sizeof(glm::uvec3));
-    makeOrKeep(flux_, context.device, "bounced flux", count * kFluxWords * sizeof(uint32_t));
+    ensureSize(flux_, context.device, "bounced flux", count * kFluxWords * sizeof(uint32_t));
     const uint32_t words = uint32_t(voxels.words());
     context.dispatch(listVoxels_, words, {voxels, {"voxelCoordinates", voxelCoordinates_}, {"words", words}});
 }
@@ -46,10 +46,10 @@ void ConeBounces::gather(PassContext& context, const SurfaceVoxels& voxels, cons
                           radiance,
                           {"cones", coneSet_},
                           {"voxelCoordinates", voxelCoordinates_},
-                          {"DirectFluxAt", injected.direct.at()},
-                          {"IndirectFluxAt", injected.indirect.at()},
+                          {"DirectFluxRef", injected.direct.ref()},
+                          {"IndirectFluxRef", injected.indirect.ref()},
                           {"voxelArea", injected.area},
-                          {"FluxAt", flux_.at()},
+                          {"FluxRef", flux_.ref()},
                           {"voxels", voxels.voxelCount},
                           {"firstPair", first},
                           {"pairs", batch},

@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer VoxelCoordinates { uvec3 data[]; } voxelCoordinates;
-layout(scalar) buffer FluxAt { LargeUints flux; };
+layout(scalar) buffer FluxRef { LargeUints flux; };
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint voxels;

@@ -8,8 +8,8 @@
 
 // By voxel and face +x -x +y -y +z -z: the area that flux arrives at, and the flux (packed_flux.glsl).
 layout(scalar) readonly buffer VoxelArea { uint data[]; } voxelArea;
-layout(scalar) buffer DirectFluxAt { LargeUints directFlux; };
-layout(scalar) buffer IndirectFluxAt { LargeUints indirectFlux; };
+layout(scalar) buffer DirectFluxRef { LargeUints directFlux; };
+layout(scalar) buffer IndirectFluxRef { LargeUints indirectFlux; };
 
 vec3 faceFlux(uint face) { return loadFlux(directFlux, face) + loadFlux(indirectFlux, face); }
 

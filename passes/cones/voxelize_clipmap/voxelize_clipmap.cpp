@@ -13,7 +13,7 @@ namespace {
 gpu::VoxelGrid levelGrid(gpu::VoxelGrid grid, uint32_t level, uint32_t side) {
     grid.voxelSize *= float(1u << level);
     grid.resolution = levelResolution(grid.resolution, level);
-    grid.side = side;
+    grid.windowSize = side;
     grid.wordsPerRow = (heldVoxels(grid).size.x + 31) / 32;
     return grid;
 }
@@ -71,7 +71,7 @@ void VoxelizeClipmap::plan(PassPlan& plan) {
     clipmap.levels.resize(clipmap.windows.firstWhole() + 1);
     for (uint32_t level = 0; level < clipmap.levels.size(); ++level) {
         SurfaceVoxels& voxels = clipmap.levels[level].voxels;
-        voxels.unoccludedOnly = params_.visibilityRays > 0;
+        voxels.unoccludedAreaOnly = params_.visibilityRays > 0;
         voxels.grid = levelGrid(finest, level, params_.clipmapResolution);
         VoxelBuilder::planVoxels(plan, voxels);
     }

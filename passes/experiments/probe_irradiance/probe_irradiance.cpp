@@ -65,7 +65,7 @@ class ProbeIrradiance final : public Pass {
 };
 
 void ProbeIrradiance::plan(PassPlan& plan) {
-    if (!movingRuns(plan.frame.scene->geometry).empty())
+    if (!movingInstanceRanges(plan.frame.scene->geometry).empty())
         throw Error(
             "{}: surfaces move, and with them the points that it would compare; "
             "set scene.time_step to 0 and take out scene.moving_spheres",
@@ -84,7 +84,7 @@ void ProbeIrradiance::record(PassContext& context) {
     const Surfels& surfels = context[surfels_];
     const uint64_t numbers = 2 * surfels.pointCount;
     const uint32_t stride = uint32_t((numbers + params_.maxPoints - 1) / params_.maxPoints) | 1u;
-    makeOrKeep(irradiance_, context.device, "irradiance of points",
+    ensureSize(irradiance_, context.device, "irradiance of points",
                (numbers / stride + 1) * sizeof(glm::vec4));
     if (context.changed(surfels_)) last_.clear();
     context.stream.fill(irradiance_, 0);

@@ -101,7 +101,7 @@ void GatherIrradiance::record(PassContext& context) {
     context.dispatch(lookup_, context.frame.pixels(),
                      {context[gbuffer_],
                       context[voxels_],
-                      {"VoxelFluxAt", (isDirect() ? irradiance.direct : irradiance.indirect).at()},
+                      {"VoxelFluxRef", (isDirect() ? irradiance.direct : irradiance.indirect).ref()},
                       {"voxelArea", irradiance.area},
                       {"result", context[reflected_].image},
                       {"radius", params_.radius},

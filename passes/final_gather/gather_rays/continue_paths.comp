@@ -15,5 +15,5 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.rays_ || rays.data[i].tMax < 0.0 || hits.data[i].triangle == NO_HIT) return;
     const Surfel s = from.data[i];
-    endRay(s.parent, hits.data[i], rays.data[i].origin, s.reflectance, s.id, push.nearField);
+    shadeHit(s.parent, hits.data[i], rays.data[i].origin, s.reflectance, s.id, push.nearField);
 }

@@ -6,7 +6,7 @@ namespace voxray {
 namespace {
 
 /// As in hit.glsl.
-struct ListCounts {
+struct HitCounts {
     uint32_t surfels, unlit;
 };
 
@@ -25,8 +25,8 @@ void ContinuedPaths::plan(PassPlan& plan, const Settings& settings, const Specia
     reflect_.compileIf(isUsed());
     continue_.compileIf(isUsed());
     plan.buffer(surfels_[0], "surfels at hits", rays * sizeof(gpu::Surfel));
-    plan.buffer(goesOn_, "surfels whose rays go on", rays * 2 * sizeof(uint32_t));
-    plan.buffer(counts_, "counts of hits", sizeof(ListCounts));
+    plan.buffer(continuations_, "surfels whose rays go on", rays * 2 * sizeof(uint32_t));
+    plan.buffer(counts_, "counts of hits", sizeof(HitCounts));
     if (!isUsed()) return;
     sources_ = lightSources(*plan.frame.scene);
     hitLight_.emplace(owner_).plan(plan, rays);
@@ -37,12 +37,12 @@ void ContinuedPaths::plan(PassPlan& plan, const Settings& settings, const Specia
 }
 
 Defines ContinuedPaths::defines() const {
-    return settings_.measuresDirect ? Defines{{"SHADOW_RAYS", "1"}} : Defines{};
+    return settings_.measureDirect ? Defines{{"SHADOW_RAYS", "1"}} : Defines{};
 }
 
 std::vector<Binding> ContinuedPaths::begin(CommandStream& stream) const {
     stream.fill(counts_, 0);
-    return {{"surfels", surfels_[0]}, {"goesOn", goesOn_}, {"counts", counts_}};
+    return {{"surfels", surfels_[0]}, {"continuations", continuations_}, {"counts", counts_}};
 }
 
 ContinuedPaths::Counts ContinuedPaths::follow(PassContext& context, const std::vector<Binding>& stored,
@@ -50,7 +50,7 @@ ContinuedPaths::Counts ContinuedPaths::follow(PassContext& context, const std::v
     CommandStream& stream = context.stream;
     Counts all;
     for (uint32_t step = 0; step <= settings_.maxSteps; ++step) {
-        const ListCounts listed = stream.readAs<ListCounts>(counts_, 1)[0];
+        const HitCounts listed = stream.readAs<HitCounts>(counts_, 1)[0];
         all.unlit += listed.unlit;
         if (listed.surfels == 0) break;
 
@@ -63,7 +63,7 @@ ContinuedPaths::Counts ContinuedPaths::follow(PassContext& context, const std::v
                           {"surfels", from},
                           {"direct", direct_},
                           {"light", light},
-                          {"goesOn", goesOn_},
+                          {"continuations", continuations_},
                           {"rays", rays_},
                           {"count", listed.surfels},
                           {"seed", seed + 0xa3u}});
@@ -82,7 +82,7 @@ ContinuedPaths::Counts ContinuedPaths::follow(PassContext& context, const std::v
                           {"hits", hits_},
                           {"light", light},
                           {"surfels", to},
-                          {"goesOn", goesOn_},
+                          {"continuations", continuations_},
                           {"counts", counts_},
                           {"rays", listed.surfels},
                           {"nearField", isLast ? 0.0f : settings_.nearField}});

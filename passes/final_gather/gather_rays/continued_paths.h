@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "passes/surfels/surfel_light.h"
+#include "passes/surfels/surfel_direct_light.h"
 
 namespace voxray {
 
@@ -14,10 +14,10 @@ namespace voxray {
 class ContinuedPaths {
  public:
     struct Settings {
-        bool measuresDirect = false;  ///< At every hit: stored light does not hold it.
-        uint32_t lightSamples = 1;    ///< Of the emissive surfaces and of the environment, at each such hit.
-        float nearField = 0;          ///< Cells: rays shorter than this go on; 0: no ray does.
-        uint32_t maxSteps = 3;        ///< That a ray goes on, at most.
+        bool measureDirect = false;  ///< At every hit: stored light does not hold it.
+        uint32_t lightSamples = 1;   ///< Of the emissive surfaces and of the environment, at each such hit.
+        float nearField = 0;         ///< Cells: rays shorter than this go on; 0: no ray does.
+        uint32_t maxSteps = 3;       ///< That a ray goes on, at most.
     };
     struct Counts {
         uint64_t rays = 0;   ///< That went on.
@@ -39,15 +39,15 @@ class ContinuedPaths {
     Counts follow(PassContext& context, const std::vector<Binding>& stored, const Buffer& light) const;
 
  private:
-    bool isUsed() const { return settings_.measuresDirect || settings_.nearField > 0; }
+    bool isUsed() const { return settings_.measureDirect || settings_.nearField > 0; }
 
     ProgramOwner& owner_;
     Settings settings_;
     Kernel reflect_, continue_;
     std::vector<LightSource> sources_;
-    std::optional<SurfelLight> hitLight_;  ///< Where it is measured.
-    std::array<Buffer, 2> surfels_;        ///< At hits that were listed, and at those of one step before.
-    Buffer goesOn_, counts_;               ///< Of the list.
+    std::optional<SurfelDirectLight> hitLight_;  ///< Where it is measured.
+    std::array<Buffer, 2> surfels_;  ///< At hits that were listed, and at those of one step before.
+    Buffer continuations_, counts_;  ///< Of the list.
     Buffer direct_, rays_, hits_;
 };
 

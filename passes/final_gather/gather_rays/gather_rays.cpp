@@ -98,8 +98,8 @@ class GatherRays final : public Pass {
     Out<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "irradiance from few rays a texel"};
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light, unfiltered"};
     Kernel shade_{*this, "shade.comp", stored_.defines()};
-    Kernel collect_{*this, "collect.comp"};
-    Kernel moments_{*this, "moments.comp"};
+    Kernel averageTexels_{*this, "average_texels.comp"};
+    Kernel sumMoments_{*this, "sum_moments.comp"};
     ContinuedPaths paths_{*this, stored_.defines()};
     std::optional<IrradianceResolve> resolve_;  ///< Where `indirect` is read.
     Buffer light_;                              ///< What the rays of a batch bring.
@@ -109,7 +109,7 @@ void GatherRays::plan(PassPlan& plan) {
     const GatherHits& hits = plan[hits_];
     const uint32_t texelsPerBlock = hits.layout.blockSize * hits.layout.blockSize;
     NoisyIrradiance& noisy = plan[noisy_];
-    noisy.lightBounces = plan[indirect_].lightBounces = oneMore(stored_.bounces(plan));
+    noisy.lightBounces = plan[indirect_].lightBounces = oneMoreBounce(stored_.bounces(plan));
     noisy.spacing = hits.layout.raysPerBlock < texelsPerBlock ? hits.layout.blockSize : 1;
     if (plan[indirect_].isRead && noisy.spacing > 1)
         throw Error(
@@ -118,7 +118,7 @@ void GatherRays::plan(PassPlan& plan) {
             hits.layout.blockSize, hits.layout.raysPerBlock, texelsPerBlock, kName);
     plan.image(noisy.irradiance, "noisy irradiance",
                NoisyIrradiance::desc(plan.frame, plan[gbuffer_].samples));
-    moments_.compileIf(noisy.isRead);
+    sumMoments_.compileIf(noisy.isRead);
     if (noisy.isRead) {
         noisy.blockSize = hits.layout.blockSize;
         plan.buffer(noisy.moments, "moments of rays", noisy.momentsBytes(hits.layout.texels));
@@ -132,7 +132,7 @@ void GatherRays::plan(PassPlan& plan) {
     plan.buffer(light_, "light of gather rays", rays * kLightBytes);
     stored_.plan(plan);
     paths_.plan(plan,
-                {.measuresDirect = !stored_.holdsDirect(plan),
+                {.measureDirect = !stored_.holdsDirect(plan),
                  .lightSamples = params_.lightSamples,
                  .nearField = params_.nearFieldCells,
                  .maxSteps = isOverCache() ? kMaxStepsOverCache : kMaxSteps},
@@ -180,14 +180,14 @@ ContinuedPaths::Counts GatherRays::gather(PassContext& context, const std::vecto
 
     // Add up what the rays of each texel and of each block bring.
     const NoisyIrradiance& noisy = context[noisy_];
-    context.dispatch(collect_, uint64_t(blocks) * texelsPerBlock,
+    context.dispatch(averageTexels_, uint64_t(blocks) * texelsPerBlock,
                      {{"light", light_},
                       {"gathered", noisy.irradiance},
                       {"layout", hits.layout},
                       {"firstBlock", firstBlock},
                       {"batchBlocks", blocks}});
     if (noisy.isRead)
-        context.dispatch(moments_, blocks,
+        context.dispatch(sumMoments_, blocks,
                          {{"light", light_},
                           {"moments", noisy.moments},
                           {"firstBlock", firstBlock},

@@ -10,7 +10,7 @@ layout(scalar) buffer Light { vec4 data[]; } light;
 // The hits where direct light is to be measured, in any order; `parent` is the ray.
 layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
 // By surfel: 1 where its ray goes on from there, and the geometric normal, octahedral.
-layout(scalar) writeonly buffer GoesOn { uvec2 data[]; } goesOn;
+layout(scalar) writeonly buffer Continuations { uvec2 data[]; } continuations;
 buffer Counts {
     uint surfels;
     uint unlit;  // Hits far enough off to read what is stored there, where nothing is.
@@ -25,7 +25,7 @@ buffer Counts {
 //      │    \  │       │   x: one nearer is not; there a shadow ray measures direct light, and a ray goes on.
 //     ─┼─────x─┼───────┼─
 //      └───────┴───────┘
-void endRay(uint i, Hit hit, vec3 from, vec3 throughput, uint id, float nearField) {
+void shadeHit(uint i, Hit hit, vec3 from, vec3 throughput, uint id, float nearField) {
     Surfel at;
     vec3 faceNormal;
     float offset;
@@ -36,10 +36,10 @@ void endRay(uint i, Hit hit, vec3 from, vec3 throughput, uint id, float nearFiel
     const StoredLight stored = storedLight(at.position, faceNormal);
     const bool isNear = hit.t < nearField * stored.cellSize;
     if (!isNear && !stored.known) atomicAdd(counts.unlit, 1u);
-    const bool isOnWay = isNear || (nearField > 0.0 && !stored.known);
-    if (!isOnWay) light.data[i].rgb += at.reflectance * stored.irradiance;
+    const bool isContinued = isNear || (nearField > 0.0 && !stored.known);
+    if (!isContinued) light.data[i].rgb += at.reflectance * stored.irradiance;
 #ifndef SHADOW_RAYS
-    if (!isOnWay) return;
+    if (!isContinued) return;
 #endif
 
     // Where light is measured.
@@ -48,7 +48,7 @@ void endRay(uint i, Hit hit, vec3 from, vec3 throughput, uint id, float nearFiel
     at.parent = i;
     const uint number = atomicAdd(counts.surfels, 1u);
     surfels.data[number] = at;
-    goesOn.data[number] = uvec2(isOnWay ? 1u : 0u, toOctahedral(faceNormal));
+    continuations.data[number] = uvec2(isContinued ? 1u : 0u, toOctahedral(faceNormal));
 }
 
 #endif

@@ -30,5 +30,5 @@ void main() {
     const Hit hit = hits.data[i];
     light.data[i] = vec4(vec3(0.0), hit.triangle != NO_HIT ? hit.t : from.w > 0.0 ? MISSED : -1.0);
     const uint id = push.firstBlock * g.raysPerBlock + i;
-    if (hit.triangle != NO_HIT) endRay(i, hit, from.xyz, vec3(1.0), id, push.nearField);
+    if (hit.triangle != NO_HIT) shadeHit(i, hit, from.xyz, vec3(1.0), id, push.nearField);
 }

@@ -17,7 +17,7 @@ constexpr double kEqual = 1e-9;
 
 /// What no light reaches shares no leaf with what some does, whatever that costs: a black room must not get a
 /// part of the light behind its wall. An area that counts is 1e-6 voxel faces or more.
-constexpr double kLeak = 1e9;
+constexpr double kMixedPenalty = 1e9;
 
 /// Planes in the outer quarters of the samples' extent are near an end.
 constexpr double kFarFromEnds = 0.25;
@@ -32,7 +32,7 @@ struct Sums {
     double squared = 0;        ///< Squared irradiance times weight.
 
     void add(const FaceSample& s) {
-        const double w = s.area / (3 * s.relativeTo * s.relativeTo);
+        const double w = s.area / (3 * s.errorScale * s.errorScale);
         ++count;
         area += s.area;
         (s.irradiance == glm::dvec3(0.0) ? darkArea : litArea) += s.area;
@@ -56,7 +56,7 @@ struct Sums {
     double squaredError() const {
         const glm::dvec3 m = mean();
         const double spread = squared - 2 * glm::dot(weighted, m) + weight * glm::dot(m, m);
-        return std::max(spread, 0.0) + kLeak * std::min(litArea, darkArea);
+        return std::max(spread, 0.0) + kMixedPenalty * std::min(litArea, darkArea);
     }
     bool isUniform() const { return squaredError() <= kEqual * squared; }
     gpu::TreeLeaf leaf() const { return {glm::vec3(mean()), count > 0 ? float(area / count) : 0.0f}; }
@@ -92,7 +92,7 @@ class Builder {
         const Split split = sums.isUniform() || asLeaf.squaredError < errorOfLeaf_
                                 ? Split{}
                                 : bestSplit(samples, asLeaf.squaredError, low, high);
-        if (split.axis < 0) return putLeaf(first, sums, asLeaf);
+        if (split.axis < 0) return replaceByLeaf(first, sums, asLeaf);
 
         // Both parts, and whether they are worth their leaves
         const auto behind = std::partition(samples.begin(), samples.end(), [&](const FaceSample& s) {
@@ -103,7 +103,7 @@ class Builder {
         const size_t offset = words_.size() - first;
         const Subtree after = build({behind, samples.end()});
         const Subtree both{before.squaredError + after.squaredError, before.leaves + after.leaves};
-        if (cost(both) >= cost(asLeaf)) return putLeaf(first, sums, asLeaf);
+        if (cost(both) >= cost(asLeaf)) return replaceByLeaf(first, sums, asLeaf);
         if (offset > TREE_MAX_OFFSET)
             throw Error("merged voxels need a tree of over {} leaves; raise merge_voxels' 'tolerance'",
                         before.leaves);
@@ -115,7 +115,7 @@ class Builder {
     double cost(const Subtree& t) const { return t.squaredError + errorOfLeaf_ * t.leaves; }
 
     /// In place of all words from `first` on.
-    Subtree putLeaf(size_t first, const Sums& sums, const Subtree& asLeaf) {
+    Subtree replaceByLeaf(size_t first, const Sums& sums, const Subtree& asLeaf) {
         const glm::uvec2 words = gpu::packLeaf(sums.leaf());
         words_.resize(first);
         words_.insert(words_.end(), {words.x, words.y});

@@ -11,7 +11,7 @@ struct FaceSample {
     glm::ivec3 voxel{};       ///< In the grid: 0 to 1023.
     double area = 0;          ///< In units of a voxel's face.
     glm::dvec3 irradiance{};  ///< W/m²
-    double relativeTo = 1;    ///< W/m², positive: errors are relative to this.
+    double errorScale = 1;    ///< W/m², positive: errors are relative to this.
 };
 
 /// A k-d tree over samples whose leaves hold their mean (packed: irradiance_tree_types.h).

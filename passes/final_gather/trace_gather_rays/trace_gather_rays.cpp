@@ -42,7 +42,7 @@ class TraceGatherRays final : public Pass {
     const Params params_;
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     Out<GatherHits> hits_{*this, "gather_hits", "where the gather rays hit"};
-    Kernel emit_{*this, "emit.comp"};
+    Kernel generateRays_{*this, "generate_gather_rays.comp"};
     Buffer rays_;
 };
 
@@ -64,7 +64,7 @@ void TraceGatherRays::record(PassContext& context) {
     hits.layout.seed = randomSeed(context.frame, context.frameIndex);
     for (uint32_t b = 0; b < hits.batches.size(); ++b) {
         const uint32_t blocks = hits.batchBlocks(b), rays = blocks * params_.raysPerBlock;
-        context.dispatch(emit_, rays,
+        context.dispatch(generateRays_, rays,
                          {context[gbuffer_],
                           {"rays", rays_},
                           {"layout", hits.layout},

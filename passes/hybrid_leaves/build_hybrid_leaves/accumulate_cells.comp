@@ -4,7 +4,7 @@
 #include "passes/hybrid_leaves/build_hybrid_leaves/cell_surface.glsl"
 #include "shaders/scene/specular.glsl"
 
-layout(scalar) readonly buffer CellSumsAt { LargeUints cellSums; };
+layout(scalar) readonly buffer CellSumsRef { LargeUints cellSums; };
 
 void addFixed(uint word, float units) {
     const int rounded = int(round(units));

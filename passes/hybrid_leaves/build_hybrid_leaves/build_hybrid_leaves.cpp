@@ -172,7 +172,7 @@ uint32_t BuildHybridLeaves::gridLevels() const {
 
 void BuildHybridLeaves::plan(PassPlan& plan) {
     const gpu::VoxelGrid& grid = plan[voxels_].grid;
-    if (grid.side < std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z}))
+    if (grid.windowSize < std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z}))
         throw Error(
             "build_hybrid_leaves needs all voxels, and this grid holds a window of them: take voxelize");
     const Geometry& geometry = plan.frame.scene->geometry;
@@ -180,7 +180,7 @@ void BuildHybridLeaves::plan(PassPlan& plan) {
     plan.buffer(plan[leaves_].corners, "corners of triangles",
                 std::max<uint64_t>(geometry.triangles.size(), 1) * sizeof(std::array<glm::vec3, 3>));
     voxelizer_->plan(plan);
-    if (!movingRuns(geometry).empty()) updateCache_.emplace(*this).plan(plan, plan[voxels_]);
+    if (!movingInstanceRanges(geometry).empty()) updateCache_.emplace(*this).plan(plan, plan[voxels_]);
 }
 
 void BuildHybridLeaves::record(PassContext& context) {
@@ -321,7 +321,7 @@ void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& vox
     pairs_ = LargeBuffer(context.device, "triangles in grids", 3 * wordBytes(pairCount_));
     const std::vector<Binding> bindings = voxels.bindings({{"remaining", remaining},
                                                            {"pairCount", pairCount},
-                                                           {"PairsAt", pairs_.at()},
+                                                           {"PairsRef", pairs_.ref()},
                                                            {"hybridLeaves", leaves.header}});
     voxelizer_->run(context, *fillLists_, voxels.grid, bindings, 0);
     stream.dispatch(sortLists_, voxels.voxelCount,
@@ -335,7 +335,7 @@ void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& vox
 
 void BuildHybridLeaves::copyCorners(PassContext& context, const HybridLeaves& leaves) const {
     const Geometry& geometry = context.frame.scene->geometry;
-    std::vector<InstanceRange> ranges = movingRuns(geometry);
+    std::vector<InstanceRange> ranges = movingInstanceRanges(geometry);
     if (!isUpdate()) {
         ranges.resize(1);
         ranges[0].firstTriangle = 0, ranges[0].triangleCount = uint32_t(geometry.triangles.size());

@@ -5,7 +5,7 @@
 #include "passes/hybrid_leaves/build_hybrid_leaves/cell_sums.h"
 #include "passes/hybrid_leaves/grid_cell.glsl"
 
-layout(scalar) readonly buffer CellSumsAt { LargeUints cellSums; };
+layout(scalar) readonly buffer CellSumsRef { LargeUints cellSums; };
 
 struct CellSums {
     float area;

@@ -8,7 +8,7 @@
 
 buffer Remaining { uint items[]; } remaining;  // Free items of each list; 0 for unchanged leaves.
 buffer PairCount { uint count; } pairCount;
-layout(scalar) readonly buffer PairsAt { LargeUints leafPairs; };  // Triangle, voxel by packCell(), grid.
+layout(scalar) readonly buffer PairsRef { LargeUints leafPairs; };  // Triangle, voxel by packCell(), grid.
 
 void processFragment(TriangleFragment f) {
     const uint leaf = voxelNumber(voxelizer.grid, f.voxel);

@@ -61,7 +61,7 @@ void LeafGrids::fill(PassContext& context, const gpu::VoxelGrid& voxels, const T
     // A pair is a tile (voxelize_in_leaf.glsl)
     const Bindings pairBindings{context.scene,
                                 leaves,
-                                {"PairsAt", pairs.list.at()},
+                                {"PairsRef", pairs.list.ref()},
                                 {"grid", voxels},
                                 {"fixedPointScale", pairs.unitsPerFace},
                                 {"tiles", pairs.count},
@@ -87,14 +87,16 @@ void LeafGrids::fill(PassContext& context, const gpu::VoxelGrid& voxels, const T
             wordBytes(uint64_t(leaves.cellCount) * cellLayout(*context.frame.scene->scene).sumWords));
         stream.fill(sums, 0);
     }
-    stream.dispatch(writeCells_, pairs.count, {pairBindings.all(), ifUsed({"CellSumsAt", sums.at()})});
+    stream.dispatch(writeCells_, pairs.count, {pairBindings.all(), ifUsed({"CellSumsRef", sums.ref()})});
     if (sums) {
         stream.dispatch(averageCells_, leaves.cellCount,
-                        {leaves, {"CellSumsAt", sums.at()}, {"cells", leaves.cellCount}});
+                        {leaves, {"CellSumsRef", sums.ref()}, {"cells", leaves.cellCount}});
         const uint32_t cellsPerGrid = gridCells(leaves.shape.gridResolution, 1, leaves.shape.gridLevels);
-        stream.dispatch(
-            coarsenCells_, leaves.gridCount * cellsPerGrid,
-            {leaves, {"CellSumsAt", sums.at()}, {"grids", leaves.gridCount}, {"cellsPerGrid", cellsPerGrid}});
+        stream.dispatch(coarsenCells_, leaves.gridCount * cellsPerGrid,
+                        {leaves,
+                         {"CellSumsRef", sums.ref()},
+                         {"grids", leaves.gridCount},
+                         {"cellsPerGrid", cellsPerGrid}});
     }
     stream.dispatch(measureThickness_, pairs.count, pairBindings);
     if (updateCache) updateCache->copyCells(stream, leaves);

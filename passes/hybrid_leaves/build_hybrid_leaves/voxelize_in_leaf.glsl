@@ -10,7 +10,7 @@
 #include "shaders/octree/octree_cells.glsl"
 
 // Triangle, voxel by packCell(), grid.
-layout(scalar) readonly buffer PairsAt { LargeUints leafPairs; };
+layout(scalar) readonly buffer PairsRef { LargeUints leafPairs; };
 
 uint cellGrid;
 

@@ -18,7 +18,7 @@
 #include "passes/hybrid_leaves/gather_mirror/mirror_types.h"
 #include "passes/hybrid_leaves/gather_mirror/schlick_table.h"
 #include "passes/hybrid_leaves/hybrid_tracer.h"
-#include "passes/surfels/surfel_light.h"
+#include "passes/surfels/surfel_direct_light.h"
 #include "scene/camera_rays.h"
 
 namespace voxray {
@@ -50,7 +50,7 @@ struct EnumNames<MirrorDirect> {
                                       std::pair{MirrorDirect::ShadowRays, "shadow_rays"}};
 };
 
-/// What traces rays: the scene's ray tracer, or one of two walks through hybrid leaves (HybridWalk).
+/// What traces rays: the scene's ray tracer, or one of two walks through hybrid leaves (HybridTraversal).
 enum class MirrorWalk { Exact, Hierarchical, VoxelByVoxel };
 template <>
 struct EnumNames<MirrorWalk> {
@@ -172,8 +172,8 @@ class GatherMirror final : public Pass {
     Compaction compaction_{*this};
     FaceIrradiance faceIrradiance_{*this};
     std::vector<LightSource> sources_;
-    std::optional<SurfelLight> directLightAtHits_;  ///< With shadow rays.
-    std::optional<HybridTracer> hybridTracer_;      ///< With a walk through hybrid leaves.
+    std::optional<SurfelDirectLight> directLightAtHits_;  ///< With shadow rays.
+    std::optional<HybridTracer> hybridTracer_;            ///< With a walk through hybrid leaves.
     uint64_t triangleHitCount_ = 0, cellHitCount_ = 0, coneCount_ = 0, missCount_ = 0;  ///< Of a frame.
     Buffer grid_, schlickMeans_, counts_;
     Buffer flags_, slots_, light_;        ///< Of a batch.
@@ -185,8 +185,9 @@ class GatherMirror final : public Pass {
 GatherMirror::GatherMirror(const Params& params) : params_(params) {
     if (usesShadowRays()) directLightAtHits_.emplace(*this);
     if (isHybrid())
-        hybridTracer_.emplace(*this, params_.walk == MirrorWalk::Hierarchical ? HybridWalk::Hierarchical
-                                                                              : HybridWalk::VoxelByVoxel);
+        hybridTracer_.emplace(*this, params_.walk == MirrorWalk::Hierarchical
+                                         ? HybridTraversal::Hierarchical
+                                         : HybridTraversal::VoxelByVoxel);
 }
 
 void GatherMirror::plan(PassPlan& plan) {
@@ -210,7 +211,7 @@ void GatherMirror::plan(PassPlan& plan) {
     plan.frameImage(indirect_);
     plan.image(plan[ends_].fractions, "ends of mirror rays", frameImageDesc(plan.frame));
     // Light in voxels is reflected once more at hits; an empty number counts as none
-    std::optional<uint32_t> bounces = oneMore(plan[irradiance_].lightBounces);
+    std::optional<uint32_t> bounces = oneMoreBounce(plan[irradiance_].lightBounces);
     if (const FrameImage* input = plan[inputIndirect_]) bounces = std::max(bounces, input->lightBounces);
     plan[indirect_].lightBounces = bounces;
     plan[indirect_].hasSpecularLobes = true;

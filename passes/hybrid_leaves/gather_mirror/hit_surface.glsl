@@ -3,7 +3,7 @@
 #define VOXRAY_HIT_SURFACE_GLSL
 
 #include "shaders/scene/footprint.glsl"
-#include "shaders/scene/off_edges.glsl"
+#include "shaders/scene/inset_barycentrics.glsl"
 #include "shaders/scene/specular.glsl"
 #include "shaders/trace/ray_types.h"
 
@@ -19,7 +19,7 @@ struct HitSurface {
 
 // `direction` has unit length; `area`: of the footprint across the ray, m². False for a triangle without area.
 bool surfaceAtHit(Hit hit, vec3 direction, float area, out HitSurface surface) {
-    const SurfacePoint s = surfacePoint(hit.triangle, offEdges(hit.triangle, vec2(hit.u, hit.v)));
+    const SurfacePoint s = surfacePoint(hit.triangle, insetBarycentrics(hit.triangle, vec2(hit.u, hit.v)));
     if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return false;
     const GpuMaterial m = sceneMaterials.data[s.material];
     const float cosine = -dot(s.geometricNormal, direction);

@@ -66,7 +66,7 @@ class InjectCameraRays final : public Pass {
     SurfelInjection injection_{*this};
     SurfelPaths paths_{*this};
     ImageRays imageRays_{*this};
-    Kernel arrive_{*this, "arrive.comp"};
+    Kernel arrive_{*this, "surfels_at_hits.comp"};
     Buffer rays_, hits_, count_;
     LitSurfels first_, second_;  ///< At the hits of the camera's rays, and of one ray on from each.
 };

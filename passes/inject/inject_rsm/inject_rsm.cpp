@@ -54,7 +54,7 @@ class InjectRsm final : public Pass {
 
 void InjectRsm::plan(PassPlan& plan) {
     plan[irradiance_].lightBounces = params_.lastBounce();
-    const std::vector<LightSource> sources = requireViewpoints(*plan.frame.scene, kName);
+    const std::vector<LightSource> sources = requirePunctualLights(*plan.frame.scene, kName);
     map_.plan(plan, params_.rsmResolution);
     paths_.plan(plan, kName, std::min(texels(), kMaxBatchTexels), plan[voxels_], sources);
 }

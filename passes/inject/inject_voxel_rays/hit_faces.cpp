@@ -3,19 +3,19 @@
 namespace voxray {
 
 HitFaces::HitFaces(ProgramOwner& owner)
-    : measure_(owner, "mark_measured_faces.comp"),
+    : measure_(owner, "mark_surfel_faces.comp"),
       mark_(owner, "mark_hit_faces.comp"),
       select_(owner, "select_surfels.comp") {}
 
 void HitFaces::plan(PassPlan& plan) {
     plan.buffer(count_, "number of surfels to light", sizeof(uint32_t));
-    plan.buffer(selected_, "surfels to light", Surfels::kChunk * sizeof(gpu::Surfel));
+    plan.buffer(selected_, "surfels to light", Surfels::kMaxChunkSurfels * sizeof(gpu::Surfel));
 }
 
 void HitFaces::mark(PassContext& context, const SurfaceVoxels& voxels, const Surfels& surfels,
                     const GBuffer& gbuffer, const GatherHits& hits) {
     const auto clear = [&](Buffer& buffer, const char* name) {
-        makeOrKeep(buffer, context.device, name, uint64_t(voxels.voxelCount) * sizeof(uint32_t));
+        ensureSize(buffer, context.device, name, uint64_t(voxels.voxelCount) * sizeof(uint32_t));
         context.stream.fill(buffer, 0);
     };
     clear(faces_, "faces to light");

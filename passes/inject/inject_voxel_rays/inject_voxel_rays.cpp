@@ -5,7 +5,7 @@
 
 #include "graph/registry.h"
 #include "passes/common/compute/random_seed.h"
-#include "passes/common/lights/pane_tint.h"
+#include "passes/common/lights/pane_transmittance.h"
 #include "passes/inject/inject_voxel_rays/hit_faces.h"
 #include "passes/inject/inject_voxel_rays/shadow_map_light.h"
 #include "passes/surfels/surfel_injection.h"
@@ -125,7 +125,7 @@ InjectVoxelRays::InjectVoxelRays(const Params& params) : params_(params) {
 void InjectVoxelRays::plan(PassPlan& plan) {
     const SceneState& scene = *plan.frame.scene;
     if (shadowMaps_) requireClearPanes(scene, kName);
-    sources_ = shadowMaps_ ? requireViewpoints(scene, kName, "'direct: shadow_rays'")
+    sources_ = shadowMaps_ ? requirePunctualLights(scene, kName, "'direct: shadow_rays'")
                            : requireLightSources(scene, kName);
     plan[irradiance_].lightBounces = params_.bounces;
     injection_.plan(plan, kName, params_, plan[voxels_]);
@@ -133,12 +133,12 @@ void InjectVoxelRays::plan(PassPlan& plan) {
     if (hitFaces_) hitFaces_->plan(plan);
 
     const bool hasBounces = params_.bounces > 0;
-    constexpr uint64_t kBytes = uint64_t(Surfels::kChunk) * 4 * sizeof(float);
+    constexpr uint64_t kBytes = uint64_t(Surfels::kMaxChunkSurfels) * 4 * sizeof(float);
     if (!shadowMaps_) plan.buffer(direct_, "surfels' direct irradiance", kBytes);
     if (hasBounces) plan.buffer(indirect_, "surfels' indirect irradiance", kBytes);
     if (shadowMaps_ && !hasBounces) return;
     paths_.emplace(*this);
-    paths_->plan(plan, Surfels::kChunk, params_.lightSamples, hasBounces);
+    paths_->plan(plan, Surfels::kMaxChunkSurfels, params_.lightSamples, hasBounces);
 }
 
 void InjectVoxelRays::record(PassContext& context) {

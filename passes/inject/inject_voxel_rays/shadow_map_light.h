@@ -21,7 +21,7 @@ class ShadowMapLight {
                                 const Surfels& surfels) const;
 
  private:
-    static constexpr uint32_t kCubeSides = 6;
+    static constexpr uint32_t kCubeFaces = 6;
 
     uint32_t resolution_ = 0;
     Kernel test_;

@@ -18,7 +18,7 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 bool seen(ivec2 texel, Surfel s) {
-    return texelSees(push.view, push.resolution, texel, texelFetch(shadowMap, texel, 0).r, s.position, s.normal);
+    return texelPassesShadowTest(push.view, push.resolution, texel, texelFetch(shadowMap, texel, 0).r, s.position, s.normal);
 }
 
 void main() {
@@ -27,7 +27,7 @@ void main() {
     const Surfel s = surfels.data[i];
     const LightView view = push.view;
     const vec3 away = s.position - view.origin;
-    if (push.side < 6u && cubeSide(away) != push.side) return;
+    if (push.side < 6u && cubeFace(away) != push.side) return;
     const LightSample l = samplePunctual(sceneLights.data[push.light], s.position);
     const vec3 irradiance = l.irradiance * max(dot(s.normal, l.direction), 0.0);
     if (all(equal(irradiance, vec3(0.0)))) return;

@@ -8,20 +8,20 @@
 #include "shaders/trace/ray_types.h"
 
 // The triangle's unit normal on the side that a ray along `direction` comes from; 0 for a triangle without area.
-vec3 litSide(SurfacePoint s, vec3 direction) {
+vec3 facingNormal(SurfacePoint s, vec3 direction) {
     return dot(s.geometricNormal, direction) <= 0.0 ? s.geometricNormal : -s.geometricNormal;
 }
 
 // The shading normal on the side of `faceNormal`.
-vec3 litNormal(GpuMaterial m, SurfacePoint s, vec3 faceNormal) {
+vec3 facingShadingNormal(GpuMaterial m, SurfacePoint s, vec3 faceNormal) {
     const vec3 normal = shadingNormal(m, s, 0.0);
     return dot(normal, faceNormal) < 0.0 ? -normal : normal;
 }
 
-vec3 litAlbedo(GpuMaterial m, SurfacePoint s) { return clamp(diffuseAlbedo(m, s, 0.0), 0.0, 1.0); }
+vec3 diffuseReflectance(GpuMaterial m, SurfacePoint s) { return clamp(diffuseAlbedo(m, s, 0.0), 0.0, 1.0); }
 
 // A point that a ray of light hit, on the side that it came from.
-struct LitPoint {
+struct LightVertex {
     vec3 position;    // m
     vec3 normal;      // Unit length: the shading normal, which light is reflected about.
     vec3 faceNormal;  // Unit length: the triangle's, on the same side.
@@ -30,10 +30,10 @@ struct LitPoint {
 };
 
 // The point of a triangle with area, as the ray sees it.
-LitPoint litPoint(SurfacePoint s, vec3 direction) {
+LightVertex lightVertex(SurfacePoint s, vec3 direction) {
     const GpuMaterial m = sceneMaterials.data[s.material];
-    const vec3 faceNormal = litSide(s, direction);
-    return LitPoint(s.position, litNormal(m, s, faceNormal), faceNormal, litAlbedo(m, s), s.offset);
+    const vec3 faceNormal = facingNormal(s, direction);
+    return LightVertex(s.position, facingShadingNormal(m, s, faceNormal), faceNormal, diffuseReflectance(m, s), s.offset);
 }
 
 // Whether a ray is one of a punctual light, whose cross-section is known (LightPath).
@@ -42,13 +42,13 @@ bool isBeam(LightPath path) { return path.solidAngle > 0.0 || path.area > 0.0; }
 // Takes a ray on from where it hit, as a mirror that takes its albedo off would, or distributed by cosine. False where it ends there:
 // by Russian roulette by albedo, which keeps the power of surviving rays level, or below the surface. `index`: the ray's number among
 // those of one seed. `seed`: another one for each bounce.
-bool bounceLightRay(LitPoint p, bool mirror, uint index, uint seed, inout Ray ray, inout LightPath path) {
+bool bounceLightRay(LightVertex p, bool mirror, uint index, uint seed, inout Ray ray, inout LightPath path) {
     vec3 direction;
     if (mirror) {
         direction = reflect(ray.direction, p.normal);
         path.power *= p.albedo;
     } else {
-        const float chance = survival(p.albedo);
+        const float chance = survivalProbability(p.albedo);
         if (sobol2(index, hashCombine(seed, 1u)).x >= chance) return false;
         direction = cosineDirection(sobol2(index, seed), p.normal);
         path.power *= p.albedo / chance;

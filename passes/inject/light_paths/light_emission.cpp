@@ -19,7 +19,7 @@ bool isParallel(const LightSource& source, const SceneState& scene) {
 
 LightEmission::LightEmission(ProgramOwner& owner)
     : emit_(owner, "light_emission.comp"),
-      turn_(owner, "turn_light_rays.comp"),
+      turn_(owner, "generate_back_rays.comp"),
       drop_(owner, "drop_occluded_light_rays.comp") {}
 
 void LightEmission::plan(PassPlan& plan, uint64_t rays) {

@@ -36,7 +36,7 @@ LightPaths::LightPaths(ProgramOwner& owner, const LightPathParams& params)
       follow_(owner, "light_paths_follow.comp",
               sumsFlux_ ? Defines{{"FLUX", "1"}} : VoxelAccumulator::defines(params.write)),
       unoccludedArea_(owner, "passes/common/voxels/unoccluded_area.comp"),
-      tint_(owner) {
+      paneTransmittance_(owner) {
     for (size_t i = 0; i < targets(); ++i) {
         if (sumsFlux_)
             fluxes_[i].emplace(owner);
@@ -59,7 +59,7 @@ void LightPaths::plan(PassPlan& plan, const std::string& pass, uint32_t batch, c
     plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
     plan.scratchBuffer(paths_, "light paths", batch * sizeof(gpu::LightPath));
-    tint_.plan(plan, batch);
+    paneTransmittance_.plan(plan, batch);
     plan.scratchBuffer(visibilityRays_, "visibility rays", batch * sizeof(Ray));
     plan.scratchBuffer(hidden_, "visibility results", batch * sizeof(uint32_t));
     plan.estimate(voxels.estimatedCount * VoxelIrradiance::bytes(1));
@@ -84,10 +84,11 @@ void LightPaths::follow(PassContext& context, const SurfaceVoxels& voxels, const
         if (bounce > 0 || !batch.hitsKnown) context.tracer.closestHit(stream, rays_, hits_, batch.count);
 
         if (bounce == 0)
-            tint_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float), batch.count, &hits_);
+            paneTransmittance_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float),
+                                     batch.count, &hits_);
 
         // Whether each hit is visible from open space, where only unoccluded area counts.
-        if (voxels.unoccludedOnly) {
+        if (voxels.unoccludedAreaOnly) {
             stream.dispatch(visibility_, batch.count,
                             {context.scene,
                              {"rays", rays_},

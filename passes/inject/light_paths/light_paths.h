@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "passes/common/lights/light_sources.h"
-#include "passes/common/lights/pane_tint.h"
+#include "passes/common/lights/pane_transmittance.h"
 #include "passes/common/voxels/flux_accumulator.h"
 #include "passes/common/voxels/voxel_accumulator.h"
 
@@ -87,7 +87,7 @@ class LightPaths {
     const bool sumsFlux_;  ///< Else irradiance samples are merged.
     Kernel visibility_, follow_, unoccludedArea_;
     Buffer rays_, hits_, paths_, visibilityRays_, hidden_;
-    PaneTint tint_;
+    PaneTransmittance paneTransmittance_;
     std::array<std::optional<FluxAccumulator>, 2> fluxes_;        ///< Of each target, where flux is summed.
     std::array<std::optional<VoxelAccumulator>, 2> irradiances_;  ///< Of each target, else.
 };

@@ -38,7 +38,7 @@ void main() {
     // Deposit on the side that the ray came from, if open space lies before it, as voxelization counts its area.
     const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
     if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return;
-    const LitPoint lit = litPoint(s, ray.direction);
+    const LightVertex lit = lightVertex(s, ray.direction);
     LightPath path = paths.data[i];
     path.travelled += hit.t;
     if (hidden.data[i] == 0u) {

@@ -5,7 +5,7 @@
 #include "passes/inject/light_paths/light_bounce.glsl"
 #include "shaders/scene/lobe_ray.glsl"
 
-Specular litSpecular(GpuMaterial m, SurfacePoint s) {
+Specular specularAt(GpuMaterial m, SurfacePoint s) {
     const vec2 rough = lookup(m.metallicRoughnessTexture, s.texCoords, 0.0).gb;
     return makeSpecular(baseColor(m, s, 0.0).rgb, m.metallic * rough.y, m.roughness * rough.x, m.specular, m.specularColor, m.ior);
 }
@@ -15,8 +15,8 @@ float largest(vec3 v) { return max(v.r, max(v.g, v.b)); }
 // Takes a ray on from where it hit: by the specular lobe or by the diffuse one below it, each as often as it reflects, so that the power
 // of surviving rays stays level. Lobes are the same from both sides, so that light is followed as eyes' rays are. False where it ends
 // there. `mirrors`: whether perfect mirrors send it on. `index`, `seed`: as of bounceLightRay().
-bool bounceByMaterial(SurfacePoint s, LitPoint p, bool mirrors, uint index, uint seed, inout Ray ray, inout LightPath path) {
-    const Specular specular = litSpecular(sceneMaterials.data[s.material], s);
+bool bounceByMaterial(SurfacePoint s, LightVertex p, bool mirrors, uint index, uint seed, inout Ray ray, inout LightPath path) {
+    const Specular specular = specularAt(sceneMaterials.data[s.material], s);
     const vec3 from = -ray.direction, n = specularNormal(p.normal, from);
     const bool hasLobe = hasSpecular(specular);
     const float weight = schlickWeight(dot(n, from));

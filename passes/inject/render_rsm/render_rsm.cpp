@@ -31,7 +31,7 @@ class RenderRsm final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    static constexpr uint32_t kCubeSides = 6;
+    static constexpr uint32_t kCubeFaces = 6;
 
     const Params params_;
     Out<Rsm> rsm_{*this, "rsm", "what each light sees"};
@@ -44,7 +44,7 @@ void RenderRsm::plan(PassPlan& plan) {
     Rsm& rsm = plan[rsm_];
     rsm.resolution = params_.rsmResolution;
     rsm.sources =
-        requireViewpoints(state, kName, "direct_shadow_rays, and 'first: light_rays' of sample_vpls");
+        requirePunctualLights(state, kName, "direct_shadow_rays, and 'first: light_rays' of sample_vpls");
     rsm.firstView = {0};
     for (const LightSource& source : rsm.sources)
         rsm.firstView.push_back(rsm.firstView.back() +
@@ -64,7 +64,7 @@ void RenderRsm::record(PassContext& context) {
     for (const LightSource& source : rsm.sources) {
         const auto own = lightViews(state.lights[source.light], state.geometry);
         for (uint32_t v = 0; v < own.size(); ++v)
-            views.push_back({own[v], source.light, own.size() == kCubeSides ? v : kCubeSides});
+            views.push_back({own[v], source.light, own.size() == kCubeFaces ? v : kCubeFaces});
     }
     stream.upload(rsm.views, views);
     for (size_t v = 0; v < views.size(); ++v) {

@@ -7,9 +7,9 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(scalar) readonly buffer LinksAt { LargeUints links; };
-layout(scalar) readonly buffer PreviousRadiosityAt { LargeUints previousRadiosity; };  // Of all surfels, packed.
-layout(scalar) readonly buffer NextRadiosityAt { LargeUints nextRadiosity; };
+layout(scalar) readonly buffer LinksRef { LargeUints links; };
+layout(scalar) readonly buffer PreviousRadiosityRef { LargeUints previousRadiosity; };  // Of all surfels, packed.
+layout(scalar) readonly buffer NextRadiosityRef { LargeUints nextRadiosity; };
 layout(scalar) buffer Indirect { vec4 data[]; } indirect;  // W/m², sum over bounces.
 layout(push_constant) uniform Push {
     uint count;

@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
 layout(scalar) readonly buffer Direct { vec4 data[]; } direct;  // W/m²
-layout(scalar) readonly buffer RadiosityAt { LargeUints radiosity; };
+layout(scalar) readonly buffer RadiosityRef { LargeUints radiosity; };
 layout(push_constant) uniform Push {
     uint count;
     uint firstSurfel;

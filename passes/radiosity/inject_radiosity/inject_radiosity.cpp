@@ -4,8 +4,8 @@
 
 #include "graph/registry.h"
 #include "passes/common/compute/random_seed.h"
+#include "passes/surfels/surfel_direct_light.h"
 #include "passes/surfels/surfel_injection.h"
-#include "passes/surfels/surfel_light.h"
 #include "passes/surfels/surfel_links.h"
 #include "passes/surfels/surfels.h"
 #include "passes/surfels/surfels_by_voxel.h"
@@ -69,7 +69,7 @@ class InjectRadiosity final : public Pass {
     Out<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
     Out<SurfelIrradiance> surfelIrradiance_{*this, "surfel_irradiance", "light that arrives at surfels"};
     std::vector<LightSource> sources_;
-    SurfelLight directLight_{*this};
+    SurfelDirectLight directLight_{*this};
     SurfelInjection injection_{*this};
     Kernel initRadiosity_{*this, "init_radiosity.comp"};
     Kernel gatherRadiosity_{*this, "gather_radiosity.comp"};
@@ -81,7 +81,7 @@ void InjectRadiosity::plan(PassPlan& plan) {
     plan[irradiance_].lightBounces = params_.bounces;
     sources_ = requireLightSources(*plan.frame.scene, kName);
     injection_.plan(plan, kName, params_, plan[voxels_]);
-    directLight_.plan(plan, Surfels::kChunk);
+    directLight_.plan(plan, Surfels::kMaxChunkSurfels);
     plan.lightRays = uint64_t(plan[surfels_].estimatedCount) * plan.frame.scene->lights.size();
     // That of one ray is about 1
     plan[surfelIrradiance_].relativeVariance = 1.0f / float(plan[links_].raysPerSurfel);
@@ -125,7 +125,7 @@ std::vector<InjectRadiosity::ChunkLight> InjectRadiosity::measureDirect(PassCont
         context.dispatch(initRadiosity_, chunk.count,
                          {{"surfels", chunk.surfels},
                           {"direct", chunkLight.direct},
-                          {"RadiosityAt", radiosity_[0].at()},
+                          {"RadiosityRef", radiosity_[0].ref()},
                           {"count", chunk.count},
                           {"firstSurfel", firstSurfel}});
         firstSurfel += chunk.count;
@@ -143,9 +143,9 @@ void InjectRadiosity::gatherRadiosity(PassContext& context, uint32_t bounce,
     for (size_t i = 0; i < chunks.size(); ++i) {
         context.dispatch(gatherRadiosity_, chunks[i].count,
                          {{"surfels", chunks[i].surfels},
-                          {"LinksAt", links.links.at()},
-                          {"PreviousRadiosityAt", radiosity_[0].at()},
-                          {"NextRadiosityAt", radiosity_[1].at()},
+                          {"LinksRef", links.links.ref()},
+                          {"PreviousRadiosityRef", radiosity_[0].ref()},
+                          {"NextRadiosityRef", radiosity_[1].ref()},
                           {"indirect", light[i].indirect},
                           {"count", chunks[i].count},
                           {"firstSurfel", firstSurfel},
@@ -159,16 +159,16 @@ void InjectRadiosity::gatherRadiosity(PassContext& context, uint32_t bounce,
 void InjectRadiosity::storeSurfelIrradiance(PassContext& context, const std::vector<ChunkLight>& light) {
     const SurfelsByVoxel& byVoxel = context[byVoxel_];
     SurfelIrradiance& surfelIrradiance = context[surfelIrradiance_];
-    makeOrKeep(surfelIrradiance.lit, context.device, "indirect irradiance of surfels",
-               std::max(byVoxel.slotCount, 1u) * kLitBytes);
+    ensureSize(surfelIrradiance.lit, context.device, "indirect irradiance of surfels",
+               std::max(byVoxel.sortedCount, 1u) * kLitBytes);
     const std::vector<Surfels::Chunk>& chunks = context[surfels_].chunks;
     uint32_t firstSurfel = 0;
     for (size_t i = 0; i < chunks.size(); ++i) {
         context.dispatch(storeSurfelIrradiance_, chunks[i].count,
                          {{"indirect", light[i].indirect},
-                          {"SlotsAt", byVoxel.slots.at()},
-                          {"PackedAt", byVoxel.packed.at()},
-                          {"LitAt", surfelIrradiance.lit.at()},
+                          {"SortedIndicesRef", byVoxel.sortedIndices.ref()},
+                          {"PackedRef", byVoxel.packed.ref()},
+                          {"LitRef", surfelIrradiance.lit.ref()},
                           {"count", chunks[i].count},
                           {"firstSurfel", firstSurfel}});
         firstSurfel += chunks[i].count;

@@ -6,9 +6,9 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Indirect { vec4 data[]; } indirect;  // W/m²
-layout(scalar) readonly buffer SlotsAt { LargeUints slots; };
-layout(scalar) readonly buffer PackedAt { PackedSurfels packed_; };
-layout(scalar) readonly buffer LitAt { LitSurfels lit; };
+layout(scalar) readonly buffer SortedIndicesRef { LargeUints sortedIndices; };
+layout(scalar) readonly buffer PackedRef { PackedSurfels packed_; };
+layout(scalar) readonly buffer LitRef { LitSurfels lit; };
 layout(push_constant) uniform Push {
     uint count;
     uint firstSurfel;
@@ -17,6 +17,6 @@ layout(push_constant) uniform Push {
 void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
-    const uint slot = slots.data[push.firstSurfel + i];
+    const uint slot = sortedIndices.data[push.firstSurfel + i];
     if (slot != 0xffffffffu) lit.data[slot] = uvec3(packed_.data[slot], packRadiosity(indirect.data[i].rgb));
 }

@@ -1,7 +1,7 @@
 // A ray from each hit that tests whether the surface there is occluded, as place_surfels tests surfels.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"
-#include "passes/surfels/open_space.glsl"
+#include "passes/surfels/occlusion_ray.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
@@ -19,5 +19,5 @@ void main() {
     if (hits.data[i].triangle == NO_HIT) return;
     const SurfacePoint p = surfacePoint(hits.data[i].triangle, vec2(hits.data[i].u, hits.data[i].v));
     const vec3 n = dot(p.geometricNormal, rays.data[i].direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
-    occlusionRays.data[i] = openSpaceRay(p.position + p.offset * n, n, push.voxelSize);
+    occlusionRays.data[i] = occlusionRay(p.position + p.offset * n, n, push.voxelSize);
 }

@@ -10,9 +10,9 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 readonly buffer Occluded { uint data[]; } occluded;  // Of the hit: 0 where no surface lies within a voxel before it.
-layout(scalar) readonly buffer SortedAt { SortedSurfelWords sorted; };
+layout(scalar) readonly buffer SortedRef { SortedSurfelWords sorted; };
 readonly buffer Lists { uvec2 data[]; } lists;
-layout(scalar) readonly buffer LinksAt { LargeUints links; };
+layout(scalar) readonly buffer LinksRef { LargeUints links; };
 buffer UnlinkedHits { uint value; } unlinkedHits;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
@@ -46,7 +46,7 @@ void searchVoxel(ivec3 voxel, vec3 position, vec3 normal, uint occlusion, inout 
         const vec3 offset = s.position - position;
         const float error = dot(offset, offset) / (push.grid.voxelSize * push.grid.voxelSize) +
                             surfelBias(position, normal, s.position, s.normal) +
-                            ((s.id & VOXRAY_COVERED) == occlusion ? 0.0 : OCCLUSION_MISMATCH);
+                            ((s.id & VOXRAY_OCCLUDED) == occlusion ? 0.0 : OCCLUSION_MISMATCH);
         if (error < nearest.error || (error == nearest.error && s.id < nearest.id))
             nearest = NearestSurfel(error, s.number, s.id);
     }
@@ -68,7 +68,7 @@ void main() {
     if (i >= push.rayCount) return;
     uint surfel = NO_SURFEL;
     if (hits.data[i].triangle != NO_HIT) {
-        const uint occlusion = occluded.data[i] != 0u ? VOXRAY_COVERED : 0u;
+        const uint occlusion = occluded.data[i] != 0u ? VOXRAY_OCCLUDED : 0u;
         const SurfacePoint p = surfacePoint(hits.data[i].triangle, vec2(hits.data[i].u, hits.data[i].v));
         const vec3 n = dot(p.geometricNormal, rays.data[i].direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
         surfel = nearestSurfel(p.position, n, occlusion);

@@ -76,7 +76,7 @@ void LinkSurfels::plan(PassPlan& plan) {
     plan.scratchBuffer(occlusionRays_, "rays that tell covered hits", uint64_t(kBatchRays) * sizeof(Ray));
     plan.scratchBuffer(occluded_, "link hits on covered sides", uint64_t(kBatchRays) * sizeof(uint32_t));
     plan.scratchBuffer(unlinkedHits_, "number of hits without surfel", sizeof(uint32_t));
-    plan[byVoxel_].coveredSides = plan[surfels_].coveredSides;
+    plan[byVoxel_].hasOccludedSurfels = plan[surfels_].hasOccludedSurfels;
 }
 
 void LinkSurfels::record(PassContext& context) {
@@ -90,12 +90,12 @@ void LinkSurfels::record(PassContext& context) {
             "lower 'rays_per_surfel', or place_surfels's 'points_per_voxel'",
             kName, count, params_.raysPerSurfel);
     links.surfelCount = uint32_t(count);
-    makeOrKeep(links.links, context.device, "surfel links", count * params_.raysPerSurfel * sizeof(uint32_t));
+    ensureSize(links.links, context.device, "surfel links", count * params_.raysPerSurfel * sizeof(uint32_t));
 
     sort_.run(context.stream, surfels, context[voxels_].voxelCount, context[byVoxel_]);
     packSurfels(context);
     const LargeBuffer inverseDistances(context.device, "inverse distances of surfels",
-                                       std::max(context[byVoxel_].slotCount, 1u) * sizeof(float));
+                                       std::max(context[byVoxel_].sortedCount, 1u) * sizeof(float));
     context.stream.fill(unlinkedHits_, 0);
     uint32_t firstSurfel = 0;
     for (const Surfels::Chunk& chunk : surfels.chunks) {
@@ -116,12 +116,12 @@ void LinkSurfels::record(PassContext& context) {
 void LinkSurfels::packSurfels(PassContext& context) const {
     const SurfaceVoxels& voxels = context[voxels_];
     SurfelsByVoxel& byVoxel = context[byVoxel_];
-    makeOrKeep(byVoxel.packed, context.device, "packed surfels",
-               std::max(byVoxel.slotCount, 1u) * kPackedSurfelBytes);
+    ensureSize(byVoxel.packed, context.device, "packed surfels",
+               std::max(byVoxel.sortedCount, 1u) * kPackedSurfelBytes);
     context.dispatch(packSurfels_, voxels.voxelCount,
                      {voxels,
-                      {"SortedAt", byVoxel.sorted.at()},
-                      {"PackedAt", byVoxel.packed.at()},
+                      {"SortedRef", byVoxel.sorted.ref()},
+                      {"PackedRef", byVoxel.packed.ref()},
                       {"lists", byVoxel.lists},
                       {"voxels", voxels.voxelCount}});
 }
@@ -130,7 +130,7 @@ void LinkSurfels::linkHits(PassContext& context, const Surfels::Chunk& chunk, ui
                            SurfelLinks& links, const LargeBuffer& inverseDistances) const {
     const SurfaceVoxels& voxels = context[voxels_];
     const SurfelsByVoxel& byVoxel = context[byVoxel_];
-    const bool testsOcclusion = context[surfels_].coveredSides;
+    const bool testsOcclusion = context[surfels_].hasOccludedSurfels;
     if (!testsOcclusion) context.stream.fill(occluded_, 0);
     const uint32_t raysPerSurfel = params_.raysPerSurfel, surfelsPerBatch = kBatchRays / raysPerSurfel;
     for (uint32_t firstInChunk = 0; firstInChunk < chunk.count; firstInChunk += surfelsPerBatch) {
@@ -160,9 +160,9 @@ void LinkSurfels::linkHits(PassContext& context, const Surfels::Chunk& chunk, ui
                           {"rays", rays_},
                           {"hits", hits_},
                           {"occluded", occluded_},
-                          {"SortedAt", byVoxel.sorted.at()},
+                          {"SortedRef", byVoxel.sorted.ref()},
                           {"lists", byVoxel.lists},
-                          {"LinksAt", links.links.at()},
+                          {"LinksRef", links.links.ref()},
                           {"unlinkedHits", unlinkedHits_},
                           {"firstSurfel", firstSurfel + firstInChunk},
                           {"rayCount", rays},
@@ -170,8 +170,8 @@ void LinkSurfels::linkHits(PassContext& context, const Surfels::Chunk& chunk, ui
                           {"surfelCount", links.surfelCount}});
         context.dispatch(meanInverseDistance_, surfels,
                          {{"hits", hits_},
-                          {"SlotsAt", byVoxel.slots.at()},
-                          {"InverseDistancesAt", inverseDistances.at()},
+                          {"SortedIndicesRef", byVoxel.sortedIndices.ref()},
+                          {"InverseDistancesRef", inverseDistances.ref()},
                           {"firstSurfel", firstSurfel + firstInChunk},
                           {"surfelCount", surfels},
                           {"raysPerSurfel", raysPerSurfel},
@@ -184,8 +184,8 @@ void LinkSurfels::packMeanDistances(PassContext& context, const LargeBuffer& inv
     const SurfelsByVoxel& byVoxel = context[byVoxel_];
     const uint32_t voxels = context[voxels_].voxelCount;
     context.dispatch(packMeanDistances_, voxels,
-                     {{"InverseDistancesAt", inverseDistances.at()},
-                      {"PackedAt", byVoxel.packed.at()},
+                     {{"InverseDistancesRef", inverseDistances.ref()},
+                      {"PackedRef", byVoxel.packed.ref()},
                       {"lists", byVoxel.lists},
                       {"voxels", voxels}});
     context.stream.finish();

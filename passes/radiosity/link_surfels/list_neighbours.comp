@@ -8,15 +8,15 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer SortedAt { SortedSurfelWords sorted; };
+layout(scalar) readonly buffer SortedRef { SortedSurfelWords sorted; };
 readonly buffer Lists { uvec2 data[]; } lists;
 #ifdef COUNT
 buffer Counts { uint data[]; } counts;
 buffer Largest { uint value; } largest;
 #else
 readonly buffer Begins { uint data[]; } begins;
-layout(scalar) readonly buffer PackedAt { PackedSurfels packed_; };
-layout(scalar) readonly buffer PairsAt { NeighbourPairs pairs; };
+layout(scalar) readonly buffer PackedRef { PackedSurfels packed_; };
+layout(scalar) readonly buffer PairsRef { NeighbourPairs pairs; };
 #endif
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
@@ -46,7 +46,7 @@ void main() {
             const vec3 offset = neighbour.position - center.position;
             const float distanceSquared = dot(offset, offset);
             if (j == slot || distanceSquared >= squaredRadius || dot(neighbour.normal, center.normal) <= 0.0) continue;
-            if (((neighbour.id ^ center.id) & VOXRAY_COVERED) != 0u) continue;  // Light in a gap is independent.
+            if (((neighbour.id ^ center.id) & VOXRAY_OCCLUDED) != 0u) continue;  // Light in a gap is independent.
 #ifdef COUNT
             ++count;
 #else

@@ -5,8 +5,8 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
-layout(scalar) readonly buffer SlotsAt { LargeUints slots; };
-layout(scalar) readonly buffer InverseDistancesAt { LargeFloats inverseDistances; };  // By slot, 1/voxel.
+layout(scalar) readonly buffer SortedIndicesRef { LargeUints sortedIndices; };
+layout(scalar) readonly buffer InverseDistancesRef { LargeFloats inverseDistances; };  // By slot, 1/voxel.
 layout(push_constant) uniform Push {
     uint firstSurfel;  // Of the batch.
     uint surfelCount;  // Of the batch.
@@ -20,7 +20,7 @@ const float MIN_DISTANCE = 1.0 / 64.0;
 void main() {
     const uint i = linearIndex();
     if (i >= push.surfelCount) return;
-    const uint slot = slots.data[push.firstSurfel + i];
+    const uint slot = sortedIndices.data[push.firstSurfel + i];
     if (slot == 0xffffffffu) return;
     float sum = 0.0;
     for (uint ray = 0u; ray < push.raysPerSurfel; ++ray) {

@@ -28,7 +28,7 @@ NeighbourSearch::NeighbourSearch(ProgramOwner& owner)
 float NeighbourSearch::run(CommandStream& stream, const SurfaceVoxels& voxels, uint64_t points,
                            const SurfelsByVoxel& surfels, SurfelNeighbours& neighbours) const {
     Device& device = stream.device();
-    const uint32_t slots = surfels.slotCount;
+    const uint32_t slots = surfels.sortedCount;
     neighbours.begins = {}, neighbours.pairs = {};
     neighbours.begins =
         Buffer(device, "first neighbour of each surfel", (uint64_t(slots) + 1) * sizeof(uint32_t));
@@ -43,11 +43,11 @@ float NeighbourSearch::run(CommandStream& stream, const SurfaceVoxels& voxels, u
         LargeBuffer(device, "neighbours of surfels", std::max<uint64_t>(pairs, 1) * kPairBytes);
     stream.dispatch(list_, slots,
                     {voxels,
-                     {"SortedAt", surfels.sorted.at()},
+                     {"SortedRef", surfels.sorted.ref()},
                      {"lists", surfels.lists},
                      {"begins", neighbours.begins},
-                     {"PackedAt", surfels.packed.at()},
-                     {"PairsAt", neighbours.pairs.at()},
+                     {"PackedRef", surfels.packed.ref()},
+                     {"PairsRef", neighbours.pairs.ref()},
                      {"slots", slots},
                      {"radius", radius * voxels.grid.voxelSize}});
     stream.finish();
@@ -57,13 +57,13 @@ float NeighbourSearch::run(CommandStream& stream, const SurfaceVoxels& voxels, u
 uint64_t NeighbourSearch::count(CommandStream& stream, const SurfaceVoxels& voxels,
                                 const SurfelsByVoxel& surfels, float radius,
                                 SurfelNeighbours& neighbours) const {
-    const uint32_t slots = surfels.slotCount;
+    const uint32_t slots = surfels.sortedCount;
     const Buffer largest(stream.device(), "neighbours of a surfel, at most", sizeof(uint32_t));
     stream.fill(neighbours.begins, 0);
     stream.fill(largest, 0);
     stream.dispatch(count_, slots,
                     {voxels,
-                     {"SortedAt", surfels.sorted.at()},
+                     {"SortedRef", surfels.sorted.ref()},
                      {"lists", surfels.lists},
                      {"counts", neighbours.begins},
                      {"largest", largest},

@@ -5,8 +5,8 @@
 #include "passes/surfels/packed_surfel.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer InverseDistancesAt { LargeFloats inverseDistances; };  // By slot, 1/voxel.
-layout(scalar) readonly buffer PackedAt { PackedSurfels packed_; };
+layout(scalar) readonly buffer InverseDistancesRef { LargeFloats inverseDistances; };  // By slot, 1/voxel.
+layout(scalar) readonly buffer PackedRef { PackedSurfels packed_; };
 readonly buffer Lists { uvec2 data[]; } lists;
 layout(push_constant) uniform Push {
     uint voxels;
@@ -23,7 +23,7 @@ void main() {
         for (uint j = slots.x; j < slots.y; ++j) {
             const uvec2 neighbour = packed_.data[j];
             const float weight = dot(normal, normalOfSurfel(neighbour.y));
-            if (weight <= 0.0 || isCoveredSurfel(surfel.x) != isCoveredSurfel(neighbour.x)) continue;
+            if (weight <= 0.0 || isOccludedSurfel(surfel.x) != isOccludedSurfel(neighbour.x)) continue;
             sum += weight * inverseDistances.data[j];
             weights += weight;
         }

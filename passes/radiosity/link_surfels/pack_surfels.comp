@@ -5,8 +5,8 @@
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer SortedAt { SortedSurfelWords sorted; };
-layout(scalar) readonly buffer PackedAt { PackedSurfels packed_; };
+layout(scalar) readonly buffer SortedRef { SortedSurfelWords sorted; };
+layout(scalar) readonly buffer PackedRef { PackedSurfels packed_; };
 readonly buffer Lists { uvec2 data[]; } lists;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
@@ -32,6 +32,6 @@ void main() {
     for (uint i = slots.x; i < slots.y; ++i) {
         const SortedSurfel s = sortedSurfel(words, i);
         const vec3 inGrid = (s.position - push.grid.origin) / push.grid.voxelSize;
-        packed_.data[i] = packSurfel(inGrid - vec3(voxelOfList(list, s.position)), s.normal, (s.id & VOXRAY_COVERED) != 0u);
+        packed_.data[i] = packSurfel(inGrid - vec3(voxelOfList(list, s.position)), s.normal, (s.id & VOXRAY_OCCLUDED) != 0u);
     }
 }

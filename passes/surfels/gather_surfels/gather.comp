@@ -10,7 +10,7 @@
 // ray tells which kind that is; resolve.comp then adds its light.
 #include "passes/surfels/gather_surfels/undecided.h"
 #include "shaders/scene/sampling.glsl"
-#include "passes/surfels/open_space.glsl"
+#include "passes/surfels/occlusion_ray.glsl"
 #include "passes/surfels/packed_surfel.glsl"
 #include "passes/surfels/radiosity.glsl"
 #include "passes/surfels/surfel_bias.glsl"
@@ -22,7 +22,7 @@ uniform sampler2D normal;
 uniform sampler2D geometricNormal;
 uniform sampler2D albedo;
 readonly buffer Lists { uvec2 data[]; } lists;
-layout(scalar) readonly buffer LitAt { LitSurfels lit; };
+layout(scalar) readonly buffer LitRef { LitSurfels lit; };
 #if PROBED
 buffer Count { uint value; } count;
 layout(scalar) writeonly buffer Surfaces { Undecided data[]; } surfaces;
@@ -78,7 +78,7 @@ void lookUp(PixelSurface at, out Mean open, out Mean covered) {
                                distanceBias(dot(away, away), inverseDistanceOf(s.y));
             const float weight = tent * push.noise / (push.noise + bias);
             const vec3 weighted = weight * unpackRadiosity(s.z);
-            if (isCoveredSurfel(s.x))
+            if (isOccludedSurfel(s.x))
                 covered = Mean(covered.sum + weighted, covered.weights + weight);
             else
                 open = Mean(open.sum + weighted, open.weights + weight);
@@ -135,7 +135,7 @@ void main() {
             const float offset = texelFetch(position, pixel * SAMPLES + ivec2(own % SAMPLES, own / SAMPLES), 0).w;
             const uint at = atomicAdd(count.value, 1u);
             surfaces.data[at] = Undecided(reflected * open.sum / open.weights, reflected * covered.sum / covered.weights, undecided);
-            probes.data[at] = openSpaceRay(from + offset * ng, ng, push.grid.voxelSize);
+            probes.data[at] = occlusionRay(from + offset * ng, ng, push.grid.voxelSize);
             undecided = at;
             continue;
         }

@@ -44,7 +44,7 @@ class GatherSurfels final : public Pass {
 
 void GatherSurfels::plan(PassPlan& plan) {
     plan[indirect_].lightBounces = plan[irradiance_].lightBounces;
-    probed_ = plan[surfels_].coveredSides;
+    probed_ = plan[surfels_].hasOccludedSurfels;
     const uint32_t samples = plan[gbuffer_].samples, perPixel = samples * samples, width = plan.frame.width;
     bandRows_ = plan.frame.height;
     if (probed_) {
@@ -73,9 +73,9 @@ void GatherSurfels::record(PassContext& context) {
                           context[gbuffer_],
                           context[voxels_],
                           {"lists", context[surfels_].lists},
-                          {"VoxelFluxAt", irradiance.indirect.at()},
+                          {"VoxelFluxRef", irradiance.indirect.ref()},
                           {"voxelArea", irradiance.area},
-                          {"LitAt", context[light_].lit.at()},
+                          {"LitRef", context[light_].lit.ref()},
                           ifUsed({"count", count_}),
                           ifUsed({"surfaces", undecided_}),
                           ifUsed({"probes", probes_}),

@@ -3,7 +3,7 @@
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
-#include "passes/surfels/open_space.glsl"
+#include "passes/surfels/occlusion_ray.glsl"
 #include "passes/surfels/surfel_types.h"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
@@ -37,6 +37,6 @@ void main() {
         s.area = 1.0;
         candidates.data[2u * i + side] = s;
         const bool isPlaced = voxel != NO_VOXEL && !isCut && dot(s.normal, s.normal) > 0.0;
-        rays.data[2u * i + side] = isPlaced ? openSpaceRay(s.position, s.normal, push.grid.voxelSize) : kNoRay;
+        rays.data[2u * i + side] = isPlaced ? occlusionRay(s.position, s.normal, push.grid.voxelSize) : kNoRay;
     }
 }

@@ -9,14 +9,14 @@
 #include "graph/registry.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/voxels/voxels.h"
-#include "passes/surfels/still_voxels.h"
+#include "passes/surfels/static_voxels.h"
 #include "passes/surfels/surface_points.h"
 #include "passes/surfels/surfels.h"
 
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBatchPoints = Surfels::kChunk / 2;
+constexpr uint32_t kBatchPoints = Surfels::kMaxChunkSurfels / 2;
 constexpr uint64_t kMaxPoints = 1u << 28;
 
 }  // namespace
@@ -72,7 +72,7 @@ class PlaceSurfels final : public Pass {
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
     Out<Surfels> surfels_{*this, "surfels", "points that measure irradiance"};
     Kernel place_{*this, "place.comp"};
-    Kernel keep_{*this, "keep.comp"};
+    Kernel keep_{*this, "compact_surfels.comp"};
     std::optional<uint32_t> stillVoxels_;  ///< Those that what stays passes through, where surfaces move.
     Buffer triangles_, rays_, occluded_, candidates_, kept_, count_;  ///< Scratch, of a batch of points.
 };
@@ -80,8 +80,8 @@ class PlaceSurfels final : public Pass {
 PointDensity PlaceSurfels::density(const Geometry& geometry, const SurfaceVoxels& voxels) {
     const SurfaceAreas area = surfaceAreas(geometry);
     const double perVoxel = params_.pointsPerVoxel;
-    if (movingRuns(geometry).empty()) return {perVoxel * voxels.voxelCount, area.still};
-    if (!stillVoxels_) stillVoxels_ = countStillVoxels(geometry, voxels.grid);
+    if (movingInstanceRanges(geometry).empty()) return {perVoxel * voxels.voxelCount, area.still};
+    if (!stillVoxels_) stillVoxels_ = countStaticVoxels(geometry, voxels.grid);
     // A plane of the area of one voxel's face passes through |nx| + |ny| + |nz| voxels, at most the root
     // of 3.
     const double known = area.still > 0 ? area.still : area.moving;
@@ -93,13 +93,13 @@ void PlaceSurfels::plan(PassPlan& plan) {
     const SurfaceVoxels& voxels = plan[voxels_];
     Surfels& surfels = plan[surfels_];
     surfels.estimatedCount = 2.0 * params_.pointsPerVoxel * voxels.estimatedCount;
-    surfels.coveredSides = params_.sides == SurfelSides::All && voxels.unoccludedOnly;
+    surfels.hasOccludedSurfels = params_.sides == SurfelSides::All && voxels.unoccludedAreaOnly;
     plan.estimate(surfels.estimatedCount * sizeof(gpu::Surfel));
     plan.scratchBuffer(triangles_, "surfels' triangles", kBatchPoints * sizeof(uint32_t));
-    plan.scratchBuffer(rays_, "visibility rays", Surfels::kChunk * sizeof(Ray));
-    plan.scratchBuffer(occluded_, "visibility results", Surfels::kChunk * sizeof(uint32_t));
-    plan.scratchBuffer(candidates_, "surfel candidates", Surfels::kChunk * sizeof(gpu::Surfel));
-    plan.scratchBuffer(kept_, "surfels kept", Surfels::kChunk * sizeof(gpu::Surfel));
+    plan.scratchBuffer(rays_, "visibility rays", Surfels::kMaxChunkSurfels * sizeof(Ray));
+    plan.scratchBuffer(occluded_, "visibility results", Surfels::kMaxChunkSurfels * sizeof(uint32_t));
+    plan.scratchBuffer(candidates_, "surfel candidates", Surfels::kMaxChunkSurfels * sizeof(gpu::Surfel));
+    plan.scratchBuffer(kept_, "surfels kept", Surfels::kMaxChunkSurfels * sizeof(gpu::Surfel));
     plan.scratchBuffer(count_, "number of surfels", sizeof(uint32_t));
 }
 
@@ -109,7 +109,7 @@ void PlaceSurfels::record(PassContext& context) {
     CommandStream& stream = context.stream;
     const std::optional<std::vector<Box>>& changed = context.frame.changed;
     if (changed && changed->empty() && !surfels.chunks.empty()) {  // Light alone has changed.
-        context.keepOutputs();
+        context.markOutputsUnchanged();
         return;
     }
     surfels.chunks.clear();
@@ -131,7 +131,7 @@ void PlaceSurfels::record(PassContext& context) {
                           {"firstPoint", uint32_t(first)},
                           {"points", batch},
                           {"seed", randomSeed(context.frame)}});
-        if (voxels.unoccludedOnly)
+        if (voxels.unoccludedAreaOnly)
             context.tracer.occluded(stream, rays_, occluded_, 2 * batch);
         else
             stream.fill(occluded_, 0);

@@ -4,9 +4,9 @@
 //
 // as in filter_irradiance. noise: variance of a surfel, the mean of both, so that a pair has one weight.
 // bias²: what geometry allows the two to differ by, and what the means of their surroundings do differ by beyond their noise.
-#include "passes/surfels/smooth_surfels/surroundings.glsl"
+#include "passes/surfels/smooth_surfels/neighbourhoods.glsl"
 
-layout(scalar) readonly buffer ResultAt { LitSurfels result; };
+layout(scalar) readonly buffer ResultRef { LitSurfels result; };
 
 float weightOf(vec3 own, vec3 other, vec2 pair) {
     const float mean_ = 0.5 * (own.x + other.x), noise = 0.5 * (own.y + other.y), apart = own.x - other.x;

@@ -40,7 +40,7 @@ class SmoothSurfels final : public Pass {
     In<SurfelNeighbours> neighbours_{*this, "neighbours", "the surfels around each surfel"};
     In<SurfelIrradiance> light_{*this, "surfel_irradiance", "light that arrives at surfels"};
     Out<SurfelIrradiance> smooth_{*this, "surfel_irradiance", "the same with less noise"};
-    Kernel surroundings_{*this, "surroundings.comp"};
+    Kernel surroundings_{*this, "neighbourhood_moments.comp"};
     Kernel mean_{*this, "mean.comp"};
 };
 
@@ -50,10 +50,10 @@ void SmoothSurfels::plan(PassPlan& plan) {
 
 void SmoothSurfels::record(PassContext& context) {
     const SurfelsByVoxel& surfels = context[surfels_];
-    const uint32_t count = surfels.slotCount;
+    const uint32_t count = surfels.sortedCount;
     const uint64_t slots = std::max(count, 1u);
     LargeBuffer& result = context[smooth_].lit;
-    makeOrKeep(result, context.device, "smooth irradiance of surfels", slots * kLitBytes);
+    ensureSize(result, context.device, "smooth irradiance of surfels", slots * kLitBytes);
     LargeBuffer other(context.device, "irradiance one step before", slots * kLitBytes);
     const LargeBuffer surroundings(context.device, "surroundings of surfels", slots * kSurroundingsBytes);
 
@@ -63,13 +63,13 @@ void SmoothSurfels::record(PassContext& context) {
         // The last iteration writes the result.
         LargeBuffer& to = (params_.iterations - i) % 2 == 1 ? result : other;
         const Bindings bindings{{"begins", neighbours.begins},
-                                {"PairsAt", neighbours.pairs.at()},
-                                {"LitAt", from->at()},
-                                {"SurroundingsAt", surroundings.at()},
+                                {"PairsRef", neighbours.pairs.ref()},
+                                {"LitRef", from->ref()},
+                                {"SurroundingsRef", surroundings.ref()},
                                 {"count", count},
                                 {"noise", context[light_].relativeVariance}};
         context.dispatch(surroundings_, count, bindings);
-        context.dispatch(mean_, count, {bindings.all(), {"ResultAt", to.at()}});
+        context.dispatch(mean_, count, {bindings.all(), {"ResultRef", to.ref()}});
         from = &to;
     }
     context.stream.finish();

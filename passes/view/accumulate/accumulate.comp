@@ -35,7 +35,7 @@ vec3 clamped(vec3 light, ivec2 texel, vec3 normal, float instance) {
     for (int y = max(center.y - REACH, 0); y <= min(center.y + REACH, size.y - 1); ++y)
         for (int x = max(center.x - REACH, 0); x <= min(center.x + REACH, size.x - 1); ++x) {
             const vec4 cell = texelFetch(cellLight, ivec2(x, y), 0), surface = texelFetch(cellSurface, ivec2(x, y), 0);
-            if (cell.a <= 0.0 || surface.w != instance || !isSameSide(surface.xyz, normal)) continue;
+            if (cell.a <= 0.0 || surface.w != instance || !areNormalsSimilar(surface.xyz, normal)) continue;
             if (cells++ == 0) origin = cell.rgb;  // Sums of differences: equal values have no variance.
             const vec3 difference = cell.rgb - origin;
             sum += cell.a * difference;
@@ -65,7 +65,7 @@ void main() {
             const float w = along.x * along.y;
             if (w <= 0.0 || any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) continue;
             const vec4 position = texelFetch(historyPosition, at, 0), surface = texelFetch(historyNormal, at, 0);
-            if (position.w != before.w || !isSameSide(surface.xyz, normal)) continue;
+            if (position.w != before.w || !areNormalsSimilar(surface.xyz, normal)) continue;
             if (!isOnSurface(before.xyz, position.xyz, surface.xyz)) continue;
             const vec4 kept = texelFetch(historyLight, at, 0);
             weight += w;

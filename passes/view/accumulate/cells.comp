@@ -23,7 +23,7 @@ void main() {
             if (texel.a <= 0.0) continue;
             const vec4 own = vec4(texelFetch(geometricNormal, ivec2(x, y), 0).xyz, texelFetch(previous, ivec2(x, y), 0).w);
             if (rays == 0.0) surface = own;
-            if (own.w != surface.w || !isSameSide(own.xyz, surface.xyz)) continue;
+            if (own.w != surface.w || !areNormalsSimilar(own.xyz, surface.xyz)) continue;
             rays += texel.a;
             light += (texel.rgb - light) * (texel.a / rays);
         }

@@ -6,7 +6,7 @@
 #define MAX_SINE 0.4       // Of the angle between a surface and the line between two points on it: as much.
 #define ROUNDING 1e-5      // Of a coordinate, relative to it.
 
-bool isSameSide(vec3 normalA, vec3 normalB) { return dot(normalA, normalB) >= MIN_COSINE * length(normalA) * length(normalB); }
+bool areNormalsSimilar(vec3 normalA, vec3 normalB) { return dot(normalA, normalB) >= MIN_COSINE * length(normalA) * length(normalB); }
 
 // Whether a point lies on the surface through another point, with that one's normal.
 bool isOnSurface(vec3 point, vec3 other, vec3 normal) {

@@ -1,5 +1,5 @@
 #include "graph/registry.h"
-#include "passes/common/lights/pane_tint.h"
+#include "passes/common/lights/pane_transmittance.h"
 #include "passes/common/lights/rsm.h"
 #include "passes/common/view/gbuffer.h"
 

@@ -37,7 +37,7 @@ float visibleFraction(uint number, LightView view, vec3 at, vec3 side) {
     float visible = 0.0;
     for (int k = 0; k < 4; ++k) {
         const ivec2 texel = first + ivec2(k & 1, k >> 1);
-        if (texelSees(view, push.resolution, texel, depthAt(number, view, texel), at, side)) visible += weights[k];
+        if (texelPassesShadowTest(view, push.resolution, texel, depthAt(number, view, texel), at, side)) visible += weights[k];
     }
     return visible;
 }
@@ -53,7 +53,7 @@ vec3 reflected(ivec2 texel) {
     vec3 sum = vec3(0.0);
     for (uint number = 0u; number < push.views; ++number) {
         const RsmView v = rsmViews.data[number];
-        if (v.side < 6u && cubeSide(p.xyz - v.view.origin) != v.side) continue;
+        if (v.cubeFace < 6u && cubeFace(p.xyz - v.view.origin) != v.cubeFace) continue;
         const LightSample s = samplePunctual(sceneLights.data[v.light], p.xyz);
         const float cosine = dot(n, s.direction);
         if (cosine <= 0.0 || dot(side, s.direction) <= 0.0 || s.irradiance == vec3(0.0)) continue;

@@ -4,7 +4,7 @@
 
 #include "graph/registry.h"
 #include "passes/common/compute/random_seed.h"
-#include "passes/common/lights/pane_tint.h"
+#include "passes/common/lights/pane_transmittance.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/voxel_march/voxel_tracer.h"
 
@@ -65,16 +65,16 @@ class DirectShadowRays final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    bool meetsVoxels() const { return params_.visibility == Visibility::Voxels; }
+    bool tracesVoxels() const { return params_.visibility == Visibility::Voxels; }
 
     const Params params_;
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
-    In<SurfaceVoxels> voxels_{*this, "voxels", "what shadow rays meet", meetsVoxels()};
+    In<SurfaceVoxels> voxels_{*this, "voxels", "what shadow rays meet", tracesVoxels()};
     Out<FrameImage> direct_{*this, "direct", "radiance reflected of direct light"};
     Kernel generateRays_{*this, "generate_shadow_rays.comp"};
-    Kernel add_{*this, "add.comp"};
+    Kernel add_{*this, "add_unoccluded.comp"};
     Buffer rays_, carried_, occluded_;
-    PaneTint tint_{*this};
+    PaneTransmittance paneTransmittance_{*this};
     std::optional<VoxelTracer> voxelTracer_;  ///< With Visibility::Voxels. All walks tell the same.
 };
 
@@ -84,12 +84,12 @@ void DirectShadowRays::plan(PassPlan& plan) {
     plan.buffer(rays_, "shadow rays", rays * sizeof(Ray));
     plan.buffer(carried_, "shadow ray radiance", rays * 4 * sizeof(float));
     plan.buffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
-    tint_.plan(plan, rays);
+    paneTransmittance_.plan(plan, rays);
     plan.lightRays = uint64_t(plan.frame.width) * plan.frame.height * gbuffer.samples * gbuffer.samples *
                      plan.frame.scene->lights.size();
     plan.frameImage(direct_);
-    if (meetsVoxels()) voxelTracer_.emplace(*this, VoxelWalk::Bricks).plan(plan, plan[voxels_]);
-    generateRays_.specialize({{"kMeetVoxels", meetsVoxels()}});
+    if (tracesVoxels()) voxelTracer_.emplace(*this, VoxelTraversal::Bricks).plan(plan, plan[voxels_]);
+    generateRays_.specialize({{"kTraceVoxels", tracesVoxels()}});
 }
 
 void DirectShadowRays::record(PassContext& context) {
@@ -133,7 +133,7 @@ void DirectShadowRays::record(PassContext& context) {
                               {"grid", grid}});
             tracer->occluded(stream, rays_, occluded_, rays,
                              kind == kPunctual ? Coherence::Coherent : Coherence::Incoherent);
-            tint_.apply(context, rays_, carried_, 4, rays);
+            paneTransmittance_.apply(context, rays_, carried_, 4, rays);
             context.dispatch(add_, count,
                              {{"carried", carried_},
                               {"occluded", occluded_},

@@ -8,7 +8,7 @@
 #include "shaders/voxel_march/surface_segment.glsl"
 #include "shaders/scene/specular.glsl"
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const bool kMeetVoxels = false;  // Else triangles.
+layout(constant_id = 0) const bool kTraceVoxels = false;  // Else triangles.
 // Rays through voxels end so far before the light, which may be a surface: two diagonals of a voxel.
 #define VOXELS_BEFORE_LIGHT 3.4641016
 
@@ -64,8 +64,8 @@ void main() {
         if (cosine > 0.0 && dot(side, s.direction) > 0.0) {
             radiance = reflectance(texelFetch(albedo, texel, 0).rgb, surface, n, out_, s.direction) * s.irradiance * cosine;
             ray = Ray(from, 0.0, s.direction, s.reach);
-            if (kMeetVoxels) {
-                ray.origin = beginOffSurface(push.grid, p.xyz, side, s.direction);
+            if (kTraceVoxels) {
+                ray.origin = offsetRayOrigin(push.grid, p.xyz, side, s.direction);
                 ray.tMax = s.distance_ - dot(ray.origin - lit, s.direction) - VOXELS_BEFORE_LIGHT * push.grid.voxelSize;
             }
         }

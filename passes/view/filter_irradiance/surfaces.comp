@@ -28,7 +28,7 @@ void main() {
 
     // The pixel's texels.
     Surface texels[TEXELS];
-    bool isLeft[TEXELS];
+    bool isUnassigned[TEXELS];
     float rays[TEXELS];
     int left = 0;
     for (int t = 0; t < TEXELS; ++t) {
@@ -36,8 +36,8 @@ void main() {
         const vec4 p = texelFetch(position, texel, 0);
         texels[t] = Surface(p.xyz, texelFetch(geometricNormal, texel, 0).xyz, texelFetch(normal, texel, 0).xyz);
         rays[t] = texelFetch(irradiance, texel, 0).w;
-        isLeft[t] = p.w > 0.0;
-        left += isLeft[t] ? 1 : 0;
+        isUnassigned[t] = p.w > 0.0;
+        left += isUnassigned[t] ? 1 : 0;
     }
 
     for (int layer = 0; layer < LAYERS; ++layer) {
@@ -53,11 +53,11 @@ void main() {
         int best = 0, bestTexels = 0;
         float bestRays = -1.0;
         for (int a = 0; a < TEXELS && bestTexels < left; ++a) {
-            if (!isLeft[a]) continue;
+            if (!isUnassigned[a]) continue;
             float groupRays = 0.0;
             int groupTexels = 0;
             for (int b = 0; b < TEXELS; ++b) {
-                const bool same = isLeft[b] && isSameSurface(texels[a], texels[b]);
+                const bool same = isUnassigned[b] && isSameSurface(texels[a], texels[b]);
                 groupRays += same ? rays[b] : 0.0;
                 groupTexels += same ? 1 : 0;
             }
@@ -74,7 +74,7 @@ void main() {
         float lightRays = 0.0;
         int area = 0;  // Texels.
         for (int b = 0; b < TEXELS; ++b) {
-            if (!isLeft[b]) continue;
+            if (!isUnassigned[b]) continue;
             const ivec2 texel = texelOf(pixel, b);
             const bool same = isSameSurface(texels[best], texels[b]);
             if (same) {
@@ -87,7 +87,7 @@ void main() {
                 lightRays += rays[b];
                 ++area;
                 color += texelFetch(albedo, texel, 0).rgb;
-                isLeft[b] = false;
+                isUnassigned[b] = false;
                 --left;
             }
         }

@@ -35,8 +35,8 @@ void main() {
     }
 
     const Surface own = unpackSurface(bits);
-    const SurfaceLight ownLight = unpackLight(texelFetch(light, element, 0));
-    const float ownNoise = ownLight.ofRay / max(texelFetch(source, element, 0).w, 1e-3);
+    const SurfaceLight centerLight = unpackLight(texelFetch(light, element, 0));
+    const float centerNoise = centerLight.rayVariance / max(texelFetch(source, element, 0).w, 1e-3);
     vec3 sum = vec3(0.0);
     float weights = 0.0, squaredWeights = 0.0;  // The latter over the taps' rays.
     for (int y = -1; y <= 1; ++y)
@@ -45,19 +45,19 @@ void main() {
             if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, pixels))) continue;
             for (int layer = 0, layers = 1; layer < layers; ++layer) {
                 const ivec2 at = pixel + ivec2(0, layer * pixels.y);
-                const uvec4 otherBits = texelFetch(surfaces, at, 0);
-                const float area = areaOf(otherBits);
+                const uvec4 neighborBits = texelFetch(surfaces, at, 0);
+                const float area = areaOf(neighborBits);
                 if (area == 0.0) continue;
                 if (area < 1.0) layers = LAYERS;
                 const vec4 value = texelFetch(source, at, 0);
                 if (value.w == 0.0) continue;
-                const Surface other = unpackSurface(otherBits);
-                const SurfaceLight otherLight = unpackLight(texelFetch(light, at, 0));
-                const float bias2 = squaredBias(own, ownLight, other, otherLight, push.edgeStoppingScale);
+                const Surface other = unpackSurface(neighborBits);
+                const SurfaceLight neighborLight = unpackLight(texelFetch(light, at, 0));
+                const float bias2 = squaredBias(own, centerLight, other, neighborLight, push.edgeStoppingScale);
 
                 // An element counts as its area does. At level 0 its rays do, which are as many; later the number of rays that a
                 // value stands for tells how even light is there, and must not decide how much the value counts.
-                const float noise = 0.5 * (ownNoise + otherLight.ofRay / value.w);
+                const float noise = 0.5 * (centerNoise + neighborLight.rayVariance / value.w);
                 const float count = kernel(x, y) * (push.level == 0 ? value.w : area);
                 const float weight = count * (bias2 > 0.0 ? noise / (noise + bias2) : 1.0);
                 sum += weight * value.rgb;

@@ -38,7 +38,7 @@ struct View {
 
 namespace {
 
-constexpr uint32_t kRaysAtOnce = 1u << 20;  // Bounds the memory of rays and hits to 48 MiB.
+constexpr uint32_t kMaxBatchRays = 1u << 20;  // Bounds the memory of rays and hits to 48 MiB.
 constexpr VkFormat kWide = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kHalf = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat kByte = VK_FORMAT_R8G8B8A8_UNORM;
@@ -78,7 +78,7 @@ ImageDesc depthTarget(glm::uvec2 extent) {
 }
 
 uint64_t batchRays(glm::uvec2 extent) {
-    return std::min<uint64_t>(uint64_t(extent.x) * extent.y, kRaysAtOnce);
+    return std::min<uint64_t>(uint64_t(extent.x) * extent.y, kMaxBatchRays);
 }
 
 }  // namespace
@@ -127,8 +127,8 @@ class GBufferPass final : public Pass {
  private:
     void trace(PassContext& context);
     void rasterize(PassContext& context);
-    void beginMotion(PassContext& context);
-    void endMotion(PassContext& context);
+    void initMotion(PassContext& context);
+    void computeMotion(PassContext& context);
     bool hasMotion(const PortAccess& access) const { return access[motion_].isRead; }
 
     const Params params_;
@@ -148,7 +148,7 @@ class GBufferPass final : public Pass {
         View view;
         uint64_t sceneVersion;  ///< Of previousPositions_.
     };
-    std::optional<Before> before_;  ///< Of the last frame; none before the first one.
+    std::optional<Before> previousFrame_;  ///< Of the last frame; none before the first one.
 };
 
 void GBufferPass::plan(PassPlan& plan) {
@@ -199,22 +199,22 @@ void GBufferPass::prepare(PassSetup& setup) {
 }
 
 void GBufferPass::record(PassContext& context) {
-    if (hasMotion(context)) beginMotion(context);
+    if (hasMotion(context)) initMotion(context);
     if (params_.method == GBufferMethod::Rays)
         trace(context);
     else
         rasterize(context);
-    if (hasMotion(context)) endMotion(context);
+    if (hasMotion(context)) computeMotion(context);
 }
 
-void GBufferPass::beginMotion(PassContext& context) {
-    if (before_) return;
+void GBufferPass::initMotion(PassContext& context) {
+    if (previousFrame_) return;
     const glm::uvec2 extent = gbufferExtent(context.frame, params_.samplesPerPixelEdge);
     context.stream.copy(context.scene.positions, previousPositions_, previousPositions_.bytes());
-    before_ = {viewOf(context.frame, extent), context.frame.sceneVersion};
+    previousFrame_ = {viewOf(context.frame, extent), context.frame.sceneVersion};
 }
 
-void GBufferPass::endMotion(PassContext& context) {
+void GBufferPass::computeMotion(PassContext& context) {
     const SurfaceMotion& motion = context[motion_];
     const glm::uvec2 extent = gbufferExtent(context.frame, params_.samplesPerPixelEdge);
     const View view = viewOf(context.frame, extent);
@@ -223,12 +223,12 @@ void GBufferPass::endMotion(PassContext& context) {
                       {"previous", motion.previous},
                       {"motion", motion.motion},
                       {"view", view},
-                      {"previousView", before_->view}});
+                      {"previousView", previousFrame_->view}});
 
     // For the next frame
-    if (before_->sceneVersion != context.frame.sceneVersion)
+    if (previousFrame_->sceneVersion != context.frame.sceneVersion)
         context.stream.copy(context.scene.positions, previousPositions_, previousPositions_.bytes());
-    before_ = {view, context.frame.sceneVersion};
+    previousFrame_ = {view, context.frame.sceneVersion};
 }
 
 void GBufferPass::trace(PassContext& context) {
@@ -236,8 +236,8 @@ void GBufferPass::trace(PassContext& context) {
     const glm::uvec2 extent = gbufferExtent(context.frame, params_.samplesPerPixelEdge);
     const View view = viewOf(context.frame, extent);
     const uint32_t texels = extent.x * extent.y;
-    for (uint32_t first = 0; first < texels; first += kRaysAtOnce) {
-        const uint32_t batch = std::min(kRaysAtOnce, texels - first);
+    for (uint32_t first = 0; first < texels; first += kMaxBatchRays) {
+        const uint32_t batch = std::min(kMaxBatchRays, texels - first);
         context.dispatch(generateRays_, batch,
                          {{"rays", rays_}, {"view", view}, {"firstTexel", first}, {"batchRays", batch}});
         context.tracer.closestHit(context.stream, rays_, hits_, batch, Coherence::Coherent);
@@ -247,7 +247,7 @@ void GBufferPass::trace(PassContext& context) {
                           {"emitted", g.emission},
                           {"hits", hits_},
                           ifUsed({"previous", context[motion_].previous}),
-                          ifUsed({"PreviousPositionsAt", previousPositions_.at()}),
+                          ifUsed({"PreviousPositionsRef", previousPositions_.ref()}),
                           ifUsed({"instanceStarts", instanceStarts_}),
                           {"view", view},
                           {"firstTexel", first},
@@ -278,7 +278,7 @@ void GBufferPass::rasterize(PassContext& context) {
     context.stream.draw(
         surfaces_, targets, context.scene.triangleCount * 3,
         {context.scene,
-         ifUsed({"PreviousPositionsAt", previousPositions_.at()}),
+         ifUsed({"PreviousPositionsRef", previousPositions_.ref()}),
          ifUsed({"instanceStarts", instanceStarts_}),
          {"viewProjection", viewProjection(frame.camera, frame.width, frame.height, geometry)},
          {"view", view}});

@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 // Place in the image, in texels; out of it for a point that is not before the camera.
-vec2 placeInImage(View view, vec3 position) {
+vec2 projectToImage(View view, vec3 position) {
     const vec3 away = position - view.origin;
     const float depth = dot(away, view.forward);
     const vec2 size = vec2(view.width, view.height);
@@ -28,6 +28,6 @@ void main() {
     // Both places are rounded alike, so that what stands still has not moved.
     vec2 moved = vec2(0.0);
     if (before.w > 0.0)
-        moved = placeInImage(push.previousView, before.xyz) - placeInImage(push.view, texelFetch(position, texel, 0).xyz);
+        moved = projectToImage(push.previousView, before.xyz) - projectToImage(push.view, texelFetch(position, texel, 0).xyz);
     imageStore(motion, texel, vec4(moved, 0.0, 0.0));
 }

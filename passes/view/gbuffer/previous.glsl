@@ -4,7 +4,7 @@
 
 #include "shaders/scene/scene.glsl"
 
-layout(scalar) readonly buffer PreviousPositionsAt { VertexPositions previousPositions; };
+layout(scalar) readonly buffer PreviousPositionsRef { VertexPositions previousPositions; };
 layout(scalar) readonly buffer InstanceStarts { uint data[]; } instanceStarts;  // First triangle of each mesh instance.
 
 vec3 previousPosition(uint triangle, vec2 barycentrics) {

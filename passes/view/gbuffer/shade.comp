@@ -1,7 +1,7 @@
 // What a batch of camera rays met, into the g-buffer's images.
 #include "passes/view/gbuffer/visible_surface.glsl"
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/scene/off_edges.glsl"
+#include "shaders/scene/inset_barycentrics.glsl"
 #include "shaders/trace/ray_types.h"
 #ifdef MOTION
 #include "passes/view/gbuffer/previous.glsl"
@@ -39,7 +39,7 @@ void main() {
     if (hit.triangle == NO_HIT) {
         visible.emission = environmentRadiance(viewDirection(push.view, uvec2(texel)));
     } else {
-        const vec2 seen = offEdges(hit.triangle, vec2(hit.u, hit.v));
+        const vec2 seen = insetBarycentrics(hit.triangle, vec2(hit.u, hit.v));
         const SurfacePoint s = surfacePoint(hit.triangle, seen);
         point = vec4(s.position, s.offset);
         visible = visibleSurface(push.view, s);

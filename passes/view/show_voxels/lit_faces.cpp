@@ -5,33 +5,33 @@
 namespace voxray {
 namespace {
 
-uint64_t ofFaces(uint64_t count) {
+uint64_t faceCountBytes(uint64_t count) {
     return kFaces * std::max<uint64_t>(count, 1) * sizeof(uint32_t);
 }
 
 }  // namespace
 
 LitFaces::LitFaces(ProgramOwner& owner)
-    : countLit_(owner, "count_lit.comp"), countSeen_(owner, "count_seen.comp") {}
+    : countLitPatches_(owner, "count_lit_patches.comp"), countVisibleLit_(owner, "count_visible_lit.comp") {}
 
 void LitFaces::count(CommandStream& stream, uint32_t voxels, const VoxelPatches& patches,
                      const ClusterVisibility& visibility, const ClusterLight& light) {
-    makeOrKeep(litOfParts_, stream.device(), "lit faces of parts", ofFaces(patches.componentCount));
-    makeOrKeep(seenByFaces_, stream.device(), "lit faces that faces see", ofFaces(voxels));
-    stream.dispatch(countLit_, patches.componentCount,
+    ensureSize(litPatches_, stream.device(), "lit faces of parts", faceCountBytes(patches.componentCount));
+    ensureSize(visibleLitPatches_, stream.device(), "lit faces that faces see", faceCountBytes(voxels));
+    stream.dispatch(countLitPatches_, patches.componentCount,
                     {{"groups", patches.groups},
                      {"components", patches.components},
                      {"memberGroups", patches.memberGroups},
-                     {"PatchDirectAt", light.direct.at()},
-                     {"litOfParts", litOfParts_},
+                     {"PatchDirectRef", light.direct.ref()},
+                     {"litPatches", litPatches_},
                      {"count", patches.componentCount}});
-    stream.fill(seenByFaces_, 0);
-    stream.dispatch(countSeen_, patches.groupCount,
+    stream.fill(visibleLitPatches_, 0);
+    stream.dispatch(countVisibleLit_, patches.groupCount,
                     {{"visibilityLists", visibility.chunkAddresses},
                      {"groups", patches.groups},
-                     {"PatchDirectAt", light.direct.at()},
-                     {"litOfParts", litOfParts_},
-                     {"seenByFaces", seenByFaces_},
+                     {"PatchDirectRef", light.direct.ref()},
+                     {"litPatches", litPatches_},
+                     {"visibleLitPatches", visibleLitPatches_},
                      {"lists", visibility.layout},
                      {"count", patches.groupCount}});
 }

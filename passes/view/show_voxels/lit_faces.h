@@ -16,11 +16,11 @@ class LitFaces {
     void count(CommandStream& stream, uint32_t voxels, const VoxelPatches& patches,
                const ClusterVisibility& visibility, const ClusterLight& light);
     /// By voxel and face: the number plus one; 0 where no surface looks that way.
-    const Buffer& seenByFaces() const { return seenByFaces_; }
+    const Buffer& visibleLitPatches() const { return visibleLitPatches_; }
 
  private:
-    Kernel countLit_, countSeen_;
-    Buffer litOfParts_, seenByFaces_;
+    Kernel countLitPatches_, countVisibleLit_;
+    Buffer litPatches_, visibleLitPatches_;
 };
 
 }  // namespace voxray

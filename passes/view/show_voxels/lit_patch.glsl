@@ -2,6 +2,6 @@
 #include "shaders/compute/large_buffer.glsl"
 #include "passes/surfels/radiosity.glsl"
 
-layout(scalar) readonly buffer PatchDirectAt { LargeUints patchDirect; };
+layout(scalar) readonly buffer PatchDirectRef { LargeUints patchDirect; };
 
 bool isLit(uint number) { return any(greaterThan(unpackRadiosity(patchDirect.data[number]), vec3(0.0))); }

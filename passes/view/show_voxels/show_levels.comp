@@ -56,16 +56,16 @@ void main() {
         leave = min(leave, max(low, high));
     }
     ivec3 voxel = clamp(ivec3(floor(origin + enter * direction)), ivec3(0), resolution - 1);
-    const ivec3 ahead = ivec3(greaterThan(direction, vec3(0.0)));
+    const ivec3 stepsForward = ivec3(greaterThan(direction, vec3(0.0)));
     for (uint k = 0u; k < 3u; ++k)
-        crossing[k] = direction[k] == 0.0 ? FAR : (float(voxel[k] + ahead[k]) - origin[k]) / direction[k];
+        crossing[k] = direction[k] == 0.0 ? FAR : (float(voxel[k] + stepsForward[k]) - origin[k]) / direction[k];
 
     vec3 color = vec3(0.0);
     const int steps = resolution.x + resolution.y + resolution.z;
     for (int step = 0; step < steps && enter < leave; ++step) {
         if (held(g.origin + width * (vec3(voxel) + 0.5), direction, axis, color)) break;
         axis = crossing.x < crossing.y ? (crossing.x < crossing.z ? 0u : 2u) : (crossing.y < crossing.z ? 1u : 2u);
-        voxel[axis] += 2 * ahead[axis] - 1;
+        voxel[axis] += 2 * stepsForward[axis] - 1;
         if (voxel[axis] < 0 || voxel[axis] >= resolution[axis]) break;
         enter = crossing[axis];
         crossing[axis] += abs(1.0 / direction[axis]);

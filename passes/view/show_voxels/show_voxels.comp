@@ -4,7 +4,7 @@
 #include "shaders/voxels/face_irradiance.glsl"
 #endif
 #ifdef SHOW_LIT_FACES
-readonly buffer SeenByFaces { uint data[]; } seenByFaces;  // The number plus one; 0 where no surface looks that way.
+readonly buffer VisibleLitPatches { uint data[]; } visibleLitPatches;  // The number plus one; 0 where no surface looks that way.
 #endif
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -31,7 +31,7 @@ vec3 held(VoxelHit hit) {
     return light.w > 0.0 ? light.rgb / 3.14159265358979 : vec3(1.0, 0.0, 1.0);
 #elif defined(SHOW_LIT_FACES)
     if (hit.face == NO_FACE) return vec3(0.0);
-    const uint seen = seenByFaces.data[6u * number + hit.face];
+    const uint seen = visibleLitPatches.data[6u * number + hit.face];
     const float red = min(float(seen - 1u) / float(push.redAt), 1.0);
     return seen > 0u ? vec3(red, 1.0 - red, 0.0) : vec3(1.0, 0.0, 1.0);
 #else

@@ -93,7 +93,7 @@ class ShowVoxels final : public Pass {
 };
 
 ShowVoxels::ShowVoxels(const Params& params) : params_(params) {
-    if (!showsLevel()) march_.emplace(*this, VoxelWalk::Bricks);
+    if (!showsLevel()) march_.emplace(*this, VoxelTraversal::Bricks);
     if (showsLight()) faces_.emplace(*this);
     if (showsLitFaces()) litFaces_.emplace(*this);
 }
@@ -148,9 +148,9 @@ Binding ShowVoxels::faces(PassContext& context) {
         if (context.changed(visibility_) || context.changed(clusterLight_))
             litFaces_->count(context.stream, voxels.voxelCount, context[patches_], context[visibility_],
                              context[clusterLight_]);
-        return {"seenByFaces", litFaces_->seenByFaces()};
+        return {"visibleLitPatches", litFaces_->visibleLitPatches()};
     }
-    return {"VoxelMaterialsAt", voxels.materials.at()};
+    return {"VoxelMaterialsRef", voxels.materials.ref()};
 }
 
 void ShowVoxels::recordLevel(PassContext& context) {

@@ -71,7 +71,7 @@ std::unique_ptr<TriangleVoxelizer> VoxelizePass::makeVoxelizer() {
 void VoxelizePass::plan(PassPlan& plan) {
     const Geometry& geometry = plan.frame.scene->geometry;
     SurfaceVoxels& v = plan[voxels_];
-    v.unoccludedOnly = params_.visibilityRays > 0;
+    v.unoccludedAreaOnly = params_.visibilityRays > 0;
     v.grid = makeVoxelGrid(geometry.region.min, geometry.region.max, params_.resolution);
     v.grid.directions = params_.directions;
     v.estimatedCount = estimateVoxels(geometry, v.grid);
@@ -88,7 +88,7 @@ void VoxelizePass::record(PassContext& context) {
     else if (!changed->empty())
         builder_.update(context, VoxelRegion(v.grid, changedVoxels(v.grid, *changed)), v);
     else
-        context.keepOutputs();
+        context.markOutputsUnchanged();
     if (v.voxelCount == 0)
         throw Error(
             "voxelize: no surface meets the grid of {}x{}x{} voxels; "

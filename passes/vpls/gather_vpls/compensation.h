@@ -1,7 +1,7 @@
 #pragma once
 
 #include "passes/common/compute/compaction.h"
-#include "passes/surfels/surfel_light.h"
+#include "passes/surfels/surfel_direct_light.h"
 #include "passes/vpls/gather_vpls/vpl_gather.h"
 
 namespace voxray {
@@ -34,7 +34,7 @@ class VplCompensation {
 
     Settings settings_{};
     std::vector<LightSource> sources_;
-    SurfelLight directLight_;
+    SurfelDirectLight directLight_;
     Kernel initSurfels_, generateRays_, flagHits_, surfelsAtHits_, accumulate_;
     Compaction compaction_;
     struct PathVertices {

@@ -18,7 +18,7 @@ void main() {
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
     Ray ray = kNoRay;
-    if (sobol2(s.id, hashCombine(push.seed, 1u)).x < survival(s.reflectance))
+    if (sobol2(s.id, hashCombine(push.seed, 1u)).x < survivalProbability(s.reflectance))
         ray = pathRay(s, fromOctahedral(faceNormals.data[i]), push.seed);
     ray.tMax = min(ray.tMax, push.radius);
     rays.data[i] = ray;

@@ -27,7 +27,7 @@ void main() {
     surfelAtHit(hits.data[ray], previous.position, hit, faceNormal, offset);
     hit.position += offset * faceNormal;
     const vec3 segment = hit.position - previous.position;
-    hit.reflectance *= previous.reflectance * (max(1.0 - dot(segment, segment) / push.minDistanceSquared, 0.0) / survival(previous.reflectance));
+    hit.reflectance *= previous.reflectance * (max(1.0 - dot(segment, segment) / push.minDistanceSquared, 0.0) / survivalProbability(previous.reflectance));
     hit.id = previous.id;
     hit.parent = previous.parent;
     surfels.data[i] = hit;

@@ -51,16 +51,16 @@ bool tracesVoxels(VplVisibility visibility) {
            visibility != VplVisibility::Exact && visibility != VplVisibility::None;
 }
 
-VoxelWalk voxelWalk(VplVisibility visibility) {
+VoxelTraversal voxelWalk(VplVisibility visibility) {
     switch (visibility) {
         case VplVisibility::SvoRestart:
-            return VoxelWalk::SvoRestart;
+            return VoxelTraversal::SvoRestart;
         case VplVisibility::Bricks:
-            return VoxelWalk::Bricks;
+            return VoxelTraversal::Bricks;
         case VplVisibility::Bits:
-            return VoxelWalk::Bits;
+            return VoxelTraversal::Bits;
         default:
-            return VoxelWalk::Svo;
+            return VoxelTraversal::Svo;
     }
 }
 
@@ -174,7 +174,7 @@ GatherVpls::GatherVpls(const Params& params) : params_(params) {
     if (tracesVoxels(params_.visibility))
         voxelTracer_.emplace(*this, voxelWalk(params_.visibility), params_.restartEpsilon);
     if (params_.visibility == VplVisibility::HybridLeaves)
-        hybridTracer_.emplace(*this, HybridWalk::Hierarchical);
+        hybridTracer_.emplace(*this, HybridTraversal::Hierarchical);
     if (params_.visibility == VplVisibility::ShadowMap)
         shadowMaps_ = std::make_unique<TracedShadowMaps>(*this, params_.mapResolution);
     if (params_.visibility == VplVisibility::ImperfectShadowMap)

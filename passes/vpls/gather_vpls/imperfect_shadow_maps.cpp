@@ -63,7 +63,7 @@ void ImperfectShadowMaps::render(PassContext& context, const Vpls& vpls, uint32_
     const float radius = std::sqrt(area_ / (glm::pi<float>() * float(pointsPerMap_)));
     context.dispatch(splat_, count * pointsPerMap_,
                      {context.scene,
-                      {"VplsAt", vpls.points.at()},
+                      {"VplsRef", vpls.points.ref()},
                       {"activeVpls", vpls.activeIndices},
                       {"points", pointSets_},
                       {"maps", levels_[0]},

@@ -14,7 +14,7 @@ void TracedShadowMaps::render(PassContext& context, const Vpls& vpls, uint32_t f
     const uint32_t rays = count * resolution() * resolution();
     context.dispatch(generateRays_, rays,
                      {context.scene,
-                      {"VplsAt", vpls.points.at()},
+                      {"VplsRef", vpls.points.ref()},
                       {"activeVpls", vpls.activeIndices},
                       {"rays", rays_},
                       {"firstVpl", first},

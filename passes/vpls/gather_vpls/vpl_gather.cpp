@@ -79,7 +79,8 @@ void VplGather::gather(PassContext& context, const Vpls& vpls, const Visibility&
     const auto maxRays = uint32_t(occluded_.bytes() / sizeof(uint32_t));
     const VplShadowMaps* shadowMaps = settings_.shadowMaps;
     if (!visibility.tracer && !shadowMaps) stream.fill(occluded_, 0);
-    const Bindings lights{receiverBindings, {"VplsAt", vpls.points.at()}, {"activeVpls", vpls.activeIndices}};
+    const Bindings lights{
+        receiverBindings, {"VplsRef", vpls.points.ref()}, {"activeVpls", vpls.activeIndices}};
     batch.block = settings_.block;
     batch.bounces = vpls.bounces;
 

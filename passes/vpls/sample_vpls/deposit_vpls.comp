@@ -25,13 +25,13 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 // False for a triangle without area.
-bool litPointAtHit(Ray ray, Hit hit, out LitPoint p) {
+bool lightVertexAtHit(Ray ray, Hit hit, out LightVertex p) {
 #ifdef VOXEL_HITS
-    p = litVoxel(hit.triangle, ray.origin + hit.t * ray.direction, ray.direction);
+    p = voxelVertex(hit.triangle, ray.origin + hit.t * ray.direction, ray.direction);
 #else
     const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
     if (dot(s.geometricNormal, s.geometricNormal) == 0.0) return false;
-    p = litPoint(s, ray.direction);
+    p = lightVertex(s, ray.direction);
 #endif
     return true;
 }
@@ -45,8 +45,8 @@ void main() {
     const Hit hit = hits.data[i];
     if (hit.triangle == NO_HIT) return;
 
-    LitPoint p;
-    if (!litPointAtHit(ray, hit, p)) return;
+    LightVertex p;
+    if (!lightVertexAtHit(ray, hit, p)) return;
     LightPath path = paths.data[i];
     // Power arrives by the geometric cosine, the BSDF reflects by the shading cosine: the adjoint BSDF of light paths (Veach
     // 1997, section 5.3)

@@ -25,7 +25,7 @@ void main() {
         LightPath path;
         rsmRay(rsmView.view, sceneLights.data[rsmView.light], push.resolution, texel, path);
         const SurfacePoint s = surfacePoint(rsmPoint.triangle, rsmPoint.barycentrics);
-        const vec3 reflected = path.power * litAlbedo(sceneMaterials.data[s.material], s);
+        const vec3 reflected = path.power * diffuseReflectance(sceneMaterials.data[s.material], s);
         if (dot(s.geometricNormal, s.geometricNormal) > 0.0) flux = max(reflected.r, max(reflected.g, reflected.b));
     }
     // At least 1 where light is reflected

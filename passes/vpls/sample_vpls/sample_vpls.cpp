@@ -8,7 +8,7 @@
 #include "graph/registry.h"
 #include "passes/common/compute/compaction.h"
 #include "passes/common/compute/random_seed.h"
-#include "passes/common/lights/pane_tint.h"
+#include "passes/common/lights/pane_transmittance.h"
 #include "passes/common/voxel_march/voxel_tracer.h"
 #include "passes/inject/light_paths/light_emission.h"
 #include "passes/inject/light_paths/light_path_types.h"
@@ -133,7 +133,7 @@ class SampleVpls final : public Pass {
     Kernel depositVplsInVoxels_{*this, "deposit_vpls.comp", {{"VOXEL_HITS", "1"}, {"VOXEL_NEXT", "1"}}};
     Compaction compaction_{*this};
     Buffer rays_, hits_, paths_, pathOrder_, flags_;
-    PaneTint tint_{*this};
+    PaneTransmittance paneTransmittance_{*this};
 };
 
 SampleVpls::SampleVpls(const Params& params) : params_(params) {
@@ -141,7 +141,7 @@ SampleVpls::SampleVpls(const Params& params) : params_(params) {
         rsmSampling_.emplace(*this);
     else
         emission_.emplace(*this);
-    if (params_.bounce == VplBounce::Svo) voxelTracer_.emplace(*this, VoxelWalk::Svo);
+    if (params_.bounce == VplBounce::Svo) voxelTracer_.emplace(*this, VoxelTraversal::Svo);
 }
 
 void SampleVpls::plan(PassPlan& plan) {
@@ -161,7 +161,7 @@ void SampleVpls::plan(PassPlan& plan) {
     plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
     plan.scratchBuffer(paths_, "light paths", batch * sizeof(gpu::LightPath));
-    tint_.plan(plan, batch);
+    paneTransmittance_.plan(plan, batch);
     if (rsmSampling_)
         rsmSampling_->plan(plan, plan[rsm_]);
     else
@@ -215,8 +215,8 @@ void SampleVpls::record(PassContext& context) {
                 else if (!hasRsmHits)
                     context.tracer.closestHit(stream, rays_, hits_, batch.count);
                 if (bounce == 0)
-                    tint_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float), batch.count,
-                                &hits_);
+                    paneTransmittance_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float),
+                                             batch.count, &hits_);
                 context.dispatch(bounce > 0 && voxelTracer_ ? depositVplsInVoxels_ : depositVpls_,
                                  batch.count,
                                  {context.scene,
@@ -225,7 +225,7 @@ void SampleVpls::record(PassContext& context) {
                                   {"hits", hits_},
                                   {"paths", paths_},
                                   {"pathOrder", pathOrder_},
-                                  {"VplsAt", vpls.points.at()},
+                                  {"VplsRef", vpls.points.ref()},
                                   {"flags", flags_},
                                   {"count", batch.count},
                                   {"firstPath", firstPath + batch.first},

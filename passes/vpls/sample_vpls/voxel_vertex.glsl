@@ -13,17 +13,17 @@ vec3 voxelNormal(VoxelMaterial m, vec3 direction) {
 
 // The vertex where a ray along `direction` enters a surface voxel, at `position`: up to a voxel's diagonal in front of the
 // surface.
-LitPoint litVoxel(uint voxel, vec3 position, vec3 direction) {
+LightVertex voxelVertex(uint voxel, vec3 position, vec3 direction) {
     const VoxelMaterial m = voxelMaterial(voxel);
     const vec3 n = voxelNormal(m, direction);
-    return LitPoint(position, n, n, clamp(m.albedo, 0.0, 1.0), pointOffset(position));
+    return LightVertex(position, n, n, clamp(m.albedo, 0.0, 1.0), pointOffset(position));
 }
 
 // Origin of a ray from a surface point, off the surface's voxels. In a voxel of another surface the ray starts there if it goes
 // towards that surface, which it then hits, and behind the voxel if it comes from it.
 vec3 rayOriginOffVoxels(VoxelGrid g, vec3 position, vec3 normal, vec3 direction) {
-    const vec3 origin = offSurface(g, position, normal);
+    const vec3 origin = offsetFromSurface(g, position, normal);
     const uint voxel = voxelNumber(g, voxelAt(g, origin));
     if (voxel == NO_VOXEL || dot(voxelMaterial(voxel).normal, direction) < 0.0) return origin;
-    return beginOffSurface(g, position, normal, direction);
+    return offsetRayOrigin(g, position, normal, direction);
 }

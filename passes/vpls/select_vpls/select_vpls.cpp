@@ -125,12 +125,12 @@ void SelectVpls::record(PassContext& context) {
     stream.upload(selectedCandidates_, selected.indices);
     stream.upload(weights_, selected.weights);
     stream.dispatch(storeSelected_, activeIndices.size(),
-                    {{"VplsAt", candidates.points.at()},
+                    {{"VplsRef", candidates.points.ref()},
                      {"candidateIndices", candidates.activeIndices},
                      {"selectedCandidates", selectedCandidates_},
                      {"weights", weights_},
                      {"activeVpls", vpls.activeIndices},
-                     {"SelectedAt", vpls.points.at()},
+                     {"SelectedRef", vpls.points.ref()},
                      {"count", uint32_t(activeIndices.size())}});
     vpls.activeCount = uint32_t(activeIndices.size());
     context.report("selected vpls", vpls.activeCount);
@@ -148,7 +148,7 @@ std::vector<glm::vec2> SelectVpls::estimateImportance(PassContext& context) cons
         context.dispatch(generateRays_, rays,
                          {context.scene,
                           context[gbuffer_],
-                          {"VplsAt", candidates.points.at()},
+                          {"VplsRef", candidates.points.ref()},
                           {"activeVpls", candidates.activeIndices},
                           {"rays", rays_},
                           {"geometryTerms", geometryTerms_},
@@ -159,7 +159,7 @@ std::vector<glm::vec2> SelectVpls::estimateImportance(PassContext& context) cons
                           {"minDistanceSquared", minDistanceSquared}});
         context.tracer.occluded(stream, rays_, occluded_, rays);
         context.dispatch(estimateImportance_, count,
-                         {{"VplsAt", candidates.points.at()},
+                         {{"VplsRef", candidates.points.ref()},
                           {"activeVpls", candidates.activeIndices},
                           {"geometryTerms", geometryTerms_},
                           {"occluded", occluded_},

@@ -7,7 +7,7 @@ readonly buffer CandidateIndices { uint data[]; } candidateIndices;
 readonly buffer SelectedCandidates { uint data[]; } selectedCandidates;  // Indices in candidateIndices.
 readonly buffer Weights { float data[]; } weights;
 readonly buffer ActiveVpls { uint data[]; } activeVpls;
-layout(scalar) readonly buffer SelectedAt { VplArray selected; };
+layout(scalar) readonly buffer SelectedRef { VplArray selected; };
 layout(push_constant) uniform Push { uint count; } push;
 
 void main() {

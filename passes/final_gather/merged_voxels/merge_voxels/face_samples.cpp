@@ -37,7 +37,7 @@ uint64_t blockOf(glm::ivec3 voxel) {
     return block.x | block.y << 16 | block.z << 32;
 }
 
-void setRelativeTo(std::array<std::vector<FaceSample>, kFaces>& faces) {
+void setErrorScales(std::array<std::vector<FaceSample>, kFaces>& faces) {
     Mean all;
     std::unordered_map<uint64_t, Mean> blocks;
     for (const std::vector<FaceSample>& samples : faces)
@@ -47,7 +47,7 @@ void setRelativeTo(std::array<std::vector<FaceSample>, kFaces>& faces) {
         }
     const double darkest = all.flux > 0 ? kDarkest * all.value() : 1;
     for (std::vector<FaceSample>& samples : faces)
-        for (FaceSample& s : samples) s.relativeTo = std::max(blocks[blockOf(s.voxel)].value(), darkest);
+        for (FaceSample& s : samples) s.errorScale = std::max(blocks[blockOf(s.voxel)].value(), darkest);
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ VoxelFaces readVoxelFaces(CommandStream& stream, const SurfaceVoxels& voxels, co
             result.known[i / 4] |= 1u << (8 * (i % 4) + face);
         }
     }
-    setRelativeTo(result.faces);
+    setErrorScales(result.faces);
     return result;
 }
 

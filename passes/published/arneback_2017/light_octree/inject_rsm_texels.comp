@@ -9,7 +9,7 @@
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
-layout(scalar) buffer OctreeNodesAt { BrickNodes nodes; };
+layout(scalar) buffer OctreeNodesRef { BrickNodes nodes; };
 buffer Brightest { uint bits; } brightest;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;

@@ -12,6 +12,6 @@ const float kFixedPointOne = 1073741824.0;  // 2^30: each of 2^30 texels may rou
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LeafSums { LeafSum data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LeafRadiance { vec3 data[]; };
-layout(scalar) buffer LeafSumsAt { LeafSums sums; };
+layout(scalar) buffer LeafSumsRef { LeafSums sums; };
 
 #endif

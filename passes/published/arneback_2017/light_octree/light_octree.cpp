@@ -1,5 +1,5 @@
 #include "graph/registry.h"
-#include "passes/common/lights/pane_tint.h"
+#include "passes/common/lights/pane_transmittance.h"
 #include "passes/common/lights/rsm.h"
 #include "passes/common/voxels/grid_levels.h"
 #include "passes/common/voxels/voxels.h"
@@ -78,7 +78,7 @@ void LightOctree::record(PassContext& context) {
     for (const uint32_t isWriting : {0u, 1u})
         context.dispatch(writeBricks_, leaves,
                          {radiance,
-                          {"LeafRadianceAt", leafRadiance_.at()},
+                          {"LeafRadianceRef", leafRadiance_.ref()},
                           {"nodes", octree.levels[0]},
                           {"isWriting", isWriting}});
     brickRadiance_.filter(stream, octree, radiance);
@@ -97,10 +97,10 @@ void LightOctree::injectLight(PassContext& context, uint32_t source) {
     for (const uint32_t isAccumulating : {0u, 1u})
         context.dispatch(injectTexels_, texels,
                          {context.scene,
-                          {"LeafSumsAt", sums_.at()},
-                          {"OctreeNodesAt", octree.nodes.at()},
+                          {"LeafSumsRef", sums_.ref()},
+                          {"OctreeNodesRef", octree.nodes.ref()},
                           {"brightest", brightest_},
-                          {"RsmTexelsAt", rsm.texels.at()},
+                          {"RsmTexelsRef", rsm.texels.ref()},
                           {"grid", octree.grid},
                           {"leaves", octree.levels[0]},
                           {"belowRoot", uint32_t(octree.levels.size()) - 1},
@@ -109,8 +109,8 @@ void LightOctree::injectLight(PassContext& context, uint32_t source) {
                           {"texels", texels},
                           {"isAccumulating", isAccumulating}});
     context.dispatch(resolveRadiance_, leaves,
-                     {{"LeafSumsAt", sums_.at()},
-                      {"LeafRadianceAt", leafRadiance_.at()},
+                     {{"LeafSumsRef", sums_.ref()},
+                      {"LeafRadianceRef", leafRadiance_.ref()},
                       {"brightest", brightest_},
                       {"leaves", leaves}});
 }

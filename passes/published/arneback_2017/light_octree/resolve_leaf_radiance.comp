@@ -3,7 +3,7 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) buffer LeafRadianceAt { LeafRadiance leaves; };
+layout(scalar) buffer LeafRadianceRef { LeafRadiance leaves; };
 readonly buffer Brightest { uint bits; } brightest;
 layout(push_constant) uniform Push { uint leaves; } push;
 

@@ -6,7 +6,7 @@
 #include "passes/cones/radiance/radiance_voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) buffer LeafRadianceAt { LeafRadiance leaves; };
+layout(scalar) buffer LeafRadianceRef { LeafRadiance leaves; };
 layout(push_constant, scalar) uniform Push {
     LevelNodes nodes;
     uint isWriting;  // 0: finds the brightest leaf; 1: writes values.

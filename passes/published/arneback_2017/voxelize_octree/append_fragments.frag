@@ -5,9 +5,9 @@
 #include "passes/published/magalhaes_2020/packed_voxels.glsl"
 
 buffer FragmentCount { uint fragments; } fragmentCount;
-layout(scalar) writeonly buffer CellsAt { LargeUints cells; };
-layout(scalar) writeonly buffer ColorsAt { LargeUints colors; };
-layout(scalar) writeonly buffer NormalsAt { LargeUints normals; };
+layout(scalar) writeonly buffer CellsRef { LargeUints cells; };
+layout(scalar) writeonly buffer ColorsRef { LargeUints colors; };
+layout(scalar) writeonly buffer NormalsRef { LargeUints normals; };
 
 void processFragment(TriangleFragment f) {
     if (!passesAlphaMask(f)) return;

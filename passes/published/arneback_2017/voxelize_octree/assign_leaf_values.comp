@@ -5,11 +5,11 @@
 #include "passes/published/packed_write.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer CellsAt { LargeUints cells; };
-layout(scalar) readonly buffer ColorsAt { LargeUints colors; };
-layout(scalar) readonly buffer NormalsAt { LargeUints normals; };
-layout(scalar) buffer OctreeNodesAt { BrickNodes nodes; };
-layout(scalar) buffer OctreeWordsAt { LargeUints words; };  // The same nodes as words.
+layout(scalar) readonly buffer CellsRef { LargeUints cells; };
+layout(scalar) readonly buffer ColorsRef { LargeUints colors; };
+layout(scalar) readonly buffer NormalsRef { LargeUints normals; };
+layout(scalar) buffer OctreeNodesRef { BrickNodes nodes; };
+layout(scalar) buffer OctreeWordsRef { LargeUints words; };  // The same nodes as words.
 layout(push_constant) uniform Push {
     uint fragments;
     uint belowRoot;  // Level of the leaves below the root.

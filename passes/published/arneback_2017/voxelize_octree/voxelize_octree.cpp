@@ -109,7 +109,7 @@ void VoxelizeOctree::record(PassContext& context) {
     CommandStream& stream = context.stream;
     const std::optional<std::vector<Box>>& changed = context.frame.changed;
     if (hasStatic_ && changed && changed->empty()) {
-        context.keepOutputs();
+        context.markOutputsUnchanged();
         return;
     }
     if (!hasStatic_ || !changed) {
@@ -118,7 +118,7 @@ void VoxelizeOctree::record(PassContext& context) {
         assignLeafValues(context, fragments);
         const gpu::LevelNodes& leaves = octree.levels[0];
         context.dispatch(markStaticLeaves_, leaves.staticCount,
-                         {{"OctreeNodesAt", octree.nodes.at()},
+                         {{"OctreeNodesRef", octree.nodes.ref()},
                           {"firstNode", leaves.staticFirst},
                           {"count", leaves.staticCount}});
         stream.finish();
@@ -150,8 +150,8 @@ FragmentList VoxelizeOctree::voxelize(PassContext& context, const std::vector<ui
     stream.fill(counter, 0);
     voxelizer_->run(
         context, *appendFragments_, grid,
-        std::array{Binding{"fragmentCount", counter}, Binding{"CellsAt", list.cells.at()},
-                   Binding{"ColorsAt", list.colors.at()}, Binding{"NormalsAt", list.normals.at()}},
+        std::array{Binding{"fragmentCount", counter}, Binding{"CellsRef", list.cells.ref()},
+                   Binding{"ColorsRef", list.colors.ref()}, Binding{"NormalsRef", list.normals.ref()}},
         0);
     stream.finish();
     voxelizer_->release();
@@ -161,11 +161,11 @@ FragmentList VoxelizeOctree::voxelize(PassContext& context, const std::vector<ui
 void VoxelizeOctree::assignLeafValues(PassContext& context, const FragmentList& fragments) {
     const BrickOctree& octree = context[octree_];
     context.dispatch(assignLeafValues_, fragments.count,
-                     {{"CellsAt", fragments.cells.at()},
-                      {"ColorsAt", fragments.colors.at()},
-                      {"NormalsAt", fragments.normals.at()},
-                      {"OctreeNodesAt", octree.nodes.at()},
-                      {"OctreeWordsAt", octree.nodes.at()},
+                     {{"CellsRef", fragments.cells.ref()},
+                      {"ColorsRef", fragments.colors.ref()},
+                      {"NormalsRef", fragments.normals.ref()},
+                      {"OctreeNodesRef", octree.nodes.ref()},
+                      {"OctreeWordsRef", octree.nodes.ref()},
                       {"fragments", fragments.count},
                       {"belowRoot", uint32_t(octree.levels.size()) - 1}});
 }

@@ -7,7 +7,7 @@ layout(constant_id = 0) const bool kSevenTap = true;
 
 uniform sampler2D position;
 uniform sampler2D albedo;
-layout(scalar) buffer IrradianceAt { LargeUints irradiance; };
+layout(scalar) buffer IrradianceRef { LargeUints irradiance; };
 layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;

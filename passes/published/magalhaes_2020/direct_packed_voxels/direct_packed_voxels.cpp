@@ -47,7 +47,7 @@ class DirectPackedVoxels final : public Pass {
         const PackedLight& light = context[light_];
         context.dispatch(lookUp_, context.frame.pixels(),
                          {context[gbuffer_],
-                          {"IrradianceAt", light.irradiance.at()},
+                          {"IrradianceRef", light.irradiance.ref()},
                           {"result", context[direct_].image},
                           {"grid", context[voxels_].grid},
                           {"white", light.white}});

@@ -8,9 +8,9 @@ layout(local_size_x = 64) in;
 layout(scalar) buffer Rays { Ray data[]; } rays;
 layout(scalar) buffer Intensities { vec3 data[]; } intensities;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
-layout(scalar) buffer NormalsAt { LargeUints normals; };
-layout(scalar) buffer AlbedosAt { LargeUints albedos; };
-layout(scalar) buffer IrradianceAt { LargeUints irradiance; };
+layout(scalar) buffer NormalsRef { LargeUints normals; };
+layout(scalar) buffer AlbedosRef { LargeUints albedos; };
+layout(scalar) buffer IrradianceRef { LargeUints irradiance; };
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint batchRays;

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "graph/registry.h"
 #include "passes/common/lights/light_sources.h"
-#include "passes/common/lights/pane_tint.h"
+#include "passes/common/lights/pane_transmittance.h"
 #include "passes/published/magalhaes_2020/packed_voxels.h"
 
 namespace voxray {
@@ -77,7 +77,7 @@ class InjectPackedLightRays final : public Pass {
     Kernel depositIrradiance_{*this, "deposit_irradiance.comp", params_.defines()};
     uint32_t raysPerEdge_ = 0;
     Buffer rays_, hits_, intensities_;
-    PaneTint tint_{*this};
+    PaneTransmittance paneTransmittance_{*this};
 };
 
 uint32_t InjectPackedLightRays::spotLight(const SceneState& scene) {
@@ -103,7 +103,7 @@ void InjectPackedLightRays::plan(PassPlan& plan) {
     const uint64_t batch = std::min(params_.raysPerLight, kMaxPackedBatchRays);
     plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
-    tint_.plan(plan, batch);
+    paneTransmittance_.plan(plan, batch);
     plan.scratchBuffer(intensities_, "intensities of light rays", batch * sizeof(glm::vec3));
 }
 
@@ -126,14 +126,14 @@ void InjectPackedLightRays::record(PassContext& context) {
         for (uint32_t bounce = 0; bounce <= params_.bounces; ++bounce) {
             context.tracer.closestHit(context.stream, rays_, hits_, count,
                                       bounce == 0 ? Coherence::Coherent : Coherence::Incoherent);
-            if (bounce == 0) tint_.apply(context, rays_, intensities_, 3, count, &hits_);
+            if (bounce == 0) paneTransmittance_.apply(context, rays_, intensities_, 3, count, &hits_);
             context.dispatch(depositIrradiance_, count,
                              {{"rays", rays_},
                               {"intensities", intensities_},
                               {"hits", hits_},
-                              {"NormalsAt", voxels.normals.at()},
-                              {"AlbedosAt", voxels.albedos.at()},
-                              {"IrradianceAt", light.irradiance.at()},
+                              {"NormalsRef", voxels.normals.ref()},
+                              {"AlbedosRef", voxels.albedos.ref()},
+                              {"IrradianceRef", light.irradiance.ref()},
                               {"grid", voxels.grid},
                               {"batchRays", count},
                               {"isLast", bounce == params_.bounces},

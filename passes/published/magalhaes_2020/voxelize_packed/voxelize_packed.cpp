@@ -55,8 +55,8 @@ class VoxelizePacked final : public Pass {
         const VoxelRegion wholeGrid(voxels.grid);
         voxelizer_->select(context, voxels.grid, wholeGrid,
                            wholeGrid.triangles(context.frame.scene->geometry));
-        const std::vector<Binding> volumes{{"NormalsAt", voxels.normals.at()},
-                                           {"AlbedosAt", voxels.albedos.at()}};
+        const std::vector<Binding> volumes{{"NormalsRef", voxels.normals.ref()},
+                                           {"AlbedosRef", voxels.albedos.ref()}};
         voxelizer_->run(context, *write_, voxels.grid, volumes, 0);
         context.stream.finish();
         voxelizer_->release();

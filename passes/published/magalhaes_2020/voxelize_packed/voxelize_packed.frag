@@ -4,8 +4,8 @@
 #include "passes/published/magalhaes_2020/packed_voxels.glsl"
 #include "passes/published/packed_write.glsl"
 
-layout(scalar) buffer NormalsAt { LargeUints normals; };
-layout(scalar) buffer AlbedosAt { LargeUints albedos; };
+layout(scalar) buffer NormalsRef { LargeUints normals; };
+layout(scalar) buffer AlbedosRef { LargeUints albedos; };
 
 void processFragment(TriangleFragment f) {
     if (!passesAlphaMask(f)) return;

@@ -6,8 +6,8 @@
 layout(local_size_x = 64) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SortedSurfels { SortedSurfel data[]; };
-layout(scalar) readonly buffer SortedAt { SortedSurfels sorted; };
-layout(scalar) readonly buffer SlotsAt { LargeUints slots; };
+layout(scalar) readonly buffer SortedRef { SortedSurfels sorted; };
+layout(scalar) readonly buffer SortedIndicesRef { LargeUints sortedIndices; };
 readonly buffer Begins { uint data[]; } begins;
 readonly buffer Ends { uint data[]; } ends;
 writeonly buffer Lists { uvec2 data[]; } lists;
@@ -25,5 +25,5 @@ void main() {
         for (; to > begin && sorted.data[to - 1u].id > s.id; --to) sorted.data[to] = sorted.data[to - 1u];
         sorted.data[to] = s;
     }
-    for (uint i = begin; i < end; ++i) slots.data[sorted.data[i].number] = i;
+    for (uint i = begin; i < end; ++i) sortedIndices.data[sorted.data[i].number] = i;
 }

@@ -1,4 +1,4 @@
-#include "passes/surfels/still_voxels.h"
+#include "passes/surfels/static_voxels.h"
 
 #include <algorithm>
 #include <vector>
@@ -10,9 +10,9 @@
 
 namespace voxray {
 
-uint32_t countStillVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
+uint32_t countStaticVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
     std::vector<bool> still(geometry.triangles.size(), true);
-    for (const InstanceRange& run : movingRuns(geometry))
+    for (const InstanceRange& run : movingInstanceRanges(geometry))
         std::fill_n(still.begin() + run.firstTriangle, run.triangleCount, false);
 
     VoxelBits bits(grid.resolution);

@@ -7,19 +7,19 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-readonly buffer LitOfParts { uint data[]; } litOfParts;
-buffer SeenByFaces { uint data[]; } seenByFaces;  // By voxel and face: the number plus one; 0 where there is no patch.
+readonly buffer LitPatches { uint data[]; } litPatches;
+buffer VisibleLitPatches { uint data[]; } visibleLitPatches;  // By voxel and face: the number plus one; 0 where there is no patch.
 layout(push_constant, scalar) uniform Push {
     VisibilityListLayout lists;
     uint count;
 } push;
 
-uint litSeen(uint number) {
+uint countVisibleLit(uint number) {
     uint lit = 0u;
     for (VisibilityListIterator it = visibilityListOf(push.lists, number); nextEntry(push.lists, it);) {
         const uint target = entryTarget(push.lists, it.entry);
         if (target < push.lists.firstPatchTarget)
-            lit += litOfParts.data[target];
+            lit += litPatches.data[target];
         else if (isLit(target - push.lists.firstPatchTarget))
             ++lit;
     }
@@ -33,5 +33,5 @@ void main() {
     if (group.isOccluded == 1u) return;
     uint at = group.firstPatch;
     for (uint face = 0u; face < 6u; ++face)
-        if (hasPatch(group, face)) atomicMax(seenByFaces.data[6u * group.voxel + face], litSeen(at++) + 1u);
+        if (hasPatch(group, face)) atomicMax(visibleLitPatches.data[6u * group.voxel + face], countVisibleLit(at++) + 1u);
 }

@@ -1,6 +1,6 @@
 // Mean and variance of the light around each surfel, on the same surface.
 #include "shaders/scene/sampling.glsl"
-#include "passes/surfels/smooth_surfels/surroundings.glsl"
+#include "passes/surfels/smooth_surfels/neighbourhoods.glsl"
 
 float weights, squaredWeights, sum, squares;
 

@@ -68,7 +68,7 @@ void main() {
     vertex.key = push.isWritten != 0u ? unpackUint2x32(key) : uvec2(0u);
     vertex.next = NO_VERTEX;
     vertex.fromCache = vec3(0.0);
-    vertex.survival = fromCamera ? 1.0 : survival(albedo);
+    vertex.survival = fromCamera ? 1.0 : survivalProbability(albedo);
     vertices.data[v] = vertex;
 
     const bool survives = sobol2(s.id, hashCombine(push.seed, 1u)).x < vertex.survival;

@@ -24,7 +24,7 @@ void main() {
     if (left[3] < uint64_t(RADIANCE_CACHE_SAMPLE_UNITS / 4u)) return;
     bool isNew;
     uint collisions;
-    const uint slot = takeRadianceCell(g, oldKeys.data[old], isNew, collisions);
+    const uint slot = insertRadianceCell(g, oldKeys.data[old], isNew, collisions);
     if (slot == NO_CELL) {
         // Rounded up, so that no loss goes uncounted.
         const uint64_t unit = uint64_t(RADIANCE_CACHE_SAMPLE_UNITS);

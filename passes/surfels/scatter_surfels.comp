@@ -6,7 +6,7 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SortedSurfels { SortedSurfel data[]; };
-layout(scalar) readonly buffer SortedAt { SortedSurfels sorted; };
+layout(scalar) readonly buffer SortedRef { SortedSurfels sorted; };
 buffer Ends { uint data[]; } ends;  // At first where a voxel's list begins, at last where it ends.
 layout(push_constant) uniform Push {
     uint count;
@@ -19,5 +19,5 @@ void main() {
     const Surfel s = surfels.data[i];
     if (s.voxel == 0xffffffffu) return;
     sorted.data[atomicAdd(ends.data[s.voxel], 1u)] = 
-        SortedSurfel(s.position, push.firstNumber + i, s.normal, s.id | (s.area == 0.0 ? VOXRAY_COVERED : 0u));
+        SortedSurfel(s.position, push.firstNumber + i, s.normal, s.id | (s.area == 0.0 ? VOXRAY_OCCLUDED : 0u));
 }

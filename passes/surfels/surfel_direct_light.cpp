@@ -1,20 +1,22 @@
-#include "passes/surfels/surfel_light.h"
+#include "passes/surfels/surfel_direct_light.h"
 
 namespace voxray {
 
-SurfelLight::SurfelLight(ProgramOwner& owner)
-    : aim_(owner, "surfel_aim.comp"), add_(owner, "surfel_add.comp"), tint_(owner) {}
+SurfelDirectLight::SurfelDirectLight(ProgramOwner& owner)
+    : aim_(owner, "generate_shadow_rays.comp"),
+      add_(owner, "accumulate_direct_light.comp"),
+      paneTransmittance_(owner) {}
 
-void SurfelLight::plan(PassPlan& plan, uint32_t batch) {
+void SurfelDirectLight::plan(PassPlan& plan, uint32_t batch) {
     plan.buffer(rays_, "shadow rays", uint64_t(batch) * sizeof(Ray));
     plan.buffer(carried_, "shadow ray irradiance", uint64_t(batch) * 4 * sizeof(float));
     plan.buffer(occluded_, "shadow ray results", uint64_t(batch) * sizeof(uint32_t));
-    tint_.plan(plan, batch);
+    paneTransmittance_.plan(plan, batch);
 }
 
-void SurfelLight::measure(PassContext& context, const std::vector<LightSource>& sources,
-                          const Buffer& surfels, uint32_t count, uint32_t samples, uint32_t seed,
-                          const Buffer& direct) const {
+void SurfelDirectLight::measure(PassContext& context, const std::vector<LightSource>& sources,
+                                const Buffer& surfels, uint32_t count, uint32_t samples, uint32_t seed,
+                                const Buffer& direct) const {
     CommandStream& stream = context.stream;
     stream.fill(direct, 0);
     for (const LightSource& source : sources) {
@@ -32,7 +34,7 @@ void SurfelLight::measure(PassContext& context, const std::vector<LightSource>& 
                               {"emitterCount", context.scene.emitterCount},
                               {"seed", seed + source.kind}});
             context.tracer.occluded(stream, rays_, occluded_, count);
-            tint_.apply(context, rays_, carried_, 4, count);
+            paneTransmittance_.apply(context, rays_, carried_, 4, count);
             context.dispatch(
                 add_, count,
                 {{"carried", carried_}, {"occluded", occluded_}, {"direct", direct}, {"count", count}});

@@ -24,7 +24,7 @@ void main() {
 
     // Rays of this texel: a run of the block's, or at most one where texels outnumber rays.
     const bool fewer = g.raysPerBlock < count;
-    const uint first = fewer ? rayNear(g, t) : firstRay(g, t);
+    const uint first = fewer ? nearestRay(g, t) : firstRay(g, t);
     const uint last = fewer ? first + (rayTexel(g, block, first) == t ? 1u : 0u) : firstRay(g, t + 1u);
     vec3 sum = vec3(0.0);
     float rays = 0.0;

@@ -6,7 +6,7 @@
 namespace voxray {
 
 /// Bytes of so many uints in a shader: at least one's, for no buffer is empty.
-inline uint64_t uints(uint64_t count) {
+inline uint64_t uintBytes(uint64_t count) {
     return std::max<uint64_t>(count, 1) * sizeof(uint32_t);
 }
 

@@ -9,9 +9,9 @@ void requireClearPanes(const SceneState& state, const std::string& pass);
 
 /// What light loses to the colour of panes (scene/panes.h) that its rays cross. Does nothing where a scene
 /// has no coloured panes, and takes no memory.
-class PaneTint {
+class PaneTransmittance {
  public:
-    explicit PaneTint(ProgramOwner& owner);
+    explicit PaneTransmittance(ProgramOwner& owner);
 
     /// @param rays of one call of apply(), at most.
     void plan(PassPlan& plan, uint64_t rays);

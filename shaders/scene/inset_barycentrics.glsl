@@ -6,7 +6,7 @@
 
 // A point of a triangle, moved off its edges by the four roundings that interpolation takes: on the edge between a floor and a wall
 // they would decide which side of the wall it lies on, and from outside no light comes to it and a mirror's ray gets lost.
-vec2 offEdges(uint triangle, vec2 barycentrics) {
+vec2 insetBarycentrics(uint triangle, vec2 barycentrics) {
     const uvec3 v = triangleVertices(triangle);
     const vec3 a = vertexPosition(v.x), b = vertexPosition(v.y), c = vertexPosition(v.z);
     const float uncertain = 4.8e-7 * largestCoordinate(max(abs(a), max(abs(b), abs(c))));

@@ -11,6 +11,6 @@ namespace voxray {
 /// moves. A voxel counts where a triangle passes through its column along the axis that the triangle faces
 /// most, within the triangle's plane's depth there: all that exact voxelization finds, and about a hundredth
 /// more (alpha masks are taken for opaque). Takes a bit for each voxel of the grid.
-uint32_t countStillVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid);
+uint32_t countStaticVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid);
 
 }  // namespace voxray

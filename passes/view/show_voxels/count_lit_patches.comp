@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(scalar) readonly buffer Components { ClusterComponent data[]; } components;
 layout(scalar) readonly buffer MemberGroups { uint data[]; } memberGroups;
-writeonly buffer LitOfParts { uint data[]; } litOfParts;  // 6 a part.
+writeonly buffer LitPatches { uint data[]; } litPatches;  // 6 a part.
 layout(push_constant) uniform Push { uint count; } push;
 
 void main() {
@@ -20,5 +20,5 @@ void main() {
         for (uint face = 0u; face < 6u; ++face)
             if (hasPatch(group, face) && isLit(patchIndex(group, face))) ++lit[face];
     }
-    for (uint face = 0u; face < 6u; ++face) litOfParts.data[6u * i + face] = lit[face];
+    for (uint face = 0u; face < 6u; ++face) litPatches.data[6u * i + face] = lit[face];
 }

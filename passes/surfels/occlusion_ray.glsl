@@ -6,7 +6,7 @@
 #include "shaders/trace/ray_types.h"
 
 // `position`: off the surface, where rays may begin. The ray whose occlusion tells it. normal: geometric, unit length, on that side; voxelSize in m.
-Ray openSpaceRay(vec3 position, vec3 normal, float voxelSize) {
+Ray occlusionRay(vec3 position, vec3 normal, float voxelSize) {
     return Ray(position, 0.0, normal, voxelSize);
 }
 

@@ -13,9 +13,9 @@ layout(local_size_x = 64) in;
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer AllSurroundings { uvec4 data[]; };
 
 readonly buffer Begins { uint data[]; } begins;  // Of each surfel's neighbours, by slot.
-layout(scalar) readonly buffer PairsAt { NeighbourPairs pairs; };
-layout(scalar) readonly buffer LitAt { LitSurfels lit; };
-layout(scalar) readonly buffer SurroundingsAt { AllSurroundings surroundings; };
+layout(scalar) readonly buffer PairsRef { NeighbourPairs pairs; };
+layout(scalar) readonly buffer LitRef { LitSurfels lit; };
+layout(scalar) readonly buffer SurroundingsRef { AllSurroundings surroundings; };
 layout(push_constant) uniform Push {
     uint count;
     float noise;  // Relative variance of a surfel's irradiance, roughly.

@@ -1,4 +1,4 @@
-#include "passes/common/lights/pane_tint.h"
+#include "passes/common/lights/pane_transmittance.h"
 
 #include "base/error.h"
 #include "scene/panes.h"
@@ -22,12 +22,12 @@ void requireClearPanes(const SceneState& state, const std::string& pass) {
         pass, panes.materials[mesh.material].name);
 }
 
-PaneTint::PaneTint(ProgramOwner& owner)
+PaneTransmittance::PaneTransmittance(ProgramOwner& owner)
     : initRays_(owner, "init_pane_rays.comp"),
       initRaysAtHits_(owner, "init_pane_rays.comp", {{"AT_HITS", "1"}}),
       cross_(owner, "pane_cross.comp") {}
 
-void PaneTint::plan(PassPlan& plan, uint64_t rays) {
+void PaneTransmittance::plan(PassPlan& plan, uint64_t rays) {
     const bool isUsed = dimsLight(*plan.frame.scene);
     for (Kernel* kernel : {&initRays_, &initRaysAtHits_, &cross_}) kernel->compileIf(isUsed);
     if (!isUsed) return;
@@ -36,8 +36,8 @@ void PaneTint::plan(PassPlan& plan, uint64_t rays) {
     plan.scratchBuffer(active_, "rays that go on to panes", sizeof(uint32_t));
 }
 
-void PaneTint::apply(PassContext& context, const Buffer& rays, const Buffer& carried, uint32_t stride,
-                     uint32_t count, const Buffer* hits) const {
+void PaneTransmittance::apply(PassContext& context, const Buffer& rays, const Buffer& carried,
+                              uint32_t stride, uint32_t count, const Buffer* hits) const {
     RayTracer* panes = context.tracer.panes();
     if (!panes) return;
     CommandStream& stream = context.stream;

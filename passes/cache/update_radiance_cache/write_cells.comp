@@ -36,7 +36,7 @@ void main() {
     const RadianceCacheGrid g = radianceCacheGrid.data;
     bool isNew;
     uint collisions;
-    const uint slot = takeRadianceCell(g, packUint2x32(vertices.data[i].key), isNew, collisions);
+    const uint slot = insertRadianceCell(g, packUint2x32(vertices.data[i].key), isNew, collisions);
     if (isNew) atomicAdd(cellCounts.cells, 1u);
     if (collisions > 0u) atomicAdd(cellCounts.collisions, collisions);
     if (slot == NO_CELL)

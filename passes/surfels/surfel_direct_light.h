@@ -2,16 +2,16 @@
 
 #include "graph/pass.h"
 #include "passes/common/lights/light_sources.h"
-#include "passes/common/lights/pane_tint.h"
+#include "passes/common/lights/pane_transmittance.h"
 #include "passes/surfels/surfel_types.h"
 
 namespace voxray {
 
 /// Direct irradiance of surfels by shadow rays: one to each punctual light, `samples` to the emissive
 /// surfaces and as many to the environment.
-class SurfelLight {
+class SurfelDirectLight {
  public:
-    explicit SurfelLight(ProgramOwner& owner);
+    explicit SurfelDirectLight(ProgramOwner& owner);
 
     /// @param batch surfels in one call of measure(), at most.
     void plan(PassPlan& plan, uint32_t batch);
@@ -22,7 +22,7 @@ class SurfelLight {
  private:
     Kernel aim_, add_;
     Buffer rays_, carried_, occluded_;
-    PaneTint tint_;
+    PaneTransmittance paneTransmittance_;
 };
 
 }  // namespace voxray
