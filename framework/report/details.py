@@ -9,7 +9,7 @@ import pandas as pd
 
 from report import film, images, text
 from report.names import Names
-from report.results import IMAGES, LIGHTS, ReportError, Results, section
+from report.results import IMAGES, LIGHTS, ReportError, Results, folder_of, section
 
 
 @dataclass(frozen=True)
@@ -94,7 +94,7 @@ def variants(results: Results, lights: list[str], colors: dict[str, str], names:
 
 def thumbnails(results: Results, lights: list[str], shown: list[Variant]) -> list[Thumbnail]:
     """The first reference and each variant under each light, for those that have an image."""
-    folder = str(results.references()[0].get("folder") or "reference")
+    folder = folder_of(results.references()[0])
     rows = results.variants.set_index("variant")
     metric = results.metrics[0] if results.metrics else None
     small = []

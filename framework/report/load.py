@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -26,9 +26,17 @@ def load(directory: str | Path) -> Results:
     directory = Path(directory)
     warnings: list[str] = []
     variants = _read_variants(directory / "results.csv", warnings)
-    passes = _read_passes(directory / "passes.csv", warnings)
-    values = _read_values(directory / "values.csv", warnings)
-    frames = _read_frames(directory / "frames.csv", warnings)
+    times = "the time of each pass is"
+    if not (directory / "passes.csv").is_file():
+        warnings.append(f"passes.csv is missing: {times} not shown.")
+    passes = _read_optional(directory / "passes.csv", ("variant", "pass", "phase"), times, warnings)
+    _to_numbers(passes, _PASS_NUMBERS)
+    # Most runs have neither of these
+    values = _read_optional(directory / "values.csv", ("variant", "pass", "name", "frame", "value"), "what passes reported is",
+                            warnings)
+    _to_numbers(values, ("frame", "value"))
+    values = values[values["value"].notna()]
+    frames = _read_optional(directory / "frames.csv", ("variant", "frame"), "errors over frames are", warnings)
     manifest = _read_manifest(directory / "manifest.json", warnings)
 
     # The manifest names kinds of passes, metrics and sweep keys.
@@ -99,51 +107,18 @@ def _read_variants(path: Path, warnings: list[str]) -> pd.DataFrame:
     return table[~repeated].reset_index(drop=True)
 
 
-def _read_passes(path: Path, warnings: list[str]) -> pd.DataFrame:
-    columns = ["variant", "pass", "phase", *_PASS_NUMBERS]
-    table = pd.DataFrame(columns=columns)
-    if not path.is_file():
-        warnings.append("passes.csv is missing: the time of each pass is not shown.")
-    else:
-        try:
-            table = _read_table(path)
-            if not {"variant", "pass", "phase"} <= set(table.columns):
-                raise ReportError("passes.csv lacks a column variant, pass or phase")
-        except ReportError as error:
-            warnings.append(f"{error}: the time of each pass is not shown.")
-            table = pd.DataFrame(columns=columns)
-    _to_numbers(table, _PASS_NUMBERS)
-    return table
-
-
-def _read_values(path: Path, warnings: list[str]) -> pd.DataFrame:
-    """What passes reported; most runs have none and no such file."""
-    columns = ["variant", "pass", "name", "frame", "value"]
-    table = pd.DataFrame(columns=columns)
+def _read_optional(path: Path, columns: Sequence[str], left_out: str, warnings: list[str]) -> pd.DataFrame:
+    """A table without rows where there is no such file; likewise, with a warning, where it cannot be read or lacks a
+    column. @param left_out what the page does without then"""
     if path.is_file():
         try:
             table = _read_table(path)
-            if not set(columns) <= set(table.columns):
-                raise ReportError(f"values.csv lacks a column of {', '.join(columns)}")
+            if set(columns) <= set(table.columns):
+                return table
+            raise ReportError(f"{path.name} lacks a column of {', '.join(columns)}")
         except ReportError as error:
-            warnings.append(f"{error}: what passes reported is not shown.")
-            table = pd.DataFrame(columns=columns)
-    _to_numbers(table, ("frame", "value"))
-    return table[table["value"].notna()]
-
-
-def _read_frames(path: Path, warnings: list[str]) -> pd.DataFrame:
-    """Scores of each compared frame; only runs that compare several have such a file."""
-    table = pd.DataFrame(columns=["variant", "frame"])
-    if path.is_file():
-        try:
-            table = _read_table(path)
-            if not {"variant", "frame"} <= set(table.columns):
-                raise ReportError("frames.csv lacks a column variant or frame")
-        except ReportError as error:
-            warnings.append(f"{error}: errors over frames are not shown.")
-            table = pd.DataFrame(columns=["variant", "frame"])
-    return table
+            warnings.append(f"{error}: {left_out} not shown.")
+    return pd.DataFrame(columns=list(columns))
 
 
 def _read_manifest(path: Path, warnings: list[str]) -> dict:

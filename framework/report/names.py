@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import pandas as pd
 
+from report import text
 from report.ranking import is_numeric
 from report.results import Results
 
@@ -36,15 +37,11 @@ class Names:
     def listed(self, variants: list[str], limit: int = 6) -> str:
         """Several variants by their numbers, up to three by their names too."""
         if len(variants) <= 3:
-            return _joined([self.full(name) for name in variants])
+            return text.joined([self.full(name) for name in variants])
         numbers = [self.numbers[name] for name in variants]
         if len(numbers) > limit:
             return f"{', '.join(numbers[:limit])} and {len(numbers) - limit} more"
-        return _joined(numbers)
-
-
-def _joined(words: list[str]) -> str:
-    return " and ".join(part for part in (", ".join(words[:-1]), words[-1]) if part) if words else ""
+        return text.joined(numbers)
 
 
 def names_of(results: Results) -> Names:
@@ -64,11 +61,8 @@ def names_of(results: Results) -> Names:
 def families_of(results: Results, names: Names) -> list[Family]:
     """The families of the variants that finished, in the order of their first members."""
     groups: dict[tuple, list[str]] = {}
-    graphs = results.manifest.get("variants")
     for name in results.ok["variant"]:
-        graph = graphs.get(name) if isinstance(graphs, dict) else None
-        passes = [entry for entry in graph if isinstance(entry, dict)] if isinstance(graph, list) else []
-        key = tuple((str(p.get("pass")), str(p.get("id")), str(p.get("inputs"))) for p in passes)
+        key = tuple((str(p.get("pass")), str(p.get("id")), str(p.get("inputs"))) for p in results.graph_of(name))
         groups.setdefault(key or (name,), []).append(name)
     return [Family(_common(members, names), members, tuple(p[0] for p in key if isinstance(p, tuple)))
             for key, members in groups.items()]

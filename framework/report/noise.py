@@ -46,7 +46,7 @@ def _split(results: Results, light: str):
 
 
 def _of_bias(results: Results, biased: list[str], whose: str, names: Names) -> str:
-    filtered = [name for name in biased if any(entry.get("pass") in _FILTERS for entry in graph_of(results, name))]
+    filtered = [name for name in biased if any(entry.get("pass") in _FILTERS for entry in results.graph_of(name))]
     said = f"Bias is the larger part of {whose} error"
     if not filtered:
         return f"{said}: more rays don't lower it."
@@ -64,7 +64,7 @@ def parameters_of(results: Results, light: str, variant: str) -> list[str]:
 
 
 def _advice(results: Results, light: str, noisy: list[str]) -> str:
-    # By kind: one pass may have another id in each variant
+    # Grouped by kind, because one pass may have another id in each variant
     values: dict[str, list] = {}
     paths: dict[str, list[str]] = {}
     for variant in noisy:
@@ -82,13 +82,7 @@ def _advice(results: Results, light: str, noisy: list[str]) -> str:
 
 def _entry(results: Results, variant: str, owner: str) -> dict:
     """The pass of an id in a variant's graph, {} where the manifest does not tell."""
-    return next((entry for entry in graph_of(results, variant) if entry.get("id", entry.get("pass")) == owner), {})
-
-
-def graph_of(results: Results, variant: str) -> list[dict]:
-    """The passes of a variant with their parameters, as the manifest lists them."""
-    graph = section(results.manifest, "variants").get(variant)
-    return [entry for entry in graph if isinstance(entry, dict)] if isinstance(graph, list) else []
+    return next((entry for entry in results.graph_of(variant) if entry.get("id", entry.get("pass")) == owner), {})
 
 
 def _with_values(path: str, values: list) -> str:

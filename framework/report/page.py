@@ -6,7 +6,7 @@ import json
 
 from report import bars, charts, details, images, pages, parts, style, table, text, values
 from report.names import Names, families_of, names_of
-from report.results import IMAGES, Metric, Results, section
+from report.results import IMAGES, Metric, Results, folder_of, section
 from report.selection import selected
 from report.setting import setting_of
 from report.summary import summary, unfinished
@@ -115,7 +115,7 @@ def _charts(results: Results, lights, styles, names, anchors, curves) -> tuple[l
 
 def _pictured(results: Results, lights, variants: list[details.Variant]) -> list[tuple[str, str]]:
     """The references and variants whose images the page has: what ids of these begin with, and a name."""
-    references = [str(record.get("folder") or "reference") for record in results.references()]
+    references = [folder_of(record) for record in results.references()]
     found = [(folder, folder) for folder in dict.fromkeys(references)
              if any(results.image(folder, IMAGES[light][0]) for light in lights)]
     return found + [(variant.anchor, f"{variant.number} {variant.name}") for variant in variants
@@ -126,7 +126,7 @@ def _reference(results: Results, lights, warnings) -> dict:
     records = results.references()
     facts = [(key.replace("_", " "), text.figures(value) if isinstance(value, float) else text.plain(value))
              for key, value in records[0].items()]
-    folders = list(dict.fromkeys(str(record.get("folder") or "reference") for record in records))
+    folders = list(dict.fromkeys(folder_of(record) for record in records))
     views = [{"folder": folder, "light": light,
               "picture": details.picture(results, folder, IMAGES[light][0], images.embed, warnings)}
              for folder in folders for light in lights]

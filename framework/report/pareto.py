@@ -217,13 +217,8 @@ def _factor(spent: float, error: float, points: list[tuple[float, float]]) -> fl
     return math.nan if reached is None or reached.bound == ">" else spent / reached.milliseconds
 
 
-def _graph(run: Results, variant: str) -> list[dict]:
-    graph = section(run.manifest, "variants").get(variant)
-    return [entry for entry in graph if isinstance(entry, dict)] if isinstance(graph, list) else []
-
-
 def _samples_of_rival(run: Results, variant: str) -> int:
-    graph = _graph(run, variant)
+    graph = run.graph_of(variant)
     kinds = [str(entry.get("pass")) for entry in graph]
     if not RIVAL <= set(kinds) or any(kind.startswith(_NOT_OF_IT) for kind in kinds):
         return 0
@@ -233,7 +228,7 @@ def _samples_of_rival(run: Results, variant: str) -> int:
 def _passes(run: Results, variant: str) -> list[str]:
     # Each once, those of several layouts with theirs.
     return list(dict.fromkeys(f"{entry.get('pass')} ({entry[_LAYOUT]})" if _LAYOUT in entry else str(entry.get("pass"))
-                              for entry in _graph(run, variant)))
+                              for entry in run.graph_of(variant)))
 
 
 def _light_ms(run: Results, variant: str) -> float:

@@ -98,13 +98,13 @@ def _why_not_ranked(scene: Scene, views: list[Scene]) -> str:
         return "no variant of path_trace with filter_irradiance was measured to compare with"
     spps = {m.spp for m in scene.measured if m.is_rival}
     if not spps >= set(_SAMPLES):
-        return f"filtered path tracing was measured with {_and(sorted(spps))} samples a pixel, and {_and(_SAMPLES)} are needed"
+        return f"filtered path tracing was measured with {text.joined(sorted(spps))} samples a pixel, and {text.joined(_SAMPLES)} are needed"
     if not any(m.machine in machines and TRACED not in m.method for m in scene.measured):
         return "no other method was measured on the machine of filtered path tracing"
     if not views:
-        return f"none of {_and(_WORST_OF)} was measured"
+        return f"none of {text.joined(_WORST_OF)} was measured"
     if not all({m.spp for machine in machines for m in view.rivals(machine, "frame")} >= set(_SAMPLES) for view in views):
-        return f"more samples a pixel did not lower the error of filtered path tracing, of {_and(_SAMPLES)}"
+        return f"more samples a pixel did not lower the error of filtered path tracing, of {text.joined(_SAMPLES)}"
     return ""
 
 
@@ -124,8 +124,8 @@ def _without_error(runs: list[Results], metric: Metric, light: str) -> list[str]
 def _not_reached(scenes: list[Scene], views: list[list[Scene]], metrics: list[Metric]) -> list[str]:
     """Of ranked scenes those in which no method gets to the errors, whatever it may cost."""
     names = [own[0].name for own in _ranked(scenes, views) if pareto.best_at(own, "frame", _SAMPLES) is None]
-    errors = f"{'both errors' if len(metrics) == 2 else 'the error'} ({_and([metric.label for metric in metrics])})"
-    return [f"No method reaches {errors} of filtered path tracing with {_and(_SAMPLES)} samples a pixel, so none is called fastest there: "
+    errors = f"{'both errors' if len(metrics) == 2 else 'the error'} ({text.joined([metric.label for metric in metrics])})"
+    return [f"No method reaches {errors} of filtered path tracing with {text.joined(_SAMPLES)} samples a pixel, so none is called fastest there: "
             f"{', '.join(names)}."] if names else []
 
 
@@ -140,7 +140,7 @@ def _winners(scenes: list[Scene], views: list[list[Scene]], cost: str) -> list[s
         wins.setdefault(who, []).append(scene[0].name + ("" if factor.high < 1 else f" {_range([factor])}×"))
     if wins:
         listed = [f"{who} ({', '.join(names)})" for who, names in sorted(wins.items(), key=lambda entry: -len(entry[1]))]
-        return [f"By the time of {_words_of(cost)}, fastest at the errors of filtered path tracing with {_and(_SAMPLES)} samples a pixel: "
+        return [f"By the time of {_words_of(cost)}, fastest at the errors of filtered path tracing with {text.joined(_SAMPLES)} samples a pixel: "
                 f"{'; '.join(listed)}."]
     front = list(pareto.on_front(scenes, cost).items())[:_MAX_ON_FRONT]
     told = "; ".join(f"{method} ({count} of {len(scenes)} scene{'s' * (len(scenes) > 1)})" for method, count in front)
@@ -150,11 +150,6 @@ def _winners(scenes: list[Scene], views: list[list[Scene]], cost: str) -> list[s
 def _beaten(scenes: list[Scene], cost: str) -> list[str]:
     beaten = pareto.dominated(scenes, cost)
     return [f"By the time of {_words_of(cost)}, beaten in every scene by another method: {'; '.join(beaten)}."] if beaten else []
-
-
-def _and(words) -> str:
-    *first, last = map(str, words)
-    return f"{', '.join(first)} and {last}" if first else last
 
 
 def _gains(scenes: list[Scene], views: list[list[Scene]]) -> list[tuple[str, str, str, str]]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from report import images, table, text
 from report.line_chart import line_chart
 from report.names import Names
-from report.results import LIGHTS, Results, number, section
+from report.results import LIGHTS, Results, folder_of, number, section
 from report.style import Style
 
 
@@ -48,7 +48,7 @@ def regions(results: Results, lights: list[str], names: Names, anchors: dict[str
         pictures = []
         for record in results.references():
             fraction = number(section(record, "mask_fractions").get(name))
-            picture = picture_of(str(record.get("folder") or "reference"), f"mask.{name}.png")
+            picture = picture_of(folder_of(record), f"mask.{name}.png")
             if picture and fraction >= 0:
                 pictures.append((picture, f"{text.figures(100 * fraction)} % of the pixels"))
         words = ", ".join(f"{key.replace('_', ' ')} {text.plain(value)}" for key, value in conditions.items())

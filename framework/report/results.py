@@ -91,8 +91,8 @@ class Results:
         return [name for name in section(self.manifest, "variants") if name not in known]
 
     def sessions(self) -> list[tuple[str, list[str]]]:
-        """Of each process that measured variants which finished: when it began (UTC, "" where that is unknown), and
-        these variants. More than one where the run was resumed."""
+        """When each process that measured finished variants began (UTC, "" where that is unknown), and these variants. More
+        than one where the run was resumed."""
         listed = self.manifest.get("sessions")
         finished = set(self.ok["variant"])
         found = [(str(entry.get("started", "")), [name for name in entry["variants"] if name in finished])
@@ -135,7 +135,12 @@ class Results:
     def reference_folder(self, variant: str) -> str | None:
         """The folder below images/ of a variant's reference, None where it is unknown."""
         record = self.reference_of(variant)
-        return None if record is None else str(record.get("folder") or "reference")
+        return None if record is None else folder_of(record)
+
+    def graph_of(self, variant: str) -> list[dict]:
+        """The passes of a variant with their parameters, as the manifest lists them."""
+        graph = section(self.manifest, "variants").get(variant)
+        return [entry for entry in graph if isinstance(entry, dict)] if isinstance(graph, list) else []
 
     def noise(self, column: str, reference: dict | None) -> float:
         """About what a perfect image scores against a noisy reference, NaN where the score is freed of noise."""
@@ -191,6 +196,11 @@ def interval_ends(table: pd.DataFrame, column: str) -> tuple[pd.Series, pd.Serie
     low, high = (table[name] if name in table else value for name in interval_columns(column))
     are_known = np.isfinite(low) & np.isfinite(high)
     return low.where(are_known, value), high.where(are_known, value)
+
+
+def folder_of(reference: dict) -> str:
+    """The folder below images/ of a reference's record."""
+    return str(reference.get("folder") or "reference")
 
 
 def number(value) -> float:

@@ -8,7 +8,7 @@ from report.comparisons import comparisons
 from report.film import film_bytes
 from report.names import Names
 from report.ranking import pareto_front
-from report.results import IMAGES, LIGHTS, ReportError, Results, interval_ends
+from report.results import IMAGES, LIGHTS, ReportError, Results, folder_of, interval_ends
 
 FRONT, ALL = "front", "all"
 _MAX_BYTES = 50e6  # of images and rows in a page: charts and the text of some hundred variants take less than 10 MB
@@ -56,7 +56,7 @@ def front_of(results: Results, lights: list[str]) -> list[str]:
 
 def _bytes_left(results: Results, lights: list[str]) -> float:
     """What the images of variants may take."""
-    references = sum(_bytes(results, str(record.get("folder") or "reference"), lights) for record in results.references())
+    references = sum(_bytes(results, folder_of(record), lights) for record in results.references())
     return _MAX_BYTES - references - _ROW_BYTES * len(results.variants)
 
 

@@ -123,7 +123,7 @@ def _what_tells_apart(results: Results, light: str, ties: list[str]) -> str:
 
 def _of_edges(results: Results, light: str, ties: list[str]) -> str:
     """What to say where variants tie in the total and not in indirect light, and the g-buffer sees one point of a pixel."""
-    gbuffers = [entry for name in ties for entry in noise.graph_of(results, name) if entry.get("pass") == "gbuffer"]
+    gbuffers = [entry for name in ties for entry in results.graph_of(name) if entry.get("pass") == "gbuffer"]
     sees_one = any(entry.get("samples_per_pixel_edge", 1) == 1 for entry in gbuffers)
     metric = results.metrics[0]
     if light != "total" or not sees_one or LIGHTS["indirect"] + metric.key not in results.ok:
@@ -162,7 +162,7 @@ def _sessions(results: Results) -> list[str]:
 
 
 def _worse_than_nothing(results: Results, light: str, names: Names) -> list[str]:
-    # By what they fail, so that variants that fail alike stand together.
+    # Variants that are worse in the same metrics share a sentence.
     worse: dict[str, list[str]] = {}
     for metric in results.metrics[:3]:
         for name in all_beaten(results, metric, LIGHTS[light] + metric.key):
@@ -170,8 +170,7 @@ def _worse_than_nothing(results: Results, light: str, names: Names) -> list[str]
     sentences = []
     for measures in dict.fromkeys(map(tuple, worse.values())):
         found = [name for name, its in worse.items() if tuple(its) == measures]
-        labels = " and ".join([", ".join(measures[:-1]), measures[-1]] if len(measures) > 1 else measures)
-        sentences.append(f"Worse than a black or a constant image in {labels}: {names.listed(found)}.")
+        sentences.append(f"Worse than a black or a constant image in {text.joined(measures)}: {names.listed(found)}.")
     return sentences
 
 

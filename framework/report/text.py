@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
+from collections.abc import Iterable
 
 from markupsafe import Markup, escape
 
@@ -23,6 +24,12 @@ def figures(value: float, digits: int = 3) -> str:
     if not -5 <= exponent < 6:
         return f"{value:.{digits - 1}e}"
     return f"{value:,.{max(digits - 1 - exponent, 0)}f}".replace(",", "\u202f")
+
+
+def joined(words: Iterable) -> str:
+    """a, b and c"""
+    *first, last = [*map(str, words)] or [""]
+    return f"{', '.join(first)} and {last}" if first else last
 
 
 def cost(value: float) -> str:
