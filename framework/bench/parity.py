@@ -83,7 +83,7 @@ def _pixels_apart(test: Path, reference: Path) -> float | None:
         from report import exr_pixels
     except ImportError:
         return None
-    one, two = (sum(channels[name].astype(float) for name in "RGB") for channels in map(exr_pixels.read, (test, reference)))
+    one, two = (exr_pixels.rgb(path).sum(axis=-1) for path in (test, reference))
     scale = abs(two).clip(min=abs(two).mean())
     return float((abs(one - two) > _APART * scale).mean())
 

@@ -107,8 +107,7 @@ def read(results: Results) -> tuple[list[Stage], Images]:
 
 def _pixels(path: Path) -> np.ndarray:
     try:
-        channels = exr_pixels.read(path)
-        return np.stack([channels[name].astype(float) for name in "RGB"], axis=-1)
+        return exr_pixels.rgb(path)
     except FileNotFoundError as error:
         raise ReportError(f"{path}: missing: a graph must write 'indirect' for its error to be explained") from error
     except (OSError, ValueError, KeyError) as error:
@@ -116,7 +115,7 @@ def _pixels(path: Path) -> np.ndarray:
 
 
 def squared_nrmse(test: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Of each pixel, freed of the reference's noise: docs/units.md."""
+    """The squared error of each pixel, freed of the reference's noise: docs/units.md."""
     return ((test - a) * (test - b)).mean(axis=-1)
 
 

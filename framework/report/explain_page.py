@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import io
 from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 from PIL import Image
 
-from report import images as pictures
-from report import explain, pages, text
+from report import explain, images, pages, text
 from report.explain import Explained, Images, percent, sentence
 from report.images import Picture
 from report.load import load
@@ -44,18 +41,20 @@ def write(directory: Path) -> str:
     return sentence(explained[0])
 
 
-def render(results: Results, images: Images, explained: list[Explained]) -> str:
+def render(results: Results, rendered: Images, explained: list[Explained]) -> str:
     """The whole page, self-contained."""
-    scale = _scale(images)
+    scale = _scale(rendered)
     config = results.manifest.get("config", {})
     return pages.render(
         "explain.html.j2", name=str(config.get("name", "")).removeprefix("explain_"),
         sentences=[line for one in explained for line in _sentences(one)],
         charts=[_waterfall(one, f"waterfall-{i}") for i, one in enumerate(explained)],
-        tables=[(one.label, _rows(one)) for one in explained], stages=[part.stage for part in explained[0].parts],
-        previews=_previews(results, images), parts=_part_images(images, explained[0], scale), scale=text.figures(scale, 2),
-        sets=[(_name_of(chosen), *(text.figures(one.errors[chosen]) for one in explained)) for chosen in images.of],
-        labels=[one.label for one in explained], directory=str(results.directory), gradient=_gradient())
+        tables=[(one.label, _rows(one)) for one in explained],
+        stages=[(stage.name, ", ".join(stage.changes), ", ".join(stage.needs), stage.cure)
+                for stage in (part.stage for part in explained[0].parts)],
+        previews=_previews(results, rendered), parts=_part_images(rendered, explained[0], scale), scale=text.figures(scale, 2),
+        sets=[(_name_of(chosen), *(text.figures(one.errors[chosen]) for one in explained)) for chosen in rendered.of],
+        labels=[one.label for one in explained], directory=str(results.directory), gradient=images.gradient(_SIGNED_COLORS))
 
 
 def csv_lines(explained: list[Explained]):
@@ -129,39 +128,31 @@ def _waterfall(one: Explained, chart_id: str) -> str:
         return to_svg(figure, chart_id, f"Parts of {one.label}", titles)
 
 
-def _scale(images: Images) -> float:
+def _scale(rendered: Images) -> float:
     """Difference that gets the full colour: the 98th percentile of the whole error's."""
-    error = np.abs((images.of[frozenset()] - images.reference).mean(axis=-1))
+    error = np.abs((rendered.of[frozenset()] - rendered.reference).mean(axis=-1))
     return float(np.percentile(error, 98)) or 1.0
 
 
 def _signed(difference: np.ndarray, scale: float) -> Picture:
     shade = np.clip(difference.mean(axis=-1) / scale, -1, 1) * 0.5 + 0.5
-    colored = (matplotlib.colormaps[_SIGNED_COLORS](shade)[..., :3] * 255).round().astype(np.uint8)
-    out = io.BytesIO()
-    Image.fromarray(colored).save(out, "PNG", optimize=True)
-    return Picture(pages.data_uri(out.getvalue()), colored.shape[1], colored.shape[0])
+    return images.embed_image(Image.fromarray(images.colors(_SIGNED_COLORS, shade)))
 
 
-def _part_images(images: Images, one: Explained, scale: float) -> list[Shown]:
-    error = images.of[frozenset()] - images.reference
+def _part_images(rendered: Images, one: Explained, scale: float) -> list[Shown]:
+    error = rendered.of[frozenset()] - rendered.reference
     shown = [Shown(_signed(error, scale), "whole error", "image − reference")]
     rest = error
     for part in one.parts:
-        added = images.part(part.stage)
+        added = rendered.part(part.stage)
         rest = rest - added
         shown.append(Shown(_signed(added, scale), part.stage.name, f"{percent(part.share)} of {one.label}"))
     return shown + [Shown(_signed(rest, scale), "rest", f"{percent(one.rest)} of {one.label}")]
 
 
-def _previews(results: Results, images: Images) -> list[Shown]:
-    every = frozenset(set().union(*images.of))
-    name = results.reference_folder(images.names[frozenset()]) or "reference"
-    listed = (("reference", name), ("as it is", images.names[frozenset()]), ("all stages swapped", images.names[every]))
-    return [Shown(pictures.embed(path), title, "indirect light") for title, folder in listed
+def _previews(results: Results, rendered: Images) -> list[Shown]:
+    every = frozenset(set().union(*rendered.of))
+    name = results.reference_folder(rendered.names[frozenset()]) or "reference"
+    listed = (("reference", name), ("as it is", rendered.names[frozenset()]), ("all stages swapped", rendered.names[every]))
+    return [Shown(images.embed(path), title, "indirect light") for title, folder in listed
             if (path := results.image(folder, IMAGES["indirect"][0]))]
-
-
-def _gradient(steps: int = 9) -> str:
-    colors = (matplotlib.colormaps[_SIGNED_COLORS](np.linspace(0, 1, steps))[:, :3] * 255).round().astype(int)
-    return ", ".join(f"#{r:02x}{g:02x}{b:02x}" for r, g, b in colors)

@@ -39,6 +39,12 @@ def _header(data):
     return attributes, at + 1
 
 
+def rgb(path):
+    """R, G and B in double precision, shape (height, width, 3). Raises as read(), KeyError where one of them is missing."""
+    channels = read(path)
+    return numpy.stack([channels[name].astype(float) for name in "RGB"], axis=-1)
+
+
 def read(path):
     """Channels by name, each of shape (height, width). Raises ValueError for files of another kind."""
     with open(path, "rb") as file:

@@ -36,20 +36,26 @@ def embed_error(path: Path) -> Picture:
     # A palette image stays as small as the grey one.
     grey = open_png(path).convert("L")
     palette = Image.fromarray(np.asarray(grey), mode="P")
-    palette.putpalette(_magma().tobytes())
+    palette.putpalette(colors(ERROR_COLORS, np.arange(256)).tobytes())
+    return embed_image(palette)
+
+
+def embed_image(image: Image.Image) -> Picture:
+    """The image as PNG."""
     out = io.BytesIO()
-    palette.save(out, "PNG", optimize=True)
-    return Picture(data_uri(out.getvalue()), *grey.size)
+    image.save(out, "PNG", optimize=True)
+    return Picture(data_uri(out.getvalue()), *image.size)
 
 
-def error_gradient(steps: int = 9) -> str:
-    """The colours of an error map from 0 to 1, as the stops of a CSS gradient."""
-    colors = _magma()[np.linspace(0, 255, steps).astype(int)]
-    return ", ".join(f"#{r:02x}{g:02x}{b:02x}" for r, g, b in colors)
+def colors(name: str, values: np.ndarray) -> np.ndarray:
+    """8-bit sRGB of matplotlib's colour map `name`, shape (..., 3), for entries of the map or for values from 0 to 1."""
+    return (matplotlib.colormaps[name](values)[..., :3] * 255).round().astype(np.uint8)
 
 
-def _magma() -> np.ndarray:
-    return (matplotlib.colormaps[ERROR_COLORS](np.arange(256))[:, :3] * 255).round().astype(np.uint8)
+def gradient(name: str, steps: int = 9) -> str:
+    """A colour map from 0 to 1 as the stops of a CSS gradient."""
+    stops = colors(name, np.linspace(0, 255, steps).astype(int))
+    return ", ".join(f"#{r:02x}{g:02x}{b:02x}" for r, g, b in stops)
 
 
 def open_png(path: Path, data: bytes | None = None) -> Image.Image:

@@ -58,7 +58,7 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
         value_charts=values.value_charts(shown, styles, names),
         bars=bars.bar_groups(shown, colors, names, anchors), reference=_reference(results, lights, warnings),
         variants=variants, max_rows=_MAX_ROWS, left_out=len(results.variants) - len(variants),
-        error_gradient=images.error_gradient(), provenance=_provenance(results),
+        error_gradient=images.gradient(images.ERROR_COLORS), provenance=_provenance(results),
         config=text.yaml_like(results.manifest["config"]) if results.manifest.get("config") else "",
         manifest=json.dumps(manifest, indent=2, ensure_ascii=False) if manifest else "",
         warnings=warnings)

@@ -76,13 +76,13 @@ def _with_rival(scenes: list[Scene]) -> list[Scene]:
     return [scene for scene in scenes if any(m.is_rival for m in scene.measured)]
 
 
-def _savings(scenes: list[Scene], cost: str) -> list[tuple[str, list[str], str, str]]:
+def _savings(scenes: list[Scene], cost: str) -> list[tuple[str, ...]]:
     """Rows: method, range of factors in each scene, median, how often it reached the error."""
     rows = []
     by_scene = [pareto.speed_ups(scene, cost) for scene in scenes]
     for method, (median, _, reached, of) in pareto.median_speed_ups(scenes, cost).items():
         cells = [_range(own.get(method, [])) for own in by_scene]
-        rows.append((method, cells, text.figures(median, 2), f"{reached} of {of}"))
+        rows.append((method, *cells, text.figures(median, 2), f"{reached} of {of}"))
     return rows
 
 
@@ -181,10 +181,10 @@ def _best_points(scenes: list[Scene]) -> list[tuple[str, ...]]:
     return rows
 
 
-def _equal_time(scenes: list[Scene], cost: str) -> list[tuple[str, list[str]]]:
+def _equal_time(scenes: list[Scene], cost: str) -> list[tuple[str, ...]]:
     by_scene = [pareto.errors_at_equal_time(scene, cost) for scene in scenes]
     methods = dict.fromkeys(method for own in by_scene for method in own)
-    return [(method, [_range(own.get(method, [])) for own in by_scene]) for method in methods]
+    return [(method, *(_range(own.get(method, [])) for own in by_scene)) for method in methods]
 
 
 def _range(factors: list[Factor]) -> str:

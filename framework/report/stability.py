@@ -82,10 +82,7 @@ class Variant:
 
 def _pixels(path: Path | None) -> np.ndarray:
     """RGB, shape (height, width, 3); NaN where there is no image."""
-    if path is None:
-        return np.full((1, 1, 3), math.nan)
-    channels = exr_pixels.read(path)
-    return np.stack([channels[name].astype(float) for name in "RGB"], axis=-1)
+    return np.full((1, 1, 3), math.nan) if path is None else exr_pixels.rgb(path)
 
 
 def _leak(variant: Variant, scale: float) -> float:
@@ -211,7 +208,7 @@ def with_remedies(cells: list[Cell], directory: Path, rows: list[Row]) -> list[C
 
 
 def failing_of(cells: list[Cell]) -> dict[str, dict[str, list[str]]]:
-    """By profile and method, the scenes of cells that fail but run."""
+    """The scenes of cells that fail but run, by profile and method."""
     failing: dict[str, dict[str, list[str]]] = {}
     for cell in cells:
         if cell.fails and not math.isnan(cell.value):
