@@ -7,6 +7,7 @@ from pathlib import Path
 
 from bench import processes
 from report import pages, text
+from report.rows import markdown_table
 
 _HERE = Path(__file__).resolve().parent
 _FAR = 0.01  # a mean ratio so far from 1 is marked
@@ -183,9 +184,7 @@ def markdown(data: dict, tables: list[Table]) -> str:
     for table in tables:
         lines += [f"## {table.title}", ""]
         lines += [table.note, ""] if table.note else []
-        lines += ["| " + " | ".join(table.headings) + " |", "| --- " * len(table.headings) + "|"]
-        lines += ["| " + " | ".join(_plain(cell) for cell in row) + " |" for row in table.rows]
-        lines.append("")
+        lines += [*markdown_table(table.headings, (map(_plain, row) for row in table.rows)), ""]
     return "\n".join(lines)
 
 
@@ -210,7 +209,7 @@ def render(data: dict, tables: list[Table]) -> str:
 
 
 def _strips(data: dict) -> list[tuple[str, list[tuple[str, str]]]]:
-    """Of each method the images of all runs that were compared, as they were before any was removed."""
+    """By method, the images of all runs that were compared."""
     strips: dict[str, dict[str, str]] = {}
     for row in data.get("parity", []):
         for run, path in zip(row["pair"].split(" against "), row.get("pictures", [])):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import pandas as pd
 
@@ -50,7 +50,7 @@ class Variant:
 
 @dataclass(frozen=True)
 class Thumbnail:
-    """A small copy of an image that the page shows elsewhere, under the id `image`."""
+    """A small copy of an image that the page shows elsewhere, under the id `image`; it links to `anchor`."""
 
     light: str
     image: str
@@ -61,21 +61,11 @@ class Thumbnail:
 
 
 @dataclass(frozen=True)
-class Copy:
-    """A copy of the image with the id `image`, and where it leads."""
-
-    image: str
-    anchor: str
-    name: str
-    facts: str
-
-
-@dataclass(frozen=True)
 class Lead:
     """What the page begins with under one light: the reference, the variant nearest to it, and that one's error map."""
 
     light: str
-    copies: list[Copy]
+    copies: list[Thumbnail]
 
 
 def picture(results: Results, folder: str, name: str, embed: Callable, warnings: list[str]) -> images.Picture | None:
@@ -131,9 +121,8 @@ def leads(results: Results, lights: list[str], shown: list[Variant], small: list
             continue
         best = min(variants_of, key=lambda copy: metric.rank(scores[with_error[copy.anchor].full_name]))
         found.append(Lead(light, [
-            Copy(reference.image, reference.anchor, "reference", f"{light} light"),
-            Copy(best.image, best.anchor, f"{best.number} {best.name}", f"nearest to it: {best.facts}"),
-            Copy(f"{best.image}-error", best.anchor, "its error", "HDR-FLIP: black is none")]))
+            replace(reference, facts=f"{light} light"), replace(best, facts=f"nearest to it: {best.facts}"),
+            replace(best, image=f"{best.image}-error", number="", name="its error", facts="HDR-FLIP: black is none")]))
     return found
 
 

@@ -16,9 +16,9 @@ _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's r
 _MAX_NAMED_POINTS = 12
 _MAX_LISTED = 12  # variants that a note names
 _MAX_ROWS = 500  # of the table that are in sight at first: browsers take long to lay out thousands
-# Of the manifest:
-_SHOWN_ELSEWHERE = ("identity", "config", "metrics", "seed_metrics", "temporal_metrics", "warnings", "baselines", "reference", "references", "variants",
-                    "noise_parameters", "sessions", "inputs")
+# Entries of the manifest
+_SHOWN_ELSEWHERE = ("identity", "config", "metrics", "seed_metrics", "temporal_metrics", "warnings", "baselines", "reference",
+                    "references", "variants", "noise_parameters", "sessions", "inputs")
 
 
 def render(results: Results, wanted: list[str] | None = None) -> str:
@@ -79,23 +79,23 @@ def _split(results: Results, columns: list[table.Column]) -> list[Metric]:
     return [metric for metric in results.seed_metrics if any(column.metric == metric for column in columns)]
 
 
-def _has_short_names(results: Results, names: Names) -> bool:
-    """Whether names can be read at points of a chart; else numbers stand there."""
+def _point_labels(results: Results, names: Names) -> dict[str, str]:
+    """Names where they can be read at points of a chart, else numbers."""
     drawn = [names.short[name] for name in results.ok["variant"]]
-    return len(drawn) <= _MAX_NAMED_POINTS and all(len(name) <= _LONGEST_POINT_LABEL for name in drawn)
+    is_legible = len(drawn) <= _MAX_NAMED_POINTS and all(len(name) <= _LONGEST_POINT_LABEL for name in drawn)
+    return names.short if is_legible else names.numbers
 
 
 def _overviews(results: Results, lights, styles, names, anchors, curves) -> dict[str, charts.Chart]:
-    """By light, the chart that stands next to the first images: the first error against the time of one frame."""
-    labels = names.short if _has_short_names(results, names) else names.numbers
+    """The chart next to the first images, by light: the first error against the time of one frame."""
+    labels = _point_labels(results, names)
     drawn = {light: charts.cost_error_chart(results, metric, light, False, styles, labels, anchors, f"overview-{light}", curves, names)
              for light in lights for metric in results.metrics[:1]}
     return {light: chart for light, chart in drawn.items() if chart}
 
 
 def _charts(results: Results, lights, styles, names, anchors, curves) -> tuple[list[dict], list[str]]:
-    short = _has_short_names(results, names)
-    labels = names.short if short else names.numbers
+    labels = _point_labels(results, names)
     groups, not_drawn = [], set()
     for light in lights:
         for with_build in (False, True):
@@ -108,7 +108,7 @@ def _charts(results: Results, lights, styles, names, anchors, curves) -> tuple[l
                     drawn.append(chart)
                     not_drawn.update(f"{names.full(name)} ({metric.label}, {light})" for name in chart.not_drawn)
             if drawn:
-                groups.append({"light": light, "time": time, "charts": drawn, "numbered": not short})
+                groups.append({"light": light, "time": time, "charts": drawn, "numbered": labels is names.numbers})
     more = len(not_drawn) - _MAX_LISTED
     return groups, sorted(not_drawn)[:_MAX_LISTED] + ([f"and {more} more"] if more > 0 else [])
 
@@ -151,9 +151,7 @@ def _manifest_of(results: Results, shown: Results) -> dict:
 
 
 def _provenance(results: Results) -> list[tuple[str, str]]:
-    facts = []
-    for key, value in results.manifest.items():
-        if key not in _SHOWN_ELSEWHERE:
-            facts.append((key.replace("_", " "), text.plain(value)))
+    facts = [(key.replace("_", " "), text.plain(value)) for key, value in results.manifest.items()
+             if key not in _SHOWN_ELSEWHERE]
     sessions = results.sessions()
     return facts + [(f"session of {began}", ", ".join(names)) for began, names in sessions if len(sessions) > 1]

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from report import images, pages, stability, text
+from report.rows import markdown_table
 from report.stability import MEASURES, UNKNOWN, Cell, Row
 
 
@@ -65,7 +66,7 @@ def methods_of(cells: list[Cell]) -> list[str]:
 
 
 def rows_of(cells: list[Cell]) -> Iterator[tuple[Row, list[Cell | None]]]:
-    """Each row with its cells in the order of methods_of(), None where a method was not asked there."""
+    """Each row with its cells in the order of methods_of(), None where a method did not run there."""
     found = {(cell.row, cell.method): cell for cell in cells}
     for row in dict.fromkeys(cell.row for cell in cells):
         yield row, [found.get((row, method)) for method in methods_of(cells)]
@@ -84,12 +85,11 @@ def summary(cells: list[Cell]) -> str:
 
 
 def markdown(cells: list[Cell]) -> Iterator[str]:
-    methods = methods_of(cells)
-    yield f"| scene | measure | limit, % | {' | '.join(methods)} |"
-    yield "| --- " * (3 + len(methods)) + "|"
-    for row, found in rows_of(cells):
-        texts = ["" if cell is None else f"**{percent(cell.value)}**" if cell.fails else percent(cell.value) for cell in found]
-        yield f"| {row.scene} | {row.measure} | {limits(row)} | {' | '.join(texts)} |"
+    def value(cell: Cell | None) -> str:
+        return "" if cell is None else f"**{percent(cell.value)}**" if cell.fails else percent(cell.value)
+
+    return markdown_table(["scene", "measure", "limit, %", *methods_of(cells)],
+                          ([row.scene, row.measure, limits(row), *map(value, found)] for row, found in rows_of(cells)))
 
 
 def csv_lines(cells: list[Cell]) -> Iterator[list]:
@@ -101,7 +101,7 @@ def csv_lines(cells: list[Cell]) -> Iterator[list]:
 
 
 def _table(cells: list[Cell]) -> list[tuple[Row, str, list[tuple[str, str, str]]]]:
-    """Of each row its limits, and of each cell its text, its CSS class and its title."""
+    """The rows with their limits, and text, CSS class and title of each of their cells."""
     shown = []
     for row, found in rows_of(cells):
         entries = [("", "", "not asked") if cell is None else
