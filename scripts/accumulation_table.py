@@ -9,7 +9,7 @@ import sys
 
 sys.dont_write_bytecode = True
 sys.path.append(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "framework"))
-from report.rows import read_rows  # noqa: E402
+from report.rows import markdown_table, read_rows  # noqa: E402
 
 COLUMNS = (("camera moves", "nRMSE"), ("camera moves", "flicker"), ("light moves", "nRMSE"), ("light moves", "flicker"),
            ("light off", "nRMSE"), ("light off", "frames lit"))
@@ -40,11 +40,8 @@ def table(folder):
 def main():
     if len(sys.argv) != 2:
         raise SystemExit(__doc__)
-    rows = table(sys.argv[1])
-    print("| gather | history | " + " | ".join(f"{scene}: {what}" for scene, what in COLUMNS) + " |")
-    print("| --- " * (2 + len(COLUMNS)) + "|")
-    for row in rows:
-        print("| " + " | ".join(row) + " |")
+    headings = ["gather", "history", *(f"{scene}: {what}" for scene, what in COLUMNS)]
+    print("\n".join(markdown_table(headings, table(sys.argv[1]))))
 
 
 if __name__ == "__main__":

@@ -13,11 +13,11 @@ import sys
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "framework"))
 from report import exr_pixels  # noqa: E402
-from report.rows import read_rows  # noqa: E402
+from report.rows import markdown_table, read_rows  # noqa: E402
 
 VOXELS = "voxelize.resolution"
 COLUMNS = ("indirect_mean_ratio", "indirect_relmse", "indirect_nrmse")
-NO_RATIO = 1e6  # Of an image over a black reference.
+NO_RATIO = 1e6  # the mean ratio that an image has over a black reference
 # What the floor outside of shell_room reflects of the sun alone, W/(m² sr): albedo / pi times irradiance times cosine.
 SUNLIT_FLOOR = 0.75 / math.pi * 20 * 0.6 / math.hypot(0.5, 0.6, 1)
 PLAIN = {"variant", "status", "error", "device", "tracer", VOXELS, "inject", "gather"}
@@ -66,19 +66,17 @@ def baselines(folder):
             continue
         which = next(filter(None, (variants.get(name) for name in reference["variants"])), "")
         texts = (" / ".join(f"{float(f'{s[name]:.2g}'):g}" for name in COLUMNS) for s in (scores["black"], scores["constant"]))
-        yield f"| `{name_of(folder)}`{', ' + which if which else ''} | " + " | ".join(texts) + " |"
+        yield f"`{name_of(folder)}`{', ' + which if which else ''}", *texts
 
 
 def table(rows, text):
-    """A line an injection, a column a gather and resolution; `text` of each row. Of a chain the last pass has the name."""
+    """A line an injection, named by the last pass of its chain, and a column a gather and resolution; `text` of each row."""
     cells = {(swept(row), row["inject"].split(" + ")[-1], row["gather"], int(row[VOXELS])): text(row) for row in rows}
     lines = dict.fromkeys((key[0], key[1]) for key in cells)
     columns = sorted({(key[2], key[3]) for key in cells}, key=lambda column: (column[0] != "gather_rays", column))
-    yield "| injection | " + " | ".join(f"`{gather}`, {voxels}³" for gather, voxels in columns) + " |"
-    yield "|" + " --- |" * (1 + len(columns))
-    for variant, inject in lines:
-        found = [cells.get((variant, inject, *column), "") for column in columns]
-        yield f"| {inject}{', ' + variant if variant else ''} | " + " | ".join(found) + " |"
+    return markdown_table(["injection", *(f"`{gather}`, {voxels}³" for gather, voxels in columns)],
+                          ((f"{inject}{', ' + variant if variant else ''}",
+                            *(cells.get((variant, inject, *column), "") for column in columns)) for variant, inject in lines))
 
 
 if __name__ == "__main__":
@@ -89,6 +87,6 @@ if __name__ == "__main__":
         if name_of(results) == "shell_room" and black:
             print("\nLight inside over light outside, %:\n")
             print("\n".join(table(black, lambda row, folder=results: f"{leak(folder, row):.2g}")))
-    print("\n### A black and a constant image\n\n| scene | black | constant, of the right mean |\n| --- | --- | --- |")
-    for results in sys.argv[1:]:
-        print("\n".join(baselines(results)))
+    print("\n### A black and a constant image\n")
+    print("\n".join(markdown_table(("scene", "black", "constant, of the right mean"),
+                                   (row for results in sys.argv[1:] for row in baselines(results)))))

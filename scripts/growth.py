@@ -19,6 +19,10 @@ import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
+sys.dont_write_bytecode = True
+sys.path.append(str(ROOT / "framework"))
+from report.rows import markdown_table, read_rows  # noqa: E402
+
 TARGETS = {("triangles", "gather_irradiance ms"): 0.05, ("triangles", "gather_cones ms"): 0.05, ("triangles", "build ms"): 1.05,
            ("voxels", "voxelize bytes"): 1.05, ("pixels", "frame ms"): 1.02}
 SIZES = {  # quick, usual
@@ -51,17 +55,16 @@ def series(rows):
 
 def table(rows):
     """Markdown: a row for each measure, its exponent and target."""
-    lines = ["| axis | measure | smallest | largest | exponent | target |", "| --- | --- | --- | --- | --- | --- |"]
+    found = []
     for (axis, measure), points in series(rows).items():
         slope, target = exponent(points), TARGETS.get((axis, measure))
         ends = [f"{value:.4g} at {size:,}" for size, value in (min(points), max(points))]
-        lines.append(f"| {axis} | {measure} | {ends[0]} | {ends[1]} | {'' if slope is None else f'{slope:.2f}'} | "
-                     f"{'' if target is None else f'at most {target:g}'} |")
-    return "\n".join(lines)
+        found.append((axis, measure, *ends, "" if slope is None else f"{slope:.2f}", "" if target is None else f"at most {target:g}"))
+    return "\n".join(markdown_table(("axis", "measure", "smallest", "largest", "exponent", "target"), found))
 
 
 def sphere(path, triangles):
-    """A glTF file of a sphere of radius 1 with about so many triangles; how many it has."""
+    """Writes a glTF file of a sphere of radius 1 with about `triangles` of them, and returns how many it has."""
     rings = max(3, round(math.sqrt(triangles / 4)) + 1)
     slices = 2 * rings
     points, indices = bytearray(), []
@@ -72,11 +75,8 @@ def sphere(path, triangles):
     for i in range(rings):
         for j in range(slices):
             p, q = i * (slices + 1) + j, (i + 1) * (slices + 1) + j
-            indices += ([p, p + 1, q + 1] if i < rings - 1 else []) + ([p, q + 1, q] if i else [])
-            if i == 0:
-                indices[-3:] = [p, p + slices + 2, q]
-            if i == rings - 1:
-                indices[-3:] = [p, p + 1, q]
+            # Quads at the poles are triangles
+            indices += [p, q + 1, q] if i == 0 else [p, p + 1, q] if i == rings - 1 else [p, p + 1, q + 1, p, q + 1, q]
     data = bytes(points) + struct.pack(f"<{len(indices)}I", *indices)
     count = len(points) // 12
     path.write_text(json.dumps({
@@ -128,19 +128,15 @@ def config(axis, size, out):
             "measure": {"frames": 3, "warmup": 1}, **extra}, size
 
 
-def read(path):
-    with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
-
-
 def measures(axis, size, folder):
-    """Rows of a run's files: of the whole those of the first variant, of each pass those of the first variant that has it."""
-    results, passes = read(folder / "results.csv"), read(folder / "passes.csv")
+    """Rows (axis, size, measure, value) of a run: whole times and memory of its first variant, and the time of each pass in the
+    first variant that has it."""
+    results, passes = read_rows(folder, "results.csv"), read_rows(folder, "passes.csv")
     for failed in (row for row in results if row["status"] != "ok"):
         raise RuntimeError(failed["error"])
     result = results[0]
     if axis == "voxels":
-        size = next(int(float(row["value"])) for row in read(folder / "values.csv") if row["name"] == "voxels")
+        size = next(int(float(row["value"])) for row in read_rows(folder, "values.csv") if row["name"] == "voxels")
     timed = {}
     for row in passes:
         if row["pass"] != "compare_voxels":
