@@ -8,7 +8,7 @@ import subprocess
 import threading
 
 _PERIOD_MS = 100
-_BUSY_PERCENT = 1  # Of the time; below it the device is not what is measured
+_BUSY_PERCENT = 1  # of the time; where the device is less busy, its clock is not counted
 
 
 class ClockWatch:

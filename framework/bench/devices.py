@@ -21,7 +21,7 @@ class Device:
 
     @property
     def own_tracers(self) -> list[str]:
-        """Those that run on the device: all but Embree."""
+        """The tracers that run on the device: all but Embree."""
         return [name for name in self.facts.get("ray tracers", "").split(", ") if name and name != "embree"]
 
 

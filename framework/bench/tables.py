@@ -41,7 +41,8 @@ def _rate(count: int, milliseconds: float) -> float | None:
 
 
 def slowest(rows: Iterable[dict]) -> list[dict]:
-    """Of each kind of pass and phase the row that took longest by the device's own tracers, where those ran it; and how many there are."""
+    """For each kind of pass and phase the row that took longest, by the device's own tracers where those ran it, and how many
+    rows there are."""
     groups: dict[tuple, list[dict]] = {}
     for row in rows:
         groups.setdefault((row["kind"], row["phase"]), []).append(row)
@@ -50,7 +51,7 @@ def slowest(rows: Iterable[dict]) -> list[dict]:
 
 
 def fastest_rays(rows: Iterable[dict]) -> list[dict]:
-    """Of each kind of pass that traces and each tracer the row with most rays a second."""
+    """For each kind of pass that traces and each tracer the row with most rays a second."""
     groups: dict[tuple, list[dict]] = {}
     for row in rows:
         if row["rays_per_s"] or row["voxel_steps_per_s"]:

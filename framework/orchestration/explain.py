@@ -35,7 +35,7 @@ def chosen(variants: list[dict], name: str | None) -> dict:
 
 
 def name_of(plan: dict) -> str:
-    """Of the experiment; a name has no more letters."""
+    """The experiment's name, of at most 100 characters as the program demands."""
     return f"explain_{plan['name']}"[:100]
 
 

@@ -19,7 +19,7 @@ _SENT_BY_KERNEL = 0x80  # si_code of a terminal's Ctrl-C, which the whole proces
 
 
 def option_words(options: SimpleNamespace, names: Iterable[str]) -> list[str]:
-    """Those of the options that were given, as the program takes them."""
+    """The options that were given, as the program takes them."""
     words: list[str] = []
     for name in names:
         value = getattr(options, name, None)

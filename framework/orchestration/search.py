@@ -8,27 +8,26 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-NONE = "-"  # in place of a value that does not reach a variant, as framework/config/sweep.h has it
-SLACK = 1.15  # of a tried variant's expected error over the target, up to which a cheaper one is tried at full size
-GUESS = 2.0  # the same of a variant that was not tried, for a small trial: so far may a guess be off
-WORTHWHILE = 0.7  # the part of a full trial's cost above which a small one is not run
-DESIGN = 0.5  # the part of the budget that goes into learning how each parameter acts
+NONE = "-"  # in position of a value that does not reach a variant, as framework/config/sweep.h has it
+SLACK = 1.15  # the largest expected error over the target at which a variant is tried at full size
+GUESS = 2.0  # the same for a small trial of a variant that was not tried: its expected error is less certain
+WORTHWHILE = 0.7  # the fraction of a full trial's cost above which a small one is not run
+DESIGN = 0.5  # the fraction of the budget that goes into learning how each parameter acts
 
 
 @dataclass(frozen=True)
 class Variant:
-    """group: values of axes that swap passes; place: of each other axis, from 0 (its first value) to 1 (its last)."""
+    """group: values of axes that swap passes; position: of each other axis, from 0 (its first value) to 1 (its last)."""
 
     name: str
     group: tuple[str, ...]
-    place: tuple[float, ...]
+    position: tuple[float, ...]
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """Of one trial. excess: error over the target, at most 1 where it is met; costs: of the variant at full size, for a
-    small trial as far as it can tell: parts that are added up, each of which goes with parameters in its own way; spent:
-    what the trial itself cost, in the same unit."""
+    """What a trial showed. excess: error over the target, at most 1 where it is met; costs: terms of the variant's cost at
+    full size, which a small trial estimates, each modelled on its own; spent: what the trial itself cost, in the same unit."""
 
     excess: float
     costs: tuple[float, ...]
@@ -40,7 +39,7 @@ class Outcome:
 
 
 def variants_of(space: dict) -> list[Variant]:
-    """Of space.json (tune.py). Values stand on an axis as the sweep lists them."""
+    """The variants of space.json (tune.py). Values stand on an axis as the sweep lists them."""
     order: list[list[str]] = [[] for _ in space["axes"]]
     for entry in space["variants"]:
         for values, text in zip(order, entry["values"]):
@@ -49,23 +48,23 @@ def variants_of(space: dict) -> list[Variant]:
     found = []
     for entry in space["variants"]:
         group = tuple(text for text, swaps in zip(entry["values"], space["swaps"]) if swaps)
-        place = tuple(0.5 if text == NONE or len(values) < 2 else values.index(text) / (len(values) - 1)
+        position = tuple(0.5 if text == NONE or len(values) < 2 else values.index(text) / (len(values) - 1)
                       for text, values, swaps in zip(entry["values"], order, space["swaps"]) if not swaps)
-        found.append(Variant(entry["name"], group, place))
+        found.append(Variant(entry["name"], group, position))
     return found
 
 
 class Model:
-    """Logarithm of a positive number over places: a Gaussian process whose covariance is a line and a smooth bend along
+    """Logarithm of a positive number over positions: a Gaussian process whose covariance is a line and a smooth bend along
     each axis, and a little that bends with all of them."""
 
     LINE, BEND, TOGETHER, NOISE, LENGTH = 4.0, 1.0, 0.3, 1e-3, 0.5
 
-    def __init__(self, places: list[tuple[float, ...]], values: list[float]):
-        self._places = np.array(places, dtype=float).reshape(len(places), -1)
+    def __init__(self, positions: list[tuple[float, ...]], values: list[float]):
+        self._places = np.array(positions, dtype=float).reshape(len(positions), -1)
         logarithms = np.log(np.maximum(np.array(values, dtype=float), 1e-12))
         self._mean = float(logarithms.mean())
-        covariance = self._covariance(self._places) + self.NOISE * np.eye(len(places))
+        covariance = self._covariance(self._places) + self.NOISE * np.eye(len(positions))
         self._weights = np.linalg.solve(covariance, logarithms - self._mean)
 
     def _covariance(self, others: np.ndarray) -> np.ndarray:
@@ -73,8 +72,8 @@ class Model:
         bend = np.exp(-0.5 * ((a - b) / self.LENGTH) ** 2)
         return (self.LINE * a * b + self.BEND * bend).sum(axis=-1) + self.TOGETHER * bend.prod(axis=-1)
 
-    def __call__(self, places: list[tuple[float, ...]]) -> np.ndarray:
-        others = np.array(places, dtype=float).reshape(len(places), -1)
+    def __call__(self, positions: list[tuple[float, ...]]) -> np.ndarray:
+        others = np.array(positions, dtype=float).reshape(len(positions), -1)
         return np.exp(self._mean + self._covariance(others) @ self._weights)
 
 
@@ -94,7 +93,7 @@ class Search:
         self._groups: dict[tuple[str, ...], list[Variant]] = {}
         for variant in self.variants:
             self._groups.setdefault(variant.group, []).append(variant)
-        centers = {group: min(members, key=lambda v: (sum((x - 0.5) ** 2 for x in v.place), v.name))
+        centers = {group: min(members, key=lambda v: (sum((x - 0.5) ** 2 for x in v.position), v.name))
                    for group, members in self._groups.items()}
         self._expected: dict[str, tuple[float, float]] = {}
         self._run([center.name for center in centers.values()], self.has_small)
@@ -140,11 +139,11 @@ class Search:
             known = {v.name: self._known(v.name) for v in members if self._known(v.name) is not None}
             excess = cost = np.full(len(members), math.inf)
             if known:
-                places, everywhere = [v.place for v in members if v.name in known], [v.place for v in members]
-                excess = Model(places, [pair[0] for pair in known.values()])(everywhere)
-                cost = sum(Model(places, part)(everywhere) for part in zip(*(pair[1] for pair in known.values())))
+                positions, everywhere = [v.position for v in members if v.name in known], [v.position for v in members]
+                excess = Model(positions, [pair[0] for pair in known.values()])(everywhere)
+                cost = sum(Model(positions, part)(everywhere) for part in zip(*(pair[1] for pair in known.values())))
             self._expected |= {v.name: (float(e), float(c)) for v, e, c in zip(members, excess, cost)}
-            self._expected |= {name: (of, sum(costs)) for name, (of, costs) in known.items()}
+            self._expected |= {name: (error, sum(costs)) for name, (error, costs) in known.items()}
 
     def _known(self, name: str) -> tuple[float, tuple[float, ...]] | None:
         """Excess and parts of the cost at full size, as far as trials tell."""
@@ -161,11 +160,11 @@ class Search:
         promise = {group: math.prod(self._expected[center.name]) for group, center in centers.items()}
         for group in sorted(centers, key=lambda g: (promise[g], g)):
             center, members = centers[group], self._groups[group]
-            axes = sorted(range(len(center.place)), key=lambda i: (-len({v.place[i] for v in members}), i))
+            axes = sorted(range(len(center.position)), key=lambda i: (-len({v.position[i] for v in members}), i))
             for end in (0.0, 1.0):
                 for axis in axes:
-                    at = tuple(end if i == axis else x for i, x in enumerate(center.place))
-                    ends = [v.name for v in members if v.place == at and v.name != center.name]
+                    corner = tuple(end if i == axis else x for i, x in enumerate(center.position))
+                    ends = [v.name for v in members if v.position == corner and v.name != center.name]
                     if self.used() + sum(self._price(name) for name in ends) > DESIGN * self.budget:
                         return
                     self._run(ends, self.has_small and self._is_small_worthwhile())
@@ -175,7 +174,7 @@ class Search:
         return not parts or float(np.median(parts)) < WORTHWHILE
 
     def _price(self, name: str) -> float:
-        """Of one more trial, in variants of mean cost."""
+        """The cost of one more trial, in variants of mean cost."""
         parts = [outcome.spent / outcome.cost for outcome in self.small.values() if outcome.cost > 0]
         return float(np.median(parts)) if parts and self._is_small_worthwhile() else 1.0
 
@@ -202,11 +201,11 @@ class Search:
             if met and not near:
                 return None
             name = min(near or pool)[2]
-        own, mean = self._expected[name][1], self._mean_cost()
+        full_price = self._expected[name][1] / self._mean_cost()
         is_small = self.has_small and name not in self.small and self._is_small_worthwhile()
-        price = self._price(name) * own / mean if is_small else own / mean
+        price = self._price(name) * full_price if is_small else full_price
         if self.full and self.used() + price > self.budget:
             return None
-        if not self.full and is_small and self.used() + price + own / mean > self.budget:
-            is_small = False  # What is left is for one trial that counts.
+        if not self.full and is_small and self.used() + price + full_price > self.budget:
+            is_small = False  # the budget is left for one trial at full size
         return name, is_small

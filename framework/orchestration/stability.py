@@ -25,14 +25,14 @@ def named_axis(plan: dict, name: str, profile: str) -> dict[str, Any]:
     return axis
 
 
-def check_asked(asked: list[str], names: list[str], what: str) -> None:
-    for name in asked:
-        if name not in names:
-            raise Mistake(f"no {what} '{name}'{did_you_mean(name, names)}")
+def check_names(names: list[str], known: list[str], what: str) -> None:
+    for name in names:
+        if name not in known:
+            raise Mistake(f"no {what} '{name}'{did_you_mean(name, known)}")
 
 
-def is_meant(beginning: str, method: str) -> bool:
-    """Whether an entry of a remedy means this method."""
+def applies_to(beginning: str, method: str) -> bool:
+    """Whether an entry of a remedy is for this method."""
     return beginning == EVERY_METHOD or method.startswith(beginning)
 
 
@@ -51,12 +51,12 @@ def remedy_words(remedy: Remedy, methods: list[str], axis: dict[str, Any]) -> li
     config."""
     changed, words = copy.deepcopy(axis), []
     for beginning, own in remedy.items():
-        if not any(is_meant(beginning, method) for method in methods):
+        if not any(applies_to(beginning, method) for method in methods):
             continue
         for path, value in own.items():
             is_in_chain = False
             for method in changed:
-                if is_meant(beginning, method):
+                if applies_to(beginning, method):
                     changed[method], is_own = change_chain(changed[method], path, value)
                     is_in_chain = is_in_chain or is_own
             if not is_in_chain:
@@ -99,8 +99,8 @@ class Matrix:
                 only = [f"scene={name}" for name in dict.fromkeys([first, *wanted])] + [f"method={name}" for name in own]
                 words = remedy_words(remedy, methods, method_axis) if remedy else []
                 runs.append((profile, program.replace(only=self.options.only + only, set=self.options.set + words)))
-        check_asked(methods, list(known), "method")
-        check_asked(scenarios, list(scenes), "scenario")
+        check_names(methods, list(known), "method")
+        check_names(scenarios, list(scenes), "scenario")
         if not runs:
             raise Mistake(f"{self.path}: none of its profiles has that scene with that method")
         for _, program in runs:  # Nothing runs while any of them is wrong
@@ -118,7 +118,7 @@ class Matrix:
         for name, remedy in remedies.items():
             for profile, methods in failing.items():
                 for method, scenes in methods.items():
-                    if any(is_meant(beginning, method) for beginning in remedy):
+                    if any(applies_to(beginning, method) for beginning in remedy):
                         self.say(f"Remedy for {method}: {name}")
                         folder = self.out / "remedies" / name.replace(" ", "_") / method.replace(" ", "_")
                         status = max(status, self.run(folder, [profile], [method], scenes, remedy))

@@ -64,12 +64,12 @@ class Trials:
         self.size = {"width": image.get("width", 640), "height": image.get("height", 360)}
         self.small_size = {key: max(math.ceil(edge / SMALL_EDGE), min(edge, MIN_EDGE)) for key, edge in self.size.items()}
         self.has_small = self.small_size != self.size
-        self.asked: dict[str, list[str]] = {"small": [], "full": [], "sweep": []}
+        self.names: dict[str, list[str]] = {"small": [], "full": [], "sweep": []}
         self.values: dict[tuple[str, str], list[float]] = {}  # of targets, by rung and variant
-        self._fresh = {rung: not options.resume for rung in self.asked}
+        self._fresh = {rung: not options.resume for rung in self.names}
 
     def pixels(self) -> float:
-        """Of an image over those of a small one."""
+        """The pixels of a full image over those of a small one."""
         return math.prod(self.size.values()) / math.prod(self.small_size.values())
 
     def config(self, rung: str) -> dict:
@@ -84,13 +84,13 @@ class Trials:
         config["measure"] = measure
         if rung == "small":
             config["image"] = {**config.get("image", {}), **self.small_size}
-        names = self.asked[rung]
+        names = self.names[rung]
         config["graph"] = [{"pass": self.graphs[names[0]][-1]["pass"], "id": AXIS}]
         config["sweep"] = {AXIS: {name: self.graphs[name] for name in names}}
         return config
 
     def run(self, names: list[str], rung: str) -> dict[str, Outcome | None]:
-        self.asked[rung] += [name for name in names if name not in self.asked[rung]]
+        self.names[rung] += [name for name in names if name not in self.names[rung]]
         config = self.out / f"{rung}.yaml"
         config.write_text(json.dumps(self.config(rung), indent=1, ensure_ascii=False), encoding="utf-8")
         self.program.run_quietly(str(config), str(self.out / rung), self.scenes, [] if self._fresh[rung] else ["--resume"])
@@ -111,7 +111,7 @@ class Trials:
         excess = max(target.excess(value) for target, value in zip(self.targets, values))
         build, frame = self._cost(row, [p for p in _rows(folder / "passes.csv") if p["variant"] == row["variant"]])
         grows = self.pixels() if rung == "small" else 1
-        if self.minimize == "bytes":  # Of which the image's part is not told; time goes with pixels
+        if self.minimize == "bytes":  # which do not grow with the image as time does
             memory = float(row["memory_bytes"])
             return Outcome(excess, (memory,), memory / grows)
         return Outcome(excess, (build, frame * grows), build + frame)
@@ -119,8 +119,8 @@ class Trials:
     def _cost(self, row: dict, passes: list[dict]) -> tuple[float, float]:
         if self.minimize == "ms":
             return float(row["build_ms"]), float(row["frame_ms_median"])
-        of = lambda phase: sum(float(p["rays"]) for p in passes if p["phase"] == phase)
-        return of("build"), of("frame")
+        build, frame = (sum(float(p["rays"]) for p in passes if p["phase"] == phase) for phase in ("build", "frame"))
+        return build, frame
 
     def said(self, rung: str, name: str) -> str:
         return ", ".join(f"{target.column} {value:.4g}{'' if target.excess(value) <= 1 else f' (aim {target.value:g})'}"

@@ -59,7 +59,7 @@ def _by_pass(results: Results, totals: dict[str, float], phase: str | None, part
     rows = results.passes[results.passes[part] > 0]
     if phase:
         rows = rows[rows["phase"] == phase]
-    # By kind: an id may be that of another pass in each variant
+    # Grouped by kind, because an id may be that of another pass in each variant
     split = {variant: {} for variant in totals}
     for (variant, kind), value in rows.groupby(["variant", "kind"], sort=False)[part].sum().items():
         if variant in split:

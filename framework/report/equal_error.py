@@ -31,16 +31,18 @@ def time_to_reach(error: float, points: list[tuple[float, float]]) -> Reached | 
         return Reached(front[0][0], "<" if front[0][1] < error else "")
     for (ms0, error0), (ms1, error1) in zip(front, front[1:]):
         if error1 <= error:
-            at = math.log(error0 / error) / math.log(error0 / error1) if error1 > 0 else 0.0
-            return Reached(ms0 * (ms1 / ms0) ** at)
+            fraction = math.log(error0 / error) / math.log(error0 / error1) if error1 > 0 else 0.0
+            return Reached(ms0 * (ms1 / ms0) ** fraction)
     return Reached(front[-1][0], ">")
 
 
 @dataclass(frozen=True)
 class SpeedUp:
-    """How many times as long path tracing takes as a frame of a variant, `ms`, for its error: `reached` is its time, that of
-    the family `rival`. `least` and `most`: what the intervals of both errors make of that time; `reached` again where there
-    are none."""
+    """How many times as long as a frame of a variant, `ms`, path tracing takes to reach its error.
+
+    reached: the time of the path-traced family `rival`. least, most: that time at the ends of the intervals of both errors;
+        equal to `reached` where there are none.
+    """
 
     variant: str
     ms: float
@@ -63,19 +65,19 @@ class SpeedUp:
         return self.reached.bound != "<" and self.factor > 1
 
     @property
-    def is_told(self) -> bool:
+    def is_significant(self) -> bool:
         """Whether the intervals of both errors leave no doubt of which one is faster."""
         return (self.least.bound != "<" and self.least.milliseconds > self.ms
                 or self.most.bound != ">" and self.most.milliseconds < self.ms)
 
     @property
     def about(self) -> str:
-        """"≈ " before a factor of which the intervals leave open on which side of 1 it lies, and which is no bound."""
-        return "" if self.is_told or self.bound else "≈ "
+        """"≈ " before a factor that is no bound and may lie on either side of 1, by the intervals."""
+        return "" if self.is_significant or self.bound else "≈ "
 
     @property
     def span(self) -> str:
-        """The factors at the ends of the intervals, as far as they are known; "" where there are no such or nothing is."""
+        """The factors at the ends of the intervals, as far as they are known; "" without intervals, or where neither is."""
         low, high = (end.milliseconds / self.ms for end in (self.least, self.most))
         is_low, is_high = self.least.bound != "<", self.most.bound != ">"
         if self.least == self.most or not (is_low or is_high):
@@ -84,15 +86,17 @@ class SpeedUp:
         return f" ({known} within the errors' intervals)"
 
     @property
-    def is_open(self) -> bool:
+    def is_undecided(self) -> bool:
         """Whether a bound leaves open which of the two is faster."""
         return self.reached.bound == ("<" if self.factor > 1 else ">")
 
 
 def speed_up(results: Results, light: str, metric: Metric, families: list[Family]) -> SpeedUp | None:
-    """Of the methods next to path tracing, the one that saves most time at equal error. Where none saves any, one of which
-    that is open; where it is of none, the one that loses least. None where the run has no path-traced family or nothing
-    next to it. `results` are of one scene and reference: others don't compare."""
+    """The method that saves most time over path tracing at equal error. Where none surely saves any, one that may; where
+    none may, the one that loses least. None where the run has no path-traced family or nothing but such.
+
+    @param results Variants of one scene and reference: others don't compare.
+    """
     column = LIGHTS[light] + metric.key
     rows = results.ok.set_index("variant", drop=False)
     usable = {name for name in rows.index if rows.loc[name, "frame_ms_median"] > 0 and rows.loc[name, column] > 0}
@@ -109,14 +113,14 @@ def speed_up(results: Results, light: str, metric: Metric, families: list[Family
         if name in traced or name not in usable or name in beaten:
             continue
         found.append(SpeedUp(name, ms, *_fastest(row[column], curves), _fastest(high[name], of_low)[1], _fastest(low[name], of_high)[1]))
-    return max(found, key=lambda entry: (entry.is_faster, entry.is_open, entry.factor), default=None)
+    return max(found, key=lambda entry: (entry.is_faster, entry.is_undecided, entry.factor), default=None)
 
 
 def sentence(found: SpeedUp, results: Results, light: str, metric: Metric, names: Names) -> str:
     """What a frame of the method and of the fastest path-traced family take, and the build of a method that is faster."""
     head = f"At equal {metric.label} of the {light} light"
     ms, rival_ms = text.figures(found.ms), text.figures(found.reached.milliseconds)
-    if found.is_open:
+    if found.is_undecided:
         of, has = ("fastest", "less") if found.bound == "at most " else ("slowest", "more")
         return (f"{head} it is open whether path tracing is faster than {names.full(found.variant)}, {ms} ms a frame: the {of} "
                 f"variant of {found.rival.name} takes {rival_ms} ms and has {has} error.")
@@ -135,7 +139,7 @@ def sentence(found: SpeedUp, results: Results, light: str, metric: Metric, names
 
 
 def _open(found: SpeedUp) -> str:
-    return "" if found.is_told else "; the intervals of their errors leave open which one is faster"
+    return "" if found.is_significant else "; the intervals of their errors leave open which one is faster"
 
 
 def _front(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -143,7 +147,7 @@ def _front(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
 
 
 def _fastest(error: float, curves) -> tuple[Family | None, Reached | None]:
-    # Of families that reach the error the fastest; where none does, the least of what is not enough.
+    # The fastest of the families that reach the error; where none does, the one that fails to at the least cost
     found = [(reached.bound == ">", reached.milliseconds, i, reached)
              for i, (_, points) in enumerate(curves) if (reached := time_to_reach(error, points))]
     if not found:

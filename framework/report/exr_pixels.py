@@ -5,7 +5,7 @@ import zlib
 import numpy
 
 PIXEL_TYPES = {0: numpy.dtype("<u4"), 1: numpy.dtype("<f2"), 2: numpy.dtype("<f4")}
-LINES_OF_BLOCK = {0: 1, 2: 1, 3: 16}  # By compression: none, ZIPS, ZIP.
+LINES_OF_BLOCK = {0: 1, 2: 1, 3: 16}  # by compression: none, ZIPS, ZIP
 
 
 def _unzip(data):

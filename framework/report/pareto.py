@@ -13,11 +13,11 @@ from report.setting import scene_of
 
 TRACED = "path_trace"
 RIVAL = {TRACED, "filter_irradiance"}  # passes of what a user would pick instead
-_NOT_OF_IT = ("inject_", "gather_", "sample_")  # what passes of other methods begin with
+_OTHER_METHODS = ("inject_", "gather_", "sample_")  # what their passes begin with
 _EVERYWHERE = {"gbuffer", "voxelize", "composite"}  # passes that tell nothing of a method
 _LAYOUT = "layout"  # the parameter that makes two methods of the same passes
-# Build passes that light does not change; all others run again where it is new
-_OF_SURFACES = {"voxelize", "voxelize_clipmap", "place_surfels", "link_surfels", "cluster_voxels", "find_patches", "cluster_visibility", "build_hybrid_leaves"}
+# Build passes whose results do not depend on light; all others run again where it is new
+_LIGHT_INDEPENDENT = {"voxelize", "voxelize_clipmap", "place_surfels", "link_surfels", "cluster_voxels", "find_patches", "cluster_visibility", "build_hybrid_leaves"}
 COSTS = {"frame": "time of one frame, ms", "frame + light": "time of one frame with its light injected, ms",
          "build + frame": "time of build + one frame, ms", "memory": "device memory, bytes", "rays": "rays traced", "voxel steps": "voxels that rays walked through"}
 TIMES = ("frame", "frame + light", "build + frame")  # these can't be compared between machines, counts can
@@ -54,7 +54,7 @@ class Factor:
     high: float
 
     @property
-    def is_told(self) -> bool:
+    def is_significant(self) -> bool:
         """Whether the intervals leave no doubt on which side of 1 it lies."""
         return self.low > 1 or self.high < 1
 
@@ -103,13 +103,13 @@ def scenes_of(runs: list[Results], metric: Metric, light: str) -> list[Scene]:
             " + ".join(own) or "all", _samples_of_rival(run, row["variant"]), str(run.manifest.get("device", "")), row["variant"], _costs(run, row),
             row[column], *interval_of(row, column), bool(beaten_by(run, metric, column, row)),
             {other.key: row[LIGHTS[light] + other.key] for other in run.metrics}))
-    return _told_apart(list(scenes.values()))
+    return _with_unique_names(list(scenes.values()))
 
 
 def speed_ups(scene: Scene, cost: str) -> dict[str, list[Factor]]:
-    """By method, for each variant of filtered path tracing on its front: its cost over what the method costs for as little
-    error. Where the method's cheapest variant has less error already, that one's cost counts: the factor is at least so
-    much."""
+    """By method: for each variant of filtered path tracing on its own front, its cost over what the method costs for as
+    little error. Where the method's cheapest variant has less error already, that one's cost counts: the factor is at least
+    so much."""
     found: dict[str, list[Factor]] = {}
     for method, machine in scene.on_each_machine():
         variants = scene.of(method, machine, cost)
@@ -124,8 +124,8 @@ def speed_ups(scene: Scene, cost: str) -> dict[str, list[Factor]]:
 
 
 def median_speed_ups(scenes: list[Scene], cost: str) -> dict[str, tuple[float, float, int, int]]:
-    """By method over all scenes: median and least factor over filtered path tracing at equal error, how often the method
-    reached the rival's error and of how many times. What was not reached is in neither factor."""
+    """By method, over all scenes: median and least factor over filtered path tracing at equal error, how many of its errors
+    the method reached, and how many there are. Errors that it did not reach are in neither factor."""
     factors: dict[str, list[float]] = {}
     for scene in scenes:
         for method, entries in speed_ups(scene, cost).items():
@@ -139,9 +139,9 @@ def median_speed_ups(scenes: list[Scene], cost: str) -> dict[str, tuple[float, f
 
 
 def best_at(views: list[Scene], cost: str, samples: tuple[int, ...]) -> tuple[str, Factor] | None:
-    """The method, path tracing aside, that gains most over filtered path tracing with these samples a pixel, with the least
-    of its factors: over all of these samples and all views, which show one scene by several metrics. None where no method
-    reaches all errors."""
+    """The method other than path tracing whose least factor over filtered path tracing is largest, and that factor. Factors
+    are those at all of `samples` a pixel in all views, which show one scene by several metrics. None where no method reaches
+    all errors."""
     by_view = [speed_ups(scene, cost) for scene in views]
     known = {}
     for method in dict.fromkeys(method for found in by_view for method in found if TRACED not in method):
@@ -153,8 +153,8 @@ def best_at(views: list[Scene], cost: str, samples: tuple[int, ...]) -> tuple[st
 
 
 def best_point(scene: Scene, cost: str) -> tuple[Measured, Reached, list[Measured]] | None:
-    """Of the variants that cost no more than filtered path tracing for as little error the one of least error, what path
-    tracing costs for it, and the variants whose intervals reach its own."""
+    """The most accurate of the variants that cost no more than filtered path tracing at their error, what path tracing costs
+    for that error, and the variants whose intervals overlap its own."""
     found = []
     for m in scene.measured:
         rivals = [(r.costs[cost], r.error) for r in scene.rivals(m.machine, cost)]
@@ -170,8 +170,8 @@ def best_point(scene: Scene, cost: str) -> tuple[Measured, Reached, list[Measure
 
 
 def errors_at_equal_time(scene: Scene, cost: str) -> dict[str, list[Factor]]:
-    """By method, for each variant of filtered path tracing on its front: the least error that the method has for as little
-    cost over the rival's; NaN where it has none as cheap."""
+    """By method: for each variant of filtered path tracing on its own front, the least error that the method has at no more
+    cost, over that variant's; NaN where the method has no variant as cheap."""
     found: dict[str, list[Factor]] = {}
     for method, machine in scene.on_each_machine():
         for rival in scene.rivals(machine, cost):
@@ -185,8 +185,8 @@ def errors_at_equal_time(scene: Scene, cost: str) -> dict[str, list[Factor]]:
 
 
 def on_front(scenes: list[Scene], cost: str) -> dict[str, int]:
-    """By method, in how many scenes it is on the Pareto front of cost and upper end of the error, most first: among the
-    variants of one machine that are better than a black or a constant image."""
+    """In how many scenes each method is on the Pareto front of cost and upper end of the error, most first. A front is of
+    the variants of one machine that are better than a black and a constant image."""
     counts: dict[str, int] = {}
     for scene in scenes:
         usable = [m for m in scene.measured if m.costs[cost] > 0 and m.error > 0 and not m.is_worse_than_nothing]
@@ -220,7 +220,7 @@ def _factor(spent: float, error: float, points: list[tuple[float, float]]) -> fl
 def _samples_of_rival(run: Results, variant: str) -> int:
     graph = run.graph_of(variant)
     kinds = [str(entry.get("pass")) for entry in graph]
-    if not RIVAL <= set(kinds) or any(kind.startswith(_NOT_OF_IT) for kind in kinds):
+    if not RIVAL <= set(kinds) or any(kind.startswith(_OTHER_METHODS) for kind in kinds):
         return 0
     return int(next(entry.get("spp", 1) for entry in graph if entry.get("pass") == TRACED))
 
@@ -235,7 +235,7 @@ def _light_ms(run: Results, variant: str) -> float:
     """Time of the build passes that run again where light is new; 0 where they run in each frame already."""
     own = run.passes[run.passes["variant"] == variant]
     again = set(own.loc[own["phase"] == "frame", "pass"])
-    lit = (own["phase"] == "build") & ~own["kind"].isin(_OF_SURFACES) & ~own["pass"].isin(again)
+    lit = (own["phase"] == "build") & ~own["kind"].isin(_LIGHT_INDEPENDENT) & ~own["pass"].isin(again)
     return float(own.loc[lit, "ms_median"].sum())
 
 
@@ -246,7 +246,7 @@ def _costs(run: Results, row) -> dict[str, float]:
             "memory": row["memory_bytes"], "rays": row["rays"], "voxel steps": float(steps)}
 
 
-def _told_apart(scenes: list[Scene]) -> list[Scene]:
+def _with_unique_names(scenes: list[Scene]) -> list[Scene]:
     # The same scene may have several references: other cameras, lights, sizes. Then the run's name goes with it.
     names = [scene.name for scene in scenes]
     for scene in scenes:

@@ -72,7 +72,7 @@ def csv_lines(runs: list[Results], metric: Metric, light: str):
 
 
 def _with_rival(scenes: list[Scene]) -> list[Scene]:
-    """Those in which filtered path tracing was measured."""
+    """The scenes in which filtered path tracing was measured."""
     return [scene for scene in scenes if any(m.is_rival for m in scene.measured)]
 
 
@@ -122,7 +122,7 @@ def _without_error(runs: list[Results], metric: Metric, light: str) -> list[str]
 
 
 def _not_reached(scenes: list[Scene], views: list[list[Scene]], metrics: list[Metric]) -> list[str]:
-    """Of ranked scenes those in which no method gets to the errors, whatever it may cost."""
+    """Names the ranked scenes in which no method reaches the errors at any cost."""
     names = [own[0].name for own in _ranked(scenes, views) if pareto.best_at(own, "frame", _SAMPLES) is None]
     errors = f"{'both errors' if len(metrics) == 2 else 'the error'} ({text.joined([metric.label for metric in metrics])})"
     return [f"No method reaches {errors} of filtered path tracing with {text.joined(_SAMPLES)} samples a pixel, so none is called fastest there: "
@@ -136,7 +136,7 @@ def _winners(scenes: list[Scene], views: list[list[Scene]], cost: str) -> list[s
         if (found := pareto.best_at(scene, cost, _SAMPLES)) is None:
             continue
         method, factor = found
-        who = "filtered path tracing itself" if factor.high < 1 else method if factor.is_told else "open"
+        who = "filtered path tracing itself" if factor.high < 1 else method if factor.is_significant else "open"
         wins.setdefault(who, []).append(scene[0].name + ("" if factor.high < 1 else f" {_range([factor])}×"))
     if wins:
         listed = [f"{who} ({', '.join(names)})" for who, names in sorted(wins.items(), key=lambda entry: -len(entry[1]))]
@@ -153,8 +153,8 @@ def _beaten(scenes: list[Scene], cost: str) -> list[str]:
 
 
 def _gains(scenes: list[Scene], views: list[list[Scene]]) -> list[tuple[str, str, str, str]]:
-    """Rows of each scene and time: the factor of the method that gains most, and the method; none of errors that no method
-    reaches."""
+    """A row for each scene and time: the factor of the method that gains most, and the method. No row where no method
+    reaches the errors."""
     rows = []
     for scene in _ranked(scenes, views):
         for cost in pareto.TIMES:
@@ -194,7 +194,7 @@ def _range(factors: list[Factor]) -> str:
         return "–"
     low, high = (text.figures(end(factor.value for factor in known), 2) for end in (min, max))
     part = "" if len(known) == len(factors) else f" ({len(known)} of {len(factors)})"
-    return ("" if all(factor.is_told for factor in known) else "≈ ") + (low if low == high else f"{low}–{high}") + part
+    return ("" if all(factor.is_significant for factor in known) else "≈ ") + (low if low == high else f"{low}–{high}") + part
 
 
 def _chart(scene: Scene, cost: str, metric: Metric, light: str, styles: dict[str, Style], chart_id: str) -> str | None:

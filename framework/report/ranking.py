@@ -117,8 +117,8 @@ def pareto_front(points: list[tuple[float, float]]) -> list[int]:
 def pareto_layers(points: list[tuple[float, float]], count: int) -> list[int]:
     """The indices of `count` points, or of all where they are fewer: the Pareto front, then the front of what is left,
     and so on."""
-    # By rising cost a point is on the first front whose lowest error so far lies above its own; these rise from front to
-    # front.
+    # Points come by rising cost: each is on the first front whose lowest error so far lies above its own. These lowest errors
+    # rise from front to front, so that the front is found by bisection.
     fronts: list[list[int]] = []
     lowest: list[float] = []
     for index in sorted(range(len(points)), key=points.__getitem__):

@@ -66,7 +66,7 @@ def _all_fit(results: Results, lights: list[str]) -> bool:
 
 
 def _that_fit(results: Results, lights: list[str]) -> list[str]:
-    """Of the variants on fronts those that fit, which are on most of them."""
+    """The variants that are on most fronts, as many as fit."""
     left, chosen = _bytes_left(results, lights), []
     for name in front_of(results, lights)[:_MAX_VARIANTS]:
         left -= _bytes(results, name, lights)

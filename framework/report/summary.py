@@ -72,7 +72,7 @@ def _by_scene(compared: list[tuple[str, Results]], light: str, metric, names: Na
         if found:
             said += (f" For the error of {own.full(found.variant)} path tracing takes {found.about}{found.bound}"
                      f"{text.figures(found.factor, 2)} times as long as its {text.figures(found.ms)} ms a frame{found.span}"
-                     f"{'' if found.is_faster or found.is_open else ', and no other method is faster'}.")
+                     f"{'' if found.is_faster or found.is_undecided else ', and no other method is faster'}.")
         sentences.append(said)
     if sentences and metric.meaning:
         sentences[0] = f"Of the {light} light, {sentences[0]} {metric.label}: {metric.meaning.split(';')[0]}."

@@ -53,7 +53,7 @@ def _keys(values: pd.DataFrame) -> list[tuple[str, str]]:
 def _cell(values: pd.DataFrame | None) -> str:
     if values is None:
         return ""
-    # Of what a build pass reports and reports again where surfaces move, the frames count.
+    # A build pass that reports again in frames, because surfaces move, is shown by its frames alone
     if values["frame"].notna().any():
         values = values[values["frame"].notna()]
     values = values["value"]

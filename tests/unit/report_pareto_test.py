@@ -58,7 +58,7 @@ class Pareto(unittest.TestCase):
         self.assertEqual((reached, of), (3, 3))
         for factor in pareto.errors_at_equal_time(scenes[0], "frame")[method]:
             self.assertAlmostEqual(factor.value, 0.5, 6)
-            self.assertTrue(factor.is_told)
+            self.assertTrue(factor.is_significant)
         self.assertEqual(pareto.dominated(scenes, "frame"), ["path_trace"])
 
     def test_errors_that_are_not_reached_count_nowhere(self):
@@ -95,7 +95,7 @@ class Pareto(unittest.TestCase):
         self.assertEqual(pareto.dominated(scenes, "frame"), [])
         for table in (pareto.speed_ups, pareto.errors_at_equal_time):
             [factor] = table(scenes[0], "frame")["inject_light_rays + gather_rays"]
-            self.assertFalse(factor.is_told, table)
+            self.assertFalse(factor.is_significant, table)
 
     def test_light_in_each_frame_counts_what_light_changes(self):
         folder = self.run_of("room", {"p": (PATHS, 100, 0.1), "r": (RAYS, 100, 0.05)})

@@ -117,7 +117,7 @@ class Places(unittest.TestCase):
         space = {"axes": ["m", "a.rays"], "swaps": [True, False],
                  "variants": [{"name": "x", "values": ["A", "4"]}, {"name": "y", "values": ["A", "16"]},
                               {"name": "z", "values": ["A", "8"]}, {"name": "w", "values": ["B", "-"]}]}
-        self.assertEqual([v.place for v in variants_of(space)], [(0.0,), (0.5,), (1.0,), (0.5,)])
+        self.assertEqual([v.position for v in variants_of(space)], [(0.0,), (0.5,), (1.0,), (0.5,)])
         self.assertEqual([v.group for v in variants_of(space)], [("A",)] * 3 + [("B",)])
 
     def test_a_power_law_is_learnt_from_its_ends(self):
