@@ -17,7 +17,8 @@ _OTHER_METHODS = ("inject_", "gather_", "sample_")  # what their passes begin wi
 _EVERYWHERE = {"gbuffer", "voxelize", "composite"}  # passes that tell nothing of a method
 _LAYOUT = "layout"  # the parameter that makes two methods of the same passes
 # Build passes whose results do not depend on light; all others run again where it is new
-_LIGHT_INDEPENDENT = {"voxelize", "voxelize_clipmap", "place_surfels", "link_surfels", "cluster_voxels", "find_patches", "cluster_visibility", "build_hybrid_leaves"}
+_LIGHT_INDEPENDENT = {"voxelize", "voxelize_clipmap", "voxelize_octree", "voxelize_packed", "place_surfels", "link_surfels",
+                      "cluster_voxels", "find_patches", "cluster_visibility", "build_hybrid_leaves"}
 COSTS = {"frame": "time of one frame, ms", "frame + light": "time of one frame with its light injected, ms",
          "build + frame": "time of build + one frame, ms", "memory": "device memory, bytes", "rays": "rays traced", "voxel steps": "voxels that rays walked through"}
 TIMES = ("frame", "frame + light", "build + frame")  # these can't be compared between machines, counts can
