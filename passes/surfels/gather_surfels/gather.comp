@@ -40,7 +40,7 @@ layout(push_constant, scalar) uniform Push {
 // SAMPLES, texels of the g-buffer along each side of a pixel, is defined by gather_surfels.cpp. A pixel has no more surfaces than texels.
 #define SURFACES (SAMPLES * SAMPLES)
 
-const float NEAR = 0.25;  // Voxels. Chosen; docs/radiosity.md has what others bring.
+const float NEAR = 0.25;  // Voxels. Chosen; docs/surfels.md has what others bring.
 
 // Texels of a pixel that lie close together and look the same way: one lookup serves them all.
 struct PixelSurface {

@@ -14,7 +14,7 @@ static constexpr uint32_t kBandSurfaces = 1u << 19;
 
 /// Indirect light per pixel from the surfels around it: albedo / pi times the mean of their irradiance,
 /// weighted by how far each speaks for the pixel's surface. Voxels only tell which surfels are near. Source:
-/// Ward, Rubinstein and Clear 1988 (irradiance of points on surfaces, interpolated); docs/radiosity.md.
+/// Ward, Rubinstein and Clear 1988 (irradiance of points on surfaces, interpolated); docs/surfels.md.
 class GatherSurfels final : public Pass {
  public:
     static constexpr const char* kName = "gather_surfels";

@@ -12,7 +12,7 @@ constexpr uint64_t kSurroundingsBytes = 4 * sizeof(float), kLitBytes = 3 * sizeo
 }  // namespace
 
 /// Lowers the noise of surfels' irradiance by their surroundings', as far as the light there is the same.
-/// Source: the weights of filter_irradiance (docs/filtering.md), between points in space; docs/radiosity.md.
+/// Source: the weights of filter_irradiance (docs/filtering.md), between points in space; docs/surfels.md.
 class SmoothSurfels final : public Pass {
  public:
     static constexpr const char* kName = "smooth_surfels";
