@@ -6,12 +6,12 @@
 
 namespace voxray {
 
-/// Indirect light as ambient occlusion: the same radiance from every direction that nothing near stands in.
+/// Indirect light as ambient occlusion: the same radiance from every unoccluded direction.
 class AmbientOcclusion final : public Pass {
  public:
     static constexpr const char* kName = "ambient_occlusion";
     static constexpr const char* kHelp =
-        "Indirect light out of a constant: 'ambient' arrives from each direction in which nothing is met\n"
+        "Indirect light from a constant: 'ambient' arrives from each direction in which a ray hits nothing\n"
         "within 'radius'.\n"
         "Biased: no light is carried from surface to surface. Noisy by: rays. Lambert surfaces only.\n"
         "Source: Zhukov et al. 1998.";

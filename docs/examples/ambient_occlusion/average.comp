@@ -1,4 +1,4 @@
-// Radiance that each pixel of a batch reflects of the ambient light that its rays let through.
+// Radiance that each pixel of a batch reflects of the ambient light along its unoccluded rays.
 #include "batch.glsl"
 layout(local_size_x = 64) in;
 
@@ -13,13 +13,14 @@ void main() {
     const uint perPixel = push.samples * push.samples;
     vec3 sum = vec3(0.0);
     for (uint texel = pixel * perPixel; texel < (pixel + 1u) * perPixel; ++texel) {
-        uint open = 0u;
+        uint unoccluded = 0u;
         for (uint i = texel * push.raysPerTexel; i < (texel + 1u) * push.raysPerTexel; ++i)
-            if (rays.data[i].tMax >= 0.0 && occluded.data[i] == 0u) ++open;  // An inactive ray is not occluded either.
+            // An inactive ray is not occluded either
+            if (rays.data[i].tMax >= 0.0 && occluded.data[i] == 0u) ++unoccluded;
         // By cosine, albedo / pi times irradiance is albedo times the mean radiance
-        sum += texelFetch(albedo, texelOf(texel), 0).rgb * float(open);
+        sum += texelFetch(albedo, texelOf(texel), 0).rgb * float(unoccluded);
     }
-    const uint at = push.firstPixel + pixel;
-    imageStore(indirect, ivec2(at % push.width, at / push.width),
+    const uint index = push.firstPixel + pixel;
+    imageStore(indirect, ivec2(index % push.width, index / push.width),
                vec4(push.ambient * sum / float(perPixel * push.raysPerTexel), 1.0));
 }

@@ -1,4 +1,4 @@
-// A batch of ambient rays: those of its pixels one after another, of a pixel those of its texels.
+// A batch of ambient rays: ordered by pixel, and in a pixel by texel.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
 
@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push {
     vec3 ambient;
 } push;
 
-// The place of a texel in the g-buffer, by its number in the batch.
+// Coordinates of a texel in the g-buffer, by its index in the batch.
 ivec2 texelOf(uint number) {
     const uint perPixel = push.samples * push.samples, within = number % perPixel;
     const uint pixel = push.firstPixel + number / perPixel;

@@ -1,4 +1,4 @@
-// Whether the surface at each pixel and that at one of them see each other.
+// Tests whether the surface at each pixel and the one at a chosen pixel see each other.
 #include "shaders/voxel_march/voxel_march.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -11,15 +11,15 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 void main() {
-    const ivec2 at = ivec2(gl_GlobalInvocationID.xy), other = ivec2(push.pixel);
-    if (any(greaterThanEqual(at, imageSize(seen)))) return;
-    const vec4 a = texelFetch(position, at, 0), b = texelFetch(position, other, 0);
+    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy), source = ivec2(push.pixel);
+    if (any(greaterThanEqual(texel, imageSize(seen)))) return;
+    const vec4 a = texelFetch(position, texel, 0), b = texelFetch(position, source, 0);
     bool isSeen = false;
     if (a.w > 0.0 && b.w > 0.0) {
-        const vec3 normalA = normalize(texelFetch(geometricNormal, at, 0).xyz);
-        const vec3 normalB = normalize(texelFetch(geometricNormal, other, 0).xyz);
+        const vec3 normalA = normalize(texelFetch(geometricNormal, texel, 0).xyz);
+        const vec3 normalB = normalize(texelFetch(geometricNormal, source, 0).xyz);
         isSeen = !occludedBetweenSurfaces(push.grid, a.xyz, normalA, b.xyz, normalB);
     }
-    imageStore(seen, at, vec4(isSeen ? 1.0 : 0.0));
+    imageStore(seen, texel, vec4(isSeen ? 1.0 : 0.0));
     countMarch();
 }
