@@ -27,7 +27,7 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
 sys.dont_write_bytecode = True
 sys.path.append(os.path.join(ROOT, "framework"))
-from orchestration.errors import Mistake  # noqa: E402
+from orchestration.errors import UsageError  # noqa: E402
 from orchestration.yaml_text import yaml_lines  # noqa: E402
 from report.rows import read_rows  # noqa: E402
 
@@ -42,7 +42,7 @@ def number(text):
     try:
         return float(text)
     except ValueError:
-        raise Mistake(f"'{text}' is not a number") from None
+        raise UsageError(f"'{text}' is not a number") from None
 
 
 def part(folder, name):
@@ -50,7 +50,7 @@ def part(folder, name):
     if name.startswith('"'):
         found = [row["value"] for row in rows(folder, "values.csv") if row["name"] == name.strip('"')]
         if not found:
-            raise Mistake(f"values.csv has no {name}")
+            raise UsageError(f"values.csv has no {name}")
         return number(found[-1])
     result = rows(folder, "results.csv")[0]
     if name in result:
@@ -59,7 +59,7 @@ def part(folder, name):
     column = "ms_median" if column == "ms" else column
     found = [row for row in rows(folder, "passes.csv") if row["pass"] == owner]
     if not found or column not in found[0]:
-        raise Mistake(f"'{name}' is no column of results.csv, and no pass with a column of passes.csv")
+        raise UsageError(f"'{name}' is no column of results.csv, and no pass with a column of passes.csv")
     return sum(number(row[column]) for row in found if row[column])
 
 
@@ -77,7 +77,7 @@ class Trials:
         for text in options.limit:
             terms, separator, bound = text.rpartition("=")
             if not separator or not number(bound) > 0:
-                raise Mistake(f"--limit {text}: expected MEASURE=NUMBER, with a number above 0")
+                raise UsageError(f"--limit {text}: expected MEASURE=NUMBER, with a number above 0")
             self.limits.append((terms, number(bound)))
 
     def folder(self, at):
@@ -90,7 +90,7 @@ class Trials:
             command += [f"--{name}"] + ([value] if separator else [])
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode == 2:
-            raise Mistake(done.stderr.strip().splitlines()[-1])
+            raise UsageError(done.stderr.strip().splitlines()[-1])
 
     def cost(self, at):
         if at in self.costs:
@@ -100,7 +100,7 @@ class Trials:
             self.run(at)
         results = rows(folder, "results.csv")
         if len(results) > 1:
-            raise Mistake(f"{self.options.config} makes {len(results)} variants: a trial is one; take its sweep out, or set it")
+            raise UsageError(f"{self.options.config} makes {len(results)} variants: a trial is one; take its sweep out, or set it")
         if not results or results[0]["status"] != "ok":
             self.costs[at] = (math.inf, math.inf)
             return self.costs[at]
@@ -178,9 +178,9 @@ def main():
         path, separator, listed = options.vary.partition("=")
         values = listed.split(",")
         if not separator or len(values) < 2 or "" in values or len(set(values)) < len(values):
-            raise Mistake(f"--vary {options.vary}: expected PATH=V1,V2,..., with two different values or more")
+            raise UsageError(f"--vary {options.vary}: expected PATH=V1,V2,..., with two different values or more")
         if options.trials < 2:
-            raise Mistake("--trials: at least 2")
+            raise UsageError("--trials: at least 2")
         trials = Trials(options, path, values)
         if options.every:
             for at in range(len(values)):
@@ -188,8 +188,8 @@ def main():
         else:
             search(trials.cost, len(values), options.trials)
         best = write_results(trials)
-    except Mistake as mistake:
-        print(f"tune: error: {mistake}", file=sys.stderr)
+    except UsageError as error:
+        print(f"tune: error: {error}", file=sys.stderr)
         return 2
     excess, least = trials.costs[best]
     print(f"{path}={values[best]}: {options.minimize} {least:g}, after {len(trials.costs)} of {len(values)} values; "

@@ -14,7 +14,7 @@ from types import SimpleNamespace
 
 sys.path[0] = str(Path(__file__).resolve().parents[1])
 
-from orchestration.errors import Ended, Failed, Mistake, one_line  # noqa: E402
+from orchestration.errors import Failed, ProgramEnded, UsageError, one_line  # noqa: E402
 from orchestration.program import INTERRUPTED, Program  # noqa: E402
 
 
@@ -29,10 +29,10 @@ def main(command: str, program: str, given: str) -> int:
         status = importlib.import_module(f"orchestration.{command}").main(Program(program, options), options)
         sys.stdout.flush()
         return status
-    except Ended as ended:
+    except ProgramEnded as ended:
         return ended.status
-    except Mistake as mistake:
-        return complain(mistake, 2)
+    except UsageError as error:
+        return complain(error, 2)
     except Failed as failed:
         return complain(failed, 1)
     except OSError as error:

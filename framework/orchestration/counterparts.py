@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from orchestration.errors import Mistake
+from orchestration.errors import UsageError
 
 TABLE = Path(__file__).resolve().parents[2] / "passes" / "common" / "counterparts.toml"
 
@@ -131,21 +131,21 @@ def _changes(before: Graph, after: Graph, schemas: Schemas) -> list[str]:
 
 
 def passes_of(variant: dict, table: dict) -> Graph:
-    """The variant's passes that its image depends on. @throws Mistake where the table knows none of their counterparts."""
+    """The variant's passes that its image depends on. @throws UsageError where the table knows none of their counterparts."""
     known = {*table["exact"], *(name for stage in table["stages"].values() for name in stage["passes"])}
     graph: Graph = []
     for entry, place in zip(variant["config"]["graph"], variant["places"]):
         if id_of(entry) in variant["left_out"]:
             continue
         if entry["pass"] not in known:
-            raise Mistake(f"{place}: '{entry['pass']}' has no exact counterpart, so its error can't be told from the others': "
+            raise UsageError(f"{place}: '{entry['pass']}' has no exact counterpart, so its error can't be told from the others': "
                           f"swap it with --set {id_of(entry)}=OTHER, or add it to {TABLE}")
         graph.append(entry)
     return graph
 
 
 def plan_swaps(variant: dict, schemas: Schemas, table: dict) -> Swaps:
-    """@param variant of Program.plan(). @throws Mistake where a pass has no counterpart, or nothing is left to swap."""
+    """@param variant of Program.plan(). @throws UsageError where a pass has no counterpart, or nothing is left to swap."""
     own, stages = passes_of(variant, table), table["stages"]
 
     def graph_of(names: list[str]) -> Graph:
@@ -164,7 +164,7 @@ def plan_swaps(variant: dict, schemas: Schemas, table: dict) -> Swaps:
         if before != after:
             swaps.stages.append(Stage(name, stage["cure"], needs, _changes(before, after, schemas)))
     if not swaps.stages:
-        raise Mistake(f"{variant['places'][0]}: nothing to explain: every stage of this graph is as fine as its counterpart")
+        raise UsageError(f"{variant['places'][0]}: nothing to explain: every stage of this graph is as fine as its counterpart")
 
     for bits in range(1 << len(swaps.stages)):
         chosen = [stage for i, stage in enumerate(swaps.stages) if bits >> i & 1]

@@ -9,11 +9,11 @@ class Failed(Exception):
     """Something could not be done: exit status 1."""
 
 
-class Mistake(Exception):
-    """What the user has to change: exit status 2."""
+class UsageError(Exception):
+    """A mistake of the user: exit status 2."""
 
 
-class Ended(Exception):
+class ProgramEnded(Exception):
     """The program ended a command's work and said why: its exit status is the command's."""
 
     def __init__(self, status: int) -> None:

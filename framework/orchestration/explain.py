@@ -9,7 +9,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 from orchestration.counterparts import Swaps, plan_swaps, read_table
-from orchestration.errors import Failed, Mistake, did_you_mean
+from orchestration.errors import Failed, UsageError, did_you_mean
 from orchestration.program import Program, assignment
 from report.rows import read_rows
 
@@ -23,15 +23,15 @@ def chosen(variants: list[dict], name: str | None) -> dict:
         if variant["name"] == name or (not name and len(variants) == 1):
             return variant
     if not name:
-        raise Mistake(f"the config has {len(names)} variants, and explain takes one: choose it with --variant, "
+        raise UsageError(f"the config has {len(names)} variants, and explain takes one: choose it with --variant, "
                       f"as in --variant {names[-1]}")
     endings = [variant for variant in variants if variant["name"].endswith("-" + name)]
     if len(endings) == 1:
         return endings[0]
     if endings:
-        raise Mistake(f"--variant: '{name}' ends the names of {len(endings)} variants: "
+        raise UsageError(f"--variant: '{name}' ends the names of {len(endings)} variants: "
                       + ", ".join(variant["name"] for variant in endings))
-    raise Mistake(f"--variant: no variant '{name}'{did_you_mean(name, names)}")
+    raise UsageError(f"--variant: no variant '{name}'{did_you_mean(name, names)}")
 
 
 def name_of(plan: dict) -> str:
@@ -70,7 +70,7 @@ def tell_failed(results: Path) -> None:
 def main(program: Program, options: SimpleNamespace) -> int:
     plan = program.plan(options.config)
     if plan["reference"] is None:
-        raise Mistake(f"{plan['place']}: there is no 'reference', so there is no error to explain: write one, as in "
+        raise UsageError(f"{plan['place']}: there is no 'reference', so there is no error to explain: write one, as in "
                       "{pass: path_trace, spp: 1024, bounces: 8}")
     variant = chosen(plan["variants"], options.variant)
     swaps = plan_swaps(variant, program.passes, read_table())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from types import SimpleNamespace
 
-from orchestration.errors import Mistake
+from orchestration.errors import UsageError
 from orchestration.program import Program
 from report import pareto_page
 from report.results import ReportError
@@ -16,6 +16,6 @@ def main(_: Program, options: SimpleNamespace) -> int:
     try:
         table = pareto_page.write(page, [Path(folder) for folder in options.results], options.error, options.light)
     except ReportError as error:
-        raise Mistake(f"pareto: {error}") from error
+        raise UsageError(f"pareto: {error}") from error
     print(f"{page}\n{table}")
     return 0

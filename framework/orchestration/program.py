@@ -1,4 +1,4 @@
-"""The C++ program, as this package calls it: it checks configs, renders and measures, and tells its mistakes itself."""
+"""The C++ program, as this package calls it: it checks configs, renders, measures, and reports its errors itself."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from types import SimpleNamespace
 from typing import Any
 
-from orchestration.errors import Ended, Failed
+from orchestration.errors import Failed, ProgramEnded
 
 INTERRUPTED = 130
 _SENT_BY_KERNEL = 0x80  # si_code of a terminal's Ctrl-C, which the whole process group gets
@@ -49,7 +49,7 @@ class Program:
         return Program(self.path, SimpleNamespace(**{**vars(self._options), **options}))
 
     def plan(self, config: str) -> dict:
-        """What a config asks for (docs/programs.md). @throws Ended where it can't be run."""
+        """What a config asks for (docs/programs.md). @throws ProgramEnded where it can't be run."""
         return self._json("plan", config, *self._config)
 
     def jobs(self, config: str, more: Iterable[str]) -> list[dict]:
@@ -70,16 +70,16 @@ class Program:
 
     def run(self, config: str, out: str, more: Iterable[str] = ()) -> int:
         """Runs a config with the options of the command. @return the exit status: 0, or 1 where a variant failed.
-        @throws Ended where it was wrong or interrupted."""
+        @throws ProgramEnded where it was wrong or interrupted."""
         return self._wait([self.path, "run", config, *self._config, *self._device, *self._run, "--out", out, *more])
 
     def run_quietly(self, config: str, out: str, scenes: str, more: Iterable[str]) -> int:
-        """Runs a config that a command wrote. Of what the program says a mistake is told alone."""
+        """Runs a config that a command wrote. Prints nothing of its output but a mistake."""
         words = [self.path, "run", config, "--scenes", scenes, *self._device, "--quiet", "--no-report", "--out", out, *more]
         with tempfile.TemporaryFile("w+", errors="surrogateescape") as said:
             try:
                 return self._wait(words, said)
-            except Ended as ended:
+            except ProgramEnded as ended:
                 if ended.status != INTERRUPTED:
                     said.seek(0)
                     lines = said.read().strip().splitlines() or ["the program refused a trial"]
@@ -89,7 +89,7 @@ class Program:
     def _json(self, *words: str) -> Any:
         done = subprocess.run([self.path, *words], stdout=subprocess.PIPE, check=False)
         if done.returncode != 0:
-            raise Ended(done.returncode)
+            raise ProgramEnded(done.returncode)
         return json.loads(done.stdout)
 
     @staticmethod
@@ -111,5 +111,5 @@ class Program:
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
         if status not in (0, 1):
-            raise Ended(status if status > 0 else 128 - status)
+            raise ProgramEnded(status if status > 0 else 128 - status)
         return status

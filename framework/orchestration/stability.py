@@ -8,7 +8,7 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from orchestration.errors import Mistake, did_you_mean
+from orchestration.errors import UsageError, did_you_mean
 from orchestration.program import Program, assignment
 
 MATRIX = Path(__file__).resolve().parents[2] / "configs" / "stability" / "matrix.yaml"
@@ -21,14 +21,14 @@ def named_axis(plan: dict, name: str, profile: str) -> dict[str, Any]:
     """An axis of the sweep that names its values."""
     axis = plan["config"].get("sweep", {}).get(name)
     if not axis or not isinstance(axis, dict):
-        raise Mistake(f"{plan['place']}: profile '{profile}': its sweep needs an axis '{name}' that names its values")
+        raise UsageError(f"{plan['place']}: profile '{profile}': its sweep needs an axis '{name}' that names its values")
     return axis
 
 
 def check_names(names: list[str], known: list[str], what: str) -> None:
     for name in names:
         if name not in known:
-            raise Mistake(f"no {what} '{name}'{did_you_mean(name, known)}")
+            raise UsageError(f"no {what} '{name}'{did_you_mean(name, known)}")
 
 
 def applies_to(beginning: str, method: str) -> bool:
@@ -102,7 +102,7 @@ class Matrix:
         check_names(methods, list(known), "method")
         check_names(scenarios, list(scenes), "scenario")
         if not runs:
-            raise Mistake(f"{self.path}: none of its profiles has that scene with that method")
+            raise UsageError(f"{self.path}: none of its profiles has that scene with that method")
         for _, program in runs:  # Nothing runs while any of them is wrong
             program.plan(self.path)
         status = 0
@@ -144,6 +144,6 @@ def main(program: Program, options: SimpleNamespace) -> int:
             status = max(status, matrix.run_remedies(tables.failing))
             tables = stability_page.write(matrix.out, matrix.next_to(".csv"), with_remedies=True)
     except ReportError as error:
-        raise Mistake(f"stability: {error}") from error
+        raise UsageError(f"stability: {error}") from error
     matrix.say(f"{tables.markdown}{tables.summary}\nPage: {matrix.out / 'stability.html'}")
     return status

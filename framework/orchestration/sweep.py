@@ -15,7 +15,7 @@ import struct
 from pathlib import Path
 from types import SimpleNamespace
 
-from orchestration.errors import Failed, Mistake
+from orchestration.errors import Failed, UsageError
 from orchestration.program import Program
 
 ENGINE = "snakemake"
@@ -34,7 +34,7 @@ def lock(path: Path, results: Path) -> int:
     except (BlockingIOError, PermissionError) as error:
         asked = struct.pack(_FLOCK, fcntl.F_WRLCK, os.SEEK_SET, 0, 0, 0)
         holder = struct.unpack(_FLOCK, fcntl.fcntl(descriptor, fcntl.F_GETLK, asked))[4]
-        raise Mistake(f"{results}: process {holder} is writing results there; wait until it ends or choose another folder "
+        raise UsageError(f"{results}: process {holder} is writing results there; wait until it ends or choose another folder "
                       "with --out") from error
     return descriptor
 
@@ -87,7 +87,7 @@ def engine_words(options: SimpleNamespace, folder: Path) -> list[str]:
 def main(program: Program, options: SimpleNamespace) -> int:
     """Hands over to the engine, which runs the program for each part; returns only to print its command line."""
     if sum(map(bool, (options.cores, options.slurm, options.snakemake_profile))) != 1:
-        raise Mistake("sweep: say where it runs, by one of --cores, --slurm and --snakemake-profile")
+        raise UsageError("sweep: say where it runs, by one of --cores, --slurm and --snakemake-profile")
     plan = program.plan(options.config)
     out = Path.cwd() / (options.out or f"results/{plan['name']}")
     folder = out / "parts" / "sweep"

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
 
-from orchestration.errors import Mistake, did_you_mean
+from orchestration.errors import UsageError, did_you_mean
 from orchestration.program import Program
 from orchestration.search import Outcome
 from report.rows import read_rows
@@ -34,11 +34,11 @@ class Target:
         try:
             target = Target(column, float(value))
         except ValueError:
-            raise Mistake(f"--target {text}: expected NAME=VALUE, as in indirect_relmse=0.02") from None
+            raise UsageError(f"--target {text}: expected NAME=VALUE, as in indirect_relmse=0.02") from None
         if column not in columns:
-            raise Mistake(f"--target {column}: no such column of results.csv{did_you_mean(column, columns)}")
+            raise UsageError(f"--target {column}: no such column of results.csv{did_you_mean(column, columns)}")
         if not math.isfinite(target.value) or not target.error(target.value) > 0:
-            raise Mistake(f"--target {text}: a target is above 0 and can be met: ssim below 1, mean_ratio other than 1")
+            raise UsageError(f"--target {text}: a target is above 0 and can be met: ssim below 1, mean_ratio other than 1")
         return target
 
     def error(self, value: float) -> float:
@@ -105,7 +105,7 @@ class Trials:
             return None
         for target in self.targets:
             if row.get(target.column, "") == "":
-                raise Mistake(f"--target {target.column}: results.csv has no number there: the graph writes no such image")
+                raise UsageError(f"--target {target.column}: results.csv has no number there: the graph writes no such image")
         values = [float(row[target.column]) for target in self.targets]
         self.values[rung, name] = values
         excess = max(target.excess(value) for target, value in zip(self.targets, values))
@@ -131,4 +131,4 @@ def _rows(path: Path) -> list[dict[str, str]]:
     try:
         return read_rows(path)
     except FileNotFoundError:
-        raise Mistake(f"{path} is missing: the trial did not run") from None
+        raise UsageError(f"{path} is missing: the trial did not run") from None

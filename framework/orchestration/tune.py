@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
-from orchestration.errors import Ended, Mistake, did_you_mean
+from orchestration.errors import ProgramEnded, UsageError, did_you_mean
 from orchestration.program import INTERRUPTED, Program
 from orchestration.search import Outcome, Search, variants_of
 from orchestration.trials import Target, Trials
@@ -46,9 +46,9 @@ def values_of(schema: dict, own, path: str) -> list[str]:
         at = choices.index(str(own)) if str(own) in choices else None
         return choices if len(choices) <= FEW_CHOICES or at is None else choices[max(at - DOUBLES, 0):at + DOUBLES + 1]
     if schema.get("type") not in ("integer", "number"):
-        raise Mistake(f"--vary {path}: it is no number and no choice: list its values in the config's sweep")
+        raise UsageError(f"--vary {path}: it is no number and no choice: list its values in the config's sweep")
     if float(own) == 0:
-        raise Mistake(f"--vary {path}: its value is 0, which has no doubles: list its values in the config's sweep")
+        raise UsageError(f"--vary {path}: its value is 0, which has no doubles: list its values in the config's sweep")
     return spread(float(own), schema.get("minimum", -math.inf), schema.get("maximum", math.inf), schema["type"] == "integer")
 
 
@@ -57,11 +57,11 @@ def axis_of(path: str, graph: list[dict], program: Program) -> str:
     owner, _, name = path.rpartition(".") if "." in path else (path, "", "")
     entries = {entry.get("id", entry["pass"]): entry for entry in graph}
     if owner not in entries:
-        raise Mistake(f"--vary {path}: no pass '{owner}' in the graph{did_you_mean(owner, entries)}")
+        raise UsageError(f"--vary {path}: no pass '{owner}' in the graph{did_you_mean(owner, entries)}")
     entry = entries[owner]
     parameters = program.passes[entry["pass"]]
     if name not in parameters:
-        raise Mistake(f"--vary {path}: '{owner}' has no parameter '{name}'{did_you_mean(name, parameters)}")
+        raise UsageError(f"--vary {path}: '{owner}' has no parameter '{name}'{did_you_mean(name, parameters)}")
     own = entry.get(name, parameters[name].get("default", ""))
     return f"sweep.{path}=[{', '.join(values_of(parameters[name], own, path))}]"
 
@@ -69,12 +69,12 @@ def axis_of(path: str, graph: list[dict], program: Program) -> str:
 def space_of(plan: dict) -> dict:
     """What is searched: the config without graph and sweep, axes by path, whether they swap a pass, the variants."""
     if plan["reference"] is None:
-        raise Mistake(f"{plan['place']}: there is no 'reference', so there is no error to aim at: write one, as in "
+        raise UsageError(f"{plan['place']}: there is no 'reference', so there is no error to aim at: write one, as in "
                       "{pass: path_trace, spp: 1024, bounces: 8}")
     for axis in plan["axes"]:
         path = axis["path"]
         if path.partition(".")[0] in FIXED:
-            raise Mistake(f"{axis['place']}: the sweep varies '{path}', and a search is for one graph: choose a value with "
+            raise UsageError(f"{axis['place']}: the sweep varies '{path}', and a search is for one graph: choose a value with "
                           f"--set 'sweep.{path}=null' --set {path}=VALUE")
     paths = [axis["path"] for axis in plan["axes"]]
     return {"config": {key: value for key, value in plan["config"].items() if key not in ("graph", "sweep")},
@@ -87,9 +87,9 @@ def claim(out: Path, space: dict, resume: bool) -> None:
     """Makes the folder of a search."""
     path = out / "space.json"
     if not path.exists() and not resume and out.exists() and any(out.iterdir()):
-        raise Mistake(f"{out} holds something else than a search: choose another --out")
+        raise UsageError(f"{out} holds something else than a search: choose another --out")
     if resume and path.exists() and json.loads(path.read_text(encoding="utf-8")) != space:
-        raise Mistake(f"{out}: another config was searched there: leave out --resume")
+        raise UsageError(f"{out}: another config was searched there: leave out --resume")
     out.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps(space, indent=1, ensure_ascii=False) + "\n", encoding="utf-8")
 
@@ -186,8 +186,8 @@ def main(program: Program, options: SimpleNamespace) -> int:
     claim(out, space, options.resume)
     try:
         return tune(Trials(space, program, out, targets, options), options)
-    except (Ended, KeyboardInterrupt) as ended:
-        if isinstance(ended, Ended) and ended.status != INTERRUPTED:
+    except (ProgramEnded, KeyboardInterrupt) as ended:
+        if isinstance(ended, ProgramEnded) and ended.status != INTERRUPTED:
             raise
         print(f"voxray: interrupted; finished trials are kept in {out}, --resume goes on", file=sys.stderr)
         return INTERRUPTED

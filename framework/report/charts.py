@@ -14,12 +14,12 @@ from report.names import Names
 from report.ranking import pareto_front, pareto_layers
 from report.results import BASELINES, LIGHTS, Metric, Results, interval_ends
 from report.style import Style
-from report.svg import FONT_SIZE, STAND_INS, drawing, to_svg
+from report.svg import FONT_SIZE, PLACEHOLDERS, drawing, to_svg
 
-_MAX_COVERED = 0.1  # of a label, by others
+_MAX_OVERLAP = 0.1  # of a label with others, as a fraction of its area
 _MAX_MARKS = 250  # of more points the ones far from the Pareto front are small dots
 _MAX_LABELS = 80
-_SIDES = ((1, 0), (1, 1), (-1, -1), (1, -1), (-1, 0), (-1, 1), (0, 1), (0, -1))  # of a point, the best first
+_LABEL_DIRECTIONS = ((1, 0), (1, 1), (-1, -1), (1, -1), (-1, 0), (-1, 1), (0, 1), (0, -1))  # from its point, the best first
 
 
 @dataclass(frozen=True)
@@ -123,31 +123,31 @@ def set_up_axis(axis, values: list[float]) -> None:
     axis.set_major_locator(FixedLocator(ticks((1,)) if high - low > 2.2 else ticks((1, 2, 5))))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:.6g}"))
     axis.set_minor_locator(NullLocator())
-    axis.axes.grid(True, axis=axis.axis_name, color=STAND_INS["grid"], linewidth=0.6)
+    axis.axes.grid(True, axis=axis.axis_name, color=PLACEHOLDERS["grid"], linewidth=0.6)
     axis.axes.spines[["top", "right"]].set_visible(False)
     axis.axes.set_axisbelow(True)
 
 
 def _draw_levels(axes, levels) -> None:
     for name, value, dashes in levels:
-        axes.axhline(value, color=STAND_INS["muted"], linestyle=dashes, linewidth=1.0)
+        axes.axhline(value, color=PLACEHOLDERS["muted"], linestyle=dashes, linewidth=1.0)
         axes.annotate(name, (0.995, value), (0, 2), xycoords=("axes fraction", "data"), ha="right",
-                      va="bottom", textcoords="offset points", color=STAND_INS["muted"],
+                      va="bottom", textcoords="offset points", color=PLACEHOLDERS["muted"],
                       fontsize=FONT_SIZE - 1)
 
 
 def _draw_curves(axes, points: list[Point], curves: list[list[str]], styles: dict[str, Style]) -> None:
-    places = {p.name: (p.cost, p.error) for p in points}
+    position = {p.name: (p.cost, p.error) for p in points}
     for curve in curves:
-        own = sorted(places[name] for name in curve if name in places)
-        if own:
-            axes.plot(*zip(*own), color=STAND_INS[styles[curve[0]].color], linewidth=1.0, alpha=0.6)
+        line = sorted(position[name] for name in curve if name in position)
+        if line:
+            axes.plot(*zip(*line), color=PLACEHOLDERS[styles[curve[0]].color], linewidth=1.0, alpha=0.6)
 
 
 def _draw_dots(axes, points: list[Point], styles: dict[str, Style]) -> None:
     """Small dots: strokes of no length with round ends."""
     for color, own in _by(points, lambda point: styles[point.name].color).items():
-        _draw_strokes(axes, [((p.cost, p.error), (p.cost, p.error)) for p in own], color=STAND_INS[color], linewidth=2.2,
+        _draw_strokes(axes, [((p.cost, p.error), (p.cost, p.error)) for p in own], color=PLACEHOLDERS[color], linewidth=2.2,
                       solid_capstyle="round", alpha=0.6)
 
 
@@ -155,24 +155,24 @@ def _draw_points(axes, points: list[Point], styles: dict[str, Style], chart_id: 
     """@return the Pareto front, and the points in the order in which their marks are drawn."""
     # The Pareto front is a staircase of the errors that are surely reached: what lies wholly above it is beaten.
     front = [points[i] for i in pareto_front([(p.cost, p.most) for p in points])]
-    axes.step([p.cost for p in front], [p.most for p in front], where="post", color=STAND_INS["muted"],
+    axes.step([p.cost for p in front], [p.most for p in front], where="post", color=PLACEHOLDERS["muted"],
               linewidth=1.2)
     for color, own in _by(points, lambda point: styles[point.name].color).items():
         bottom = axes.get_ylim()[0]  # an interval may begin at 0
         _draw_strokes(axes, [((p.low, p.error), (p.high, p.error)) for p in own] +
-                      [((p.cost, max(p.least, bottom)), (p.cost, p.most)) for p in own], color=STAND_INS[color], linewidth=1.0)
+                      [((p.cost, max(p.least, bottom)), (p.cost, p.most)) for p in own], color=PLACEHOLDERS[color], linewidth=1.0)
     groups = _by(points, lambda point: styles[point.name])
     for i, (style, own) in enumerate(groups.items()):
-        marks = axes.plot([p.cost for p in own], [p.error for p in own], style.marker, color=STAND_INS[style.color], markersize=7,
-                          markeredgecolor=STAND_INS["card"], markeredgewidth=0.8, zorder=3)[0]
+        marks = axes.plot([p.cost for p in own], [p.error for p in own], style.marker, color=PLACEHOLDERS[style.color], markersize=7,
+                          markeredgecolor=PLACEHOLDERS["card"], markeredgewidth=0.8, zorder=3)[0]
         marks.set_gid(f"{chart_id}-points-{i}")
     return front, [point for own in groups.values() for point in own]
 
 
 def _draw_strokes(axes, ends, **style) -> None:
-    """Lines between pairs of places, as one path: many paths are slow to draw and large."""
+    """Lines between pairs of positions, as one path: many paths are slow to draw and large."""
     gap = (math.nan, math.nan)
-    axes.plot(*zip(*(place for begin, end in ends for place in (begin, end, gap))), **style)
+    axes.plot(*zip(*(position for begin, end in ends for position in (begin, end, gap))), **style)
 
 
 def _by(points: list[Point], key: Callable) -> dict[Hashable, list[Point]]:
@@ -186,7 +186,7 @@ def _place_labels(axes, points: list[Point], marked: list[Point], front: list[Po
     """Each label of `points` takes the side where it covers least of what is drawn already. @return how many there are:
     those that would lie on others are left out."""
     frame = axes.get_window_extent()
-    taken = [(x - 5, y - 5, x + 5, y + 5) for x, y in _places(axes, marked)]
+    taken = [(x - 5, y - 5, x + 5, y + 5) for x, y in _positions(axes, marked)]
     for name, value, _ in levels:
         y = axes.transData.transform((1, value))[1]
         width = 0.5 * (FONT_SIZE - 1) * len(name)
@@ -195,10 +195,10 @@ def _place_labels(axes, points: list[Point], marked: list[Point], front: list[Po
     for (x0, y0), (x1, y1) in zip(steps, steps[1:]):
         taken += [(x0, y0 - 2, x1, y0 + 2), (x1 - 2, y1, x1 + 2, y0)]
     labels = []
-    for point, (x, y) in zip(points, _places(axes, points)):
+    for point, (x, y) in zip(points, _positions(axes, points)):
         width, height = 0.56 * FONT_SIZE * len(point.label), FONT_SIZE
         sides = []
-        for dx, dy in _SIDES:
+        for dx, dy in _LABEL_DIRECTIONS:
             reach = 6 if dx == 0 or dy == 0 else 4
             left = x + dx * reach - (width / 2 if dx == 0 else width if dx < 0 else 0)
             bottom = y + dy * reach - (height / 2 if dy == 0 else height if dy < 0 else 0)
@@ -206,16 +206,16 @@ def _place_labels(axes, points: list[Point], marked: list[Point], front: list[Po
         outside = width * height - _overlaps(sides, [(frame.x0, frame.y0, frame.x1, frame.y1)])[:, 0]
         costs = _overlaps(sides, taken).sum(axis=1) + 4 * outside + 0.5 * np.arange(len(sides))
         best = sides[int(costs.argmin())]
-        if labels and _overlaps([best], labels).sum() > _MAX_COVERED * width * height:
+        if labels and _overlaps([best], labels).sum() > _MAX_OVERLAP * width * height:
             continue
         taken.append(best)
         labels.append(best)
-        axes.annotate(point.label, best[:2], xycoords="figure pixels", color=STAND_INS["fg"],
+        axes.annotate(point.label, best[:2], xycoords="figure pixels", color=PLACEHOLDERS["fg"],
                       fontsize=FONT_SIZE, va="bottom", annotation_clip=False)
     return len(labels)
 
 
-def _places(axes, points: list[Point]) -> np.ndarray:
+def _positions(axes, points: list[Point]) -> np.ndarray:
     """Where points lie in the figure, in its pixels: shape (points, 2)."""
     return axes.transData.transform([(p.cost, p.error) for p in points])
 

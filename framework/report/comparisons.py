@@ -17,7 +17,7 @@ def comparisons(results: Results) -> list[tuple[str, Results]]:
     for key in different:
         chosen = [other == key for other in keys]
         scene, folder = key
-        is_told_by_scene = sum(other[0] == scene for other in different) == 1
-        found.append((scene if is_told_by_scene else f"{scene} ({folder})",
+        is_unique = sum(other[0] == scene for other in different) == 1
+        found.append((scene if is_unique else f"{scene} ({folder})",
                       dataclasses.replace(results, variants=results.variants[chosen])))
     return found

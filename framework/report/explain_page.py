@@ -15,7 +15,7 @@ from report.images import Picture
 from report.load import load
 from report.results import IMAGES, Results
 from report.style import CATEGORY_COLORS
-from report.svg import STAND_INS, drawing, to_svg
+from report.svg import PLACEHOLDERS, drawing, to_svg
 
 _SIGNED_COLORS = "RdBu_r"  # blue: the stage takes light away, red: it adds light
 _SMALL = 0.1  # of the whole error: a rest that needs no word
@@ -107,20 +107,20 @@ def _waterfall(one: Explained, chart_id: str) -> str:
         level, titles = 1.0, []
         for i, (name, share) in enumerate(zip(names, [1.0, *(part.share for part in one.parts), one.rest])):
             top, bottom = (1.0, 0.0) if i == 0 else (level, level - share)
-            color = STAND_INS["muted" if i == 0 or name == "rest" else CATEGORY_COLORS[(i - 1) % len(CATEGORY_COLORS)]]
+            color = PLACEHOLDERS["muted" if i == 0 or name == "rest" else CATEGORY_COLORS[(i - 1) % len(CATEGORY_COLORS)]]
             bar = axes.bar(i, 100 * (top - bottom), bottom=100 * bottom, width=0.62, color=color)[0]
             bar.set_gid(f"{chart_id}-point-{i}")
             titles.append(f"{name}: {percent(share)} of {one.label}")
-            axes.text(i, 100 * max(top, bottom) + 2, percent(share), ha="center", va="bottom", color=STAND_INS["fg"])
+            axes.text(i, 100 * max(top, bottom) + 2, percent(share), ha="center", va="bottom", color=PLACEHOLDERS["fg"])
             if i > 0:
-                axes.plot([i - 1.31 + 0.62, i + 0.31], [100 * level] * 2, color=STAND_INS["muted"], linewidth=0.8)
+                axes.plot([i - 1.31 + 0.62, i + 0.31], [100 * level] * 2, color=PLACEHOLDERS["muted"], linewidth=0.8)
                 level = bottom
         for i, part in enumerate(one.parts, 1):
             start = 1.0 - sum(before.share for before in one.parts[:i - 1])
             ends = [100 * (start - value) for value in (part.least, part.mean, part.most)]
-            axes.plot([i + 0.2] * 2, [ends[0], ends[2]], color=STAND_INS["fg"], linewidth=1.2)
-            axes.plot(i + 0.2, ends[1], "o", color=STAND_INS["fg"], markersize=4)
-        axes.axhline(0, color=STAND_INS["muted"], linewidth=0.8)
+            axes.plot([i + 0.2] * 2, [ends[0], ends[2]], color=PLACEHOLDERS["fg"], linewidth=1.2)
+            axes.plot(i + 0.2, ends[1], "o", color=PLACEHOLDERS["fg"], markersize=4)
+        axes.axhline(0, color=PLACEHOLDERS["muted"], linewidth=0.8)
         axes.set_xticks(range(len(names)), names, rotation=20, ha="right")
         axes.set_ylabel(f"% of {one.label}")
         axes.margins(y=0.12)

@@ -9,7 +9,7 @@ from matplotlib.ticker import MaxNLocator
 from report import text
 from report.names import Names
 from report.style import Style
-from report.svg import STAND_INS, drawing, to_svg
+from report.svg import PLACEHOLDERS, drawing, to_svg
 
 
 def line_chart(rows: pd.DataFrame, column: str, caption: str, styles: dict[str, Style], names: Names,
@@ -22,7 +22,7 @@ def line_chart(rows: pd.DataFrame, column: str, caption: str, styles: dict[str, 
         for i, (variant, own) in enumerate(rows.groupby("variant", sort=False)):
             own = own.sort_values("frame")
             style = styles[variant]
-            line = axes.plot(own["frame"], own[column], color=STAND_INS[style.color], linewidth=1.2,
+            line = axes.plot(own["frame"], own[column], color=PLACEHOLDERS[style.color], linewidth=1.2,
                              marker=style.marker, markersize=4)[0]
             line.set_gid(f"{chart_id}-point-{i}")
             titles.append(f"{names.full(variant)}: {text.figures(own[column].mean())} on average")
@@ -30,7 +30,7 @@ def line_chart(rows: pd.DataFrame, column: str, caption: str, styles: dict[str, 
         axes.set_xlabel("measured frame")
         axes.set_ylabel(caption)
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-        axes.grid(True, color=STAND_INS["grid"], linewidth=0.6)
+        axes.grid(True, color=PLACEHOLDERS["grid"], linewidth=0.6)
         axes.spines[["top", "right"]].set_visible(False)
         axes.set_axisbelow(True)
         return to_svg(figure, chart_id, caption, titles)

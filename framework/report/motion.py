@@ -9,7 +9,7 @@ from report import text
 from report.results import Results, number, section
 
 _KEYS = ("move", "off_at", "time_step", "moving_spheres")  # of a config
-_PLACES = {"point": "m", "spot": "m", "directional": "of its direction"}  # kinds of lights -> what `move` is in
+_MOVE_UNITS = {"point": "m", "spot": "m", "directional": "of its direction"}  # kinds of lights -> what `move` is in
 _MAX_FRAMES = 8  # that are listed
 
 
@@ -44,9 +44,9 @@ def _parts(scene: dict) -> Iterator[str]:
         yield f"camera by {text.plain(camera['move'])} m a frame"
     lights = scene.get("lights")
     for light in lights if isinstance(lights, list) else []:
-        kind = next((kind for kind in _PLACES if isinstance(light, dict) and kind in light), "")
+        kind = next((kind for kind in _MOVE_UNITS if isinstance(light, dict) and kind in light), "")
         if kind and _is_some(light.get("move")):
-            yield f"{kind} light by {text.plain(light['move'])} {_PLACES[kind]} a frame"
+            yield f"{kind} light by {text.plain(light['move'])} {_MOVE_UNITS[kind]} a frame"
         if kind and number(light.get("off_at")) > 0:
             yield f"{kind} light off from frame {text.plain(light['off_at'])} on"
     seconds = number(scene.get("time_step"))

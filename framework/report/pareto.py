@@ -20,7 +20,8 @@ _LAYOUT = "layout"  # the parameter that makes two methods of the same passes
 _LIGHT_INDEPENDENT = {"voxelize", "voxelize_clipmap", "voxelize_octree", "voxelize_packed", "place_surfels", "link_surfels",
                       "cluster_voxels", "find_patches", "cluster_visibility", "build_hybrid_leaves"}
 COSTS = {"frame": "time of one frame, ms", "frame + light": "time of one frame with its light injected, ms",
-         "build + frame": "time of build + one frame, ms", "memory": "device memory, bytes", "rays": "rays traced", "voxel steps": "voxels that rays walked through"}
+         "build + frame": "time of build + one frame, ms", "memory": "device memory, bytes", "rays": "rays traced",
+         "voxel steps": "voxels that rays traversed"}
 TIMES = ("frame", "frame + light", "build + frame")  # these can't be compared between machines, counts can
 
 

@@ -14,7 +14,7 @@ from report.pareto import COSTS, TRACED, Factor, Measured, Scene
 from report.ranking import pareto_front
 from report.results import Metric, ReportError, Results
 from report.style import CATEGORY_COLORS, MARKERS, Style
-from report.svg import STAND_INS, drawing, to_svg
+from report.svg import PLACEHOLDERS, drawing, to_svg
 
 _SAMPLES = (4, 16)  # of filtered path tracing, at whose errors the best method is looked for
 _MAX_ON_FRONT = 3  # methods that are named
@@ -209,16 +209,16 @@ def _chart(scene: Scene, cost: str, metric: Metric, light: str, styles: dict[str
         axes.set_xlabel(COSTS[cost])
         axes.set_ylabel(f"{metric.label}, {light} light (lower is better)")
         front = [points[i] for i in pareto_front([(m.costs[cost], m.high) for m in points])]
-        axes.step([m.costs[cost] for m in front], [m.high for m in front], where="post", color=STAND_INS["muted"],
+        axes.step([m.costs[cost] for m in front], [m.high for m in front], where="post", color=PLACEHOLDERS["muted"],
                   linewidth=1.2)
         for method in scene.methods():
             line = sorted((m.costs[cost], m.error) for m in points if m.method == method)
-            axes.plot(*zip(*line), color=STAND_INS[styles[method].color], linewidth=1.0, alpha=0.5) if line else None
+            axes.plot(*zip(*line), color=PLACEHOLDERS[styles[method].color], linewidth=1.0, alpha=0.5) if line else None
         for i, m in enumerate(points):
-            ink = STAND_INS[styles[m.method].color]
+            ink = PLACEHOLDERS[styles[m.method].color]
             axes.plot([m.costs[cost]] * 2, [max(m.low, axes.get_ylim()[0]), m.high], color=ink, linewidth=1.0)
             dot = axes.plot(m.costs[cost], m.error, styles[m.method].marker, color=ink, markersize=6,
-                            markeredgecolor=STAND_INS["card"], markeredgewidth=0.8, zorder=3)[0]
+                            markeredgecolor=PLACEHOLDERS["card"], markeredgewidth=0.8, zorder=3)[0]
             dot.set_gid(f"{chart_id}-point-{i}")
         titles = [f"{m.label}, {m.method}: {m.costs[cost]:.3g}, {m.error:.3g}" for m in points]
         return to_svg(figure, chart_id, f"{scene.name}: {metric.label} against {COSTS[cost]}", titles)

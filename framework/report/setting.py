@@ -6,7 +6,7 @@ from report import motion, text
 from report.results import Results, section
 
 _SOURCES = ("file", "builtin")
-_OWN_WORDS = ("camera", "lights", "environment", "add", "override", "keep_file_lights", "time_step")
+_OWN_ENTRIES = ("camera", "lights", "environment", "add", "override", "keep_file_lights", "time_step")
 _LIGHTS = {"directional": ("towards", "irradiance", "W/m²"), "point": ("at", "intensity", "W/sr"),
            "spot": ("at", "intensity", "W/sr")}
 
@@ -17,8 +17,9 @@ def setting_of(results: Results) -> list[tuple[str, str]]:
     facts = [("scene", _scene(scene)), ("camera", _camera(scene.get("camera"))), ("lights", _lights(scene))]
     facts = [(key, f"{words} (the sweep varies it)" if _is_swept(results, key) else words)
              for key, words in facts if words]
-    return [fact for fact in (*facts, ("in motion", motion.words(results)), ("scores", motion.compared(results)), ("image", _image(results.manifest)), ("reference", _reference(results)),
-                              ("device", _device(results.manifest))) if fact[1]]
+    facts += [("in motion", motion.words(results)), ("scores", motion.compared(results)), ("image", _image(results.manifest)),
+              ("reference", _reference(results)), ("device", _device(results.manifest))]
+    return [fact for fact in facts if fact[1]]
 
 
 def scene_of(results: Results, row) -> str:
@@ -45,7 +46,7 @@ def _scene(scene: dict) -> str:
     if not source:
         return ""
     more = [f"{key.replace('_', ' ')} {text.plain(value)}" for key, value in scene.items()
-            if key not in (*_SOURCES, *_OWN_WORDS) and value is not None]
+            if key not in (*_SOURCES, *_OWN_ENTRIES) and value is not None]
     more += [f"with {text.plain(entry.get('file') or entry.get('builtin') or '?')}"
              for entry in scene.get("add") or [] if isinstance(entry, dict)]
     return ", ".join([source, *more])

@@ -104,7 +104,7 @@ def _table(cells: list[Cell]) -> list[tuple[Row, str, list[tuple[str, str, str]]
     """The rows with their limits, and text, CSS class and title of each of their cells."""
     shown = []
     for row, found in rows_of(cells):
-        entries = [("", "", "not asked") if cell is None else
+        entries = [("", "", "not run") if cell is None else
                    (percent(cell.value), "worse" if cell.fails else "", reason(cell) or row.why) for cell in found]
         shown.append((row, limits(row), entries))
     return shown

@@ -15,19 +15,19 @@ from matplotlib.figure import Figure
 from report.style import CATEGORY_COLORS, RAMP_COLORS
 
 FONT_SIZE = 9.0
-_INKS = ("fg", "muted", "grid", "card", *CATEGORY_COLORS, *RAMP_COLORS)
-# Matplotlib knows no CSS variables: each is drawn in a colour that stands for it, and replaced afterwards.
-STAND_INS = {name: f"#fe01{index:02x}" for index, name in enumerate(_INKS)}
+_COLORS = ("fg", "muted", "grid", "card", *CATEGORY_COLORS, *RAMP_COLORS)
+# Matplotlib knows no CSS variables: each is drawn in a colour of its own, which the variable replaces afterwards.
+PLACEHOLDERS = {name: f"#fe01{index:02x}" for index, name in enumerate(_COLORS)}
 _RC = {
     "svg.fonttype": "none",  # text stays text: sharp, small, selectable
     "svg.hashsalt": "voxray",  # the same ids in every run
     "path.simplify": False,  # it drops strokes of no length
     "text.parse_math": False,  # a name with a dollar sign is no formula
     "font.size": FONT_SIZE,
-    "axes.edgecolor": STAND_INS["muted"],
-    "axes.labelcolor": STAND_INS["fg"],
-    "xtick.color": STAND_INS["muted"],
-    "ytick.color": STAND_INS["muted"],
+    "axes.edgecolor": PLACEHOLDERS["muted"],
+    "axes.labelcolor": PLACEHOLDERS["fg"],
+    "xtick.color": PLACEHOLDERS["muted"],
+    "ytick.color": PLACEHOLDERS["muted"],
 }
 
 
@@ -64,8 +64,8 @@ def to_svg(figure: Figure, chart_id: str, caption: str, titles: list[str], ancho
 
     svg = re.sub(r'(?<= id=")(?!%s-points?-)' % re.escape(chart_id), f"{chart_id}-", svg)
     svg = re.sub(r'(?<=href="#)(?=[mpCDLQPM][0-9a-f]{10}")|(?<=url\(#)', f"{chart_id}-", svg)
-    for ink, stand_in in STAND_INS.items():
-        svg = svg.replace(stand_in, f"var(--{ink})")
+    for color, placeholder in PLACEHOLDERS.items():
+        svg = svg.replace(placeholder, f"var(--{color})")
     for i, title in enumerate(titles if anchors is None else ()):
         group = f'<g id="{chart_id}-point-{i}">'
         svg = svg.replace(group, f"{group}<title>{escape(title)}</title>")

@@ -9,7 +9,7 @@ from support import PROGRAM, SOURCE, CommandTest
 sys.dont_write_bytecode = True
 sys.path.append(os.path.join(SOURCE, "framework"))
 from orchestration import counterparts, explain  # noqa: E402
-from orchestration.errors import Mistake  # noqa: E402
+from orchestration.errors import UsageError  # noqa: E402
 from orchestration.program import Program  # noqa: E402
 
 PASSES = Program(PROGRAM, SimpleNamespace()).passes
@@ -89,9 +89,9 @@ class Counterparts(CommandTest):
         self.assertEqual(stages[1].changes, ["voxelize.resolution 300 → 512"])
 
     def test_what_cannot_be_explained_is_refused(self):
-        with self.assertRaisesRegex(Mistake, r"x.yaml:3: 'accumulate' has no exact counterpart"):
+        with self.assertRaisesRegex(UsageError, r"x.yaml:3: 'accumulate' has no exact counterpart"):
             self.swaps_of(LIGHT_RAYS + RAYS + ", {pass: accumulate}")
-        with self.assertRaisesRegex(Mistake, r"x.yaml:3: nothing to explain"):
+        with self.assertRaisesRegex(UsageError, r"x.yaml:3: nothing to explain"):
             self.swaps_of("{pass: path_trace, spp: 5000}", "", "")
         self.write("y.yaml", f"name: y\nscene: {{builtin: cornell}}\ngraph: [{{pass: gbuffer}}, {LIGHT_RAYS}{{pass: gather_irradiance}}, "
                    "{pass: direct_shadow_rays}, {pass: composite}]\n")

@@ -11,7 +11,7 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "framework"))
 from orchestration import sweep  # noqa: E402
-from orchestration.errors import Mistake, did_you_mean, one_line  # noqa: E402
+from orchestration.errors import UsageError, did_you_mean, one_line  # noqa: E402
 from orchestration.trials import Target  # noqa: E402
 from orchestration.tune import values_of  # noqa: E402
 from orchestration.search import Model, Outcome, Search, variants_of  # noqa: E402
@@ -136,7 +136,7 @@ class Targets(unittest.TestCase):
 
     def test_what_no_image_can_meet_is_refused(self):
         for text in ("flip", "flip=", "flip=x", "flip=0", "ssim=1", "mean_ratio=1", "=3", "flip=nan", "flop=1"):
-            with self.assertRaises(Mistake):
+            with self.assertRaises(UsageError):
                 Target.read(text, COLUMNS)
 
     def test_parameters_take_halves_and_doubles_within_their_range(self):
@@ -148,7 +148,7 @@ class Targets(unittest.TestCase):
         many = [f"c{i}" for i in range(20)]
         self.assertEqual(values_of({"enum": many}, "c1", "a.n"), many[:5])
         for schema, own in (({"type": "string"}, "x"), ({"type": "number"}, 0)):
-            with self.assertRaises(Mistake):
+            with self.assertRaises(UsageError):
                 values_of(schema, own, "a.n")
 
 
@@ -164,7 +164,7 @@ class Lock(unittest.TestCase):
             with subprocess.Popen([sys.executable, "-c", line, str(path)], stdout=subprocess.PIPE,
                                   env={**os.environ, "PYTHONPATH": sys.path[0]}) as holder:
                 self.assertEqual(holder.stdout.read(1), b"\n")
-                with self.assertRaisesRegex(Mistake, f"^out: process {holder.pid} is writing results there"):
+                with self.assertRaisesRegex(UsageError, f"^out: process {holder.pid} is writing results there"):
                     sweep.lock(path, Path("out"))
                 holder.kill()
             os.close(sweep.lock(path, Path("out")))
