@@ -1,0 +1,191 @@
+"use strict";
+// A chart of cost against error on logarithmic axes: fronts as lines with their names at the end, all else faint.
+
+const reachOfPointer = 40; // pixels
+const fontSize = 11;
+let chartCount = 0;
+
+// series: [{name, color, mark, isBold, points, line}], points: [{x, y, low, high, ...}], line: those of them that it joins.
+// front: the points that no other beats. shown(point) is called for the point under the pointer or the keyboard's.
+function makeChart(host, shown) {
+    const id = `chart-${chartCount++}`;
+    let content, zoom = null, current = null, size, x, y, near;
+    host.addEventListener("pointermove", (event) => {
+        if (event.pointerType === "mouse" && event.buttons) return;
+        point(event);
+    });
+    host.addEventListener("pointerdown", point);
+    host.addEventListener("dblclick", () => setZoom(null));
+    host.addEventListener("keydown", onKey);
+    host.addEventListener("focus", () => { if (!current && content.front.length) select(content.front[0]); });
+
+    function point(event) {
+        const box = host.firstElementChild.getBoundingClientRect();
+        const scale = size.width / box.width;
+        const found = near.find((event.clientX - box.left) * scale, (event.clientY - box.top) * scale, reachOfPointer);
+        if (found && found !== current) select(found);
+    }
+    function select(found) {
+        current = found;
+        mark();
+        shown(found);
+    }
+    function setZoom(domain) {
+        zoom = domain;
+        draw();
+    }
+    // Left and right go along a line, up and down to the next line.
+    function onKey(event) {
+        const lines = content.series.filter((one) => one.line.length);
+        const s = Math.max(0, lines.findIndex((one) => one === current?.series));
+        if (!lines.length) return;
+        const i = Math.max(0, lines[s].line.indexOf(current)), last = lines[s].line.length - 1;
+        const beside = (step) => lines[(s + step + lines.length) % lines.length].line[0];
+        const to = { ArrowLeft: () => lines[s].line[Math.max(0, i - 1)], ArrowRight: () => lines[s].line[Math.min(last, i + 1)],
+                     ArrowUp: () => beside(-1), ArrowDown: () => beside(1), Home: () => lines[s].line[0], End: () => lines[s].line[last] }[event.key];
+        if (to) select(to());
+        else if (event.key === "Escape") setZoom(null);
+        else if (event.key === "+" && current) setZoom([around(x, current.x), around(y, current.y).reverse()]);
+        else return;
+        event.preventDefault();
+    }
+    const around = (axis, value) => {
+        const [a, b] = axis.domain(), half = Math.sqrt(Math.sqrt(Math.max(a, b) / Math.min(a, b)));
+        return [value / half, value * half];
+    };
+
+    function ticksOf(axis) {
+        const [low, high] = d3.extent(axis.domain());
+        const steps = Math.log10(high / low) > 2.2 ? [1] : Math.log10(high / low) > 0.6 ? [1, 2, 5] : [1, 1.5, 2, 3, 4, 5, 6, 8];
+        return d3.range(Math.floor(Math.log10(low)), Math.ceil(Math.log10(high)) + 1)
+            .flatMap((decade) => steps.map((step) => Number(`${step}e${decade}`))).filter((tick) => tick >= low && tick <= high);
+    }
+    function domainOf(values) {
+        const [low, high] = d3.extent(values), least = Math.max(1.05, 2 / Math.sqrt(high / low));
+        return [low / least, high * least];
+    }
+
+    function draw() {
+        const points = content.series.flatMap((one) => one.points);
+        const width = Math.max(280, host.clientWidth), height = Math.round(Math.min(430, Math.max(300, 0.62 * width)));
+        const margin = { left: 58, right: Math.min(120, 0.2 * width), top: 22, bottom: 44 };
+        size = { width, height, margin };
+        const widest = Math.log10(domainOf(points.map((p) => p.x)).reduce((a, b) => b / a)) > 0;
+        x = d3.scaleLog(zoom ? zoom[0] : points.length && widest ? domainOf(points.map((p) => p.x)) : [1, 10], [margin.left, width - margin.right]);
+        y = d3.scaleLog(zoom ? zoom[1] : points.length ? domainOf(points.map((p) => p.y)) : [1, 10], [height - margin.bottom, margin.top]);
+        const svg = d3.create("svg").attr("class", "chart").attr("viewBox", `0 0 ${width} ${height}`).attr("role", "img").attr("aria-label", content.text);
+        svg.append("clipPath").attr("id", id).append("rect").attr("x", margin.left).attr("y", margin.top)
+            .attr("width", width - margin.left - margin.right).attr("height", height - margin.top - margin.bottom);
+        drawAxes(svg);
+        const brush = d3.brush().extent([[margin.left, margin.top], [width - margin.right, height - margin.bottom]]).touchable(false);
+        const area = svg.append("g").attr("class", "brush").call(brush);
+        brush.on("end", () => {
+            const box = d3.brushSelection(area.node());
+            if (box) setZoom([[x.invert(box[0][0]), x.invert(box[1][0])], [y.invert(box[1][1]), y.invert(box[0][1])]]);
+        });
+        const inside = svg.append("g").attr("clip-path", `url(#${id})`).attr("pointer-events", "none");
+        drawPoints(inside);
+        svg.append("g").attr("class", "labels").attr("pointer-events", "none").call(drawLabels);
+        svg.append("g").attr("class", "current").attr("clip-path", `url(#${id})`).attr("pointer-events", "none");
+        host.replaceChildren(svg.node());
+        near = d3.quadtree(points.filter(isInside), (p) => x(p.x), (p) => y(p.y));
+        host.dataset.zoomed = zoom ? "true" : "";
+        mark();
+    }
+    const isInside = (p) => x(p.x) >= size.margin.left - 1 && x(p.x) <= size.width - size.margin.right + 1
+        && y(p.y) >= size.margin.top - 1 && y(p.y) <= size.height - size.margin.bottom + 1;
+
+    function drawAxes(svg) {
+        const { width, height, margin } = size;
+        const bottom = svg.append("g").attr("class", "axis").attr("transform", `translate(0,${height - margin.bottom})`)
+            .call(d3.axisBottom(x).tickValues(ticksOf(x)).tickFormat((v) => figures(v)).tickSize(margin.top + margin.bottom - height).tickPadding(6));
+        const left = svg.append("g").attr("class", "axis").attr("transform", `translate(${margin.left},0)`)
+            .call(d3.axisLeft(y).tickValues(ticksOf(y)).tickFormat((v) => figures(v)).tickSize(margin.left + margin.right - width).tickPadding(6));
+        for (const axis of [bottom, left]) axis.selectAll(".domain").remove();
+        svg.append("text").attr("class", "title").attr("x", (margin.left + width - margin.right) / 2).attr("y", height - 8)
+            .attr("text-anchor", "middle").text(`← less   ${content.xLabel}`);
+        svg.append("text").attr("class", "title").attr("x", 6).attr("y", 13).text(`${content.yLabel}   ↓ more accurate`);
+    }
+
+    function drawPoints(inside) {
+        const at = (p) => `${x(p.x).toFixed(1)},${y(p.y).toFixed(1)}`;
+        if (content.front.length) {
+            inside.append("path").attr("class", "front").attr("d", d3.line().x((p) => x(p.x)).y((p) => y(p.y)).curve(d3.curveStepAfter)(content.front));
+        }
+        for (const one of content.series) {
+            const group = inside.append("g").attr("class", "series" + (one.isBold ? " bold" : "") + (one.isFaint ? " faint" : ""))
+                .attr("stroke", `var(--${one.color})`).attr("fill", `var(--${one.color})`);
+            const onLine = new Set(one.line);
+            // Strokes of no length with round ends: one path for thousands of points
+            group.append("path").attr("class", "dots").attr("fill", "none").attr("d", one.points.filter((p) => !onLine.has(p)).map((p) => `M${at(p)}h0`).join(""));
+            group.append("path").attr("class", "line").attr("fill", "none").attr("d", one.line.length ? `M${one.line.map(at).join("L")}` : "");
+            for (const p of one.line) {
+                group.append("path").attr("class", "mark").attr("d", one.mark)
+                    .attr("transform", `translate(${at(p)}) scale(${one.isBold ? 1 : 0.75})`);
+            }
+        }
+    }
+
+    // Each name goes next to its line's end, to the first position that covers no other name.
+    function drawLabels(group) {
+        const taken = [];
+        const ordered = [...content.series].sort((a, b) => (b.isBold ?? 0) - (a.isBold ?? 0));
+        for (const one of ordered) {
+            const end = one.line.filter(isInside).pop();
+            if (!end || one.isFaint) continue;
+            const [px, py] = [x(end.x), y(end.y)], length = 0.56 * fontSize * one.name.length + 4;
+            const boxes = d3.range(0, 12).flatMap((step) => (step ? [-step, step] : [0])).flatMap((step) => [[px + 9, py + step * 6], [px - 9 - length, py + step * 6]]);
+            const box = boxes.map(([left, middle]) => [left, middle - 6, left + length, middle + 6])
+                .find((b) => b[0] >= 0 && b[2] <= size.width && b[1] >= 0 && b[3] <= size.height - size.margin.bottom
+                    && taken.every((t) => b[0] >= t[2] || b[2] <= t[0] || b[1] >= t[3] || b[3] <= t[1]));
+            if (!box) continue;
+            taken.push(box);
+            const middle = (box[1] + box[3]) / 2, isLeft = box[0] < px;
+            if (Math.abs(middle - py) > 8) {
+                group.append("path").attr("class", "leader").attr("stroke", `var(--${one.color})`)
+                    .attr("d", `M${px},${py}L${isLeft ? box[2] - 1 : box[0] - 1},${middle}`);
+            }
+            group.append("text").attr("class", one.isBold ? "name bold" : "name").attr("x", box[0]).attr("y", middle + 4)
+                .attr("font-size", fontSize).attr("fill", `var(--${one.color})`).text(one.name);
+        }
+    }
+
+    function mark() {
+        const group = d3.select(host).select(".current");
+        group.selectAll("*").remove();
+        if (!current || !isInside(current)) return;
+        const [px, py] = [x(current.x), y(current.y)], bottom = size.height - size.margin.bottom;
+        const ends = [current.high, current.low].map((value) => (value > 0 ? Math.min(bottom, y(value)) : bottom));
+        group.append("path").attr("class", "interval").attr("d", `M${px},${ends[0]}V${ends[1]}M${px - 5},${ends[0]}h10M${px - 5},${ends[1]}h10`);
+        group.append("circle").attr("cx", px).attr("cy", py).attr("r", 8);
+    }
+
+    return {
+        // Draws other numbers; the current point stays where its index is there still.
+        update(changed, keepZoom = false) {
+            content = changed;
+            if (!keepZoom) zoom = null;
+            for (const one of content.series) for (const p of one.points) p.series = one;
+            current = current && (content.series.flatMap((one) => one.points).find((p) => p.index === current.index) ?? null);
+            draw();
+        },
+        select(index) {
+            const found = content.series.flatMap((one) => one.points).find((p) => p.index === index);
+            if (found) select(found);
+        },
+        redraw: draw, resetZoom: () => setZoom(null), svg: () => standalone(host.firstElementChild),
+    };
+}
+
+// A chart as a file of its own, with the colors and strokes that it has on the page.
+function standalone(svg) {
+    const copy = svg.cloneNode(true), from = svg.querySelectorAll("*"), box = svg.viewBox.baseVal;
+    const keys = ["fill", "stroke", "stroke-width", "stroke-linecap", "stroke-dasharray", "opacity", "font-size", "font-weight", "font-family", "text-anchor", "paint-order"];
+    copy.querySelectorAll("*").forEach((part, i) => {
+        const style = getComputedStyle(from[i]);
+        for (const key of keys) part.setAttribute(key, style.getPropertyValue(key));
+    });
+    for (const part of copy.querySelectorAll(".brush, .current")) part.remove();
+    for (const [name, value] of Object.entries({ xmlns: "http://www.w3.org/2000/svg", width: box.width, height: box.height })) copy.setAttribute(name, value);
+    return `${new XMLSerializer().serializeToString(copy)}\n`;
+}
