@@ -182,10 +182,15 @@ void addParetoCommand(CLI::App& app, int&) {
         ->allow_extra_args();
     addText(command, "--out", "FILE.html", "The page; a table with all numbers gets its name and .csv.")
         ->default_str("pareto.html");
-    addText(command, "--error", "TEXT", "Metric that methods are compared by.")->default_str("nrmse");
+    addText(command, "--error", "TEXT", "Metric that the page shows first and that figures are of.")
+        ->default_str("nrmse");
     addText(command, "--light", "TEXT", "indirect or total.")
         ->check(CLI::IsMember({"indirect", "total"}))
         ->default_str("indirect");
+    addFlag(command, "--no-images", "Leave out images and error maps, for a smaller page.");
+    addText(
+        command, "--figures", "DIR",
+        "Folder for figures of a paper: the matrix and each scene's chart as SVG and PDF, with their data.");
 }
 
 }  // namespace voxray

@@ -61,8 +61,8 @@ function makeChart(host, shown) {
             .flatMap((decade) => steps.map((step) => Number(`${step}e${decade}`))).filter((tick) => tick >= low && tick <= high);
     }
     function domainOf(values) {
-        const [low, high] = d3.extent(values), least = Math.max(1.05, 2 / Math.sqrt(high / low));
-        return [low / least, high * least];
+        const [low, high] = d3.extent(values), margin = Math.max((high / low) ** 0.04, 2 / Math.sqrt(high / low));
+        return low > 0 ? [low / margin, high * margin] : [1, 10];
     }
 
     function draw() {
@@ -70,9 +70,8 @@ function makeChart(host, shown) {
         const width = Math.max(280, host.clientWidth), height = Math.round(Math.min(430, Math.max(300, 0.62 * width)));
         const margin = { left: 58, right: Math.min(120, 0.2 * width), top: 22, bottom: 44 };
         size = { width, height, margin };
-        const widest = Math.log10(domainOf(points.map((p) => p.x)).reduce((a, b) => b / a)) > 0;
-        x = d3.scaleLog(zoom ? zoom[0] : points.length && widest ? domainOf(points.map((p) => p.x)) : [1, 10], [margin.left, width - margin.right]);
-        y = d3.scaleLog(zoom ? zoom[1] : points.length ? domainOf(points.map((p) => p.y)) : [1, 10], [height - margin.bottom, margin.top]);
+        x = d3.scaleLog(zoom ? zoom[0] : domainOf(points.map((p) => p.x)), [margin.left, width - margin.right]);
+        y = d3.scaleLog(zoom ? zoom[1] : domainOf(points.map((p) => p.y)), [height - margin.bottom, margin.top]);
         const svg = d3.create("svg").attr("class", "chart").attr("viewBox", `0 0 ${width} ${height}`).attr("role", "img").attr("aria-label", content.text);
         svg.append("clipPath").attr("id", id).append("rect").attr("x", margin.left).attr("y", margin.top)
             .attr("width", width - margin.left - margin.right).attr("height", height - margin.top - margin.bottom);
@@ -103,7 +102,7 @@ function makeChart(host, shown) {
             .call(d3.axisLeft(y).tickValues(ticksOf(y)).tickFormat((v) => figures(v)).tickSize(margin.left + margin.right - width).tickPadding(6));
         for (const axis of [bottom, left]) axis.selectAll(".domain").remove();
         svg.append("text").attr("class", "title").attr("x", (margin.left + width - margin.right) / 2).attr("y", height - 8)
-            .attr("text-anchor", "middle").text(`← less   ${content.xLabel}`);
+            .attr("text-anchor", "middle").text(`← cheaper   ${content.xLabel}`);
         svg.append("text").attr("class", "title").attr("x", 6).attr("y", 13).text(`${content.yLabel}   ↓ more accurate`);
     }
 
@@ -126,26 +125,35 @@ function makeChart(host, shown) {
         }
     }
 
-    // Each name goes next to its line's end, to the first position that covers no other name.
+    // Each name goes next to its line's end: off other names, over as few marks and lines as can be, nearest first.
     function drawLabels(group) {
-        const taken = [];
-        const ordered = [...content.series].sort((a, b) => (b.isBold ?? 0) - (a.isBold ?? 0));
-        for (const one of ordered) {
+        const taken = [], inked = [];
+        for (const { line } of content.series) {
+            const ends = line.map((p) => [x(p.x), y(p.y)]);
+            ends.forEach(([px, py], i) => {
+                const [qx, qy] = ends[i + 1] ?? [px, py], count = Math.ceil(Math.hypot(qx - px, qy - py) / 8);
+                for (let k = 0; k <= count; k++) inked.push([px + (qx - px) * k / (count || 1), py + (qy - py) * k / (count || 1)]);
+            });
+        }
+        for (const one of [...content.series].sort((a, b) => b.isBold - a.isBold)) {
             const end = one.line.filter(isInside).pop();
             if (!end || one.isFaint) continue;
             const [px, py] = [x(end.x), y(end.y)], length = 0.56 * fontSize * one.name.length + 4;
-            const boxes = d3.range(0, 12).flatMap((step) => (step ? [-step, step] : [0])).flatMap((step) => [[px + 9, py + step * 6], [px - 9 - length, py + step * 6]]);
-            const box = boxes.map(([left, middle]) => [left, middle - 6, left + length, middle + 6])
-                .find((b) => b[0] >= 0 && b[2] <= size.width && b[1] >= 0 && b[3] <= size.height - size.margin.bottom
-                    && taken.every((t) => b[0] >= t[2] || b[2] <= t[0] || b[1] >= t[3] || b[3] <= t[1]));
-            if (!box) continue;
+            const boxes = d3.range(-14, 15).flatMap((step) => [px + 9, px - 9 - length].map((left) => ({
+                left, right: left + length, top: py + step * 5 - 6, bottom: py + step * 5 + 6, cost: Math.abs(step) }))).filter((box) =>
+                box.left >= size.margin.left - 4 && box.right <= size.width && box.top >= 0 && box.bottom <= size.height - size.margin.bottom
+                && taken.every((other) => box.left >= other.right || box.right <= other.left || box.top >= other.bottom || box.bottom <= other.top));
+            for (const box of boxes) {
+                box.cost += 2 * d3.sum(inked, ([qx, qy]) => qx > box.left && qx < box.right && qy > box.top && qy < box.bottom);
+            }
+            if (!boxes.length) continue;
+            const box = boxes[d3.scan(boxes, (a, b) => a.cost - b.cost)], middle = (box.top + box.bottom) / 2;
             taken.push(box);
-            const middle = (box[1] + box[3]) / 2, isLeft = box[0] < px;
             if (Math.abs(middle - py) > 8) {
                 group.append("path").attr("class", "leader").attr("stroke", `var(--${one.color})`)
-                    .attr("d", `M${px},${py}L${isLeft ? box[2] - 1 : box[0] - 1},${middle}`);
+                    .attr("d", `M${px},${py}L${box.left < px ? box.right - 1 : box.left - 1},${middle}`);
             }
-            group.append("text").attr("class", one.isBold ? "name bold" : "name").attr("x", box[0]).attr("y", middle + 4)
+            group.append("text").attr("class", one.isBold ? "name bold" : "name").attr("x", box.left).attr("y", middle + 4)
                 .attr("font-size", fontSize).attr("fill", `var(--${one.color})`).text(one.name);
         }
     }

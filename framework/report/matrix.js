@@ -5,16 +5,19 @@ const mostFold = 16; // at which colors are strongest
 const foldColor = d3.scaleLinear([-1, -0.5, 0, 0.5, 1], ["#b35806", "#f5a859", "#f4f4f4", "#8db7dc", "#1f5a9c"]).interpolate(d3.interpolateLab).clamp(true);
 const colorOf = (factor) => foldColor(Math.log(factor) / Math.log(mostFold));
 const isOpen = ([, low, high]) => low <= 1 && (high === null || high >= 1);
+const factorText = (factor) => d3.format(factor < 0.01 || factor >= 1e4 ? ".1e" : ",.2r")(factor);
 const inkOn = (color) => (d3.lab(color).l > 62 ? "#111" : "#fff");
 
-// columns: names. rows: [{name, title, swatch, cells: [null | 0 | [value, low, high]], total}]. tell(row, column) is what a
+// columns: names; counts: of errors in each. rows: [{name, title, swatch, isSelf, cells: [null | 0 | [value, low, high, reached]], total}]. tell(row, column) is what a
 // cell says in words; onPick(row, column) is called by a click or Enter, onPoint likewise by pointer and arrow keys.
-function drawMatrix(host, { columns, rows, totalName, tell, onPick, onPoint }) {
+function drawMatrix(host, { columns, counts, rows, totalName, tell, onPick, onPoint }) {
+    const best = columns.map((_, c) => d3.max(rows, ({ cells }) => (cells[c] && 2 * cells[c][3] >= counts[c] ? cells[c][0] : 0)));
     const cells = rows.map((row, r) => row.cells.map((cell, c) => {
-        const made = element("td", { role: "gridcell", tabindex: "-1", "aria-label": tell(r, c), title: "" });
-        made.removeAttribute("title");
-        made.className = cell ? (isOpen(cell) ? "open" : "") : "empty";
-        made.textContent = cell ? figures(cell[0], 2) : cell === 0 ? "–" : "";
+        const made = element("td", { role: "gridcell", tabindex: "-1", "aria-label": tell(r, c) });
+        made.className = !cell ? "empty" : isOpen(cell) && !row.isSelf ? "open" : "";
+        made.textContent = cell ? factorText(cell[0]) : cell === 0 ? "–" : "";
+        if (cell && cell[3] < counts[c]) made.append(element("small", {}, `${cell[3]}/${counts[c]}`));
+        made.classList.toggle("best", Boolean(cell) && cell[0] === best[c]);
         if (cell) made.style.backgroundColor = colorOf(cell[0]);
         if (cell) made.style.color = inkOn(colorOf(cell[0]));
         made.addEventListener("click", () => onPick(r, c));
@@ -37,7 +40,7 @@ function drawMatrix(host, { columns, rows, totalName, tell, onPick, onPoint }) {
     }
     const head = element("tr", {}, element("th"), ...columns.map((name) => element("th", { scope: "col" }, name)), element("th", { scope: "col" }, totalName));
     const body = rows.map((row, r) => element("tr", {}, element("th", { scope: "row", title: row.title }, row.swatch, row.name), ...cells[r],
-                                              element("td", { class: "total" }, row.total === null ? "–" : figures(row.total, 2))));
+                                              element("td", { class: "total" }, row.total === null ? "–" : factorText(row.total))));
     host.replaceChildren(element("thead", {}, head), element("tbody", {}, ...body));
     if (cells.length) reach(0, 0, false);
 }

@@ -25,32 +25,39 @@ function order() {
 }
 function tell(s, m) {
     const cell = cellOf(s, m), who = `${methodName(m)} in ${data.scenes[s].name}`, rival = methodName(rivalMethod());
+    if (m === rivalMethod()) return `${who}: what others are compared with.`;
     if (cell === null) return `${who}: not compared with ${rival}.`;
     const error = data.errors[state.error].name, count = data.count[state.rival][state.cost][state.error][s];
     if (cell === 0) return `${who}: reaches none of the ${count} errors (${error}) of ${rival}.`;
     const [value, low, high, reached] = cell;
-    const words = value >= 1 ? `${figures(value, 2)}× less ${costWords()} than` : `${figures(1 / value, 2)}× the ${costWords()} of`;
-    const open = isOpen(cell) ? "; the intervals leave open which is better" : "";
-    return `${who}: ${words} ${rival} at equal ${error} (factor ${figures(value, 2)}, within the intervals ${figures(low, 2)} to ${high === null ? "∞" : figures(high, 2)}${open}); reaches ${reached} of its ${count} errors.`;
+    const open = isOpen(cell) ? "; that leaves open which is better" : "";
+    return `${who}: ${factorText(value)} times as ${data.costs[state.cost].key === "memory" ? "small" : "fast"} as ${rival} at equal ${error} `
+        + `(${factorText(low)} to ${high === null ? "∞" : factorText(high)} within the intervals${open}), by ${costWords()}. It reaches ${reached} of ${count} errors.`;
 }
 function showMatrix() {
     const rows = order();
-    byId("matrix-title").textContent = `How many times less ${costWords()} than ${methodName(rivalMethod())} at equal ${data.errors[state.error].name}`;
+    const cost = data.costs[state.cost], rival = methodName(rivalMethod()), error = data.errors[state.error].name;
+    byId("matrix-title").textContent = `${cost.key === "memory" ? "Memory saved" : "Speed-up"} over ${rival} at equal ${error}, by ${costWords()}`;
     drawMatrix(byId("matrix"), {
-        columns: data.scenes.map((scene) => scene.name), totalName: "median",
-        rows: rows.map((m) => ({ name: methodName(m), title: data.methods[m].chain, swatch: swatch(m), total: data.medians[state.rival][state.cost][state.error][m],
+        columns: data.scenes.map((scene) => scene.name), totalName: "median", counts: data.count[state.rival][state.cost][state.error],
+        rows: rows.map((m) => ({ name: methodName(m), title: data.methods[m].chain, swatch: swatch(m), isSelf: m === rivalMethod(), total: data.medians[state.rival][state.cost][state.error][m],
                                  cells: data.scenes.map((_, s) => cellOf(s, m)) })),
         tell: (r, s) => tell(s, rows[r]),
-        onPoint: (r, s) => { byId("cell").textContent = tell(s, rows[r]); byId("chain").textContent = data.methods[rows[r]].chain; },
+        onPoint: (r, s) => {
+            byId("cell").textContent = tell(s, rows[r]);
+            byId("chain").textContent = data.methods[rows[r]].chain;
+            byId("cell-images").replaceChildren(...imagesOf(s, bestOf(s, rows[r])));
+        },
         onPick: (r, s) => pick(s, rows[r]),
     });
 }
+// The most accurate variant of a method
+const bestOf = (s, m) => (data.scenes[s].fronts[state.cost][state.error][m] ?? []).slice(-1)[0];
 function pick(s, m) {
     state.off.delete(m);
     set({ method: m });
     charts[s].figure.scrollIntoView({ block: "center", behavior: "instant" });
-    const front = data.scenes[s].fronts[state.cost][state.error][m];
-    if (front) charts[s].chart.select(front[front.length - 1]);
+    charts[s].chart.select(bestOf(s, m));
     charts[s].plot.focus({ preventScroll: true });
 }
 
@@ -92,13 +99,16 @@ function makeFigure(scene, s) {
     return { figure, plot, chart, words, scene };
 }
 function showPoint(scene, s, point, said, strip) {
-    pictures ??= JSON.parse(byId("pictures").textContent);
     const i = point.index, cost = data.costs[state.cost], error = data.errors[state.error].name;
     said.textContent = `${methodName(scene.method[i])} · ${scene.label[i]}: ${figures(point.x)} ${cost.label.split(", ").pop()}, `
         + `${error} ${figures(point.y)} (${figures(point.low)} to ${figures(point.high)})`;
-    const [image, map] = pictures[s][i] ?? [], [reference] = pictures[s].reference ?? [];
-    const shown = [[reference, "reference"], [image, methodName(scene.method[i])], [map, "its error (FLIP)"]].filter(([uri]) => uri && image);
-    strip.replaceChildren(...shown.map(([uri, name]) => element("figure", {}, element("img", { src: uri, alt: `${name}, ${scene.name}` }), element("figcaption", {}, name))));
+    strip.replaceChildren(...imagesOf(s, i));
+}
+function imagesOf(s, i) {
+    pictures ??= JSON.parse(byId("pictures").textContent);
+    const [image, map] = pictures[s][i] ?? [], [reference] = pictures[s].reference ?? [], name = methodName(data.scenes[s].method[i] ?? 0);
+    return [[reference, "reference"], [image, name], [map, "its error (FLIP)"]].filter(([uri]) => uri && image).map(([uri, said]) =>
+        element("figure", {}, element("img", { src: uri, alt: `${said}, ${data.scenes[s].name}` }), element("figcaption", {}, said)));
 }
 function showCharts(keepZoom = false) {
     for (const { chart, words, scene } of charts) {
@@ -122,8 +132,7 @@ function set(changes, remember = true) {
     const compared = ["cost", "error", "rival"].some((key) => key in changes);
     if (compared) {
         showMatrix();
-        byId("cell").textContent = "";
-        byId("chain").textContent = "";
+        for (const id of ["cell", "chain", "cell-images"]) byId(id).replaceChildren();
     }
     showCharts(!("cost" in changes || "error" in changes));
     if (compared) speedUps.show();

@@ -18,8 +18,10 @@ from report.style import MARKERS
 
 _SCRIPTS = ("d3", "tables.js", "matrix.js", "chart.js", "pareto.js")
 _WORST_OF = ("nrmse", "relmse")  # the error that shows least gain counts
-_NEEDS = {"frame": "Still light", "frame + light": "Light that changes", "build + frame": "Surfaces that move"}
+_NEEDS = {"frame": "Still light (time of a frame)", "frame + light": "Light that changes (frame and its light)",
+          "build + frame": "Surfaces that move (build and frame)"}
 _SHORT = {"frame": "frame", "frame + light": "frame + its light", "build + frame": "build + frame", "memory": "memory"}
+_UNITS = np.array([[1], [1], [1], [2**20]])  # of costs in charts: ms, MiB
 _MAX_ON_FRONT = 3  # methods that are named
 _MAX_CELLS = 10000  # of the matrix with one cost and error, over all rivals
 _MAX_PICTURES = 300  # variants; of more, those on a front
@@ -109,16 +111,16 @@ def sentences(compared: Comparison) -> list[str]:
             found = _winner(compared, s, CHARTED.index(cost), worst)
             if found and found[1][2] >= 1:
                 method, (value, low, high, _) = found
-                wins.setdefault(method, []).append(f"{scene.name} {'' if low > 1 else '≈ '}{text.figures(value, 2)}×")
+                wins.setdefault(method, []).append(f"{scene.name} ({'' if low > 1 else '≈ '}{text.figures(value, 2)}×)")
             elif compared.measured[s, compared.rival]:
                 losses.setdefault(_SHORT[cost], []).append(scene.name)
         if wins:
-            listed = [f"{method} ({', '.join(names)})" for method, names in sorted(wins.items(), key=lambda entry: -len(entry[1]))]
-            said.append(f"{need} (time of {_SHORT[cost]}): take {'; '.join(listed)}.")
+            listed = [f"{method} in {', '.join(names)}" for method, names in sorted(wins.items(), key=lambda entry: -len(entry[1]))]
+            said.append(f"{need}: take {'; '.join(listed)}.")
     if losses:
         every = sum(compared.measured[:, compared.rival])
         listed = [f"by {cost} in {'every scene' if len(names) == every > 1 else ', '.join(names)}" for cost, names in losses.items()]
-        said.append(f"Nothing beats filtered path tracing {'; '.join(listed)}.")
+        said.append(f"Nothing beats filtered path tracing: {'; '.join(listed)}.")
     return said
 
 
@@ -168,13 +170,13 @@ def _data(compared: Comparison) -> dict:
     counts = found.count[..., None] * np.broadcast_to(compared.measured, (*found.count.shape[:3], *compared.measured.shape))
     return {
         "light": compared.light, "error": compared.first, "rivals": found.rivals, "count": found.count,
-        "costs": [{"key": cost, "name": _SHORT[cost], "label": COSTS[cost]} for cost in CHARTED],
+        "costs": [{"key": cost, "name": _SHORT[cost], "label": COSTS[cost].replace("bytes", "MiB")} for cost in CHARTED],
         "errors": [{"key": error.metric.key, "name": error.label} for error in compared.errors],
         "methods": [{"name": method.name, "chain": " + ".join(method.chain), "color": style.color, "mark": MARKERS[style.marker]}
                     for method, style in zip(compared.methods, styles)],
         # null: not measured, 0: no error is reached
         "factors": _nested(found.factors, counts), "medians": found.medians(compared.measured),
-        "scenes": [{"name": scene.name, "method": scene.methods, "label": scene.labels, "cost": scene.costs[:len(CHARTED)], "error": scene.errors,
+        "scenes": [{"name": scene.name, "method": scene.methods, "label": scene.labels, "cost": scene.costs[:len(CHARTED)] / _UNITS, "error": scene.errors,
                     "fronts": [[scene.fronts(cost, error) for error in range(len(compared.errors))] for cost in range(len(CHARTED))],
                     "front": [[scene.front_of_all(cost, error) for error in range(len(compared.errors))] for cost in range(len(CHARTED))]}
                    for scene in compared.scenes],
