@@ -5,7 +5,7 @@ const mostFold = 16; // at which colors are strongest
 const foldColor = d3.scaleLinear([-1, -0.5, 0, 0.5, 1], ["#b35806", "#f5a859", "#f4f4f4", "#8db7dc", "#1f5a9c"]).interpolate(d3.interpolateLab).clamp(true);
 const colorOf = (factor) => foldColor(Math.log(factor) / Math.log(mostFold));
 const isOpen = ([, low, high]) => low <= 1 && (high === null || high >= 1);
-const factorText = (factor) => d3.format(factor < 0.01 || factor >= 1e4 ? ".1e" : ",.2r")(factor);
+const factorText = (factor) => d3.format(factor === 0 ? "d" : factor < 0.01 || factor >= 1e4 ? ".1e" : ",.2r")(factor);
 const inkOn = (color) => (d3.lab(color).l > 62 ? "#111" : "#fff");
 
 // columns: names; counts: of errors in each. rows: [{name, title, swatch, isSelf, cells: [null | 0 | [value, low, high, reached]], total}]. tell(row, column) is what a

@@ -80,9 +80,13 @@ function contentOf(scene) {
              text: `${scene.name}: ${data.errors[error].name} against ${data.costs[cost].label}. ${frontWords(scene)}` };
 }
 function frontWords(scene) {
-    const unit = (/, (\w+)$/.exec(data.costs[state.cost].label) ?? ["", ""])[1];
-    const words = scene.front[state.cost][state.error].map((i) =>
-        `${methodName(scene.method[i])} ${figures(scene.cost[state.cost][i])} ${unit} → ${figures(scene.error[state.error][0][i])}`);
+    const unit = (/, (\w+)$/.exec(data.costs[state.cost].label) ?? ["", ""])[1], runs = [];
+    for (const i of scene.front[state.cost][state.error]) {
+        if (runs.length && scene.method[runs[runs.length - 1][0]] === scene.method[i]) runs[runs.length - 1].push(i);
+        else runs.push([i]);
+    }
+    const span = (run, values) => [...new Set([run[0], run[run.length - 1]].map((i) => figures(values[i])))].join("–");
+    const words = runs.map((run) => `${methodName(scene.method[run[0]])} ${span(run, scene.cost[state.cost])} ${unit} → ${span(run, scene.error[state.error][0])}`);
     return `Front, from cheap to accurate: ${words.join("; ") || "nothing"}.`;
 }
 function makeFigure(scene, s) {

@@ -243,9 +243,10 @@ def _jpeg(run: Results, folder: str, name: str, is_map: bool = False) -> str:
     path = run.image(folder, name)
     if not path:
         return ""
-    image = images.open_png(path)
-    image = Image.fromarray(images.colors(images.ERROR_COLORS, np.asarray(image.convert("L")))) if is_map else image.convert("RGB")
+    image = images.open_png(path).convert("L" if is_map else "RGB")
     image.thumbnail((_WIDTH, 10 * _WIDTH))
+    if is_map:
+        image = Image.fromarray(images.colors(images.ERROR_COLORS, np.asarray(image, dtype=int)))
     out = io.BytesIO()
     image.save(out, "JPEG", quality=_JPEG_QUALITY)
     return pages.data_uri(out.getvalue(), "image/jpeg")
