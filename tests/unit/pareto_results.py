@@ -46,7 +46,7 @@ def write(directory: Path, scenes=SCENES, copies: int = 1, images: bool = True, 
     rows, passes, graphs = [], [], {}
     for s, scene in enumerate(scenes):
         for method, (chain, frame, light, build, most, least, ends) in METHODS.items():
-            speed, accuracy = 2 ** random.normal(0, 0.7), 2 ** random.normal(0, 0.3)
+            speed, accuracy, bright = 2 ** random.normal(0, 0.7), 2 ** random.normal(0, 0.3), 2 ** random.normal(0, 0.5)
             for copy in range(copies):
                 luck = 2 ** random.normal(0, 0.4, 2) if copies > 1 else np.ones(2)
                 for i, end in enumerate(ends):
@@ -55,6 +55,7 @@ def write(directory: Path, scenes=SCENES, copies: int = 1, images: bool = True, 
                     error = most * (least / most) ** (i / max(1, len(ends) - 1)) / accuracy * luck[1]
                     row = made_up.variant(name, ms, error, error, scene=scene, **({"seed": str(copy)} if copies > 1 else {}))
                     row |= {"indirect": method + end, "build_ms": (build + light * (1 + i)) / 4, "memory_bytes": 2**20 * (8 + build / 10 + 3 * light**0.5)}
+                    row["indirect_relmse"] *= bright
                     for key in ("nrmse", "relmse"):
                         row |= made_up.spread(f"indirect_{key}", 0.93 * row[f"indirect_{key}"], 1.07 * row[f"indirect_{key}"])
                     rows.append(row)
