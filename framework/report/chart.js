@@ -1,29 +1,33 @@
 "use strict";
-// A chart of cost against error on logarithmic axes: fronts as lines with their names at the end, all else faint.
+// A chart of numbers on logarithmic or linear axes: lines and marks with names next to them, all else faint.
 
 const reachOfPointer = 40; // pixels
 const fontSize = 11;
 let chartCount = 0;
 
-// series: [{name, color, mark, isBold, points, line}], points: [{x, y, low, high, ...}], line: those of them that it joins.
-// front: the points that no other beats. shown(point) is called for the point under the pointer or the keyboard's.
-function makeChart(host, shown) {
+// What is drawn: {series: [{color, mark, isBold, isFaint, points, line, marks}], labels: [{text, color, point, isBold}],
+// front: [[x, y]], levels: [[name, y]], paths: [[point]], xLabel, yLabel, text, isLinear, hasBars}. A point is {index, x, y, low,
+// high, xLow, xHigh, isFaint}; line: those that a series joins; marks: those with a mark, its line's where it says nothing;
+// paths: along which arrow keys go.
+// shown(point) is called for the point under the pointer or the keyboard's, open(point) for a click on it or Enter.
+function makeChart(host, shown, open = () => {}) {
     const id = `chart-${chartCount++}`;
-    let content, zoom = null, current = null, size, x, y, near;
-    host.addEventListener("pointermove", (event) => {
-        if (event.pointerType === "mouse" && event.buttons) return;
-        point(event);
-    });
-    host.addEventListener("pointerdown", point);
+    let content = null, zoom = null, current = null, size, x, y, near;
+    host.addEventListener("pointermove", (event) => { if (event.pointerType !== "mouse" || !event.buttons) point(event); });
+    host.addEventListener("pointerdown", (event) => point(event));
+    host.addEventListener("click", (event) => { if (point(event, 12)) open(current); });
     host.addEventListener("dblclick", () => setZoom(null));
     host.addEventListener("keydown", onKey);
-    host.addEventListener("focus", () => { if (!current && content.front.length) select(content.front[0]); });
+    host.addEventListener("focus", () => {
+        const first = content?.paths.find((path) => path.length);
+        if (!current && first) select(first[0]);
+    });
 
-    function point(event) {
-        const box = host.firstElementChild.getBoundingClientRect();
-        const scale = size.width / box.width;
-        const found = near.find((event.clientX - box.left) * scale, (event.clientY - box.top) * scale, reachOfPointer);
+    function point(event, reach = reachOfPointer) {
+        const box = host.firstElementChild.getBoundingClientRect(), scale = size.width / box.width;
+        const found = near.find((event.clientX - box.left) * scale, (event.clientY - box.top) * scale, reach);
         if (found && found !== current) select(found);
+        return found;
     }
     function select(found) {
         current = found;
@@ -34,44 +38,49 @@ function makeChart(host, shown) {
         zoom = domain;
         draw();
     }
-    // Left and right go along a line, up and down to the next line.
+    // Left and right go along a path, up and down to the next one
     function onKey(event) {
-        const lines = content.series.filter((one) => one.line.length);
-        const s = Math.max(0, lines.findIndex((one) => one === current?.series));
-        if (!lines.length) return;
-        const i = Math.max(0, lines[s].line.indexOf(current)), last = lines[s].line.length - 1;
-        const beside = (step) => lines[(s + step + lines.length) % lines.length].line[0];
-        const to = { ArrowLeft: () => lines[s].line[Math.max(0, i - 1)], ArrowRight: () => lines[s].line[Math.min(last, i + 1)],
-                     ArrowUp: () => beside(-1), ArrowDown: () => beside(1), Home: () => lines[s].line[0], End: () => lines[s].line[last] }[event.key];
-        if (to) select(to());
+        const paths = content.paths.filter((path) => path.length);
+        const p = Math.max(0, paths.findIndex((path) => path.includes(current))), path = paths[p] ?? [], i = path.indexOf(current);
+        const to = { ArrowLeft: path[Math.max(0, i - 1)], ArrowRight: path[Math.min(path.length - 1, i + 1)], Home: path[0], End: path[path.length - 1],
+                     ArrowUp: paths[(p - 1 + paths.length) % paths.length]?.[0], ArrowDown: paths[(p + 1) % paths.length]?.[0] }[event.key];
+        if (to) select(to);
         else if (event.key === "Escape") setZoom(null);
-        else if (event.key === "+" && current) setZoom([around(x, current.x), around(y, current.y).reverse()]);
+        else if (event.key === "Enter" && current) open(current);
+        else if (event.key === "+" && current) setZoom([around(x, current.x), around(y, current.y)]);
         else return;
         event.preventDefault();
+        event.stopPropagation();
     }
+    // Half of an axis round a value
     const around = (axis, value) => {
-        const [a, b] = axis.domain(), half = Math.sqrt(Math.sqrt(Math.max(a, b) / Math.min(a, b)));
-        return [value / half, value * half];
+        const [a, b] = axis.range(), half = Math.abs(b - a) / 4, middle = axis(value), order = Math.sign(b - a);
+        return [axis.invert(middle - order * half), axis.invert(middle + order * half)];
     };
 
     function ticksOf(axis) {
+        if (content.isLinear) return axis.ticks(6);
         const [low, high] = d3.extent(axis.domain());
         const steps = Math.log10(high / low) > 2.2 ? [1] : Math.log10(high / low) > 0.6 ? [1, 2, 5] : [1, 1.5, 2, 3, 4, 5, 6, 8];
         return d3.range(Math.floor(Math.log10(low)), Math.ceil(Math.log10(high)) + 1)
             .flatMap((decade) => steps.map((step) => Number(`${step}e${decade}`))).filter((tick) => tick >= low && tick <= high);
     }
-    function domainOf(values) {
-        const [low, high] = d3.extent(values), margin = Math.max((high / low) ** 0.04, 2 / Math.sqrt(high / low));
+    function domainOf(values, fromZero) {
+        const [low, high] = d3.extent(values);
+        if (content.isLinear) return [fromZero ? Math.min(0, low) : low, high + 0.04 * (high - low || 1)];
+        const margin = Math.max((high / low) ** 0.04, 2 / Math.sqrt(high / low));
         return low > 0 ? [low / margin, high * margin] : [1, 10];
     }
 
     function draw() {
         const points = content.series.flatMap((one) => one.points);
         const width = Math.max(280, host.clientWidth), height = Math.round(Math.min(430, Math.max(300, 0.62 * width)));
-        const margin = { left: 58, right: Math.min(120, 0.2 * width), top: 22, bottom: 44 };
+        const margin = { left: 58, right: content.labels.length ? Math.min(120, 0.2 * width) : 20, top: 22, bottom: 44 };
         size = { width, height, margin };
-        x = d3.scaleLog(zoom ? zoom[0] : domainOf(points.map((p) => p.x)), [margin.left, width - margin.right]);
-        y = d3.scaleLog(zoom ? zoom[1] : domainOf(points.map((p) => p.y)), [height - margin.bottom, margin.top]);
+        const scale = content.isLinear ? d3.scaleLinear : d3.scaleLog;
+        const heights = points.flatMap((p) => (content.hasBars && p.high > 0 ? [p.y, p.high] : [p.y])).concat((content.levels ?? []).map(([, value]) => value));
+        x = scale(zoom ? zoom[0] : domainOf(points.map((p) => p.x)), [margin.left, width - margin.right]);
+        y = scale(zoom ? zoom[1] : domainOf(heights, true), [height - margin.bottom, margin.top]);
         const svg = d3.create("svg").attr("class", "chart").attr("viewBox", `0 0 ${width} ${height}`).attr("role", "img").attr("aria-label", content.text);
         svg.append("clipPath").attr("id", id).append("rect").attr("x", margin.left).attr("y", margin.top)
             .attr("width", width - margin.left - margin.right).attr("height", height - margin.top - margin.bottom);
@@ -102,43 +111,50 @@ function makeChart(host, shown) {
             .call(d3.axisLeft(y).tickValues(ticksOf(y)).tickFormat((v) => figures(v)).tickSize(margin.left + margin.right - width).tickPadding(6));
         for (const axis of [bottom, left]) axis.selectAll(".domain").remove();
         svg.append("text").attr("class", "title").attr("x", (margin.left + width - margin.right) / 2).attr("y", height - 8)
-            .attr("text-anchor", "middle").text(`← cheaper   ${content.xLabel}`);
-        svg.append("text").attr("class", "title").attr("x", 6).attr("y", 13).text(`${content.yLabel}   ↓ more accurate`);
+            .attr("text-anchor", "middle").text(content.isLinear ? content.xLabel : `← cheaper   ${content.xLabel}`);
+        svg.append("text").attr("class", "title").attr("x", 6).attr("y", 13).text(content.isLinear ? content.yLabel : `${content.yLabel}   ↓ more accurate`);
     }
 
     function drawPoints(inside) {
-        const at = (p) => `${x(p.x).toFixed(1)},${y(p.y).toFixed(1)}`;
+        const at = (p) => `${x(p.x).toFixed(1)},${y(p.y).toFixed(1)}`, bottom = size.height - size.margin.bottom;
+        for (const [name, value] of content.levels ?? []) {
+            inside.append("path").attr("class", "level").attr("d", `M${size.margin.left},${y(value)}H${size.width - size.margin.right}`);
+            inside.append("text").attr("class", "level").attr("x", size.width - size.margin.right - 3).attr("y", y(value) - 3).text(name);
+        }
         if (content.front.length) {
-            inside.append("path").attr("class", "front").attr("d", d3.line().x((p) => x(p.x)).y((p) => y(p.y)).curve(d3.curveStepAfter)(content.front));
+            inside.append("path").attr("class", "front").attr("d", d3.line().x(([px]) => x(px)).y(([, py]) => y(py)).curve(d3.curveStepAfter)(content.front));
         }
         for (const one of content.series) {
             const group = inside.append("g").attr("class", "series" + (one.isBold ? " bold" : "") + (one.isFaint ? " faint" : ""))
                 .attr("stroke", `var(--${one.color})`).attr("fill", `var(--${one.color})`);
-            const onLine = new Set(one.line);
+            const marks = one.marks ?? one.line, isMarked = new Set(marks);
             // Strokes of no length with round ends: one path for thousands of points
-            group.append("path").attr("class", "dots").attr("fill", "none").attr("d", one.points.filter((p) => !onLine.has(p)).map((p) => `M${at(p)}h0`).join(""));
+            group.append("path").attr("class", "dots").attr("fill", "none").attr("d", one.points.filter((p) => !isMarked.has(p)).map((p) => `M${at(p)}h0`).join(""));
             group.append("path").attr("class", "line").attr("fill", "none").attr("d", one.line.length ? `M${one.line.map(at).join("L")}` : "");
-            for (const p of one.line) {
-                group.append("path").attr("class", "mark").attr("d", one.mark)
-                    .attr("transform", `translate(${at(p)}) scale(${one.isBold ? 1 : 0.75})`);
+            if (content.hasBars) {
+                group.append("path").attr("class", "bars").attr("d", marks.filter((p) => !p.isFaint).map((p) =>
+                    `M${x(p.xLow)},${y(p.y)}H${x(p.xHigh)}M${x(p.x)},${p.low > 0 ? y(p.low) : bottom}V${y(p.high)}`).join(""));
+            }
+            for (const p of marks) {
+                group.append("path").attr("class", p.isFaint ? "mark faint" : "mark").attr("d", one.mark)
+                    .attr("transform", `translate(${at(p)}) scale(${one.isBold || content.hasBars ? 1 : 0.75})`);
             }
         }
     }
 
-    // Each name goes next to its line's end: off other names, over as few marks and lines as can be, nearest first.
+    // Each name goes next to its point: off other names, over as few marks and lines as can be, nearest first
     function drawLabels(group) {
         const taken = [], inked = [];
-        for (const { line } of content.series) {
-            const ends = line.map((p) => [x(p.x), y(p.y)]);
+        for (const { line, marks } of content.series) {
+            const ends = (line.length ? line : marks ?? []).map((p) => [x(p.x), y(p.y)]);
             ends.forEach(([px, py], i) => {
-                const [qx, qy] = ends[i + 1] ?? [px, py], count = Math.ceil(Math.hypot(qx - px, qy - py) / 8);
+                const [qx, qy] = (line.length && ends[i + 1]) || [px, py], count = Math.ceil(Math.hypot(qx - px, qy - py) / 8);
                 for (let k = 0; k <= count; k++) inked.push([px + (qx - px) * k / (count || 1), py + (qy - py) * k / (count || 1)]);
             });
         }
-        for (const one of [...content.series].sort((a, b) => b.isBold - a.isBold)) {
-            const end = one.line.filter(isInside).pop();
-            if (!end || one.isFaint) continue;
-            const [px, py] = [x(end.x), y(end.y)], length = 0.56 * fontSize * one.name.length + 4;
+        for (const { text, color, point: end, isBold } of content.labels) {
+            if (!isInside(end) || end.isFaint) continue;
+            const [px, py] = [x(end.x), y(end.y)], length = 0.56 * fontSize * text.length + 4;
             const boxes = d3.range(-14, 15).flatMap((step) => [px + 9, px - 9 - length].map((left) => ({
                 left, right: left + length, top: py + step * 5 - 6, bottom: py + step * 5 + 6, cost: Math.abs(step) }))).filter((box) =>
                 box.left >= size.margin.left - 4 && box.right <= size.width && box.top >= 0 && box.bottom <= size.height - size.margin.bottom
@@ -150,11 +166,11 @@ function makeChart(host, shown) {
             const box = boxes[d3.scan(boxes, (a, b) => a.cost - b.cost)], middle = (box.top + box.bottom) / 2;
             taken.push(box);
             if (Math.abs(middle - py) > 8) {
-                group.append("path").attr("class", "leader").attr("stroke", `var(--${one.color})`)
+                group.append("path").attr("class", "leader").attr("stroke", `var(--${color})`)
                     .attr("d", `M${px},${py}L${box.left < px ? box.right - 1 : box.left - 1},${middle}`);
             }
-            group.append("text").attr("class", one.isBold ? "name bold" : "name").attr("x", box.left).attr("y", middle + 4)
-                .attr("font-size", fontSize).attr("fill", `var(--${one.color})`).text(one.name);
+            group.append("text").attr("class", isBold ? "name bold" : "name").attr("x", box.left).attr("y", middle + 4)
+                .attr("font-size", fontSize).attr("fill", `var(--${color})`).text(text);
         }
     }
 
@@ -173,7 +189,6 @@ function makeChart(host, shown) {
         update(changed, keepZoom = false) {
             content = changed;
             if (!keepZoom) zoom = null;
-            for (const one of content.series) for (const p of one.points) p.series = one;
             current = current && (content.series.flatMap((one) => one.points).find((p) => p.index === current.index) ?? null);
             draw();
         },

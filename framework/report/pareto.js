@@ -75,8 +75,11 @@ function contentOf(scene) {
     });
     const byIndex = new Map([...series.values()].flatMap((one) => one.points.map((p) => [p.index, p])));
     for (const [m, one] of series) one.line = (fronts[m] ?? []).map((index) => byIndex.get(index));
-    const front = scene.front[cost][error].map((index) => byIndex.get(index)).filter((p) => p);
-    return { series: [...series.values()], front, xLabel: data.costs[cost].label, yLabel: `${data.errors[error].name}, ${data.light} light`,
+    const drawn = [...series.values()], x = scene.cost[cost];
+    const labels = drawn.filter((one) => one.line.length && !one.isFaint).sort((a, b) => b.isBold - a.isBold)
+        .map((one) => ({ text: one.name, color: one.color, isBold: one.isBold, point: one.line[one.line.length - 1] }));
+    return { series: drawn, labels, paths: drawn.map(({ line }) => line), front: scene.front[cost][error].map((index) => [x[index], value[index]]),
+             xLabel: data.costs[cost].label, yLabel: `${data.errors[error].name}, ${data.light} light`,
              text: `${scene.name}: ${data.errors[error].name} against ${data.costs[cost].label}. ${frontWords(scene)}` };
 }
 function frontWords(scene) {
