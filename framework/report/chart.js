@@ -75,7 +75,7 @@ function makeChart(host, shown, open = () => {}) {
     function draw() {
         const points = content.series.flatMap((one) => one.points);
         const width = Math.max(280, host.clientWidth), height = Math.round(Math.min(430, Math.max(300, 0.62 * width)));
-        const margin = { left: 58, right: content.labels.length ? Math.min(120, 0.2 * width) : 20, top: 22, bottom: 44 };
+        const margin = { left: 58, right: Math.min(0.2 * width, 20 + 0.56 * fontSize * (d3.max(content.labels, ({ text }) => text.length) ?? 0)), top: 22, bottom: 44 };
         size = { width, height, margin };
         const scale = content.isLinear ? d3.scaleLinear : d3.scaleLog;
         const heights = points.flatMap((p) => (content.hasBars && p.high > 0 ? [p.y, p.high] : [p.y])).concat((content.levels ?? []).map(([, value]) => value));
@@ -119,7 +119,7 @@ function makeChart(host, shown, open = () => {}) {
         const at = (p) => `${x(p.x).toFixed(1)},${y(p.y).toFixed(1)}`, bottom = size.height - size.margin.bottom;
         for (const [name, value] of content.levels ?? []) {
             inside.append("path").attr("class", "level").attr("d", `M${size.margin.left},${y(value)}H${size.width - size.margin.right}`);
-            inside.append("text").attr("class", "level").attr("x", size.width - size.margin.right - 3).attr("y", y(value) - 3).text(name);
+            inside.append("text").attr("class", "level").attr("x", size.width - size.margin.right - 3).attr("y", y(value) + (y(value) < size.margin.top + 14 ? 11 : -3)).text(name);
         }
         if (content.front.length) {
             inside.append("path").attr("class", "front").attr("d", d3.line().x(([px]) => x(px)).y(([, py]) => y(py)).curve(d3.curveStepAfter)(content.front));

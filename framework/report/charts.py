@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 import pandas as pd
 
@@ -58,16 +56,17 @@ def error_chart(results: Results, metric: Metric, light: str, time: str) -> tupl
             "text": f"{metric.label} of the {light} light against the time of {TIMES[time]}; {len(front)} of {len(own)} variants on the front"}, absent
 
 
-def error_charts(results: Results, lights: list[str]) -> tuple[list[dict], list[tuple[str, str]]]:
+def error_charts(results: Results, lights: list[str]) -> tuple[list[dict], set[tuple[str, str]]]:
     """The charts of the first metrics by each time, and (variant, what of it cannot be drawn)."""
-    found, absent = [], {}
+    found, absent = [], set()
     for light in lights:
         for time in TIMES:
             for metric in results.metrics[:_MAX_METRICS]:
                 chart, without = error_chart(results, metric, light, time)
-                found += [chart] if chart else []
-                absent |= dict.fromkeys((name, f"{metric.label}, {light}") for name in without if chart)
-    return found, list(absent)
+                if chart:
+                    found.append(chart)
+                    absent.update((name, f"{metric.label}, {light}") for name in without)
+    return found, absent
 
 
 def frame_chart(rows: pd.DataFrame, column: str, label: str, results: Results, light: str = "") -> dict:
@@ -80,6 +79,3 @@ def frame_chart(rows: pd.DataFrame, column: str, label: str, results: Results, l
         told.append(f"{variant}: {text.figures(own[column].mean())} on average")
     return {"light": light, "lines": lines, "xLabel": "measured frame", "yLabel": label, "text": f"{label} over frames; {', '.join(told)}"}
 
-
-def is_over_frames(rows: pd.DataFrame) -> bool:
-    return rows["frame"].nunique() > 1 and not math.isnan(rows["frame"].max())

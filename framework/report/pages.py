@@ -12,7 +12,6 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import jinja2
-import numpy as np
 
 from report import text
 from report.results import ReportError
@@ -50,10 +49,10 @@ def json_text(value) -> str:
 def _rounded(value):
     if isinstance(value, dict):
         return {str(key): _rounded(item) for key, item in value.items()}
-    if isinstance(value, (list, tuple, np.ndarray)):
+    if hasattr(value, "tolist"):  # of numpy or pandas
+        value = value.tolist()
+    if isinstance(value, (list, tuple)):
         return [_rounded(item) for item in value]
-    if isinstance(value, np.generic):
-        value = value.item()
     if isinstance(value, float):
         rounded = float(f"{value:.4g}") if math.isfinite(value) else None
         return int(rounded) if rounded is not None and rounded.is_integer() else rounded

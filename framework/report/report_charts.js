@@ -7,7 +7,7 @@
     const drawn = [];
 
     // What the filter keeps is drawn as it is, the rest faint
-    const isFaint = (i) => !(page.isKept?.(data.variants[i].number) ?? true);
+    const isFaint = (i) => page.kept !== undefined && !page.kept.has(data.variants[i].number);
 
     function errorContent(chart) {
         const [value, low, high] = chart.error, [time, fast, slow] = data.times[chart.time], marked = new Set(chart.marked);

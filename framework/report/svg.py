@@ -12,18 +12,16 @@ import matplotlib
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-from report.style import CATEGORY_COLORS, RAMP_COLORS
+from report.style import CATEGORY_COLORS
 
-FONT_SIZE = 9.0
-_COLORS = ("fg", "muted", "grid", "card", *CATEGORY_COLORS, *RAMP_COLORS)
+_COLORS = ("fg", "muted", "grid", *CATEGORY_COLORS)
 # Matplotlib knows no CSS variables: each is drawn in a colour of its own, which the variable replaces afterwards.
 PLACEHOLDERS = {name: f"#fe01{index:02x}" for index, name in enumerate(_COLORS)}
 _RC = {
     "svg.fonttype": "none",  # text stays text: sharp, small, selectable
     "svg.hashsalt": "voxray",  # the same ids in every run
-    "path.simplify": False,  # it drops strokes of no length
     "text.parse_math": False,  # a name with a dollar sign is no formula
-    "font.size": FONT_SIZE,
+    "font.size": 9.0,
     "axes.edgecolor": PLACEHOLDERS["muted"],
     "axes.labelcolor": PLACEHOLDERS["fg"],
     "xtick.color": PLACEHOLDERS["muted"],
@@ -40,12 +38,10 @@ def drawing():
         yield
 
 
-def to_svg(figure: Figure, chart_id: str, caption: str, titles: list[str], anchors: list[str] | None = None) -> str:
+def to_svg(figure: Figure, chart_id: str, caption: str, titles: list[str]) -> str:
     """The figure as a part of a page: ids unique to the chart, colours the page's.
 
-    @param titles What elements with the group ids "<chart_id>-point-<i>" say when pointed at, or the marks one after another
-        in groups with the ids "<chart_id>-points-<i>".
-    @param anchors The ids that such marks lead to. Matplotlib writes no links at marks.
+    @param titles What elements with the group ids "<chart_id>-point-<i>" say when pointed at.
     """
     figure.patch.set_visible(False)
     for axes in figure.axes:
@@ -62,20 +58,11 @@ def to_svg(figure: Figure, chart_id: str, caption: str, titles: list[str], ancho
     svg = re.sub(r"<svg[^>]*>", lambda _: opening, svg, count=1)
     svg = re.sub(r"font: ([\d.]+)px [^;\"]*", r"font-size: \1px", svg)
 
-    svg = re.sub(r'(?<= id=")(?!%s-points?-)' % re.escape(chart_id), f"{chart_id}-", svg)
+    svg = re.sub(r'(?<= id=")(?!%s-point-)' % re.escape(chart_id), f"{chart_id}-", svg)
     svg = re.sub(r'(?<=href="#)(?=[mpCDLQPM][0-9a-f]{10}")|(?<=url\(#)', f"{chart_id}-", svg)
     for color, placeholder in PLACEHOLDERS.items():
         svg = svg.replace(placeholder, f"var(--{color})")
-    for i, title in enumerate(titles if anchors is None else ()):
+    for i, title in enumerate(titles):
         group = f'<g id="{chart_id}-point-{i}">'
         svg = svg.replace(group, f"{group}<title>{escape(title)}</title>")
-    if anchors is None:
-        return svg
-
-    points = iter(zip(titles, anchors))
-
-    def linked(mark: re.Match) -> str:
-        title, anchor = next(points)
-        return f'<a xlink:href="#{escape(anchor)}"><title>{escape(title)}</title>{mark[0]}</a>'
-
-    return re.sub(rf'<g id="{re.escape(chart_id)}-points-\d+">.*?</g>', lambda group: re.sub(r"<use [^>]*/>", linked, group[0]), svg)
+    return svg

@@ -183,15 +183,24 @@ class InABrowser(unittest.TestCase):
         self.assertGreater(places[0][0], 0.05)
 
     def test_points_of_charts_say_their_name_and_lead_to_their_variant(self):
-        point = self.browser.run("""return [...document.querySelectorAll(".chart a")].find((a) => a.getBoundingClientRect().width
-            && a.getAttribute("xlink:href") === "#variant-3")""")
-        self.assertIn("3 (resolution 256, light_rays)", self.browser.run("return arguments[0].querySelector('title').textContent", point))
-        self.browser.run("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", point)
-        ActionChains(self.browser.driver).move_to_element(point).click().perform()
+        self.browser.run("document.querySelector('#speed').scrollIntoView({behavior: 'instant'})")
+        plots = [plot for plot in self.browser.driver.find_elements(By.CSS_SELECTOR, "#speed .plot") if plot.is_displayed()]
+        self.assertEqual(len(plots), 3)
+        marks = plots[0].find_elements(By.CSS_SELECTOR, ".mark")
+        point = max(marks, key=lambda mark: mark.location["x"])  # the slowest
+        ActionChains(self.browser.driver).move_to_element(point).perform()
+        said = plots[0].find_element(By.XPATH, "following-sibling::output").text
+        self.assertRegex(said, r"^3 \(resolution 256, light_rays\): 60 ms, 0.3 \(0.291 to 0.309\)$")
+        ActionChains(self.browser.driver).click().perform()
         self.browser.settle()
         self.assertEqual(self.browser.run("return location.hash"), "#variant-3")
         top = self.browser.run("return document.getElementById('variant-3').getBoundingClientRect().top")
         self.assertTrue(0 <= top < 300, top)
+        # By keys, and faint where the filter leaves a variant out
+        plots[0].send_keys(Keys.HOME, Keys.ENTER)
+        self.assertEqual(self.browser.run("return location.hash"), "#variant-4")
+        self.open("filter=rsm")
+        self.assertEqual(self.browser.run(VISIBLE.replace("e.offsetParent", "e.getBoundingClientRect().width"), "#speed .mark.faint"), 3 * 3)
 
     def test_sequences_play_in_a_loop(self):
         self.assertEqual(self.browser.run(VISIBLE, ".film img"), 6)
@@ -203,7 +212,7 @@ class InABrowser(unittest.TestCase):
     def test_images_and_their_chart_are_the_first_screen(self):
         self.browser.resize(1280, 800)
         self.open()
-        bottoms = self.browser.run("""return ['.lead img', '.thumbnail img', '#images .chart'].map((selector) =>
+        bottoms = self.browser.run("""return ['.lead img', '.thumbnail img', '#images .plot'].map((selector) =>
             Math.max(...[...document.querySelectorAll(selector)].filter((e) => e.getClientRects().length)
                 .map((e) => e.getBoundingClientRect().bottom)))""")
         self.assertLess(max(bottoms), 800)
