@@ -87,10 +87,12 @@ def scenes_of(runs: list[Results], members: list[dict[str, int]], errors: list[E
     named: dict[tuple[str, str], tuple[str, str]] = {}
     for run, of in zip(runs, members):
         table = run.ok
-        values = np.array([error.of(table, light) for error in errors])
         costs = _costs(run, table)
-        beaten = [set(all_beaten(run, error.metric, LIGHTS[light] + error.metric.key)) for error in errors]
-        is_worse = np.array([[name in names for name in table["variant"]] for names in beaten])
+        values, is_worse = np.full((len(errors), 3, len(table)), np.nan), np.zeros((len(errors), len(table)), dtype=bool)
+        for i, error in enumerate(errors):
+            if any(metric.key == error.metric.key for metric in run.metrics):
+                values[i] = error.of(table, light)
+                is_worse[i] = table["variant"].isin(list(all_beaten(run, error.metric, LIGHTS[light] + error.metric.key)))
         is_known = (costs > 0) & np.isfinite(costs)
         usable = is_known[:, None] & ((values[:, 0] > 0) & np.isfinite(values[:, 0]) & ~is_worse)[None]
         scene_names = dict(zip(run.variants["variant"], names_of_scenes(run)))

@@ -84,7 +84,7 @@ def render(compared: Comparison, with_images: bool = True) -> str:
     """The whole page, self-contained."""
     pictures = _pictures(compared) if with_images else [{} for _ in compared.scenes]
     return pages.render("pareto.html.j2", scripts=_SCRIPTS, data=pages.json_text(_data(compared)), pictures=pages.json_text(pictures),
-                        sentences=sentences(compared), notes=_notes(compared), light=compared.light,
+                        sentences=sentences(compared), has_rival=compared.rival is not None, notes=_notes(compared), light=compared.light,
                         runs=[str(run.directory) for run in compared.runs])
 
 

@@ -143,6 +143,14 @@ class Pareto(unittest.TestCase):
         np.testing.assert_allclose(scene.errors[:, 0, 1], (0.05, 0.0025, 0.025, 0.025))
         np.testing.assert_allclose(scene.errors[0, :, 1], (0.05, 0.0475, 0.0525))
 
+    def test_errors_that_a_run_has_not_are_empty(self):
+        both = [load(self.run_of(name, {"p": (PATHS, 100, 0.1), "r": (RAYS, 10, 0.05)})) for name in ("room", "hall")]
+        both[1].metrics = both[1].metrics[:1]
+        compared = Comparison.of(both, "nrmse", "indirect")
+        self.assertEqual(np.isfinite(compared.scenes[1].errors[:, 0]).all(axis=1).tolist(), [True, False, False, False])
+        self.assertEqual(self.cell(compared, RAYS, 1, error=1)[3:], (0, 0))
+        pareto_page.render(compared)
+
     def test_images_worse_than_black_are_on_no_front(self):
         compared = self.compare(self.run_of("room", {"p": (PATHS, 100, 0.1), "r": (RAYS, 1, 1.9)}))
         [scene] = compared.scenes
