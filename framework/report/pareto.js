@@ -31,13 +31,16 @@ function tell(s, m) {
     if (cell === 0) return `${who}: reaches none of the ${count} errors (${error}) of ${rival}.`;
     const [value, low, high, reached] = cell;
     const open = isOpen(cell) ? "; that leaves open which is better" : "";
-    return `${who}: ${factorText(value)} times as ${data.costs[state.cost].key === "memory" ? "small" : "fast"} as ${rival} at equal ${error} `
-        + `(${factorText(low)} to ${high === null ? "∞" : factorText(high)} within the intervals${open}), by ${costWords()}. It reaches ${reached} of ${count} errors.`;
+    const ends = `(${factorText(low)} to ${high === null ? "∞" : factorText(high)} within the intervals${open})`;
+    const words = data.costs[state.cost].key === "memory" ? `memory of ${rival} over its own at equal ${error}: ${factorText(value)} ${ends}`
+        : `${factorText(value)} times as fast as ${rival} at equal ${error} ${ends}, by ${costWords()}`;
+    return `${who}: ${words}. It reaches ${reached} of ${count} errors.`;
 }
 function showMatrix() {
     const rows = order();
     const cost = data.costs[state.cost], rival = methodName(rivalMethod()), error = data.errors[state.error].name;
-    byId("matrix-title").textContent = `${cost.key === "memory" ? "Memory saved" : "Speed-up"} over ${rival} at equal ${error}, by ${costWords()}`;
+    byId("matrix-title").textContent = cost.key === "memory" ? `How many times less memory than ${rival} at equal ${error}`
+        : `Speed-up over ${rival} at equal ${error}, by ${costWords()}`;
     drawMatrix(byId("matrix"), {
         columns: data.scenes.map((scene) => scene.name), totalName: "median", counts: data.count[state.rival][state.cost][state.error],
         rows: rows.map((m) => ({ name: methodName(m), title: data.methods[m].chain, swatch: swatch(m), isSelf: m === rivalMethod(), total: data.medians[state.rival][state.cost][state.error][m],

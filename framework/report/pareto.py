@@ -71,6 +71,10 @@ class Scene:
         own = np.flatnonzero(chosen & self.usable[cost, error])
         return own[pareto_front(list(zip(self.costs[cost, own].tolist(), self.errors[error, end, own].tolist())))]
 
+    def curve(self, front: np.ndarray, cost: int, error: int, end: int = 0) -> tuple[np.ndarray, np.ndarray]:
+        """Costs and errors of a front."""
+        return self.costs[cost, front], self.errors[error, end, front]
+
     def fronts(self, cost: int, error: int) -> dict[int, np.ndarray]:
         """Each method's own front."""
         found = {int(method): self.front(self.methods == method, cost, error) for method in np.unique(self.methods)}
@@ -115,8 +119,9 @@ def scenes_of(runs: list[Results], members: list[dict[str, int]], errors: list[E
 
 @dataclass(frozen=True)
 class SpeedUps:
-    """Each method's cost over that of each rival at equal error. At the error of each variant on the rival's own front: the
-    rival's cost over what the method costs for as little error, of those that it reaches the (geometric) median.
+    """The cost of each rival over each method's at equal error: at the error of each variant on the rival's front by time of a
+    frame, what the rival costs for as little error over what the method costs; of the errors that it reaches the (geometric)
+    median.
 
     factors: value, its ends by the intervals of both errors and how many errors were reached, shape (rivals, CHARTED, errors,
         scenes, methods, 4); value NaN where none is. count: errors of the rival, 0 where it was not measured, shape (rivals,
@@ -144,20 +149,21 @@ def speed_ups(scenes: list[Scene], methods: list[Method], rivals: list[int], err
     for s, scene in enumerate(scenes):
         for cost, error in np.ndindex(len(CHARTED), error_count):
             fronts = scene.fronts(cost, error)
-            own = [(i, fronts[rival]) for i, rival in enumerate(rivals) if rival in fronts]
-            if not own:
+            compared = [(i, rival) for i, rival in enumerate(rivals) if rival in fronts]
+            if not compared:
                 continue
-            begins = np.cumsum([0, *(len(front) for _, front in own)])
-            wanted = np.concatenate([front for _, front in own])
-            spent, (value, low, high) = scene.costs[cost, wanted], scene.errors[error][:, wanted]
+            # Memory does not rise with accuracy, so that its own front would have few errors
+            targets = [scene.front((scene.methods == rival) & scene.usable[cost, error], 0, error) for _, rival in compared]
+            begins = np.cumsum([0, *map(len, targets)])
+            value, low, high = scene.errors[error][:, np.concatenate(targets)]
+            spent = np.concatenate([_log_cost_at(scene.errors[error, 0, target], *scene.curve(fronts[rival], cost, error))
+                                    for (_, rival), target in zip(compared, targets)])
             for method in fronts:
-                chosen = scene.methods == method
-                logs = []
                 # At an end: the one's least error against the other's largest
-                for errors, end in ((value, 0), (low, 2), (high, 1)):
-                    front = scene.front(chosen, cost, error, end)
-                    logs.append(np.log(spent) - _log_cost_at(errors, scene.costs[cost, front], scene.errors[error, end, front]))
-                for (i, _), begin, end in zip(own, begins, begins[1:]):
+                ends = ((value, 0), (low, 2), (high, 1))
+                curves = [scene.curve(scene.front(scene.methods == method, cost, error, end), cost, error, end) for _, end in ends]
+                logs = [spent - _log_cost_at(errors, *curve) for (errors, _), curve in zip(ends, curves)]
+                for (i, _), begin, end in zip(compared, begins, begins[1:]):
                     count[i, cost, error, s] = end - begin
                     factors[i, cost, error, s, method] = _median_factor(*(log[begin:end] for log in logs))
     return SpeedUps(rivals, factors, count)
@@ -184,7 +190,7 @@ def best_point(scene: Scene, rival: int, rejected: set[int], cost: int, error: i
     own = np.flatnonzero(scene.usable[cost, error] & ~np.isin(scene.methods, list(rejected)))
     if not len(front) or not len(own):
         return None
-    costs, errors = scene.costs[cost, front], scene.errors[error, 0, front]
+    costs, errors = scene.curve(front, cost, error)
     spent = np.exp(_log_cost_at(scene.errors[error, 0, own], costs, errors))
     own, spent = (values[np.isnan(spent) | (scene.costs[cost, own] <= spent)] for values in (own, spent))
     if not len(own):

@@ -48,7 +48,7 @@ function foldedTable(title, note, content, most = 300) {
         const { head, rows } = content();
         const ordered = sorted.column < 0 ? rows : [...rows].sort(compare);
         const headings = head.map((name, column) => element("th", {
-            scope: "col", "aria-sort": column === sorted.column && (sorted.direction > 0 ? "ascending" : "descending"),
+            scope: "col", class: typeof rows[0]?.[column] === "string" && "words", "aria-sort": column === sorted.column && (sorted.direction > 0 ? "ascending" : "descending"),
         }, element("button", { type: "button", onclick: () => {
             sorted = { column, direction: column === sorted.column ? -sorted.direction : 1 };
             show(limit);
