@@ -12,7 +12,7 @@ let chartCount = 0;
 // shown(point) is called for the point under the pointer or the keyboard's, open(point) for a click on it or Enter.
 function makeChart(host, shown, open = () => {}) {
     const id = `chart-${chartCount++}`;
-    let content = null, zoom = null, current = null, size, x, y, near;
+    let content = null, zoom = null, current = null, size, x, y, nearest;
     host.addEventListener("pointermove", (event) => { if (event.pointerType !== "mouse" || !event.buttons) point(event); });
     host.addEventListener("pointerdown", (event) => point(event));
     host.addEventListener("click", (event) => { if (point(event, 12)) open(current); });
@@ -25,7 +25,7 @@ function makeChart(host, shown, open = () => {}) {
 
     function point(event, reach = reachOfPointer) {
         const box = host.firstElementChild.getBoundingClientRect(), scale = size.width / box.width;
-        const found = near.find((event.clientX - box.left) * scale, (event.clientY - box.top) * scale, reach);
+        const found = nearest.find((event.clientX - box.left) * scale, (event.clientY - box.top) * scale, reach);
         if (found && found !== current) select(found);
         return found;
     }
@@ -96,7 +96,7 @@ function makeChart(host, shown, open = () => {}) {
         svg.append("g").attr("class", "labels").attr("pointer-events", "none").call(drawLabels);
         svg.append("g").attr("class", "current").attr("clip-path", `url(#${id})`).attr("pointer-events", "none");
         host.replaceChildren(svg.node());
-        near = d3.quadtree(points.filter(isInside), (p) => x(p.x), (p) => y(p.y));
+        nearest = d3.quadtree(points.filter(isInside), (p) => x(p.x), (p) => y(p.y));
         host.dataset.zoomed = zoom ? "true" : "";
         mark();
     }
@@ -116,7 +116,7 @@ function makeChart(host, shown, open = () => {}) {
     }
 
     function drawPoints(inside) {
-        const at = (p) => `${x(p.x).toFixed(1)},${y(p.y).toFixed(1)}`, bottom = size.height - size.margin.bottom;
+        const position = (p) => `${x(p.x).toFixed(1)},${y(p.y).toFixed(1)}`, bottom = size.height - size.margin.bottom;
         for (const [name, value] of content.levels ?? []) {
             inside.append("path").attr("class", "level").attr("d", `M${size.margin.left},${y(value)}H${size.width - size.margin.right}`);
             inside.append("text").attr("class", "level").attr("x", size.width - size.margin.right - 3).attr("y", y(value) + (y(value) < size.margin.top + 14 ? 11 : -3)).text(name);
@@ -129,15 +129,15 @@ function makeChart(host, shown, open = () => {}) {
                 .attr("stroke", `var(--${one.color})`).attr("fill", `var(--${one.color})`);
             const marks = one.marks ?? one.line, isMarked = new Set(marks);
             // Strokes of no length with round ends: one path for thousands of points
-            group.append("path").attr("class", "dots").attr("fill", "none").attr("d", one.points.filter((p) => !isMarked.has(p)).map((p) => `M${at(p)}h0`).join(""));
-            group.append("path").attr("class", "line").attr("fill", "none").attr("d", one.line.length ? `M${one.line.map(at).join("L")}` : "");
+            group.append("path").attr("class", "dots").attr("fill", "none").attr("d", one.points.filter((p) => !isMarked.has(p)).map((p) => `M${position(p)}h0`).join(""));
+            group.append("path").attr("class", "line").attr("fill", "none").attr("d", one.line.length ? `M${one.line.map(position).join("L")}` : "");
             if (content.hasBars) {
                 group.append("path").attr("class", "bars").attr("d", marks.filter((p) => !p.isFaint).map((p) =>
                     `M${x(p.xLow)},${y(p.y)}H${x(p.xHigh)}M${x(p.x)},${p.low > 0 ? y(p.low) : bottom}V${y(p.high)}`).join(""));
             }
             for (const p of marks) {
                 group.append("path").attr("class", p.isFaint ? "mark faint" : "mark").attr("d", one.mark)
-                    .attr("transform", `translate(${at(p)}) scale(${one.isBold || content.hasBars ? 1 : 0.75})`);
+                    .attr("transform", `translate(${position(p)}) scale(${one.isBold || content.hasBars ? 1 : 0.75})`);
             }
         }
     }

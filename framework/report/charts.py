@@ -21,13 +21,13 @@ def variants(results: Results, styles: dict[str, Style], names: Names, labels: d
              curves: list[list[str]]) -> dict:
     """What all charts of a page share: how each finished variant is called and drawn, its times with their 5th and 95th
     percentile, and the variants that a line joins."""
-    own = list(results.ok["variant"])
-    place = {name: i for i, name in enumerate(own)}
+    finished = list(results.ok["variant"])
+    index = {name: i for i, name in enumerate(finished)}
     frame = [results.ok[f"frame_ms_{key}"] for key in ("median", "p05", "p95")]
     return {"variants": [{"name": names.full(name), "number": names.numbers[name], "label": labels[name], "anchor": anchors[name],
-                          "color": styles[name].color, "mark": MARKERS[styles[name].marker]} for name in own],
+                          "color": styles[name].color, "mark": MARKERS[styles[name].marker]} for name in finished],
             "times": {"frame": frame, "total": [times + results.ok["build_ms"] for times in frame]},
-            "curves": [[place[name] for name in curve if name in place] for curve in curves]}
+            "curves": [[index[name] for name in curve if name in index] for curve in curves]}
 
 
 def error_chart(results: Results, metric: Metric, light: str, time: str) -> tuple[dict | None, list[str]]:
@@ -39,21 +39,21 @@ def error_chart(results: Results, metric: Metric, light: str, time: str) -> tupl
     low, high = (end.to_numpy(float) for end in interval_ends(results.ok, column))
     spent = (results.ok["frame_ms_median"] + (results.ok["build_ms"] if time == "total" else 0)).to_numpy(float)
     is_drawn = (spent > 0) & np.isfinite(spent) & (error > 0) & np.isfinite(error)
-    own = np.flatnonzero(is_drawn)
+    drawn = np.flatnonzero(is_drawn)
     absent = list(results.ok["variant"][~is_drawn])
-    if not len(own):
+    if not len(drawn):
         return None, absent
     reference = results.only_reference
     levels = [["reference's own noise", results.noise(column, reference)]]
     levels += [[f"{name} image", results.baseline(name, column, reference)] for name in BASELINES]
-    points = list(zip(spent[own].tolist(), high[own].tolist()))
-    marked = own[pareto_layers(points, _MAX_MARKS)]
+    points = list(zip(spent[drawn].tolist(), high[drawn].tolist()))
+    marked = drawn[pareto_layers(points, _MAX_MARKS)]
     # A staircase of the errors that are surely reached: what lies wholly above it is beaten
-    front = own[pareto_front(points)]
+    front = drawn[pareto_front(points)]
     return {"light": light, "time": time, "error": [error, low, high], "xLabel": f"time of {TIMES[time]}, ms",
-            "yLabel": f"{metric.label}, {light} light", "drawn": own, "marked": marked, "labelled": marked[:_MAX_LABELS], "front": front,
+            "yLabel": f"{metric.label}, {light} light", "drawn": drawn, "marked": marked, "labelled": marked[:_MAX_LABELS], "front": front,
             "levels": [level for level in levels if level[1] > 0],
-            "text": f"{metric.label} of the {light} light against the time of {TIMES[time]}; {len(front)} of {len(own)} variants on the front"}, absent
+            "text": f"{metric.label} of the {light} light against the time of {TIMES[time]}; {len(front)} of {len(drawn)} variants on the front"}, absent
 
 
 def error_charts(results: Results, lights: list[str]) -> tuple[list[dict], set[tuple[str, str]]]:
@@ -71,11 +71,11 @@ def error_charts(results: Results, lights: list[str]) -> tuple[list[dict], set[t
 
 def frame_chart(rows: pd.DataFrame, column: str, label: str, results: Results, light: str = "") -> dict:
     """One line for each variant, over frames. `rows` has the columns variant, frame and `column`."""
-    place = {name: i for i, name in enumerate(results.ok["variant"])}
-    lines, told = [], []
-    for variant, own in rows.groupby("variant", sort=False):
-        own = own.sort_values("frame")
-        lines.append([place[variant], own["frame"], own[column]])
-        told.append(f"{variant}: {text.figures(own[column].mean())} on average")
-    return {"light": light, "lines": lines, "xLabel": "measured frame", "yLabel": label, "text": f"{label} over frames; {', '.join(told)}"}
+    index = {name: i for i, name in enumerate(results.ok["variant"])}
+    lines, means = [], []
+    for variant, frames in rows.groupby("variant", sort=False):
+        frames = frames.sort_values("frame")
+        lines.append([index[variant], frames["frame"], frames[column]])
+        means.append(f"{variant}: {text.figures(frames[column].mean())} on average")
+    return {"light": light, "lines": lines, "xLabel": "measured frame", "yLabel": label, "text": f"{label} over frames; {', '.join(means)}"}
 

@@ -114,15 +114,15 @@ def _waterfall(one: Explained) -> list[Step]:
     levels = np.array([1.0, *(1.0 - np.cumsum([0.0, *shares[1:]]))])  # where each bar begins; the last one's end
     ends = np.array([0.0, *levels[2:]])
     ranges = [None, *((levels[i + 1] - part.most, levels[i + 1] - part.mean, levels[i + 1] - part.least) for i, part in enumerate(one.parts)), None]
-    drawn = [0.0, *levels, *(value for own in ranges if own for value in own)]
+    drawn = [0.0, *levels, *(value for orders in ranges if orders for value in orders)]
     low, width = min(drawn), max(drawn) - min(drawn)
 
-    def at(value: float) -> float:
+    def position(value: float) -> float:
         return 100 * (value - low) / width
     names = ["whole", *(part.stage.name for part in one.parts), "rest"]
     colors = ["muted", *(CATEGORY_COLORS[i % len(CATEGORY_COLORS)] for i in range(len(one.parts))), "muted"]
-    return [Step(name, percent(share), color, at(min(begin, end)), 100 * abs(end - begin) / width, [at(value) for value in own] if own else None)
-            for name, share, color, begin, end, own in zip(names, shares, colors, levels, ends, ranges)]
+    return [Step(name, percent(share), color, position(min(begin, end)), 100 * abs(end - begin) / width, [position(value) for value in orders] if orders else None)
+            for name, share, color, begin, end, orders in zip(names, shares, colors, levels, ends, ranges)]
 
 
 def _scale(rendered: Images) -> float:

@@ -62,8 +62,8 @@ def _chart(compared, scene: Scene, cost: int) -> Figure:
     for method, front in scene.fronts(cost, error).items():
         style, is_rival = methods.styles_of(compared.methods)[method], method == compared.rival
         color = _COLORS[int(style.color[1:])]
-        own = (scene.methods == method) & scene.usable[cost, error]
-        axes.plot(scene.costs[cost, own], scene.errors[error, 0, own], ".", color=color, markersize=2, alpha=0.4, markeredgewidth=0)
+        members = (scene.methods == method) & scene.usable[cost, error]
+        axes.plot(scene.costs[cost, members], scene.errors[error, 0, members], ".", color=color, markersize=2, alpha=0.4, markeredgewidth=0)
         x, (y, low, high) = scene.costs[cost, front], scene.errors[error][:, front]
         axes.vlines(x, np.maximum(low, 1e-3 * y), high, color=color, linewidth=0.4, alpha=0.6)
         axes.plot(x, y, style.marker, linestyle="-", color=color, linewidth=1.6 if is_rival else 0.8, markersize=3.5 if is_rival else 2.8,
@@ -108,13 +108,13 @@ def _order(compared, cost: int) -> list[int]:
 
 
 def _matrix(compared, cost: int) -> Figure:
-    order, own = _order(compared, cost), compared.speed_ups.factors[0, cost, compared.first]
+    order, cells = _order(compared, cost), compared.speed_ups.factors[0, cost, compared.first]
     figure = Figure(figsize=(_FULL, 0.5 + 0.17 * len(order)))
     axes = figure.add_axes((0.2, 0.02, 0.78, 1 - 0.42 / figure.get_figheight()))
-    values = own[:, order, 0].T
+    values = cells[:, order, 0].T
     axes.imshow(values, cmap=_FOLDS, norm=LogNorm(1 / _MOST_FOLD, _MOST_FOLD), aspect="auto")
     for (row, s), value in np.ndenumerate(values):
-        _, low, high, reached = own[s, order[row]]
+        _, low, high, reached = cells[s, order[row]]
         if math.isnan(value):
             axes.text(s, row, "–" if compared.measured[s, order[row]] else "", ha="center", va="center", color="#777777")
             continue

@@ -48,7 +48,7 @@ def methods_of(runs: list[Results]) -> tuple[list[Method], list[dict[str, int]]]
     listed = list(methods.values())
     _give_names(listed)
     position = {method.chain: i for i, method in enumerate(listed)}
-    return listed, [{variant: position[method.chain] for variant, method in own.items()} for own in found]
+    return listed, [{variant: position[method.chain] for variant, method in variants.items()} for variants in found]
 
 
 def styles_of(methods: list[Method]) -> list[Style]:

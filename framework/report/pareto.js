@@ -117,8 +117,8 @@ function showPoint(scene, s, point, said, strip) {
 function imagesOf(s, i) {
     pictures ??= JSON.parse(byId("pictures").textContent);
     const [image, map] = pictures[s][i] ?? [], [reference] = pictures[s].reference ?? [], name = methodName(data.scenes[s].method[i] ?? 0);
-    return [[reference, "reference"], [image, name], [map, "its error (FLIP)"]].filter(([uri]) => uri && image).map(([uri, said]) =>
-        element("figure", {}, element("img", { src: uri, alt: `${said}, ${data.scenes[s].name}` }), element("figcaption", {}, said)));
+    return [[reference, "reference"], [image, name], [map, "its error (FLIP)"]].filter(([uri]) => uri && image).map(([uri, caption]) =>
+        element("figure", {}, element("img", { src: uri, alt: `${caption}, ${data.scenes[s].name}` }), element("figcaption", {}, caption)));
 }
 function showCharts(keepZoom = false) {
     for (const { chart, words, scene } of charts) {
@@ -174,11 +174,11 @@ const variants = foldedTable("All variants", "The CSV next to the page has them 
     rows: data.scenes.flatMap((scene) => scene.label.map((label, i) =>
         [scene.name, methodName(scene.method[i]), label, ...scene.cost.map((cost) => cost[i]), ...scene.error.flatMap((error) => error.map((end) => end[i]))])),
 }));
-byId("tables").append(...[...data.tables.map((own) => foldedTable(own.title, own.note, () => own)), speedUps, variants].map(({ folded }) => folded));
+byId("tables").append(...[...data.tables.map((table) => foldedTable(table.title, table.note, () => table)), speedUps, variants].map(({ folded }) => folded));
 
 drawScale(byId("scale"));
 const charts = data.scenes.map(makeFigure);
-const asked = new URLSearchParams(location.hash.slice(1));
-const asNumber = (key, most) => (Number(asked.get(key) ?? NaN) < most ? Number(asked.get(key)) : state[key]);
+const address = new URLSearchParams(location.hash.slice(1));
+const asNumber = (key, most) => (Number(address.get(key) ?? NaN) < most ? Number(address.get(key)) : state[key]);
 set({ cost: asNumber("cost", data.costs.length), error: asNumber("error", data.errors.length), rival: asNumber("rival", data.rivals.length) }, false);
 addEventListener("resize", () => charts.forEach(({ chart }) => chart.redraw()));

@@ -68,8 +68,8 @@ class Scene:
 
     def front(self, chosen: np.ndarray, cost: int, error: int, end: int = 0) -> np.ndarray:
         """The chosen variants that no other of them beats, by rising cost. `end` of the interval: 0 value, 1 low, 2 high"""
-        own = np.flatnonzero(chosen & self.usable[cost, error])
-        return own[pareto_front(list(zip(self.costs[cost, own].tolist(), self.errors[error, end, own].tolist())))]
+        indices = np.flatnonzero(chosen & self.usable[cost, error])
+        return indices[pareto_front(list(zip(self.costs[cost, indices].tolist(), self.errors[error, end, indices].tolist())))]
 
     def curve(self, front: np.ndarray, cost: int, error: int, end: int = 0) -> tuple[np.ndarray, np.ndarray]:
         """Costs and errors of a front."""
@@ -107,11 +107,11 @@ def scenes_of(runs: list[Results], members: list[dict[str, int]], errors: list[E
                 key = (str((run.reference_of(variant) or {}).get("hash")), machine)
                 rows.setdefault(key, []).append(row)
                 named.setdefault(key, (scene_names[variant], _run_name(run)))
-        for key, own in rows.items():
-            names = [table["variant"].iloc[row] for row in own]
+        for key, indices in rows.items():
+            names = [table["variant"].iloc[row] for row in indices]
             groups.setdefault(key, []).append(Scene(
-                named[key][0], machine, np.array([of[name] for name in names]), names, costs[:, own], values[:, :, own],
-                usable[:, :, own], [(run, name) for name in names]))
+                named[key][0], machine, np.array([of[name] for name in names]), names, costs[:, indices], values[:, :, indices],
+                usable[:, :, indices], [(run, name) for name in names]))
     scenes = [_joined(parts) for parts in groups.values()]
     names = _unique_names([(*named[key], key[1]) for key in groups])
     return [replace(scene, name=name) for scene, name in zip(scenes, names)]
@@ -135,8 +135,8 @@ class SpeedUps:
     def medians(self, measured: np.ndarray) -> np.ndarray:
         """Over the scenes in which both were measured, shape (rivals, CHARTED, errors, methods); an error that is never
         reached counts as slower than all. `measured`: whether each scene has each method."""
-        own = measured[None, None, None] & (self.count[..., None] > 0)
-        value = np.where(own, np.nan_to_num(self.factors[..., 0]), np.nan)
+        is_compared = measured[None, None, None] & (self.count[..., None] > 0)
+        value = np.where(is_compared, np.nan_to_num(self.factors[..., 0]), np.nan)
         with np.errstate(all="ignore"):
             found = np.exp(_nanmedian(np.log(value), axis=3))
         return np.where(found > 0, found, np.nan)
@@ -187,17 +187,17 @@ def best_point(scene: Scene, rival: int, rejected: set[int], cost: int, error: i
     rival costs for that error, "<" where its cheapest variant has less and ">" where none has as little; and the variants as
     good within the intervals."""
     front = scene.front(scene.methods == rival, cost, error)
-    own = np.flatnonzero(scene.usable[cost, error] & ~np.isin(scene.methods, list(rejected)))
-    if not len(front) or not len(own):
+    found = np.flatnonzero(scene.usable[cost, error] & ~np.isin(scene.methods, list(rejected)))
+    if not len(front) or not len(found):
         return None
     costs, errors = scene.curve(front, cost, error)
-    spent = np.exp(_log_cost_at(scene.errors[error, 0, own], costs, errors))
-    own, spent = (values[np.isnan(spent) | (scene.costs[cost, own] <= spent)] for values in (own, spent))
-    if not len(own):
+    spent = np.exp(_log_cost_at(scene.errors[error, 0, found], costs, errors))
+    found, spent = (values[np.isnan(spent) | (scene.costs[cost, found] <= spent)] for values in (found, spent))
+    if not len(found):
         return None
-    i = int(np.argmin(scene.errors[error, 0, own]))
-    best, bound = own[i], "<" if errors[0] < scene.errors[error, 0, own[i]] else ""
-    ties = [int(other) for other in own if other != best and scene.errors[error, 1, other] <= scene.errors[error, 2, best]]
+    i = int(np.argmin(scene.errors[error, 0, found]))
+    best, bound = found[i], "<" if errors[0] < scene.errors[error, 0, found[i]] else ""
+    ties = [int(other) for other in found if other != best and scene.errors[error, 1, other] <= scene.errors[error, 2, best]]
     return int(best), *((costs[-1], ">") if np.isnan(spent[i]) else (spent[i], bound)), ties
 
 
@@ -207,11 +207,11 @@ def beaten_methods(scenes: list[Scene], methods: list[Method], cost: int, error:
     def is_beaten(scene: Scene, method: int) -> bool:
         rivals = scene.front(scene.methods != method, cost, error, 2)
         costs, highs = scene.costs[cost, rivals], scene.errors[error, 2, rivals]
-        own = np.flatnonzero((scene.methods == method) & scene.usable[cost, error])
-        cheaper = np.searchsorted(costs, scene.costs[cost, own], side="right")
-        return bool(((cheaper > 0) & (highs[cheaper - 1] < scene.errors[error, 1, own])).all()) if len(rivals) else not len(own)
+        members = np.flatnonzero((scene.methods == method) & scene.usable[cost, error])
+        cheaper = np.searchsorted(costs, scene.costs[cost, members], side="right")
+        return bool(((cheaper > 0) & (highs[cheaper - 1] < scene.errors[error, 1, members])).all()) if len(rivals) else not len(members)
     present = [[scene for scene in scenes if method in scene.methods] for method in range(len(methods))]
-    return [method for method, own in enumerate(present) if own and all(is_beaten(scene, method) for scene in own)]
+    return [method for method, those in enumerate(present) if those and all(is_beaten(scene, method) for scene in those)]
 
 
 def _log_cost_at(errors: np.ndarray, costs: np.ndarray, reached: np.ndarray) -> np.ndarray:

@@ -54,15 +54,15 @@ class Comparison:
     @staticmethod
     def of(runs: list[Results], error: str, light: str) -> Comparison:
         errors = pareto.errors_of(runs[0], error)
-        keys = [own.metric.key for own in errors]
+        keys = [found.metric.key for found in errors]
         if error not in keys:
             raise ReportError(f"--error: '{error}' is none of {', '.join(keys)}")
-        found, members = methods.methods_of(runs)
+        listed, members = methods.methods_of(runs)
         first = keys.index(error)
         scenes = pareto.scenes_of(runs, members, errors, light)
         if not any(np.isfinite(scene.errors[first, 0]).any() for scene in scenes):
             raise ReportError(f"no variant has {errors[first].label} of the {light} light")
-        return Comparison(runs, light, errors, first, found, scenes)
+        return Comparison(runs, light, errors, first, listed, scenes)
 
     @cached_property
     def measured(self) -> np.ndarray:
@@ -104,7 +104,7 @@ def sentences(compared: Comparison) -> list[str]:
     worst = [i for i, error in enumerate(compared.errors) if error.metric.key in _WORST_OF]
     if compared.rival is None or not worst:
         return _most_on_fronts(compared)
-    said, losses = [], {}
+    lines, losses = [], {}
     for cost, need in _NEEDS.items():
         wins: dict[str, list[str]] = {}  # by method: scenes
         for s, scene in enumerate(compared.scenes):
@@ -116,33 +116,33 @@ def sentences(compared: Comparison) -> list[str]:
                 losses.setdefault(_SHORT[cost], []).append(scene.name)
         if wins:
             listed = [f"{method} in {', '.join(names)}" for method, names in sorted(wins.items(), key=lambda entry: -len(entry[1]))]
-            said.append(f"{need}: take {'; '.join(listed)}.")
+            lines.append(f"{need}: take {'; '.join(listed)}.")
     if losses:
         every = sum(compared.measured[:, compared.rival])
         listed = [f"by {cost} in {'every scene' if len(names) == every > 1 else ', '.join(names)}" for cost, names in losses.items()]
-        said.append(f"Nothing beats filtered path tracing: {'; '.join(listed)}.")
-    return said
+        lines.append(f"Nothing beats filtered path tracing: {'; '.join(listed)}.")
+    return lines
 
 
 def _winner(compared: Comparison, scene: int, cost: int, worst: list[int]) -> tuple[str, np.ndarray] | None:
     """The method whose lower speed-up by several errors is largest, and that cell of the matrix. Methods that reach less than
     half of the rival's errors do not count, and neither do those that trace paths."""
-    own = compared.speed_ups.factors[0, cost, worst, scene]
-    is_reached = 2 * own[..., 3] >= np.maximum(compared.speed_ups.count[0, cost, worst, scene], 1)[:, None]
-    value = np.where(is_reached, own[..., 0], np.nan).min(axis=0)
+    cells = compared.speed_ups.factors[0, cost, worst, scene]
+    is_reached = 2 * cells[..., 3] >= np.maximum(compared.speed_ups.count[0, cost, worst, scene], 1)[:, None]
+    value = np.where(is_reached, cells[..., 0], np.nan).min(axis=0)
     value[[method.traces_paths for method in compared.methods]] = np.nan
     if np.isnan(value).all():
         return None
     best = int(np.nanargmax(value))
-    return compared.methods[best].name, own[int(own[:, best, 0].argmin()), best]
+    return compared.methods[best].name, cells[int(cells[:, best, 0].argmin()), best]
 
 
 def _most_on_fronts(compared: Comparison) -> list[str]:
     counts = _on_fronts(compared)
     most = sorted(counts, key=lambda method: -counts[method])[:_MAX_ON_FRONT]
     of = f"of {len(compared.scenes)} scene{'s' * (len(compared.scenes) > 1)}"
-    told = "; ".join(f"{compared.methods[method].name} ({counts[method]} {of})" for method in most)
-    return [f"By the time of one frame, most often on the Pareto front: {told}."] if told else []
+    listed = "; ".join(f"{compared.methods[method].name} ({counts[method]} {of})" for method in most)
+    return [f"By the time of one frame, most often on the Pareto front: {listed}."] if listed else []
 
 
 def _on_fronts(compared: Comparison) -> dict[int, int]:
@@ -158,7 +158,7 @@ def _notes(compared: Comparison) -> list[str]:
     without = [scene.name for s, scene in enumerate(compared.scenes) if rival is None or not compared.measured[s, rival]]
     shown = {id(run) for scene in compared.scenes for run, _ in scene.pictures}
     unseen = [str(run.directory) for run in compared.runs if id(run) not in shown]
-    return [said for said, names in (
+    return [sentence for sentence, names in (
         (f"Without filtered path tracing (path_trace and filter_irradiance) to compare with: {', '.join(without)}.", without),
         (f"Not shown, for no variant has {label} of the {compared.light} light: {', '.join(unseen)}.", unseen)) if names]
 
@@ -197,7 +197,7 @@ def _method_table(compared: Comparison) -> dict:
             "another method costs no more and its error's interval lies below.",
             "head": ["method", "passes", "variants", "scenes with it on the front", "beaten everywhere by"],
             "rows": [[method.name, " + ".join(method.chain), int(variants[i]), fronts.get(i, 0),
-                      ", ".join(_SHORT[cost] for cost, own in beaten.items() if i in own)] for i, method in enumerate(compared.methods)]}
+                      ", ".join(_SHORT[cost] for cost, those in beaten.items() if i in those)] for i, method in enumerate(compared.methods)]}
 
 
 def _rival_tables(compared: Comparison) -> list[dict]:
@@ -218,7 +218,7 @@ def _rival_tables(compared: Comparison) -> list[dict]:
                 equal.append([compared.methods[m].name, scene.name, min(values), max(values), len(values), "≈" if is_open else ""])
     return [{"title": "Most accurate variant that is no slower than filtered path tracing at its error",
              "note": "ties: other variants whose intervals reach this one's error. never: path tracing has no variant of as little error.",
-             "head": ["scene", "variant", "ties", "frame, ms", "path tracing, ms", *(own.label for own in compared.errors)], "rows": best},
+             "head": ["scene", "variant", "ties", "frame, ms", "path tracing, ms", *(error.label for error in compared.errors)], "rows": best},
             {"title": f"{label} at equal time of a frame", "note": "The least error in no more time than filtered path tracing takes, over that "
              "one's; below 1 the method is more accurate. ≈: the intervals leave that open.",
              "head": ["method", "scene", "least", "greatest", "of times", "open"], "rows": equal}]
@@ -232,10 +232,10 @@ def _pictures(compared: Comparison) -> list[dict]:
     for scene in compared.scenes:
         fronts = {i for cost, error in np.ndindex(len(CHARTED), len(compared.errors)) for i in scene.front_of_all(cost, error).tolist()}
         run, variant = scene.pictures[0]
-        own = {"reference": [_jpeg(run, run.reference_folder(variant) or "", final)]}
+        uris = {"reference": [_jpeg(run, run.reference_folder(variant) or "", final)]}
         for i in range(len(scene.labels)) if everything else sorted(fronts):
-            own[str(i)] = [_jpeg(*scene.pictures[i], final), _jpeg(*scene.pictures[i], error_map, is_map=True)]
-        found.append({key: uris for key, uris in own.items() if uris[0]})
+            uris[str(i)] = [_jpeg(*scene.pictures[i], final), _jpeg(*scene.pictures[i], error_map, is_map=True)]
+        found.append({key: pair for key, pair in uris.items() if pair[0]})
     return found
 
 

@@ -7,7 +7,7 @@
     const drawn = [];
 
     // What the filter keeps is drawn as it is, the rest faint
-    const isFaint = (i) => page.kept !== undefined && !page.kept.has(data.variants[i].number);
+    const isFaint = (i) => page.matching !== undefined && !page.matching.has(data.variants[i].number);
 
     function errorContent(chart) {
         const [value, low, high] = chart.error, [time, fast, slow] = data.times[chart.time], marked = new Set(chart.marked);
@@ -37,17 +37,17 @@
     }
 
     for (const host of document.querySelectorAll(".plot")) {
-        const own = data.charts[Number(host.dataset.chart)];
+        const shown = data.charts[Number(host.dataset.chart)];
         const said = element("output", { class: "said", "aria-live": "polite" });
-        for (const [name, value] of Object.entries({ tabindex: 0, role: "group", "aria-roledescription": "chart", "aria-label": `${own.text}; arrow keys move, Enter leads to a variant` })) {
+        for (const [name, value] of Object.entries({ tabindex: 0, role: "group", "aria-roledescription": "chart", "aria-label": `${shown.text}; arrow keys move, Enter leads to a variant` })) {
             host.setAttribute(name, value);
         }
         host.after(said);
         const open = (point) => { location.hash = data.variants[point.variant ?? point.index].anchor; };
-        drawn.push({ host, own, chart: makeChart(host, (point) => { said.textContent = words(point); }, open) });
+        drawn.push({ host, shown, chart: makeChart(host, (point) => { said.textContent = words(point); }, open) });
     }
     function draw() {
-        for (const { host, own, chart } of drawn) if (host.clientWidth) chart.update(own.lines ? lineContent(own) : errorContent(own), true);
+        for (const { host, shown, chart } of drawn) if (host.clientWidth) chart.update(shown.lines ? lineContent(shown) : errorContent(shown), true);
     }
     page.onChange(["light", "time", "filter"], draw);
     addEventListener("resize", draw);

@@ -68,11 +68,11 @@
     page.showRows = () => {
         const tests = page.state.filter.toLowerCase().split(/\s+/).filter((word) => word).map(testOf);
         let kept = 0;
-        page.kept = new Set();
+        page.matching = new Set();
         for (const row of [...table.tBodies[0].rows]) {
             const isKept = tests.every((test) => test(row));
             kept += isKept;
-            if (isKept) page.kept.add(numberOf(row.id));
+            if (isKept) page.matching.add(numberOf(row.id));
             row.hidden = !isKept || kept > limit;
             for (const element of elsewhere.get(numberOf(row.id)) ?? []) element.classList.toggle("filtered", !isKept);
         }
