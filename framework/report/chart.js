@@ -41,9 +41,10 @@ function makeChart(host, shown, open = () => {}) {
     // Left and right go along a path, up and down to the next one
     function onKey(event) {
         const paths = content.paths.filter((path) => path.length);
-        const p = Math.max(0, paths.findIndex((path) => path.includes(current))), path = paths[p] ?? [], i = path.indexOf(current);
-        const to = { ArrowLeft: path[Math.max(0, i - 1)], ArrowRight: path[Math.min(path.length - 1, i + 1)], Home: path[0], End: path[path.length - 1],
-                     ArrowUp: paths[(p - 1 + paths.length) % paths.length]?.[0], ArrowDown: paths[(p + 1) % paths.length]?.[0] }[event.key];
+        const p = paths.findIndex((path) => path.includes(current)), path = paths[Math.max(0, p)] ?? [], i = path.indexOf(current);
+        const beside = (step) => paths[p < 0 ? 0 : (p + step + paths.length) % paths.length]?.[0];
+        const to = { ArrowLeft: path[Math.max(0, i - 1)], ArrowRight: path[Math.min(path.length - 1, i + 1)], Home: path[0],
+                     End: path[path.length - 1], ArrowUp: beside(-1), ArrowDown: beside(1) }[event.key];
         if (to) select(to);
         else if (event.key === "Escape") setZoom(null);
         else if (event.key === "Enter" && current) open(current);
@@ -191,6 +192,7 @@ function makeChart(host, shown, open = () => {}) {
             if (!keepZoom) zoom = null;
             current = current && (content.series.flatMap((one) => one.points).find((p) => p.index === current.index) ?? null);
             draw();
+            if (current) shown(current);
         },
         select(index) {
             const found = content.series.flatMap((one) => one.points).find((p) => p.index === index);

@@ -48,7 +48,7 @@ function showMatrix() {
         tell: (r, s) => tell(s, rows[r]),
         onPoint: (r, s) => {
             byId("cell").textContent = tell(s, rows[r]);
-            byId("chain").textContent = data.methods[rows[r]].chain;
+            byId("chain").textContent = `${data.methods[rows[r]].chain}. ${bestWords(s, rows[r])}`;
             byId("cell-images").replaceChildren(...imagesOf(s, bestOf(s, rows[r])));
         },
         onPick: (r, s) => pick(s, rows[r]),
@@ -56,6 +56,12 @@ function showMatrix() {
 }
 // The most accurate variant of a method
 const bestOf = (s, m) => (data.scenes[s].fronts[state.cost][state.error][m] ?? []).slice(-1)[0];
+function bestWords(s, m) {
+    const { cost, error, label } = data.scenes[s], i = bestOf(s, m);
+    if (i === undefined) return "";
+    const costs = data.costs.map((one, c) => `${one.name} ${figures(cost[c][i])} ${one.label.split(", ").pop()}`);
+    return `Its most accurate variant, ${label[i]}: ${[...costs, ...data.errors.map(({ name }, e) => `${name} ${figures(error[e][0][i])}`)].join(", ")}.`;
+}
 function pick(s, m) {
     state.off.delete(m);
     set({ method: m });
@@ -154,7 +160,7 @@ function radios(key, entries) {
 }
 radios("cost", data.costs);
 radios("error", data.errors);
-byId("rival").append(element("select", { name: "rival", "aria-label": "rival", onchange: ({ target }) => set({ rival: Number(target.value) }) },
+byId("rival").append(element("select", { name: "rival", onchange: ({ target }) => set({ rival: Number(target.value) }) },
                              ...data.rivals.map((m, i) => element("option", { value: i }, methodName(m)))));
 byId("methods").append(...data.methods.map((method, m) => element("button", { type: "button", "data-method": m, title: method.chain, onclick: () => {
     if (!state.off.delete(m)) state.off.add(m);
@@ -179,6 +185,6 @@ byId("tables").append(...[...data.tables.map((table) => foldedTable(table.title,
 drawScale(byId("scale"));
 const charts = data.scenes.map(makeFigure);
 const address = new URLSearchParams(location.hash.slice(1));
-const asNumber = (key, most) => (Number(address.get(key) ?? NaN) < most ? Number(address.get(key)) : state[key]);
-set({ cost: asNumber("cost", data.costs.length), error: asNumber("error", data.errors.length), rival: asNumber("rival", data.rivals.length) }, false);
+const chosen = (key, count) => (d3.range(count).map(String).includes(address.get(key)) ? Number(address.get(key)) : state[key]);
+set({ cost: chosen("cost", data.costs.length), error: chosen("error", data.errors.length), rival: chosen("rival", data.rivals.length) }, false);
 addEventListener("resize", () => charts.forEach(({ chart }) => chart.redraw()));

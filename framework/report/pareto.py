@@ -158,14 +158,19 @@ def speed_ups(scenes: list[Scene], methods: list[Method], rivals: list[int], err
             value, low, high = scene.errors[error][:, np.concatenate(targets)]
             spent = np.concatenate([_log_cost_at(scene.errors[error, 0, target], *scene.curve(fronts[rival], cost, error))
                                     for (_, rival), target in zip(compared, targets)])
-            for method in fronts:
-                # At an end: the one's least error against the other's largest
-                ends = ((value, 0), (low, 2), (high, 1))
-                curves = [scene.curve(scene.front(scene.methods == method, cost, error, end), cost, error, end) for _, end in ends]
-                logs = [spent - _log_cost_at(errors, *curve) for (errors, _), curve in zip(ends, curves)]
-                for (i, _), begin, end in zip(compared, begins, begins[1:]):
-                    count[i, cost, error, s] = end - begin
-                    factors[i, cost, error, s, method] = _median_factor(*(log[begin:end] for log in logs))
+            present, logs = list(fronts), []
+            # At an end: the one's least error against the other's largest
+            for errors, end in ((value, 0), (low, 2), (high, 1)):
+                limits = [scene.front(scene.methods == method, cost, error, end) for method in present]
+                logs.append(spent - np.array([_log_cost_at(errors, *scene.curve(front, cost, error, end)) for front in limits]))
+            is_reached = ~np.isnan(logs[0])
+            # An end that is not reached leaves it open whether the method gets there at all
+            logs[1], logs[2] = np.where(np.isnan(logs[1]), -np.inf, logs[1]), np.where(np.isnan(logs[2]), np.inf, logs[2])
+            logs = np.where(is_reached, logs, np.nan)
+            for (i, _), begin, end in zip(compared, begins, begins[1:]):
+                count[i, cost, error, s] = end - begin
+                factors[i, cost, error, s, present, :3] = np.exp(_nanmedian(logs[..., begin:end], axis=2)).T
+                factors[i, cost, error, s, present, 3] = is_reached[:, begin:end].sum(axis=1)
     return SpeedUps(rivals, factors, count)
 
 
@@ -221,15 +226,6 @@ def _log_cost_at(errors: np.ndarray, costs: np.ndarray, reached: np.ndarray) -> 
     with np.errstate(all="ignore"):
         found = np.interp(-np.log(np.maximum(errors, 0)), -np.log(reached), np.log(costs))
     return np.where(errors < reached[-1], np.nan, found)
-
-
-def _median_factor(value: np.ndarray, low: np.ndarray, high: np.ndarray) -> tuple[float, float, float, int]:
-    is_reached = ~np.isnan(value)
-    if not is_reached.any():
-        return math.nan, math.nan, math.nan, 0
-    # An end that is not reached leaves it open whether the method gets there at all
-    low, high = np.where(np.isnan(low), -math.inf, low)[is_reached], np.where(np.isnan(high), math.inf, high)[is_reached]
-    return *(float(np.exp(np.median(logs))) for logs in (value[is_reached], low, high)), int(is_reached.sum())
 
 
 def _nanmedian(values: np.ndarray, axis: int) -> np.ndarray:

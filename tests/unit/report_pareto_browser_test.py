@@ -74,6 +74,8 @@ class InABrowser(unittest.TestCase):
         for width, _ in self.at_both_widths():
             self.browser.console()
             self.browser.requests()
+            self.browser.open(self.page, "cost=-1&error=x&rival=99")
+            self.assertIn("Speed-up over filtered paths at equal nRMSE", self.text("#matrix-title"))
             self.browser.open(self.page, "cost=3&error=2&rival=4")
             self.browser.run("for (const folded of document.querySelectorAll('details')) folded.open = true")
             self.browser.run("window.scrollTo(0, document.body.scrollHeight)")
@@ -149,6 +151,10 @@ class InABrowser(unittest.TestCase):
             left = self.text("#scene-0 .said")
             self.assertNotEqual(left, said)
             self.assertIn("filtered paths · ", left)
+            # Another cost: the same point with its own numbers
+            self.browser.run("document.getElementsByName('cost')[3].click()")
+            self.assertIn(" MiB, nRMSE", self.text("#scene-0 .said"))
+            self.browser.run("document.querySelector('#scene-0 .plot').focus()")
             self.press(Keys.ARROW_UP)
             self.assertNotIn("filtered paths · ", self.text("#scene-0 .said"))
 
