@@ -47,7 +47,7 @@ class InjectRsm final : public Pass {
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels to light"};
     Out<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
     RsmImage map_{*this};
-    Kernel generateRays_{*this, "rsm_rays.comp"};
+    Kernel generateRays_{*this, "generate_light_rays.comp"};
     LightPaths paths_{*this, params_};
 };
 
