@@ -41,9 +41,9 @@ inline LightRays lightRays(test::Chain& chain, size_t count) {
             normal = glm::normalize(glm::vec3(glm::unpackHalf(normals[texel])));
         const glm::vec3 way = vpl.position - at;
         const double squared = glm::dot(way, way);
-        const double cosines = double(glm::dot(normal, way)) * -double(glm::dot(vpl.faceNormal, way));
-        if (glm::dot(normal, way) <= 0 || glm::dot(vpl.faceNormal, way) >= 0) continue;
-        rays.pairs.push_back({at, normal, vpl.position, vpl.faceNormal});
+        const double cosines = double(glm::dot(normal, way)) * -double(glm::dot(vpl.normal, way));
+        if (glm::dot(normal, way) <= 0 || glm::dot(vpl.normal, way) >= 0) continue;
+        rays.pairs.push_back({at, normal, vpl.position, vpl.normal});
         rays.light.push_back(double(vpl.flux.x + vpl.flux.y + vpl.flux.z) * cosines / squared /
                              std::max(squared, bound));
     }

@@ -84,10 +84,10 @@ void vplRayOrder(benchmark::State& state) {
         const glm::vec3 at(positions[texel]),
             normal = glm::normalize(glm::vec3(glm::unpackHalf(normals[texel])));
         if (positions[texel].w == 0 || glm::dot(normal, vpl.position - at) <= 0 ||
-            glm::dot(vpl.faceNormal, at - vpl.position) <= 0)
+            glm::dot(vpl.normal, at - vpl.position) <= 0)
             pairs.push_back({at, normal, at, normal});
         else
-            pairs.push_back({at, normal, vpl.position, vpl.faceNormal});
+            pairs.push_back({at, normal, vpl.position, vpl.normal});
     }
     if (state.range(0) == 3) std::shuffle(pairs.begin(), pairs.end(), std::mt19937(1));
     std::vector<Ray> rays;

@@ -69,7 +69,7 @@ class Passes(CommandTest):
         out = " ".join(self.expect(0, "passes", "sample_vpls").stdout.split())
         self.assertIn("what lights see (with first: rsm)", out)
         out = " ".join(self.expect(0, "passes", "gather_vpls").stdout.split())
-        self.assertIn("what shadow rays meet (with visibility: hybrid_leaves)", out)
+        self.assertIn("what occludes shadow rays (with visibility: hybrid_leaves)", out)
 
     def test_allowed_values(self):
         out = self.expect(0, "passes", "gather_cones").stdout

@@ -21,10 +21,10 @@ class NeighbourSearch {
  private:
     static constexpr float kRadiusStep = 0.8f;
 
-    /// Counts the pairs within a radius (m), and writes the first of each slot to neighbours.begins. @return
-    /// their number, or an upper bound where it exceeds 32 bits.
-    uint64_t count(CommandStream& stream, const SurfaceVoxels& voxels, const SurfelsByVoxel& surfels,
-                   float radius, SurfelNeighbours& neighbours) const;
+    /// Counts the pairs within a radius (m), and writes the first of each surfel to neighbours.begins.
+    /// @return their number, or an upper bound where it exceeds 32 bits.
+    uint64_t countPairs(CommandStream& stream, const SurfaceVoxels& voxels, const SurfelsByVoxel& surfels,
+                        float radius, SurfelNeighbours& neighbours) const;
 
     Kernel count_, list_;
     PrefixSum prefixSum_;

@@ -10,6 +10,7 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kPointSets = 16;  // Adjacent maps use different sets.
+constexpr uint32_t kMaxSplats = 1u << 31;
 
 /// Cumulative area of the triangles in the region, up to and including each, over the total.
 std::vector<float> areaCdf(const Geometry& g) {
@@ -25,7 +26,7 @@ std::vector<float> areaCdf(const Geometry& g) {
 }  // namespace
 
 ImperfectShadowMaps::ImperfectShadowMaps(ProgramOwner& owner, uint32_t resolution, uint32_t pointsPerMap)
-    : VplShadowMaps(resolution),
+    : VplShadowMaps(resolution, kMaxSplats / pointsPerMap),
       pointsPerMap_(pointsPerMap),
       samplePoints_(owner, "ism_sample_points.comp"),
       splat_(owner, "ism_splat.comp"),
