@@ -1,4 +1,4 @@
-// Light in a radiance cache (stored_light.glsl).
+// Light stored in a radiance cache (stored_light.glsl).
 #include "passes/cache/radiance_cache.glsl"
 
 layout(constant_id = 0) const uint minSamples = 1u;

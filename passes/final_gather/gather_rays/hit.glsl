@@ -1,4 +1,4 @@
-// What a ray that gathers light finds at its hit. Needs the bindings of shaders/scene/scene.glsl.
+// Shading of a gather ray's hit by stored light. Needs the bindings of shaders/scene/scene.glsl.
 #ifndef VOXRAY_FINAL_GATHER_HIT_GLSL
 #define VOXRAY_FINAL_GATHER_HIT_GLSL
 
@@ -7,48 +7,48 @@
 #include "shaders/scene/octahedral.glsl"
 
 layout(scalar) buffer Light { vec4 data[]; } light;
-// The hits where direct light is to be measured, in any order; `parent` is the ray.
+// Hits where shadow rays measure direct light, in any order; `parent` is the gather ray.
 layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
-// By surfel: 1 where its ray goes on from there, and the geometric normal, octahedral.
+// Per surfel: 1 where its path continues, and the geometric normal, octahedral.
 layout(scalar) writeonly buffer Continuations { uvec2 data[]; } continuations;
 buffer Counts {
     uint surfels;
-    uint unlit;  // Hits far enough off to read what is stored there, where nothing is.
+    uint unlit;  // Hits beyond the near field where no light is stored.
 } counts;
 
-// The end of ray i, which comes from `from` and brings `throughput` of what the surface at its hit reflects. A cell cannot tell
-// points apart that are closer to each other than its size: a ray that is shorter than `nearField` cells does not read it but goes on
-// from its hit, as a path does. So does one that hit where no light is stored. With a `nearField` of 0 all rays end.
+// Adds `throughput` times the light reflected at a ray's hit to gather ray i. Stored light has the resolution of its
+// cells: a ray from `origin` that is shorter than `nearField` cells does not read it but continues as a path does, and
+// so does a ray that hits where no light is stored. With a `nearField` of 0 every ray ends at its hit.
 //
 //      ┌───────┬───────┐
-//      │   o───┼───┼─> ·   ·: a hit further off than a cell is read.
-//      │    \  │       │   x: one nearer is not; there a shadow ray measures direct light, and a ray goes on.
+//      │   o───┼───┼─> ·   ·: a hit beyond the near field reads the cell.
+//      │    \  │       │   x: at a hit in the near field a shadow ray measures direct light, and the path continues.
 //     ─┼─────x─┼───────┼─
 //      └───────┴───────┘
-void shadeHit(uint i, Hit hit, vec3 from, vec3 throughput, uint id, float nearField) {
-    Surfel at;
+void shadeHit(uint i, Hit hit, vec3 origin, vec3 throughput, uint id, float nearField) {
+    Surfel surfel;
     vec3 faceNormal;
     float offset;
-    if (!surfelAtHit(hit, from, at, faceNormal, offset)) return;
+    if (!surfelAtHit(hit, origin, surfel, faceNormal, offset)) return;
 
-    // What is stored there, of the side that the ray came from.
-    at.reflectance *= throughput;
-    const StoredLight stored = storedLight(at.position, faceNormal);
+    // Read the light stored for the side that the ray hit
+    surfel.reflectance *= throughput;
+    const StoredLight stored = storedLight(surfel.position, faceNormal);
     const bool isNear = hit.t < nearField * stored.cellSize;
     if (!isNear && !stored.known) atomicAdd(counts.unlit, 1u);
     const bool isContinued = isNear || (nearField > 0.0 && !stored.known);
-    if (!isContinued) light.data[i].rgb += at.reflectance * stored.irradiance;
+    if (!isContinued) light.data[i].rgb += surfel.reflectance * stored.irradiance;
 #ifndef SHADOW_RAYS
     if (!isContinued) return;
 #endif
 
-    // Where light is measured.
-    at.position += offset * faceNormal;
-    at.id = id;
-    at.parent = i;
-    const uint number = atomicAdd(counts.surfels, 1u);
-    surfels.data[number] = at;
-    continuations.data[number] = uvec2(isContinued ? 1u : 0u, toOctahedral(faceNormal));
+    // List the hit for shadow rays
+    surfel.position += offset * faceNormal;
+    surfel.id = id;
+    surfel.parent = i;
+    const uint index = atomicAdd(counts.surfels, 1u);
+    surfels.data[index] = surfel;
+    continuations.data[index] = uvec2(isContinued ? 1u : 0u, toOctahedral(faceNormal));
 }
 
 #endif

@@ -1,4 +1,4 @@
-// Light in merged voxels (stored_light.glsl).
+// Light stored in merged voxels (stored_light.glsl).
 #include "passes/final_gather/merged_voxels/irradiance_tree.glsl"
 
 StoredLight storedLight(vec3 position, vec3 normal) {

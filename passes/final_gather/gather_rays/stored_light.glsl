@@ -1,16 +1,16 @@
-// Light that is stored for surfaces, wherever that is. C++: passes/final_gather/gather_rays/stored_light.h.
+// Lookups of stored irradiance, in one of three storages. Host: passes/final_gather/gather_rays/stored_light.h.
 #ifndef VOXRAY_STORED_LIGHT_GLSL
 #define VOXRAY_STORED_LIGHT_GLSL
 
-// What is stored for a point of a surface.
+// The value stored for a surface point.
 struct StoredLight {
     vec3 irradiance;  // W/m²
-    float cellSize;   // m: edge of the cell that it is the mean of.
-    bool known;       // False where no light was stored.
+    float cellSize;   // Edge of the cell over which it is averaged, m.
+    bool known;       // False where no light is stored.
 };
 
-// Each defines, for a surface with unit normal `normal`, on the side that it points to:
-// StoredLight storedLight(vec3 position, vec3 normal).
+// Each file defines StoredLight storedLight(vec3 position, vec3 normal), for the side of the surface that the unit
+// normal points to.
 #if defined(STORED_IN_VOXELS)
 #include "passes/final_gather/gather_rays/voxel_light.glsl"
 #elif defined(STORED_IN_MERGED_VOXELS)

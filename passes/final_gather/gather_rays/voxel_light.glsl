@@ -1,4 +1,4 @@
-// Light in voxels, by face (stored_light.glsl).
+// Light stored in the faces of voxels (stored_light.glsl).
 #include "shaders/voxels/face_irradiance.glsl"
 
 layout(scalar) readonly buffer Grid { VoxelGrid data; } grid;

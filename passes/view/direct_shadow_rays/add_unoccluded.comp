@@ -1,4 +1,4 @@
-// Adds what the shadow rays of a batch of pixels carry where nothing was in their way, averaged over each pixel.
+// Adds the radiance of unoccluded shadow rays, averaged over each pixel of a batch.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

@@ -1,5 +1,5 @@
-// Fills the emission target with the environment's radiance; surfaces are drawn over it.
-#include "passes/view/gbuffer/view.glsl"
+// Fills the emission image with the environment's radiance, over which surfaces are drawn.
+#include "passes/view/view.glsl"
 #include "shaders/scene/scene.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 

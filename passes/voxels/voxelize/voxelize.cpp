@@ -12,17 +12,17 @@ struct EnumNames<VoxelizeMethodName> {
                                       std::pair{VoxelizeMethodName::ThreeAxis, "three_axis"}};
 };
 
-/// Turns triangles into surface voxels: everywhere the first time, later where surfaces have changed.
+/// Voxelizes triangles into surface voxels: the whole scene first, then the regions where surfaces change.
 class VoxelizePass final : public Pass {
  public:
     static constexpr const char* kName = "voxelize";
     static constexpr const char* kHelp =
-        "Turns the scene into surface voxels that hold its materials. "
+        "Voxelizes the scene's triangles into surface voxels with materials. "
         "A voxel holds albedo, normal, emission, metallic, roughness, opacity and area. "
-        "method exact tests triangles against voxels' boxes; "
-        "dominant_axis rasterises once and conservatively: "
-        "it adds voxels that are only grazed, and samples areas; "
-        "three_axis rasterises three times and misses surfaces between its sample points: "
+        "method exact tests triangles against voxel boxes; "
+        "dominant_axis rasterizes once and conservatively, "
+        "which adds voxels that are only grazed and samples areas; "
+        "three_axis rasterizes three times and misses surfaces between sample points, "
         "those thinner than a voxel / samples_per_voxel_edge in two directions. "
         "Source: Magalhães 2020, section 3.2; Schwarz and Seidel 2010 (exact).";
     struct Params : VoxelBuildParams {
@@ -33,7 +33,7 @@ class VoxelizePass final : public Pass {
             return std::tuple_cat(
                 std::tuple{
                     field("method", &Params::method,
-                          "How the voxels that triangles meet are found: "
+                          "Test for the voxels that triangles overlap: "
                           "exact (compute shader, overlap of triangles and boxes), "
                           "dominant_axis (one conservative raster pass), three_axis (three raster passes)."),
                     field("resolution", &Params::resolution, "Voxels along the scene's longest side.", 1u,

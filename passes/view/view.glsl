@@ -1,16 +1,14 @@
-// The camera's samples: texel (x, y) of the g-buffer looks through the center of its part of the image plane.
-#ifndef VOXRAY_GBUFFER_VIEW_GLSL
-#define VOXRAY_GBUFFER_VIEW_GLSL
+// The camera and its samples: each texel has a ray through its center in the image plane. Host: passes/view/view.h.
+#ifndef VOXRAY_VIEW_GLSL
+#define VOXRAY_VIEW_GLSL
 
-
-// Half the image plane at unit distance is `right` wide and `up` high. C++: View in gbuffer.cpp.
 struct View {
     vec3 origin;
-    uint width;  // Texels of the g-buffer.
+    uint width;  // Texels.
     vec3 forward;
     uint height;
-    vec3 right;
-    vec3 up;
+    vec3 right;  // From the center of the image plane at unit distance to its right edge,
+    vec3 up;     // and to its upper edge.
 };
 
 vec3 viewDirection(View view, uvec2 texel) {
@@ -18,7 +16,7 @@ vec3 viewDirection(View view, uvec2 texel) {
     return normalize(view.forward + ndc.x * view.right - ndc.y * view.up);
 }
 
-// Solid angle of a texel seen in a unit direction: its area at unit distance times cos³ of the angle off the axis.
+// Solid angle of a texel in a unit direction: its area at unit distance times cos³ of the angle to the view's axis.
 float texelSolidAngle(View view, vec3 direction) {
     const float area = 4.0 * length(view.right) * length(view.up) / (float(view.width) * float(view.height));
     const float cosine = dot(direction, view.forward);
