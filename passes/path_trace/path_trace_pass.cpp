@@ -36,11 +36,10 @@ class PathTracePass final : public Pass {
     static constexpr const char* kName = "path_trace";
     static constexpr bool kNeedsDevice = false;
     static constexpr const char* kHelp =
-        "Computes light by path tracing on the CPU with Embree. "
-        "It uses next-event estimation, multiple importance sampling and Owen-scrambled Sobol points. "
-        "Unbiased for the bounces that it is given; noisy by: spp. "
-        "Writes total and indirect light, each also as two independent halves, "
-        "and irradiance at the g-buffer's texels for filter_irradiance.";
+        "Computes light by path tracing on the CPU with Embree. It uses next-event estimation, "
+        "multiple importance sampling and Owen-scrambled Sobol points. Unbiased for its number of bounces; "
+        "noisy by: spp. Writes total and indirect light, each also as two independent halves, "
+        "and irradiance at the G-buffer's texels for filter_irradiance.";
     struct Params {
         uint32_t spp = 64;
         uint32_t bounces = 8;
@@ -53,7 +52,7 @@ class PathTracePass final : public Pass {
                     "Scattering events after direct light at the first hit; 0 is emission and direct light.",
                     0u, 1024u),
                 field("light", &Params::light,
-                      "all: all light. indirect: emission and direct light at the first hit are omitted; "
+                      "all: all light. indirect: no emission and direct light at the first hit; "
                       "another pass writes 'final'.")};
         }
     };
