@@ -4,6 +4,7 @@
 
 #include "graph/registry.h"
 #include "passes/common/compute/random_seed.h"
+#include "passes/common/lights/light_sources.h"
 #include "passes/common/lights/pane_transmittance.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/voxel_march/voxel_tracer.h"
@@ -12,7 +13,6 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays and their radiance to 52 MiB.
-enum SourceKind : uint32_t { kPunctual = 0, kEmitters = 1, kEnvironment = 2 };  // SOURCE_* of lights.glsl.
 
 /// Pixels of a batch.
 uint32_t batchPixels(const Frame& frame, const GBuffer& gbuffer) {
@@ -71,7 +71,7 @@ class DirectShadowRays final : public Pass {
     Out<FrameImage> direct_{*this, "direct", "radiance reflected of direct light"};
     Kernel generateRays_{*this, "generate_shadow_rays.comp"};
     Kernel add_{*this, "add_unoccluded.comp"};
-    Buffer rays_, carried_, occluded_;
+    Buffer rays_, radiance_, occluded_;
     PaneTransmittance paneTransmittance_{*this};
     std::optional<VoxelTracer> voxelTracer_;  ///< With Visibility::Voxels.
 };
@@ -80,7 +80,7 @@ void DirectShadowRays::plan(PassPlan& plan) {
     const GBuffer& gbuffer = plan[gbuffer_];
     const uint64_t rays = batchPixels(plan.frame, gbuffer) * gbuffer.samples * gbuffer.samples;
     plan.buffer(rays_, "shadow rays", rays * sizeof(Ray));
-    plan.buffer(carried_, "shadow ray radiance", rays * 4 * sizeof(float));
+    plan.buffer(radiance_, "shadow ray radiance", rays * 4 * sizeof(float));
     plan.buffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
     paneTransmittance_.plan(plan, rays);
     plan.lightRays = uint64_t(plan.frame.width) * plan.frame.height * gbuffer.samples * gbuffer.samples *
@@ -111,14 +111,14 @@ void DirectShadowRays::record(PassContext& context) {
 
     // A stream of shadow rays for each punctual light, `light` being its index, and for each sample of the
     // emissive surfaces and of the environment, `light` being the sample's index
-    const auto shadowRays = [&](SourceKind kind, uint32_t light) {
+    const auto shadowRays = [&](LightSource::Kind kind, uint32_t light) {
         for (uint32_t first = 0; first < pixels; first += batch) {
             const uint32_t count = std::min(batch, pixels - first), rays = count * perPixel;
             context.dispatch(generateRays_, rays,
                              {context.scene,
                               gbuffer,
                               {"rays", rays_},
-                              {"carried", carried_},
+                              {"rayRadiance", radiance_},
                               {"kind", kind},
                               {"light", light},
                               {"lightSamples", params_.lightSamples},
@@ -130,10 +130,10 @@ void DirectShadowRays::record(PassContext& context) {
                               {"camera", frame.camera.position},
                               {"grid", grid}});
             tracer->occluded(stream, rays_, occluded_, rays,
-                             kind == kPunctual ? Coherence::Coherent : Coherence::Incoherent);
-            paneTransmittance_.apply(context, rays_, carried_, 4, rays);
+                             kind == LightSource::Punctual ? Coherence::Coherent : Coherence::Incoherent);
+            paneTransmittance_.apply(context, rays_, radiance_, 4, rays);
             context.dispatch(add_, count,
-                             {{"carried", carried_},
+                             {{"rayRadiance", radiance_},
                               {"occluded", occluded_},
                               {"direct", direct},
                               {"width", frame.width},
@@ -142,10 +142,11 @@ void DirectShadowRays::record(PassContext& context) {
                               {"raysPerPixel", perPixel}});
         }
     };
-    for (uint32_t light = 0; light < context.scene.lightCount; ++light) shadowRays(kPunctual, light);
+    for (uint32_t light = 0; light < context.scene.lightCount; ++light)
+        shadowRays(LightSource::Punctual, light);
     for (uint32_t s = 0; s < params_.lightSamples; ++s) {
-        if (context.scene.emitterCount > 0) shadowRays(kEmitters, s);
-        if (context.scene.hasEnvironment) shadowRays(kEnvironment, s);
+        if (context.scene.emitterCount > 0) shadowRays(LightSource::Emitters, s);
+        if (context.scene.hasEnvironment) shadowRays(LightSource::Environment, s);
     }
     if (voxelTracer_) {
         context.extraRays += tracer->raysTraced() - raysBefore;

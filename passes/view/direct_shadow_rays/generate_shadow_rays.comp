@@ -9,8 +9,7 @@
 #include "shaders/scene/specular.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kTraceVoxels = false;  // Otherwise triangles.
-// Distance at which rays through voxels end before a light, which may be a surface, in voxels: two diagonals of a
-// voxel.
+// Rays through voxels end two voxel diagonals before a light, which may be a surface.
 #define VOXELS_BEFORE_LIGHT 3.4641016
 
 uniform sampler2D position;
@@ -18,7 +17,7 @@ uniform sampler2D normal;
 uniform sampler2D geometricNormal;
 uniform sampler2D albedo;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
-layout(scalar) writeonly buffer Carried { vec4 data[]; } carried;
+layout(scalar) writeonly buffer RayRadiance { vec4 data[]; } rayRadiance;
 uniform sampler2D specular;
 uniform sampler2D fresnel;
 layout(push_constant, scalar) uniform Push {
@@ -70,5 +69,5 @@ void main() {
     }
     if (all(equal(radiance, vec3(0.0)))) ray.tMax = -1.0;
     rays.data[i] = ray;
-    carried.data[i] = vec4(radiance, 0.0);
+    rayRadiance.data[i] = vec4(radiance, 0.0);
 }

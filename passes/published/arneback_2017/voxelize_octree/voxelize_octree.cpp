@@ -3,10 +3,10 @@
 #include <numeric>
 
 #include "graph/registry.h"
+#include "passes/common/compute/large_buffer.h"
 #include "passes/common/octree/brick_octree_builder.h"
 #include "passes/common/triangle_voxelizer/triangle_voxelizer.h"
 #include "passes/common/voxels/voxels.h"
-#include "passes/published/arneback_2017/voxelize_octree/fragment_list.h"
 
 namespace voxray {
 namespace {
@@ -17,6 +17,14 @@ gpu::VoxelGrid boundingCube(glm::vec3 low, glm::vec3 high, uint32_t resolution) 
     const float halfEdge = 0.5f * std::max({size.x, size.y, size.z});
     return makeVoxelGrid(center - halfEdge, center + halfEdge, resolution);
 }
+
+/// Fragments of triangles, one word per fragment in each array (Arnebäck 2017, listing 1).
+struct FragmentList {
+    uint32_t count = 0;
+    LargeBuffer cells;    ///< Voxel, 10 bits per axis.
+    LargeBuffer colors;   ///< Diffuse albedo, RGBA8.
+    LargeBuffer normals;  ///< 0.5 n + 0.5 of the front-side normal n, RGBA8.
+};
 
 }  // namespace
 
