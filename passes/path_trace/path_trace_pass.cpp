@@ -82,8 +82,7 @@ class PathTracePass final : public Pass {
     }
 
     const Params params_;
-    InOptional<GBuffer> gbuffer_{*this, "gbuffer",
-                                 "whose texels 'noisy_irradiance' is for; otherwise pixels"};
+    InOptional<GBuffer> gbuffer_{*this, "gbuffer", "whose texels 'noisy_irradiance' has; without it pixels"};
     /// The first is 'final'.
     const RenderedImage images_[6] = {
         {{*this, "final", "radiance towards the camera"}, PathLight::All},
@@ -94,7 +93,7 @@ class PathTracePass final : public Pass {
         {{*this, "indirect_b", "'indirect' of the other half"}, PathLight::Indirect, 1}};
     Out<NoisyIrradiance> noisy_{*this, "noisy_irradiance",
                                 "irradiance of indirect light, before the first hit reflects it"};
-    Out<ReferenceSums> sums_{*this, "sums", "sums over its samples by half, of which references are made"};
+    Out<ReferenceSums> sums_{*this, "sums", "sums over the samples of each half, for references"};
     PathTraceOptions options_;
     std::unique_ptr<EmbreeScene> embree_;
 };

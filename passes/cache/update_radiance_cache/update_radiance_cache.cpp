@@ -58,9 +58,10 @@ class UpdateRadianceCache final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("update", &Params::update,
-                      "once: the cache is filled before the frames, "
-                      "by paths from the camera's initial position. each_frame: "
-                      "it is filled again in each frame, with history_frames on top of earlier samples."),
+                      "once: "
+                      "the cache is filled before the frames, by paths from the camera's initial position. "
+                      "each_frame: it is filled again in each frame, "
+                      "with history_frames above 1 on top of earlier samples."),
                 field("rays_per_image", &Params::raysPerImage, "Paths from the camera in an update.", 1u,
                       1u << 24)
                     .lessNoise(),
@@ -74,8 +75,8 @@ class UpdateRadianceCache final : public Pass {
                       "edges are the scene's size over powers of two.",
                       0.0005f, 4.0f),
                 field("normal_bins", &Params::normalBins,
-                      "Bins of normals along each edge of each face of a cube map: "
-                      "a cell has six faces of this number squared.",
+                      "Bins of normals along each edge of a cube map's face, 6 n² bins in all; "
+                      "normals in a cell are of one bin.",
                       {1, 2, 3, 4, 5, 6}),
                 field("capacity", &Params::capacity, "Slots of the hash table, 40 bytes each.",
                       powersOfTwo(1u << 6, 1u << 22)),
@@ -86,8 +87,9 @@ class UpdateRadianceCache final : public Pass {
                     .onlyWith(oneOf(&Params::update, {CacheUpdate::EachFrame})),
                 field("samples_to_end", &Params::samplesToEnd,
                       "Samples that a cell needs in the previous frame for paths to end there, "
-                      "at their second vertex or later, with the cell's light. Biased: light of all bounces, "
-                      "with the errors and the lag of cells. 0: no path ends in the cache.",
+                      "at their second vertex or later, with the cell's light. "
+                      "Biased: light of all bounces, with the errors and the lag of cells. "
+                      "0: no path ends in the cache.",
                       0u, 65536u)
                     .onlyWith(noneOf(&Params::historyFrames, {1u}))};
         }

@@ -32,10 +32,9 @@ class GatherRays final : public Pass {
         "Gathers indirect light by shading ray hits with stored light. "
         "The hits of trace_gather_rays reflect the irradiance that `source` holds there by their albedo. "
         "From hits near the pixel and those without stored light paths continue, "
-        "which add a bounce to what is stored. Biased by: "
-        "the size of voxels or of the cache's cells (light at the hits is as coarse as they are, "
-        "not at the pixel; with `direct_at_hits: "
-        "shadow_rays` only indirect light is) and merge_voxels' tolerance. "
+        "which add a bounce to what is stored. "
+        "Biased by: the size of voxels or of the cache's cells (of light at the hits, not at the pixel; "
+        "with `direct_at_hits: shadow_rays` of indirect light only) and merge_voxels' tolerance. "
         "Noisy by: rays_per_block, which filter_irradiance lowers; few samples in a cell of the cache. "
         "Lambert surfaces only. Reports how many hits find no light.";
     struct Params {

@@ -51,7 +51,7 @@ class ShowVoxels final : public Pass {
                       "figure 13); magenta where no surfel faces that way. Of radiance voxels, "
                       "which cones read. radiance: what leaves through the visible face. "
                       "radiance_opacity: the fraction of a beam that is blocked there."),
-                field("red_at", &Params::redAt, "Number of lit faces from which on a face is red.", 1u,
+                field("red_at", &Params::redAt, "Number of lit faces from which on a face is shown red.", 1u,
                       1u << 24)
                     .onlyWith(oneOf(&Params::show, {ShownValue::LitFaces})),
                 field("level", &Params::level,
