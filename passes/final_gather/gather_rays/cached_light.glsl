@@ -1,8 +1,6 @@
 // Light stored in a radiance cache (stored_light.glsl).
 #include "passes/cache/radiance_cache.glsl"
 
-layout(constant_id = 0) const uint minSamples = 1u;
-
 StoredLight storedLight(vec3 position, vec3 normal) {
     const RadianceCacheGrid g = radianceCacheGrid.data;
     StoredLight stored = StoredLight(vec3(0.0), radianceCacheCellSize(g, radianceCacheLevel(g, position)), false);
@@ -10,6 +8,6 @@ StoredLight storedLight(vec3 position, vec3 normal) {
     if (slot == NO_CELL) return stored;
     const vec4 mean = meanRadianceCell(g, slot);
     stored.irradiance = mean.rgb;
-    stored.known = mean.w >= float(minSamples);
+    stored.known = mean.w >= float(MIN_SAMPLES);
     return stored;
 }

@@ -17,11 +17,9 @@ ContinuedPaths::ContinuedPaths(ProgramOwner& owner, const Defines& stored)
       reflect_(owner, "passes/surfels/reflect_at_hits.comp"),
       continue_(owner, "continue_paths.comp", stored) {}
 
-void ContinuedPaths::plan(PassPlan& plan, const Settings& settings, const SpecializationConstants& constants,
-                          uint32_t rays) {
+void ContinuedPaths::plan(PassPlan& plan, const Settings& settings, uint32_t rays) {
     settings_ = settings;
     continue_.define(defines());
-    continue_.specialize(constants);
     reflect_.compileIf(isUsed());
     continue_.compileIf(isUsed());
     plan.buffer(surfels_[0], "surfels at hits", rays * sizeof(gpu::Surfel));

@@ -27,9 +27,8 @@ class ContinuedPaths {
     /// @param stored definitions of stored light.
     ContinuedPaths(ProgramOwner& owner, const Defines& stored);
 
-    /// @param constants of stored light. @param rays maximum number of a batch.
-    void plan(PassPlan& plan, const Settings& settings, const SpecializationConstants& constants,
-              uint32_t rays);
+    /// @param rays maximum number of gather rays in a batch.
+    void plan(PassPlan& plan, const Settings& settings, uint32_t rays);
     /// Further definitions of shaders that include hit.glsl.
     Defines defines() const;
     /// Empties the list of hits. @return bindings of shaders that append to it.

@@ -82,7 +82,6 @@ class GatherRays final : public Pass {
  private:
     /// Continuation rays of a path. Where the cache has no cells paths have eight bounces.
     static constexpr uint32_t kMaxSteps = 3, kMaxCacheSteps = 7;
-    static constexpr uint64_t kLightBytes = 4 * sizeof(float);  ///< Per ray.
 
     bool readsCache() const { return params_.source == GatherSource::RadianceCache; }
     /// Shades a batch of hits and sums over the rays of each texel and of each block.
@@ -127,16 +126,15 @@ void GatherRays::plan(PassPlan& plan) {
     }
 
     const uint32_t rays = hits.blocksPerBatch * hits.layout.raysPerBlock;
-    plan.buffer(light_, "light of gather rays", rays * kLightBytes);
+    plan.buffer(light_, "light of gather rays", rays * sizeof(glm::vec4));
     stored_.plan(plan);
     paths_.plan(plan,
                 {.measureDirect = !stored_.holdsDirect(plan),
                  .lightSamples = params_.lightSamples,
                  .nearField = params_.nearFieldCells,
                  .maxSteps = readsCache() ? kMaxCacheSteps : kMaxSteps},
-                stored_.constants(), rays);
+                rays);
     shade_.define(paths_.defines());
-    shade_.specialize(stored_.constants());
 }
 
 void GatherRays::record(PassContext& context) {
@@ -161,7 +159,7 @@ ContinuedPaths::Counts GatherRays::gather(PassContext& context, const std::vecto
     const uint32_t rays = blocks * hits.layout.raysPerBlock;
     const uint32_t texelsPerBlock = hits.layout.blockSize * hits.layout.blockSize;
 
-    // Shade the hits by stored light, and trace paths from those that it does not suffice for
+    // Shade the hits by stored light, and trace paths where it does not suffice
     const std::vector<Binding> hitList = paths_.clearHits(context.stream);
     context.dispatch(shade_, rays,
                      {context.scene,

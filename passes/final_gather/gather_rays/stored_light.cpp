@@ -32,13 +32,9 @@ std::optional<uint32_t> StoredLight::bounces(const PassPlan& plan) const {
 
 Defines StoredLight::defines() const {
     if (source_ == GatherSource::MergedVoxels) return {{"STORED_IN_MERGED_VOXELS", "1"}};
-    if (source_ == GatherSource::RadianceCache) return {{"STORED_IN_RADIANCE_CACHE", "1"}};
+    if (source_ == GatherSource::RadianceCache)
+        return {{"STORED_IN_RADIANCE_CACHE", "1"}, {"MIN_SAMPLES", std::to_string(minSamples_)}};
     return {{"STORED_IN_VOXELS", "1"}};
-}
-
-SpecializationConstants StoredLight::constants() const {
-    if (source_ != GatherSource::RadianceCache) return {};
-    return {{"minSamples", minSamples_}};
 }
 
 std::vector<Binding> StoredLight::update(PassContext& context) {

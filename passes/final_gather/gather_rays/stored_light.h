@@ -20,8 +20,7 @@ struct EnumNames<GatherSource> {
                                       std::pair{GatherSource::RadianceCache, "radiance_cache"}};
 };
 
-/// Stored light at the hits of gather rays: its ports, and the definitions and bindings of shaders that
-/// include stored_light.glsl.
+/// Stored light at the hits of gather rays: its ports, and the definitions and bindings of its shaders.
 class StoredLight {
  public:
     /// @param readsVoxelDirect whether direct light is read from voxels, too. @param minSamples samples that
@@ -33,8 +32,8 @@ class StoredLight {
     bool holdsDirect(const PassPlan& plan) const;
     /// Resource::lightBounces.
     std::optional<uint32_t> bounces(const PassPlan& plan) const;
+    /// Of shaders that include stored_light.glsl.
     Defines defines() const;
-    SpecializationConstants constants() const;
     /// Brings the light up to date. @return its bindings.
     std::vector<Binding> update(PassContext& context);
 
