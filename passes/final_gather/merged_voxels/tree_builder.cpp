@@ -76,7 +76,7 @@ struct Subtree {
 class Builder {
  public:
     Builder(double tolerance, std::vector<uint32_t>& words)
-        : errorOfLeaf_(tolerance * tolerance), words_(words) {}
+        : leafCost_(tolerance * tolerance), words_(words) {}
 
     Subtree build(std::span<FaceSample> samples) {
         Sums sums;
@@ -89,7 +89,7 @@ class Builder {
         // Leave samples undivided where no split can reduce the cost
         const Subtree asLeaf{sums.squaredError(), 1};
         const size_t first = words_.size();
-        const Split split = sums.isUniform() || asLeaf.squaredError < errorOfLeaf_
+        const Split split = sums.isUniform() || asLeaf.squaredError < leafCost_
                                 ? Split{}
                                 : bestSplit(samples, asLeaf.squaredError, low, high);
         if (split.axis < 0) return replaceByLeaf(first, sums, asLeaf);
@@ -112,7 +112,7 @@ class Builder {
     }
 
  private:
-    double cost(const Subtree& t) const { return t.squaredError + errorOfLeaf_ * t.leaves; }
+    double cost(const Subtree& t) const { return t.squaredError + leafCost_ * t.leaves; }
 
     /// Replaces all words from `first` on by a leaf.
     Subtree replaceByLeaf(size_t first, const Sums& sums, const Subtree& asLeaf) {
@@ -127,7 +127,7 @@ class Builder {
     /// @param undivided error without a split.
     Split bestSplit(std::span<const FaceSample> samples, double undivided, glm::ivec3 low, glm::ivec3 high) {
         Split best;
-        double least = std::numeric_limits<double>::infinity();
+        double minError = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
             const size_t slices = size_t(high[axis] - low[axis]) + 1;
             slices_.assign(slices, {});
@@ -143,15 +143,15 @@ class Builder {
                 const double fromEnd = double(std::min(i, slices - i)) / double(slices);
                 const double error = before.squaredError() + behind_[i].squaredError() +
                                      undivided * std::max(kPenalizedEnd - fromEnd, 0.0);
-                if (error >= least) continue;
-                least = error;
+                if (error >= minError) continue;
+                minError = error;
                 best = {axis, low[axis] + int(i)};
             }
         }
         return best;
     }
 
-    double errorOfLeaf_;
+    double leafCost_;
     std::vector<uint32_t>& words_;
     std::vector<Sums> slices_, behind_;
 };
