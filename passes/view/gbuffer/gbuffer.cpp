@@ -7,7 +7,7 @@
 #include "passes/common/view/camera_matrix.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/view/surface_motion.h"
-#include "passes/view/view.h"
+#include "passes/view/camera_view.h"
 
 namespace voxray {
 
@@ -109,8 +109,8 @@ class GBufferPass final : public Pass {
     void computeMotion(PassContext& context);
     /// Stores what the next frame's motion is relative to.
     void storeFrame(PassContext& context);
-    View makeView(const Frame& frame) const {
-        return viewOf(frame, gbufferExtent(frame, params_.samplesPerPixelEdge));
+    CameraView viewOf(const Frame& frame) const {
+        return cameraView(frame, gbufferExtent(frame, params_.samplesPerPixelEdge));
     }
     bool hasMotion(const PortAccess& access) const { return access[motion_].isRead; }
 
@@ -130,7 +130,7 @@ class GBufferPass final : public Pass {
     LargeBuffer previousPositions_;  ///< Of vertices, m.
     Buffer instanceStarts_;          ///< First triangle of each mesh instance.
     struct PreviousFrame {
-        View view;
+        CameraView view;
         uint64_t sceneVersion;  ///< Of previousPositions_.
     };
     std::optional<PreviousFrame> previousFrame_;  ///< None in the first frame.
@@ -203,19 +203,19 @@ void GBufferPass::computeMotion(PassContext& context) {
                      {context[gbuffer_],
                       {"previous", motion.previous},
                       {"motion", motion.motion},
-                      {"view", makeView(context.frame)},
+                      {"view", viewOf(context.frame)},
                       {"previousView", previousFrame_->view}});
 }
 
 void GBufferPass::storeFrame(PassContext& context) {
     if (!previousFrame_ || previousFrame_->sceneVersion != context.frame.sceneVersion)
         context.stream.copy(context.scene.positions, previousPositions_, previousPositions_.bytes());
-    previousFrame_ = {makeView(context.frame), context.frame.sceneVersion};
+    previousFrame_ = {viewOf(context.frame), context.frame.sceneVersion};
 }
 
 void GBufferPass::trace(PassContext& context) {
     const GBuffer& g = context[gbuffer_];
-    const View view = makeView(context.frame);
+    const CameraView view = viewOf(context.frame);
     const uint32_t texels = view.width * view.height;
     for (uint32_t first = 0; first < texels; first += kBatchRays) {
         const uint32_t batch = std::min(kBatchRays, texels - first);
@@ -240,7 +240,7 @@ void GBufferPass::rasterize(PassContext& context) {
     const GBuffer& g = context[gbuffer_];
     const Frame& frame = context.frame;
     const glm::uvec2 extent = gbufferExtent(frame, params_.samplesPerPixelEdge);
-    const View view = makeView(frame);
+    const CameraView view = viewOf(frame);
 
     // Fill the background with the environment
     context.dispatch(background_, extent, {context.scene, {"background", g.emission}, {"view", view}});

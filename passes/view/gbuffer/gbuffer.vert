@@ -1,4 +1,4 @@
-#include "passes/view/view.glsl"
+#include "passes/view/camera_view.glsl"
 #include "shaders/scene/scene.glsl"
 #ifdef MOTION
 #include "passes/view/gbuffer/previous.glsl"
@@ -6,7 +6,7 @@
 
 layout(push_constant, scalar) uniform Push {
     mat4 viewProjection;
-    View view;
+    CameraView view;
 } push;
 
 layout(location = 0) out vec3 position;

@@ -1,12 +1,12 @@
 // Generates the camera rays of a batch of texels.
-#include "passes/view/view.glsl"
+#include "passes/view/camera_view.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(push_constant, scalar) uniform Push {
-    View view;
+    CameraView view;
     uint firstTexel;
     uint batchRays;
 } push;

@@ -1,17 +1,17 @@
 // Motion vectors: from each texel to the image position of its surface point in the previous frame.
-#include "passes/view/view.glsl"
+#include "passes/view/camera_view.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D position;
 uniform sampler2D previous;
 layout(rgba32f) writeonly uniform image2D motion;
 layout(push_constant, scalar) uniform Push {
-    View view;
-    View previousView;
+    CameraView view;
+    CameraView previousView;
 } push;
 
 // Position in the image, in texels; outside of it for a point behind the camera.
-vec2 projectToImage(View view, vec3 position) {
+vec2 projectToImage(CameraView view, vec3 position) {
     const vec3 toPoint = position - view.origin;
     const float depth = dot(toPoint, view.forward);
     const vec2 size = vec2(view.width, view.height);

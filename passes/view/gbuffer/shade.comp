@@ -20,7 +20,7 @@ layout(rgba8) writeonly uniform image2D fresnel;
 layout(rgba32f) writeonly uniform image2D previous;
 #endif
 layout(push_constant, scalar) uniform Push {
-    View view;
+    CameraView view;
     uint firstTexel;
     uint batchRays;
 } push;

@@ -1,5 +1,5 @@
 // A visible surface point as the G-buffer stores it, for rays and raster alike.
-#include "passes/view/view.glsl"
+#include "passes/view/camera_view.glsl"
 #include "shaders/scene/footprint.glsl"
 #include "shaders/scene/specular.glsl"
 
@@ -11,7 +11,7 @@ struct VisibleSurface {
     Specular specular;
 };
 
-VisibleSurface visibleSurface(View view, SurfacePoint s) {
+VisibleSurface visibleSurface(CameraView view, SurfacePoint s) {
     const GpuMaterial m = sceneMaterials.data[s.material];
     const vec3 toPoint = s.position - view.origin;
     const float distance_ = max(length(toPoint), 1e-20);

@@ -1,12 +1,12 @@
 // Value of the first nonempty radiance voxel of a level on the ray through each pixel's center, for the face that the
 // ray enters.
 #include "passes/cones/radiance/radiance_voxels.glsl"
-#include "passes/view/view.glsl"
+#include "passes/view/camera_view.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant, scalar) uniform Push {
-    View view;
+    CameraView view;
     uint level;
     uint showsOpacity;
 } push;

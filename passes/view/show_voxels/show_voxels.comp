@@ -1,5 +1,5 @@
 // Value of the first surface voxel on the ray through each pixel's center.
-#include "passes/view/view.glsl"
+#include "passes/view/camera_view.glsl"
 #include "shaders/voxel_march/voxel_march.glsl"
 #ifdef SHOW_IRRADIANCE
 #include "shaders/voxels/face_irradiance.glsl"
@@ -12,7 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
-    View view;
+    CameraView view;
     uint show;
     uint redAt;
 } push;

@@ -7,8 +7,8 @@
 #include "passes/common/voxel_march/voxel_march.h"
 #include "passes/common/voxels/face_irradiance.h"
 #include "passes/cones/radiance/radiance_voxels.h"
+#include "passes/view/camera_view.h"
 #include "passes/view/show_voxels/lit_faces.h"
-#include "passes/view/view.h"
 
 namespace voxray {
 
@@ -127,7 +127,7 @@ void ShowVoxels::record(PassContext& context) {
                       values,
                       {"result", context[final_].image},
                       {"grid", voxels.grid},
-                      {"view", viewOf(context.frame, context.frame.pixels())},
+                      {"view", cameraView(context.frame, context.frame.pixels())},
                       {"show", params_.show},
                       {"redAt", params_.redAt}});
     context.voxelCounts.push_back(&march_->counts());
@@ -154,7 +154,7 @@ void ShowVoxels::recordLevel(PassContext& context) {
     context.dispatch(program_, context.frame.pixels(),
                      {context[radiance_],
                       {"result", context[final_].image},
-                      {"view", viewOf(context.frame, context.frame.pixels())},
+                      {"view", cameraView(context.frame, context.frame.pixels())},
                       {"level", params_.level},
                       {"showsOpacity", params_.show == ShownValue::RadianceOpacity}});
 }

@@ -1,8 +1,8 @@
-// The camera and its samples: each texel has a ray through its center in the image plane. Host: passes/view/view.h.
-#ifndef VOXRAY_VIEW_GLSL
-#define VOXRAY_VIEW_GLSL
+// The camera and its samples: each texel has a ray through its center in the image plane. Host: passes/view/camera_view.h.
+#ifndef VOXRAY_CAMERA_VIEW_GLSL
+#define VOXRAY_CAMERA_VIEW_GLSL
 
-struct View {
+struct CameraView {
     vec3 origin;
     uint width;  // Texels.
     vec3 forward;
@@ -11,13 +11,13 @@ struct View {
     vec3 up;     // and to its upper edge.
 };
 
-vec3 viewDirection(View view, uvec2 texel) {
+vec3 viewDirection(CameraView view, uvec2 texel) {
     const vec2 ndc = 2.0 * (vec2(texel) + 0.5) / vec2(view.width, view.height) - 1.0;
     return normalize(view.forward + ndc.x * view.right - ndc.y * view.up);
 }
 
 // Solid angle of a texel in a unit direction: its area at unit distance times cos³ of the angle to the view's axis.
-float texelSolidAngle(View view, vec3 direction) {
+float texelSolidAngle(CameraView view, vec3 direction) {
     const float area = 4.0 * length(view.right) * length(view.up) / (float(view.width) * float(view.height));
     const float cosine = dot(direction, view.forward);
     return area * cosine * cosine * cosine;

@@ -5,8 +5,8 @@
 
 namespace voxray {
 
-/// The camera and its samples in the image plane, as in view.glsl.
-struct View {
+/// The camera and its samples in the image plane, as in camera_view.glsl.
+struct CameraView {
     glm::vec3 origin;
     uint32_t width;
     glm::vec3 forward;
@@ -16,7 +16,7 @@ struct View {
 };
 
 /// @param extent samples of the view: texels of the G-buffer, or pixels.
-inline View viewOf(const Frame& frame, glm::uvec2 extent) {
+inline CameraView cameraView(const Frame& frame, glm::uvec2 extent) {
     const CameraRays rays = cameraRays(frame.camera, frame.width, frame.height);
     return {rays.origin, extent.x, rays.forward, extent.y, rays.right, rays.up};
 }
