@@ -12,7 +12,7 @@
 
 namespace voxray {
 
-/// How a color is merged into a voxel's word (passes/published/packed_write.glsl).
+/// How a color is merged into a voxel's word, numbered as in passes/published/packed_write.glsl.
 enum class PackedWrite { MovingAverage, Max, None };
 template <>
 struct EnumNames<PackedWrite> {
@@ -33,16 +33,7 @@ struct PackedWriteParams {
                                 "none: a plain store; which value remains is undefined.")};
     }
     /// Definitions of passes/published/packed_write.glsl.
-    Defines defines() const {
-        switch (write) {
-            case PackedWrite::MovingAverage:
-                return {{"PACKED_WRITE", "PACKED_MOVING_AVERAGE"}};
-            case PackedWrite::Max:
-                return {{"PACKED_WRITE", "PACKED_MAX"}};
-            default:
-                return {{"PACKED_WRITE", "PACKED_NONE"}};
-        }
-    }
+    Defines defines() const { return {{"PACKED_WRITE", std::to_string(int(write))}}; }
 };
 
 /// Volumes of one RGBA8 word per voxel, as published in Magalhães 2020 (section 4.2.1, table 4.1): no faces,

@@ -58,14 +58,9 @@ class VoxelizePass final : public Pass {
 };
 
 std::unique_ptr<TriangleVoxelizer> VoxelizePass::makeVoxelizer() {
-    switch (params_.method) {
-        case VoxelizeMethodName::ThreeAxis:
-            return makeThreeAxisVoxelizer(params_.samplesPerVoxelEdge);
-        case VoxelizeMethodName::DominantAxis:
-            return makeDominantAxisVoxelizer();
-        default:
-            return makeExactVoxelizer();
-    }
+    if (params_.method == VoxelizeMethodName::Exact) return makeExactVoxelizer();
+    if (params_.method == VoxelizeMethodName::DominantAxis) return makeDominantAxisVoxelizer();
+    return makeThreeAxisVoxelizer(params_.samplesPerVoxelEdge);
 }
 
 void VoxelizePass::plan(PassPlan& plan) {
