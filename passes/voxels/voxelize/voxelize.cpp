@@ -4,12 +4,12 @@
 
 namespace voxray {
 
-enum class VoxelizeMethodName { Exact, DominantAxis, ThreeAxis };
+enum class VoxelizeMethod { Exact, DominantAxis, ThreeAxis };
 template <>
-struct EnumNames<VoxelizeMethodName> {
-    static constexpr std::array names{std::pair{VoxelizeMethodName::Exact, "exact"},
-                                      std::pair{VoxelizeMethodName::DominantAxis, "dominant_axis"},
-                                      std::pair{VoxelizeMethodName::ThreeAxis, "three_axis"}};
+struct EnumNames<VoxelizeMethod> {
+    static constexpr std::array names{std::pair{VoxelizeMethod::Exact, "exact"},
+                                      std::pair{VoxelizeMethod::DominantAxis, "dominant_axis"},
+                                      std::pair{VoxelizeMethod::ThreeAxis, "three_axis"}};
 };
 
 /// Voxelizes triangles into surface voxels: the whole scene first, then the regions where surfaces change.
@@ -26,7 +26,7 @@ class VoxelizePass final : public Pass {
         "those thinner than a voxel / samples_per_voxel_edge in two directions. "
         "Source: Magalhães 2020, section 3.2; Schwarz and Seidel 2010 (exact).";
     struct Params : VoxelBuildParams {
-        VoxelizeMethodName method = VoxelizeMethodName::Exact;
+        VoxelizeMethod method = VoxelizeMethod::Exact;
         uint32_t resolution = 128;
         uint32_t samplesPerVoxelEdge = 2;
         static constexpr auto schema() {
@@ -40,7 +40,7 @@ class VoxelizePass final : public Pass {
                           1024u),
                     field("samples_per_voxel_edge", &Params::samplesPerVoxelEdge,
                           "Sample points along a voxel's edge, in each of the three projections.", 1u, 16u)
-                        .onlyWith(oneOf(&Params::method, {VoxelizeMethodName::ThreeAxis}))},
+                        .onlyWith(oneOf(&Params::method, {VoxelizeMethod::ThreeAxis}))},
                 VoxelBuildParams::schema());
         }
     };
@@ -58,8 +58,8 @@ class VoxelizePass final : public Pass {
 };
 
 std::unique_ptr<TriangleVoxelizer> VoxelizePass::makeVoxelizer() {
-    if (params_.method == VoxelizeMethodName::Exact) return makeExactVoxelizer();
-    if (params_.method == VoxelizeMethodName::DominantAxis) return makeDominantAxisVoxelizer();
+    if (params_.method == VoxelizeMethod::Exact) return makeExactVoxelizer();
+    if (params_.method == VoxelizeMethod::DominantAxis) return makeDominantAxisVoxelizer();
     return makeThreeAxisVoxelizer(params_.samplesPerVoxelEdge);
 }
 
