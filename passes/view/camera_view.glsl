@@ -1,4 +1,4 @@
-// The camera and its samples: each texel has a ray through its center in the image plane. Host: passes/view/camera_view.h.
+// The camera and its samples: a ray through the center of each texel of the image. Host: passes/view/camera_view.h.
 #ifndef VOXRAY_CAMERA_VIEW_GLSL
 #define VOXRAY_CAMERA_VIEW_GLSL
 

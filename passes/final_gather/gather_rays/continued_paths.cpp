@@ -5,7 +5,7 @@
 namespace voxray {
 namespace {
 
-/// As in hit.glsl.
+/// As in shade_hit.glsl.
 struct HitCounts {
     uint32_t surfels, unlit;
 };

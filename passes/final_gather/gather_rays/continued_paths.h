@@ -8,8 +8,8 @@
 
 namespace voxray {
 
-/// Paths that continue gather rays whose hits cannot be shaded by stored light alone (hit.glsl lists these
-/// hits). Shadow rays measure direct light at such a hit; where the path continues, a further ray adds
+/// Paths that continue gather rays whose hits cannot be shaded by stored light alone (shade_hit.glsl lists
+/// these hits). Shadow rays measure direct light at such a hit; where the path continues, a further ray adds
 /// indirect light, whose hit is shaded in the same way.
 class ContinuedPaths {
  public:
@@ -29,7 +29,7 @@ class ContinuedPaths {
 
     /// @param rays maximum number of gather rays in a batch.
     void plan(PassPlan& plan, const Settings& settings, uint32_t rays);
-    /// Further definitions of shaders that include hit.glsl.
+    /// Further definitions of shaders that include shade_hit.glsl.
     Defines defines() const;
     /// Empties the list of hits. @return bindings of shaders that append to it.
     std::vector<Binding> clearHits(CommandStream& stream) const;
@@ -46,7 +46,7 @@ class ContinuedPaths {
     std::vector<LightSource> sources_;
     std::optional<SurfelDirectLight> hitLight_;
     std::array<Buffer, 2> surfels_;  ///< At listed hits; read and written in turn by the steps of paths.
-    Buffer continuations_, counts_;  ///< hit.glsl
+    Buffer continuations_, counts_;  ///< shade_hit.glsl
     Buffer direct_, rays_, hits_;
 };
 

@@ -94,7 +94,7 @@ class GatherRays final : public Pass {
     In<GatherHits> hits_{*this, "gather_hits", "where the gather rays hit"};
     Out<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "irradiance from few rays a texel"};
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light, unfiltered"};
-    Kernel shade_{*this, "shade.comp", stored_.defines()};
+    Kernel shadeHits_{*this, "shade_hits.comp", stored_.defines()};
     Kernel averageTexels_{*this, "average_texels.comp"};
     Kernel sumMoments_{*this, "sum_moments.comp"};
     ContinuedPaths paths_{*this, stored_.defines()};
@@ -134,7 +134,7 @@ void GatherRays::plan(PassPlan& plan) {
                  .nearField = params_.nearFieldCells,
                  .maxSteps = readsCache() ? kMaxCacheSteps : kMaxSteps},
                 rays);
-    shade_.define(paths_.defines());
+    shadeHits_.define(paths_.defines());
 }
 
 void GatherRays::record(PassContext& context) {
@@ -161,7 +161,7 @@ ContinuedPaths::Counts GatherRays::gather(PassContext& context, const std::vecto
 
     // Shade the hits by stored light, and trace paths where it does not suffice
     const std::vector<Binding> hitList = paths_.clearHits(context.stream);
-    context.dispatch(shade_, rays,
+    context.dispatch(shadeHits_, rays,
                      {context.scene,
                       stored,
                       hitList,

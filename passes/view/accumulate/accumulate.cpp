@@ -46,11 +46,11 @@ class Accumulate final : public Pass {
     In<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "irradiance of this frame"};
     Out<NoisyIrradiance> accumulated_{*this, "noisy_irradiance", "mean irradiance over frames"};
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of this irradiance"};
-    Kernel findCells_{*this, "cells.comp"};
+    Kernel averageCells_{*this, "average_cells.comp"};
     Kernel accumulate_{*this, "accumulate.comp", params_.clamp > 0 ? Defines{{"CLAMP", "1"}} : Defines{}};
     Kernel storeHistory_{*this, "store_history.comp"};
     IrradianceResolve resolve_{*this};
-    Image cellLight_, cellSurface_;  ///< cells.comp; where history is clamped.
+    Image cellLight_, cellSurface_;  ///< average_cells.comp; where history is clamped.
     Image frames_;                   ///< R32F: length of the texel's history, this frame included.
     // Stored for the next frame
     bool hasHistory_ = false;
@@ -79,7 +79,7 @@ void Accumulate::plan(PassPlan& plan) {
     plan.image(historyLight_, "history of irradiance", values);
     plan.image(historyPosition_, "history of positions", values);
     plan.image(historyNormal_, "history of normals", {VK_FORMAT_R16G16B16A16_SFLOAT, values.extent});
-    findCells_.compileIf(params_.clamp > 0);
+    averageCells_.compileIf(params_.clamp > 0);
     if (params_.clamp == 0) return;
     const ImageDesc cells{values.format, {(texels + noisy.spacing - 1u) / noisy.spacing, 1}};
     plan.image(cellLight_, "light of cells", cells);
@@ -95,7 +95,7 @@ void Accumulate::record(PassContext& context) {
 
     // Average the cells of this frame's neighborhoods
     if (params_.clamp > 0)
-        context.dispatch(findCells_, cellLight_.desc().extent,
+        context.dispatch(averageCells_, cellLight_.desc().extent,
                          {gbuffer,
                           {"irradiance", noisy.irradiance},
                           {"previous", motion.previous},

@@ -119,11 +119,11 @@ class GBufferPass final : public Pass {
     Out<SurfaceMotion> motion_{*this, "motion", "motion since the previous frame"};
     // With rays
     Kernel generateRays_{*this, "generate_camera_rays.comp"};
-    Kernel shade_{*this, "shade.comp"};
+    Kernel storeSurfaces_{*this, "store_surfaces.comp"};
     Buffer rays_, hits_;
     // With raster
-    Kernel background_{*this, "background.comp"};
-    RasterPipeline surfaces_{*this, {"gbuffer.vert", "gbuffer.frag"}};
+    Kernel fillBackground_{*this, "background.comp"};
+    RasterPipeline drawSurfaces_{*this, {"gbuffer.vert", "gbuffer.frag"}};
     Image depth_;
     // Where motion is read
     Kernel computeMotion_{*this, "motion.comp"};
@@ -163,18 +163,18 @@ void GBufferPass::plan(PassPlan& plan) {
     if (params_.normalMaps == TextureLookup::Sharp) defines.emplace("SHARP_NORMALS", "1");
     if (params_.colors == TextureLookup::Sharp) defines.emplace("SHARP_COLORS", "1");
     if (hasMotion(plan)) defines.emplace("MOTION", "1");
-    shade_.define(defines);
-    surfaces_.define(defines);
+    storeSurfaces_.define(defines);
+    drawSurfaces_.define(defines);
     RasterState state;
     for (const Target& t : kTargets) state.colorFormats.push_back(t.format);
     if (hasMotion(plan)) state.colorFormats.push_back(kWide);
     state.depthFormat = VK_FORMAT_D32_SFLOAT;
     state.depthCompare = VK_COMPARE_OP_GREATER;
-    surfaces_.setState(state);
+    drawSurfaces_.setState(state);
     generateRays_.compileIf(params_.method == GBufferMethod::Rays);
-    shade_.compileIf(params_.method == GBufferMethod::Rays);
-    background_.compileIf(params_.method == GBufferMethod::Raster);
-    surfaces_.compileIf(params_.method == GBufferMethod::Raster);
+    storeSurfaces_.compileIf(params_.method == GBufferMethod::Rays);
+    fillBackground_.compileIf(params_.method == GBufferMethod::Raster);
+    drawSurfaces_.compileIf(params_.method == GBufferMethod::Raster);
     computeMotion_.compileIf(hasMotion(plan));
 }
 
@@ -222,7 +222,7 @@ void GBufferPass::trace(PassContext& context) {
         context.dispatch(generateRays_, batch,
                          {{"rays", rays_}, {"view", view}, {"firstTexel", first}, {"batchRays", batch}});
         context.tracer.closestHit(context.stream, rays_, hits_, batch, Coherence::Coherent);
-        context.dispatch(shade_, batch,
+        context.dispatch(storeSurfaces_, batch,
                          {context.scene,
                           g,
                           {"emitted", g.emission},
@@ -243,7 +243,7 @@ void GBufferPass::rasterize(PassContext& context) {
     const CameraView view = viewOf(frame);
 
     // Fill the background with the environment
-    context.dispatch(background_, extent, {context.scene, {"background", g.emission}, {"view", view}});
+    context.dispatch(fillBackground_, extent, {context.scene, {"background", g.emission}, {"view", view}});
 
     // Draw all triangles over it, with depth test
     RasterTargets targets;
@@ -257,7 +257,7 @@ void GBufferPass::rasterize(PassContext& context) {
     targets.extent = {extent, 1};
     const Geometry& geometry = frame.scene->geometry;
     context.stream.draw(
-        surfaces_, targets, context.scene.triangleCount * 3,
+        drawSurfaces_, targets, context.scene.triangleCount * 3,
         {context.scene,
          ifUsed({"PreviousPositionsRef", previousPositions_.ref()}),
          ifUsed({"instanceStarts", instanceStarts_}),

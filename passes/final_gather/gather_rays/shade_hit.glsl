@@ -1,6 +1,6 @@
 // Shading of a gather ray's hit by stored light. Needs the bindings of shaders/scene/scene.glsl.
-#ifndef VOXRAY_FINAL_GATHER_HIT_GLSL
-#define VOXRAY_FINAL_GATHER_HIT_GLSL
+#ifndef VOXRAY_SHADE_HIT_GLSL
+#define VOXRAY_SHADE_HIT_GLSL
 
 #include "passes/final_gather/gather_rays/stored_light.glsl"
 #include "passes/surfels/surfel_at_hit.glsl"
