@@ -26,11 +26,12 @@ struct BsdfSample {
 /// Reflection at a point: a Lambert lobe under a GGX lobe, combined by Schlick's Fresnel term. All vectors
 /// are unit length and point away from the surface; `n` is the shading normal.
 struct Bsdf {
-    glm::vec3 diffuse{0.0f};    ///< Base color * (1 - metallic).
-    float alpha = 1.0f;         ///< Roughness squared.
-    glm::vec3 f0{0.0f};         ///< Specular reflectance at normal incidence, metal and dielectric mixed.
-    float f90 = 0.0f;           ///< The same at grazing incidence.
-    float dielectricF0 = 0.0f;  ///< Largest component of the dielectric part: taken from diffuse light.
+    glm::vec3 diffuse{0.0f};  ///< Base color * (1 - metallic).
+    float alpha = 1.0f;       ///< Roughness squared.
+    glm::vec3 f0{0.0f};       ///< Specular reflectance at normal incidence, metal and dielectric mixed.
+    float f90 = 0.0f;         ///< The same at grazing incidence.
+    float dielectricF0 =
+        0.0f;  ///< Maximum component of the dielectric layer's f0, which attenuates diffuse light.
     float dielectricF90 = 0.0f;
 
     /// From a material's parameters, with textures multiplied in. `specular` and `specularColor` are those of

@@ -62,15 +62,8 @@ glm::vec3 Integrator::transmittance(Ray ray) const {
 }
 
 float Integrator::hitWeight(float bsdfPdf, float lightPdf) const {
-    switch (strategy_) {
-        case Strategy::Mis:
-            return misWeight(bsdfPdf, lightPdf);
-        case Strategy::ReflectionOnly:
-            return 1.0f;
-        case Strategy::LightsOnly:
-            break;
-    }
-    return lightPdf > 0.0f ? 0.0f : 1.0f;
+    if (strategy_ == Strategy::Mis) return misWeight(bsdfPdf, lightPdf);
+    return strategy_ == Strategy::LightsOnly && lightPdf > 0.0f ? 0.0f : 1.0f;
 }
 
 /// State of a path. For each vertex: shadeHit(), addLightSample(), scatter().

@@ -157,7 +157,7 @@ struct RenderJob {
             }
     }
 
-    /// Renders a tile, or part of it if stopped. @return the number of rays.
+    /// Renders a tile, incompletely if stopped. @return the number of rays.
     uint64_t renderTile(glm::uvec2 first) const {
         const glm::uvec2 last = glm::min(first + kTile, glm::uvec2(options.width, options.height));
         std::array<PixelSums, kTile * kTile> totals, indirects;

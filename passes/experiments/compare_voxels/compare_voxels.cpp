@@ -11,7 +11,7 @@ std::vector<uint32_t> occupancyOf(CommandStream& stream, const SurfaceVoxels& vo
     return stream.readAs<uint32_t>(voxels.occupancy, voxels.words());
 }
 
-/// In units of a voxel's face.
+/// Surface area in units of a voxel's face.
 double areaOf(CommandStream& stream, const SurfaceVoxels& voxels) {
     double area = 0;
     for (const gpu::PackedVoxelMaterial& packed :
@@ -22,15 +22,15 @@ double areaOf(CommandStream& stream, const SurfaceVoxels& voxels) {
 
 }  // namespace
 
-/// Counts what one voxelization misses of another and adds to it.
+/// Counts the voxels that a voxelization misses, or adds, relative to another.
 class CompareVoxels final : public Pass {
  public:
     static constexpr const char* kName = "compare_voxels";
     static constexpr const char* kHelp =
         "Compares two voxelizations: missed and added voxels, and surface area. "
         "Counts the voxels of 'truth' that 'voxels' misses, and those that it adds, "
-        "and compares their surface areas. The numbers go into values.csv and the report. "
-        "Writes nothing that others read. Exact. Both need the same grid: the same 'resolution'. "
+        "and compares surface areas. Results are in values.csv and the report; there are no outputs. "
+        "Exact. Both inputs need the same 'resolution'. "
         "Source: Schwarz and Seidel 2010, section 4, for 'method: exact' as the truth.";
 
     void plan(PassPlan& plan) override {
@@ -58,7 +58,7 @@ class CompareVoxels final : public Pass {
     }
 
  private:
-    In<SurfaceVoxels> truth_{*this, "truth", "the voxels that there should be"};
+    In<SurfaceVoxels> truth_{*this, "truth", "the reference voxels"};
     In<SurfaceVoxels> voxels_{*this, "voxels", "the voxels to compare"};
 };
 VOXRAY_REGISTER_PASS(CompareVoxels);

@@ -1,4 +1,4 @@
-// The light of each cell, an aligned square of texels that has a ray: that of its first texel with one, and of all others that show
+// Mean irradiance of each cell, an aligned square of `spacing` texels: over its first texel with rays and all others on
 // the same surface.
 #include "passes/view/accumulate/same_surface.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -21,9 +21,10 @@ void main() {
         for (int x = first.x; x < end.x; ++x) {
             const vec4 texel = texelFetch(irradiance, ivec2(x, y), 0);
             if (texel.a <= 0.0) continue;
-            const vec4 own = vec4(texelFetch(geometricNormal, ivec2(x, y), 0).xyz, texelFetch(previous, ivec2(x, y), 0).w);
-            if (rays == 0.0) surface = own;
-            if (own.w != surface.w || !areNormalsSimilar(own.xyz, surface.xyz)) continue;
+            const vec3 normal = texelFetch(geometricNormal, ivec2(x, y), 0).xyz;
+            const float instance = texelFetch(previous, ivec2(x, y), 0).w;
+            if (rays == 0.0) surface = vec4(normal, instance);
+            if (instance != surface.w || !areNormalsSimilar(normal, surface.xyz)) continue;
             rays += texel.a;
             light += (texel.rgb - light) * (texel.a / rays);
         }

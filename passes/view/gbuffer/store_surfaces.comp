@@ -1,4 +1,4 @@
-// What a batch of camera rays met, into the g-buffer's images.
+// Writes the surfaces that a batch of camera rays hit to the G-buffer's images.
 #include "passes/view/gbuffer/visible_surface.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/inset_barycentrics.glsl"
@@ -20,7 +20,7 @@ layout(rgba8) writeonly uniform image2D fresnel;
 layout(rgba32f) writeonly uniform image2D previous;
 #endif
 layout(push_constant, scalar) uniform Push {
-    View view;
+    CameraView view;
     uint firstTexel;
     uint batchRays;
 } push;
@@ -32,19 +32,18 @@ void main() {
     const ivec2 texel = ivec2(index % push.view.width, index / push.view.width);
     const Hit hit = hits.data[i];
 
-    // Nothing met: the environment.
-    vec4 point = vec4(0.0), before = vec4(0.0);
+    vec4 point = vec4(0.0), previousPoint = vec4(0.0);
     VisibleSurface visible = VisibleSurface(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0),
                                             Specular(vec3(0.0), 0.0, 0.0, 0.0, 0.0));
     if (hit.triangle == NO_HIT) {
         visible.emission = environmentRadiance(viewDirection(push.view, uvec2(texel)));
     } else {
-        const vec2 seen = insetBarycentrics(hit.triangle, vec2(hit.u, hit.v));
-        const SurfacePoint s = surfacePoint(hit.triangle, seen);
+        const vec2 barycentrics = insetBarycentrics(hit.triangle, vec2(hit.u, hit.v));
+        const SurfacePoint s = surfacePoint(hit.triangle, barycentrics);
         point = vec4(s.position, s.offset);
         visible = visibleSurface(push.view, s);
 #ifdef MOTION
-        before = vec4(previousPosition(hit.triangle, seen), instanceOf(hit.triangle));
+        previousPoint = vec4(previousPosition(hit.triangle, barycentrics), instanceOf(hit.triangle));
 #endif
     }
     imageStore(position, texel, point);
@@ -55,6 +54,6 @@ void main() {
     imageStore(specular, texel, specularTexel(visible.specular));
     imageStore(fresnel, texel, fresnelTexel(visible.specular));
 #ifdef MOTION
-    imageStore(previous, texel, before);
+    imageStore(previous, texel, previousPoint);
 #endif
 }
