@@ -29,7 +29,7 @@ struct EnumNames<TextureLookup> {
 
 namespace {
 
-constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays and hits to 48 MiB.
+constexpr uint32_t kMaxBatchRays = 1u << 20;  // Bounds the memory of rays and hits to 48 MiB.
 constexpr VkFormat kWide = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr VkFormat kHalf = VK_FORMAT_R16G16B16A16_SFLOAT;
 constexpr VkFormat kByte = VK_FORMAT_R8G8B8A8_UNORM;
@@ -57,7 +57,7 @@ ImageDesc targetDesc(glm::uvec2 extent, VkFormat format) {
 }
 
 uint64_t batchRays(glm::uvec2 extent) {
-    return std::min<uint64_t>(uint64_t(extent.x) * extent.y, kBatchRays);
+    return std::min<uint64_t>(uint64_t(extent.x) * extent.y, kMaxBatchRays);
 }
 
 }  // namespace
@@ -217,8 +217,8 @@ void GBufferPass::trace(PassContext& context) {
     const GBuffer& g = context[gbuffer_];
     const CameraView view = viewOf(context.frame);
     const uint32_t texels = view.width * view.height;
-    for (uint32_t first = 0; first < texels; first += kBatchRays) {
-        const uint32_t batch = std::min(kBatchRays, texels - first);
+    for (uint32_t first = 0; first < texels; first += kMaxBatchRays) {
+        const uint32_t batch = std::min(kMaxBatchRays, texels - first);
         context.dispatch(generateRays_, batch,
                          {{"rays", rays_}, {"view", view}, {"firstTexel", first}, {"batchRays", batch}});
         context.tracer.closestHit(context.stream, rays_, hits_, batch, Coherence::Coherent);
