@@ -14,16 +14,16 @@ struct VoxelCluster {
     uint firstMember;
     vec3 normal;  // Unit: the mean normal of its voxels.
     uint memberCount;
-    vec3 seedNormal;  // Unit: the normal of each of its voxels is within the angle limit of this one.
+    vec3 seedNormal;  // Unit: the normals of all its voxels are within the angle limit of it.
     vec3 albedo;      // Mean diffuse reflectance, weighted by area.
-    uvec3 minVoxel;   // Bounding box, both included.
+    uvec3 minVoxel;   // Bounding box, inclusive.
     uvec3 maxVoxel;
 };
 
-// A cluster's center while voxels are assigned, as in k-means.
+// The center of a cluster while voxels are assigned to it, as in k-means.
 struct ClusterSeed {
     vec3 center;       // In voxels.
-    uint memberCount;  // 0: it has lost all its voxels and gets no more.
+    uint memberCount;  // 0: it has lost all voxels and is not used any more.
     vec3 normal;       // Unit.
 };
 

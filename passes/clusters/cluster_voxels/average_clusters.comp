@@ -1,4 +1,5 @@
-// Mean position, normal and reflectance of each cluster's voxels, and their bounding box (Cosin and Patow 2022, algorithm 1, line 15).
+// Averages position, normal and reflectance of each cluster's voxels, and finds their bounding box (Cosin and Patow
+// 2022, algorithm 1, line 15).
 #include "passes/clusters/cluster_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"

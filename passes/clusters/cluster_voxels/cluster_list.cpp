@@ -22,7 +22,7 @@ void ClusterList::build(CommandStream& stream, const SurfaceVoxels& voxels,
         return Buffer(device, name, n * sizeof(uint32_t));
     };
 
-    // Nonempty clusters
+    // Assign consecutive indices to nonempty clusters
     const Buffer memberCounts = uints("member counts", numbers),
                  firstMembers = uints("first members", numbers);
     const Buffer flags = uints("nonempty flags", words), nonempty = uints("nonempty clusters", numbers);
@@ -44,7 +44,7 @@ void ClusterList::build(CommandStream& stream, const SurfaceVoxels& voxels,
                      {"clusterCount", clusters.count},
                      {"seedCount", slic.seedCount}});
 
-    // Voxels by cluster: the sort is stable, so those of a cluster stay ascending
+    // Sort voxels by cluster. The sort is stable: voxels of a cluster stay ascending
     Buffer keys = uints("clusters of voxels", count);
     clusters.clusterOfVoxel = uints("clusters of voxels", count);
     clusters.memberVoxels = uints("voxels by cluster", count);

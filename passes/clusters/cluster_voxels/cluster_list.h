@@ -7,12 +7,12 @@
 
 namespace voxray {
 
-/// Drops empty clusters, sorts voxels by cluster, and averages over each cluster.
+/// Removes empty clusters, sorts voxels by cluster, and averages over each cluster.
 class ClusterList {
  public:
     explicit ClusterList(ProgramOwner& owner);
 
-    /// Fills `clusters`, whose `coordinates` are there. Waits for the device.
+    /// Fills `clusters`, whose `coordinates` are given. Waits for the device.
     void build(CommandStream& stream, const SurfaceVoxels& voxels, const SlicClustering::Result& slic,
                VoxelClusters& clusters);
 

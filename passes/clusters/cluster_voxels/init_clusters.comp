@@ -1,10 +1,10 @@
-// Clusters that have voxels: their members, and the normal that these were compared with.
+// Writes the member range and the seed's normal of each nonempty cluster.
 #include "passes/clusters/cluster_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer Numbers { uint data[]; } numbers;  // By cluster: its number among all, with empty ones.
-readonly buffer MemberCounts { uint data[]; } memberCounts;  // By that number, as `firstMembers` and `newNumbers`.
+readonly buffer Numbers { uint data[]; } numbers;  // Of each nonempty cluster: its number among all clusters.
+readonly buffer MemberCounts { uint data[]; } memberCounts;  // Of all clusters, as `firstMembers` and `newNumbers`.
 readonly buffer FirstMembers { uint data[]; } firstMembers;
 writeonly buffer NewNumbers { uint data[]; } newNumbers;
 layout(scalar) readonly buffer Seeds { ClusterSeed data[]; } seeds;

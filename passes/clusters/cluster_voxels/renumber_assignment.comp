@@ -1,4 +1,4 @@
-// Each voxel's cluster by its final number, and keys to sort voxels by cluster: those without one come last.
+// Writes the cluster of each voxel by its final index, and sort keys by which voxels without a cluster come last.
 #include "passes/clusters/cluster_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
