@@ -37,11 +37,11 @@ Value variantValue(const Variant& variant) {
     map.set("values", listOf(variant.values));
     map.set("config", variant.config);
     map.set("places", places);
-    map.set("left_out", listOf(variant.leftOut));
+    map.set("left_out", listOf(variant.culledPasses));
     return map;
 }
 
-/// What docs/programs.md lists.
+/// The JSON that docs/programs.md describes.
 Value planValue(const Study& study, const std::filesystem::path& file) {
     const Experiment& experiment = study.experiment;
     Value plan = Value::map(), axes = Value::list(), variants = Value::list();

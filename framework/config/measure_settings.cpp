@@ -10,7 +10,7 @@
 namespace voxray {
 namespace {
 
-// Masks name columns of results.csv and images.
+/// Reads masks, whose names become part of names of columns and files.
 std::vector<MaskSettings> readMasks(const Value& map) {
     if (!map.isMap())
         throw UsageError(

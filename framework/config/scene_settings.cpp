@@ -17,7 +17,7 @@ glm::vec3 direction(const glm::vec3& vector, const Value& source, const std::str
     return vector / length;
 }
 
-/// Names of a light's properties in other tools.
+/// Rejects names of a light's properties in other tools, with those of Voxray.
 void checkLightKeys(const Value& entry, const std::string& what) {
     constexpr std::array<std::string_view, 9> kStrengths{
         "power", "color", "colour", "lumens", "lumen", "strength", "watts", "radiance", "brightness"};
@@ -37,7 +37,7 @@ void checkLightKeys(const Value& entry, const std::string& what) {
     }
 }
 
-// A light's type is given by its key.
+/// Reads a light. Its type is given by one of its keys.
 ConfigLight readLight(const Value& entry, size_t index) {
     const std::string what = fmt::format("scene.lights[{}]", index);
     if (!entry.isMap())
@@ -109,7 +109,7 @@ void readCamera(const Value& value, SceneSettings& settings) {
         throw UsageError(value.where, "scene.camera: looks along its own 'up'; give another up");
 }
 
-/// Names of a constant environment's radiance in other tools.
+/// Names of the radiance of a constant environment in other tools.
 constexpr std::array<std::string_view, 4> kRadianceWords{"color", "colour", "radiance", "intensity"};
 
 void readEnvironment(const Value& value, SceneSettings& settings) {

@@ -29,7 +29,7 @@ std::optional<fs::path> lookUp(const fs::path& name, const std::vector<fs::path>
     return std::nullopt;
 }
 
-/// What reads a file that the config names: what is wrong with it is told at the config's line.
+/// Calls read() for a file that the config names. Errors are reported with the line of the config.
 template <typename Read>
 auto readAt(const TextLocation& where, const Read& read) {
     try {
@@ -51,28 +51,27 @@ std::vector<fs::path> sceneFolders(const fs::path& scenesOption, const fs::path&
         folders.push_back(variable);
     if (!sourceRoot.empty()) folders.push_back((sourceRoot / ".." / "shared" / "scenes").lexically_normal());
     if (!configFile.empty()) folders.push_back(configFile.has_parent_path() ? configFile.parent_path() : ".");
-    // Each once, in this order
-    std::vector<fs::path> once;
+    std::vector<fs::path> unique;
     for (const fs::path& folder : folders) {
         const auto isSame = [&](const fs::path& other) {
             return fs::weakly_canonical(other) == fs::weakly_canonical(folder);
         };
-        if (std::ranges::none_of(once, isSame)) once.push_back(folder);
+        if (std::ranges::none_of(unique, isSame)) unique.push_back(folder);
     }
-    return once;
+    return unique;
 }
 
 fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& folders,
                        const TextLocation& where) {
     if (const auto path = lookUp(name, folders)) return *path;
     const bool isAbsolute = fs::path(name).is_absolute();
-    std::vector<std::string> looked;
+    std::vector<std::string> searched;
     const std::vector<std::string> builtin = builtinSceneNames();
     std::string advice;
     if (std::ranges::count(builtin, name) > 0)
         advice = fmt::format("; that scene is built in: write builtin: {}", name);
     for (const fs::path& folder : folders) {
-        if (!isAbsolute) looked.push_back(folder.string());
+        if (!isAbsolute) searched.push_back(folder.string());
         if (advice.empty()) advice = didYouMeanFile(name, folder);
     }
     if (advice.empty())
@@ -83,7 +82,7 @@ fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& fol
                      ? "; write paths with '/'"
                      : "; name its folder with --scenes DIR or VOXRAY_SCENES, see docs/scenes.md";
     throw UsageError(where, "no file '{}'{}{}", oneLine(name, 200),
-                     looked.empty() ? "" : fmt::format(" in {}", fmt::join(looked, ", ")), advice);
+                     searched.empty() ? "" : fmt::format(" in {}", fmt::join(searched, ", ")), advice);
 }
 
 void checkBuiltin(const SceneSource& source, const std::vector<fs::path>& folders) {
@@ -97,7 +96,7 @@ void checkBuiltin(const SceneSource& source, const std::vector<fs::path>& folder
         throw UsageError(source.where, "{}.builtin: no built-in scene '{}'{}", source.owner, name, advice);
     }
 
-    // Its own parameters, and in suggestions the keys that stand next to them
+    // Suggestions include keys that all scenes have
     std::vector<std::string> own, all = source.otherKeys;
     for (const ParameterDoc& doc : describeBuiltinScene(name)) own.push_back(doc.name);
     all.insert(all.end(), own.begin(), own.end());
@@ -199,7 +198,7 @@ std::string SceneLoader::key(const SceneSettings& settings) {
     hasher.addPlain(settings.options.keepFileLights).addPlain(settings.options.materials);
     if (settings.options.subdivide > 0) hasher.add("subdivide").addPlain(settings.options.subdivide);
     hasher.addPlain(settings.options.time).add(settings.cameraName);
-    // Where all goes from the compared frame on changes nothing in it but the bounds
+    // The compared frame depends on later motion only through the bounds of the scene
     hasher.addPlain(settings.options.timeStep > 0);
     hasher.add(settings.movingSpheres ? writeParams(*settings.movingSpheres).text() : "");
     hasher.add(settings.region ? writeParams(*settings.region).text() : "");

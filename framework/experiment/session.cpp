@@ -38,12 +38,12 @@ SceneOnDevice& Session::scene(const Setup& setup) {
         return *scene_;
     }
 
-    // The old one goes first: two may not fit. The tracer holds on to the state's address
+    // The old scene is freed first: two may not fit. The tracer keeps a pointer to the state
     scene_.reset();
     scene_.emplace();
     sceneMoved_ = false;
     try {
-        scene_->prepared = loader_.takePrepared(setup.scene, sceneKey);
+        scene_->prepared = loader_.takeCached(setup.scene, sceneKey);
         scene_->gpu = makeGpuScene(device_, stream_, scene_->prepared.state);
         scene_->tracer = makeRayTracer(setup.general.tracer, device_, compiler_, scene_->prepared.state);
         stream_.finish();
@@ -103,9 +103,9 @@ std::string Session::referenceHashOf(const Study& study, const Setup& setup, uin
     if (study.reference.isNull()) return {};
     const std::string first = referenceHash(loader_.key(setup.scene), study.reference, setup.image,
                                             referenceSeed(setup.general.seed));
-    if (number == 0 || standsStill(setup.scene)) return first;
+    if (number == 0 || isStatic(setup.scene)) return first;
 
-    // Frame 0 does not depend on where things go from there; later ones do
+    // Motion has no influence on frame 0
     Hasher hasher;
     hasher.add(first).addPlain(number).addPlain(setup.scene.options.timeStep);
     hasher.addPlain(setup.scene.camera ? setup.scene.camera->move : glm::vec3(0.0f));
@@ -128,7 +128,6 @@ const ReferenceImages& Session::reference(const Study& study, const Setup& setup
         throw Error("{}", failedReferences_[hash] = std::string("reference: ") + error.what());
     }
 
-    // The same bits whether they come from memory or from the cache
     store(*reference_);
     return *reference_;
 }
@@ -199,7 +198,7 @@ std::vector<std::string> Session::warnings() const {
     return all;
 }
 
-bool standsStill(const SceneSettings& settings) {
+bool isStatic(const SceneSettings& settings) {
     return !changesInTime(settings) && (!settings.camera || settings.camera->move == glm::vec3(0.0f));
 }
 

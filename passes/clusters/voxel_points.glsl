@@ -1,5 +1,4 @@
-// Sample points around voxels, in the directions of the centers of their 12 edges and 6 faces (Cosin and Patow 2022,
-// section 4.4).
+// Sample points around voxels, in the directions of their 12 edges and 6 faces (Cosin and Patow 2022, section 4.4).
 #ifndef VOXRAY_VOXEL_POINTS_GLSL
 #define VOXRAY_VOXEL_POINTS_GLSL
 

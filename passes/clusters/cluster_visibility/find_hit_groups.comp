@@ -9,8 +9,7 @@ layout(local_size_x = 64) in;
 
 #define MAX_CANDIDATES 4u
 #define NO_SURFEL 0xffffffffu
-// Threshold for NearestSurfel::distance_: 0.7 voxels in one plane, or half a voxel and normals that differ by 20
-// degrees.
+// Threshold for NearestSurfel::distance_: 0.7 voxels in one plane, or half a voxel and 20 degrees between normals.
 const float FAR = 0.5;
 
 struct Candidate {

@@ -37,8 +37,7 @@ bool intersects(Ray ray, Box box) {
     return max(max(near.x, near.y), max(near.z, 0.0)) <= min(min(far.x, far.y), min(far.z, ray.tMax));
 }
 
-// Whether a ray intersects a changed box before its hit, which is within two voxels along each axis of the hit group's
-// surfels.
+// Whether a ray intersects a changed box before its hit, which is within two voxels of the hit group's surfels.
 bool hitsChange(uint ray, uint packedHit) {
     Ray r = patchRay(ray);
     if (hitsGroup(packedHit)) {

@@ -1,6 +1,5 @@
 // Fragment callback: adds the angles between a fragment's normal and the axes to its voxel's sums (Cosin and Patow
-// 2022, figure 7). A fragment is the part of a triangle in a voxel. Integer sums do not depend on the order of
-// fragments.
+// 2022, figure 7). A fragment is the part of a triangle in a voxel. Integer sums do not depend on the order.
 #include "passes/clusters/cluster_voxels/fragment_angles.glsl"
 #include "passes/common/triangle_voxelizer/exact.glsl"
 #include "shaders/voxels/voxels.glsl"

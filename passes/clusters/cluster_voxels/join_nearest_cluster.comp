@@ -1,13 +1,11 @@
-// Assigns unassigned voxels to the cluster of the nearest assigned voxel, whatever their normals (Cosin and Patow 2022,
-// figure 9).
+// Assigns unassigned voxels to the cluster of the nearest assigned voxel (Cosin and Patow 2022, figure 9).
 #include "passes/clusters/cluster_voxels/assignment.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
 layout(scalar) writeonly buffer NewAssignment { uint data[]; } newAssignment;
 
-// Searches shells of growing boxes around the voxel until the faces of a shell are farther than the nearest voxel
-// found.
+// Searches shells of growing boxes until the faces of a shell are farther than the nearest voxel found.
 uint nearestCluster(ivec3 center) {
     const int maxShell = int(max(push.grid.resolution.x, max(push.grid.resolution.y, push.grid.resolution.z)));
     uint nearest = NO_CLUSTER;

@@ -8,8 +8,7 @@
 
 namespace voxray {
 
-/// Finds the components of each cluster, which are the connected surface groups of its voxels, by label
-/// propagation.
+/// Finds the components of each cluster, its connected surface groups, by label propagation.
 class ComponentLabeling {
  public:
     explicit ComponentLabeling(ProgramOwner& owner);

@@ -25,8 +25,7 @@ class GroupUpdateCache {
  public:
     explicit GroupUpdateCache(ProgramOwner& owner);
 
-    /// Moves buffers out of `patches`. @param changed boxes in which surfaces have changed, m. Waits for the
-    /// device.
+    /// Moves buffers out of `patches`. @param changed boxes with changed surfaces, m. Waits for the device.
     void startUpdate(CommandStream& stream, const SurfaceVoxels& voxels, VoxelPatches& patches,
                      const std::vector<Box>& changed);
     bool isActive() const { return isActive_; }
@@ -39,8 +38,7 @@ class GroupUpdateCache {
     /// Frees what startUpdate() moved. The stream must have finished.
     void finishUpdate();
 
-    /// Call before groups are numbered. @param idCount upper bound of surfels' ids. The stream must have
-    /// finished.
+    /// Call before groups are numbered, after the stream has finished. @param idCount upper bound of ids.
     void storeSurfels(CommandStream& stream, const VoxelPatches& patches, uint64_t idCount);
     void storeVoxels(CommandStream& stream, const SurfaceVoxels& voxels);
 

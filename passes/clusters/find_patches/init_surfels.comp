@@ -1,5 +1,4 @@
-// Writes the surfels of a chunk, sorted by voxel, without a group. UPDATE: surfels of unchanged voxels get their
-// previous group.
+// Writes the surfels of a chunk, sorted by voxel, without a group. UPDATE: those of unchanged voxels keep their group.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "passes/clusters/find_patches/stored_group.h"
 #include "shaders/compute/large_buffer.glsl"

@@ -27,8 +27,7 @@ struct RayBatch {
 
 /// Groups the surfels of each voxel that see each other. In each round the first surfel without a group
 /// becomes the seed of a new group, and the surfels that see the seed join it. Visibility rays connect points
-/// at a height above the surfels: half a voxel for unoccluded surfels, half the gap in front of occluded
-/// ones.
+/// at a height above the surfels: half a voxel, or half the gap in front of occluded surfels.
 class SurfelGrouping {
  public:
     explicit SurfelGrouping(ProgramOwner& owner);

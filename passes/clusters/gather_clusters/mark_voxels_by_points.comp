@@ -1,5 +1,5 @@
-// Marks and lists the voxels of a batch of which the camera sees a point. Voxels that were requested before have only
-// inactive rays.
+// Marks and lists the voxels of a batch of which the camera sees a point. Rays of voxels that were requested before are
+// inactive.
 #include "passes/clusters/gather_clusters/visible_points.glsl"
 #include "passes/clusters/voxel_point_rays.glsl"
 layout(local_size_x = 64) in;

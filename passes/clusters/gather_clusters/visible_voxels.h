@@ -22,8 +22,7 @@ struct EnumNames<GatherUpdate> {
 };
 
 /// Finds voxels that come into the camera's view, each once: those that lookups of irradiance read around
-/// visible surfaces or, with GatherUpdate::SeenPoints, those of which the camera sees a point
-/// (VisiblePoints).
+/// visible surfaces or, with GatherUpdate::SeenPoints, those found by VisiblePoints.
 class VisibleVoxels {
  public:
     VisibleVoxels(ProgramOwner& owner, GatherUpdate update);
@@ -38,8 +37,7 @@ class VisibleVoxels {
     /// Allocates the buffers. No voxel counts as found any more.
     void reset(PassContext& context, const SurfaceVoxels& voxels, const VoxelPatches& patches);
     /// @param gbuffer visible surfaces. @param reach distance in voxels along each axis that lookups around
-    /// them read; both are unused with GatherUpdate::SeenPoints. @param steps of dilation. Waits for the
-    /// device.
+    /// them read; both are unused with SeenPoints. @param steps of dilation. Waits for the device.
     NewVoxels find(PassContext& context, const GBuffer* gbuffer, const SurfaceVoxels& voxels,
                    const VoxelClusters& clusters, const VoxelPatches& patches, uint32_t reach,
                    uint32_t steps) const;

@@ -1,7 +1,6 @@
 // One bounce between component faces (Cosin and Patow 2022, section 4.4): the new radiosity of a face is the initial
 // one plus the light that its patches receive along their visibility lists and reflect. At most `maxSamples` patches
-// are evaluated, by systematic sampling with equal steps along the cumulative area. Faces with fewer patches use all of
-// them.
+// are evaluated, by systematic sampling with equal steps along the cumulative area; of faces with fewer patches all.
 #include "passes/clusters/inject_clusters/component_face_types.h"
 #include "passes/clusters/gather_patch.glsl"
 #include "passes/clusters/group_patches.glsl"

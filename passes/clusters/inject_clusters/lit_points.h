@@ -16,8 +16,7 @@ class LitPoints {
     explicit LitPoints(ProgramOwner& owner);
 
     void plan(PassPlan& plan) { rays_.plan(plan); }
-    /// Adds irradiance (W/m²) to that of VoxelPatches::surfels, 3 floats each. @param sources punctual
-    /// lights.
+    /// Adds irradiance, W/m², to that of VoxelPatches::surfels, 3 floats each. @param sources punctual.
     void measure(PassContext& context, const std::vector<LightSource>& sources, const SurfaceVoxels& voxels,
                  const VoxelClusters& clusters, const VoxelPatches& patches,
                  const LargeBuffer& surfelIrradiance) const;
