@@ -18,6 +18,7 @@
 #include "app/view_search.h"
 #include "base/files.h"
 #include "base/suggest.h"
+#include "experiment/checks/view.h"
 #include "experiment/pixel_masks.h"
 #include "experiment/scene_files.h"
 #include "experiment/scene_setup.h"
@@ -71,10 +72,6 @@ SceneSettings settingsOf(const SceneArguments& arguments, const std::vector<std:
     return readSceneSettings(map);
 }
 
-std::string triple(glm::vec3 v) {
-    return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v.x, v.y, v.z);
-}
-
 /// Area (m²) and number of triangles of each material.
 std::vector<std::pair<double, size_t>> materialUses(const SceneState& state) {
     const Geometry& g = state.geometry;
@@ -106,15 +103,15 @@ bool printLights(const SceneState& state) {
                            : light.type == LightType::Spot ? "spot"
                                                            : "directional";
         if (light.type == LightType::Directional)
-            fmt::print("  - {{{}: {}, irradiance: {}}}  # W/m²\n", name, triple(light.direction),
-                       triple(light.intensity));
+            fmt::print("  - {{{}: {}, irradiance: {}}}  # W/m²\n", name, bracketed(light.direction),
+                       bracketed(light.intensity));
         else
-            fmt::print("  - {{{}: {}, {}intensity: {}}}  # W/sr\n", name, triple(light.position),
-                       light.type == LightType::Spot ? "direction: " + triple(light.direction) + ", " : "",
-                       triple(light.intensity));
+            fmt::print("  - {{{}: {}, {}intensity: {}}}  # W/sr\n", name, bracketed(light.position),
+                       light.type == LightType::Spot ? "direction: " + bracketed(light.direction) + ", " : "",
+                       bracketed(light.intensity));
     }
     if (hasEnvironment)
-        fmt::print("  environment {}{}\n", triple(environment.radiance),
+        fmt::print("  environment {}{}\n", bracketed(environment.radiance),
                    environment.map ? " times a map" : " W/(m² sr)");
     return emissive > 0 || hasEnvironment || !state.lights.empty();
 }
@@ -126,9 +123,9 @@ void printMaterials(const SceneState& state) {
     for (size_t i = 0; i < uses.size(); ++i) {
         const Material& m = state.scene->materials[i];
         fmt::print("  {:32} {:10} {:10.3g}  {:22} {:8.2g} {:9.2g}{}{}\n", m.name, uses[i].second,
-                   uses[i].first, triple(glm::vec3(m.baseColor)), m.metallic, m.roughness,
+                   uses[i].first, bracketed(glm::vec3(m.baseColor)), m.metallic, m.roughness,
                    m.baseColorTexture.texture >= 0 ? ", textured" : "",
-                   emits(m) ? ", emits " + triple(m.emission) + " W/(m² sr)" : "");
+                   emits(m) ? ", emits " + bracketed(m.emission) + " W/(m² sr)" : "");
     }
 }
 
@@ -143,14 +140,6 @@ void printObjects(const Scene& scene) {
                more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// The scene with a constant environment.
-SceneState inEvenLight(SceneState state) {
-    auto lit = std::make_shared<Scene>(*state.scene);
-    lit->environment.radiance = glm::vec3(1.0f);
-    state.scene = lit;
-    return state;
-}
-
 /// The scene with an additional lamp.
 SceneState withLamp(SceneState state, const Light& lamp) {
     state.lights.push_back(lamp);
@@ -161,7 +150,7 @@ SceneState withLamp(SceneState state, const Light& lamp) {
 /// a constant environment.
 void writePicture(const SceneState& scene, const EmbreeScene& tracer, const Camera& camera, bool hasLight,
                   const std::optional<Light>& lamp, bool isLit, const std::filesystem::path& file) {
-    const SceneState state = lamp ? withLamp(scene, *lamp) : hasLight ? scene : inEvenLight(scene);
+    const SceneState state = lamp ? withLamp(scene, *lamp) : hasLight ? scene : withEnvironment(scene);
     const PathTraceOptions options{.width = 320, .height = 180, .spp = 32, .bounces = 4};
     writePng(file, preview(pathTrace(state, tracer, camera, options).total, 0));
     fmt::print("{}: 320 x 180 pixels{}\n", file.string(),
@@ -206,8 +195,8 @@ void describe(const SceneArguments& arguments) {
     const size_t objects = scene.state.scene->instances.size();
     fmt::print("{}: {} triangles in {} object{}, {} textures\n", arguments.what.string(), g.triangles.size(),
                objects, objects == 1 ? "" : "s", scene.state.scene->textures.size());
-    fmt::print("bounds: {} to {}, {:.4g} x {:.4g} x {:.4g} m\n", triple(g.boundsMin), triple(g.boundsMax),
-               size.x, size.y, size.z);
+    fmt::print("bounds: {} to {}, {:.4g} x {:.4g} x {:.4g} m\n", bracketed(g.boundsMin),
+               bracketed(g.boundsMax), size.x, size.y, size.z);
     fmt::print("cameras: {}\n", original.cameras.size());
     for (const Camera& camera : original.cameras)
         fmt::print("  '{}'  {}\n", camera.name, yamlOf(settingsOf(camera, g, tracer)));
@@ -234,7 +223,7 @@ void describe(const SceneArguments& arguments) {
                        hasLight ? "no light is seen from there" : "nothing shines", view.light);
         if (!hasCamera) scene.camera = cameraOf(view.camera);
         const bool isSeenWithLight = hasCamera && !hasLight && !view.light.empty() &&
-                                     seesLight(inEvenLight(scene.state), tracer, suggested);
+                                     seesLight(withEnvironment(scene.state), tracer, suggested);
         if (!isSeen) light = view.light;
         if (!isSeen && (!hasCamera || !hasLight)) lamp = view.lamp;
         if (!isSeen && !isSeenWithLight) suggested = view.camera;

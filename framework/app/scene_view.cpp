@@ -13,6 +13,7 @@
 
 #include "app/view_search.h"
 #include "experiment/checks/view.h"
+#include "experiment/scene_setup.h"
 #include "passes/path_trace/path_tracer.h"
 
 namespace voxray {
@@ -58,7 +59,8 @@ std::string triple(const glm::vec3& v, float step) {
     return fmt::format("[{}, {}, {}]", number(v.x, step), number(v.y, step), number(v.z, step));
 }
 
-constexpr float kPrecision = 1e-3f;  ///< Of printed coordinates, relative to the distance of the target.
+constexpr float kPrecision =
+    1e-3f;  ///< Precision of printed coordinates, relative to the distance of the target.
 
 /// A lamp at the camera that results in a mean radiance of kPreviewRadiance, including indirect light.
 Light lampFor(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera,
@@ -80,16 +82,19 @@ Light lampFor(const SceneState& state, const EmbreeScene& tracer, const CameraSe
 
 }  // namespace
 
+SceneState withEnvironment(SceneState state) {
+    auto lit = std::make_shared<Scene>(*state.scene);
+    lit->environment.radiance = glm::vec3(1.0f);
+    state.scene = lit;
+    return state;
+}
+
 SuggestedView suggestView(const SceneState& state, const EmbreeScene& tracer) {
     constexpr float kLit = 0.1f;
     SuggestedView view;
     auto [camera, stats] = best(state, tracer);
     if (stats.lit < kLit && !hasLight(state)) {
-        auto lit = std::make_shared<Scene>(*state.scene);
-        lit->environment.radiance = glm::vec3(1.0f);
-        SceneState inSky = state;
-        inSky.scene = lit;
-        std::tie(camera, stats) = best(inSky, tracer);
+        std::tie(camera, stats) = best(withEnvironment(state), tracer);
         view.light = "environment: 1";
     }
     view.camera = camera;

@@ -17,6 +17,9 @@ struct SuggestedView {
     std::optional<Light> lamp;  ///< The lamp of `light`, if any.
 };
 
+/// The scene with an environment of radiance 1.
+SceneState withEnvironment(SceneState state);
+
 /// Searches a view that shows lit front sides of surfaces, from many positions outside and inside of the
 /// scene. The first good one is returned: one from inside if the center is enclosed by surfaces that face
 /// inwards, else one from outside. Deterministic.

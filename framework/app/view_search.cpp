@@ -8,6 +8,8 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 
+#include "experiment/checks/facing.h"
+#include "experiment/scene_setup.h"
 #include "passes/path_trace/path_tracer.h"
 #include "scene/camera_rays.h"
 #include "scene/outliers.h"
@@ -30,20 +32,12 @@ glm::vec3 directionOf(int ray) {
     return {r * std::cos(angle), z, r * std::sin(angle)};
 }
 
-bool isFront(const SceneState& state, uint32_t triangle, const glm::vec3& direction) {
-    const Geometry& g = state.geometry;
-    if (state.scene->materials[g.triangleMaterials[triangle]].doubleSided) return true;
-    const glm::uvec3 t = g.triangles[triangle];
-    const glm::vec3 a = g.positions[t.x];
-    return glm::dot(glm::cross(g.positions[t.y] - a, g.positions[t.z] - a), direction) < 0;
-}
-
 bool isEnclosed(glm::vec3 from, const SceneState& state, const EmbreeScene& tracer) {
     int fronts = 0;
     for (int i = 0; i < kRays; ++i) {
         const glm::vec3 direction = directionOf(i);
         const Hit hit = tracer.closestHit({from, 0, direction, kInfinity});
-        fronts += hit.triangle != Hit::kMiss && isFront(state, hit.triangle, direction);
+        fronts += hit.triangle != Hit::kMiss && !isSingleSidedBack(state, hit.triangle, direction);
     }
     return float(fronts) >= kEnclosed * kRays;
 }
@@ -105,16 +99,6 @@ float ViewStats::score() const {
     return std::sqrt(std::min(1.0f, 2 * filled)) * fronts * (1 - near) * (0.01f + lit);
 }
 
-Camera cameraOf(const CameraSettings& settings) {
-    Camera camera;
-    camera.verticalFovRadians = glm::radians(settings.fovDegrees);
-    camera.position = settings.position;
-    camera.forward = glm::normalize(settings.target - settings.position);
-    const glm::vec3 right = glm::normalize(glm::cross(camera.forward, settings.up));
-    camera.up = glm::normalize(glm::cross(right, camera.forward));
-    return camera;
-}
-
 ViewStats measureGeometry(const SceneState& state, const EmbreeScene& tracer,
                           const CameraSettings& settings) {
     const CameraRays rays = cameraRays(cameraOf(settings), kWidth, kHeight);
@@ -127,7 +111,7 @@ ViewStats measureGeometry(const SceneState& state, const EmbreeScene& tracer,
             const Hit hit = tracer.closestHit({rays.origin, 0, direction, kInfinity});
             if (hit.triangle == Hit::kMiss) continue;
             distances.push_back(hit.t);
-            stats.fronts += isFront(state, hit.triangle, direction) ? 1.0f : 0.0f;
+            stats.fronts += isSingleSidedBack(state, hit.triangle, direction) ? 0.0f : 1.0f;
         }
     if (distances.empty()) return stats;
     std::ranges::sort(distances);

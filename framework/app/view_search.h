@@ -22,8 +22,6 @@ struct ViewStats {
     bool isGood() const { return filled >= 0.05f && fronts >= 0.6f && near < 0.3f && lit >= 0.5f; }
 };
 
-/// Converts settings to a camera.
-Camera cameraOf(const CameraSettings& settings);
 /// Computes all members except `lit`.
 ViewStats measureGeometry(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera);
 /// Computes all members. `lit` is found by path tracing.

@@ -16,7 +16,7 @@ void checkName(const Value& config, const std::string& name) {
     const TextLocation where = entry ? entry->where : config.where;
     if (name.empty()) throw UsageError(where, "name: an experiment needs a name");
     const bool isPlain = name.size() <= 100 && name[0] != '.' && name[0] != '-' &&
-                         std::all_of(name.begin(), name.end(), [](unsigned char c) {
+                         std::ranges::all_of(name, [](unsigned char c) {
                              return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
                                     (c >= 'A' && c <= 'Z') || c == '_' || c == '-' || c == '.';
                          });
@@ -53,7 +53,7 @@ void checkGraph(const Value& graph) {
             throw UsageError(entry.where, "graph: the id '{}' must not contain a blank; write '_' for it",
                              id);
         const auto& keys = configKeys();
-        if (std::find(keys.begin(), keys.end(), id) != keys.end())
+        if (std::ranges::count(keys, id) > 0)
             throw UsageError(entry.where, "graph: the id '{}' is a key of the config; choose another", id);
     }
 }
@@ -106,7 +106,7 @@ void checkTopLevel(const Value& config) {
                                            : "");
     for (const auto& [key, value] : config.members) {
         const auto& keys = configKeys();
-        if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+        if (std::ranges::count(keys, key) > 0) continue;
         if (const std::string path = pathOfKey(key); !path.empty())
             throw UsageError(value.where, "unknown key '{}'; it stands in '{}'", key,
                              path.substr(0, path.find('.')));

@@ -172,11 +172,10 @@ std::string optionFor(const std::string& key) {
 
 bool hasTarget(const Value& config, const std::string& path) {
     const std::string first = path.substr(0, path.find('.'));
-    if (std::find(configKeys().begin(), configKeys().end(), first) != configKeys().end()) return true;
+    if (std::ranges::count(configKeys(), first) > 0) return true;
     const Value* graph = config.find("graph");
     if (!graph || !graph->isList()) return false;
-    return std::any_of(graph->items.begin(), graph->items.end(),
-                       [&](const Value& entry) { return passId(entry) == first; });
+    return std::ranges::any_of(graph->items, [&](const Value& entry) { return passId(entry) == first; });
 }
 
 const Value* valueAt(const Value& config, const std::string& path) {
@@ -239,7 +238,7 @@ void applyOverride(Value& config, const std::string& path, const Value& value, M
     }
 
     // The path of a config key
-    if (std::find(configKeys().begin(), configKeys().end(), first) == configKeys().end())
+    if (std::ranges::count(configKeys(), first) == 0)
         throw UsageError(value.where, "'{}': neither a key of the config nor a pass of its graph{}", first,
                          optionFor(first).empty() ? nearestPath(config, path, first, candidates)
                                                   : "; it is said on the command line: " + optionFor(first));

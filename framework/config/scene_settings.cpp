@@ -52,27 +52,26 @@ ConfigLight readLight(const Value& entry, size_t index) {
     light.name = fmt::format("config light {}", index);
     if (std::ranges::any_of(kinds, [&](const std::string& kind) { return entry.find(kind); }))
         checkLightKeys(entry, what);
+    const auto setCommon = [&](const auto& settings, const glm::vec3& intensity) {
+        light.intensity = intensity;
+        read.move = settings.move;
+        read.offAt = settings.offAt;
+    };
     if (const Value* axis = entry.find("directional")) {
         const auto p = readParams<DirectionalLightSettings>(entry, what);
         light.type = LightType::Directional;
-        light.intensity = p.irradiance;
-        read.move = p.move;
-        read.offAt = p.offAt;
+        setCommon(p, p.irradiance);
         light.direction = direction(p.direction, *axis, what + ".directional");
     } else if (entry.find("point")) {
         const auto p = readParams<PointLightSettings>(entry, what);
-        light.intensity = p.intensity;
-        read.move = p.move;
-        read.offAt = p.offAt;
+        setCommon(p, p.intensity);
         light.position = p.position;
     } else if (entry.find("spot")) {
         const auto p = readParams<SpotLightSettings>(entry, what);
         if (!(p.innerDegrees < p.outerDegrees))
             throw UsageError(entry.where, "{}: inner_deg must be less than outer_deg", what);
         light.type = LightType::Spot;
-        light.intensity = p.intensity;
-        read.move = p.move;
-        read.offAt = p.offAt;
+        setCommon(p, p.intensity);
         light.position = p.position;
         light.direction = direction(p.direction, entry, what + ".direction");
         light.innerConeAngle = glm::radians(p.innerDegrees);
@@ -244,7 +243,7 @@ SceneSettings readSceneSettings(const Value& map) {
 
 bool changesInTime(const SceneSettings& settings, bool isAnimated) {
     return (settings.options.timeStep > 0 && isAnimated) ||
-           std::any_of(settings.lights.begin(), settings.lights.end(), [](const ConfigLight& entry) {
+           std::ranges::any_of(settings.lights, [](const ConfigLight& entry) {
                return entry.move != glm::vec3(0.0f) || entry.offAt > 0;
            });
 }

@@ -34,6 +34,12 @@ struct EnumNames<MaterialMode> {
 inline constexpr float kMaxCoordinate = 1e6f;
 inline constexpr float kMaxLight = 1e12f;
 
+/// A position or direction.
+template <typename Settings>
+constexpr auto vectorField(const char* name, glm::vec3 Settings::*member, const char* help) {
+    return field(name, member, help, glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate)).asVector();
+}
+
 /// Top-level scalars.
 struct GeneralSettings {
     std::string name;
@@ -161,20 +167,15 @@ struct CameraSettings {
     float fovDegrees = 60;
     glm::vec3 move{0.0f};
     static constexpr auto schema() {
-        constexpr glm::vec3 low(-kMaxCoordinate), high(kMaxCoordinate);
         return std::tuple{
-            field("position", &CameraSettings::position, "Position of the camera, metres.", low, high)
-                .asVector(),
-            field("target", &CameraSettings::target, "The point that the camera looks at, metres.", low, high)
-                .asVector(),
-            field("up", &CameraSettings::up, "The direction that is up in the image.", low, high).asVector(),
+            vectorField("position", &CameraSettings::position, "Position of the camera, metres."),
+            vectorField("target", &CameraSettings::target, "The point that the camera looks at, metres."),
+            vectorField("up", &CameraSettings::up, "The direction that is up in the image."),
             field("fov_deg", &CameraSettings::fovDegrees, "Vertical field of view in degrees.", 1.0f, 179.0f),
-            field("move", &CameraSettings::move,
-                  "How far the camera moves from one frame to the next, metres: "
-                  "warm-up frames lead up to `position`, where the first measured frame is taken; "
-                  "the others go on from there.",
-                  low, high)
-                .asVector()};
+            vectorField("move", &CameraSettings::move,
+                        "How far the camera moves from one frame to the next, metres: "
+                        "warm-up frames lead up to `position`, where the first measured frame is taken; "
+                        "the others go on from there.")};
     }
 };
 
@@ -183,10 +184,8 @@ struct RegionSettings {
     glm::vec3 min{0.0f};
     glm::vec3 max{0.0f};
     static constexpr auto schema() {
-        constexpr glm::vec3 low(-kMaxCoordinate), high(kMaxCoordinate);
-        return std::tuple{
-            field("min", &RegionSettings::min, "Its lowest corner, metres.", low, high).asVector(),
-            field("max", &RegionSettings::max, "Its highest corner, metres.", low, high).asVector()};
+        return std::tuple{vectorField("min", &RegionSettings::min, "Its lowest corner, metres."),
+                          vectorField("max", &RegionSettings::max, "Its highest corner, metres.")};
     }
 };
 
@@ -199,6 +198,10 @@ constexpr auto lightOffField(uint32_t Light::*offAt) {
                  0u, 100000u);
 }
 
+/// `move` of a point or spot light.
+inline constexpr const char* kLightMoveHelp =
+    "How far it moves from one frame to the next, metres: at its place in the compared frame.";
+
 /// Entries of `scene.lights`; the first key is the type of light.
 struct DirectionalLightSettings {
     glm::vec3 direction{0, -1, 0};
@@ -206,18 +209,14 @@ struct DirectionalLightSettings {
     glm::vec3 move{0.0f};
     uint32_t offAt = 0;
     static constexpr auto schema() {
-        return std::tuple{field("directional", &DirectionalLightSettings::direction,
-                                "Direction in which the light travels, of any length but 0.",
-                                glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                              .asVector(),
+        return std::tuple{vectorField("directional", &DirectionalLightSettings::direction,
+                                      "Direction in which the light travels, of any length but 0."),
                           field("irradiance", &DirectionalLightSettings::irradiance,
                                 "Irradiance on a surface that faces the light, W/m².", glm::vec3(0.0f),
                                 glm::vec3(kMaxLight)),
-                          field("move", &DirectionalLightSettings::move,
-                                "Added to the direction from one frame to the next; "
-                                "in the compared frame it shines along `directional`.",
-                                glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                              .asVector(),
+                          vectorField("move", &DirectionalLightSettings::move,
+                                      "Added to the direction from one frame to the next; "
+                                      "in the compared frame it shines along `directional`."),
                           lightOffField(&DirectionalLightSettings::offAt)};
     }
 };
@@ -228,15 +227,10 @@ struct PointLightSettings {
     uint32_t offAt = 0;
     static constexpr auto schema() {
         return std::tuple{
-            field("point", &PointLightSettings::position, "Position of the light, metres.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector(),
+            vectorField("point", &PointLightSettings::position, "Position of the light, metres."),
             field("intensity", &PointLightSettings::intensity, "Radiant intensity, W/sr.", glm::vec3(0.0f),
                   glm::vec3(kMaxLight)),
-            field("move", &PointLightSettings::move,
-                  "How far it moves from one frame to the next, metres: at its place in the compared frame.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector(),
+            vectorField("move", &PointLightSettings::move, kLightMoveHelp),
             lightOffField(&PointLightSettings::offAt)};
     }
 };
@@ -250,22 +244,16 @@ struct SpotLightSettings {
     uint32_t offAt = 0;
     static constexpr auto schema() {
         return std::tuple{
-            field("spot", &SpotLightSettings::position, "Position of the light, metres.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector(),
-            field("direction", &SpotLightSettings::direction, "Direction of its axis, of any length but 0.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector(),
+            vectorField("spot", &SpotLightSettings::position, "Position of the light, metres."),
+            vectorField("direction", &SpotLightSettings::direction,
+                        "Direction of its axis, of any length but 0."),
             field("intensity", &SpotLightSettings::intensity, "Radiant intensity on the axis, W/sr.",
                   glm::vec3(0.0f), glm::vec3(kMaxLight)),
             field("inner_deg", &SpotLightSettings::innerDegrees,
                   "Angle from the axis, in degrees, up to which it has its full intensity.", 0.0f, 90.0f),
             field("outer_deg", &SpotLightSettings::outerDegrees,
                   "Angle from the axis, in degrees, beyond which its intensity is 0.", 0.0f, 90.0f),
-            field("move", &SpotLightSettings::move,
-                  "How far it moves from one frame to the next, metres: at its place in the compared frame.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector(),
+            vectorField("move", &SpotLightSettings::move, kLightMoveHelp),
             lightOffField(&SpotLightSettings::offAt)};
     }
 };

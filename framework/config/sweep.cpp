@@ -26,7 +26,7 @@ struct Axis {
 void checkPath(const std::string& path, const TextLocation& where) {
     static const std::vector<std::string> fixed{"name", "graph", "reference", "sweep", "measure", "profiles"};
     const std::string first = path.substr(0, path.find('.'));
-    if (std::find(fixed.begin(), fixed.end(), first) != fixed.end())
+    if (std::ranges::count(fixed, first) > 0)
         throw UsageError(
             where,
             "sweep: '{}' is the same for all variants; sweep over a pass, scene, image, seed or tracer",

@@ -120,7 +120,7 @@ std::string firstDifference(const Json& a, const Json& b, const std::string& pat
 std::string cpuName() {
     std::istringstream lines(readTextFile("/proc/cpuinfo"));
     for (std::string line; std::getline(lines, line);)
-        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
     return "unknown";
 }
 
@@ -257,7 +257,7 @@ std::string commitOf(const fs::path& sourceRoot) {
         };
         if (!fs::is_directory(git)) git = sourceRoot / firstLine(git).substr(8);
         const std::string head = firstLine(git / "HEAD");
-        if (head.rfind("ref: ", 0) != 0) return head;
+        if (!head.starts_with("ref: ")) return head;
         const std::string branch = head.substr(5);
         if (fs::exists(git / branch)) return firstLine(git / branch);
         std::istringstream packed(readTextFile(git / "packed-refs"));

@@ -43,9 +43,9 @@ struct ReportedValue {
 /// Costs and reported values of one variant.
 struct Measurement {
     std::vector<PassCost> passes;
-    std::vector<ReportedValue> values;  ///< Of the last build, then of the measured frames.
+    std::vector<ReportedValue> values;  ///< Values of the last build, then of the measured frames.
     double buildMs = 0;                 ///< Median of the build passes' sum.
-    Percentiles frameMs;                ///< Of the sum of frame passes and of the updates before them.
+    Percentiles frameMs;                ///< Times of all frame passes and the updates before them.
     uint64_t memoryBytes = 0;           ///< Persistent memory of the passes, without the scene.
     uint64_t peakBytes = 0;             ///< The same with the largest scratch memory of a pass.
     uint64_t rays = 0;                  ///< In one build and one frame.

@@ -44,6 +44,12 @@ uint32_t partsIn(const std::string& id) {
     return std::max(parts, 1u);
 }
 
+/// Samples per pixel of the reference, which is the limit of its parts; 1 if there is no reference.
+uint32_t referenceSamples(const PreparedExperiment& prepared) {
+    const Value* spp = prepared.manifest().referencePass.find("spp");
+    return spp ? uint32_t(spp->asInteger("reference.spp")) : 1;
+}
+
 /// Estimated memory and cost of a part.
 struct PartNeed {
     uint64_t bytes = 0;
@@ -119,11 +125,6 @@ void print(const Forecast& forecast) {
 }
 
 }  // namespace
-
-uint32_t referenceSamples(const PreparedExperiment& prepared) {
-    const Value* spp = prepared.manifest().referencePass.find("spp");
-    return spp ? uint32_t(spp->asInteger("reference.spp")) : 1;
-}
 
 std::vector<Part> partsOf(PreparedExperiment& prepared, uint32_t referenceParts) {
     if (!prepared.experiment().reference.isNull() && referenceParts > referenceSamples(prepared))

@@ -22,9 +22,6 @@ struct Part {
     SamplePart samples;
 };
 
-/// Samples per pixel of the reference, which is the limit of its parts; 1 if there is no reference.
-uint32_t referenceSamples(const PreparedExperiment& prepared);
-
 /// All parts, in an order in which they can be done.
 /// @param referenceParts number of parts of each reference.
 /// @throws UsageError if a reference has fewer samples.

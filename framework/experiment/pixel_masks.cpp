@@ -14,7 +14,7 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kSubPixels = 2;  ///< Along each side of a pixel.
+constexpr uint32_t kSubPixels = 2;  ///< Along each edge of a pixel.
 
 /// The condition of a mask, with flags for the instances and materials that it names.
 struct MaskCondition {
@@ -170,11 +170,11 @@ std::vector<PrimaryHit> primaryHits(const SceneState& state, const Camera& camer
                                     uint32_t height) {
     std::vector<PrimaryHit> hits(size_t(width) * height);
     forEachPixel(state, camera, width, height, [&](uint32_t x, uint32_t y, const Hit& hit) {
-        PrimaryHit& seen = hits[size_t(y) * width + x];
-        seen.depth = hit.t;  // Directions have length 1 along the axis
+        PrimaryHit& primary = hits[size_t(y) * width + x];
+        primary.depth = hit.t;  // Directions have length 1 along the axis
         if (hit.triangle == Hit::kMiss) return;
-        seen.instance = int32_t(instanceOf(state.geometry, hit.triangle));
-        seen.material = int32_t(state.geometry.triangleMaterials[hit.triangle]);
+        primary.instance = int32_t(instanceOf(state.geometry, hit.triangle));
+        primary.material = int32_t(state.geometry.triangleMaterials[hit.triangle]);
     });
     return hits;
 }

@@ -158,7 +158,7 @@ class Planner {
     ViewChecks& views_;
     const DeviceInfo& device_;
     ReferencePlan reference_;
-    // Of the last scene
+    // State of the last scene
     std::string key_;
     std::optional<LightRays> lightRays_;
     double metallicFraction_ = 0;

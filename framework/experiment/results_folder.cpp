@@ -61,10 +61,6 @@ std::pair<std::string, std::string> differingParts(const std::string& a, const s
     return {a.substr(same, a.size() - end - same), b.substr(same, b.size() - end - same)};
 }
 
-bool startsWith(const std::string& text, const char* prefix) {
-    return text.rfind(prefix, 0) == 0;
-}
-
 }  // namespace
 
 ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, FolderUse use,
@@ -93,7 +89,7 @@ ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, Folde
                         temporary.push_back(entry.path());  // Locks of parts that were killed are not in use.
         for (const fs::path& file : temporary) fs::remove(file);
         for (const auto& entry : fs::directory_iterator(path_ / "images"))
-            if (startsWith(entry.path().filename().string(), kTemporaryFolder)) fs::remove_all(entry.path());
+            if (entry.path().filename().string().starts_with(kTemporaryFolder)) fs::remove_all(entry.path());
         if (use == FolderUse::Fresh) replaced_ = removeOldRun();
     });
 }
@@ -152,7 +148,7 @@ size_t ResultsFolder::removeOldRun() const {
 
 void ResultsFolder::removeReferences() const {
     for (const auto& entry : fs::directory_iterator(path_ / "images"))
-        if (startsWith(entry.path().filename().string(), "reference")) fs::remove_all(entry.path());
+        if (entry.path().filename().string().starts_with("reference")) fs::remove_all(entry.path());
 }
 
 std::optional<VariantResult> ResultsFolder::finished(const std::string& variant,

@@ -41,26 +41,8 @@ auto readAt(const TextLocation& where, const Read& read) {
     }
 }
 
-}  // namespace
-
-std::vector<fs::path> sceneFolders(const fs::path& scenesOption, const fs::path& sourceRoot,
-                                   const fs::path& configFile) {
-    std::vector<fs::path> folders;
-    if (!scenesOption.empty()) folders.push_back(scenesOption);
-    if (const char* variable = std::getenv("VOXRAY_SCENES"); variable && *variable)
-        folders.push_back(variable);
-    if (!sourceRoot.empty()) folders.push_back((sourceRoot / ".." / "shared" / "scenes").lexically_normal());
-    if (!configFile.empty()) folders.push_back(configFile.has_parent_path() ? configFile.parent_path() : ".");
-    std::vector<fs::path> unique;
-    for (const fs::path& folder : folders) {
-        const auto isSame = [&](const fs::path& other) {
-            return fs::weakly_canonical(other) == fs::weakly_canonical(folder);
-        };
-        if (std::ranges::none_of(unique, isSame)) unique.push_back(folder);
-    }
-    return unique;
-}
-
+/// The path of a file in the first folder that has it; absolute names are returned as they are.
+/// @throws UsageError at `where` with the folders that were searched.
 fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& folders,
                        const TextLocation& where) {
     if (const auto path = lookUp(name, folders)) return *path;
@@ -85,10 +67,11 @@ fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& fol
                      searched.empty() ? "" : fmt::format(" in {}", fmt::join(searched, ", ")), advice);
 }
 
+/// @throws UsageError for a built-in scene that doesn't exist or has no such parameters.
 void checkBuiltin(const SceneSource& source, const std::vector<fs::path>& folders) {
     const std::string& name = source.builtin;
     const std::vector<std::string> names = builtinSceneNames();
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
+    if (std::ranges::count(names, name) == 0) {
         std::string advice = didYouMean(name, names);
         for (const char* ending : {"", ".gltf", ".glb"})
             if (const std::string file = name + ending; lookUp(file, folders))
@@ -97,30 +80,54 @@ void checkBuiltin(const SceneSource& source, const std::vector<fs::path>& folder
     }
 
     // Suggestions include keys that all scenes have
-    std::vector<std::string> own, all = source.otherKeys;
-    for (const ParameterDoc& doc : describeBuiltinScene(name)) own.push_back(doc.name);
-    all.insert(all.end(), own.begin(), own.end());
+    std::vector<std::string> parameters, all = source.otherKeys;
+    for (const ParameterDoc& doc : describeBuiltinScene(name)) parameters.push_back(doc.name);
+    all.insert(all.end(), parameters.begin(), parameters.end());
     for (const auto& [key, value] : source.builtinParameters.members)
-        if (std::find(own.begin(), own.end(), key) == own.end())
+        if (std::ranges::count(parameters, key) == 0)
             throw UsageError(value.where, "{}: {} has no parameter '{}'{}", source.owner, name, key,
                              didYouMean(key, all));
 }
 
+/// @throws UsageError if the extension of the file is not one of glTF.
 void checkFormat(const SceneSource& source) {
     const std::string ending = fs::path(source.file).extension().string();
-    for (const char* other : {".obj", ".fbx", ".blend", ".dae", ".ply", ".stl", ".usd", ".usdz", ".pbrt"})
-        if (ending == other)
+    for (const char* unsupported :
+         {".obj", ".fbx", ".blend", ".dae", ".ply", ".stl", ".usd", ".usdz", ".pbrt"})
+        if (ending == unsupported)
             throw UsageError(source.where, "{}.file: '{}' is no glTF: export it as .glb", source.owner,
                              oneLine(source.file, 200));
 }
 
+/// @throws UsageError if the extension of the environment map is that of an LDR format, which has no
+/// radiance.
 void checkMapFormat(const SceneSettings& settings) {
     const std::string ending = fs::path(settings.environment->map).extension().string();
-    for (const char* other : {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp"})
-        if (ending == other)
+    for (const char* ldr : {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp"})
+        if (ending == ldr)
             throw UsageError(settings.environmentWhere,
                              "scene.environment: '{}' holds no radiance: take an .exr file",
                              oneLine(settings.environment->map, 200));
+}
+
+}  // namespace
+
+std::vector<fs::path> sceneFolders(const fs::path& scenesOption, const fs::path& sourceRoot,
+                                   const fs::path& configFile) {
+    std::vector<fs::path> folders;
+    if (!scenesOption.empty()) folders.push_back(scenesOption);
+    if (const char* variable = std::getenv("VOXRAY_SCENES"); variable && *variable)
+        folders.push_back(variable);
+    if (!sourceRoot.empty()) folders.push_back((sourceRoot / ".." / "shared" / "scenes").lexically_normal());
+    if (!configFile.empty()) folders.push_back(configFile.has_parent_path() ? configFile.parent_path() : ".");
+    std::vector<fs::path> unique;
+    for (const fs::path& folder : folders) {
+        const auto isSame = [&](const fs::path& other) {
+            return fs::weakly_canonical(other) == fs::weakly_canonical(folder);
+        };
+        if (std::ranges::none_of(unique, isSame)) unique.push_back(folder);
+    }
+    return unique;
 }
 
 void checkRadiance(const ImageF& map, const std::filesystem::path& path) {

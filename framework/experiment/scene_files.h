@@ -1,11 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
-#include "config/scene_additions.h"
-#include "config/settings.h"
 #include "image/image.h"
 
 /// Finds the files that a config names, and checks their formats.
@@ -17,22 +14,6 @@ namespace voxray {
 std::vector<std::filesystem::path> sceneFolders(const std::filesystem::path& scenesOption,
                                                 const std::filesystem::path& sourceRoot,
                                                 const std::filesystem::path& configFile);
-
-/// The path of a file in the first folder that has it; absolute names are returned as they are.
-/// @throws UsageError at `where` with the folders that were searched.
-std::filesystem::path findSceneFile(const std::string& name,
-                                    const std::vector<std::filesystem::path>& folders,
-                                    const TextLocation& where);
-
-/// @throws UsageError for a built-in scene that doesn't exist or has no such parameters.
-void checkBuiltin(const SceneSource& source, const std::vector<std::filesystem::path>& folders);
-
-/// @throws UsageError if the extension of the file is not one of glTF.
-void checkFormat(const SceneSource& source);
-
-/// @throws UsageError if the extension of the environment map is that of an LDR format, which has no
-/// radiance.
-void checkMapFormat(const SceneSettings& settings);
 
 /// Checks an equirectangular map of radiance that was read from `path`.
 /// @throws Error for an image without three channels, and for values that are negative or not finite, with

@@ -37,14 +37,8 @@ glm::vec3 bestOrigin(const Geometry& g) {
 /// @param origin of the coordinates of state and camera.
 Camera chooseCamera(const SceneSettings& settings, const SceneState& state, const glm::vec3& origin) {
     if (settings.camera) {
-        const CameraSettings& c = *settings.camera;
-        Camera camera;
-        camera.name = "camera";
-        camera.verticalFovRadians = glm::radians(c.fovDegrees);
-        camera.position = c.position - origin;
-        camera.forward = glm::normalize(c.target - c.position);
-        const glm::vec3 right = glm::normalize(glm::cross(camera.forward, glm::normalize(c.up)));
-        camera.up = glm::normalize(glm::cross(right, camera.forward));
+        Camera camera = cameraOf(*settings.camera);
+        camera.position -= origin;
         return camera;
     }
     std::vector<std::string> names;
@@ -52,20 +46,21 @@ Camera chooseCamera(const SceneSettings& settings, const SceneState& state, cons
         if (settings.cameraName.empty() || camera.name == settings.cameraName) return camera;
         names.push_back(camera.name);
     }
-    const std::vector<std::string>& others = state.scene->orthographicCameras;
-    if (std::ranges::count(others, settings.cameraName) > 0)
+    const std::vector<std::string>& orthographic = state.scene->orthographicCameras;
+    if (std::ranges::count(orthographic, settings.cameraName) > 0)
         throw UsageError(settings.cameraWhere,
                          "scene.camera: '{}' is orthographic, which Voxray does not render; "
                          "name another or give one by position and target",
                          settings.cameraName);
     if (names.empty()) {
-        throw UsageError(
-            settings.where,
-            "scene: it has no {}camera{}; './voxray scene {}' gives one that sees it, "
-            "to write as in camera: {{position: [0, 1, 4], target: [0, 1, 0], fov_deg: 60}}",
-            others.empty() ? "" : "perspective ",
-            others.empty() ? "" : " ('" + others[0] + "' is orthographic, which Voxray does not render)",
-            settings.source.builtin.empty() ? settings.where.file : settings.source.builtin);
+        throw UsageError(settings.where,
+                         "scene: it has no {}camera{}; './voxray scene {}' gives one that sees it, "
+                         "to write as in camera: {{position: [0, 1, 4], target: [0, 1, 0], fov_deg: 60}}",
+                         orthographic.empty() ? "" : "perspective ",
+                         orthographic.empty()
+                             ? ""
+                             : " ('" + orthographic[0] + "' is orthographic, which Voxray does not render)",
+                         settings.source.builtin.empty() ? settings.where.file : settings.source.builtin);
     }
     throw UsageError(settings.cameraWhere, "scene.camera: no camera '{}'{}", settings.cameraName,
                      didYouMean(settings.cameraName, names));
@@ -110,7 +105,34 @@ void setLightsAndCamera(PreparedScene& prepared, const SceneSettings& settings, 
     prepared.state.cameras = {prepared.camera};
 }
 
+/// Removes the objects named by `hide` from a scene. @throws UsageError for a name that the scene lacks.
+void hideObjects(const SceneSettings& settings, Scene& scene) {
+    if (settings.hidden.empty()) return;
+    for (const HiddenName& hidden : settings.hidden) {
+        std::set<std::string> names;
+        for (const Instance& instance : scene.instances)
+            for (std::string& name : namesOfInstance(scene, instance)) names.insert(std::move(name));
+        if (hide(scene, hidden.name) == 0)
+            throw UsageError(hidden.where, "scene.hide: the scene has no node, mesh or material '{}'{}",
+                             hidden.name,
+                             didYouMean(hidden.name, std::vector<std::string>(names.begin(), names.end())));
+    }
+    if (scene.instances.empty())
+        throw UsageError(settings.hidden.back().where, "scene.hide: nothing of the scene is left to render");
+}
+
 }  // namespace
+
+Camera cameraOf(const CameraSettings& settings) {
+    Camera camera;
+    camera.name = "camera";
+    camera.verticalFovRadians = glm::radians(settings.fovDegrees);
+    camera.position = settings.position;
+    camera.forward = glm::normalize(settings.target - settings.position);
+    const glm::vec3 right = glm::normalize(glm::cross(camera.forward, glm::normalize(settings.up)));
+    camera.up = glm::normalize(glm::cross(right, camera.forward));
+    return camera;
+}
 
 void SceneLoader::checkOverrides(const SceneSettings& settings) {
     if (settings.overrides.empty()) return;
@@ -126,24 +148,9 @@ void SceneLoader::checkOverrides(const SceneSettings& settings) {
             addNames(addition.source);
     }
     for (const MaterialOverride& entry : settings.overrides)
-        if (std::find(names.begin(), names.end(), entry.material) == names.end())
+        if (std::ranges::count(names, entry.material) == 0)
             throw UsageError(entry.where, "scene.override: the scene has no material '{}'{}", entry.material,
                              didYouMean(entry.material, names));
-}
-
-void SceneLoader::hideObjects(const SceneSettings& settings, Scene& scene) {
-    if (settings.hidden.empty()) return;
-    for (const HiddenName& hidden : settings.hidden) {
-        std::set<std::string> names;
-        for (const Instance& instance : scene.instances)
-            for (std::string& name : namesOfInstance(scene, instance)) names.insert(std::move(name));
-        if (hide(scene, hidden.name) == 0)
-            throw UsageError(hidden.where, "scene.hide: the scene has no node, mesh or material '{}'{}",
-                             hidden.name,
-                             didYouMean(hidden.name, std::vector<std::string>(names.begin(), names.end())));
-    }
-    if (scene.instances.empty())
-        throw UsageError(settings.hidden.back().where, "scene.hide: nothing of the scene is left to render");
 }
 
 std::shared_ptr<const Scene> SceneLoader::compose(const SceneSettings& settings) {

@@ -30,6 +30,9 @@ struct PreparedScene {
     Camera camera;
 };
 
+/// Converts the settings of a camera.
+Camera cameraOf(const CameraSettings& settings);
+
 /// Loads scenes, applies additions and overrides of a config, and sets its camera, lights, environment and
 /// material mode. All loaded scenes are cached as they were loaded.
 class SceneLoader {
@@ -69,8 +72,6 @@ class SceneLoader {
  private:
     /// @throws UsageError for an overridden material that no scene has.
     void checkOverrides(const SceneSettings& settings);
-    /// Removes the objects named by `hide` from a scene. @throws UsageError for a name that the scene lacks.
-    static void hideObjects(const SceneSettings& settings, Scene& scene);
     /// The scene with additions, overrides and hidden objects of the config.
     std::shared_ptr<const Scene> compose(const SceneSettings& settings);
     std::shared_ptr<const ImageF> loadMap(const SceneSettings& settings);

@@ -119,17 +119,13 @@ const ReferenceImages& Session::reference(const Study& study, const Setup& setup
     if (reference_ && reference_->hash == hash) return *reference_;
     if (const auto failed = failedReferences_.find(hash); failed != failedReferences_.end())
         throw Error("{}", failed->second);
+    reference_.reset();
     try {
-        reference_ = stored(hash, setup);
-        if (reference_) return *reference_;
-        reference_ = makeReference(hash, study, setup, 0, progress);
+        return reference_.emplace(frameReference(study, setup, 0, progress));
     } catch (const std::exception& error) {
         if (interruptRequested()) throw Interrupted();
         throw Error("{}", failedReferences_[hash] = std::string("reference: ") + error.what());
     }
-
-    store(*reference_);
-    return *reference_;
 }
 
 bool Session::hasReference(const std::string& hash) const {
@@ -160,16 +156,10 @@ ReferenceImages Session::frameReference(const Study& study, const Setup& setup, 
                                         const std::function<void(double)>& progress) {
     const std::string hash = referenceHashOf(study, setup, number);
     if (auto known = stored(hash, setup)) return std::move(*known);
-    ReferenceImages rendered = makeReference(hash, study, setup, number, progress);
+    ReferenceImages rendered = imagesOf(renderPart(study, setup, number, {}, progress));
+    rendered.hash = hash;
     store(rendered);
     return rendered;
-}
-
-ReferenceImages Session::makeReference(const std::string& hash, const Study& study, const Setup& setup,
-                                       uint32_t number, const std::function<void(double)>& progress) {
-    ReferenceImages reference = imagesOf(renderPart(study, setup, number, {}, progress));
-    reference.hash = hash;
-    return reference;
 }
 
 RenderedPart Session::referencePart(const Study& study, const Setup& setup, uint32_t number,

@@ -79,8 +79,6 @@ class Session {
     std::optional<ReferenceImages> stored(const std::string& hash, const Setup& setup);
     RenderedPart renderPart(const Study& study, const Setup& setup, uint32_t number, SamplePart samples,
                             const std::function<void(double)>& progress);
-    ReferenceImages makeReference(const std::string& hash, const Study& study, const Setup& setup,
-                                  uint32_t number, const std::function<void(double)>& progress);
     void store(const ReferenceImages& reference);
 
     Device device_;

@@ -109,8 +109,11 @@ void writeFramePreviews(const std::filesystem::path& folder, const VariantImages
     for (const FrameImages& later : images.laterFrames) write(later.frame, later.final, later.indirect);
 }
 
-}  // namespace
-
+/// Downloads the AOVs of the graph's resources (Resource::aovs). Each image has three more channels, computed
+/// with camera rays on the host: Z, the distance along the camera's axis in m (+inf without a surface), and
+/// `id` and `material_id`, the indices of the mesh instance and the material in the scene (-1 for none).
+/// @param origin of the frame's coordinates; it is added to the layer P.
+/// @throws Error if a resource's AOVs differ in size or have another format.
 std::vector<AovImage> downloadAovs(const Graph& graph, const Frame& frame, const glm::vec3& origin,
                                    Device& device, CommandStream& stream) {
     std::vector<AovImage> images;
@@ -141,6 +144,8 @@ std::vector<AovImage> downloadAovs(const Graph& graph, const Frame& frame, const
     }
     return images;
 }
+
+}  // namespace
 
 uint64_t graphRuns(const Experiment& experiment) {
     const MeasureSettings& measure = experiment.measure;

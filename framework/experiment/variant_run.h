@@ -15,14 +15,6 @@ struct AovImage {
     std::vector<std::string> channels;
 };
 
-/// Downloads the AOVs of the graph's resources (Resource::aovs). Each image has three more channels, computed
-/// with camera rays on the host: Z, the distance along the camera's axis in m (+inf without a surface), and
-/// `id` and `material_id`, the indices of the mesh instance and the material in the scene (-1 for none).
-/// @param origin of the frame's coordinates; it is added to the layer P.
-/// @throws Error if a resource's AOVs differ in size or have another format.
-std::vector<AovImage> downloadAovs(const Graph& graph, const Frame& frame, const glm::vec3& origin,
-                                   Device& device, CommandStream& stream);
-
 /// The images of a variant: those of frame 0, and of later frames if they are compared.
 struct VariantImages {
     ImageF final;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <initializer_list>
 #include <vector>
 
 #include "graph/pass.h"
@@ -24,19 +23,10 @@ struct ClusterLight : Resource {
 };
 
 /// The bindings of passes/clusters/gather_patch.glsl.
-std::vector<Binding> gatherBindings(const ClusterVisibility& visibility, const ClusterLight& light);
-
-/// Gathers the irradiance of all patches: the mean radiosity of what their rays hit.
-class ClusterGather {
- public:
-    explicit ClusterGather(ProgramOwner& owner) : gather_(owner, "gather_patches.comp") {}
-
-    /// @param irradiance output: W/m² for each patch, packed as in ClusterLight.
-    void gather(CommandStream& stream, const ClusterVisibility& visibility, const ClusterLight& light,
-                const LargeBuffer& irradiance) const;
-
- private:
-    Kernel gather_;
-};
+inline std::vector<Binding> gatherBindings(const ClusterVisibility& visibility, const ClusterLight& light) {
+    return {{"visibilityLists", visibility.chunkAddresses},
+            {"componentRadiosity", light.components},
+            {"PatchRadiosityRef", light.patches.ref()}};
+}
 
 }  // namespace voxray

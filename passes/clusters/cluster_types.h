@@ -8,16 +8,10 @@ VOXRAY_SHARED_BEGIN
 
 #define NO_CLUSTER 0xffffffffu
 
-// Adjacent surface voxels of like normals.
+// Adjacent surface voxels of similar normals.
 struct VoxelCluster {
-    vec3 position;  // Mean of its voxels' centers, m.
-    uint firstMember;
-    vec3 normal;  // Unit: the mean normal of its voxels.
-    uint memberCount;
-    vec3 seedNormal;  // Unit: the normals of all its voxels are within the angle limit of it.
-    vec3 albedo;      // Mean diffuse reflectance, weighted by area.
-    uvec3 minVoxel;   // Bounding box, inclusive.
-    uvec3 maxVoxel;
+    vec3 seedNormal;   // Unit: the normals of all its voxels are within the angle limit of it.
+    uint memberCount;  // Number of its voxels.
 };
 
 // The center of a cluster while voxels are assigned to it, as in k-means.

@@ -24,7 +24,7 @@ struct ClusterVisibility : Resource {
     Buffer chunkAddresses;               ///< Device addresses of `offsets` and `entries` of each chunk.
     gpu::VisibilityListLayout layout{};  ///< raysPerPatch, rayBits, patchesPerChunk are set in plan().
     bool listsPatches = false;           ///< Whether targets may be patches. Set in plan().
-    uint64_t entryCount = 0;             ///< Of all lists.
+    uint64_t entryCount = 0;             ///< Sum over all lists.
     uint32_t patchCount = 0;
 
     uint64_t bytes() const {

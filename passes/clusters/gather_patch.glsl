@@ -6,7 +6,7 @@
 #include "passes/clusters/visibility_list.glsl"
 #include "passes/surfels/radiosity.glsl"
 
-layout(scalar) readonly buffer ComponentRadiosity { uint data[]; } componentRadiosity;  // By component and face.
+layout(scalar) readonly buffer ComponentRadiosity { uint data[]; } componentRadiosity;  // Per component face.
 layout(scalar) readonly buffer PatchRadiosityRef { LargeUints patchRadiosity; };
 
 // W/m²

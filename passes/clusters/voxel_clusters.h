@@ -13,8 +13,7 @@ struct VoxelClusters : Resource {
     uint32_t count = 0;     ///< Number of clusters; known once the pass has run.
     Buffer clusters;        ///< gpu::VoxelCluster each, in the order of their seeds.
     Buffer clusterOfVoxel;  ///< Cluster of each voxel, or NO_CLUSTER.
-    Buffer memberVoxels;    ///< Voxels sorted by cluster, ascending within each.
-    Buffer coordinates;     ///< Of each voxel: three uints.
+    Buffer coordinates;     ///< Per voxel: three uints.
 };
 
 }  // namespace voxray

@@ -33,6 +33,13 @@ struct VoxelPatches : Resource {
     /// voxel has changed. Empty after a build from scratch.
     Buffer previousGroups;
 
+    /// The bindings of shaders that process the patches of cluster components.
+    std::vector<Binding> componentBindings() const {
+        return {{"VoxelMaterialsRef", materials.ref()},
+                {"groups", groups},
+                {"components", components},
+                {"memberGroups", memberGroups}};
+    }
     /// Frees the buffers.
     void clear() {
         surfels = {}, surfelIndex = {}, firstGroup = {}, groups = {}, materials = {}, firstNeighbour = {};

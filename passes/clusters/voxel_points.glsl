@@ -7,7 +7,7 @@
 #define EDGE_POINTS 12u
 #define EDGE_AND_FACE_POINTS 18u
 
-layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;  // Of each voxel.
+layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;  // Per voxel.
 
 // m
 vec3 voxelCenter(VoxelGrid grid, uint voxel) {

@@ -16,9 +16,9 @@ Diagnostic directionsOfLights(const SceneSettings& scene) {
     std::vector<std::string> directions;
     TextLocation where;
     for (size_t i = 0; i < scene.lights.size(); ++i) {
-        const auto& [light, move, offAt, place] = scene.lights[i];
+        const auto& [light, move, offAt, location] = scene.lights[i];
         if (light.type == LightType::Point) continue;
-        if (directions.empty()) where = place;
+        if (directions.empty()) where = location;
         directions.push_back(fmt::format("{}{} (scene.lights[{}])", bracketed(light.direction),
                                          light.direction.y > 0 ? ", upwards" : "", i));
     }

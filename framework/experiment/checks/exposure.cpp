@@ -82,13 +82,13 @@ Diagnostic nearlyAll(const Setup& setup, double radiance, const char* color) {
     const ConfigLights lights = lightsIn(setup.scene);
     const float stops = setup.image.exposureStops;
     const double factor = radiance * scaleOf(stops) / kPreviewRadiance;
-    std::vector<std::string> ways;
+    std::vector<std::string> remedies;
     if (lights.names.front() != "scene")
-        ways.push_back(fmt::format("{} it by about {}", factor > 1 ? "divide" : "multiply",
-                                   roundly(std::max(factor, 1 / factor))));
+        remedies.push_back(fmt::format("{} it by about {}", factor > 1 ? "divide" : "multiply",
+                                       roundly(std::max(factor, 1 / factor))));
     if (const double wanted = std::round(double(stops) - std::log2(factor)); std::abs(wanted) <= kMaxStops)
-        ways.push_back(fmt::format("write image: {{exposure_stops: {}}}", int(wanted)));
-    std::string advice = fmt::format("{}", fmt::join(ways, ", or "));
+        remedies.push_back(fmt::format("write image: {{exposure_stops: {}}}", int(wanted)));
+    std::string advice = fmt::format("{}", fmt::join(remedies, ", or "));
     if (factor > 1 && !lights.hint.empty()) advice += "; " + lights.hint;
     return {lights.where,
             fmt::format("{}: nearly all of the view is {}: its radiance is about {:.2g} W/(m² sr), "

@@ -14,6 +14,13 @@ inline bool isBackFacing(const Geometry& g, uint32_t triangle, const glm::vec3& 
     return glm::dot(glm::cross(g.positions[corners.y] - a, g.positions[corners.z] - a), direction) > 0;
 }
 
+/// The same for single-sided triangles only.
+inline bool isSingleSidedBack(const SceneState& state, uint32_t triangle, const glm::vec3& direction) {
+    const Geometry& g = state.geometry;
+    return !state.scene->materials[g.triangleMaterials[triangle]].doubleSided &&
+           isBackFacing(g, triangle, direction);
+}
+
 /// The unit normal of a triangle on the side that a ray of that direction hits.
 inline glm::vec3 normalTowards(const Geometry& g, uint32_t triangle, const glm::vec3& direction) {
     const glm::uvec3 corners = g.triangles[triangle];

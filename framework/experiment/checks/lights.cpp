@@ -24,8 +24,8 @@ struct Axes {
 };
 
 Axes perpendicularTo(const glm::vec3& direction) {
-    const glm::vec3 other = std::abs(direction.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-    const glm::vec3 x = glm::normalize(glm::cross(direction, other));
+    const glm::vec3 up = std::abs(direction.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    const glm::vec3 x = glm::normalize(glm::cross(direction, up));
     return {x, glm::cross(direction, x)};
 }
 
@@ -46,11 +46,6 @@ Ray sentRay(const Light& light, uint32_t i) {
     const glm::vec3 direction =
         cosine * light.direction + sine * (std::cos(azimuth) * axes.x + std::sin(azimuth) * axes.y);
     return {light.position, 0, glm::normalize(direction), std::numeric_limits<float>::infinity()};
-}
-
-/// Whether a triangle is single-sided.
-bool hasBack(const SceneState& state, uint32_t triangle) {
-    return !state.scene->materials[state.geometry.triangleMaterials[triangle]].doubleSided;
 }
 
 bool isFinite(const glm::vec3& v) {
@@ -77,7 +72,7 @@ LitSides directionalLitSides(const Light& light, const SceneState& state, const 
     const Geometry& g = state.geometry;
     const size_t triangles = g.triangles.size();
     const uint32_t points = uint32_t(std::max<size_t>(1, kRays / std::max<size_t>(1, triangles)));
-    LitSides met = LitSides::Nothing;
+    LitSides sides = LitSides::Nothing;
     for (size_t t = 0; t < triangles; t += step)
         for (uint32_t i = 0; i < points; ++i) {
             glm::vec2 uv = evenPoint(i);
@@ -85,11 +80,10 @@ LitSides directionalLitSides(const Light& light, const SceneState& state, const 
             const glm::vec3 origin = pointTowards(g, uint32_t(t), uv.x, uv.y, light.direction);
             const Ray toLight{origin, 0, -light.direction, std::numeric_limits<float>::infinity()};
             if (!isFinite(origin) || tracer.occluded(toLight)) continue;
-            if (!hasBack(state, uint32_t(t)) || !isBackFacing(g, uint32_t(t), light.direction))
-                return LitSides::Fronts;
-            met = LitSides::Backs;
+            if (!isSingleSidedBack(state, uint32_t(t), light.direction)) return LitSides::Fronts;
+            sides = LitSides::Backs;
         }
-    return met;
+    return sides;
 }
 
 LitSides litSides(const Light& light, const SceneState& state, const EmbreeScene& tracer) {
@@ -97,18 +91,17 @@ LitSides litSides(const Light& light, const SceneState& state, const EmbreeScene
     const size_t triangles = g.triangles.size();
     const size_t step = std::max<size_t>(1, triangles / kRays);
     if (light.type == LightType::Directional) return directionalLitSides(light, state, tracer, step);
-    LitSides met = LitSides::Nothing;
+    LitSides sides = LitSides::Nothing;
     const auto trace = [&](const Ray& ray) {
-        if (ray.tMax < ray.tMin || met == LitSides::Fronts) return;
+        if (ray.tMax < ray.tMin || sides == LitSides::Fronts) return;
         const Hit hit = tracer.closestHit(ray);
         if (hit.triangle == Hit::kMiss) return;
-        met = hasBack(state, hit.triangle) && isBackFacing(g, hit.triangle, ray.direction) ? LitSides::Backs
-                                                                                           : LitSides::Fronts;
+        sides = isSingleSidedBack(state, hit.triangle, ray.direction) ? LitSides::Backs : LitSides::Fronts;
     };
     for (uint32_t i = 0; i < kRays; ++i) trace(sentRay(light, i));
     // Few of these rays hit the scene if the light is far away
     for (size_t t = 0; t < triangles; t += step) trace(rayTo(light, g, uint32_t(t)));
-    return met;
+    return sides;
 }
 
 /// A shadow ray from a point to a light; inactive outside of a spot's cone.

@@ -33,7 +33,7 @@ inline constexpr double kMinSurfaceFraction = 0.01;
 struct View {
     const Setup& setup;
     const PreparedScene& prepared;  ///< In the compared frame.
-    const EmbreeScene& tracer;      ///< Of `prepared.state`.
+    const EmbreeScene& tracer;      ///< Built from `prepared.state`.
     /// Whether a light on its own lights any visible surface, directly or by reflections.
     std::function<bool(const Light&)> reachesView;
     std::vector<VisiblePoint> points;  ///< Evenly distributed over the image.

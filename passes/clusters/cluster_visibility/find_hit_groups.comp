@@ -14,7 +14,7 @@ const float FAR = 0.5;
 
 struct Candidate {
     uint surfel;
-    uint rejectedGroups[MAX_CANDIDATES];  // Of each round.
+    uint rejectedGroups[MAX_CANDIDATES];  // Per round.
 };
 
 readonly buffer ListedRays { uint data[]; } listedRays;

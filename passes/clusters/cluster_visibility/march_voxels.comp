@@ -20,7 +20,7 @@ vec3 marchOrigin(GroupedSurfel s, ivec3 voxel) {
 
 // The state of a ray during the march.
 struct MarchingRay {
-    vec3 normal;  // Of the surfel at its origin.
+    vec3 normal;  // Normal of the surfel at its origin.
     vec3 direction;
     ivec3 startVoxel;
     bool isInLayer;  // All voxels visited so far were occupied.

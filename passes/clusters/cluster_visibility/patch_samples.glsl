@@ -14,8 +14,8 @@ layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     VisibilityListLayout lists;
-    uint firstPatch;     // Of the chunk.
-    uint rayCount;       // Of the chunk, or of the list of rays.
+    uint firstPatch;     // First patch of the chunk.
+    uint rayCount;       // Number of rays in the chunk or in the list.
     uint seed;
     float nearDistance;  // Voxels. Targets closer than that are patches, others are component faces.
     uint aboutFaceAxis;  // 1: hemispheres about the face's axis. 0: about the surfel's normal.

@@ -38,8 +38,8 @@ class RayUpdateCache {
  private:
     Kernel storeFirstPatches_, renumberGroups_, reuseHits_;
     RegionMerge regions_;
-    std::vector<Buffer> packedHits_, previousHits_;  ///< Of each chunk (packed_hit.glsl).
-    Buffer firstPatches_;                            ///< Of each group.
+    std::vector<Buffer> packedHits_, previousHits_;  ///< Per chunk (packed_hit.glsl).
+    Buffer firstPatches_;                            ///< Per group.
     uint32_t groupCount_ = 0;
     Buffer previousHitAddresses_, newGroups_, previousFirstPatches_, boxes_;  ///< During an update.
     bool isActive_ = false;

@@ -10,9 +10,9 @@ readonly buffer PreviousGroups { uint data[]; } previousGroups;
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
 // A bit for each voxel in which hits may have changed.
 readonly buffer ChangedNeighbourhood { uint words[]; } changedNeighbourhood;
-readonly buffer FirstPatches { uint data[]; } firstPatches;  // Of each previous group.
-writeonly buffer NewGroups { uint data[]; } newGroups;       // Of each previous group. Must be NO_GROUP before.
-writeonly buffer PreviousFirstPatches { uint data[]; } previousFirstPatches;  // Of each group; NO_GROUP: it is new.
+readonly buffer FirstPatches { uint data[]; } firstPatches;  // Per previous group.
+writeonly buffer NewGroups { uint data[]; } newGroups;       // Per previous group. Must be NO_GROUP before.
+writeonly buffer PreviousFirstPatches { uint data[]; } previousFirstPatches;  // Per group; NO_GROUP: it is new.
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint groupCount;

@@ -10,7 +10,7 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Seeds { ClusterSeed data[]; } seeds;
-layout(scalar) buffer BestSeed { uint64_t data[]; } bestSeed;  // Of each voxel: cost << 32 | seed.
+layout(scalar) buffer BestSeed { uint64_t data[]; } bestSeed;  // Per voxel: cost << 32 | seed.
 
 void main() {
     const uint i = linearIndex();

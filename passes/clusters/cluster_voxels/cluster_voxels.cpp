@@ -47,8 +47,7 @@ void ClusterVoxels::record(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
     VoxelClusters& clusters = context[clusters_];
     CommandStream& stream = context.stream;
-    clusters.clusters = {}, clusters.clusterOfVoxel = {}, clusters.memberVoxels = {},
-    clusters.coordinates = {};
+    clusters.clusters = {}, clusters.clusterOfVoxel = {}, clusters.coordinates = {};
     clusters.coordinates =
         Buffer(context.device, "coordinates of voxels", voxels.voxelCount * sizeof(glm::uvec3));
     const uint32_t words = uint32_t(voxels.words());
@@ -57,7 +56,7 @@ void ClusterVoxels::record(PassContext& context) {
     FragmentAngles::Sums fragments;
     if (fragments_) fragments = fragments_->measure(context, voxels);
     const SlicClustering::Result slic = clustering_.run(stream, voxels, clusters.coordinates, fragments);
-    list_.build(stream, voxels, slic, clusters);
+    list_.build(stream, voxels.voxelCount, slic, clusters);
     context.report("clusters", clusters.count);
     context.report("clusters, % of voxels", 100.0 * clusters.count / voxels.voxelCount);
     context.report("voxels no seed reached, %", 100.0 * slic.unassigned / voxels.voxelCount);

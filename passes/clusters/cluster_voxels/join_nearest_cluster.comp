@@ -20,7 +20,7 @@ uint nearestCluster(ivec3 center) {
                     if (distance2 > minDistance2) continue;
                     const uint voxel = voxelNumber(push.grid, center + ivec3(x, y, z));
                     if (voxel == NO_VOXEL || assignment.data[voxel] == NO_CLUSTER) continue;
-                    // Of equally near voxels, use the one with the lowest cluster
+                    // Among equally near voxels, use the one with the lowest cluster
                     if (distance2 == minDistance2 && assignment.data[voxel] >= nearest) continue;
                     minDistance2 = distance2;
                     nearest = assignment.data[voxel];

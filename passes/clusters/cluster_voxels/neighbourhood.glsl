@@ -3,7 +3,7 @@
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
 
-layout(scalar) readonly buffer Normals { vec3 data[]; } normals;  // Of each voxel, unit length.
+layout(scalar) readonly buffer Normals { vec3 data[]; } normals;  // Per voxel, unit length.
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint count;       // Seeds or voxels: one for each thread.

@@ -118,16 +118,16 @@ class SlicClustering {
     /// Numbers of voxels by the choice of their normal, with ClusterNormals::OpenSpace (voxel_normals.comp).
     struct NormalCounts {
         uint32_t disagreeing;  ///< Surfaces in the voxel disagree.
-        uint32_t tied;         ///< Of these: several directions have as few occupied voxels.
-        uint32_t decided;      ///< Of these: fragments choose another direction than surfaces.
-        uint32_t changed;      ///< Of all: the normal differs from the one by area.
+        uint32_t tied;         ///< Subset of these: several directions have as few occupied voxels.
+        uint32_t decided;      ///< Subset of these: fragments choose another direction than surfaces.
+        uint32_t changed;      ///< Voxels whose normal differs from the one by area.
     };
 
     struct Result {
         uint32_t seedCount = 0;
         uint32_t unassigned = 0;  ///< Number of voxels that the last iteration left without a cluster.
         Buffer assignment;        ///< Cluster of each voxel; empty ones have numbers, too (assignment.glsl).
-        Buffer normals;           ///< Of each voxel: unit length, 3 floats.
+        Buffer normals;           ///< Per voxel: unit length, 3 floats.
         NormalCounts normalCounts{};
         Buffer seeds;  ///< gpu::ClusterSeed each, as in the last iteration.
     };

@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;
 layout(scalar) buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer FirstGroup { uint data[]; } firstGroup;
 layout(scalar) readonly buffer GroupMaterialsRef { VoxelMaterials groupMaterials; };
-writeonly buffer PatchCounts { uint data[]; } patchCounts;  // Of each group.
+writeonly buffer PatchCounts { uint data[]; } patchCounts;  // Per group.
 layout(push_constant) uniform Push { uint voxels; } push;
 
 // Adds the projected area of a surfel at the three faces that its normal points to.

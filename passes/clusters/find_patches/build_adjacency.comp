@@ -14,7 +14,7 @@ readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
 layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
 layout(scalar) readonly buffer NeighbourOfRef { LargeUints neighbourOf; };  // The group of each entry of `neighbours`.
 #else
-writeonly buffer Counts { uint data[]; } counts;  // Of each group, then 0 for the prefix sum.
+writeonly buffer Counts { uint data[]; } counts;  // Per group, then 0 for the prefix sum.
 #endif
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;

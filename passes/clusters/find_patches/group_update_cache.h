@@ -45,11 +45,11 @@ class GroupUpdateCache {
  private:
     Kernel storeSurfelGroups_, findPreviousGroups_;
     RegionMerge regions_;
-    Buffer occupancy_, rank_;                ///< Of the previous build.
+    Buffer occupancy_, rank_;                ///< From the previous build.
     LargeBuffer storedGroups_;               ///< gpu::StoredGroup of each surfel id.
     Buffer changed_, changedNeighbourhood_;  ///< During an update: a bit for each voxel.
-    Buffer reusedGroup_;                     ///< Of each group, see find_previous_groups.comp.
-    Buffer firstGroup_, firstNeighbour_;     ///< Of the previous build.
+    Buffer reusedGroup_;                     ///< Per group, see find_previous_groups.comp.
+    Buffer firstGroup_, firstNeighbour_;     ///< From the previous build.
     LargeBuffer neighbours_;                 ///< Likewise.
     bool isActive_ = false;
 };

@@ -4,7 +4,7 @@
 layout(local_size_x = 64) in;
 
 readonly buffer Lists { uvec2 data[]; } lists;    // First and end surfel of each voxel.
-writeonly buffer Counts { uint data[]; } counts;  // Of each voxel, then 0 for the prefix sum.
+writeonly buffer Counts { uint data[]; } counts;  // Per voxel, then 0 for the prefix sum.
 layout(push_constant) uniform Push { uint voxels; } push;
 
 void main() {

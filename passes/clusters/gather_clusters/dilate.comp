@@ -6,7 +6,7 @@ layout(local_size_x = 64) in;
 
 readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
 layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
-buffer IsListed { uint data[]; } isListed;  // Of each group.
+buffer IsListed { uint data[]; } isListed;  // Per group.
 buffer ListedGroups { uint data[]; } listedGroups;
 buffer Count { uint value; } count;
 layout(push_constant) uniform Push {

@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PatchValues { vec3 data[]; };
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;  // Of each voxel.
+layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;  // Per voxel.
 readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
 layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
 layout(scalar) readonly buffer GatheredRef { PatchValues gathered; };

@@ -6,7 +6,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #define NEIGHBOURHOOD_REQUESTED 2u
 
 uniform sampler2D position;
-buffer RequestedVoxels { uint data[]; } requestedVoxels;  // Of each voxel: the bits above.
+buffer RequestedVoxels { uint data[]; } requestedVoxels;  // Per voxel: the bits above.
 writeonly buffer NewVoxels { uint data[]; } newVoxels;
 buffer Count { uint value; } count;
 layout(push_constant, scalar) uniform Push {

@@ -5,7 +5,7 @@
 
 #define POINTS EDGE_POINTS
 
-buffer RequestedVoxels { uint data[]; } requestedVoxels;  // Of each voxel: 1 if it was visible before.
+buffer RequestedVoxels { uint data[]; } requestedVoxels;  // Per voxel: 1 if it was visible before.
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint firstVoxel;

@@ -52,7 +52,7 @@ class VisibleVoxels {
 
     std::optional<VisiblePoints> points_;  ///< For GatherUpdate::SeenPoints.
     Kernel markVoxels_, listGroups_, dilate_;
-    Buffer requestedVoxels_;  ///< Of each voxel: bits as in mark_visible_voxels.comp.
+    Buffer requestedVoxels_;  ///< Per voxel: bits as in mark_visible_voxels.comp.
     Buffer newVoxels_, listedGroups_, isListed_, count_;
 };
 

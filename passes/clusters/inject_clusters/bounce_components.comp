@@ -14,7 +14,7 @@ layout(scalar) readonly buffer Components { ClusterComponent data[]; } component
 layout(scalar) readonly buffer MemberGroups { uint data[]; } memberGroups;
 layout(scalar) readonly buffer ComponentFaces { ComponentFace data[]; } componentFaces;
 layout(scalar) readonly buffer SendingFaces { uint data[]; } sendingFaces;        // 6 * component + face.
-layout(scalar) readonly buffer InitialRadiosity { uint data[]; } initialRadiosity;  // Of each component face, packed.
+layout(scalar) readonly buffer InitialRadiosity { uint data[]; } initialRadiosity;  // Per component face, packed.
 layout(scalar) writeonly buffer BouncedRadiosity { uint data[]; } bouncedRadiosity;  // What this bounce adds.
 layout(scalar) writeonly buffer NewRadiosity { uint data[]; } newRadiosity;
 layout(push_constant, scalar) uniform Push {

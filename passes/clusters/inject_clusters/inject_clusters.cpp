@@ -133,8 +133,8 @@ class InjectClusters final : public Pass {
     std::vector<LightSource> sources_;
     std::optional<SurfelDirectLight> surfelLight_;  ///< For `lit_test: surfels`.
     std::optional<LitPoints> litPoints_;            ///< For `lit_test: points`.
-    ClusterGather gather_{*this};
-    std::optional<Compaction> compaction_;  ///< For bounces between components.
+    std::optional<Compaction> compaction_;          ///< For bounces between components.
+    Kernel gatherPatches_{*this, "gather_patches.comp"};
     Kernel readInjected_{*this, "read_injected.comp"};
     Kernel reorderIrradiance_{*this, "reorder_irradiance.comp"};
     Kernel averageSurfels_{*this, "average_surfels.comp"};
@@ -151,6 +151,7 @@ void InjectClusters::plan(PassPlan& plan) {
     readInjected_.compileIf(isInjected());
     reorderIrradiance_.compileIf(!isInjected() && !testsPoints());
     averageSurfels_.compileIf(!isInjected());
+    gatherPatches_.compileIf(params_.bounces > 0 && !bouncesComponents());
     for (Kernel* kernel : {&flagSendingFaces_, &bounceComponents_, &scatterRadiosity_})
         kernel->compileIf(bouncesComponents());
 
@@ -203,9 +204,14 @@ void InjectClusters::record(PassContext& context) {
 
 void InjectClusters::bouncePatches(PassContext& context, ClusterLight& light) {
     if (params_.bounces == 0) return;
+    const ClusterVisibility& visibility = context[visibility_];
     ensureSize(bouncedIrradiance_, context.device, "bounced irradiance of patches", light.patches.bytes());
     for (uint32_t i = 0; i < params_.bounces; ++i) {
-        gather_.gather(context.stream, context[visibility_], light, bouncedIrradiance_);
+        context.dispatch(gatherPatches_, visibility.patchCount,
+                         {gatherBindings(visibility, light),
+                          {"IrradianceRef", bouncedIrradiance_.ref()},
+                          {"lists", visibility.layout},
+                          {"patches", visibility.patchCount}});
         reflect(context, true);
         context.stream.finish();
     }
@@ -219,10 +225,7 @@ uint32_t InjectClusters::listSendingFaces(PassContext& context, const Buffer& co
     const Buffer flags(context.device, "flags of sending faces", std::max(words, 1u) * sizeof(uint32_t));
     context.stream.fill(flags, 0);
     context.dispatch(flagSendingFaces_, patches.componentCount,
-                     {{"VoxelMaterialsRef", patches.materials.ref()},
-                      {"groups", patches.groups},
-                      {"components", patches.components},
-                      {"memberGroups", patches.memberGroups},
+                     {patches.componentBindings(),
                       {"componentFaces", componentFaces},
                       {"flags", flags},
                       {"componentCount", patches.componentCount}});
@@ -246,10 +249,7 @@ void InjectClusters::bounceComponents(PassContext& context, ClusterLight& light)
     for (uint32_t i = 0; i < params_.bounces; ++i) {
         context.dispatch(bounceComponents_, count,
                          {gatherBindings(visibility, light),
-                          {"VoxelMaterialsRef", patches.materials.ref()},
-                          {"groups", patches.groups},
-                          {"components", patches.components},
-                          {"memberGroups", patches.memberGroups},
+                          patches.componentBindings(),
                           {"componentFaces", componentFaces},
                           {"sendingFaces", sendingFaces},
                           {"initialRadiosity", initialRadiosity},
@@ -270,10 +270,7 @@ void InjectClusters::scatter(PassContext& context, const ClusterLight& light,
                              const Buffer& bouncedRadiosity) const {
     const VoxelPatches& patches = context[patches_];
     context.dispatch(scatterRadiosity_, patches.componentCount,
-                     {{"VoxelMaterialsRef", patches.materials.ref()},
-                      {"groups", patches.groups},
-                      {"components", patches.components},
-                      {"memberGroups", patches.memberGroups},
+                     {patches.componentBindings(),
                       {"componentRadiosity", light.components},
                       {"bouncedRadiosity", bouncedRadiosity},
                       {"InitialIrradianceRef", initialIrradiance_.ref()},
@@ -348,10 +345,7 @@ void InjectClusters::reflect(PassContext& context, bool hasBounced) {
          {"groupCount", patches.groupCount},
          {"hasBounced", hasBounced}});
     context.dispatch(averageComponents_, patches.componentCount,
-                     {{"VoxelMaterialsRef", patches.materials.ref()},
-                      {"groups", patches.groups},
-                      {"components", patches.components},
-                      {"memberGroups", patches.memberGroups},
+                     {patches.componentBindings(),
                       {"RadiosityRef", light.patches.ref()},
                       {"componentRadiosity", light.components},
                       {"count", patches.componentCount}});

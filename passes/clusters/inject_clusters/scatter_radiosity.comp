@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(scalar) readonly buffer Components { ClusterComponent data[]; } components;
 layout(scalar) readonly buffer MemberGroups { uint data[]; } memberGroups;
-layout(scalar) readonly buffer ComponentRadiosity { uint data[]; } componentRadiosity;  // Of component faces, packed.
+layout(scalar) readonly buffer ComponentRadiosity { uint data[]; } componentRadiosity;  // Packed, per component face.
 layout(scalar) readonly buffer BouncedRadiosity { uint data[]; } bouncedRadiosity;      // Sum of all bounces.
 layout(scalar) readonly buffer InitialIrradianceRef { LargeUints initialIrradiance; };  // W/m², packed.
 layout(scalar) readonly buffer RadiosityRef { LargeUints radiosity; };
