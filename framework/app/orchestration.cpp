@@ -34,6 +34,11 @@ CLI::Option* addTexts(CLI::App& command, const std::string& name, const std::str
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+/// Without it CLI11's overloads are ambiguous for a literal.
+void addFlag(CLI::App& command, const std::string& name, const std::string& help) {
+    command.add_flag(name, help);
+}
+
 CLI::Option* addCount(CLI::App& command, const std::string& name, const std::string& help,
                       int most = 1 << 16) {
     return addText(command, name, "N", help)->check(CLI::Range(1, most));
@@ -45,7 +50,7 @@ CLI::Option* addConfig(CLI::App& command) {
 
 void addExecutorOptions(CLI::App& command) {
     addCount(command, "--cores", "Run on this machine, on so many cores.");
-    command.add_flag("--slurm", "Run as jobs of Slurm.");
+    addFlag(command, "--slurm", "Run as jobs of Slurm.");
     addText(command, "--partition", "NAME", "Slurm's partition. Default: its own.")->needs("--slurm");
     addText(command, "--account", "NAME", "Slurm's account. Default: the user's own.")->needs("--slurm");
     addCount(command, "--jobs", "How many jobs Slurm has at once.")->needs("--slurm")->default_str("100");
@@ -58,8 +63,8 @@ void addPartOptions(CLI::App& command) {
              "How many parts each reference's samples are divided into. "
              "Default: one for each of --cores, else 1.",
              1 << 20);
-    command.add_flag("--untimed",
-                     "Times don't matter: variants share machines, and a warning on the page says so.");
+    addFlag(command, "--untimed",
+            "Times don't matter: variants share machines, and a warning on the page says so.");
     addCount(command, "--threads", "Threads of each part that shares a machine.")->default_str("1");
     addText(command, "--retries", "N", "How often a part that failed is tried again.")
         ->check(CLI::Range(0, 1 << 16))
@@ -98,9 +103,9 @@ void addTuneCommand(CLI::App& app, int&) {
             "What trials may cost, in variants of mean cost; 0: a fifth of the sweep.")
         ->check(CLI::NonNegativeNumber)
         ->default_str("0");
-    command.add_flag("--every",
-                     "Run the whole sweep, too, and compare: how good the choice is, what it saved.");
-    command.add_flag("--resume", "Keep the trials that an earlier search finished.");
+    addFlag(command, "--every",
+            "Run the whole sweep, too, and compare: how good the choice is, what it saved.");
+    addFlag(command, "--resume", "Keep the trials that an earlier search finished.");
     addDeviceOptions(command, values->run);
     addText(command, "--out", "DIR", "Folder of trials; default results/tune_<experiment>.");
     addConfigOptions(command, *values);
@@ -138,10 +143,10 @@ void addStabilityCommand(CLI::App& app, int&) {
     addText(command, "--config", "CONFIG",
             "The matrix, its limits next to it in a .csv of the same name; "
             "default configs/stability/matrix.yaml.");
-    command.add_flag("--remedies",
-                     "Run what fails again with finer settings, one kind at a time, "
-                     "and say which of them lowers each error; "
-                     "they stand next to the matrix, in a file that ends in _remedies.json.");
+    addFlag(command, "--remedies",
+            "Run what fails again with finer settings, one kind at a time, "
+            "and say which of them lowers each error; "
+            "they stand next to the matrix, in a file that ends in _remedies.json.");
     addConfigOptions(command, *values);
     addRunOptions(
         command, values->run,
@@ -164,7 +169,7 @@ void addSweepCommand(CLI::App& app, int&) {
     addPartOptions(command);
     addText(command, "--program", "COMMAND",
             "What starts Voxray in a job, as in 'apptainer exec voxray.sif voxray'. Default: this program.");
-    command.add_flag("--print", "Print Snakemake's command line, in place of starting it.");
+    addFlag(command, "--print", "Print Snakemake's command line, in place of starting it.");
     addConfigOptions(command, *values);
     addDeviceOptions(command, values->run);
 }

@@ -59,8 +59,7 @@ std::string triple(const glm::vec3& v, float step) {
     return fmt::format("[{}, {}, {}]", number(v.x, step), number(v.y, step), number(v.z, step));
 }
 
-constexpr float kPrecision =
-    1e-3f;  ///< Precision of printed coordinates, relative to the distance of the target.
+constexpr float kPrecision = 1e-3f;  ///< Of coordinates, relative to the distance of the target.
 
 /// A lamp at the camera that results in a mean radiance of kPreviewRadiance, including indirect light.
 Light lampFor(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera,

@@ -12,8 +12,7 @@ namespace voxray {
 /// A camera, and a light if necessary, with which a scene is visible.
 struct SuggestedView {
     CameraSettings camera;
-    std::string
-        light;  ///< YAML of an environment or of a lamp at the camera; "": the scene's lights suffice.
+    std::string light;          ///< YAML of an environment or lamp; "": the lights of the scene suffice.
     std::optional<Light> lamp;  ///< The lamp of `light`, if any.
 };
 

@@ -158,8 +158,8 @@ std::string manifestJson(const ManifestData& data) {
                          {"device", data.requestedDevice.empty() ? "best" : data.requestedDevice}};
     // Names are unique, so that they are appended without a search
     Json::object_t graphs, inputs;
-    std::map<std::string, std::map<std::string, std::vector<std::string>>>
-        noise;  // By image, then by variant.
+    // By image, then by variant
+    std::map<std::string, std::map<std::string, std::vector<std::string>>> noise;
     for (const Variant& variant : data.study->variants) {
         const std::string& name = variant.name;
         graphs.emplace_back(name, Json::parse(variant.resolved.json(-1)));

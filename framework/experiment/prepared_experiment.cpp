@@ -51,7 +51,7 @@ class ReferencePlan {
     ReferencePlan(const Study& study, const DeviceInfo& device) : study_(study), device_(device) {}
 
     /// @param scene key of the frame's scene. @throws Error for parameters that the reference rejects.
-    const Graph& in(const Frame& frame, const std::string& scene) {
+    const Graph& graphFor(const Frame& frame, const std::string& scene) {
         const Key key{scene, frame.width, frame.height};
         if (graph_ && key == key_) return *graph_;
         graph_.reset();
@@ -118,7 +118,7 @@ class Planner {
                                          loader_,
                                          *lightRays_,
                                          metallicFraction_,
-                                         hasReference ? &reference_.in(frame, key_) : nullptr};
+                                         hasReference ? &reference_.graphFor(frame, key_) : nullptr};
             Diagnostics found;
             for (const Check<PlannedVariant> check : kVariantChecks) check(planned, found);
             warnings.add(found, variant);

@@ -77,14 +77,14 @@ class SceneLoader {
     std::shared_ptr<const ImageF> loadMap(const SceneSettings& settings);
 
     std::vector<std::filesystem::path> folders_;
-    std::map<std::string, std::shared_ptr<const Scene>>
-        scenes_;  ///< By file, or by built-in scene and parameters.
-    std::map<std::pair<std::string, std::string>, std::shared_ptr<const ImageF>>
-        maps_;                              ///< By path and layer.
+    /// By file, or by built-in scene and parameters.
+    std::map<std::string, std::shared_ptr<const Scene>> scenes_;
+    /// By path and layer.
+    std::map<std::pair<std::string, std::string>, std::shared_ptr<const ImageF>> maps_;
     std::vector<std::string> mapWarnings_;  ///< Layers that were selected in maps with several ones.
     std::set<std::string> changes_;         ///< Warnings of compose().
-    std::list<std::pair<std::string, PreparedScene>>
-        prepared_;  ///< By key, the most recently used one first.
+    /// By key, the most recently used one first.
+    std::list<std::pair<std::string, PreparedScene>> prepared_;
 };
 
 }  // namespace voxray

@@ -11,8 +11,7 @@ namespace voxray {
 struct Diagnostic {
     TextLocation where;
     std::string text;
-    std::string
-        advice;  ///< Follows the text and a semicolon, or the colon at the end of the text; may be empty.
+    std::string advice;  ///< Follows the text and a semicolon, or a colon in the text; may be empty.
 
     /// One line: "config.yaml:12: text; advice".
     std::string str() const {
