@@ -122,6 +122,7 @@ SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceV
         stream.finish();
     }
 
+    // Store the assignment, and count voxels without a cluster
     const Buffer unassigned(device, "voxels without a cluster", sizeof(uint32_t));
     result.assignment = Buffer(device, "clusters of voxels", count * sizeof(uint32_t));
     stream.fill(unassigned, 0);
@@ -132,6 +133,7 @@ SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceV
                      {"count", count}});
     result.unassigned = stream.readAs<uint32_t>(unassigned, 1)[0];
 
+    // These voxels join the nearest cluster or form new ones
     const Buffer scratch(device, "new clusters of voxels", count * sizeof(uint32_t));
     const Bindings assignment{
         neighbourhood(count), {"coordinates", coordinates}, {"assignment", result.assignment}};
