@@ -11,7 +11,7 @@ namespace voxray {
 ///
 ///     voxel   -> surface groups: its surfels that see each other, e.g. those on one face of a thin wall
 ///     group   -> patches: one for each of the six faces at which it has area, in the order of faces
-///     cluster -> components: its connected groups, e.g. all in front of a wall
+///     cluster -> components: its connected groups; a thin wall has one on each of its faces
 struct VoxelPatches : Resource {
     std::string indexedBy() const override { return "voxels"; }
 
