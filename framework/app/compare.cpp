@@ -56,7 +56,7 @@ void printTable(const std::vector<Row>& rows) {
     }
 }
 
-/// Numbers that JSON has no word for (the PSNR of equal images) become null.
+/// Prints scores as JSON. Numbers that are not finite (the PSNR of equal images) become null.
 void printJson(const std::vector<Row>& rows, const CompareOptions& options, const FlipExposures& exposures) {
     const auto number = [](double value) {
         return std::isfinite(value) ? Value::fromScalar(fmt::format("{:.9g}", value)) : Value();
@@ -82,18 +82,19 @@ void printJson(const std::vector<Row>& rows, const CompareOptions& options, cons
     fmt::print("{}\n", out.json());
 }
 
-/// The layer of that name, or the picture of a file that has plain channels alone.
+/// Reads the layer of that name, or the image of a file without layers.
 LayeredImage readLayerOrOnly(const std::filesystem::path& path, const std::string& layer) {
     if (!layer.empty()) try {
             LayeredImage only = readLayer(path, "");
             if (only.layerCount <= 1 && only.layer.empty()) return only;
         } catch (const Error&) {
-            // It isn't clear which is the picture: the name says.
+            // The file has several images: the layer is selected by its name
         }
     return readLayer(path, layer);
 }
 
-/// Tells which layer it takes where a file has several. @throws UsageError for a file that is no whole image.
+/// Reads an image, and prints the selected layer if there are several. @throws UsageError for an invalid
+/// file.
 LayeredImage readGiven(const std::filesystem::path& path, const std::string& layer) {
     try {
         LayeredImage read = readLayerOrOnly(path, layer);
@@ -106,8 +107,8 @@ LayeredImage readGiven(const std::filesystem::path& path, const std::string& lay
     }
 }
 
-/// The halves of a reference X.exr, X_a.exr and X_b.exr next to it, as `run` writes them; empty where they
-/// aren't there. @throws Error where their mean isn't the reference.
+/// Reads the halves of a reference X.exr, X_a.exr and X_b.exr in the same folder, as `run` writes them; empty
+/// if they don't exist. @throws Error if their mean isn't the reference.
 std::vector<ImageF> readHalves(const std::filesystem::path& path, const ImageF& reference) {
     std::vector<ImageF> halves;
     std::vector<std::filesystem::path> paths;
@@ -130,7 +131,7 @@ std::vector<ImageF> readHalves(const std::filesystem::path& path, const ImageF& 
     return halves;
 }
 
-/// Whether a file holds display values of 8 bits, as previews do.
+/// Whether a file has 8-bit values, as previews do.
 bool isPreview(const std::filesystem::path& file) {
     std::string end = file.extension().string();
     std::ranges::transform(end, end.begin(), [](unsigned char c) { return char(std::tolower(c)); });
@@ -152,7 +153,7 @@ void compare(const CompareOptions& options) {
                          options.test.string(), test.width, test.height, options.reference.string(),
                          reference.width, reference.height);
 
-    // The same exposures for all rows, chosen from the reference alone.
+    // All rows have the same exposures, which depend only on the reference
     ScoreOptions scoring;
     scoring.exposureStops = options.exposureStops;
     scoring.flipExposures = flipExposures(reference);

@@ -12,7 +12,7 @@ namespace voxray {
 
 namespace {
 
-/// The ray tracers that a device can run; the CPU's needs no feature of it.
+/// The ray tracers that a device supports. Embree runs on the CPU with any device.
 std::string tracersOf(const DeviceInfo& device) {
     std::string names;
     if (device.rayQuery) names += "ray_query, ";
@@ -34,7 +34,7 @@ void printDevice(const DeviceInfo& device) {
     fmt::print("  float atomics     {}\n", yesNo(device.floatAtomics));
 }
 
-/// Prints all devices. @throws Error where none qualifies.
+/// Prints all devices. @throws Error if none qualifies.
 void printDevices() {
     const std::vector<DeviceInfo> devices = listDevices();
     for (const DeviceInfo& device : devices) printDevice(device);

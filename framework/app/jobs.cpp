@@ -22,7 +22,7 @@ struct JobsArguments : ConfigArguments {
     std::filesystem::path claim;
 };
 
-/// @throws UsageError where the folder holds anything but parts of this experiment.
+/// Reserves a results folder for the parts of an experiment. @throws UsageError if it has anything else.
 void claimForParts(const PreparedExperiment& prepared, const std::filesystem::path& results) {
     const ResultsFolder folder(results, prepared.experiment().setup.general.name, FolderUse::Part,
                                ProcessLock::IfHeld::Wait);

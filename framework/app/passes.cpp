@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t kTextWidth = 100;
 
-/// The text broken at spaces into lines of at most kTextWidth, all but the first indented.
+/// Breaks a text into lines of at most kTextWidth columns, and indents all but the first one.
 std::string wrapped(const std::string& text, size_t firstColumn, size_t indent) {
     std::string out;
     size_t column = firstColumn;
@@ -52,7 +52,7 @@ void printList(const Registry& registry, bool withExperiments) {
         fmt::print("voxray passes --experiments adds those that measure for experiments.\n");
 }
 
-/// A name and what it is, in two columns.
+/// Prints a name and its description in two columns.
 void printEntry(const std::string& name, const std::string& text) {
     constexpr size_t kColumn = 22;
     fmt::print("  {:<{}} {}\n", name, kColumn - 3, wrapped(text, kColumn, kColumn));

@@ -47,14 +47,14 @@ struct RunArguments : ConfigArguments {
     std::optional<unsigned> threads;
 };
 
-/// Runs the configs one after the other. @return the exit status.
+/// Runs the configs one after another. @return the exit status.
 int run(const RunArguments& arguments) {
     std::optional<ThreadLimit> limit;
     if (arguments.threads) limit.emplace(*arguments.threads);
     Registry registry;
     registerPasses(registry);
 
-    // Nothing runs while any of the configs is wrong.
+    // Check all configs before the first one runs
     std::vector<Study> experiments;
     for (const std::filesystem::path& config : arguments.configs) {
         experiments.push_back(loadStudy(config, arguments.config, registry));

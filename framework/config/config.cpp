@@ -10,13 +10,13 @@
 namespace voxray {
 namespace {
 
-// A results folder is named after the experiment.
+/// Checks the experiment's name, which is also that of the results folder.
 void checkName(const Value& config, const std::string& name) {
     const Value* entry = config.find("name");
     const TextLocation where = entry ? entry->where : config.where;
     if (name.empty()) throw UsageError(where, "name: an experiment needs a name");
     const bool isPlain = name.size() <= 100 && name[0] != '.' && name[0] != '-' &&
-                         std::all_of(name.begin(), name.end(), [](unsigned char c) {
+                         std::ranges::all_of(name, [](unsigned char c) {
                              return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
                                     (c >= 'A' && c <= 'Z') || c == '_' || c == '-' || c == '.';
                          });
@@ -26,7 +26,7 @@ void checkName(const Value& config, const std::string& name) {
                          oneLine(name, 60));
 }
 
-/// The first pass of a graph that is a map, as an entry of a list.
+/// The first pass of a graph that was written as a map, as an entry of a list.
 std::string firstEntry(const Value& graph) {
     if (graph.find("pass")) return graph.text();
     const auto& [name, parameters] = graph.members[0];
@@ -36,7 +36,7 @@ std::string firstEntry(const Value& graph) {
     return entry.text();
 }
 
-// Ids and config keys share the first component of override paths.
+/// Checks ids, which must differ from config keys: both may be the first component of override paths.
 void checkGraph(const Value& graph) {
     if (graph.isMap() && !graph.members.empty())
         throw UsageError(graph.where, "graph: expected a list of passes, each with a dash: write '- {}'",
@@ -53,7 +53,7 @@ void checkGraph(const Value& graph) {
             throw UsageError(entry.where, "graph: the id '{}' must not contain a blank; write '_' for it",
                              id);
         const auto& keys = configKeys();
-        if (std::find(keys.begin(), keys.end(), id) != keys.end())
+        if (std::ranges::count(keys, id) > 0)
             throw UsageError(entry.where, "graph: the id '{}' is a key of the config; choose another", id);
     }
 }
@@ -67,7 +67,7 @@ void checkSweep(const Value& sweep) {
             throw UsageError(
                 values.where,
                 "sweep.{}: expected a list of values, as in [64, 128], or a map of names and values", path);
-    // A map of names, not a value that is a map
+    // Reject a map that is a value instead of a map of names
     for (const auto& [path, values] : sweep.members)
         for (const char* key : {"pass", "builtin", "file"})
             if (values.find(key))
@@ -76,8 +76,8 @@ void checkSweep(const Value& sweep) {
                                  key, values.text());
 }
 
-/// Rejects a top-level key within a block, which is mostly indented too far. A built-in scene may have a
-/// parameter of that name.
+/// Rejects top-level keys within a block, which are probably indented too far. A built-in scene may have a
+/// parameter with that name.
 void checkBlocks(const Value& config) {
     const auto& keys = configKeys();
     for (const char* name : {"scene", "image", "measure", "reference"}) {
@@ -90,7 +90,7 @@ void checkBlocks(const Value& config) {
     }
 }
 
-/// The first pass of the graph, or the reference, with a parameter of that name; "" if there is none.
+/// The id of the first pass, or "reference", with a parameter of that name; "" if there is none.
 std::string passWith(const Value& config, const std::string& parameter) {
     const Value *graph = config.find("graph"), *reference = config.find("reference");
     for (const Value& entry : graph ? graph->items : std::vector<Value>())
@@ -106,7 +106,7 @@ void checkTopLevel(const Value& config) {
                                            : "");
     for (const auto& [key, value] : config.members) {
         const auto& keys = configKeys();
-        if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+        if (std::ranges::count(keys, key) > 0) continue;
         if (const std::string path = pathOfKey(key); !path.empty())
             throw UsageError(value.where, "unknown key '{}'; it stands in '{}'", key,
                              path.substr(0, path.find('.')));
@@ -130,8 +130,8 @@ bool hasReference(const Value& config) {
     return reference && !reference->isNull();
 }
 
-/// Checks for settings of the config's text without effect in all profiles. Overrides may remove axes of the
-/// sweep or the reference, which is no error. @param config with all overrides applied.
+/// Rejects settings in the config's text that have no effect in any profile. It is no error if overrides
+/// remove axes of the sweep or the reference. @param config with all overrides applied.
 void checkEmptyBlocks(const Value& root, const Value& config) {
     if (const Value* sweep = root.find("sweep"); sweep && sweep->isMap() && sweep->members.empty())
         throw UsageError(sweep->where,
@@ -153,8 +153,9 @@ void checkEmptyBlocks(const Value& root, const Value& config) {
                              key);
 }
 
-/// Whether the config has that value without the axis of the sweep. A swapped pass has default parameters.
-bool isWritten(const Value& config, const std::string& path, const Value& value) {
+/// Whether the config has that value at `path` without the sweep. A pass's name alone means default
+/// parameters.
+bool hasValue(const Value& config, const std::string& path, const Value& value) {
     const Value* written = valueAt(config, path);
     if (!written || path.find('.') != std::string::npos || !written->find("pass"))
         return written && *written == value;
@@ -165,9 +166,9 @@ bool isWritten(const Value& config, const std::string& path, const Value& value)
     return existing == swapped;
 }
 
-/// Warnings for axes of the config's text whose only value equals that in the graph or the scene. Axes that a
-/// profile or --set reduces to one value are intended.
-std::vector<std::string> idleAxes(const Value& root, const Experiment& experiment) {
+/// Warns of axes in the config's text whose only value equals that in the graph or the scene. Axes that are
+/// reduced to one value by a profile or --set are not reported.
+std::vector<std::string> axesWithoutEffect(const Value& root, const Experiment& experiment) {
     std::vector<std::string> warnings;
     const Value* sweep = root.find("sweep");
     for (const auto& [path, axis] : sweep ? sweep->members : std::vector<Value::Member>()) {
@@ -175,7 +176,7 @@ std::vector<std::string> idleAxes(const Value& root, const Experiment& experimen
         const size_t values = axis.items.size() + axis.members.size();
         if (values != 1 || !effective || effective->where.str() != axis.where.str()) continue;
         const Value& value = axis.isMap() ? axis.members[0].value : axis.items[0];
-        if (isWritten(experiment.config, path, value))
+        if (hasValue(experiment.config, path, value))
             warnings.push_back(UsageError(axis.where,
                                           "sweep.{}: its one value, {}, is the one that is written anyway, "
                                           "so that it varies nothing: write more values, or leave it out",
@@ -185,7 +186,7 @@ std::vector<std::string> idleAxes(const Value& root, const Experiment& experimen
     return warnings;
 }
 
-/// Reads a config file. @throws UsageError for a scene.
+/// Reads a config file. @throws UsageError for a scene file.
 Value readConfig(const std::filesystem::path& path) {
     const std::filesystem::path ending = path.extension();
     if (ending == ".glb" || ending == ".gltf")
@@ -200,7 +201,7 @@ Value readConfig(const std::filesystem::path& path) {
 Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
     checkTopLevel(root);
 
-    // Profiles that aren't used must be valid, too
+    // All profiles must be valid, also those that are not used
     if (const Value* profiles = root.find("profiles")) {
         for (const auto& member : profiles->members) {
             Value config = root;
@@ -214,7 +215,7 @@ Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
     selectSweepValues(config, options.only);
     Experiment experiment = readExperiment(std::move(config));
     checkEmptyBlocks(root, experiment.config);
-    experiment.warnings = idleAxes(root, experiment);
+    experiment.warnings = axesWithoutEffect(root, experiment);
     return experiment;
 }
 

@@ -10,7 +10,7 @@
 namespace voxray {
 namespace {
 
-// Masks name columns of results.csv and images.
+/// Reads masks, whose names become part of names of columns and files.
 std::vector<MaskSettings> readMasks(const Value& map) {
     if (!map.isMap())
         throw UsageError(
@@ -70,7 +70,7 @@ MeasureSettings readMeasureSettings(const Value& map) {
                          fmt::join(names, ", "));
     for (const Value& item : list->items) {
         const std::string name = item.asString("measure.metrics");
-        if (std::find(names.begin(), names.end(), name) == names.end())
+        if (std::ranges::count(names, name) == 0)
             throw UsageError(item.where, "measure.metrics: unknown metric '{}'{}", name,
                              didYouMean(name, names));
         if (std::ranges::count(measure.metrics, name) > 0)

@@ -10,8 +10,8 @@
 namespace voxray {
 namespace {
 
-/// Removes the first key and its dot from a path below `parent`. A name with dots is one key if it exists
-/// there already, or in double quotes.
+/// Removes the first key and its dot from a path below `parent`. A name with dots is one key if `parent` has
+/// it or if it is in double quotes.
 std::string takeKey(const Value& parent, std::string_view& path) {
     const size_t quote = path.starts_with('"') ? path.find('"', 1) : std::string_view::npos;
     const bool isQuoted = quote != std::string_view::npos;
@@ -36,7 +36,7 @@ void mergeInto(Value& target, const Value& value, Merge merge) {
     }
 }
 
-// Sets a key of a map; null removes it.
+/// Sets a key of a map; null removes it.
 void setNested(Value& parent, const std::string& key, const Value& value, Merge merge) {
     if (value.isNull()) {
         parent.erase(key);
@@ -47,7 +47,7 @@ void setNested(Value& parent, const std::string& key, const Value& value, Merge 
     }
 }
 
-// Sets the value at a dotted path below `root`, creating maps as needed.
+/// Sets the value at a dotted path below `root`. Missing maps are created.
 void setAtPath(Value& root, std::string_view path, const std::string& fullPath, const Value& value,
                Merge merge) {
     if (path.ends_with('.')) throw UsageError(value.where, "'{}': a path must not end in a dot", fullPath);
@@ -72,7 +72,7 @@ void setAtPath(Value& root, std::string_view path, const std::string& fullPath, 
     setNested(*parent, key, value, merge);
 }
 
-// An entry of the graph, given as a pass's name or a map with `pass`.
+/// An entry of the graph from a pass's name or a map with `pass`.
 Value passEntry(const Value& value, const std::string& path) {
     if (value.isMap() && value.find("pass")) return value;
     if (!value.isScalar())
@@ -85,7 +85,7 @@ Value passEntry(const Value& value, const std::string& path) {
     return entry;
 }
 
-// Replaces a pass by another one or a chain. The last one takes over the id, so that later passes find it.
+/// Replaces a pass by another one or a chain, whose last pass gets the id, so that later passes find it.
 void swapPass(Value& graph, size_t index, const Value& value, const std::string& path) {
     std::vector<Value> chain;
     if (value.isList())
@@ -112,9 +112,9 @@ void overridePass(Value& graph, size_t index, const std::string& subpath, const 
     }
 }
 
-/// "; did you mean ...": the path with dots instead of other separators, the id of a pass of that name, a
-/// parameter of a pass without its id or with an underscore instead of the dot, a key of a block, or the
-/// nearest candidate. `word`: the path's first component.
+/// "; did you mean ..." with the first match of: the path with dots instead of other separators; the id of a
+/// pass of that name; a parameter of a pass, written without its id or with an underscore instead of the dot;
+/// a key of a block; the most similar candidate. @param word the path's first component.
 std::string nearestPath(const Value& config, const std::string& path, const std::string& word,
                         const std::vector<std::string>& candidates) {
     std::string dotted = path;
@@ -172,11 +172,10 @@ std::string optionFor(const std::string& key) {
 
 bool hasTarget(const Value& config, const std::string& path) {
     const std::string first = path.substr(0, path.find('.'));
-    if (std::find(configKeys().begin(), configKeys().end(), first) != configKeys().end()) return true;
+    if (std::ranges::count(configKeys(), first) > 0) return true;
     const Value* graph = config.find("graph");
     if (!graph || !graph->isList()) return false;
-    return std::any_of(graph->items.begin(), graph->items.end(),
-                       [&](const Value& entry) { return passId(entry) == first; });
+    return std::ranges::any_of(graph->items, [&](const Value& entry) { return passId(entry) == first; });
 }
 
 const Value* valueAt(const Value& config, const std::string& path) {
@@ -228,7 +227,7 @@ void applyOverride(Value& config, const std::string& path, const Value& value, M
     if (first == "profiles")
         throw UsageError(value.where, "'{}': profiles can't be changed by an override", path);
 
-    // A pass
+    // The path of a pass or its parameter
     std::vector<std::string> candidates(configKeys());
     if (Value* graph = config.find("graph"); graph && graph->isList()) {
         for (size_t i = 0; i < graph->items.size(); ++i) {
@@ -238,8 +237,8 @@ void applyOverride(Value& config, const std::string& path, const Value& value, M
         }
     }
 
-    // A key of the config
-    if (std::find(configKeys().begin(), configKeys().end(), first) == configKeys().end())
+    // The path of a config key
+    if (std::ranges::count(configKeys(), first) == 0)
         throw UsageError(value.where, "'{}': neither a key of the config nor a pass of its graph{}", first,
                          optionFor(first).empty() ? nearestPath(config, path, first, candidates)
                                                   : "; it is said on the command line: " + optionFor(first));
@@ -276,7 +275,7 @@ void applyAssignment(Value& config, const std::string& assignment) {
         throw UsageError("{}: expected path=value, as in image.width=320", label);
     Value value = parseYaml(assignment.substr(equals + 1), label);
 
-    // No line numbers for a single line
+    // An assignment has no line numbers
     const auto clearLines = [](auto&& self, Value& node) -> void {
         node.where.line = 0;
         for (Value& item : node.items) self(self, item);

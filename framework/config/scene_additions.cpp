@@ -21,8 +21,8 @@ SceneAddition readAddition(const Value& entry, const std::string& owner) {
     return addition;
 }
 
-/// Location of the later of two values: that of a sweep or the command line, or the lower one in the file.
-TextLocation secondOf(const Value& a, const Value& b) {
+/// Location of the later of two values: that of a sweep or the command line, else the lower in the file.
+TextLocation laterLocation(const Value& a, const Value& b) {
     if (a.where.file != b.where.file) return a.where.line == 0 ? a.where : b.where;
     return a.where.line > b.where.line ? a.where : b.where;
 }
@@ -58,7 +58,7 @@ SceneSource readSceneSource(const Value& map, const std::string& owner,
     // Exactly one source
     const bool hasFile = !read.file.empty(), hasBuiltin = !read.builtin.empty();
     if (hasFile && hasBuiltin)
-        throw UsageError(secondOf(*map.find("file"), *map.find("builtin")),
+        throw UsageError(laterLocation(*map.find("file"), *map.find("builtin")),
                          "{}: both 'file' and 'builtin' are set; take one out (null removes a key)", owner);
     if (!hasFile && !hasBuiltin) throw UsageError(map.where, "{}: needs 'file' or 'builtin'", owner);
     read.where = map.find(hasFile ? "file" : "builtin")->where;

@@ -16,8 +16,8 @@ struct SceneSource {
     std::string file;
     std::string builtin;
     Value builtinParameters = Value::map();
-    std::string owner;                   ///< For messages: "scene", "scene.add[0]".
-    std::vector<std::string> otherKeys;  ///< Other valid keys, for "did you mean".
+    std::string owner;                   ///< Path for messages, e.g. "scene" or "scene.add[0]".
+    std::vector<std::string> otherKeys;  ///< Other valid keys, for suggestions.
     TextLocation where;
     static constexpr auto schema() {
         return std::tuple{

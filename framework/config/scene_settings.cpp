@@ -17,7 +17,7 @@ glm::vec3 direction(const glm::vec3& vector, const Value& source, const std::str
     return vector / length;
 }
 
-/// Names of a light's properties in other tools.
+/// Rejects names of a light's properties in other tools, with those of Voxray.
 void checkLightKeys(const Value& entry, const std::string& what) {
     constexpr std::array<std::string_view, 9> kStrengths{
         "power", "color", "colour", "lumens", "lumen", "strength", "watts", "radiance", "brightness"};
@@ -37,7 +37,7 @@ void checkLightKeys(const Value& entry, const std::string& what) {
     }
 }
 
-// A light's type is given by its key.
+/// Reads a light. Its type is given by one of its keys.
 ConfigLight readLight(const Value& entry, size_t index) {
     const std::string what = fmt::format("scene.lights[{}]", index);
     if (!entry.isMap())
@@ -52,27 +52,26 @@ ConfigLight readLight(const Value& entry, size_t index) {
     light.name = fmt::format("config light {}", index);
     if (std::ranges::any_of(kinds, [&](const std::string& kind) { return entry.find(kind); }))
         checkLightKeys(entry, what);
+    const auto setCommon = [&](const auto& settings, const glm::vec3& intensity) {
+        light.intensity = intensity;
+        read.move = settings.move;
+        read.offAt = settings.offAt;
+    };
     if (const Value* axis = entry.find("directional")) {
         const auto p = readParams<DirectionalLightSettings>(entry, what);
         light.type = LightType::Directional;
-        light.intensity = p.irradiance;
-        read.move = p.move;
-        read.offAt = p.offAt;
+        setCommon(p, p.irradiance);
         light.direction = direction(p.direction, *axis, what + ".directional");
     } else if (entry.find("point")) {
         const auto p = readParams<PointLightSettings>(entry, what);
-        light.intensity = p.intensity;
-        read.move = p.move;
-        read.offAt = p.offAt;
+        setCommon(p, p.intensity);
         light.position = p.position;
     } else if (entry.find("spot")) {
         const auto p = readParams<SpotLightSettings>(entry, what);
         if (!(p.innerDegrees < p.outerDegrees))
             throw UsageError(entry.where, "{}: inner_deg must be less than outer_deg", what);
         light.type = LightType::Spot;
-        light.intensity = p.intensity;
-        read.move = p.move;
-        read.offAt = p.offAt;
+        setCommon(p, p.intensity);
         light.position = p.position;
         light.direction = direction(p.direction, entry, what + ".direction");
         light.innerConeAngle = glm::radians(p.innerDegrees);
@@ -109,7 +108,7 @@ void readCamera(const Value& value, SceneSettings& settings) {
         throw UsageError(value.where, "scene.camera: looks along its own 'up'; give another up");
 }
 
-/// Names of a constant environment's radiance in other tools.
+/// Names of the radiance of a constant environment in other tools.
 constexpr std::array<std::string_view, 4> kRadianceWords{"color", "colour", "radiance", "intensity"};
 
 void readEnvironment(const Value& value, SceneSettings& settings) {
@@ -244,7 +243,7 @@ SceneSettings readSceneSettings(const Value& map) {
 
 bool changesInTime(const SceneSettings& settings, bool isAnimated) {
     return (settings.options.timeStep > 0 && isAnimated) ||
-           std::any_of(settings.lights.begin(), settings.lights.end(), [](const ConfigLight& entry) {
+           std::ranges::any_of(settings.lights, [](const ConfigLight& entry) {
                return entry.move != glm::vec3(0.0f) || entry.offAt > 0;
            });
 }

@@ -13,7 +13,7 @@
 #include "scene/scene.h"
 #include "trace/ray_tracer.h"
 
-/// The typed blocks of a config, with names, ranges, defaults and help of all scalar keys.
+/// Settings of the blocks of a config, with names, ranges, defaults and help of all scalar keys.
 namespace voxray {
 
 template <>
@@ -33,6 +33,12 @@ struct EnumNames<MaterialMode> {
 /// Maximum coordinate (m), intensity (W/sr, W/m²) and radiance (W/(m² sr)) in a config.
 inline constexpr float kMaxCoordinate = 1e6f;
 inline constexpr float kMaxLight = 1e12f;
+
+/// A position or direction.
+template <typename Settings>
+constexpr auto vectorField(const char* name, glm::vec3 Settings::*member, const char* help) {
+    return field(name, member, help, glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate)).asVector();
+}
 
 /// Top-level scalars.
 struct GeneralSettings {
@@ -64,8 +70,7 @@ struct ImageSettings {
     }
 };
 
-/// An entry of `measure.masks`: conditions on a surface, all of which must hold for its pixels to be
-/// selected.
+/// An entry of `measure.masks`: pixels are selected if their surface meets all its conditions.
 struct MaskSettings {
     std::string name;  ///< Its key.
     std::string material;
@@ -85,7 +90,7 @@ struct MaskSettings {
     }
 };
 
-/// `measure`; the schema has its scalars.
+/// `measure`; the schema has its scalar keys.
 struct MeasureSettings {
     uint32_t frames = 20;
     uint32_t warmup = 3;
@@ -93,14 +98,14 @@ struct MeasureSettings {
     uint32_t buildRepeats = 1;
     bool secondSeed = false;
     uint64_t memoryLimitMb = 0;
-    std::vector<std::string> metrics;  ///< Of metricNames().
+    std::vector<std::string> metrics;  ///< A subset of metricNames().
     std::vector<MaskSettings> masks;
     static constexpr auto schema() {
         return std::tuple{
             field("frames", &MeasureSettings::frames,
-                  "Frames that are timed. The first is compared with the reference.", 1u, 100000u),
-            field("warmup", &MeasureSettings::warmup, "Frames before the measured ones, not timed.", 0u,
-                  100000u),
+                  "Number of timed frames. The first one is compared with the reference.", 1u, 100000u),
+            field("warmup", &MeasureSettings::warmup,
+                  "Number of frames before the measured ones, which are not timed.", 0u, 100000u),
             field("compare_every", &MeasureSettings::compareEvery,
                   "0: frame 0 alone is compared with a reference. n: every n-th measured frame is, "
                   "each with the reference of its own time, and temporal error is reported.",
@@ -118,7 +123,7 @@ struct MeasureSettings {
     }
 };
 
-/// Path of a key of `scene`, `image` or `measure`, such as "scene.camera" for `camera`; "" for other words.
+/// The path of a key of `scene`, `image` or `measure`, e.g. "scene.camera" for `camera`; "" for other words.
 std::string pathOfKey(const std::string& key);
 
 /// Number of measured frames compared with a reference: 0, compareEvery, 2 compareEvery ...
@@ -127,7 +132,7 @@ uint32_t comparedFrames(const MeasureSettings& settings);
 /// Valid names in `measure.metrics`.
 std::vector<std::string> metricNames();
 
-/// Scalars of `scene`, except its source.
+/// Scalar keys of `scene`, except its source.
 struct SceneOptions {
     bool keepFileLights = true;
     MaterialMode materials = MaterialMode::AsIs;
@@ -162,32 +167,25 @@ struct CameraSettings {
     float fovDegrees = 60;
     glm::vec3 move{0.0f};
     static constexpr auto schema() {
-        constexpr glm::vec3 low(-kMaxCoordinate), high(kMaxCoordinate);
         return std::tuple{
-            field("position", &CameraSettings::position, "Where the camera stands, metres.", low, high)
-                .asVector(),
-            field("target", &CameraSettings::target, "The point that it looks at, metres.", low, high)
-                .asVector(),
-            field("up", &CameraSettings::up, "The direction that is up in the image.", low, high).asVector(),
+            vectorField("position", &CameraSettings::position, "Position of the camera, metres."),
+            vectorField("target", &CameraSettings::target, "The point that the camera looks at, metres."),
+            vectorField("up", &CameraSettings::up, "The direction that is up in the image."),
             field("fov_deg", &CameraSettings::fovDegrees, "Vertical field of view in degrees.", 1.0f, 179.0f),
-            field("move", &CameraSettings::move,
-                  "How far the camera moves from one frame to the next, metres: "
-                  "warm-up frames lead up to `position`, where the first measured frame is taken; "
-                  "the others go on from there.",
-                  low, high)
-                .asVector()};
+            vectorField("move", &CameraSettings::move,
+                        "How far the camera moves from one frame to the next, metres: "
+                        "warm-up frames lead up to `position`, where the first measured frame is taken; "
+                        "the others go on from there.")};
     }
 };
 
-/// `scene.region`: a box.
+/// `scene.region`, a box.
 struct RegionSettings {
     glm::vec3 min{0.0f};
     glm::vec3 max{0.0f};
     static constexpr auto schema() {
-        constexpr glm::vec3 low(-kMaxCoordinate), high(kMaxCoordinate);
-        return std::tuple{
-            field("min", &RegionSettings::min, "Its lowest corner, metres.", low, high).asVector(),
-            field("max", &RegionSettings::max, "Its highest corner, metres.", low, high).asVector()};
+        return std::tuple{vectorField("min", &RegionSettings::min, "Its lowest corner, metres."),
+                          vectorField("max", &RegionSettings::max, "Its highest corner, metres.")};
     }
 };
 
@@ -200,24 +198,25 @@ constexpr auto lightOffField(uint32_t Light::*offAt) {
                  0u, 100000u);
 }
 
-/// Entries of `scene.lights`; the first key is the kind.
+/// `move` of a point or spot light.
+inline constexpr const char* kLightMoveHelp =
+    "How far it moves from one frame to the next, metres: at its place in the compared frame.";
+
+/// Entries of `scene.lights`; the first key is the type of light.
 struct DirectionalLightSettings {
     glm::vec3 direction{0, -1, 0};
     glm::vec3 irradiance{1.0f};
     glm::vec3 move{0.0f};
     uint32_t offAt = 0;
     static constexpr auto schema() {
-        return std::tuple{field("directional", &DirectionalLightSettings::direction,
-                                "The way the light travels, any length but 0.", glm::vec3(-kMaxCoordinate),
-                                glm::vec3(kMaxCoordinate))
-                              .asVector(),
+        return std::tuple{vectorField("directional", &DirectionalLightSettings::direction,
+                                      "Direction in which the light travels, of any length but 0."),
                           field("irradiance", &DirectionalLightSettings::irradiance,
-                                "On a surface that faces it, W/m².", glm::vec3(0.0f), glm::vec3(kMaxLight)),
-                          field("move", &DirectionalLightSettings::move,
-                                "Added to the direction from one frame to the next; "
-                                "in the compared frame it shines along `directional`.",
-                                glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                              .asVector(),
+                                "Irradiance on a surface that faces the light, W/m².", glm::vec3(0.0f),
+                                glm::vec3(kMaxLight)),
+                          vectorField("move", &DirectionalLightSettings::move,
+                                      "Added to the direction from one frame to the next; "
+                                      "in the compared frame it shines along `directional`."),
                           lightOffField(&DirectionalLightSettings::offAt)};
     }
 };
@@ -228,15 +227,10 @@ struct PointLightSettings {
     uint32_t offAt = 0;
     static constexpr auto schema() {
         return std::tuple{
-            field("point", &PointLightSettings::position, "Where the light is, metres.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector(),
-            field("intensity", &PointLightSettings::intensity, "W/sr.", glm::vec3(0.0f),
+            vectorField("point", &PointLightSettings::position, "Position of the light, metres."),
+            field("intensity", &PointLightSettings::intensity, "Radiant intensity, W/sr.", glm::vec3(0.0f),
                   glm::vec3(kMaxLight)),
-            field("move", &PointLightSettings::move,
-                  "How far it moves from one frame to the next, metres: at its place in the compared frame.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector(),
+            vectorField("move", &PointLightSettings::move, kLightMoveHelp),
             lightOffField(&PointLightSettings::offAt)};
     }
 };
@@ -250,22 +244,16 @@ struct SpotLightSettings {
     uint32_t offAt = 0;
     static constexpr auto schema() {
         return std::tuple{
-            field("spot", &SpotLightSettings::position, "Where the light is, metres.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector(),
-            field("direction", &SpotLightSettings::direction, "The way its axis points, any length but 0.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector(),
-            field("intensity", &SpotLightSettings::intensity, "On the axis, W/sr.", glm::vec3(0.0f),
-                  glm::vec3(kMaxLight)),
+            vectorField("spot", &SpotLightSettings::position, "Position of the light, metres."),
+            vectorField("direction", &SpotLightSettings::direction,
+                        "Direction of its axis, of any length but 0."),
+            field("intensity", &SpotLightSettings::intensity, "Radiant intensity on the axis, W/sr.",
+                  glm::vec3(0.0f), glm::vec3(kMaxLight)),
             field("inner_deg", &SpotLightSettings::innerDegrees,
-                  "Angle from the axis, in degrees, up to which it shines in full.", 0.0f, 90.0f),
+                  "Angle from the axis, in degrees, up to which it has its full intensity.", 0.0f, 90.0f),
             field("outer_deg", &SpotLightSettings::outerDegrees,
-                  "Angle from the axis, in degrees, beyond which it doesn't shine.", 0.0f, 90.0f),
-            field("move", &SpotLightSettings::move,
-                  "How far it moves from one frame to the next, metres: at its place in the compared frame.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector(),
+                  "Angle from the axis, in degrees, beyond which its intensity is 0.", 0.0f, 90.0f),
+            vectorField("move", &SpotLightSettings::move, kLightMoveHelp),
             lightOffField(&SpotLightSettings::offAt)};
     }
 };
@@ -286,11 +274,12 @@ struct EnvironmentSettings {
     }
 };
 
-/// A light of the config in the compared frame.
+/// A light of the config, in the compared frame.
 struct ConfigLight {
     Light light;
-    glm::vec3 move{0.0f};  ///< Per frame: of its position, m, or of a directional light's direction.
-    uint32_t offAt = 0;    ///< Frame from which on it is off; 0: never.
+    glm::vec3 move{
+        0.0f};           ///< Change in each frame of its position, m, or of a directional light's direction.
+    uint32_t offAt = 0;  ///< First frame in which it is off; 0: never.
     TextLocation where;
 };
 
@@ -304,15 +293,15 @@ struct HiddenName {
 struct SceneSettings {
     SceneSource source;
     SceneOptions options;
-    std::optional<Placement> placement;  ///< Of the source; empty: identity.
+    std::optional<Placement> placement;  ///< Transform of the source; empty: identity.
     std::vector<SceneAddition> additions;
     std::vector<MaterialOverride> overrides;
     std::vector<HiddenName> hidden;
-    std::string cameraName;  ///< Empty: `camera`, or the scene's first camera.
+    std::string cameraName;  ///< Empty: `camera`, else the scene's first camera.
     std::optional<CameraSettings> camera;
     std::vector<ConfigLight> lights;
     std::optional<MovingSpheres> movingSpheres;
-    std::optional<RegionSettings> region;            ///< Extent of voxels and parallel light; empty: all.
+    std::optional<RegionSettings> region;  ///< Bounds of voxels and directional light; empty: the scene's.
     std::optional<EnvironmentSettings> environment;  ///< Empty: that of the source.
     TextLocation where, cameraWhere, environmentWhere, regionWhere;
 };
@@ -325,7 +314,7 @@ MeasureSettings readMeasureSettings(const Value& map);
 SceneSettings readSceneSettings(const Value& map);
 
 /// Whether surfaces or lights move from frame to frame, or a light is switched off.
-/// @param isAnimated whether the scene has anything that a time step moves.
+/// @param isAnimated whether the scene has animations.
 bool changesInTime(const SceneSettings& settings, bool isAnimated = true);
 
 /// The first frame in which a light is off; nullopt if none is switched off.

@@ -15,14 +15,14 @@
 namespace voxray {
 namespace {
 
-/// A nonempty line in block style.
+/// A nonempty line in block style (without braces).
 struct Line {
     int number;     ///< 1-based.
     size_t indent;  ///< Spaces before it.
     size_t inner;   ///< Indentation including the dashes of list entries.
     std::string text;
-    std::string key;  ///< Of "key: value" or "key:"; empty for other lines.
-    bool hasValue;    ///< After the key, in the same line.
+    std::string key;  ///< The key of "key: value" or "key:"; empty for other lines.
+    bool hasValue;    ///< Whether a value follows the key in the same line.
 
     bool isEntry() const { return inner > indent; }
 };
@@ -42,7 +42,7 @@ std::optional<Line> readLine(const std::string& text, int number) {
     return line;
 }
 
-/// The nonempty lines up to one with that number.
+/// The nonempty lines up to the one with number `last`.
 std::vector<Line> linesUpTo(const std::string& text, int last) {
     std::istringstream stream(text);
     std::vector<Line> lines;
@@ -52,14 +52,14 @@ std::vector<Line> linesUpTo(const std::string& text, int last) {
     return lines;
 }
 
-/// A white-space character that is no YAML white space.
+/// A character that looks like a space but is none in YAML.
 struct WhiteSpace {
     const char* bytes;
     const char* name;
 };
 constexpr WhiteSpace kOtherSpaces[] = {{"\t", "a tab"}, {"\u00a0", "a non-breaking space"}};
 
-/// The first line indented by such a character.
+/// The first line that is indented by such a character.
 std::optional<YamlFault> otherSpace(const std::string& text) {
     std::istringstream lines(text);
     std::string line;
@@ -75,7 +75,7 @@ std::string spaces(size_t count) {
     return fmt::format("{} space{}", count, count == 1 ? "" : "s");
 }
 
-/// A key that is aligned neither with its neighbours nor below a key without a value.
+/// Reports a last line whose key is aligned neither with its neighbours nor below a key without a value.
 std::optional<YamlFault> indentation(const std::vector<Line>& lines) {
     if (lines.size() < 2 || lines.back().key.empty() || lines.back().isEntry()) return {};
     const Line &line = lines.back(), &before = lines[lines.size() - 2];
@@ -85,7 +85,7 @@ std::optional<YamlFault> indentation(const std::vector<Line>& lines) {
                                      "indent it as far, by {}",
                                      line.key, before.key, before.number, spaces(before.inner))};
 
-    // Below the dash of an entry, or between the dash and its contents
+    // A key below the dash of a list entry, or between the dash and its contents
     const auto above = std::find_if(lines.rbegin() + 1, lines.rend(),
                                     [&](const Line& previous) { return previous.indent <= line.indent; });
     if (above == lines.rend() || !above->isEntry() || line.indent >= above->inner) return {};
@@ -94,18 +94,18 @@ std::optional<YamlFault> indentation(const std::vector<Line>& lines) {
                                                   "write '- {0}: ...'",
                                                   line.key, above->number)};
     const bool isTop = std::ranges::count(configKeys(), line.key) > 0;
-    return YamlFault{line.number, fmt::format("'{}' is indented unlike what the dash in line {} begins with: "
-                                              "indent it by {}{}",
+    return YamlFault{line.number, fmt::format("'{}' is indented unlike what the dash "
+                                              "in line {} begins with: indent it by {}{}",
                                               line.key, above->number, spaces(isTop ? 0 : above->inner),
                                               isTop ? ", as the config's other keys" : "")};
 }
 
-/// Whether a list entry's dash is directly before its contents.
+/// Whether there is no space after the dash of a list entry.
 bool hasNarrowDash(const Line& line) {
     return line.text.find_first_of("{[", line.indent) == line.indent + 1 && line.text[line.indent] == '-';
 }
 
-/// Message for a line with a second ': ' before any brace, else "".
+/// The message for a line with a second ': ' before any brace, else "".
 std::string secondColon(const Line& line) {
     const size_t brace = line.text.find_first_of("{[", line.inner);
     const std::string head = line.text.substr(line.inner, std::min(brace, line.text.size()) - line.inner);
@@ -116,14 +116,14 @@ std::string secondColon(const Line& line) {
     return "a second ': ' in a line; put a text that holds one between quotes" + quoted;
 }
 
-/// Whether the parser stopped at an unexpected key, outside of braces.
+/// Whether the parser stopped at an unexpected key outside of braces.
 bool isOfBlocks(const std::string& message) {
     constexpr std::array<std::string_view, 3> kMessages{"end of map not found", "end of sequence not found",
                                                         "illegal map value"};
     return std::ranges::count(kMessages, message) > 0;
 }
 
-/// The usual cause of a parser message, or "".
+/// The most common cause of a parser message, or "".
 std::string hintOf(const std::string& message) {
     static const std::vector<std::pair<std::string, std::string>> hints{
         {"end of map not found", "is this line, or the one before, indented unlike its neighbours?"},
@@ -138,16 +138,16 @@ std::string hintOf(const std::string& message) {
     return {};
 }
 
-/// A '{' or '[' that is open at the beginning of a line.
+/// An unmatched '{' or '['.
 struct OpenBrace {
     char brace;
-    int line;  ///< Of the bracket.
+    int line;
 };
 
-/// The innermost one.
+/// The innermost brace that is open at the beginning of a line.
 std::optional<OpenBrace> openBrace(const std::string& text, int line) {
     std::vector<OpenBrace> open;
-    char before = '\n', quote = 0;  // The last character that is no space; that of a text in quotes.
+    char before = '\n', quote = 0;  // The previous character that is no space; the quote of a text.
     int number = 1;
     for (size_t i = 0; i < text.size() && number < line; ++i) {
         const char c = text[i];
@@ -171,9 +171,7 @@ std::optional<OpenBrace> openBrace(const std::string& text, int line) {
     return open.empty() ? std::nullopt : std::optional(open.back());
 }
 
-/// "; what follows '#' there is a comment" if a comment hides the closing brace, as an unquoted #ff8800 does;
-/// else
-/// "".
+/// A hint if a comment contains the closing brace, e.g. because of an unquoted #ff8800; else "".
 std::string afterComment(const std::string& text, const OpenBrace& open) {
     std::istringstream lines(text);
     std::string line;

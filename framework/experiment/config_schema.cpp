@@ -33,7 +33,7 @@ Value anyOf(std::initializer_list<Value> choices) {
     return object({{"anyOf", list}});
 }
 
-/// "[a, b, c]" as the list of its numbers.
+/// Parses "[a, b, c]" into a list of numbers.
 Value numbers(const std::string& triple) {
     Value list = Value::list();
     std::string number;
@@ -74,7 +74,7 @@ Value parameterSchema(const ParameterDoc& doc) {
         schema.set("maximum", literal(doc.max));
     }
     if (!doc.conditions.empty()) {
-        // Not JSON Schema's: editors leave it alone, `voxray explain` drops parameters by it
+        // An extension of JSON Schema that editors ignore and `voxray explain` uses
         Value conditions = Value::list();
         for (const ParameterDoc::Condition& condition : doc.conditions)
             conditions.items.push_back(
@@ -118,7 +118,7 @@ Value passSchema(const PassKind& kind) {
     return withRequired(mapSchema(kind.parameters, properties), {"pass"});
 }
 
-/// Properties of a scene's source: parameters of built-in scenes stand next to the keys that every scene has.
+/// Adds the properties of a scene's source, which include the parameters of all built-in scenes.
 void addSource(Value& schema) {
     Value& properties = *schema.find("properties");
     for (const ParameterDoc& doc : describeParams<SceneSource>())

@@ -12,8 +12,8 @@
 namespace voxray {
 namespace {
 
-/// One line for the terminal: costs, then the two scores that come first in tables. Those of the indirect
-/// light, which methods differ in, stand before those of the whole image.
+/// A line for the terminal: costs, then the first two metrics. Scores of indirect light, in which methods
+/// differ, are before those of the whole image.
 std::string outcome(const VariantResult& r) {
     if (!r.ok) return fmt::format("{}: failed: {}", r.variant, r.error);
     std::string line =
@@ -33,7 +33,7 @@ std::string outcome(const VariantResult& r) {
 
 PartRunner::PartRunner(PreparedExperiment& prepared, const ResultsFolder& folder)
     : prepared_(prepared), folder_(folder), references_(folder.references()) {
-    prepared.session().takeParts(ReferenceParts(folder.path()));
+    prepared.session().setReferenceParts(ReferenceParts(folder.path()));
     const unsigned cores = std::thread::hardware_concurrency();
     if (prepared.options().untimed)
         warnings_.emplace_back(
@@ -44,8 +44,8 @@ PartRunner::PartRunner(PreparedExperiment& prepared, const ResultsFolder& folder
 }
 
 std::string PartRunner::referenceFolder(const std::string& hash) const {
-    // Those that are there keep their names; the others get theirs in the order of the variants, so that
-    // parts in other processes call them the same
+    // Existing references keep their names; new ones get names in the order of variants, so that parts in
+    // other processes use the same names
     std::map<std::string, std::string> folders;  // By hash.
     std::set<std::string> taken;
     for (const ReferenceEntry& reference : references_) {
@@ -97,7 +97,7 @@ const PreparedReference* PartRunner::referenceOf(const Variant& variant, Progres
 void PartRunner::writeReference(const Variant& variant, Progress& progress) {
     const bool isKnown = reference_ && reference_->images.hash == variant.referenceHash;
     if (!isKnown || hasReferenceImages(variant)) return;
-    references_ = folder_.references();  // Another process may have been faster.
+    references_ = folder_.references();  // Another process may have written it.
     if (hasReferenceImages(variant)) return;
     const ReferenceRecord& record = reference_->record;
     const float stops = variant.setup.image.exposureStops;
@@ -131,8 +131,7 @@ bool PartRunner::runVariant(Variant& variant, Progress& progress) {
         reference = referenceOf(variant, progress);
     });
 
-    // What can't be written ends the run; what was written stays. The reference comes first, to be looked at
-    // while variants render
+    // An error of writing aborts the run. The reference is written first, so that users can view it early
     if (!interruptRequested()) writeReference(variant, progress);
     VariantImages images;
     if (failure.empty())
@@ -169,7 +168,7 @@ VariantImages PartRunner::render(Variant& variant, const PreparedReference* refe
     Session& session = prepared_.session();
     const auto update = [&](double fraction) { progress.update(fraction); };
     std::function<FrameReference(uint32_t)> referenceOfFrame;
-    if (!standsStill(variant.setup.scene))
+    if (!isStatic(variant.setup.scene))
         referenceOfFrame = [&](uint32_t number) {
             return FrameReference{session.frameReference(prepared_.study(), variant.setup, number, update),
                                   session.selectPixels(prepared_.study(), variant.setup, number)};

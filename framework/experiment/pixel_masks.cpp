@@ -14,15 +14,15 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kSubPixels = 2;  ///< Along each side of a pixel.
+constexpr uint32_t kSubPixels = 2;  ///< Along each edge of a pixel.
 
-/// Which instances and materials a mask names.
+/// The condition of a mask, with flags for the instances and materials that it names.
 struct MaskCondition {
     std::vector<bool> instances, materials;
     float minMetallic, maxRoughness;
 };
 
-/// Of its mesh, and of the node that places it.
+/// Names of the mesh and of the node of an instance.
 std::array<std::string, 2> namesOf(const Instance& instance, const Scene& scene) {
     return {scene.meshes[instance.mesh].name,
             instance.node >= 0 ? scene.nodes[size_t(instance.node)].name : ""};
@@ -55,7 +55,7 @@ bool isMet(const MaskCondition& condition, const SceneState& state, const Hit& h
     if (!condition.materials[number] || !condition.instances[instanceOf(geometry, hit.triangle)])
         return false;
 
-    // Metallic and roughness at the point
+    // Metallic and roughness at the hit
     const Material& material = state.scene->materials[number];
     float metallic = material.metallic, roughness = material.roughness;
     if (const int32_t texture = material.metallicRoughnessTexture.texture; texture >= 0) {
@@ -72,7 +72,7 @@ bool isMet(const MaskCondition& condition, const SceneState& state, const Hit& h
     return metallic >= condition.minMetallic && roughness <= condition.maxRoughness;
 }
 
-/// Whether any triangle may meet the condition. A texture lowers metallic and roughness, to 0 at most.
+/// Whether any triangle may meet the condition. A texture can reduce metallic and roughness down to 0.
 bool isMetSomewhere(const MaskCondition& condition, const SceneState& state) {
     const Geometry& geometry = state.geometry;
     for (uint32_t t = 0; t < geometry.triangles.size(); ++t) {
@@ -87,7 +87,7 @@ bool isMetSomewhere(const MaskCondition& condition, const SceneState& state) {
     return false;
 }
 
-/// Calls body(x, y, hit) for each pixel of an image, with what its center sees; rows in parallel.
+/// Calls body(x, y, hit) for each pixel of an image, with the hit at its center. Rows run in parallel.
 template <typename Body>
 void forEachPixel(const SceneState& state, const Camera& camera, uint32_t width, uint32_t height,
                   const Body& body) {
@@ -130,8 +130,7 @@ std::vector<PixelSelection> selectPixels(const std::vector<MaskSettings>& masks,
         selections.push_back({mask.name, std::vector<uint8_t>(size_t(width) * height, 1), 0});
     }
 
-    // One row of pixels is two rows of sub-pixels, which different threads may look through: each writes 0
-    // alone
+    // The two rows of sub-pixels of a row of pixels may be processed by different threads, which only write 0
     forEachPixel(state, camera, width * kSubPixels, height * kSubPixels,
                  [&](uint32_t x, uint32_t y, const Hit& hit) {
                      const size_t pixel = size_t(y / kSubPixels) * width + x / kSubPixels;
@@ -171,11 +170,11 @@ std::vector<PrimaryHit> primaryHits(const SceneState& state, const Camera& camer
                                     uint32_t height) {
     std::vector<PrimaryHit> hits(size_t(width) * height);
     forEachPixel(state, camera, width, height, [&](uint32_t x, uint32_t y, const Hit& hit) {
-        PrimaryHit& seen = hits[size_t(y) * width + x];
-        seen.depth = hit.t;  // Directions have length 1 along the axis
+        PrimaryHit& primary = hits[size_t(y) * width + x];
+        primary.depth = hit.t;  // Directions have length 1 along the axis
         if (hit.triangle == Hit::kMiss) return;
-        seen.instance = int32_t(instanceOf(state.geometry, hit.triangle));
-        seen.material = int32_t(state.geometry.triangleMaterials[hit.triangle]);
+        primary.instance = int32_t(instanceOf(state.geometry, hit.triangle));
+        primary.material = int32_t(state.geometry.triangleMaterials[hit.triangle]);
     });
     return hits;
 }

@@ -28,7 +28,7 @@ Percentiles percentilesFrom(const Json& json) {
     return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
-/// Reads a document up to a text. Each handler tells whether to go on.
+/// Finds the text at a path of keys and stops parsing there. Handlers return whether to continue.
 class TextSearch final : public PlainJson::json_sax_t {
  public:
     explicit TextSearch(const std::vector<std::string>& path) : path_(path) {}
@@ -66,7 +66,7 @@ class TextSearch final : public PlainJson::json_sax_t {
     }
 
     const std::vector<std::string>& path_;
-    std::vector<std::string> keys_;  ///< Of all objects that it is in; "" for lists.
+    std::vector<std::string> keys_;  ///< The current key of each enclosing object; "" for lists.
     std::string found_;
 };
 

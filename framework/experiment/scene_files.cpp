@@ -29,7 +29,7 @@ std::optional<fs::path> lookUp(const fs::path& name, const std::vector<fs::path>
     return std::nullopt;
 }
 
-/// What reads a file that the config names: what is wrong with it is told at the config's line.
+/// Calls read() for a file that the config names. Errors are reported with the line of the config.
 template <typename Read>
 auto readAt(const TextLocation& where, const Read& read) {
     try {
@@ -39,6 +39,75 @@ auto readAt(const TextLocation& where, const Read& read) {
     } catch (const Error& error) {
         throw UsageError(where, "{}", error.what());
     }
+}
+
+/// The path of a file in the first folder that has it; absolute names are returned as they are.
+/// @throws UsageError at `where` with the folders that were searched.
+fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& folders,
+                       const TextLocation& where) {
+    if (const auto path = lookUp(name, folders)) return *path;
+    const bool isAbsolute = fs::path(name).is_absolute();
+    std::vector<std::string> searched;
+    const std::vector<std::string> builtin = builtinSceneNames();
+    std::string advice;
+    if (std::ranges::count(builtin, name) > 0)
+        advice = fmt::format("; that scene is built in: write builtin: {}", name);
+    for (const fs::path& folder : folders) {
+        if (!isAbsolute) searched.push_back(folder.string());
+        if (advice.empty()) advice = didYouMeanFile(name, folder);
+    }
+    if (advice.empty())
+        advice = name.starts_with("~/") ? "; '~' stands for no folder here: write the whole path"
+                 : name.find('$') != std::string::npos
+                     ? "; '$' stands for no variable here: write the whole path"
+                 : name.find('\\') != std::string::npos
+                     ? "; write paths with '/'"
+                     : "; name its folder with --scenes DIR or VOXRAY_SCENES, see docs/scenes.md";
+    throw UsageError(where, "no file '{}'{}{}", oneLine(name, 200),
+                     searched.empty() ? "" : fmt::format(" in {}", fmt::join(searched, ", ")), advice);
+}
+
+/// @throws UsageError for a built-in scene that doesn't exist or has no such parameters.
+void checkBuiltin(const SceneSource& source, const std::vector<fs::path>& folders) {
+    const std::string& name = source.builtin;
+    const std::vector<std::string> names = builtinSceneNames();
+    if (std::ranges::count(names, name) == 0) {
+        std::string advice = didYouMean(name, names);
+        for (const char* ending : {"", ".gltf", ".glb"})
+            if (const std::string file = name + ending; lookUp(file, folders))
+                advice = fmt::format("; that is a file: write file: {}", file);
+        throw UsageError(source.where, "{}.builtin: no built-in scene '{}'{}", source.owner, name, advice);
+    }
+
+    // Suggestions include keys that all scenes have
+    std::vector<std::string> parameters, all = source.otherKeys;
+    for (const ParameterDoc& doc : describeBuiltinScene(name)) parameters.push_back(doc.name);
+    all.insert(all.end(), parameters.begin(), parameters.end());
+    for (const auto& [key, value] : source.builtinParameters.members)
+        if (std::ranges::count(parameters, key) == 0)
+            throw UsageError(value.where, "{}: {} has no parameter '{}'{}", source.owner, name, key,
+                             didYouMean(key, all));
+}
+
+/// @throws UsageError if the extension of the file is not one of glTF.
+void checkFormat(const SceneSource& source) {
+    const std::string ending = fs::path(source.file).extension().string();
+    for (const char* unsupported :
+         {".obj", ".fbx", ".blend", ".dae", ".ply", ".stl", ".usd", ".usdz", ".pbrt"})
+        if (ending == unsupported)
+            throw UsageError(source.where, "{}.file: '{}' is no glTF: export it as .glb", source.owner,
+                             oneLine(source.file, 200));
+}
+
+/// @throws UsageError if the extension of the environment map is that of an LDR format, which has no
+/// radiance.
+void checkMapFormat(const SceneSettings& settings) {
+    const std::string ending = fs::path(settings.environment->map).extension().string();
+    for (const char* ldr : {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp"})
+        if (ending == ldr)
+            throw UsageError(settings.environmentWhere,
+                             "scene.environment: '{}' holds no radiance: take an .exr file",
+                             oneLine(settings.environment->map, 200));
 }
 
 }  // namespace
@@ -51,77 +120,14 @@ std::vector<fs::path> sceneFolders(const fs::path& scenesOption, const fs::path&
         folders.push_back(variable);
     if (!sourceRoot.empty()) folders.push_back((sourceRoot / ".." / "shared" / "scenes").lexically_normal());
     if (!configFile.empty()) folders.push_back(configFile.has_parent_path() ? configFile.parent_path() : ".");
-    // Each once, in this order
-    std::vector<fs::path> once;
+    std::vector<fs::path> unique;
     for (const fs::path& folder : folders) {
         const auto isSame = [&](const fs::path& other) {
             return fs::weakly_canonical(other) == fs::weakly_canonical(folder);
         };
-        if (std::ranges::none_of(once, isSame)) once.push_back(folder);
+        if (std::ranges::none_of(unique, isSame)) unique.push_back(folder);
     }
-    return once;
-}
-
-fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& folders,
-                       const TextLocation& where) {
-    if (const auto path = lookUp(name, folders)) return *path;
-    const bool isAbsolute = fs::path(name).is_absolute();
-    std::vector<std::string> looked;
-    const std::vector<std::string> builtin = builtinSceneNames();
-    std::string advice;
-    if (std::ranges::count(builtin, name) > 0)
-        advice = fmt::format("; that scene is built in: write builtin: {}", name);
-    for (const fs::path& folder : folders) {
-        if (!isAbsolute) looked.push_back(folder.string());
-        if (advice.empty()) advice = didYouMeanFile(name, folder);
-    }
-    if (advice.empty())
-        advice = name.starts_with("~/") ? "; '~' stands for no folder here: write the whole path"
-                 : name.find('$') != std::string::npos
-                     ? "; '$' stands for no variable here: write the whole path"
-                 : name.find('\\') != std::string::npos
-                     ? "; write paths with '/'"
-                     : "; name its folder with --scenes DIR or VOXRAY_SCENES, see docs/scenes.md";
-    throw UsageError(where, "no file '{}'{}{}", oneLine(name, 200),
-                     looked.empty() ? "" : fmt::format(" in {}", fmt::join(looked, ", ")), advice);
-}
-
-void checkBuiltin(const SceneSource& source, const std::vector<fs::path>& folders) {
-    const std::string& name = source.builtin;
-    const std::vector<std::string> names = builtinSceneNames();
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
-        std::string advice = didYouMean(name, names);
-        for (const char* ending : {"", ".gltf", ".glb"})
-            if (const std::string file = name + ending; lookUp(file, folders))
-                advice = fmt::format("; that is a file: write file: {}", file);
-        throw UsageError(source.where, "{}.builtin: no built-in scene '{}'{}", source.owner, name, advice);
-    }
-
-    // Its own parameters, and in suggestions the keys that stand next to them
-    std::vector<std::string> own, all = source.otherKeys;
-    for (const ParameterDoc& doc : describeBuiltinScene(name)) own.push_back(doc.name);
-    all.insert(all.end(), own.begin(), own.end());
-    for (const auto& [key, value] : source.builtinParameters.members)
-        if (std::find(own.begin(), own.end(), key) == own.end())
-            throw UsageError(value.where, "{}: {} has no parameter '{}'{}", source.owner, name, key,
-                             didYouMean(key, all));
-}
-
-void checkFormat(const SceneSource& source) {
-    const std::string ending = fs::path(source.file).extension().string();
-    for (const char* other : {".obj", ".fbx", ".blend", ".dae", ".ply", ".stl", ".usd", ".usdz", ".pbrt"})
-        if (ending == other)
-            throw UsageError(source.where, "{}.file: '{}' is no glTF: export it as .glb", source.owner,
-                             oneLine(source.file, 200));
-}
-
-void checkMapFormat(const SceneSettings& settings) {
-    const std::string ending = fs::path(settings.environment->map).extension().string();
-    for (const char* other : {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp"})
-        if (ending == other)
-            throw UsageError(settings.environmentWhere,
-                             "scene.environment: '{}' holds no radiance: take an .exr file",
-                             oneLine(settings.environment->map, 200));
+    return unique;
 }
 
 void checkRadiance(const ImageF& map, const std::filesystem::path& path) {
@@ -199,7 +205,7 @@ std::string SceneLoader::key(const SceneSettings& settings) {
     hasher.addPlain(settings.options.keepFileLights).addPlain(settings.options.materials);
     if (settings.options.subdivide > 0) hasher.add("subdivide").addPlain(settings.options.subdivide);
     hasher.addPlain(settings.options.time).add(settings.cameraName);
-    // Where all goes from the compared frame on changes nothing in it but the bounds
+    // The compared frame depends on later motion only through the bounds of the scene
     hasher.addPlain(settings.options.timeStep > 0);
     hasher.add(settings.movingSpheres ? writeParams(*settings.movingSpheres).text() : "");
     hasher.add(settings.region ? writeParams(*settings.region).text() : "");

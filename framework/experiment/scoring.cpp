@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kTotal = kLightPrefixes[0];
 constexpr const char* kIndirect = kLightPrefixes[1];
 
-/// Calls body(end of the column's name, mask) for the whole image and for each mask that selects a pixel.
+/// Calls body(suffix of columns, mask) for the whole image and for each mask that selects a pixel.
 template <typename Body>
 void forEachRegion(const std::vector<PixelSelection>& masks, const Body& body) {
     body(std::string(), PixelMask());
@@ -23,7 +23,7 @@ void add(Scores& all, const std::string& light, const Scores& scores, const std:
     for (const auto& [metric, value] : scores) all[light + metric + region] = value;
 }
 
-/// Of all pixels and channels.
+/// Mean of all pixels and channels.
 double meanOf(const ImageF& image) {
     return std::accumulate(image.data.begin(), image.data.end(), 0.0) / double(image.data.size());
 }
@@ -116,11 +116,10 @@ void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReferen
     TemporalError total, indirect;
     std::vector<FrameMeans> totalMeans, indirectMeans;
     for (const FrameImages& test : frames) {
-        // Frame 0 has its scores already
-        std::optional<FrameReference> own;
-        if (test.frame > 0 && referenceOf) own = referenceOf(test.frame);
-        const ReferenceImages& right = own ? own->images : reference.images;
-        const auto& masks = own ? own->masks : reference.masks;
+        std::optional<FrameReference> frameReference;
+        if (test.frame > 0 && referenceOf) frameReference = referenceOf(test.frame);
+        const ReferenceImages& right = frameReference ? frameReference->images : reference.images;
+        const auto& masks = frameReference ? frameReference->masks : reference.masks;
         result.frames.push_back({test.frame, first});
         if (test.frame > 0)
             result.frames.back().scores =

@@ -10,7 +10,7 @@ namespace voxray {
 
 namespace {
 
-constexpr double kMaxImagesGiB = 8;  ///< Of the frames that are kept until they are scored.
+constexpr double kMaxImagesGiB = 8;  ///< Limit of frames in memory until they are scored.
 
 void checkHostMemory(const MeasureSettings& measure, const ImageSettings& image) {
     const double bytesOfFrame = double(image.width) * image.height * 6 * sizeof(float);
@@ -32,19 +32,19 @@ FrameImages downloadFrame(const Graph& graph, uint32_t number, Session& session)
     return images;
 }
 
-/// How many times measureGraph() runs a graph.
+/// Number of runs of a graph in measureGraph().
 double runsOf(const MeasureSettings& measure) {
     return 1.0 + measure.buildRepeats + measure.warmup + measure.frames;
 }
 
-/// What the second seed needs: frame 0 after as many frames as before the first one.
+/// Settings for the second seed: only frame 0, after the same number of warm-up frames.
 MeasureSettings untimed(MeasureSettings measure) {
     measure.buildRepeats = 0;
     measure.frames = 1;
     return measure;
 }
 
-/// Plans, prepares and measures a graph on the variant's scene; its memory is free again afterwards.
+/// Plans, prepares and measures a graph on the variant's scene, then frees its memory.
 Measurement runGraph(Graph graph, const Setup& setup, uint64_t seed, const MeasureSettings& measure,
                      Session& session, const std::function<void(double)>& progress,
                      const std::function<void(const Graph&, const Frame&, uint32_t)>& afterFrame) {
@@ -61,7 +61,7 @@ Measurement runGraph(Graph graph, const Setup& setup, uint64_t seed, const Measu
                         [&](const Frame& now, uint32_t number) { afterFrame(graph, now, number); });
 }
 
-/// All four components of an image of floats or half floats.
+/// Downloads all four components of an image of floats or half floats.
 std::vector<float> downloadTexels(Device& device, CommandStream& stream, const Image& image) {
     const ImageDesc& desc = image.desc();
     const uint64_t values = uint64_t(desc.extent.x) * desc.extent.y * 4;
@@ -78,13 +78,13 @@ std::vector<float> downloadTexels(Device& device, CommandStream& stream, const I
     return texels;
 }
 
-/// An image with room for `channels`, a number of them filled so far.
+/// Fills an image of `channels` channels one after another.
 class ChannelWriter {
  public:
     ChannelWriter(AovImage& to, uint32_t width, uint32_t height, size_t channels) : to_(to) {
         to_.image = ImageF(width, height, uint32_t(channels));
     }
-    /// @param valueOf the channel's value in a pixel, by its number.
+    /// @param valueOf returns the channel's value by the index of the pixel.
     template <typename ValueOf>
     void add(const std::string& name, const ValueOf& valueOf) {
         const size_t channel = to_.channels.size(), stride = to_.image.channels;
@@ -109,8 +109,11 @@ void writeFramePreviews(const std::filesystem::path& folder, const VariantImages
     for (const FrameImages& later : images.laterFrames) write(later.frame, later.final, later.indirect);
 }
 
-}  // namespace
-
+/// Downloads the AOVs of the graph's resources (Resource::aovs). Each image has three more channels, computed
+/// with camera rays on the host: Z, the distance along the camera's axis in m (+inf without a surface), and
+/// `id` and `material_id`, the indices of the mesh instance and the material in the scene (-1 for none).
+/// @param origin of the frame's coordinates; it is added to the layer P.
+/// @throws Error if a resource's AOVs differ in size or have another format.
 std::vector<AovImage> downloadAovs(const Graph& graph, const Frame& frame, const glm::vec3& origin,
                                    Device& device, CommandStream& stream) {
     std::vector<AovImage> images;
@@ -141,6 +144,8 @@ std::vector<AovImage> downloadAovs(const Graph& graph, const Frame& frame, const
     }
     return images;
 }
+
+}  // namespace
 
 uint64_t graphRuns(const Experiment& experiment) {
     const MeasureSettings& measure = experiment.measure;

@@ -43,7 +43,7 @@ NormalCounts countNormals(const std::shared_ptr<const Scene>& scene, const std::
                         .changed = reported(sample, "voxels with another normal than by area, %")};
     for (const gpu::VoxelCluster& cluster :
          chain.read<gpu::VoxelCluster>(chain.graph().resource<VoxelClusters>("clusters")->clusters)) {
-        const float up = cluster.normal.y;
+        const float up = cluster.seedNormal.y;
         (up > 0.999f ? counts.up : up < -0.999f ? counts.down : counts.others) += cluster.memberCount;
     }
     return counts;

@@ -54,8 +54,8 @@ void expectSame(Chain& a, Chain& b) {
     };
     const auto *clustersA = a.graph().resource<VoxelClusters>("clusters"),
                *clustersB = b.graph().resource<VoxelClusters>("clusters");
-    for (Buffer VoxelClusters::*buffer : {&VoxelClusters::clusters, &VoxelClusters::clusterOfVoxel,
-                                          &VoxelClusters::memberVoxels, &VoxelClusters::coordinates})
+    for (Buffer VoxelClusters::*buffer :
+         {&VoxelClusters::clusters, &VoxelClusters::clusterOfVoxel, &VoxelClusters::coordinates})
         expectSameBuffer(clustersA->*buffer, clustersB->*buffer);
     const auto *patchesA = a.graph().resource<VoxelPatches>("patches"),
                *patchesB = b.graph().resource<VoxelPatches>("patches");

@@ -25,7 +25,7 @@ void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters
     const Buffer labels(device, "labels of surface groups", uintBytes(groups));
     const Buffer changed(device, "labels that changed", uintBytes(1));
     stream.dispatch(iota_, groups, {{"values", labels}, {"count", groups}});
-    for (bool isDone = false; !isDone;) {
+    for (bool isConverged = false; !isConverged;) {
         stream.fill(changed, 0);
         stream.dispatch(propagateLabels_, groups,
                         {{"groups", patches.groups},
@@ -35,7 +35,7 @@ void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters
                          {"labels", labels},
                          {"changed", changed},
                          {"groupCount", groups}});
-        isDone = stream.readAs<uint32_t>(changed, 1)[0] == 0;
+        isConverged = stream.readAs<uint32_t>(changed, 1)[0] == 0;
     }
     const Buffer flags(device, "flags of roots", uintBytes(words));
     const Buffer roots(device, "list of roots", uintBytes(groups));

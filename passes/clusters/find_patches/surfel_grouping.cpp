@@ -6,7 +6,7 @@
 namespace voxray {
 namespace {
 
-/// Of a voxel, unoccluded and occluded each; the last one takes all remaining surfels.
+/// Limit of unoccluded and of occluded groups in a voxel. All remaining surfels join the last one.
 constexpr uint32_t kMaxGroupsPerVoxel = 8;
 
 }  // namespace

@@ -1,10 +1,10 @@
-#include "app/first_config.h"
+#include "app/starter_config.h"
 
 #include <fmt/format.h>
 
 namespace voxray {
 
-std::string firstConfig(const FirstScene& scene) {
+std::string starterConfig(const StarterScene& scene) {
     return fmt::format(R"(name: {}
 scene:
   {}

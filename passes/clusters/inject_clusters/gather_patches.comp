@@ -1,4 +1,4 @@
-// Irradiance of all patches, from their visibility lists.
+// Gathers the irradiance of each patch along its visibility list.
 #include "passes/clusters/gather_patch.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

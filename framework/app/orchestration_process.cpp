@@ -1,4 +1,4 @@
-#include "app/hand_over.h"
+#include "app/orchestration_process.h"
 
 #include <unistd.h>
 
@@ -21,8 +21,8 @@ Value stringValue(const std::string& word) {
     return Value::fromScalar(word, true);
 }
 
-/// What was written for an option, else its default; null where it has none.
-Value given(const CLI::Option& option) {
+/// The value that was given for an option, else its default; null if there is none.
+Value valueOf(const CLI::Option& option) {
     const bool isList = option.get_items_expected_max() > 1 ||
                         option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
     if (option.get_items_expected_max() == 0) return Value::fromScalar(option.count() > 0 ? "true" : "false");
@@ -37,12 +37,12 @@ Value given(const CLI::Option& option) {
 
 }  // namespace
 
-void handOver(const CLI::App& command) {
+void runOrchestration(const CLI::App& command) {
     Value options = Value::map();
     for (const CLI::Option* option : command.get_options())
         if (option != command.get_help_ptr())
             options.set(option->get_lnames().empty() ? option->get_name() : option->get_lnames()[0],
-                        given(*option));
+                        valueOf(*option));
     std::vector<std::string> words{kPython,
                                    "-B",
                                    (sourceRoot() / "framework/orchestration").string(),
