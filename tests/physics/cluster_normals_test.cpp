@@ -38,7 +38,7 @@ NormalCounts countNormals(const std::shared_ptr<const Scene>& scene, const std::
                            "cluster_voxels, target: 8, normals: open_space, ties: " + ties}),
                 16, 16, 1);
     const PassSample& sample = chain.buildSamples.at(1);
-    NormalCounts counts{.tied = reported(sample, "voxels whose open ways tie, %"),
+    NormalCounts counts{.tied = reported(sample, "voxels with a tie of unoccupied directions, %"),
                         .decided = reported(sample, "voxels that fragments decide otherwise, %"),
                         .changed = reported(sample, "voxels with another normal than by area, %")};
     for (const gpu::VoxelCluster& cluster :

@@ -230,9 +230,9 @@ void FindClusterVisibility::record(PassContext& context) {
     const auto percent = [&](uint32_t lost) { return count > 0 ? 100 * lost / rays : 0; };
     // Keys of values.csv. A "hit without surfel" is HIT_NO_GROUP
     context.report("patches", count);
-    context.report("clusters and voxels seen by a patch",
+    context.report("visibility list entries of a patch",
                    count > 0 ? double(visibility.entryCount) / count : 0);
-    context.report("rays that met nothing, %", percent(missed[0]));
+    context.report("rays without a hit, %", percent(missed[0]));
     context.report("hits without surfel, % of rays", percent(missed[1]));
     context.report("bytes of the lists", double(visibility.bytes()));
     if (updateCache_)

@@ -66,7 +66,7 @@ void ClusterVoxels::record(PassContext& context) {
         context.report(name, 100.0 * count / voxels.voxelCount);
     };
     reportPercent("voxels whose surfaces disagree, %", counts.disagreeing);
-    reportPercent("voxels whose open ways tie, %", counts.tied);
+    reportPercent("voxels with a tie of unoccupied directions, %", counts.tied);
     reportPercent("voxels that fragments decide otherwise, %", counts.decided);
     reportPercent("voxels with another normal than by area, %", counts.changed);
 }

@@ -103,11 +103,11 @@ void FindPatches::record(PassContext& context) {
         updateCache_->storeVoxels(context.stream, voxels);
     }
     // In values.csv a "side" is a surface group and a "part of a cluster" is a component
-    context.report("sides of voxels", patches.groupCount);
-    context.report("sides for each voxel", double(patches.groupCount) / voxels.voxelCount);
+    context.report("surface groups", patches.groupCount);
+    context.report("surface groups of a voxel", double(patches.groupCount) / voxels.voxelCount);
     context.report("patches for each voxel", double(patches.patchCount) / voxels.voxelCount);
-    context.report("parts of clusters", patches.componentCount);
-    context.report("bytes of sides", double(patches.bytes()));
+    context.report("cluster components", patches.componentCount);
+    context.report("bytes of surface groups", double(patches.bytes()));
 }
 
 void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& lists) {
