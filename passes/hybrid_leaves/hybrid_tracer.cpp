@@ -61,7 +61,7 @@ void HybridTracer::dispatch(CommandStream& stream, const Program& program, VkDev
                          {"hybridTestCounts", testCounts_},
                          {"rays", rays},
                          {"starts", starts},
-                         {"hits", results},
+                         {"results", results},
                          {"grid", grid_},
                          {"maxWidth", maxWidth_},
                          {"firstRay", first},

@@ -4,7 +4,6 @@
 #ifndef VOXRAY_VOXEL_MARCH_GLSL
 #define VOXRAY_VOXEL_MARCH_GLSL
 
-
 #include "shaders/voxel_march/segment.glsl"
 #include "shaders/voxel_march/surface_segment.glsl"
 #include "shaders/voxels/voxels.glsl"

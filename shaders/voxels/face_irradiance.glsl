@@ -3,7 +3,6 @@
 #ifndef VOXRAY_FACE_IRRADIANCE_GLSL
 #define VOXRAY_FACE_IRRADIANCE_GLSL
 
-
 // By voxel and face: as faceLight() of face_lookup.glsl.
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer FaceIrradiance { vec4 data[]; };
 layout(scalar) readonly buffer FaceIrradianceRef { FaceIrradiance faceIrradiance; };

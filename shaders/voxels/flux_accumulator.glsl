@@ -2,7 +2,6 @@
 #ifndef VOXRAY_FLUX_ACCUMULATOR_GLSL
 #define VOXRAY_FLUX_ACCUMULATOR_GLSL
 
-
 #include "shaders/voxels/face.glsl"
 #include "shaders/compute/large_buffer.glsl"
 

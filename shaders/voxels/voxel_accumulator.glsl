@@ -3,7 +3,6 @@
 #ifndef VOXRAY_VOXEL_ACCUMULATOR_GLSL
 #define VOXRAY_VOXEL_ACCUMULATOR_GLSL
 
-
 #include "shaders/voxels/face.glsl"
 
 #define WRITE_AVERAGE 0

@@ -3,7 +3,6 @@
 #ifndef VOXRAY_VOXELS_GLSL
 #define VOXRAY_VOXELS_GLSL
 
-
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/voxels/voxel_packing.h"
 

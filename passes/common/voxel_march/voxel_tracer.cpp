@@ -27,7 +27,7 @@ void VoxelTracer::trace(CommandStream& stream, Query query, const Buffer& rays, 
         stream.dispatch(query == Query::Occluded ? occluded_ : closestHit_, end - first,
                         {march_,
                          {"rays", rays.address()},
-                         {"hits", results.address()},
+                         {"results", results.address()},
                          {"grid", grid_},
                          {"firstRay", first},
                          {"endRay", end}});

@@ -11,10 +11,10 @@
 // The ray through a texel's center, and the light through the texel: E * area, or I * solid angle (of the texel's center; exact as
 // texels shrink). A ray that carries nothing is one that is not traced (tMax < tMin).
 Ray rsmRay(LightView view, GpuLight light, uint resolution, ivec2 texel, out LightPath path) {
-    const vec2 onView = texelOnView(view, resolution, texel);
+    const vec2 onView = texelCenter(view, resolution, texel);
     const float side = texelWidth(view, resolution);
     const TexelRay beam = texelRay(view, onView);
-    Ray ray = Ray(beam.start, 0.0, normalize(beam.along), 1.0e30);
+    Ray ray = Ray(beam.origin, 0.0, normalize(beam.direction), 1.0e30);
     path = LightPath(vec3(0.0), 0.0, 0.0, 0.0);
     if (view.parallel != 0u) {
         path.area = side * side;
