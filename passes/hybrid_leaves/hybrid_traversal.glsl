@@ -115,20 +115,20 @@ Hit hybridClosestHit(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float
     VoxelSegment s;
     if (!segmentOfRay(g, origin, direction, tFirst, tLast, s)) return closest;
     const float rounding = MARCH_TIE * (tLast - tFirst);
-    beginWalk(g, s);
+    initTraversal(g, s);
     ivec3 flippedVoxel = firstVoxel(s);
     const uint bound = voxelsBetween(s);
     for (uint i = 0u; i <= bound; ++i) {
-        if (!walkOn(g, s, flippedVoxel)) break;
+        if (!advanceToOccupied(g, s, flippedVoxel)) break;
         const ivec3 voxel = flippedVoxel ^ s.flip;
-        const vec3 entries = mix(partsTo(s, unitsTo(s, flippedVoxel)), vec3(0.0), equal(s.run, vec3(0.0)));
+        const vec3 entries = mix(planeParameters(s, unitsToPlanes(s, flippedVoxel)), vec3(0.0), equal(s.run, vec3(0.0)));
         const float tEntry = tFirst + clamp(max(entries.x, max(entries.y, entries.z)), 0.0, 1.0) * (tLast - tFirst);
         if (closest.t < tEntry - rounding) break;
         if (start.width + start.spread * tEntry > maxWidth) {
             closest = Hit(tEntry, HIT_IS_WIDE, 0.0, 0.0);
             break;
         }
-        const vec3 exits = partsTo(s, unitsTo(s, flippedVoxel + 1));
+        const vec3 exits = planeParameters(s, unitsToPlanes(s, flippedVoxel + 1));
         const float tExit = tFirst + min(min(exits.x, min(exits.y, exits.z)), 1.0) * (tLast - tFirst);
         const uint leaf = hybridLeaves.words.data[voxelNumber(g, voxel)];
         if (isGridLeaf(leaf))

@@ -5,7 +5,7 @@ namespace {
 
 constexpr VkFormat kShadowMapFormat = VK_FORMAT_D32_SFLOAT;
 
-/// As shaders/lights/shadow_maps.glsl has it.
+/// As in shaders/lights/shadow_maps.glsl.
 struct ShadowLight {
     uint32_t light;
     uint32_t firstView;
@@ -72,9 +72,9 @@ void ShadowMaps::draw(PassContext& context, const std::vector<LightSource>& sour
     std::vector<uint32_t> header{resolution_, uint32_t(sources.size())};
     std::vector<gpu::LightView> views;
     for (const LightSource& source : sources) {
-        const auto own = lightViews(state.lights[source.light], state.geometry);
-        header.insert(header.end(), {source.light, uint32_t(views.size()), uint32_t(own.size())});
-        views.insert(views.end(), own.begin(), own.end());
+        const auto added = lightViews(state.lights[source.light], state.geometry);
+        header.insert(header.end(), {source.light, uint32_t(views.size()), uint32_t(added.size())});
+        views.insert(views.end(), added.begin(), added.end());
     }
     stream.upload(lights_, header);
     stream.upload(views_, views);

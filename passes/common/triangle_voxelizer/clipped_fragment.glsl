@@ -19,7 +19,7 @@
 
 struct TriangleFragment {
     uint triangle;
-    ivec3 voxel;  // In grid coordinates; may lie outside the window that the grid holds.
+    ivec3 voxel;  // In grid coordinates; may be outside the grid's window.
     GridTriangle permutedTriangle;
     ivec3 permutedVoxel;
 };

@@ -4,14 +4,15 @@
 
 namespace voxray {
 
-/// The irradiance of each voxel's six faces, ready for lookups by many rays
-/// (shaders/voxels/face_irradiance.glsl). 6 x (W/m², area in voxel faces) as 24 floats a voxel.
+/// Irradiance of each voxel's six faces for lookups at many hits (shaders/voxels/face_irradiance.glsl): RGB,
+/// W/m², and area in voxel faces, 24 floats per voxel.
 class FaceIrradiance {
  public:
     explicit FaceIrradiance(ProgramOwner& owner);
 
-    /// Divides flux, and with `added` the sum of both, by area; allocates on the first call and where the
-    /// number of voxels has changed. @param area, flux: as VoxelIrradiance holds them.
+    /// Divides flux, or the sum of `flux` and `added`, by area. Reallocates when the number of voxels has
+    /// changed.
+    /// @param area, flux, added as in VoxelIrradiance.
     void update(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& area,
                 const LargeBuffer& flux, const LargeBuffer* added = nullptr);
     /// Frees the irradiance, once the stream has finished.

@@ -7,14 +7,13 @@
 
 namespace voxray {
 
-/// Levels from a grid's voxels to a single voxel round them all; the voxels of each are twice as wide as
-/// those of the level below.
+/// Number of levels from a grid's voxels to a single voxel; the voxels of each are twice as wide as those of
+/// the next finer level.
 inline uint32_t gridLevels(glm::uvec3 resolution) {
     return uint32_t(std::bit_width(std::max({resolution.x, resolution.y, resolution.z}) - 1)) + 1;
 }
 
-/// Voxels of a level along each axis, of a grid of `resolution`: half as many as of the level below, rounded
-/// up.
+/// Voxels of a level along each axis: half as many as of the next finer level, rounded up.
 inline glm::uvec3 levelResolution(glm::uvec3 resolution, uint32_t level) {
     return (resolution + ((1u << level) - 1u)) >> level;
 }

@@ -144,7 +144,7 @@ void LightClipmap::relight(PassContext& context, bool moved) {
     for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
         const ClipmapVoxels::Level& level = clipmap.levels[l];
         const SurfaceVoxels& voxels = everywhere || !level.updated.materials ? level.voxels : level.updated;
-        const std::vector<VoxelBox> boxes = everywhere ? std::vector{heldVoxels(voxels.grid)} : level.boxes;
+        const std::vector<VoxelBox> boxes = everywhere ? std::vector{windowVoxels(voxels.grid)} : level.boxes;
         if (boxes.empty()) continue;
         VoxelIrradiance direct = directLight(context, voxels, boxes);
         fillWindow(context, l, voxels, boxes, direct, direct.indirect);
@@ -164,7 +164,7 @@ void LightClipmap::relight(PassContext& context, bool moved) {
         for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
             const SurfaceVoxels& voxels = clipmap.levels[l].voxels;
             if (voxels.voxelCount == 0) continue;
-            fillWindow(context, l, voxels, {heldVoxels(voxels.grid)}, lights[l], flux[l]);
+            fillWindow(context, l, voxels, {windowVoxels(voxels.grid)}, lights[l], flux[l]);
         }
         fillCoarseLevels(context);
     }

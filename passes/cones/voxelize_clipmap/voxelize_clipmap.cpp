@@ -14,7 +14,7 @@ gpu::VoxelGrid levelGrid(gpu::VoxelGrid grid, uint32_t level, uint32_t side) {
     grid.voxelSize *= float(1u << level);
     grid.resolution = levelResolution(grid.resolution, level);
     grid.windowSize = side;
-    grid.wordsPerRow = (heldVoxels(grid).size.x + 31) / 32;
+    grid.wordsPerRow = (windowVoxels(grid).size.x + 31) / 32;
     return grid;
 }
 
@@ -94,7 +94,7 @@ void VoxelizeClipmap::record(PassContext& context) {
         voxels.grid.first = windows_[l].first;
         level.updated = {};
         if (previous.empty()) {
-            level.boxes = {heldVoxels(voxels.grid)};
+            level.boxes = {windowVoxels(voxels.grid)};
             builder_.build(context, voxels);
         } else {
             level.boxes = scrolledIn(previous[l], windows_[l]);

@@ -260,7 +260,7 @@ void BuildHybridLeaves::classifyLeaves(PassContext& context, const SurfaceVoxels
     CommandStream& stream = context.stream;
     const uint32_t count = voxels.voxelCount;
     const Bindings leafBindings{{"leaves", count}, {"capacity", params_.primitives}};
-    rebuiltCounts_ = Buffer(context.device, "triangles of leaves that are built", wordBytes(count));
+    rebuiltCounts_ = Buffer(context.device, "triangles of leaves that are built", uintBytes(count));
     counts_ = Buffer(context.device, "triangles of each leaf", rebuiltCounts_.bytes());
     stream.fill(rebuiltCounts_, 0);
     voxelizer_->run(context, *countTriangles_, voxels.grid, voxels.bindings({{"counts", rebuiltCounts_}}), 0);
@@ -272,8 +272,8 @@ void BuildHybridLeaves::classifyLeaves(PassContext& context, const SurfaceVoxels
 
     // First items of lists and indices of grids by exclusive prefix sums; Seok 2021, figure 7, takes the
     // order of arrival
-    const Buffer sizes(context.device, "sizes of lists", wordBytes(count));
-    const Buffer grids(context.device, "grids", wordBytes(count));
+    const Buffer sizes(context.device, "sizes of lists", uintBytes(count));
+    const Buffer grids(context.device, "grids", uintBytes(count));
     const Buffer statistics(context.device, "what leaves are", sizeof(LeafStatistics));
     stream.fill(statistics, 0);
     stream.dispatch(sizeLists_, count,
@@ -283,7 +283,7 @@ void BuildHybridLeaves::classifyLeaves(PassContext& context, const SurfaceVoxels
                      {"grids", grids},
                      {"statistics", statistics},
                      leafBindings.all()});
-    leaves.words = Buffer(context.device, "hybrid leaves", wordBytes(count));
+    leaves.words = Buffer(context.device, "hybrid leaves", uintBytes(count));
     itemCount_ = prefixSum_.run(stream, sizes, leaves.words, count);
     requireBelow(itemCount_, kMaxListItems, "items of lists");
     leaves.gridCount = prefixSum_.run(stream, grids, grids, count);
@@ -303,7 +303,7 @@ void BuildHybridLeaves::classifyLeaves(PassContext& context, const SurfaceVoxels
 void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves) {
     CommandStream& stream = context.stream;
     leaves.primitives =
-        Buffer(context.device, "lists of triangles", wordBytes(uint64_t(itemCount_) * LIST_ITEM_WORDS));
+        Buffer(context.device, "lists of triangles", uintBytes(uint64_t(itemCount_) * LIST_ITEM_WORDS));
     const CellLayout layout = cellLayout(*context.frame.scene->scene);
     const uint32_t gridWords = wordsPerGrid(params_.grid, gridLevels());
     leaves.shape = {voxels.voxelCount, params_.primitives, params_.grid,          gridLevels(),
@@ -318,7 +318,7 @@ void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& vox
     const Buffer pairCount(context.device, "number of pairs", sizeof(uint32_t));
     stream.copy(rebuiltCounts_, remaining, rebuiltCounts_.bytes());
     stream.fill(pairCount, 0);
-    pairs_ = LargeBuffer(context.device, "triangles in grids", 3 * wordBytes(pairCount_));
+    pairs_ = LargeBuffer(context.device, "triangles in grids", 3 * uintBytes(pairCount_));
     const std::vector<Binding> bindings = voxels.bindings({{"remaining", remaining},
                                                            {"pairCount", pairCount},
                                                            {"PairsRef", pairs_.ref()},

@@ -38,7 +38,7 @@ bool cellSurface(TriangleFragment cell, out CellSurface s) {
     c.center = barycentricsAt(t, center);
     c.texCoordWidth = t.texCoordWidth;
     s.material = fragmentMaterial(cell, c);
-    s.emissionLevel = footprintLevel(sceneMaterials.data[s.material.at.material].emissiveTexture, c.texCoordWidth);
+    s.emissionLevel = footprintLevel(sceneMaterials.data[s.material.point.material].emissiveTexture, c.texCoordWidth);
     const vec3 surfaceCentroid = t.p0 + c.center.x * (t.p1 - t.p0) + c.center.y * (t.p2 - t.p0);
     s.point = clamp(fromCellCenter(cell, surfaceCentroid), -0.5, 0.5);
     return true;

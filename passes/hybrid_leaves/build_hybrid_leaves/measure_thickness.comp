@@ -11,7 +11,7 @@ float halfThicknessBound(GridCell c, CellSurface s, TriangleFragment cell, vec3 
     const vec3 points[] = vec3[](t.p0, t.p1, t.p2);
     for (uint k = 0u; k < 3u; ++k)
         cornerBound = max(cornerBound, abs(dot(c.normal, center + scale * fromCellCenter(cell, points[k])) - c.distance_));
-    const vec3 n = s.material.at.geometricNormal;
+    const vec3 n = s.material.point.geometricNormal;
     const float slope = n == vec3(0.0) ? 1.0 : length(cross(c.normal, n));
     const float slopeBound = abs(dot(c.normal, center + scale * s.point) - c.distance_) + slope * sqrt(3.0) * scale;
     return min(min(cornerBound, slopeBound), abs(dot(c.normal, center) - c.distance_) + 0.5 * scale * dot(abs(c.normal), vec3(1.0)));
