@@ -7,7 +7,7 @@ uint64_t voxelsOf(glm::uvec3 resolution) {
 }
 
 DenseFill::DenseFill(ProgramOwner& owner)
-    : surface_(owner, "dense_surface.comp"), level_(owner, "dense_level.comp") {}
+    : surface_(owner, "dense_surface.comp"), level_(owner, "passes/cones/radiance/filter_level.comp") {}
 
 void DenseFill::plan(const RadianceVoxels& radiance) {
     for (Kernel* kernel : {&surface_, &level_}) kernel->define(radiance.defines());

@@ -1,5 +1,5 @@
-// Direct light on the surfaces of voxels. The fragment callback tests each clipped fragment, the part of a triangle in a voxel, against
-// the shadow map of each punctual light:
+// Direct light on the surfaces of voxels. The fragment callback tests each clipped fragment, a triangle clipped to a voxel, against the
+// shadow map of each punctual light:
 //
 //        * light
 //         \   .                 E    mean irradiance over the fragment's sub-samples: o lit, x in shadow
@@ -31,7 +31,7 @@ void processFragment(TriangleFragment f) {
     const int count = max(bitCount(c.subSamples), 1);
     uvec2 lit = uvec2(0u);  // Sub-samples that any light reaches, on the front and on the back.
     for (uint k = 0u; k < shadowLights.count; ++k) {
-        // Each light is on one side of the triangle.
+        // A light illuminates one side of the triangle
         const ShadowLight shadowed = shadowLights.data[k];
         const GpuLight light = sceneLights.data[shadowed.light];
         const int back = dot(samplePunctual(light, p0).direction, front) < 0.0 ? 1 : 0;

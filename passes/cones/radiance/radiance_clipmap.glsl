@@ -9,12 +9,12 @@ bool inWindow(ClipmapWindow w, ivec3 voxel) {
 }
 
 // How windows are stored. The included file declares
-//  - radianceVoxels, a buffer with a RadianceGrid `grid`; `side`, the size of a window in voxels at most, a power of two; `firstWhole`,
-//    the first level that is held whole, as are all coarser ones; and the windows by level, `window`;
-//  - CLIPMAP_SLOT clipmapSlot(uint level, ivec3 voxel): the slot of a voxel in the window of a level. Addressing is toroidal
-//    (coordinates modulo `side`), so that a voxel keeps its slot when the window moves;
-//  - vec4 radianceValue(CLIPMAP_SLOT slot, uint face), and storeRadiance(slot, face, value) for shaders that fill windows. `face`: 0 to
-//    5 for +x -x +y -y +z -z, 0 with one value for all;
+//  - radianceVoxels, a buffer with a RadianceGrid `grid`; `windowSize`, the maximum size of a window in voxels, a power of
+//    two; `firstWhole`, the finest level whose window is the level's whole grid; and the windows by level, `window`;
+//  - RADIANCE_INDEX radianceIndex(uint level, ivec3 voxel): where a voxel of a level's window is stored. Addressing is
+//    toroidal (coordinates modulo `windowSize`), so that voxels stay where they are when the window moves;
+//  - vec4 radianceValue(RADIANCE_INDEX index, uint face), and storeRadiance(index, face, value) for shaders that fill
+//    windows. `face`: 0 to 5 for +x -x +y -y +z -z, 0 with one value for all;
 //  - vec4 quantizedRadiance(vec4 value): a value as it reads after it was stored;
 //  - vec4 sampleWindow(uint level, vec3 position, vec3 direction): as sampleLevel(), from one window; 0 outside of it.
 #ifdef RADIANCE_CLIPMAP_TEXTURES
@@ -22,6 +22,10 @@ bool inWindow(ClipmapWindow w, ivec3 voxel) {
 #else
 #include "passes/cones/radiance/radiance_clipmap_buffer.glsl"
 #endif
+
+// Levels as the shaders that fill them address them.
+#define RADIANCE_LEVEL uint
+uint radianceLevel(uint level) { return level; }
 
 // Blend weight of a level against the next coarser one: from 1 on the level alone counts, up to 0 it does not count. It falls linearly
 // over a transition zone before the window's border, by the maximum norm; with RADIANCE_CLIPMAP_EUCLIDEAN before the border of a ball,

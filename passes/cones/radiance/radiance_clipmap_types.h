@@ -10,11 +10,11 @@
 
 VOXRAY_SHARED_BEGIN
 
-// The box of a level's voxels that is held.
+// The window of a level: the box of its voxels that are stored.
 struct ClipmapWindow {
     ivec3 first;      // Voxel of the level at the box's lower corner.
     uvec3 size;       // Voxels along each axis.
-    uint slotOffset;  // Voxels of all finer levels.
+    uint firstIndex;  // Of the first voxel; the number of voxels of all finer levels.
     vec3 center;      // m
     vec3 reach;       // m from the center to where its weight in samples is 0; unbounded along axes that are
                       // held whole.

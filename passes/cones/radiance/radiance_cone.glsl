@@ -30,7 +30,7 @@ struct ConeBase {
     // By axis: height above the surface's plane, in voxels of a sample's level, above which a sample of a layer across that axis does
     // not read the surface itself. 0 where the surface has no faces along the axis.
     vec3 clearHeight;
-    // By face +x -x +y -y +z -z: radiance times opacity, and opacity, within the start's voxel, for a cone that leaves it that way.
+    // By face +x -x +y -y +z -z: radiance times opacity, and opacity, within the start's voxel, for a cone in that direction.
     vec4 startVoxel[6];
 };
 

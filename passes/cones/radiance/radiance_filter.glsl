@@ -30,7 +30,7 @@ vec4 combineFaces(vec4 child[8], uint face) {
     return 0.25 * sum;
 }
 
-// The same with one value for all faces: the mean, since front and rear can't be told apart.
+// The same with one value for all faces: the mean, since there is no front.
 vec4 combineAll(vec4 child[8]) {
     vec4 sum = vec4(0.0);
     for (uint octant = 0u; octant < 8u; ++octant) sum += child[octant];

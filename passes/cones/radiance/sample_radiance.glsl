@@ -4,7 +4,7 @@
 
 #include "passes/cones/radiance/radiance_voxels.glsl"
 
-// What a ray along `direction` (unit) sees in a cube of side `footprint` (m) round `position`: rgb, the radiance that surfaces there send
+// What a ray along `direction` (unit) sees in a cube of side `footprint` (m) around `position`: rgb, the radiance that surfaces there send
 // against `direction`, times their opacity, W/(m² sr); a, the opacity over one footprint's length: 0 in empty space, above 1 where
 // surfaces occlude each other. Linear in space and, by opacity per length, between levels: a surface is equally opaque in both.
 vec4 sampleRadiance(vec3 position, float footprint, vec3 direction) {

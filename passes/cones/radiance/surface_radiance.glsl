@@ -78,4 +78,10 @@ vec4 meanRadiance(VoxelGrid g, uint voxel, float emission) {
     return area > 0.0 ? vec4(opacity / area * radiance, opacity) : vec4(0.0);
 }
 
+// The value of a voxel in a grid of one or six directions; 0 for NO_VOXEL.
+vec4 voxelRadiance(VoxelGrid g, uint voxel, uint face, float emission) {
+    if (voxel == NO_VOXEL) return vec4(0.0);
+    return g.directions == 6u ? faceRadiance(g, voxel, face, emission) : meanRadiance(g, voxel, emission);
+}
+
 #endif

@@ -1,6 +1,6 @@
-// Filters a level of radiance voxels in full grids from the level below.
-#include "shaders/compute/linear_index.glsl"
+// Filters a level of radiance voxels from the next finer one. Both are full grids, or windows that are.
 #include "passes/cones/radiance/radiance_voxels.glsl"
+#include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
 layout(push_constant) uniform Push { uint level; } push;
