@@ -23,7 +23,8 @@ void main() {
     RayStart start = RayStart(vec3(0.0), 0.0, 0.0);
     if (push.starts != 0ul) start = StartStream(push.starts).data[i];
     Hit hit = Hit(ray.tMax, NO_HIT, 0.0, 0.0);
-    if (isTraceable(ray)) hit = hybridClosestHit(push.grid, ray.origin, ray.direction, ray.tMin, ray.tMax, start, push.maxWidth);
+    if (isTraceable(ray))
+        hit = hybridClosestHit(push.grid, ray.origin, ray.direction, ray.tMin, ray.tMax, start, push.maxWidth);
     storeResult(push.results, i, hit);
     countMarch();
     if (hybridTests != 0u) {

@@ -34,7 +34,8 @@ vec2 texelCoordinates(LightView view, uint resolution, vec3 position) {
     return (planePoint + view.halfExtent) / texelWidth(view, resolution);
 }
 
-// First of the 2x2 texels for bilinear interpolation at a position, and their weights, row by row. Clamped at the view's border.
+// First of the 2x2 texels for bilinear interpolation at a position, and their weights, row by row. Clamped at the
+// view's border.
 ivec2 bilinearTexels(LightView view, uint resolution, vec3 position, out vec4 weights) {
     const vec2 coordinates = texelCoordinates(view, resolution, position) - 0.5;
     const ivec2 first = clamp(ivec2(floor(coordinates)), ivec2(0), ivec2(resolution) - 2);
@@ -50,13 +51,14 @@ uint cubeFace(vec3 v) {
     return 2u * axis + (v[axis] < 0.0 ? 1u : 0u);
 }
 
-// Shadow test of a surface point against a texel: the texel's depth is compared with where its ray intersects the point's tangent
-// plane. So flat surfaces don't shadow themselves at any slope. The bias of half a texel's width is for curved surfaces and rounding.
-// @param depth of the texel, as stored. @param normal on the side that faces the light.
+// Shadow test of a surface point against a texel: the texel's depth is compared with where its ray intersects the
+// point's tangent plane. So flat surfaces don't shadow themselves at any slope. The bias of half a texel's width is for
+// curved surfaces and rounding. @param depth of the texel, as stored. @param normal on the side that faces the light.
 bool texelPassesShadowTest(LightView view, uint resolution, ivec2 texel, float depth, vec3 position, vec3 normal) {
     const TexelRay ray = texelRay(view, texelCenter(view, resolution, texel));
     const float cosine = dot(ray.direction, normal);
-    const float planeDepth = cosine < 0.0 ? min(dot(position - ray.origin, normal) / cosine, view.farthest) : view.farthest;
+    const float planeDepth =
+        cosine < 0.0 ? min(dot(position - ray.origin, normal) / cosine, view.farthest) : view.farthest;
     const float texelDepth = depth * view.farthest;
     const float width = texelWidth(view, resolution) * (view.parallel != 0u ? 1.0 : texelDepth);
     return texelDepth + 0.5 * width >= planeDepth;

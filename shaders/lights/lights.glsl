@@ -52,8 +52,9 @@ uint pickEmitter(uint emitterCount, float u) {
 LightSample sampleEmitters(uint emitterCount, vec3 position, float pick, vec2 u) {
     const GpuEmitter emitter = sceneEmitters.data[pickEmitter(emitterCount, pick)];
     const uvec3 corners = triangleVertices(emitter.triangle);
-    const SphericalTriangle t = sphericalTriangle(vertexPosition(corners.x) - position, vertexPosition(corners.y) - position,
-                                                  vertexPosition(corners.z) - position);
+    const SphericalTriangle t =
+        sphericalTriangle(vertexPosition(corners.x) - position, vertexPosition(corners.y) - position,
+                          vertexPosition(corners.z) - position);
     const bool isWide = t.solidAngle > MIN_SOLID_ANGLE;
     const SurfacePoint e = surfacePoint(emitter.triangle, isWide ? sphericalTrianglePoint(t, u) : trianglePoint(u));
     const GpuMaterial m = sceneMaterials.data[e.material];
@@ -64,14 +65,16 @@ LightSample sampleEmitters(uint emitterCount, vec3 position, float pick, vec2 u)
     s.direction = toLight / s.distance_;
     float cosine = -dot(e.geometricNormal, s.direction);
     if (m.doubleSided != 0u) cosine = abs(cosine);
-    const float angle = isWide ? float(cosine > 0.0) * t.solidAngle : max(cosine, 0.0) * emitter.area / (s.distance_ * s.distance_);
+    const float angle =
+        isWide ? float(cosine > 0.0) * t.solidAngle : max(cosine, 0.0) * emitter.area / (s.distance_ * s.distance_);
     s.irradiance = emittedRadiance(m, e) * angle / emitter.probability;
     return s;
 }
 
-// A sample of a light source for a surface point: of punctual light `light`, or sample `light` of `samples` samples of the emissive
-// surfaces (by power and solid angle) or of the environment (by cosine about `normal`). `index` of the point selects its range of the
-// Sobol sequence of `seed`. The irradiance is divided by `samples`, and is without the cosine.
+// A sample of a light source for a surface point: of punctual light `light`, or sample `light` of `samples` samples of
+// the emissive surfaces (by power and solid angle) or of the environment (by cosine about `normal`). `index` of the
+// point selects its range of the Sobol sequence of `seed`. The irradiance is divided by `samples`, and is without the
+// cosine.
 LightSample sampleSource(uint kind, uint light, uint samples, uint emitterCount, vec3 position, vec3 normal, uint index,
                          uint seed) {
     if (kind == SOURCE_PUNCTUAL) return samplePunctual(sceneLights.data[light], position);

@@ -24,7 +24,8 @@ bool passesShadowTest(ShadowLight l, vec3 position, vec3 normal) {
     const uint resolution = shadowLights.resolution;
     const uint index = l.firstView + (l.views == 6u ? cubeFace(position - shadowViews.data[l.firstView].origin) : 0u);
     const LightView view = shadowViews.data[index];
-    const ivec2 texel = clamp(ivec2(floor(texelCoordinates(view, resolution, position))), ivec2(0), ivec2(resolution) - 1);
+    const ivec2 texel =
+        clamp(ivec2(floor(texelCoordinates(view, resolution, position))), ivec2(0), ivec2(resolution) - 1);
     const float depth = shadowDepths.data[(index * resolution + uint(texel.y)) * resolution + uint(texel.x)];
     return texelPassesShadowTest(view, resolution, texel, depth, position, normal);
 }

@@ -1,5 +1,5 @@
-// Uniform sampling of the solid angle that a triangle subtends at a point (Arvo 1995). Unlike samples by area these have bounded
-// weights, however close the triangle is.
+// Uniform sampling of the solid angle that a triangle subtends at a point (Arvo 1995). Unlike samples by area these
+// have bounded weights, however close the triangle is.
 #ifndef VOXRAY_SPHERICAL_TRIANGLE_GLSL
 #define VOXRAY_SPHERICAL_TRIANGLE_GLSL
 

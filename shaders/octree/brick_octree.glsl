@@ -1,5 +1,6 @@
-// The octree of bricks as published (Arnebäck 2017, section 3.1.1). A brick holds 3x3x3 values, 8 bits a channel, at its node's
-// corners and at the centers of its edges, of its faces and of itself. So interpolation needs one brick only.
+// The octree of bricks as published (Arnebäck 2017, section 3.1.1). A brick holds 3x3x3 values, 8 bits a channel, at
+// its node's corners and at the centers of its edges, of its faces and of itself. So interpolation needs one brick
+// only.
 //
 //        a --- b --- c --- d --- e       Two nodes. c, h and m are stored in both bricks, with the same values.
 //        |     |     |     |     |
@@ -28,7 +29,8 @@ uint indexInLevel(LevelNodes level, uint node) {
 }
 uint nodesOf(LevelNodes level) { return level.staticCount + level.dynamicCount; }
 
-// The node at `depth` (root: 0) with the coordinates `cell` in its level, by descent; NO_BRICK_NODE where there is none.
+// The node at `depth` (root: 0) with the coordinates `cell` in its level, by descent; NO_BRICK_NODE where there is
+// none.
 #define NO_BRICK_NODE 0xffffffffu
 uint findNode(BrickNodes nodes, ivec3 cell, uint depth) {
     uint node = 0u;

@@ -1,13 +1,13 @@
-// The structure of a sparse voxel octree (docs/svo.md): the nonempty voxels of each level, without values. Values are arrays indexed
-// by node. Nodes are indexed from 1, breadth first from the root, so that the children of a node are consecutive. The word of a node
-// above level 0 holds the mask of its children in the low 8 bits and the index of the first child in the upper 24. A word of 0 is an
-// empty voxel; index 0 is NO_NODE.
+// The structure of a sparse voxel octree (docs/svo.md): the nonempty voxels of each level, without values. Values are
+// arrays indexed by node. Nodes are indexed from 1, breadth first from the root, so that the children of a node are
+// consecutive. The word of a node above level 0 holds the mask of its children in the low 8 bits and the index of the
+// first child in the upper 24. A word of 0 is an empty voxel; index 0 is NO_NODE.
 //
-// A uniform node replaces its descendants (passes/cones/filter_voxels/svo_collapse.h): its word has an empty mask and its own index.
-// OctreeBuilder makes none.
+// A uniform node replaces its descendants (passes/cones/filter_voxels/svo_collapse.h): its word has an empty mask and
+// its own index. OctreeBuilder makes none.
 //
-// A table holds the words of levels from tableLevel up as well, by voxel: for each of these levels, and for one level above the root,
-// a full grid with a border of one voxel.
+// A table holds the words of levels from tableLevel up as well, by voxel: for each of these levels, and for one level
+// above the root, a full grid with a border of one voxel.
 //
 // The voxel of a leaf is in Octree::leafVoxels, packed by packCell().
 #ifndef VOXRAY_OCTREE_GLSL
@@ -49,7 +49,8 @@ uint octreeTableEntry(ivec3 voxel, uint level) {
     return octree.shape.tableFirst[level - octree.shape.tableLevel] + (cell.z * size.y + cell.y) * size.x + cell.x;
 }
 
-// The word of a voxel of a level above 0, which may be in the border: 0 where it is empty; that of a uniform ancestor, if there is one.
+// The word of a voxel of a level above 0, which may be in the border: 0 where it is empty; that of a uniform ancestor,
+// if there is one.
 uint octreeWord(ivec3 voxel, uint level) {
     const uint top = max(level, octree.shape.tableLevel);
     uint word = octree.table.data[octreeTableEntry(voxel >> (top - level), top)];
@@ -57,13 +58,14 @@ uint octreeWord(ivec3 voxel, uint level) {
     return word;
 }
 
-// Nodes of the 2x2x2 voxels from `corner` on, by octant; false where all are empty. The inner loop of cone tracing: all eight share
-// one computation of table rows, and there is no descent for levels whose parents are in the table.
+// Nodes of the 2x2x2 voxels from `corner` on, by octant; false where all are empty. The inner loop of cone tracing: all
+// eight share one computation of table rows, and there is no descent for levels whose parents are in the table.
 bool octreeNodes(ivec3 corner, uint level, out uint node[8]) {
     const uint top = max(level + 1u, octree.shape.tableLevel), up = top - level;
     const ivec3 size = octreeSize(top) + 2, low = (corner >> up) + 1, high = ((corner + 1) >> up) + 1;
     const uint first = octree.shape.tableFirst[top - octree.shape.tableLevel];
-    const uvec2 x = uvec2(low.x, high.x), y = size.x * uvec2(low.y, high.y), z = first + size.x * size.y * uvec2(low.z, high.z);
+    const uvec2 x = uvec2(low.x, high.x), y = size.x * uvec2(low.y, high.y),
+                z = first + size.x * size.y * uvec2(low.z, high.z);
     for (uint cell = 0u; cell < 8u; ++cell)
         node[cell] = octree.table.data[x[cell & 1u] + y[cell >> 1 & 1u] + z[cell >> 2]];
     uint found = 0u;

@@ -4,8 +4,9 @@
 
 #include "shaders/scene/scene.glsl"
 
-// The mip level whose texels have the area of the footprint, `area` m² on the surface; 0 where even texels of level 0 are larger. The
-// filter is isotropic: at grazing angles the level is between that of the footprint's width and that of its length.
+// The mip level whose texels have the area of the footprint, `area` m² on the surface; 0 where even texels of level 0
+// are larger. The filter is isotropic: at grazing angles the level is between that of the footprint's width and that of
+// its length.
 float footprintLevel(GpuTextureRef ref, SurfacePoint s, float area) {
     if (ref.texture == NO_TEXTURE) return 0.0;
     const float density = (ref.texCoord == 0u ? s.uvDensity.x : s.uvDensity.y) *

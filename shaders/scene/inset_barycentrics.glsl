@@ -4,8 +4,9 @@
 
 #include "shaders/scene/scene.glsl"
 
-// Moves a point of a triangle away from its edges by the rounding error of interpolation, four roundings. On the edge between a floor
-// and a wall rounding would decide on which side of the wall the point is: behind it the point is dark, and mirror rays leave the room.
+// Moves a point of a triangle away from its edges by the rounding error of interpolation, four roundings. On the edge
+// between a floor and a wall rounding would decide on which side of the wall the point is: behind it the point is dark,
+// and mirror rays leave the room.
 vec2 insetBarycentrics(uint triangle, vec2 barycentrics) {
     const uvec3 v = triangleVertices(triangle);
     const vec3 a = vertexPosition(v.x), b = vertexPosition(v.y), c = vertexPosition(v.z);

@@ -8,7 +8,9 @@
 
 // Arrays by address: they may exceed maxStorageBufferRange (128 MiB on software Vulkan).
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer VertexPositions { vec3 data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer VertexAttributes { GpuVertexAttributes data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer VertexAttributes {
+    GpuVertexAttributes data[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleVertices { uvec3 data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleMaterials { uint data[]; };
 layout(scalar) readonly buffer SceneGeometry {  // GpuSceneGeometry in trace/gpu_scene.cpp.
@@ -45,8 +47,8 @@ struct SurfacePoint {
     float offset;          // Of the origins of rays that leave the surface, m along the geometric normal.
 };
 
-// The point with the barycentric weights w, clamped to the triangle's bounds: all points of a triangle in the plane between two voxels
-// are then in the same voxel, whatever rounding does.
+// The point with the barycentric weights w, clamped to the triangle's bounds: all points of a triangle in the plane
+// between two voxels are then in the same voxel, whatever rounding does.
 vec3 interpolate(vec3 w, vec3 p0, vec3 p1, vec3 p2) {
     return clamp(w.x * p0 + w.y * p1 + w.z * p2, min(p0, min(p1, p2)), max(p0, max(p1, p2)));
 }
@@ -80,8 +82,9 @@ vec2 textureUv(GpuTextureRef ref, vec4 texCoords) {
     return vec2(dot(ref.rowU, uv), dot(ref.rowV, uv));
 }
 
-// Mip level for a texture with clamped addressing. Lookups outside of it return its edge texels, which in coarse levels are means over
-// the texture's inside. So the level decreases with the distance from the texture, to 0 where a footprint of 2^level texels is outside.
+// Mip level for a texture with clamped addressing. Lookups outside of it return its edge texels, which in coarse levels
+// are means over the texture's inside. So the level decreases with the distance from the texture, to 0 where a
+// footprint of 2^level texels is outside.
 float clampedLevel(GpuTextureRef ref, vec2 uv, float level) {
     const vec2 size = vec2(textureSize(sceneTextures[nonuniformEXT(ref.texture)], 0));
     const vec2 outside = max(abs(uv - 0.5) - 0.5, 0.0) * size * vec2(ref.wrapU == WRAP_CLAMP, ref.wrapV == WRAP_CLAMP);
@@ -93,7 +96,8 @@ float clampedLevel(GpuTextureRef ref, vec2 uv, float level) {
 vec4 lookup(GpuTextureRef ref, vec4 texCoords, float level) {
     if (ref.texture == NO_TEXTURE) return vec4(1.0);
     const vec2 uv = textureUv(ref, texCoords);
-    return textureLod(sceneTextures[nonuniformEXT(ref.texture)], uv, level > 0.0 ? clampedLevel(ref, uv, level) : level);
+    return textureLod(sceneTextures[nonuniformEXT(ref.texture)], uv,
+                      level > 0.0 ? clampedLevel(ref, uv, level) : level);
 }
 
 vec4 baseColor(GpuMaterial m, SurfacePoint s, float level) {
@@ -110,8 +114,9 @@ float textureAlpha(GpuTextureRef ref, vec4 texCoords) {
     const ivec2 texelRows = ivec2(y.first, y.second);
     vec2 rows;
     for (int row = 0; row < 2; ++row)
-        rows[row] = mix(texelFetch(sceneTextures[nonuniformEXT(ref.texture)], ivec2(x.first, texelRows[row]), 0).a,
-                        texelFetch(sceneTextures[nonuniformEXT(ref.texture)], ivec2(x.second, texelRows[row]), 0).a, x.weight);
+        rows[row] =
+            mix(texelFetch(sceneTextures[nonuniformEXT(ref.texture)], ivec2(x.first, texelRows[row]), 0).a,
+                texelFetch(sceneTextures[nonuniformEXT(ref.texture)], ivec2(x.second, texelRows[row]), 0).a, x.weight);
     return mix(rows.x, rows.y, y.weight);
 }
 
@@ -148,7 +153,8 @@ vec3 shadingNormal(GpuMaterial m, SurfacePoint s, float level) {
     return dot(n, n) > 0.0 ? normalize(n) : s.normal;
 }
 
-// Radiant intensity of a spot light over that along its axis. `cosAngle`: of the direction's angle to the axis (KHR_lights_punctual).
+// Radiant intensity of a spot light over that along its axis. `cosAngle`: of the direction's angle to the axis
+// (KHR_lights_punctual).
 float spotFalloff(GpuLight light, float cosAngle) {
     const float t = clamp((cosAngle - light.cosOuter) / max(0.001, light.cosInner - light.cosOuter), 0.0, 1.0);
     return t * t;

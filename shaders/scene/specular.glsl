@@ -1,5 +1,6 @@
-// Specular lobe over a Lambert lobe: GGX with height-correlated Smith masking and Schlick's Fresnel term, as in glTF 2.0 (appendix B,
-// KHR_materials_specular, KHR_materials_ior). The same model as the reference's, passes/path_trace/bsdf.h.
+// Specular lobe over a Lambert lobe: GGX with height-correlated Smith masking and Schlick's Fresnel term, as in glTF
+// 2.0 (appendix B, KHR_materials_specular, KHR_materials_ior). The same model as the reference's,
+// passes/path_trace/bsdf.h.
 #ifndef VOXRAY_SPECULAR_GLSL
 #define VOXRAY_SPECULAR_GLSL
 
@@ -48,16 +49,16 @@ float smithRoot(float cosine, float alpha) {
     return sqrt(a2 + (1.0 - a2) * cosine * cosine);
 }
 
-// D G / (4 cosIn cosOut): the lobe without its Fresnel term. `sin2Half`: squared sine between half vector and normal, which near the
-// peak is more accurate than 1 - cos².
+// D G / (4 cosIn cosOut): the lobe without its Fresnel term. `sin2Half`: squared sine between half vector and normal,
+// which near the peak is more accurate than 1 - cos².
 float ggx(float cosIn, float cosOut, float sin2Half, float alpha) {
     const float a2 = alpha * alpha, denominator = (1.0 - sin2Half) * a2 + sin2Half;
     return a2 / (3.14159265358979 * denominator * denominator) * 0.5 /
            (cosIn * smithRoot(cosOut, alpha) + cosOut * smithRoot(cosIn, alpha));
 }
 
-// Samples the half vectors visible from `out_`; the normal is +z. Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with Spherical
-// Caps".
+// Samples the half vectors visible from `out_`; the normal is +z. Dupuy and Benyoub 2023, "Sampling Visible GGX Normals
+// with Spherical Caps".
 vec3 visibleNormal(vec3 out_, float alpha, vec2 u) {
     const vec3 stretched = normalize(vec3(out_.xy * alpha, out_.z));
     const float phi = 2.0 * 3.14159265358979 * u.x, z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
@@ -81,7 +82,8 @@ vec3 reflectance(vec3 diffuseAlbedo_, Specular s, vec3 n, vec3 out_, vec3 direct
     const vec3 transmitted = diffuseFraction(s, weight) * diffuse;
     if (isMirror(s)) return transmitted;
     const vec3 sine = cross(n, half_);
-    return transmitted + specularFresnel(s, weight) * ggx(dot(n, direction), max(dot(n, out_), 1e-5), dot(sine, sine), specularAlpha(s));
+    return transmitted + specularFresnel(s, weight) *
+                             ggx(dot(n, direction), max(dot(n, out_), 1e-5), dot(sine, sine), specularAlpha(s));
 }
 
 #endif

@@ -1,5 +1,5 @@
-// Bilinear texture filter at level 0 with weights in full precision, as in trace/texture_lookup.cpp: samplers round weights, and alpha
-// masks must be the same for all tracers.
+// Bilinear texture filter at level 0 with weights in full precision, as in trace/texture_lookup.cpp: samplers round
+// weights, and alpha masks must be the same for all tracers.
 #ifndef VOXRAY_TEXEL_FILTER_GLSL
 #define VOXRAY_TEXEL_FILTER_GLSL
 

@@ -33,8 +33,8 @@ uint tracingIndex(uint instance, uint primitive) {
     return Words(call.chunkFirst).data[instance] + primitive;
 }
 
-// The hit that a backend found, with its distance recomputed from the triangle's plane relative to the ray's origin: backends compute
-// it from world-space coordinates, which cancels digits of short distances.
+// The hit that a backend found, with its distance recomputed from the triangle's plane relative to the ray's origin:
+// backends compute it from world-space coordinates, which cancels digits of short distances.
 Hit makeHit(vec3 origin, vec3 direction, float t, uint instance, uint primitive, vec2 barycentrics) {
     const uint index = tracingIndex(instance, primitive);
     const uvec3 corner = Corners(call.corners).data[index];
@@ -57,7 +57,8 @@ float alphaLookup(AlphaMaterial material, vec2 uv) {
     const Texels x = filteredTexels(uv.x, int(material.width), material.wrapU, material.filter_);
     const Texels y = filteredTexels(uv.y, int(material.height), material.wrapV, material.filter_);
     const float top = mix(alphaTexel(material, x.first, y.first), alphaTexel(material, x.second, y.first), x.weight);
-    const float bottom = mix(alphaTexel(material, x.first, y.second), alphaTexel(material, x.second, y.second), x.weight);
+    const float bottom =
+        mix(alphaTexel(material, x.first, y.second), alphaTexel(material, x.second, y.second), x.weight);
     return mix(top, bottom, y.weight);
 }
 

@@ -1,8 +1,8 @@
 // The texel that a gather ray starts from, and its sample of the frame's low-discrepancy sequence.
 //
-// Blocks of texels in Morton order use consecutive ranges of the sequence (Ahmed and Wonka 2020), and the texels of a block consecutive
-// ranges of the block's. Aligned ranges of an Owen-scrambled Sobol sequence are stratified, so that the rays of a texel, of a block and of
-// any larger square of blocks are well distributed.
+// Blocks of texels in Morton order use consecutive ranges of the sequence (Ahmed and Wonka 2020), and the texels of a
+// block consecutive ranges of the block's. Aligned ranges of an Owen-scrambled Sobol sequence are stratified, so that
+// the rays of a texel, of a block and of any larger square of blocks are well distributed.
 #ifndef VOXRAY_GATHER_LAYOUT_GLSL
 #define VOXRAY_GATHER_LAYOUT_GLSL
 
@@ -29,9 +29,9 @@ uint compactBits(uint x) {
 uint morton(uvec2 p) { return expandBits(p.x) | (expandBits(p.y) << 1); }
 uvec2 mortonInverse(uint code) { return uvec2(compactBits(code), compactBits(code >> 1)); }
 
-// Index in the block, in Morton order, of the texel that ray j starts from. Where a block has fewer rays than texels, a ray represents a
-// range of texels and starts from a random one of them: the same one in all blocks would alias with the filter, whose strides are powers
-// of two.
+// Index in the block, in Morton order, of the texel that ray j starts from. Where a block has fewer rays than texels, a
+// ray represents a range of texels and starts from a random one of them: the same one in all blocks would alias with
+// the filter, whose strides are powers of two.
 uint rayTexel(GatherLayout g, uvec2 block, uint j) {
     const uint count = g.blockSize * g.blockSize;
     const uint first = j * count / g.raysPerBlock;
@@ -40,8 +40,8 @@ uint rayTexel(GatherLayout g, uvec2 block, uint j) {
     return first + hashCombine(g.seed ^ 0x5bd1e995u, morton(block) * g.raysPerBlock + j) % texels;
 }
 
-// The first ray of a block that starts from texel t or a later one: ceil(t * rays / count). Where a block has as many rays as texels or
-// more.
+// The first ray of a block that starts from texel t or a later one: ceil(t * rays / count). Where a block has as many
+// rays as texels or more.
 uint firstRay(GatherLayout g, uint t) {
     const uint count = g.blockSize * g.blockSize;
     return (t * g.raysPerBlock + count - 1u) / count;

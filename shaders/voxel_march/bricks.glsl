@@ -1,4 +1,5 @@
-// Occupancy in bricks of 4x4x4 voxels, which are stored in rows along x: 64 bits a brick, low word first. Bit x + 4 y + 16 z is a voxel.
+// Occupancy in bricks of 4x4x4 voxels, which are stored in rows along x: 64 bits a brick, low word first. Bit x + 4 y +
+// 16 z is a voxel.
 #ifndef VOXRAY_VOXEL_BRICKS_GLSL
 #define VOXRAY_VOXEL_BRICKS_GLSL
 

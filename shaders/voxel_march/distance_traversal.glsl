@@ -18,7 +18,9 @@ void initCells(VoxelGrid g, VoxelSegment s, int level) {
     octantShift = distanceShift(uint(isDown.x) | uint(isDown.y) << 1 | uint(isDown.z) << 2);
 }
 
-uint cellIndex(ivec3 cell) { return uint(firstCell + cell.x * cellStride.x + cell.y * cellStride.y + cell.z * cellStride.z); }
+uint cellIndex(ivec3 cell) {
+    return uint(firstCell + cell.x * cellStride.x + cell.y * cellStride.y + cell.z * cellStride.z);
+}
 
 // End of the empty box in front of an empty cell, in voxels.
 ivec3 emptyBoxEnd(ivec3 cell, uint word) { return (cell + int(word >> octantShift & 7u)) << cellLevel; }

@@ -1,9 +1,9 @@
-// Directional distances to the next occupied cell, for each octant of directions. A cell is a cube of voxels and has a word. The word of
-// an empty cell holds for each octant, in 3 bits, the edge in cells of the empty cube that begins with the cell, at most 7; its low 8
-// bits are 0. The low 8 bits of any other cell hold the mask of its occupied octants, as in the words of octree nodes
-// (shaders/octree/octree.glsl).
+// Directional distances to the next occupied cell, for each octant of directions. A cell is a cube of voxels and has a
+// word. The word of an empty cell holds for each octant, in 3 bits, the edge in cells of the empty cube that begins
+// with the cell, at most 7; its low 8 bits are 0. The low 8 bits of any other cell hold the mask of its occupied
+// octants, as in the words of octree nodes (shaders/octree/octree.glsl).
 //
-//     cells, X occupied           the distance of . is 3 for directions up and to the right, 2 for those up and to the left
+//     cells, X occupied           distances of .: 3 in the octant up and to the right, 2 up and to the left
 //     - - - - X -
 //     - - - - - -
 //     X - - - - -

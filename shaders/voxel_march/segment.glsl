@@ -1,27 +1,29 @@
-// The voxels that a segment passes through, exactly (docs/voxel-march.md). Voxels are half-open boxes: voxel (x, y, z) holds the points
-// from x up to, but not including, x + 1, and so on. So each point of a segment is in one voxel, and the sequence of voxels depends on
-// the segment only, not on the traversal that finds them.
+// The voxels that a segment passes through, exactly (docs/voxel-march.md). Voxels are half-open boxes: voxel (x, y, z)
+// holds the points from x up to, but not including, x + 1, and so on. So each point of a segment is in one voxel, and
+// the sequence of voxels depends on the segment only, not on the traversal that finds them.
 //
-// Ends of segments are quantized to the centers of a lattice of units, 2^-14 voxels: the resolution of a float at the far end of a grid
-// of 1024 voxels. The parameter at which a segment crosses a plane between voxels is (n - 1/2) / run, where n and run are integers of
-// units below 2^25. Which of two planes is crossed first is thus a comparison of integer products, without rounding. Nearly always
-// floats decide it; they also detect where they can't.
+// Ends of segments are quantized to the centers of a lattice of units, 2^-14 voxels: the resolution of a float at the
+// far end of a grid of 1024 voxels. The parameter at which a segment crosses a plane between voxels is (n - 1/2) / run,
+// where n and run are integers of units below 2^25. Which of two planes is crossed first is thus a comparison of
+// integer products, without rounding. Nearly always floats decide it; they also detect where they can't.
 //
-// Axes along which a segment goes down are mirrored, x to `size` - x, with `size` a power of two: in this file segments go up.
+// Axes along which a segment goes down are mirrored, x to `size` - x, with `size` a power of two: in this file segments
+// go up.
 #ifndef VOXRAY_VOXEL_SEGMENT_GLSL
 #define VOXRAY_VOXEL_SEGMENT_GLSL
 
 #define MARCH_FRACTION 14
 #define MARCH_UNITS (1 << MARCH_FRACTION)
 
-// Parameters in floats are within 2^-21 of the exact ones (error of a quotient 2.5 ulp, of a difference and a product 1/2 ulp each):
-// two that differ by less than this are compared as integers.
+// Parameters in floats are within 2^-21 of the exact ones (error of a quotient 2.5 ulp, of a difference and a product
+// 1/2 ulp each): two that differ by less than this are compared as integers.
 #define MARCH_TIE 1.2e-6
 // Relative error of a position on the segment, times the longest run: see VoxelSegment::tolerance.
 #define MARCH_ROUNDING 1.2e-6
 
-// Positions in floats are offset into [1024, 2048), where all have the same exponent: their bits are integers of 2^-13 voxels. That avoids
-// a conversion, which lavapipe does lane by lane. VoxelSegment::tolerance includes what it truncates.
+// Positions in floats are offset into [1024, 2048), where all have the same exponent: their bits are integers of 2^-13
+// voxels. That avoids a conversion, which lavapipe does lane by lane. VoxelSegment::tolerance includes what it
+// truncates.
 #define MARCH_FLOAT_OFFSET 1024.0
 #define MARCH_FLOAT_FRACTION 13
 
@@ -70,8 +72,9 @@ ivec3 unitsToPlanes(VoxelSegment s, ivec3 planes) { return (planes << MARCH_FRAC
 // Parameters, 0 to 1, at which the segment crosses planes so many units away.
 vec3 planeParameters(VoxelSegment s, ivec3 units) { return (vec3(units) - 0.5) * s.inverseRun; }
 
-// Which of two planes of different axes the segment crosses first: below 0 the first, above 0 the second, 0 both at once. A point on a
-// plane belongs to the voxel above it. So of two planes that are crossed at once, that of an axis that isn't mirrored comes first.
+// Which of two planes of different axes the segment crosses first: below 0 the first, above 0 the second, 0 both at
+// once. A point on a plane belongs to the voxel above it. So of two planes that are crossed at once, that of an axis
+// that isn't mirrored comes first.
 int comparePlanes(int unitsA, float runA, int flipA, int unitsB, float runB, int flipB) {
     uint highA, lowA, highB, lowB;
     umulExtended(uint(2 * unitsA - 1), uint(runB), highA, lowA);
@@ -89,10 +92,11 @@ bvec3 firstPlanes(VoxelSegment s, ivec3 units) {
     return bvec3(xy <= 0 && zx >= 0, yz <= 0 && xy >= 0, zx <= 0 && yz >= 0);
 }
 
-// Coordinate along `axis` of the voxel just after the segment crosses a plane of another axis, which is `units` away. `position`: the
-// point of crossing along `axis`, in units, with an error of at most s.tolerance.
+// Coordinate along `axis` of the voxel just after the segment crosses a plane of another axis, which is `units` away.
+// `position`: the point of crossing along `axis`, in units, with an error of at most s.tolerance.
 int voxelAfterPlane(VoxelSegment s, int axis, int position, int units, float run, int flip) {
-    const int plane = (position + MARCH_UNITS / 2) >> MARCH_FRACTION, toPlane = (plane << MARCH_FRACTION) - s.start[axis];
+    const int plane = (position + MARCH_UNITS / 2) >> MARCH_FRACTION,
+              toPlane = (plane << MARCH_FRACTION) - s.start[axis];
     if (abs(position - (plane << MARCH_FRACTION)) > s.tolerance) return position >> MARCH_FRACTION;
     return toPlane <= 0 || comparePlanes(units, run, flip, toPlane, s.run[axis], s.flip[axis]) >= 0 ? plane : plane - 1;
 }
@@ -106,7 +110,9 @@ bool leaveBoxExactly(VoxelSegment s, ivec3 planes, inout ivec3 voxel) {
     const ivec3 position = s.start + ivec3(s.run * min(parameters.x, min(parameters.y, parameters.z)));
     const int first = crossed.x ? 0 : crossed.y ? 1 : 2;
     for (int axis = 0; axis < 3; ++axis)
-        voxel[axis] = crossed[axis] ? planes[axis] : voxelAfterPlane(s, axis, position[axis], units[first], s.run[first], s.flip[first]);
+        voxel[axis] = crossed[axis]
+                          ? planes[axis]
+                          : voxelAfterPlane(s, axis, position[axis], units[first], s.run[first], s.flip[first]);
     return true;
 }
 
@@ -115,13 +121,15 @@ bool leaveBoxExactly(VoxelSegment s, ivec3 planes, inout ivec3 voxel) {
 #define MARCH_ENDED 1   // The segment ends in the box.
 #define MARCH_UNSURE 2  // Rounding may matter: leaveBoxExactly() takes this step.
 
-// The same in floats, without branches: the inner loop of marches. Unless the result is MARCH_MOVED, `voxel` is undefined.
+// The same in floats, without branches: the inner loop of marches. Unless the result is MARCH_MOVED, `voxel` is
+// undefined.
 int leaveBox(VoxelSegment s, ivec3 planes, inout ivec3 voxel) {
     const vec3 parameters = planeParameters(s, unitsToPlanes(s, planes));
     const float t = min(parameters.x, min(parameters.y, parameters.z));
     const ivec3 position = floatBitsToInt(s.floatStart + s.runVoxels * t);
     voxel = position >> MARCH_FLOAT_FRACTION & 1023;
-    // The position is close to the plane that is crossed. Where it is close to planes of two axes, their order is unsure
+    // The position is close to the plane that is crossed. Where it is close to planes of two axes, their order is
+    // unsure
     const ivec3 isClose = ivec3(lessThanEqual(position & ((1 << MARCH_FLOAT_FRACTION) - 1), ivec3(s.tolerance + 1)));
     const bool isSure = isClose.x + isClose.y + isClose.z == 1 && t < 1.0 - MARCH_TIE;
     return t > 1.0 + MARCH_TIE ? MARCH_ENDED : isSure ? MARCH_MOVED : MARCH_UNSURE;

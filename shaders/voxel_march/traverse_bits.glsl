@@ -1,5 +1,5 @@
-// Traverses the occupancy bits voxel by voxel: a digital differential analyzer (Amanatides and Woo 1987). Steps are those of leaveBox(),
-// simplified for boxes of one voxel.
+// Traverses the occupancy bits voxel by voxel: a digital differential analyzer (Amanatides and Woo 1987). Steps are
+// those of leaveBox(), simplified for boxes of one voxel.
 void initTraversal(VoxelGrid g, VoxelSegment s) {}
 
 bool advanceToOccupied(VoxelGrid g, VoxelSegment s, inout ivec3 flipped) {

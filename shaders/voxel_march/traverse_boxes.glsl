@@ -1,5 +1,6 @@
-// Traverses empty boxes of any data structure. The including file has defined bool findEmptyBox(ivec3 flipped, out ivec3 planes): false
-// where a voxel is occupied; else the box from the voxel up to the planes before `planes` is empty.
+// Traverses empty boxes of any data structure. The including file has defined bool findEmptyBox(ivec3 flipped, out
+// ivec3 planes): false where a voxel is occupied; else the box from the voxel up to the planes before `planes` is
+// empty.
 bool advanceToOccupied(VoxelGrid g, VoxelSegment s, inout ivec3 flipped) {
     const uint bound = voxelsBetween(s);
     ivec3 voxel = flipped, planes;

@@ -1,5 +1,5 @@
-// Traverses bricks by their distances (shaders/voxel_march/distances.glsl), and within a brick empty cubes of 2 voxels or one. Each step
-// reads the distance and the brick's bits at once, so that neither read waits for the other.
+// Traverses bricks by their distances (shaders/voxel_march/distances.glsl), and within a brick empty cubes of 2 voxels
+// or one. Each step reads the distance and the brick's bits at once, so that neither read waits for the other.
 #include "shaders/octree/octree_cells.glsl"
 #include "shaders/voxel_march/bricks.glsl"
 #include "shaders/voxel_march/distance_traversal.glsl"

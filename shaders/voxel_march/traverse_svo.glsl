@@ -5,7 +5,9 @@
 
 readonly buffer VoxelNodes { uint words[]; } voxelNodes;
 
-void initTraversal(VoxelGrid g, VoxelSegment s) { initCells(g, s, distanceLevel(octree.shape.tableLevel, octree.shape.levels)); }
+void initTraversal(VoxelGrid g, VoxelSegment s) {
+    initCells(g, s, distanceLevel(octree.shape.tableLevel, octree.shape.levels));
+}
 
 bool findEmptyBox(ivec3 flipped, out ivec3 planes) {
     const ivec3 cell = flipped >> cellLevel, voxel = flipped ^ segmentFlip;

@@ -1,5 +1,6 @@
-// Traverses the octree with a descent from the root in each step, to the largest empty node around the current voxel (Sun and Agu 2015,
-// figure 3). With MARCH_SVO_VOXELS a step goes to the next voxel, however large the empty node is (Seok 2021, figure 12).
+// Traverses the octree with a descent from the root in each step, to the largest empty node around the current voxel
+// (Sun and Agu 2015, figure 3). With MARCH_SVO_VOXELS a step goes to the next voxel, however large the empty node is
+// (Seok 2021, figure 12).
 #include "shaders/octree/octree.glsl"
 
 ivec3 segmentFlip;
@@ -18,7 +19,8 @@ int emptyCube(ivec3 voxel) {
 }
 
 #ifdef MARCH_EPSILON
-// Steps in floats as in the paper: past a node by MARCH_EPSILON voxels. Shorter segments in a voxel, at its corners, are skipped.
+// Steps in floats as in the paper: past a node by MARCH_EPSILON voxels. Shorter segments in a voxel, at its corners,
+// are skipped.
 bool firstOccupiedVoxel(VoxelGrid g, VoxelSegment s, out ivec3 voxel) {
     const vec3 from = (vec3(s.start) + 0.5) / float(MARCH_UNITS), offset = s.run / float(MARCH_UNITS);
     const float end = length(offset);

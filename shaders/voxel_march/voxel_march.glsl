@@ -1,6 +1,6 @@
-// Rays through voxels (docs/voxel-march.md): whether a surface voxel lies between two points, and the first surface voxel on a ray. Rays
-// intersect voxels, not triangles, so any shader may trace them. The including shader is compiled with VoxelMarch::defines() and given
-// VoxelMarch::bindings() (passes/common/voxel_march/voxel_march.h).
+// Rays through voxels (docs/voxel-march.md): whether a surface voxel lies between two points, and the first surface
+// voxel on a ray. Rays intersect voxels, not triangles, so any shader may trace them. The including shader is compiled
+// with VoxelMarch::defines() and given VoxelMarch::bindings() (passes/common/voxel_march/voxel_march.h).
 #ifndef VOXRAY_VOXEL_MARCH_GLSL
 #define VOXRAY_VOXEL_MARCH_GLSL
 
@@ -14,8 +14,9 @@ uint marchVisits = 0u;
 
 // A traversal defines
 //  - void initTraversal(VoxelGrid g, VoxelSegment s), called before the first step on a segment;
-//  - bool advanceToOccupied(VoxelGrid g, VoxelSegment s, inout ivec3 flipped): advances from a voxel of the segment to the first occupied
-//    one, which may be the voxel itself; false where there is none. Voxels are flipped (VoxelSegment::flip). All traversals find the same.
+//  - bool advanceToOccupied(VoxelGrid g, VoxelSegment s, inout ivec3 flipped): advances from a voxel of the segment to
+//    the first occupied one, which may be the voxel itself; false where there is none. Voxels are flipped
+//    (VoxelSegment::flip). All traversals find the same.
 #if defined(MARCH_BITS)
 #include "shaders/voxel_march/traverse_bits.glsl"
 #elif defined(MARCH_BRICKS)
@@ -76,14 +77,16 @@ bool clipToGrid(VoxelGrid g, vec3 origin, vec3 direction, inout float tMin, inou
             if (!(origin[axis] >= 0.0 && origin[axis] < size[axis])) return false;
             continue;
         }
-        precise const float low = (0.0 - origin[axis]) / direction[axis], high = (size[axis] - origin[axis]) / direction[axis];
+        precise const float low = (0.0 - origin[axis]) / direction[axis],
+                            high = (size[axis] - origin[axis]) / direction[axis];
         tMin = max(tMin, min(low, high));
         tMax = min(tMax, max(low, high));
     }
     return tMin <= tMax;
 }
 
-// Whether an occupied voxel is on the segment from a to b (m), including both ends. Symmetric: ends within the grid are not rounded.
+// Whether an occupied voxel is on the segment from a to b (m), including both ends. Symmetric: ends within the grid are
+// not rounded.
 bool occluded(VoxelGrid g, vec3 a, vec3 b) {
     const vec3 from = gridCoordinates(g, a), to = gridCoordinates(g, b), offset = to - from;
     float tMin = 0.0, tMax = 1.0;
@@ -116,7 +119,8 @@ VoxelHit makeVoxelHit(VoxelSegment s, ivec3 voxel, float tMin, float tMax) {
     return VoxelHit(tMin + entries[axis] * (tMax - tMin), voxel, uint(2 * axis + (s.flip[axis] == 0 ? 1 : 0)));
 }
 
-// Clips a ray (m) to the grid and makes its segment; false where the ray misses the grid. A ray with a direction of 0 is a point.
+// Clips a ray (m) to the grid and makes its segment; false where the ray misses the grid. A ray with a direction of 0
+// is a point.
 bool segmentOfRay(VoxelGrid g, vec3 origin, vec3 direction, inout float tMin, inout float tMax, out VoxelSegment s) {
     const vec3 from = gridCoordinates(g, origin), gridDirection = direction / g.voxelSize;
     if (gridDirection == vec3(0.0)) tMax = tMin;
@@ -125,7 +129,8 @@ bool segmentOfRay(VoxelGrid g, vec3 origin, vec3 direction, inout float tMin, in
     return true;
 }
 
-// The first occupied voxel on a ray from `origin` (m) between tMin and tMax, which may be infinite; false where there is none.
+// The first occupied voxel on a ray from `origin` (m) between tMin and tMax, which may be infinite; false where there
+// is none.
 bool closest(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float tMax, out VoxelHit hit) {
     VoxelSegment s;
     ivec3 voxel;

@@ -1,15 +1,15 @@
 // Irradiance at a point of a surface, from the irradiance of voxels by face. The including file has defined
 //     vec4 faceLight(uint number, ivec3 voxel, uint face)
-// For a face, +x -x +y -y +z -z, of an occupied voxel (its number and its coordinates): mean irradiance, W/m², and the area that it is the
-// mean over, in units of a voxel's face; 0 where it is unknown.
+// For a face, +x -x +y -y +z -z, of an occupied voxel (its number and its coordinates): mean irradiance, W/m², and the
+// area that it is the mean over, in units of a voxel's face; 0 where it is unknown.
 #ifndef VOXRAY_FACE_LOOKUP_GLSL
 #define VOXRAY_FACE_LOOKUP_GLSL
 
 #include "shaders/voxels/face.glsl"
 #include "shaders/voxels/voxels.glsl"
 
-// Adds a voxel's irradiance times area, and area, of the three faces that a normal faces, weighted by its squared components. In a grid
-// of one direction all six faces have equal weights.
+// Adds a voxel's irradiance times area, and area, of the three faces that a normal faces, weighted by its squared
+// components. In a grid of one direction all six faces have equal weights.
 void addFaces(VoxelGrid g, ivec3 voxel, vec3 normal, inout vec3 sum, inout float area) {
     const uint number = voxelNumber(g, voxel);
     if (number == NO_VOXEL) return;
@@ -23,9 +23,9 @@ void addFaces(VoxelGrid g, ivec3 voxel, vec3 normal, inout vec3 sum, inout float
     }
 }
 
-// Irradiance at a point of a surface with a unit normal, without interpolation. Where its voxel has less than SMALL_FACE_AREA of surface
-// that faces the same way, the mean includes the 26 adjacent voxels. Where that area is not above MIN_FACE_AREA, it is black, and `known`
-// is false.
+// Irradiance at a point of a surface with a unit normal, without interpolation. Where its voxel has less than
+// SMALL_FACE_AREA of surface that faces the same way, the mean includes the 26 adjacent voxels. Where that area is not
+// above MIN_FACE_AREA, it is black, and `known` is false.
 vec3 irradianceAt(VoxelGrid g, vec3 position, vec3 normal, out bool known) {
     const ivec3 voxel = voxelAt(g, position);
     vec3 sum = vec3(0.0);
@@ -39,8 +39,8 @@ vec3 irradianceAt(VoxelGrid g, vec3 position, vec3 normal, out bool known) {
     return known ? sum / area : vec3(0.0);
 }
 
-// The same, trilinearly interpolated for surfaces that are directly visible: irradiance times area and area are interpolated separately,
-// so that voxels with little surface have little weight.
+// The same, trilinearly interpolated for surfaces that are directly visible: irradiance times area and area are
+// interpolated separately, so that voxels with little surface have little weight.
 vec3 interpolatedIrradianceAt(VoxelGrid g, vec3 position, vec3 normal, out bool known) {
     const vec3 center = (position - g.origin) / g.voxelSize - 0.5, corner = floor(center), fraction = center - corner;
     vec3 sum = vec3(0.0);

@@ -1,5 +1,5 @@
-// Packed flux and area of voxels by face (VoxelIrradiance in passes/common/voxels/voxels.h). Faces have the indices 6 * voxel +
-// (+x -x +y -y +z -z), so that face / 2 is the index of the pair of faces across an axis.
+// Packed flux and area of voxels by face (VoxelIrradiance in passes/common/voxels/voxels.h). Faces have the indices 6 *
+// voxel + (+x -x +y -y +z -z), so that face / 2 is the index of the pair of faces across an axis.
 #ifndef VOXRAY_PACKED_FLUX_GLSL
 #define VOXRAY_PACKED_FLUX_GLSL
 

@@ -58,7 +58,8 @@ void writeFace(uint face, vec3 irradiance, float weight, float scale) {
 #endif
 }
 
-// Writes a sample of a surface's irradiance to the three faces that the surface faces, weighted by the squared components of its normal.
+// Writes a sample of a surface's irradiance to the three faces that the surface faces, weighted by the squared
+// components of its normal.
 void writeIrradiance(uint voxel, vec3 normal, vec3 irradiance, float weight, float scale) {
     for (uint axis = 0u; axis < 3u; ++axis) {
         const float faceWeight = weight * normal[axis] * normal[axis];

@@ -8,9 +8,10 @@
 layout(scalar) buffer VoxelFluxRef { LargeUints voxelFlux; };
 layout(scalar) readonly buffer VoxelArea { uint data[]; } voxelArea;
 
-// Adds the flux and the area of voxels around a point, with tent weights of `radius` voxels. `weightByAxis`, `face`: weights and indices of
-// the three faces that the surface faces.
-void addVoxels(VoxelGrid g, vec3 position, vec3 weightByAxis, uvec3 face, float radius, inout vec3 flux, inout float area) {
+// Adds the flux and the area of voxels around a point, with tent weights of `radius` voxels. `weightByAxis`, `face`:
+// weights and indices of the three faces that the surface faces.
+void addVoxels(VoxelGrid g, vec3 position, vec3 weightByAxis, uvec3 face, float radius, inout vec3 flux,
+               inout float area) {
     const vec3 center = (position - g.origin) / g.voxelSize - 0.5;
     const ivec3 first = max(ivec3(ceil(center - radius)), ivec3(0));
     const ivec3 last = min(ivec3(floor(center + radius)), ivec3(g.resolution) - 1);
@@ -33,9 +34,10 @@ void addVoxels(VoxelGrid g, vec3 position, vec3 weightByAxis, uvec3 face, float 
 
 // Irradiance (W/m²) on a surface at `position` with unit normal `normal`.
 //
-// Flux and area are interpolated separately, with tent weights of `radius` voxels, and divided last: voxels with little surface have little
-// weight, and a half-lit voxel has half the irradiance. Areas are sampled: where less than a tenth of a voxel's face is found, the radius
-// is doubled, up to twice (GatherIrradiance::reach()). In a grid of one direction all six faces have equal weights.
+// Flux and area are interpolated separately, with tent weights of `radius` voxels, and divided last: voxels with little
+// surface have little weight, and a half-lit voxel has half the irradiance. Areas are sampled: where less than a tenth
+// of a voxel's face is found, the radius is doubled, up to twice (GatherIrradiance::reach()). In a grid of one
+// direction all six faces have equal weights.
 //
 // With `sevenTap` the sum is over seven points: `position`, and those one voxel away along each axis.
 vec3 voxelIrradiance(VoxelGrid g, vec3 position, vec3 normal, float radius, bool sevenTap) {
@@ -55,8 +57,9 @@ vec3 voxelIrradiance(VoxelGrid g, vec3 position, vec3 normal, float radius, bool
     return vec3(0.0);
 }
 
-// The same by the dominant face of the normal only, bilinearly interpolated between four voxels in the point's layer across its axis (Cosin
-// and Patow 2022, section 4.5). Where these have too little area, and in grids of one direction, as voxelIrradiance().
+// The same by the dominant face of the normal only, bilinearly interpolated between four voxels in the point's layer
+// across its axis (Cosin and Patow 2022, section 4.5). Where these have too little area, and in grids of one direction,
+// as voxelIrradiance().
 vec3 bilinearFaceIrradiance(VoxelGrid g, vec3 position, vec3 normal) {
     const vec3 size = abs(normal);
     const uint axis = size.x >= max(size.y, size.z) ? 0u : size.y >= size.z ? 1u : 2u;

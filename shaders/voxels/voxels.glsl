@@ -1,5 +1,5 @@
-// Surface voxels: an occupancy bit for each voxel of the grid, and the number (rank) of an occupied voxel among these, which indexes all
-// data of voxels. Empty space takes two bits per voxel.
+// Surface voxels: an occupancy bit for each voxel of the grid, and the number (rank) of an occupied voxel among these,
+// which indexes all data of voxels. Empty space takes two bits per voxel.
 #ifndef VOXRAY_VOXELS_GLSL
 #define VOXRAY_VOXELS_GLSL
 
@@ -15,8 +15,8 @@ layout(scalar) readonly buffer VoxelMaterialsRef { VoxelMaterials voxelMaterials
 
 VoxelMaterial voxelMaterial(uint voxel) { return unpackMaterial(voxelMaterials.data[voxel]); }
 
-// Flux and areas are sampled, so that the ratio of small ones is noisy. In units of a voxel's face: below the first area adjacent voxels
-// are included, up to the second irradiance is unknown.
+// Flux and areas are sampled, so that the ratio of small ones is noisy. In units of a voxel's face: below the first
+// area adjacent voxels are included, up to the second irradiance is unknown.
 #define SMALL_FACE_AREA 0.05
 #define MIN_FACE_AREA 0.001
 
@@ -44,7 +44,9 @@ uvec3 wordCoordinates(VoxelGrid g, uint word) {
     const uint row = word / g.wordsPerRow, rows = windowVoxels(g).y;
     return uvec3(32u * (word % g.wordsPerRow), row % rows, row / rows);
 }
-uvec3 unwrappedVoxel(VoxelGrid g, uvec3 wrapped) { return uvec3(g.first) + ((wrapped - uvec3(g.first)) & (g.windowSize - 1u)); }
+uvec3 unwrappedVoxel(VoxelGrid g, uvec3 wrapped) {
+    return uvec3(g.first) + ((wrapped - uvec3(g.first)) & (g.windowSize - 1u));
+}
 
 bool isOccupied(VoxelGrid g, ivec3 voxel) {
     return insideGrid(g, voxel) && (voxelOccupancy.words[voxelWord(g, voxel)] & voxelBit(g, voxel)) != 0u;
@@ -62,8 +64,8 @@ uint voxelNumber(VoxelGrid g, ivec3 voxel) {
 
 ivec3 voxelAt(VoxelGrid g, vec3 position) { return ivec3(floor((position - g.origin) / g.voxelSize)); }
 
-// Number of a surface point's voxel. Where rasterization left it empty (the surface lies between sample points), that of the nearest of
-// the 26 adjacent voxels, so that no light is lost; NO_VOXEL where these are empty as well.
+// Number of a surface point's voxel. Where rasterization left it empty (the surface lies between sample points), that
+// of the nearest of the 26 adjacent voxels, so that no light is lost; NO_VOXEL where these are empty as well.
 uint nearestVoxel(VoxelGrid g, vec3 position) {
     const ivec3 center = voxelAt(g, position);
     const uint number = voxelNumber(g, center);

@@ -1,5 +1,6 @@
 // Exclusive prefix sum in three dispatches: sums of blocks of 1024 values (SUM_BLOCKS), their scan by one work group
-// (SCAN_BLOCKS), and the scan within each block (SCAN_VALUES). With SET_BITS a value is the number of bits set in a word.
+// (SCAN_BLOCKS), and the scan within each block (SCAN_VALUES). With SET_BITS a value is the number of bits set in a
+// word.
 layout(local_size_x = 256) in;
 
 readonly buffer Source { uint values[]; } source;

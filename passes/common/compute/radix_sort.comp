@@ -1,7 +1,8 @@
-// One pass of a least-significant-digit radix sort, by a digit of 4 bits. A work group sorts a block of 4096 pairs of key and value, a
-// thread 16 consecutive ones. COUNT_DIGITS counts how often each digit occurs in each block. After an exclusive prefix sum over these
-// counts, by digit and then by block, SCATTER moves each pair to its sorted index. The sort is stable, so that the result doesn't depend
-// on how threads are scheduled. Source: Satish, Harris and Garland 2009, section 4.
+// One pass of a least-significant-digit radix sort, by a digit of 4 bits. A work group sorts a block of 4096 pairs of
+// key and value, a thread 16 consecutive ones. COUNT_DIGITS counts how often each digit occurs in each block. After an
+// exclusive prefix sum over these counts, by digit and then by block, SCATTER moves each pair to its sorted index. The
+// sort is stable, so that the result doesn't depend on how threads are scheduled. Source: Satish, Harris and Garland
+// 2009, section 4.
 layout(local_size_x = 256) in;
 
 const uint kItems = 16u;  // Pairs per thread.
@@ -43,7 +44,8 @@ void main() {
     const uint thread = gl_LocalInvocationID.x, block = gl_WorkGroupID.x;
     const uint first = (block * 256u + thread) * kItems, end = min(first + kItems, push.count);
 
-    // Count the thread's digits, then scan over the work group: inclusive (Hillis and Steele 1986), minus the thread's counts
+    // Count the thread's digits, then scan over the work group: inclusive (Hillis and Steele 1986), minus the thread's
+    // counts
     uint threadCounts[kDigits / 2u];
     for (uint w = 0u; w < kDigits / 2u; ++w) threadCounts[w] = 0u;
     for (uint i = first; i < end; ++i) {

@@ -1,4 +1,5 @@
-// Transmits rays through the panes that they hit: scales their throughput and advances them. The bound scene is that of the panes.
+// Transmits rays through the panes that they hit: scales their throughput and advances them. The bound scene is that of
+// the panes.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"
 #include "shaders/trace/ray_types.h"

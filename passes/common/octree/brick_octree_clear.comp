@@ -1,5 +1,5 @@
-// Removes the dynamic section (Arnebäck 2017, section 3.2.2, "Dynamic Geometry"): clears pointers to it from static nodes, and the
-// materials of leaves without static surfaces.
+// Removes the dynamic section (Arnebäck 2017, section 3.2.2, "Dynamic Geometry"): clears pointers to it from static
+// nodes, and the materials of leaves without static surfaces.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/brick_octree.glsl"
 layout(local_size_x = 64) in;

@@ -1,5 +1,5 @@
-// Pass "Flag Nodes" (Arnebäck 2017, section 3.2.2): flags the nodes of a level that hold fragments, and their 26 neighbors, if they have no
-// brick yet. The first fragment of a node does so for all.
+// Pass "Flag Nodes" (Arnebäck 2017, section 3.2.2): flags the nodes of a level that hold fragments, and their 26
+// neighbors, if they have no brick yet. The first fragment of a node does so for all.
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/brick_octree.glsl"

@@ -1,5 +1,5 @@
-// Flags the cells of a level that hold a flagged cell of the next finer level, and counts them: a bit per cell, in rows along x that are
-// padded to whole words, as in SurfaceVoxels.
+// Flags the cells of a level that hold a flagged cell of the next finer level, and counts them: a bit per cell, in rows
+// along x that are padded to whole words, as in SurfaceVoxels.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
@@ -26,7 +26,8 @@ void main() {
     const uint word = linearIndex();
     if (word >= wordsPerRow * push.coarserSize.y * push.coarserSize.z) return;
     const uint row = word / wordsPerRow;
-    const uvec3 finerCell = 2u * uvec3(word % wordsPerRow, row % push.coarserSize.y, row / push.coarserSize.y);  // x: a word.
+    // x: index of a word
+    const uvec3 finerCell = 2u * uvec3(word % wordsPerRow, row % push.coarserSize.y, row / push.coarserSize.y);
     const uint finerPerRow = (push.finerSize.x + 31u) / 32u;
     uint low = 0u, high = 0u;
     for (uint z = finerCell.z; z < min(finerCell.z + 2u, push.finerSize.z); ++z)

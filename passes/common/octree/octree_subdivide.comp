@@ -1,4 +1,5 @@
-// Computes the masks of children of a level's nodes from the flags of the next finer level. One invocation per word of four masks.
+// Computes the masks of children of a level's nodes from the flags of the next finer level. One invocation per word of
+// four masks.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/octree_cells.glsl"
 layout(local_size_x = 64) in;

@@ -1,5 +1,5 @@
-// A triangle in grid coordinates and the voxels that it overlaps: separating axes as a plane and three projections, after Schwarz and
-// Seidel 2010, section 4.
+// A triangle in grid coordinates and the voxels that it overlaps: separating axes as a plane and three projections,
+// after Schwarz and Seidel 2010, section 4.
 #ifndef VOXRAY_GRID_TRIANGLE_GLSL
 #define VOXRAY_GRID_TRIANGLE_GLSL
 
@@ -9,7 +9,8 @@
 // Voxels are closed boxes, enlarged by this on each side: grid coordinates up to 1024 are exact to 2^-14.
 const float kMargin = 1.0 / 4096.0;
 
-// Coordinates are in voxels and permuted: z runs along the triangle's dominant axis, x and y along the next two axes in cyclic order.
+// Coordinates are in voxels and permuted: z runs along the triangle's dominant axis, x and y along the next two axes in
+// cyclic order.
 struct GridTriangle {
     uint index;
     uint axis;

@@ -1,5 +1,6 @@
-// Fragment callback: adds the material of each clipped fragment to its voxel's accumulator, weighted by area. Fixed point: the order of
-// additions does not matter. voxelizer.fixedPointScale: 1 over the scene's largest emission; 0 if nothing emits.
+// Fragment callback: adds the material of each clipped fragment to its voxel's accumulator, weighted by area. Fixed
+// point: the order of additions does not matter. voxelizer.fixedPointScale: 1 over the scene's largest emission; 0 if
+// nothing emits.
 #ifndef VOXRAY_ADD_SURFACES_GLSL
 #define VOXRAY_ADD_SURFACES_GLSL
 
@@ -35,8 +36,9 @@ void processFragment(TriangleFragment f) {
     addVector(first + SUM_NORMAL, m.normal * units);
     addVector(first + SUM_ALBEDO, m.albedo * units);
     if (voxelizer.fixedPointScale > 0.0)
-        addVector(first + SUM_EMISSION, emission(material, m.point, footprintLevel(material.emissiveTexture, c.texCoordWidth)) *
-                                           (voxelizer.fixedPointScale * units));
+        addVector(first + SUM_EMISSION,
+                  emission(material, m.point, footprintLevel(material.emissiveTexture, c.texCoordWidth)) *
+                      (voxelizer.fixedPointScale * units));
     add(first + SUM_METALLIC, m.metallic * units);
     add(first + SUM_ROUGHNESS, m.roughness * units);
 

@@ -1,5 +1,6 @@
-// Adds probe points to the nine counts of their voxels: visible points by face +x -x +y -y +z -z, then all points by axis. A point on a
-// surface with unit normal n counts n_a² along axis a, in fixed point with 16 fractional bits: sums of up to 65536 points fit.
+// Adds probe points to the nine counts of their voxels: visible points by face +x -x +y -y +z -z, then all points by
+// axis. A point on a surface with unit normal n counts n_a² along axis a, in fixed point with 16 fractional bits: sums
+// of up to 65536 points fit.
 #include "passes/common/voxel_builder/probe_point.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"
@@ -26,8 +27,9 @@ bool isVisible(uint ray, uint triangle, vec3 normal, float offset) {
     if (hit.triangle == NO_HIT || hit.triangle == triangle) return true;
     // Occluded by a surface in front
     if (hit.t < push.grid.voxelSize - offset) return false;
-    // A coincident triangle. At an edge it is an adjacent one of the same surface. Of two that face the same way the ray hits one, so that
-    // their area counts once. One that faces the other way is the back of the same sheet, with an area of its own
+    // A coincident triangle. At an edge it is an adjacent one of the same surface. Of two that face the same way the
+    // ray hits one, so that their area counts once. One that faces the other way is the back of the same sheet, with an
+    // area of its own
     if (min(min(hit.u, hit.v), 1.0 - hit.u - hit.v) < EDGE) return true;
     return dot(surfacePoint(hit.triangle, vec2(hit.u, hit.v)).geometricNormal, normal) < 0.0;
 }

@@ -25,9 +25,9 @@ FragmentMaterial fragmentMaterial(TriangleFragment f, ClippedFragment c) {
     FragmentMaterial result;
     result.point = surfacePoint(f.triangle, c.center);
     const GpuMaterial m = sceneMaterials.data[result.point.material];
-    const vec2 metallicRoughness =
-        vec2(m.metallic, m.roughness) *
-        lookup(m.metallicRoughnessTexture, result.point.texCoords, footprintLevel(m.metallicRoughnessTexture, c.texCoordWidth)).bg;
+    const float roughnessLevel = footprintLevel(m.metallicRoughnessTexture, c.texCoordWidth);
+    const vec2 metallicRoughness = vec2(m.metallic, m.roughness) *
+                                   lookup(m.metallicRoughnessTexture, result.point.texCoords, roughnessLevel).bg;
     result.metallic = metallicRoughness.x;
     result.roughness = metallicRoughness.y;
     result.base = baseColor(m, result.point, footprintLevel(m.baseColorTexture, c.texCoordWidth)).rgb;

@@ -1,5 +1,5 @@
-// Generates two rays to each probe point in an occupied voxel, one to each side of the surface, from a voxel's width away. Other points are
-// dropped.
+// Generates two rays to each probe point in an occupied voxel, one to each side of the surface, from a voxel's width
+// away. Other points are dropped.
 #include "passes/common/voxel_builder/probe_point.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"

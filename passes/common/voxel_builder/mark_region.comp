@@ -22,7 +22,8 @@ void main() {
     const uint y = first.y + i / words % size.y, z = first.z + i / words / size.y;
 
     // The word's bits from the box's first to its last
-    const uint from = max(first.x, 32u * word) - 32u * word, to = min(first.x + size.x, 32u * word + 32u) - 32u * word - 1u;
+    const uint from = max(first.x, 32u * word) - 32u * word,
+               to = min(first.x + size.x, 32u * word + 32u) - 32u * word - 1u;
     const uint bits = (0xffffffffu << from) & (0xffffffffu >> (31u - to));
     atomicOr(region.words[(z * push.rows + y) * push.wordsPerRow + word], bits);
 }

@@ -1,4 +1,5 @@
-// Copies materials to the numbers of voxels after a rebuilt region was merged: those of rebuilt voxels, and the previous ones of all others.
+// Copies materials to the numbers of voxels after a rebuilt region was merged: those of rebuilt voxels, and the
+// previous ones of all others.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
@@ -19,9 +20,11 @@ void main() {
     for (uint bits = voxelOccupancy.words[word]; bits != 0u; bits &= bits - 1u) {
         const uint bit = bits & -bits, lower = bit - 1u;
         if ((rebuiltBits & bit) != 0u)
-            voxelMaterials.data[number] = rebuiltMaterials.data[rebuiltRank.before[word] + uint(bitCount(rebuiltBits & lower))];
+            voxelMaterials.data[number] =
+                rebuiltMaterials.data[rebuiltRank.before[word] + uint(bitCount(rebuiltBits & lower))];
         else
-            voxelMaterials.data[number] = previousMaterials.data[previousRank.before[word] + uint(bitCount(previousBits & lower))];
+            voxelMaterials.data[number] =
+                previousMaterials.data[previousRank.before[word] + uint(bitCount(previousBits & lower))];
         ++number;
     }
 }

@@ -1,5 +1,5 @@
-// Merges the occupancy of a rebuilt region: rebuilt voxels within the region, previous ones elsewhere. Rebuilt voxels outside the region are
-// dropped.
+// Merges the occupancy of a rebuilt region: rebuilt voxels within the region, previous ones elsewhere. Rebuilt voxels
+// outside the region are dropped.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

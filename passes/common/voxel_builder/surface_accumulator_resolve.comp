@@ -38,6 +38,7 @@ void main() {
     m.emission = unsignedSum(at + SUM_EMISSION) / weight * push.largestEmission;
     m.metallic = float(sum(at + SUM_METALLIC)) / weight;
     m.roughness = float(sum(at + SUM_ROUGHNESS)) / weight;
-    m.opacity = max(opacity(sum(at + SUB_SAMPLES)), max(opacity(sum(at + SUB_SAMPLES + 1u)), opacity(sum(at + SUB_SAMPLES + 2u))));
+    m.opacity = max(opacity(sum(at + SUB_SAMPLES)),
+                    max(opacity(sum(at + SUB_SAMPLES + 1u)), opacity(sum(at + SUB_SAMPLES + 2u))));
     voxelMaterials.data[voxel] = packMaterial(m);
 }

@@ -1,5 +1,6 @@
-// Computes distances of empty cells (shaders/voxel_march/distances.glsl). First the occupancy of cells, from voxels (OF_VOXELS) or an
-// octree's nodes (OF_NODES); then one dispatch per axis (AXIS), each from the distances along the axes before.
+// Computes distances of empty cells (shaders/voxel_march/distances.glsl). First the occupancy of cells, from voxels
+// (OF_VOXELS) or an octree's nodes (OF_NODES); then one dispatch per axis (AXIS), each from the distances along the
+// axes before.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxel_march/distances.glsl"
 #include "shaders/voxels/voxel_types.h"
@@ -41,14 +42,15 @@ uint cellWord(ivec3 cell, uint index) {
     return word == 0u ? MAX_DISTANCES : word;
 }
 #else
-// Extends distances by one axis: to the largest d such that each of the d cells from this one on along the axis has a distance of d or
-// more along the previous axes. That is the minimum over k of max(k, distance of the k-th cell).
+// Extends distances by one axis: to the largest d such that each of the d cells from this one on along the axis has a
+// distance of d or more along the previous axes. That is the minimum over k of max(k, distance of the k-th cell).
 uint cellWord(ivec3 cell, uint index) {
     uint word = source.words[index];
     if (!isCellEmpty(word)) return word;
     const ivec3 count = cellCount(push.grid.resolution, push.level), stride = ivec3(1, count.x, count.x * count.y);
     for (uint down = 0u; down < 2u; ++down) {
-        const int cells = down == 1u ? cell[AXIS] : count[AXIS] - 1 - cell[AXIS], step_ = down == 1u ? -stride[AXIS] : stride[AXIS];
+        const int cells = down == 1u ? cell[AXIS] : count[AXIS] - 1 - cell[AXIS],
+                  step_ = down == 1u ? -stride[AXIS] : stride[AXIS];
         for (int k = 1; k <= min(MAX_DISTANCE - 1, cells); ++k) {
             const uint neighbor = source.words[uint(int(index) + k * step_)];
             for (uint i = 0u; i < 4u; ++i) {

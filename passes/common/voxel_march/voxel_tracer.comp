@@ -18,6 +18,8 @@ void main() {
     const Ray ray = RayStream(push.rays).data[i];
     VoxelHit hit;
     const bool isHit = isTraceable(ray) && closest(push.grid, ray.origin, ray.direction, ray.tMin, ray.tMax, hit);
-    storeResult(push.results, i, isHit ? Hit(hit.t, kOccluded ? 0u : voxelNumber(push.grid, hit.voxel), 0.0, 0.0) : Hit(ray.tMax, NO_HIT, 0.0, 0.0));
+    storeResult(push.results, i,
+                isHit ? Hit(hit.t, kOccluded ? 0u : voxelNumber(push.grid, hit.voxel), 0.0, 0.0)
+                      : Hit(ray.tMax, NO_HIT, 0.0, 0.0));
     countMarch();
 }

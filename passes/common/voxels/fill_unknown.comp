@@ -1,5 +1,5 @@
-// Sets faces of unknown irradiance to the mean irradiance of the same face of the 26 adjacent voxels, over their own unoccluded area.
-// Where those are unknown as well, the face remains unknown.
+// Sets faces of unknown irradiance to the mean irradiance of the same face of the 26 adjacent voxels, over their own
+// unoccluded area. Where those are unknown as well, the face remains unknown.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/packed_flux.glsl"
 #include "shaders/voxels/voxels.glsl"

@@ -12,7 +12,8 @@ layout(push_constant) uniform Push {
 
 vec3 watts(uint face) {
     const uint first = 3u * face;
-    return vec3(fluxAccumulator.data[first], fluxAccumulator.data[first + 1u], fluxAccumulator.data[first + 2u]) * push.wattsPerUnit;
+    return vec3(fluxAccumulator.data[first], fluxAccumulator.data[first + 1u], fluxAccumulator.data[first + 2u]) *
+           push.wattsPerUnit;
 }
 
 void main() {

@@ -1,5 +1,5 @@
-// Fills a box of a clipmap level's voxels. A voxel is filtered bottom-up from all voxels of the source level in it, so that its value
-// doesn't depend on the windows of finer levels.
+// Fills a box of a clipmap level's voxels. A voxel is filtered bottom-up from all voxels of the source level in it, so
+// that its value doesn't depend on the windows of finer levels.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cones/radiance/radiance_voxels.glsl"
 #include "passes/cones/radiance/surface_radiance.glsl"
@@ -37,8 +37,8 @@ vec4 sourceValue(ivec3 voxel, uint face) {
     return voxelRadiance(push.grid, voxelNumber(push.grid, voxel), face, push.emission);
 }
 
-// The `index`-th descendant of a voxel, `depth` levels below. Order: on each level the four pairs along the face's axis, of each pair the
-// front voxel first.
+// The `index`-th descendant of a voxel, `depth` levels below. Order: on each level the four pairs along the face's
+// axis, of each pair the front voxel first.
 ivec3 descendant(ivec3 voxel, uint depth, uint index, uint face) {
     const uint axis = face >> 1;
     for (uint d = depth; d-- > 0u;) {
@@ -52,8 +52,8 @@ ivec3 descendant(ivec3 voxel, uint depth, uint index, uint face) {
     return voxel;
 }
 
-// Filters a voxel from the level `depth` below. The values of each level are quantized, as if it had been filtered from the stored level
-// below. Partial results by level: `front`, the front voxel of a pair; `sum`, of the pairs before it.
+// Filters a voxel from the level `depth` below. The values of each level are quantized, as if it had been filtered from
+// the stored level below. Partial results by level: `front`, the front voxel of a pair; `sum`, of the pairs before it.
 vec4 filtered(ivec3 voxel, uint depth, uint face) {
     const bool byFace = radianceVoxels.grid.directions == 6u;
     vec4 sum[RADIANCE_CLIPMAP_LEVELS], front[RADIANCE_CLIPMAP_LEVELS];

@@ -1,8 +1,10 @@
-// Bricks of a level from those of their children (Arnebäck 2017, section 3.2.4, figures 30 and 31), in three dispatches: the value in
-// the brick's center; those on its faces and edges; those at its corners. Values on faces, edges and corners are partial sums over a
-// half, a quarter and an eighth of the kernel, to which transfers add those of the neighbors.
+// Bricks of a level from those of their children (Arnebäck 2017, section 3.2.4, figures 30 and 31), in three
+// dispatches: the value in the brick's center; those on its faces and edges; those at its corners. Values on faces,
+// edges and corners are partial sums over a half, a quarter and an eighth of the kernel, to which transfers add those
+// of the neighbors.
 //
-// The kernel is 1/4 1/2 1/4 along each axis. On a face two neighbors share the kernel's center, so that each has half of it:
+// The kernel is 1/4 1/2 1/4 along each axis. On a face two neighbors share the kernel's center, so that each has half
+// of it:
 //
 //        children's values, along an axis      0     1     2     3     4
 //        value 0 of the brick                 1/4   1/4
@@ -21,7 +23,8 @@ layout(push_constant, scalar) uniform Push {
 // Mask of the octants whose bricks contain a texel coordinate (0 to 4) along one axis; `low`: mask of the lower four.
 uint octantsAt(int texel, uint low) { return texel < 2 ? low : texel > 2 ? 0xffu & ~low : 0xffu; }
 
-// The children's value at a texel, 0 to 4 along each axis, from the first of the bricks that share it. `present`: children with bricks.
+// The children's value at a texel, 0 to 4 along each axis, from the first of the bricks that share it. `present`:
+// children with bricks.
 vec4 childValue(uint brick[8], uint present, ivec3 texel) {
     const uint sharing = octantsAt(texel.x, 0x55u) & octantsAt(texel.y, 0x33u) & octantsAt(texel.z, 0x0fu) & present;
     if (sharing == 0u) return vec4(0.0);

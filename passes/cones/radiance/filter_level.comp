@@ -19,6 +19,7 @@ void main() {
             const bool inside = all(lessThan(child, ivec3(finerSize)));
             values[octant] = inside ? radianceValue(radianceIndex(finer, child), face) : vec4(0.0);
         }
-        storeRadiance(radianceIndex(level, voxel), face, g.directions == 6u ? combineFaces(values, face) : combineAll(values));
+        storeRadiance(radianceIndex(level, voxel), face,
+                      g.directions == 6u ? combineFaces(values, face) : combineAll(values));
     }
 }

@@ -41,7 +41,8 @@ vec4 sampleWindow(uint level, vec3 position, vec3 direction) {
     uint indices[8];
     for (uint octant = 0u; octant < 8u; ++octant) {
         const ivec3 voxel = blockVoxel(corner, octant);
-        indices[octant] = inWindow(w, voxel) && octantWeight(octant, fraction) > 0.0 ? indexInWindow(w, voxel) : NO_VALUE;
+        indices[octant] =
+            inWindow(w, voxel) && octantWeight(octant, fraction) > 0.0 ? indexInWindow(w, voxel) : NO_VALUE;
     }
     return interpolateBlock(indices, fraction, direction);
 }

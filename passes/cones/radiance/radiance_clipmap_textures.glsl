@@ -1,7 +1,7 @@
-// The windows of a radiance clipmap in a 3D texture atlas that the sampler filters (layout: clipmap_textures): a block for
-// each level and face, the faces of a level side by side along x. Each block has a border of one texel: a copy of the
-// opposite end where coordinates wrap, empty where the window is the level's whole grid. So the sampler filters a block
-// like a separate texture with repeat addressing.
+// The windows of a radiance clipmap in a 3D texture atlas that the sampler filters (layout: clipmap_textures): a block
+// for each level and face, the faces of a level side by side along x. Each block has a border of one texel: a copy of
+// the opposite end where coordinates wrap, empty where the window is the level's whole grid. So the sampler filters a
+// block like a separate texture with repeat addressing.
 //
 //      wrapped coordinates   7 | 0 1 2 3 4 5 6 7 | 0
 #ifndef VOXRAY_RADIANCE_CLIPMAP_TEXTURES_GLSL
@@ -55,7 +55,8 @@ void storeRadiance(ivec4 index, uint face, vec4 value) {
                 imageStore(radianceTarget, texel + ivec3(x, y, z) * end * windowSize, number);
 }
 
-// Values outside of the window are 0: coordinates there are clamped to it, and weighted as linear interpolation with 0 does.
+// Values outside of the window are 0: coordinates there are clamped to it, and weighted as linear interpolation with 0
+// does.
 vec4 filteredFace(uint level, vec3 coordinates, uint face) {
     const ClipmapWindow w = radianceVoxels.window[level];
     const vec3 nearest = clamp(coordinates, vec3(w.first), vec3(w.first + ivec3(w.size) - 1));

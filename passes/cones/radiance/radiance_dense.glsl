@@ -1,4 +1,5 @@
-// Radiance voxels in full grids, one for each level (layout: dense). A voxel's values are adjacent, four half floats each.
+// Radiance voxels in full grids, one for each level (layout: dense). A voxel's values are adjacent, four half floats
+// each.
 #ifndef VOXRAY_RADIANCE_DENSE_GLSL
 #define VOXRAY_RADIANCE_DENSE_GLSL
 

@@ -1,13 +1,15 @@
 // Trilinear interpolation between the voxels of one level. The including layout has declared
 //  - radianceVoxels;
 //  - NO_VALUE: of a voxel that is empty or outside;
-//  - vec4 radianceValue(uint slot, uint face): the stored value. `face`: 0 to 5 for +x -x +y -y +z -z, 0 with one value for all.
+//  - vec4 radianceValue(uint slot, uint face): the stored value. `face`: 0 to 5 for +x -x +y -y +z -z, 0 with one value
+//    for all.
 #ifndef VOXRAY_RADIANCE_INTERPOLATION_GLSL
 #define VOXRAY_RADIANCE_INTERPOLATION_GLSL
 
 #include "passes/cones/radiance/radiance_filter.glsl"
 
-// The lower corner of the 2x2x2 voxels between whose centers a position lies, and its fractional coordinates between them.
+// The lower corner of the 2x2x2 voxels between whose centers a position lies, and its fractional coordinates between
+// them.
 ivec3 cornerVoxel(uint level, vec3 position, out vec3 fraction) {
     const vec3 coordinates = levelCoordinates(radianceVoxels.grid, level, position);
     const vec3 corner = floor(coordinates);

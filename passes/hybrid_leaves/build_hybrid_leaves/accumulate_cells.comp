@@ -1,5 +1,5 @@
-// Accumulates the materials of clipped fragments in their cells, weighted by area. Fixed point: the order of additions does not
-// matter. voxelizer.fixedPointScale: units of area per cell face.
+// Accumulates the materials of clipped fragments in their cells, weighted by area. Fixed point: the order of additions
+// does not matter. voxelizer.fixedPointScale: units of area per cell face.
 #include "passes/hybrid_leaves/build_hybrid_leaves/cell_sums.h"
 #include "passes/hybrid_leaves/build_hybrid_leaves/cell_surface.glsl"
 #include "shaders/scene/specular.glsl"

@@ -21,8 +21,8 @@ vec3 fromCellCenter(TriangleFragment cell, vec3 permuted) {
     return axis == 0u ? p.zxy : axis == 1u ? p.yzx : p;
 }
 
-// False where the alpha mask cuts it away. Area and centroid as in clipFragment(). Sub-samples, the larger part of the cost, are
-// taken of masked triangles only.
+// False if the alpha mask removes it. Area and centroid as in clipFragment(). Sub-samples, which dominate the cost, are
+// computed for masked triangles only.
 bool cellSurface(TriangleFragment cell, out CellSurface s) {
     s.cellIndex = gridCellIndex(gridBit(gridLevel(cellGrid, 0u), cell.voxel));
     if (s.cellIndex == NO_CELL) return false;

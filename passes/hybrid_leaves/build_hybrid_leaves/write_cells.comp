@@ -11,5 +11,6 @@ void processFragment(TriangleFragment cell) {
     const FragmentMaterial f = s.material;
     const GpuMaterial m = sceneMaterials.data[f.point.material];
     const Specular lobe = makeSpecular(f.base, f.metallic, f.roughness, m.specular, m.specularColor, m.ior);
-    storeExtendedCell(s.cellIndex, ExtendedCell(emission(m, f.point, s.emissionLevel), m.doubleSided != 0u, lobe.f0, lobe.f90, lobe.roughness));
+    storeExtendedCell(s.cellIndex, ExtendedCell(emission(m, f.point, s.emissionLevel), m.doubleSided != 0u, lobe.f0,
+                                                lobe.f90, lobe.roughness));
 }
