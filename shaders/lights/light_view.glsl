@@ -53,7 +53,8 @@ uint cubeFace(vec3 v) {
 
 // Shadow test of a surface point against a texel: the texel's depth is compared with where its ray intersects the
 // point's tangent plane. So flat surfaces don't shadow themselves at any slope. The bias of half a texel's width is for
-// curved surfaces and rounding. @param depth of the texel, as stored. @param normal on the side that faces the light.
+// curved surfaces and rounding.
+// @param depth of the texel, as stored. @param normal on the side that faces the light.
 bool texelPassesShadowTest(LightView view, uint resolution, ivec2 texel, float depth, vec3 position, vec3 normal) {
     const TexelRay ray = texelRay(view, texelCenter(view, resolution, texel));
     const float cosine = dot(ray.direction, normal);

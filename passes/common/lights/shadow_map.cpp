@@ -1,5 +1,7 @@
 #include "passes/common/lights/shadow_map.h"
 
+#include "base/error.h"
+
 namespace voxray {
 namespace {
 
@@ -58,6 +60,11 @@ void ShadowMap::draw(PassContext& context, const gpu::LightView& view) const {
 void ShadowMaps::plan(PassPlan& plan, const std::vector<LightSource>& sources, uint32_t resolution) {
     resolution_ = resolution;
     const uint32_t views = viewCount(*plan.frame.scene, sources);
+    if (views * texelBytes(resolution) / sizeof(float) > UINT32_MAX)
+        throw Error(
+            "shadow maps of {0} views with {1}x{1} texels each can't be numbered in 32 bits; lower "
+            "'shadow_resolution'",
+            views, resolution);
     map_.plan(plan, resolution);
     plan.buffer(texels_, "a shadow map's texels", texelBytes(resolution));
     plan.buffer(lights_, "lights with shadow maps",

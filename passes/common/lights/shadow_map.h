@@ -30,6 +30,7 @@ class ShadowMaps {
  public:
     explicit ShadowMaps(ProgramOwner& owner) : map_(owner) {}
 
+    /// @throws Error for more texels than 32 bits number.
     void plan(PassPlan& plan, const std::vector<LightSource>& sources, uint32_t resolution);
     /// Draws the maps of the lights in this frame.
     void draw(PassContext& context, const std::vector<LightSource>& sources);
