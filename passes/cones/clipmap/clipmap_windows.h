@@ -6,7 +6,6 @@
 
 #include "base/schema.h"
 #include "passes/common/voxels/voxel_box.h"
-#include "passes/cones/radiance/radiance_clipmap_types.h"
 #include "passes/cones/radiance/radiance_types.h"
 
 namespace voxray {

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "passes/cones/filter_voxels/dense_fill.h"
 #include "passes/cones/filter_voxels/radiance_storage.h"
-#include "passes/cones/radiance/radiance_dense_types.h"
+#include "passes/cones/radiance/radiance_types.h"
 
 namespace voxray {
 namespace {

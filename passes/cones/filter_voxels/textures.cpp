@@ -3,7 +3,7 @@
 
 #include "passes/cones/filter_voxels/dense_fill.h"
 #include "passes/cones/radiance/radiance_texture.h"
-#include "passes/cones/radiance/radiance_textures_types.h"
+#include "passes/cones/radiance/radiance_types.h"
 
 namespace voxray {
 namespace {

@@ -2,8 +2,6 @@
 #ifndef VOXRAY_RADIANCE_CLIPMAP_GLSL
 #define VOXRAY_RADIANCE_CLIPMAP_GLSL
 
-#include "passes/cones/radiance/radiance_clipmap_types.h"
-
 bool inWindow(ClipmapWindow w, ivec3 voxel) {
     return all(greaterThanEqual(voxel, w.first)) && all(lessThan(voxel, w.first + ivec3(w.size)));
 }

@@ -3,8 +3,6 @@
 #ifndef VOXRAY_RADIANCE_DENSE_GLSL
 #define VOXRAY_RADIANCE_DENSE_GLSL
 
-#include "passes/cones/radiance/radiance_dense_types.h"
-
 // By address: a grid may exceed the maximum size of a bound buffer.
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RadianceValues { uvec2 data[]; };
 layout(scalar) readonly buffer RadianceVoxels {

@@ -5,8 +5,6 @@
 #ifndef VOXRAY_RADIANCE_TEXTURES_GLSL
 #define VOXRAY_RADIANCE_TEXTURES_GLSL
 
-#include "passes/cones/radiance/radiance_textures_types.h"
-
 layout(scalar) readonly buffer RadianceVoxels {
     RadianceGrid grid;
     TextureLayout layout_;
