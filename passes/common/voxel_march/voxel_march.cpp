@@ -14,14 +14,9 @@ constexpr uint64_t kCountBytes = 2 * sizeof(uint64_t);
 constexpr const char* kDistances = "distances between voxels";
 constexpr const char* kFewerAxes = "distances along fewer axes";
 
-/// Cells of 2^level voxels (shaders/voxel_march/distances.glsl).
-uint64_t cellCount(glm::uvec3 resolution, uint32_t level) {
-    const glm::u64vec3 count(levelResolution(resolution, level));
-    return count.x * count.y * count.z;
-}
-
+/// A word per cell of 2^level voxels (shaders/voxel_march/distances.glsl).
 uint64_t distanceBytes(glm::uvec3 resolution, uint32_t level) {
-    return cellCount(resolution, level) * sizeof(uint32_t);
+    return levelVoxels(resolution, level) * sizeof(uint32_t);
 }
 
 /// As in shaders/voxel_march/distances.glsl.
@@ -70,7 +65,7 @@ void VoxelMarch::plan(MemoryPlan& plan, const SurfaceVoxels& voxels) {
     if (traversal_ != VoxelTraversal::Bricks) return;
     const glm::uvec3 resolution = voxels.grid.resolution;
     const uint64_t bytes = distanceBytes(resolution, kBrickLevel);
-    plan.buffer(bricks_, "bricks of voxels", cellCount(resolution, kBrickLevel) * sizeof(glm::uvec2));
+    plan.buffer(bricks_, "bricks of voxels", levelVoxels(resolution, kBrickLevel) * sizeof(glm::uvec2));
     plan.buffer(distances_, kDistances, bytes);
     plan.scratchBuffer(fewerAxes_, kFewerAxes, bytes);
 }
@@ -92,7 +87,7 @@ void VoxelMarch::begin(CommandStream& stream, const SurfaceVoxels& voxels) {
 void VoxelMarch::measureDistances(CommandStream& stream) {
     const gpu::VoxelGrid& grid = voxels_->grid;
     const uint32_t level = isOctree(traversal_) ? distanceLevel(octree_.size) : kBrickLevel;
-    const uint64_t cells = cellCount(grid.resolution, level);
+    const uint64_t cells = levelVoxels(grid.resolution, level);
     const Bindings numbers{{"grid", grid}, {"level", level}};
     if (isOctree(traversal_)) {
         const uint64_t bytes = distanceBytes(grid.resolution, level);

@@ -18,4 +18,10 @@ inline glm::uvec3 levelResolution(glm::uvec3 resolution, uint32_t level) {
     return (resolution + ((1u << level) - 1u)) >> level;
 }
 
+/// Number of a level's voxels.
+inline uint64_t levelVoxels(glm::uvec3 resolution, uint32_t level) {
+    const glm::uvec3 size = levelResolution(resolution, level);
+    return uint64_t(size.x) * size.y * size.z;
+}
+
 }  // namespace voxray

@@ -220,8 +220,7 @@ void LightClipmap::fillWindow(PassContext& context, uint32_t level, const Surfac
 void LightClipmap::fillCoarseLevels(PassContext& context) {
     const RadianceVoxels& radiance = context[radiance_];
     for (uint32_t l = storage_.windows().firstWhole() + 1; l < radiance.grid.levels; ++l) {
-        const glm::uvec3 size = levelResolution(radiance.grid.resolution, l);
-        const uint64_t voxels = uint64_t(size.x) * size.y * size.z;
+        const uint64_t voxels = levelVoxels(radiance.grid.resolution, l);
         context.dispatch(filterLevel_, voxels, {radiance.fillBindings(), {"level", l}});
         updatedVoxels_ += voxels;
     }
