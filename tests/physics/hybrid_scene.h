@@ -76,7 +76,9 @@ class Hybrid {
             out(device(), "hits", rays.size() * sizeof(Hit));
         stream_.upload(in, rays);
         stream_.upload(starts, std::vector<gpu::RayStart>(rays.size(), start));
-        tracer.closestHitWithStarts(stream_, in, starts, out, uint32_t(rays.size()));
+        tracer.setStarts(&starts);
+        tracer.closestHit(stream_, in, out, uint32_t(rays.size()));
+        tracer.setStarts(nullptr);
         return stream_.readAs<Hit>(out, rays.size());
     }
 

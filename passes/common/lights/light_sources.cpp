@@ -92,8 +92,8 @@ BoundingSphere boundingSphere(const Geometry& geometry) {
     const auto [low, high] = geometry.region;
     const glm::vec3 center = 0.5f * (low + high);
     const auto larger = [](float radius) { return radius * 1.001f + 1e-6f; };
-    const glm::vec3 away = glm::max(center - geometry.boundsMin, geometry.boundsMax - center);
-    return {center, larger(0.5f * glm::length(high - low)), larger(glm::length(away))};
+    const glm::vec3 farthest = glm::max(center - geometry.boundsMin, geometry.boundsMax - center);
+    return {center, larger(0.5f * glm::length(high - low)), larger(glm::length(farthest))};
 }
 
 }  // namespace voxray

@@ -12,10 +12,10 @@ namespace {
 using gpu::BrickNode;
 using gpu::LevelNodes;
 static_assert(sizeof(BrickNode) == kBrickNodeBytes);
-constexpr uint32_t kLongestAxis = 1024;  // A node's place takes 10 bits an axis.
+constexpr uint32_t kLongestAxis = 1024;  // Coordinates of nodes have 10 bits.
 
-/// Room for so many nodes; those that are there stay. Where surfaces move there is an eighth to spare, so
-/// that they do not outgrow the pool in each frame.
+/// Reallocates the pool for so many nodes if it is too small, and copies the present ones. Where surfaces
+/// move an eighth is added, so that the pool isn't reallocated in each frame.
 void grow(CommandStream& stream, BrickOctree& octree, uint64_t nodes) {
     if (octree.nodes && octree.nodes.bytes() >= nodes * kBrickNodeBytes) return;
     if (octree.moves) nodes += nodes / 8;
@@ -73,7 +73,7 @@ void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Se
     const uint32_t top = uint32_t(octree.levels.size()) - 1;
     for (uint32_t level = top + 1; level-- > 0;) {
         const LevelNodes nodes = octree.levels[level];
-        const uint32_t count = nodesOf(nodes), belowRoot = top - level;
+        const uint32_t count = nodesOf(nodes), depth = top - level;
         const auto scratch = [&](const char* name) {
             return Buffer(stream.device(), name, count * sizeof(uint32_t));
         };
@@ -89,11 +89,11 @@ void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Se
                          {"nodes", nodes},
                          {"resolution", levelResolution(octree.grid.resolution, level)},
                          {"level", level},
-                         {"belowRoot", belowRoot},
+                         {"depth", depth},
                          {"fragments", fragments},
                          {"neighbors", neighbors_}});
         stream.dispatch(link_, count,
-                        {{"OctreeNodesRef", octree.nodes.ref()}, {"nodes", nodes}, {"belowRoot", belowRoot}});
+                        {{"OctreeNodesRef", octree.nodes.ref()}, {"nodes", nodes}, {"depth", depth}});
         const uint32_t flagged = prefixSum_.run(stream, flags, before, count);
         const uint32_t firstChild = level == 0 ? NO_CHILDREN : octree.nodeCount;
         if (level > 0) {

@@ -37,7 +37,7 @@ class DominantAxisVoxelizer final : public RasterVoxelizer {
 
     void run(PassContext& context, const Program& program, const gpu::VoxelGrid& grid,
              std::span<const Binding> bindings, float fixedPointScale) const override {
-        // One square image has room for the columns along any axis.
+        // One square image that holds the columns along any axis.
         const uint32_t side = std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z});
         RasterTargets targets;
         targets.extent = {side, side, 1};

@@ -50,7 +50,7 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
     const std::vector<uint32_t> triangles = region.triangles(context.frame.scene->geometry);
     voxelizer_->select(context, target.grid, region, triangles);
 
-    // Mark occupied voxels, then number them.
+    // Mark occupied voxels, then number them
     stream.fill(target.occupancy, 0);
     voxelizer_->run(context, *markVoxels_, target.grid, std::vector<Binding>{{"occupancy", target.occupancy}},
                     0);
@@ -60,7 +60,7 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
     ensureSize(target.materials, context.device, "voxel materials", count * sizeof(gpu::PackedVoxelMaterial));
     if (target.voxelCount == 0) stream.fill(target.materials, 0);
 
-    // Accumulate the surfaces' materials in fixed point, probe their visibility, and turn sums into averages.
+    // Accumulate the surfaces' materials in fixed point, test their visibility, and divide sums by areas
     const LargeBuffer accumulator(context.device, "surface accumulator",
                                   count * ACCUMULATOR_UINTS * sizeof(uint32_t));
     stream.fill(accumulator, 0);

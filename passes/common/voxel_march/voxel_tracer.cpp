@@ -9,8 +9,8 @@ constexpr uint32_t kRaysPerLaunch = 1u << 26;
 
 }  // namespace
 
-VoxelTracer::VoxelTracer(ProgramOwner& owner, VoxelTraversal walk, float epsilon)
-    : march_(owner, walk, epsilon),
+VoxelTracer::VoxelTracer(ProgramOwner& owner, VoxelTraversal traversal, float epsilon)
+    : march_(owner, traversal, epsilon),
       closestHit_(owner, "voxel_tracer.comp", march_.defines()),
       occluded_(owner, "voxel_tracer.comp", march_.defines()) {}
 
@@ -27,7 +27,7 @@ void VoxelTracer::trace(CommandStream& stream, Query query, const Buffer& rays, 
         stream.dispatch(query == Query::Occluded ? occluded_ : closestHit_, end - first,
                         {march_,
                          {"rays", rays.address()},
-                         {"hits", results.address()},
+                         {"results", results.address()},
                          {"grid", grid_},
                          {"firstRay", first},
                          {"endRay", end}});

@@ -15,7 +15,7 @@ constexpr uint32_t kClipmapValueBytes = 8;  // passes/cones/radiance/radiance_te
 /// The buffer `radianceVoxels` of passes/cones/radiance/radiance_clipmap.glsl, without what the storage adds.
 struct ClipmapHeader {
     gpu::RadianceGrid grid;
-    uint32_t side;
+    uint32_t windowSize;
     uint32_t firstWhole;
     std::array<gpu::ClipmapWindow, RADIANCE_CLIPMAP_LEVELS> windows;
 };
@@ -73,7 +73,7 @@ std::vector<gpu::ClipmapWindow> RadianceClipmap::moveWindows(PassContext& contex
             w.center = camera;
             w.reach = glm::vec3(std::min({w.reach.x, w.reach.y, w.reach.z}));
         }
-    ClipmapHeader header{radiance.grid, windows_.side(), windows_.firstWhole(), {}};
+    ClipmapHeader header{radiance.grid, windows_.windowSize(), windows_.firstWhole(), {}};
     std::ranges::copy(windows, header.windows.begin());
     context.stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
     return windows;

@@ -9,8 +9,8 @@ namespace voxray {
 namespace {
 
 /// The octree of Arnebäck 2017 as published, over our surface voxels: nodes with neighbor pointers, and
-/// bricks that transfers and a filter in three passes fill. Rebuilt as a whole when surfaces change;
-/// voxelize_octree keeps a static part. Docs: docs/svo.md.
+/// bricks that are filled by transfers and a filter in three passes. Rebuilt as a whole when surfaces change;
+/// voxelize_octree has a static section. Docs: docs/svo.md.
 class SvoBricksStorage final : public RadianceStorage {
  public:
     SvoBricksStorage(ProgramOwner& owner, const BrickParams& params)

@@ -77,11 +77,9 @@ RadianceVoxels SvoCollapse::shrink(CommandStream& stream, const RadianceVoxels& 
         nodes = std::move(children);
     }
 
-    for (uint32_t level = smaller.levels(); level-- > smaller.tableLevel();) {
-        const glm::uvec3 voxels = levelResolution(smaller.resolution, level);
-        stream.dispatch(fillTable_, uint64_t(voxels.x) * voxels.y * voxels.z,
+    for (uint32_t level = smaller.levels(); level-- > smaller.tableLevel();)
+        stream.dispatch(fillTable_, levelVoxels(smaller.resolution, level),
                         {result.octree, {"level", level}});
-    }
     stream.finish();
     return result;
 }

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <bit>
 
-#include "passes/cones/filter_voxels/dense_fill.h"
+#include "passes/cones/filter_voxels/full_grids.h"
 #include "passes/cones/radiance/radiance_texture.h"
-#include "passes/cones/radiance/radiance_textures_types.h"
+#include "passes/cones/radiance/radiance_types.h"
 
 namespace voxray {
 namespace {
@@ -27,9 +27,9 @@ gpu::TextureLayout textureLayout(glm::uvec3 resolution) {
 
 /// Full grids as mip levels of a 3D texture, filtered by the device as Arnebäck 2017 does. Docs:
 /// docs/cone-tracing.md.
-class TexturesStorage final : public RadianceStorage {
+class TexturesStorage final : public FullGrids {
  public:
-    explicit TexturesStorage(ProgramOwner& owner) : fill_(owner) {}
+    using FullGrids::FullGrids;
 
     void plan(PassPlan& plan, const SurfaceVoxels&, RadianceVoxels& radiance) override {
         const gpu::RadianceGrid& grid = radiance.grid;
@@ -38,7 +38,7 @@ class TexturesStorage final : public RadianceStorage {
                             layout_.extent * (1u + (grid.directions - 1u) * layout_.along), grid.levels,
                             radiance);
         plan.buffer(radiance.header, "radiance voxels' header", sizeof(TextureHeader));
-        fill_.plan(radiance);
+        define(radiance);
     }
 
     void prepare(PassSetup& setup, RadianceVoxels& radiance) override {
@@ -47,14 +47,8 @@ class TexturesStorage final : public RadianceStorage {
         prepareRadianceTexture(setup, radiance);
     }
 
-    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
-             RadianceVoxels& radiance, float emission) override {
-        fill_.run(context.stream, voxels, light, radiance, emission);
-    }
-
  private:
     gpu::TextureLayout layout_{};
-    DenseFill fill_;
 };
 
 }  // namespace

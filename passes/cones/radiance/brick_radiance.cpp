@@ -50,9 +50,9 @@ void BrickRadiance::filter(CommandStream& stream, const BrickOctree& octree,
     transfer(stream, radiance, octree.levels[0], 0.5f);
     for (size_t level = 1; level < octree.levels.size(); ++level) {
         const gpu::LevelNodes& nodes = octree.levels[level];
-        for (const auto& [minSides, maxSides] : {std::pair{0u, 0u}, std::pair{1u, 2u}, std::pair{3u, 3u}})
+        for (const auto& [minFaces, maxFaces] : {std::pair{0u, 0u}, std::pair{1u, 2u}, std::pair{3u, 3u}})
             stream.dispatch(filter_, nodesOf(nodes),
-                            {radiance, {"nodes", nodes}, {"minSides", minSides}, {"maxSides", maxSides}});
+                            {radiance, {"nodes", nodes}, {"minFaces", minFaces}, {"maxFaces", maxFaces}});
         transfer(stream, radiance, nodes, 1);
     }
 }

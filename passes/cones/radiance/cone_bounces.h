@@ -44,7 +44,7 @@ class ConeBounces {
     const LargeBuffer& flux() const { return flux_; }
     /// The same, handed over: the next gather() allocates anew.
     LargeBuffer takeFlux() { return std::move(flux_); }
-    /// Frees the buffers that gather() keeps for its next call. Waits for the device.
+    /// Frees the buffers of gather(). Waits for the device.
     void release(CommandStream& stream);
 
  private:

@@ -53,8 +53,8 @@ void LeafGrids::fill(PassContext& context, const gpu::VoxelGrid& voxels, const T
                      const LeafUpdateCache* updateCache, HybridLeaves& leaves) const {
     CommandStream& stream = context.stream;
     const uint32_t words = leaves.gridCount * leaves.shape.wordsPerGrid;
-    leaves.gridBits = Buffer(context.device, "bits of grids", wordBytes(words));
-    leaves.gridRanks = Buffer(context.device, "ranks of grids", wordBytes(words));
+    leaves.gridBits = Buffer(context.device, "bits of grids", uintBytes(words));
+    leaves.gridRanks = Buffer(context.device, "ranks of grids", uintBytes(words));
     stream.fill(leaves.gridBits, 0);
     writeHeader(stream, leaves);
 
@@ -75,7 +75,7 @@ void LeafGrids::fill(PassContext& context, const gpu::VoxelGrid& voxels, const T
     leaves.cellCount = bitPrefixSum_.run(stream, leaves.gridBits, leaves.gridRanks, words);
     requireBelow(leaves.cellCount, kMaxGridCells, "cells of grids");
     leaves.cells = Buffer(context.device, "cells of grids",
-                          wordBytes(uint64_t(leaves.cellCount) * leaves.shape.cellWords));
+                          uintBytes(uint64_t(leaves.cellCount) * leaves.shape.cellWords));
     stream.fill(leaves.cells, 0);
     writeHeader(stream, leaves);
 
@@ -84,7 +84,7 @@ void LeafGrids::fill(PassContext& context, const gpu::VoxelGrid& voxels, const T
     if (write_ == CellWrite::Average) {
         sums = LargeBuffer(
             context.device, "sums of cells",
-            wordBytes(uint64_t(leaves.cellCount) * cellLayout(*context.frame.scene->scene).sumWords));
+            uintBytes(uint64_t(leaves.cellCount) * cellLayout(*context.frame.scene->scene).sumWords));
         stream.fill(sums, 0);
     }
     stream.dispatch(writeCells_, pairs.count, {pairBindings.all(), ifUsed({"CellSumsRef", sums.ref()})});

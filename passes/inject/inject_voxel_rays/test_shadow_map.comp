@@ -33,7 +33,7 @@ void main() {
     if (all(equal(irradiance, vec3(0.0)))) return;
 
     vec4 weights;
-    const ivec2 first = nearestTexels(view, push.resolution, s.position, weights);
+    const ivec2 first = bilinearTexels(view, push.resolution, s.position, weights);
     float visible = 0.0;
     for (int k = 0; k < 4; ++k)
         if (passes(first + ivec2(k & 1, k >> 1), s)) visible += weights[k];

@@ -11,10 +11,10 @@
 // The ray through a texel's center, with the power through the texel: E * area, or I * solid angle (at its center;
 // exact as texels shrink). Inactive without power.
 Ray rsmRay(LightView view, GpuLight light, uint resolution, ivec2 texel, out LightPath path) {
-    const vec2 onView = texelOnView(view, resolution, texel);
+    const vec2 onView = texelCenter(view, resolution, texel);
     const float width = texelWidth(view, resolution);
     const TexelRay beam = texelRay(view, onView);
-    Ray ray = Ray(beam.start, 0.0, normalize(beam.along), 1.0e30);
+    Ray ray = Ray(beam.origin, 0.0, normalize(beam.direction), 1.0e30);
     path = LightPath(vec3(0.0), 0.0, 0.0, 0.0);
     if (view.parallel != 0u) {
         path.area = width * width;

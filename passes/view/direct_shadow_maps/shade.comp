@@ -33,7 +33,7 @@ float depthAt(uint number, LightView view, ivec2 texel) {
 
 float visibleFraction(uint number, LightView view, vec3 point, vec3 faceNormal) {
     vec4 weights;
-    const ivec2 first = nearestTexels(view, push.resolution, point, weights);
+    const ivec2 first = bilinearTexels(view, push.resolution, point, weights);
     float visible = 0.0;
     for (int k = 0; k < 4; ++k) {
         const ivec2 texel = first + ivec2(k & 1, k >> 1);

@@ -1,4 +1,4 @@
-// A bit for each voxel of a region that is made of boxes of slots. A work group's z is a box.
+// Sets the bits of the voxels in a region, given as boxes in wrapped coordinates. gl_WorkGroupID.z is the box.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
@@ -9,7 +9,7 @@ struct VoxelBox {
 layout(scalar) readonly buffer Boxes { VoxelBox data[]; } boxes;
 buffer Region { uint words[]; } region;
 layout(push_constant, scalar) uniform Push {
-    uint rows;  // Along y.
+    uint rows;  // Of the grid's window, along y.
     uint wordsPerRow;
 } push;
 
@@ -21,8 +21,9 @@ void main() {
     const uint word = firstWord + i % words;
     const uint y = first.y + i / words % size.y, z = first.z + i / words / size.y;
 
-    // The word's bits from the box's first on up, to its last.
-    const uint from = max(first.x, 32u * word) - 32u * word, to = min(first.x + size.x, 32u * word + 32u) - 32u * word - 1u;
+    // The word's bits from the box's first to its last
+    const uint from = max(first.x, 32u * word) - 32u * word,
+               to = min(first.x + size.x, 32u * word + 32u) - 32u * word - 1u;
     const uint bits = (0xffffffffu << from) & (0xffffffffu >> (31u - to));
     atomicOr(region.words[(z * push.rows + y) * push.wordsPerRow + word], bits);
 }

@@ -1,6 +1,6 @@
-// Filters a level of radiance voxels in full grids from the level below.
-#include "shaders/compute/linear_index.glsl"
+// Filters a level of radiance voxels from the next finer one. Both are full grids, or windows that are.
 #include "passes/cones/radiance/radiance_voxels.glsl"
+#include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
 layout(push_constant) uniform Push { uint level; } push;
@@ -19,6 +19,7 @@ void main() {
             const bool inside = all(lessThan(child, ivec3(finerSize)));
             values[octant] = inside ? radianceValue(radianceIndex(finer, child), face) : vec4(0.0);
         }
-        storeRadiance(radianceIndex(level, voxel), face, g.directions == 6u ? combineFaces(values, face) : combineAll(values));
+        storeRadiance(radianceIndex(level, voxel), face,
+                      g.directions == 6u ? combineFaces(values, face) : combineAll(values));
     }
 }

@@ -1,5 +1,5 @@
-// Materials under the numbers that voxels have once a rebuilt region is merged: of rebuilt voxels the rebuilt ones, of all others the
-// previous ones.
+// Copies materials to the numbers of voxels after a rebuilt region was merged: those of rebuilt voxels, and the
+// previous ones of all others.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
@@ -18,11 +18,13 @@ void main() {
     const uint rebuiltBits = rebuilt.words[word], previousBits = previous.words[word];
     uint number = voxelRank.before[word];
     for (uint bits = voxelOccupancy.words[word]; bits != 0u; bits &= bits - 1u) {
-        const uint bit = bits & -bits, below = bit - 1u;
+        const uint bit = bits & -bits, lower = bit - 1u;
         if ((rebuiltBits & bit) != 0u)
-            voxelMaterials.data[number] = rebuiltMaterials.data[rebuiltRank.before[word] + uint(bitCount(rebuiltBits & below))];
+            voxelMaterials.data[number] =
+                rebuiltMaterials.data[rebuiltRank.before[word] + uint(bitCount(rebuiltBits & lower))];
         else
-            voxelMaterials.data[number] = previousMaterials.data[previousRank.before[word] + uint(bitCount(previousBits & below))];
+            voxelMaterials.data[number] =
+                previousMaterials.data[previousRank.before[word] + uint(bitCount(previousBits & lower))];
         ++number;
     }
 }

@@ -1,5 +1,5 @@
-// Occupancy of a grid in which a region was built again: within the region the rebuilt voxels, elsewhere the previous ones. Rebuilt
-// voxels beyond the region are dropped.
+// Merges the occupancy of a rebuilt region: rebuilt voxels within the region, previous ones elsewhere. Rebuilt voxels
+// outside the region are dropped.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
@@ -12,7 +12,7 @@ layout(push_constant) uniform Push { uint words; } push;
 void main() {
     const uint word = linearIndex();
     if (word >= push.words) return;
-    const uint within = rebuilt.words[word] & region.words[word];
-    rebuilt.words[word] = within;
-    merged.words[word] = (previous.words[word] & ~region.words[word]) | within;
+    const uint rebuiltBits = rebuilt.words[word] & region.words[word];
+    rebuilt.words[word] = rebuiltBits;
+    merged.words[word] = (previous.words[word] & ~region.words[word]) | rebuiltBits;
 }

@@ -1,4 +1,5 @@
-// Takes rays through the pane that they met, and from what they carry what its colour keeps. The scene is that of the panes.
+// Transmits rays through the panes that they hit: scales their throughput and advances them. The bound scene is that of
+// the panes.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"
 #include "shaders/trace/ray_types.h"
@@ -6,7 +7,7 @@ layout(local_size_x = 64) in;
 
 layout(scalar) buffer PaneRays { Ray data[]; } paneRays;
 layout(scalar) readonly buffer PaneHits { Hit data[]; } paneHits;
-buffer Carried { float data[]; } carried;
+buffer Throughput { float data[]; } throughput;
 buffer Active { uint count; } active_;
 layout(push_constant) uniform Push {
     uint count;
@@ -26,9 +27,9 @@ void main() {
     const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
     const GpuMaterial m = sceneMaterials.data[s.material];
     const vec3 transmittance = m.transmission * diffuseAlbedo(m, s, 0.0);
-    for (uint c = 0u; c < 3u; ++c) carried.data[i * push.stride + c] *= transmittance[c];
+    for (uint c = 0u; c < 3u; ++c) throughput.data[i * push.stride + c] *= transmittance[c];
 
-    // The next pane is farther by more than a distance rounds off.
+    // Past this pane by more than the rounding error of its distance
     paneRays.data[i].tMin = hit.t * (1.0 + 1e-5);
     atomicAdd(active_.count, 1u);
 }
