@@ -3,7 +3,7 @@
 
 #include "base/error.h"
 #include "base/suggest.h"
-#include "vulkan/commands_impl.h"
+#include "vulkan/commands.h"
 #include "vulkan/structure.h"
 
 namespace voxray {
@@ -172,8 +172,7 @@ class Writes {
 
 }  // namespace
 
-void CommandStream::Impl::bind(VkCommandBuffer buffer, const Program& program,
-                               std::span<const Binding> given) {
+void CommandStream::bind(VkCommandBuffer buffer, const Program& program, std::span<const Binding> given) {
     checkUses(program, given);
     vkCmdBindPipeline(buffer, program.bindPoint(), program.pipeline());
     if (const std::vector<std::byte> block = pushBlock(program, given); !block.empty())
@@ -182,7 +181,7 @@ void CommandStream::Impl::bind(VkCommandBuffer buffer, const Program& program,
 
     // Set 0 is pushed; the texture array is a descriptor set.
     const std::vector<const Binding*> matched = matchBindings(program, given);
-    Writes writes(device, program, matched.size());
+    Writes writes(device_, program, matched.size());
     for (size_t i = 0; i < matched.size(); ++i) {
         const ShaderBinding& shaderBinding = program.bindings()[i];
         const auto* textures = std::get_if<const TextureArray*>(&matched[i]->value);
@@ -194,8 +193,8 @@ void CommandStream::Impl::bind(VkCommandBuffer buffer, const Program& program,
         vkCmdBindDescriptorSets(buffer, program.bindPoint(), program.layout(), 1, 1, &set, 0, nullptr);
     }
     if (!writes.list().empty())
-        pushDescriptors(buffer, program.bindPoint(), program.layout(), 0, uint32_t(writes.list().size()),
-                        writes.list().data());
+        pushDescriptors_(buffer, program.bindPoint(), program.layout(), 0, uint32_t(writes.list().size()),
+                         writes.list().data());
 }
 
 }  // namespace voxray

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "vulkan/device.h"
+#include "vulkan/unique_handle.h"
 
 namespace voxray {
 
@@ -121,14 +122,10 @@ class Sampler {
  public:
     Sampler() = default;
     Sampler(Device& device, Filter filter, VkSamplerAddressMode wrapU, VkSamplerAddressMode wrapV);
-    ~Sampler();
-    Sampler(Sampler&& other) noexcept;
-    Sampler& operator=(Sampler&& other) noexcept;
     VkSampler handle() const { return handle_; }
 
  private:
-    Device* device_ = nullptr;
-    VkSampler handle_ = VK_NULL_HANDLE;
+    UniqueHandle<VkSampler, vkDestroySampler> handle_;
 };
 
 /// Array of sampled images under one binding (`uniform sampler2D textures[]`), of at least one entry. The
@@ -140,18 +137,13 @@ class TextureArray {
         const Sampler* sampler;
     };
     TextureArray() = default;
-    /// @throws Error for no entry or more than Device::maxTextures().
+    /// @throws Error for no entry or more than Device::Limits::textures.
     TextureArray(Device& device, std::span<const Entry> entries);
-    ~TextureArray();
-    TextureArray(TextureArray&& other) noexcept;
-    TextureArray& operator=(TextureArray&& other) noexcept;
 
     VkDescriptorSet set() const { return set_; }
-    VkDescriptorSetLayout layout() const { return device_->textureSetLayout(); }
 
  private:
-    Device* device_ = nullptr;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    UniqueHandle<VkDescriptorPool, vkDestroyDescriptorPool> pool_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 

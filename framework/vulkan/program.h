@@ -14,6 +14,7 @@
 
 #include "vulkan/device.h"
 #include "vulkan/memory.h"
+#include "vulkan/unique_handle.h"
 
 namespace voxray {
 
@@ -81,11 +82,6 @@ class ShaderCompiler {
 /// A pipeline with its layout and reflected bindings. Move-only.
 class Program {
  public:
-    Program() = default;
-    ~Program();
-    Program(Program&& other) noexcept;
-    Program& operator=(Program&& other) noexcept;
-
     explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
     VkPipeline pipeline() const { return pipeline_; }
     VkPipelineLayout layout() const { return layout_; }
@@ -99,11 +95,10 @@ class Program {
 
  private:
     friend class ProgramBuilder;  // program.cpp
-    Device* device_ = nullptr;
     std::string name_;
-    VkPipeline pipeline_ = VK_NULL_HANDLE;
-    VkPipelineLayout layout_ = VK_NULL_HANDLE;
-    VkDescriptorSetLayout pushSetLayout_ = VK_NULL_HANDLE;
+    UniqueHandle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> pushSetLayout_;
+    UniqueHandle<VkPipelineLayout, vkDestroyPipelineLayout> layout_;
+    UniqueHandle<VkPipeline, vkDestroyPipeline> pipeline_;
     VkPipelineBindPoint bindPoint_ = VK_PIPELINE_BIND_POINT_COMPUTE;
     VkShaderStageFlags stages_ = 0;
     std::vector<ShaderBinding> bindings_;

@@ -9,36 +9,9 @@
 
 namespace voxray {
 
-Program::~Program() {
-    if (!device_) return;
-    vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
-    vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
-    vkDestroyDescriptorSetLayout(device_->handle(), pushSetLayout_, nullptr);
-}
-
-Program::Program(Program&& other) noexcept {
-    *this = std::move(other);
-}
-
-Program& Program::operator=(Program&& other) noexcept {
-    std::swap(device_, other.device_);
-    std::swap(name_, other.name_);
-    std::swap(pipeline_, other.pipeline_);
-    std::swap(layout_, other.layout_);
-    std::swap(pushSetLayout_, other.pushSetLayout_);
-    std::swap(bindPoint_, other.bindPoint_);
-    std::swap(stages_, other.stages_);
-    std::swap(bindings_, other.bindings_);
-    std::swap(pushConstantBytes_, other.pushConstantBytes_);
-    std::swap(pushMembers_, other.pushMembers_);
-    std::swap(localSize_, other.localSize_);
-    return *this;
-}
-
 ProgramBuilder::ProgramBuilder(Device& device, std::span<const ShaderModule> modules,
                                const SpecializationConstants& constants, VkPipelineBindPoint bindPoint)
     : device_(device) {
-    program_.device_ = &device;
     program_.bindPoint_ = bindPoint;
     for (const ShaderModule& module : modules) {
         program_.name_ += (program_.name_.empty() ? "" : " + ") + module.file;
@@ -55,10 +28,6 @@ ProgramBuilder::ProgramBuilder(Device& device, std::span<const ShaderModule> mod
             throw Error("{}: stages declare different push constants", program_.name_);
     makeLayout();
     makeStages(modules, constants);
-}
-
-ProgramBuilder::~ProgramBuilder() {
-    for (VkShaderModule module : modules_) vkDestroyShaderModule(device_.handle(), module, nullptr);
 }
 
 void ProgramBuilder::mergeBindings(const ShaderModule& module) {
@@ -94,24 +63,22 @@ void ProgramBuilder::makeLayout() {
         else
             hasTextures = true;
     }
-    auto push = structure<VkPhysicalDevicePushDescriptorPropertiesKHR>(
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR);
-    auto properties =
-        structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &push);
-    vkGetPhysicalDeviceProperties2(device_.physical(), &properties);
-    if (pushed.size() > push.maxPushDescriptors)
+    const uint32_t maxPushed = device_.limits().pushDescriptors;
+    if (pushed.size() > maxPushed)
         throw Error("{}: {} bindings in set 0; device '{}' allows {}", program_.name_, pushed.size(),
-                    device_.info().name, push.maxPushDescriptors);
+                    device_.info().name, maxPushed);
     auto set =
         structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
     set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
     set.bindingCount = uint32_t(pushed.size());
     set.pBindings = pushed.data();
-    check(vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr, &program_.pushSetLayout_),
+    VkDescriptorSetLayout pushSetLayout = VK_NULL_HANDLE;
+    check(vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr, &pushSetLayout),
           "vkCreateDescriptorSetLayout");
+    program_.pushSetLayout_ = {device_.handle(), pushSetLayout};
 
     // Set 1: the scene's textures.
-    const VkDescriptorSetLayout sets[] = {program_.pushSetLayout_, device_.textureSetLayout()};
+    const VkDescriptorSetLayout sets[] = {pushSetLayout, device_.textureSetLayout()};
     const uint32_t limit = device_.properties().limits.maxPushConstantsSize;
     if (program_.pushConstantBytes_ > limit)
         throw Error("{}: {} bytes of push constants; device '{}' allows {}", program_.name_,
@@ -122,8 +89,9 @@ void ProgramBuilder::makeLayout() {
     create.pSetLayouts = sets;
     create.pushConstantRangeCount = range.size > 0 ? 1 : 0;
     create.pPushConstantRanges = &range;
-    check(vkCreatePipelineLayout(device_.handle(), &create, nullptr, &program_.layout_),
-          "vkCreatePipelineLayout");
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    check(vkCreatePipelineLayout(device_.handle(), &create, nullptr, &layout), "vkCreatePipelineLayout");
+    program_.layout_ = {device_.handle(), layout};
 }
 
 uint32_t ProgramBuilder::constantId(std::span<const ShaderModule> modules, const std::string& name) const {
@@ -153,7 +121,7 @@ void ProgramBuilder::makeStages(std::span<const ShaderModule> modules,
         create.pCode = spirv.data();
         VkShaderModule handle = VK_NULL_HANDLE;
         check(vkCreateShaderModule(device_.handle(), &create, nullptr, &handle), "vkCreateShaderModule");
-        modules_.push_back(handle);
+        modules_.emplace_back(device_.handle(), handle);
         auto stage =
             structure<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
         stage.stage = module.stage;
@@ -165,7 +133,7 @@ void ProgramBuilder::makeStages(std::span<const ShaderModule> modules,
 }
 
 Program ProgramBuilder::finish(VkPipeline pipeline) {
-    program_.pipeline_ = pipeline;
+    program_.pipeline_ = {device_.handle(), pipeline};
     return std::move(program_);
 }
 

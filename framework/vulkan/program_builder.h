@@ -15,7 +15,6 @@ class ProgramBuilder {
     /// @throws Error if stages disagree on a binding, a constant is unknown, or limits are exceeded.
     ProgramBuilder(Device& device, std::span<const ShaderModule> modules,
                    const SpecializationConstants& constants, VkPipelineBindPoint bindPoint);
-    ~ProgramBuilder();
     ProgramBuilder(const ProgramBuilder&) = delete;
     ProgramBuilder& operator=(const ProgramBuilder&) = delete;
 
@@ -37,7 +36,7 @@ class ProgramBuilder {
 
     Device& device_;
     Program program_;
-    std::vector<VkShaderModule> modules_;
+    std::vector<UniqueHandle<VkShaderModule, vkDestroyShaderModule>> modules_;
     std::vector<VkSpecializationMapEntry> entries_;
     std::vector<uint32_t> values_;
     VkSpecializationInfo specialization_{};
