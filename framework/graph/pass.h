@@ -64,7 +64,7 @@ class PassPlan : public PortAccess, public MemoryPlan {
  public:
     PassPlan(const PortOwner& owner, const std::vector<Resource*>& resources, const Frame& f,
              const DeviceInfo& d, Phase p)
-        : PortAccess(resources), frame(f), device(d), phase(p), owner_(owner) {}
+        : PortAccess(owner, resources), frame(f), device(d), phase(p) {}
     const Frame& frame;
     const DeviceInfo& device;
     const Phase phase;  ///< In which the pass runs.
@@ -75,16 +75,14 @@ class PassPlan : public PortAccess, public MemoryPlan {
     void frameImage(const Out<FrameImage>& port) {
         image((*this)[port].image, owner_.nameOf(port), frameImageDesc(frame));
     }
-
- private:
-    const PortOwner& owner_;
 };
 
 /// Given to Pass::prepare: fills tables in the described buffers and images.
 class PassSetup : public PortAccess {
  public:
-    PassSetup(const std::vector<Resource*>& resources, const Frame& f, Device& d, CommandStream& s)
-        : PortAccess(resources), frame(f), device(d), stream(s) {}
+    PassSetup(const PortOwner& owner, const std::vector<Resource*>& resources, const Frame& f, Device& d,
+              CommandStream& s)
+        : PortAccess(owner, resources), frame(f), device(d), stream(s) {}
     const Frame& frame;
     Device& device;
     CommandStream& stream;
@@ -93,12 +91,12 @@ class PassSetup : public PortAccess {
 /// Given to Pass::record.
 class PassContext : public PortAccess {
  public:
-    /// @param seenVersions of the resources when the pass recorded last; null in its first run
+    /// @param seenVersions of the resources when the pass recorded last; empty in its first run
     /// @param black a texel, for inputs that nothing writes
-    PassContext(const std::vector<Resource*>& resources, const std::vector<uint64_t>* seenVersions,
-                const Frame& f, Device& d, CommandStream& s, RayTracer& t, const GpuScene& g,
-                const Image& black, uint32_t index)
-        : PortAccess(resources),
+    PassContext(const PortOwner& owner, const std::vector<Resource*>& resources,
+                const std::optional<std::vector<uint64_t>>& seenVersions, const Frame& f, Device& d,
+                CommandStream& s, RayTracer& t, const GpuScene& g, const Image& black, uint32_t index)
+        : PortAccess(owner, resources),
           frame(f),
           device(d),
           stream(s),
@@ -117,7 +115,7 @@ class PassContext : public PortAccess {
     /// Whether the pass records for the first time.
     bool isFirstRun() const { return !seenVersions_; }
     /// Whether the contents of an input changed since the pass recorded last; true in its first run, false
-    /// for an optional input that nothing writes.
+    /// for an optional input that nothing writes. @throws Error for a resource that is no input of the pass.
     bool changed(const Resource& input) const;
     bool changed(const Port& input) const {
         const Resource* resource = bound(input);
@@ -156,7 +154,7 @@ class PassContext : public PortAccess {
     void report(std::string name, double value) { reported.push_back({std::move(name), value}); }
 
  private:
-    const std::vector<uint64_t>* seenVersions_;
+    const std::optional<std::vector<uint64_t>>& seenVersions_;
     const Image& black_;
     bool outputsUnchanged_ = false;
 };

@@ -94,7 +94,9 @@ class Out : public Port {
 /// Access to the resources that a pass's ports are bound to.
 class PortAccess {
  public:
-    explicit PortAccess(const std::vector<Resource*>& resources) : resources_(resources) {}
+    /// @param resources in the order of the owner's ports; null where an optional input has none.
+    PortAccess(const PortOwner& owner, const std::vector<Resource*>& resources)
+        : owner_(owner), resources_(resources) {}
 
     template <typename T>
     const T& operator[](const In<T>& port) const {
@@ -110,15 +112,12 @@ class PortAccess {
         return static_cast<T&>(*bound(port));
     }
 
-    /// In the order of the ports; null where an optional input has none.
-    const std::vector<Resource*>& resources() const { return resources_; }
-
  protected:
     Resource* bound(const Port& port) const {
         return port.index_ < 0 ? nullptr : resources_[size_t(port.index_)];
     }
 
- private:
+    const PortOwner& owner_;
     const std::vector<Resource*>& resources_;
 };
 

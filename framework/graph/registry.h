@@ -26,6 +26,16 @@ struct PassType {
     std::unique_ptr<Pass> (*make)(const void* params);
 };
 
+/// A pass made from a config.
+struct ConfiguredPass {
+    std::unique_ptr<Pass> pass;
+    Value parameters;                   ///< With every default filled in.
+    std::vector<UnusedSetting> unused;  ///< Those of `parameters` that have no effect because of others.
+};
+
+/// Keys of a graph entry that are not parameters of the pass.
+const std::vector<std::string>& reservedKeys();
+
 /// What the registry knows of one kind of pass.
 struct PassKind {
     std::string name;
@@ -36,27 +46,9 @@ struct PassKind {
     bool needsDevice = true;     ///< False: it runs where there is no Vulkan, too (Device::isHost()).
     PassType type;
 
-    /// Makes a pass from its map in the config. @param reserved keys that the graph itself reads.
-    /// @throws UsageError for an unknown or invalid parameter.
-    std::unique_ptr<Pass> create(const Value& map, const std::string& id,
-                                 const std::vector<std::string>& reserved) const;
-    /// The map with every default filled in, reserved keys left out.
-    Value resolve(const Value& map, const std::string& id, const std::vector<std::string>& reserved) const;
-    /// Parameters that the map names although they have no effect there.
-    std::vector<UnusedSetting> unused(const Value& map, const std::string& id,
-                                      const std::vector<std::string>& reserved) const;
+    /// Makes a pass from its map in the config. @throws UsageError for an unknown or invalid parameter.
+    ConfiguredPass create(const Value& map, const std::string& id) const;
 };
-
-/// The ports that a pass has with each value of one parameter, in the order of its values.
-struct PortsByValue {
-    std::string parameter;
-    std::vector<std::string> values;
-    std::vector<std::vector<PortInfo>> ports;
-};
-
-/// All of a pass's ports: those of its defaults, then those that values of one parameter ask for.
-std::vector<PortDoc> describePorts(const std::vector<PortInfo>& ofDefaults,
-                                   const std::vector<PortsByValue>& ofChoices);
 
 /// Parameters of a pass that has none.
 struct NoParams {

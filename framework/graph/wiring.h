@@ -7,6 +7,7 @@
 
 #include "base/value.h"
 #include "graph/pass.h"
+#include "graph/pass_memory_tracker.h"
 #include "graph/registry.h"
 
 namespace voxray {
@@ -27,6 +28,7 @@ struct GraphNode {
     std::vector<UnusedSetting> unused;                  ///< Parameters of its entry that have no effect.
     TextLocation where;
     uint64_t lightRays = 0;  ///< As planned.
+    PassMemoryTracker memory;
 };
 
 /// Index of a node's output port of that name.
@@ -34,12 +36,11 @@ std::optional<size_t> outputNamed(const GraphNode& node, const std::string& name
 
 /// Checks an entry of a pass list by itself: its pass, its parameters and which inputs it names.
 /// @throws UsageError with file and line.
-void checkEntry(const Registry& registry, const Value& entry, const std::vector<std::string>& reservedKeys);
+void checkEntry(const Registry& registry, const Value& entry);
 
 /// Reads a config's pass list, binds every port and sorts passes so that writers come before readers.
 /// Passes that don't depend on each other keep the list's order.
 /// @throws UsageError with file and line.
-std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList,
-                                 const std::vector<std::string>& reservedKeys);
+std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList);
 
 }  // namespace voxray
