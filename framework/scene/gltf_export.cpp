@@ -231,14 +231,10 @@ void GltfWriter::addInstance(const Geometry& geometry, const InstanceRange& rang
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = int(mesh.material);
     primitive.attributes["POSITION"] = addAccessor(positions, TINYGLTF_TYPE_VEC3, floats, vertexData);
-    glm::vec3 low = positions[0];
-    glm::vec3 high = positions[0];
-    for (const glm::vec3& p : positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    model_.accessors.back().minValues = numbers(low);
-    model_.accessors.back().maxValues = numbers(high);
+    Box bounds = Box::empty();
+    for (const glm::vec3& p : positions) bounds.include(p);
+    model_.accessors.back().minValues = numbers(bounds.min);
+    model_.accessors.back().maxValues = numbers(bounds.max);
     primitive.attributes["NORMAL"] = addAccessor(normals, TINYGLTF_TYPE_VEC3, floats, vertexData);
     if (!mesh.tangents.empty())
         primitive.attributes["TANGENT"] = addAccessor(tangents, TINYGLTF_TYPE_VEC4, floats, vertexData);

@@ -7,7 +7,6 @@
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_deform.h"
 #include "scene/mesh_repair.h"
-#include "scene/value_ranges.h"
 
 namespace voxray {
 namespace {

@@ -1,6 +1,7 @@
 #include "scene/mesh_repair.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace voxray {
@@ -180,6 +181,17 @@ bool normalizeTangents(Mesh& mesh) {
         t = glm::vec4(direction, t.w < 0 ? -1.0f : 1.0f);
     }
     return true;
+}
+
+size_t limitColors(Mesh& mesh, const Material& material) {
+    const glm::vec4 most = 1.0f / glm::max(material.baseColor, glm::vec4(1e-30f));
+    size_t count = 0;
+    for (glm::vec4& color : mesh.colors) {
+        const glm::vec4 within = glm::clamp(color, glm::vec4(0.0f), most);
+        count += within != color;
+        color = within;
+    }
+    return count;
 }
 
 }  // namespace voxray

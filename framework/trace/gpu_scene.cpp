@@ -255,9 +255,10 @@ void updateGpuScene(CommandStream& stream, const SceneState& state, GpuScene& sc
         upload(scene.triangles, g.triangles, run.firstTriangle, run.triangleCount);
     }
     uploadLights(stream, state, scene);
-    const bool emitterMoved = std::any_of(
-        g.instances.begin(), g.instances.end(),
-        [&](const InstanceRange& range) { return range.moves && canEmit(state, range.firstTriangle); });
+    bool emitterMoved = false;
+    for (const InstanceRange& run : movingRuns(g))
+        for (uint32_t t = run.firstTriangle; t < run.firstTriangle + run.triangleCount; ++t)
+            emitterMoved = emitterMoved || canEmit(state, t);
     if (emitterMoved) uploadEmitters(stream, state, scene);
     if (scene.panes) updateGpuScene(stream, *state.panes, *scene.panes);
 }

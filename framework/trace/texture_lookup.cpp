@@ -1,17 +1,19 @@
 #include "trace/texture_lookup.h"
 
+#include <array>
+
+#include "base/srgb.h"
+
 namespace voxray {
 
 namespace {
 
-std::array<float, 256> makeSrgbTable() {
+/// Linear values of the 256 sRGB codes.
+const std::array<float, 256> kSrgbToLinear = [] {
     std::array<float, 256> table{};
-    for (int code = 0; code < 256; ++code) {
-        const double s = code / 255.0;
-        table[size_t(code)] = float(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-    }
+    for (size_t code = 0; code < 256; ++code) table[code] = float(srgbDecode(double(code) / 255.0));
     return table;
-}
+}();
 
 glm::vec4 texel(const Texture& texture, int32_t x, int32_t y) {
     const uint8_t* code = &texture.rgba[(size_t(y) * texture.width + size_t(x)) * 4];
@@ -36,8 +38,6 @@ float reduceCoordinate(float x, Wrap wrap) {
 }
 
 }  // namespace
-
-const std::array<float, 256> kSrgbToLinear = makeSrgbTable();
 
 int32_t wrapTexel(int32_t x, int32_t size, Wrap wrap) {
     switch (wrap) {

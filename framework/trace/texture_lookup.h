@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -11,9 +10,6 @@
 
 /// Texture lookups on the CPU: level 0, sRGB decoded before filtering (CONVENTIONS 10).
 namespace voxray {
-
-/// Linear values of the 256 sRGB codes (IEC 61966-2-1).
-extern const std::array<float, 256> kSrgbToLinear;
 
 /// A texel's integer coordinate after wrapping; any `x` that fits in 32 bits, `size` >= 1.
 int32_t wrapTexel(int32_t x, int32_t size, Wrap wrap);
