@@ -100,6 +100,7 @@ size_t addRegistered(Registry& registry, std::string_view folder, const std::str
 
 void Registry::add(const char* name, const std::string& family, const char* help, bool needsDevice,
                    const PassType& type) {
+    if (find(name)) throw Error("two passes are called '{}': give one another kName", name);
     kinds_.push_back({name, family, help, describeParams(*type.schema, type.defaults().get()), portsOf(type),
                       needsDevice, type});
 }

@@ -58,7 +58,7 @@ struct NoParams {
 /// All kinds of passes, filled by registerPasses (passes/common/families.h).
 class Registry {
  public:
-    /// P: see Pass.
+    /// P: see Pass. @throws Error for a name that another pass has.
     template <typename P>
     void add(const std::string& family = "") {
         bool needsDevice = true;

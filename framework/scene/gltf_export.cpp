@@ -44,8 +44,8 @@ int wrapMode(Wrap wrap) {
 }
 
 /// A node whose -Z axis is `forward`.
-tinygltf::Node lookingNode(const std::string& name, const glm::vec3& position, const glm::vec3& forward,
-                           const glm::vec3& up) {
+tinygltf::Node nodeFacing(const std::string& name, const glm::vec3& position, const glm::vec3& forward,
+                          const glm::vec3& up) {
     const glm::dvec3 z = -glm::normalize(glm::dvec3(forward));
     const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(up), z));
     const glm::dquat q = glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)));
@@ -281,7 +281,7 @@ void GltfWriter::addLight(const Light& light) {
             break;
     }
     model_.lights.push_back(std::move(out));
-    tinygltf::Node node = lookingNode(light.name, light.position, light.direction, anyUp(light.direction));
+    tinygltf::Node node = nodeFacing(light.name, light.position, light.direction, anyUp(light.direction));
     setLight(node, int(model_.lights.size() - 1));
     addNode(std::move(node));
 }
@@ -295,7 +295,7 @@ void GltfWriter::addCamera(const Camera& camera) {
     out.perspective.znear = 1e-3;
     out.perspective.zfar = 1e5;
     model_.cameras.push_back(std::move(out));
-    tinygltf::Node node = lookingNode(camera.name, camera.position, camera.forward, camera.up);
+    tinygltf::Node node = nodeFacing(camera.name, camera.position, camera.forward, camera.up);
     node.camera = int(model_.cameras.size() - 1);
     addNode(std::move(node));
 }
