@@ -256,7 +256,7 @@ void updateGpuScene(CommandStream& stream, const SceneState& state, GpuScene& sc
     }
     uploadLights(stream, state, scene);
     bool emitterMoved = false;
-    for (const InstanceRange& run : movingRuns(g))
+    for (const InstanceRange& run : movingInstanceRanges(g))
         for (uint32_t t = run.firstTriangle; t < run.firstTriangle + run.triangleCount; ++t)
             emitterMoved = emitterMoved || canEmit(state, t);
     if (emitterMoved) uploadEmitters(stream, state, scene);
