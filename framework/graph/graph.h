@@ -16,7 +16,7 @@ namespace voxray {
 struct PassSample {
     double milliseconds = 0;
     uint64_t rays = 0;
-    uint64_t voxelSteps = 0;  ///< Of voxel marches, counted on the device.
+    uint64_t voxelSteps = 0;  ///< Steps of voxel marches, counted on the device.
     StreamCounts work = {};   ///< Recorded by the pass, without those of the measurement.
     std::vector<PassContext::Value> reported;
 };

@@ -109,13 +109,13 @@ void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& co
 std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& device, CommandStream& stream,
                                    RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex,
                                    bool checkFinite) {
-    /// What is read when all passes have run.
+    /// Timestamps and counters of a pass, which are read when all passes have run.
     struct Pending {
-        uint32_t begin, end;  ///< Timestamps.
+        uint32_t begin, end;
         std::vector<const Buffer*> voxelCounts;
     };
     std::vector<PassSample> samples;
-    std::vector<Pending> pending;  ///< By sample.
+    std::vector<Pending> pending;  ///< One per sample.
     uint64_t usedBytes = 0;
     for (const GraphNode& node : nodes_) usedBytes += node.memory.used().bytes;
     const MemoryLimit limit(device, memoryLimitBytes_, usedBytes);

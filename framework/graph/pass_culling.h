@@ -10,8 +10,8 @@ namespace voxray {
 
 /// Nodes and resources that the last writers of some ports depend on.
 struct Needed {
-    std::vector<bool> nodes;         ///< By node.
-    std::set<const Resource*> read;  ///< By these nodes, or from outside by the names of the ports.
+    std::vector<bool> nodes;         ///< Whether each node is needed.
+    std::set<const Resource*> read;  ///< What these nodes read, and what is read from outside.
 };
 
 /// Dependencies of the last writers of these ports. A node that writes nothing is always needed.

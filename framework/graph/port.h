@@ -16,7 +16,7 @@ struct PortInfo {
     bool output = false;
     bool optional = false;
     std::type_index type = typeid(void);
-    Resource* (*create)() = nullptr;  ///< Of an output.
+    Resource* (*create)() = nullptr;  ///< Makes the resource of an output.
 };
 
 class Port;

@@ -10,7 +10,7 @@
 namespace voxray {
 namespace {
 
-/// By the file that registers it. The one thing that outlives all: linking a pass is all that adds it.
+/// Passes by the file that registers them. Static, since linking a pass is all that adds it.
 std::multimap<std::string, PassRegistration::Add>& registrations() {
     static std::multimap<std::string, PassRegistration::Add> all;
     return all;
@@ -29,7 +29,7 @@ std::vector<PortInfo> declared(const PassType& type, const void* params) {
 struct PortsByValue {
     std::string parameter;
     std::vector<std::string> values;
-    std::vector<std::vector<PortInfo>> ports;  ///< By value.
+    std::vector<std::vector<PortInfo>> ports;  ///< One list per value.
 };
 
 std::vector<PortsByValue> portsByChoice(const PassType& type) {

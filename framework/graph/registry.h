@@ -29,20 +29,20 @@ struct PassType {
 /// A pass made from a config.
 struct ConfiguredPass {
     std::unique_ptr<Pass> pass;
-    Value parameters;                   ///< With every default filled in.
-    std::vector<UnusedSetting> unused;  ///< Those of `parameters` that have no effect because of others.
+    Value parameters;                   ///< All of them, with defaults filled in.
+    std::vector<UnusedSetting> unused;  ///< Parameters without effect because of others.
 };
 
 /// Keys of a graph entry that are not parameters of the pass.
 const std::vector<std::string>& reservedKeys();
 
-/// What the registry knows of one kind of pass.
+/// Description of one kind of pass.
 struct PassKind {
     std::string name;
     std::string family;  ///< Folder under passes/; empty of a pass from elsewhere.
     std::string help;
     std::vector<ParameterDoc> parameters;
-    std::vector<PortDoc> ports;  ///< With any values of its parameters.
+    std::vector<PortDoc> ports;  ///< All that it has with any values of its parameters.
     bool needsDevice = true;     ///< False: it runs where there is no Vulkan, too (Device::isHost()).
     PassType type;
 

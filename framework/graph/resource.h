@@ -47,7 +47,7 @@ inline std::optional<uint32_t> oneMoreBounce(std::optional<uint32_t> bounces) {
 /// A radiance image of the frame's size: RGBA32F, linear Rec.709, W/(m² sr).
 struct FrameImage : Resource {
     Image image;
-    /// Of indirect light: whether it includes the reflection of specular lobes. Set in plan().
+    /// Whether an image of indirect light includes the reflection of specular lobes. Set in plan().
     bool hasSpecularLobes = false;
     std::vector<const Image*> checkedImages() const override { return {&image}; }
 };

@@ -40,20 +40,21 @@ struct WindowRoom {
     float sunAzimuthDegrees = 25;
     static constexpr auto schema() {
         return std::tuple{
-            field("wall_thickness", &WindowRoom::wallThickness, "Of walls and roof, in metres.", 0.01f, 1.0f),
+            field("wall_thickness", &WindowRoom::wallThickness, "Thickness of walls and roof, m.", 0.01f,
+                  1.0f),
             field("sill", &WindowRoom::sill,
-                  "How far the sill's board stands out of the wall on either side, in metres; 0: no sill.",
-                  0.0f, 0.5f),
-            field("slats", &WindowRoom::slats, "Slats of the blind in the window; 0: no blind.", 0u, 200u),
-            field("slat_width", &WindowRoom::slatWidth, "Of a slat, in metres.", 0.005f, 0.2f),
+                  "How far the sill's board juts out of the wall on either side, m; 0: no sill.", 0.0f, 0.5f),
+            field("slats", &WindowRoom::slats, "Number of slats of the blind in the window; 0: no blind.", 0u,
+                  200u),
+            field("slat_width", &WindowRoom::slatWidth, "Width of a slat, m.", 0.005f, 0.2f),
             field("slat_tilt_deg", &WindowRoom::slatTiltDegrees,
-                  "How far the slats' outer edges hang down: 0 horizontal, 90 closed.", -90.0f, 90.0f),
+                  "Tilt of the slats, outer edges down, degrees: 0 horizontal, 90 closed.", -90.0f, 90.0f),
             field("ground_distance", &WindowRoom::groundDistance,
-                  "How far the ground outside lies below the floor, in metres.", 0.0f, 20.0f),
-            field("sun_elevation_deg", &WindowRoom::sunElevationDegrees, "Of the sun above the horizon.",
-                  1.0f, 89.0f),
+                  "Depth of the ground outside below the floor, m.", 0.0f, 20.0f),
+            field("sun_elevation_deg", &WindowRoom::sunElevationDegrees,
+                  "Elevation of the sun above the horizon, degrees.", 1.0f, 89.0f),
             field("sun_azimuth_deg", &WindowRoom::sunAzimuthDegrees,
-                  "Of the sun off the window's axis, towards -X.", -80.0f, 80.0f)};
+                  "Azimuth of the sun off the window's axis, towards -X, degrees.", -80.0f, 80.0f)};
     }
 };
 
@@ -126,13 +127,12 @@ struct ShellRoom {
     float overhang = 2.0f;
     ShellLight light = ShellLight::Outside;
     static constexpr auto schema() {
-        return std::tuple{
-            field("wall_thickness", &ShellRoom::wallThickness, "Of walls, floor slab and roof, in metres.",
-                  0.001f, 1.0f),
-            field("overhang", &ShellRoom::overhang,
-                  "How far floor slab and ceiling run on beyond the walls, in metres.", 0.1f, 20.0f),
-            field("light", &ShellRoom::light,
-                  "The sun outside (20 W/m²), or a point light inside (2 W/sr).")};
+        return std::tuple{field("wall_thickness", &ShellRoom::wallThickness,
+                                "Thickness of walls, floor slab and roof, m.", 0.001f, 1.0f),
+                          field("overhang", &ShellRoom::overhang,
+                                "How far floor slab and ceiling extend beyond the walls, m.", 0.1f, 20.0f),
+                          field("light", &ShellRoom::light,
+                                "The sun outside (20 W/m²), or a point light inside (2 W/sr).")};
     }
 };
 

@@ -16,12 +16,12 @@ struct Spheres {
     float period = 8.0f;
     static constexpr auto schema() {
         return std::tuple{field("count", &Spheres::count, "Number of spheres.", 1u, 4096u),
-                          field("radius", &Spheres::radius, "In metres.", 0.01f, 2.0f),
-                          field("seed", &Spheres::seed, "Chooses paths and colours."),
+                          field("radius", &Spheres::radius, "Radius of the spheres, m.", 0.01f, 2.0f),
+                          field("seed", &Spheres::seed, "Seed of paths and colours."),
                           field("moving", &Spheres::moving,
                                 "Whether the spheres move; otherwise they stay where they start."),
                           field("period", &Spheres::period,
-                                "Seconds that one round takes; then the spheres stop.", 0.1f, 3600.0f)};
+                                "Duration of one round, after which the spheres stop, s.", 0.1f, 3600.0f)};
     }
 };
 

@@ -116,7 +116,7 @@ struct Light {
     float innerConeAngle = 0.0f;  ///< Radians from the axis, spot only.
     float outerConeAngle = 0.7853982f;
     glm::vec3 position{0.0f};
-    glm::vec3 direction{0, 0, -1};  ///< Of propagation, unit length.
+    glm::vec3 direction{0, 0, -1};  ///< Direction of propagation, unit length.
     int32_t node = -1;
 };
 
@@ -162,8 +162,8 @@ struct Scene {
     std::vector<std::string> orthographicCameras;  ///< Names of ignored ones.
     Environment environment;
     std::vector<AnimationChannel> animation;  ///< All of the file's animations, played together.
-    std::vector<std::string> warnings;        ///< Of the loader, one line each.
-    std::string contentHash;                  ///< Of everything above; part of cache keys.
+    std::vector<std::string> warnings;        ///< Warnings of the loader, one line each.
+    std::string contentHash;                  ///< Hash of everything above (hashScene()).
 };
 
 }  // namespace voxray

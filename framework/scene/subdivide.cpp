@@ -12,7 +12,7 @@ namespace {
 constexpr uint64_t kMaxTriangles = 1ull << 28;
 
 void subdivide(Mesh& mesh) {
-    std::unordered_map<uint64_t, uint32_t> midpoints;  // By the vertices of an edge, the lower one first.
+    std::unordered_map<uint64_t, uint32_t> midpoints;  // Keys: vertices of an edge, the lower one first.
     const auto midpoint = [&](uint32_t a, uint32_t b) {
         if (a > b) std::swap(a, b);
         const auto [found, isNew] =

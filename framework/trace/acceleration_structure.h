@@ -40,10 +40,10 @@ struct SceneStructure {
     Buffer chunkFirst;   ///< First triangle, in tracing order, of each chunk.
     Buffer triangleIds;  ///< Triangles of the scene, in tracing order.
     Buffer corners;      ///< Vertices of the triangles, in tracing order.
-    Buffer positions;    ///< Of the vertices.
+    Buffer positions;    ///< Positions of the vertices.
     uint32_t opaqueCount = 0;
 
-    uint64_t bytes() const;  ///< Of all structures.
+    uint64_t bytes() const;  ///< Memory of all structures.
 };
 
 /// Maximum number of triangles in a bottom-level structure.

@@ -51,7 +51,7 @@ bool isActive(const Ray& ray) {
     return ray.tMax >= ray.tMin;
 }
 
-/// With stores as wide as Embree's loads, for store forwarding.
+/// Converts a ray with stores as wide as Embree's loads, for store forwarding.
 void toEmbree(const Ray& ray, RTCRay& out) {
     const Float4 origin = load(ray.origin);
     const Int4 direction = reinterpret_cast<Int4>(load(ray.direction)) & Int4{-1, -1, -1, 0};  // Time 0.

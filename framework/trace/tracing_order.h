@@ -15,7 +15,7 @@ namespace voxray {
 /// it is, so that this order determines its quality (17 times the speed on the Stanford dragon). GPUs sort
 /// for themselves.
 struct TracingOrder {
-    std::vector<uint32_t> triangles;   ///< Of the scene.
+    std::vector<uint32_t> triangles;   ///< Triangles of the scene.
     std::vector<uint32_t> chunkFirst;  ///< Indices into `triangles`; empty for an empty scene.
     uint32_t opaqueCount = 0;
     uint32_t maxChunk = 0;  ///< Maximum number of triangles in a chunk.

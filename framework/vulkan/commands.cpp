@@ -11,7 +11,7 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kTimestampsPerPool = 256;
-constexpr uint64_t kSmallBytes = 8 << 10;  ///< Of a persistent staging buffer, for counters and parameters.
+constexpr uint64_t kSmallBytes = 8 << 10;  ///< Size of a persistent staging buffer.
 
 void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 dstStage, VkAccessFlags2 dstAccess) {
     auto barrier = structure<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);

@@ -39,7 +39,7 @@ struct RasterTargets {
 struct StreamCounts {
     uint64_t dispatches = 0;  ///< Compute, raster and ray calls and builds of acceleration structures.
     uint64_t waits = 0;       ///< Submissions that the host waited for.
-    uint64_t hostBytes = 0;   ///< Of upload() and read().
+    uint64_t hostBytes = 0;   ///< Bytes copied by upload() and read().
 
     StreamCounts operator-(const StreamCounts& earlier) const {
         return {dispatches - earlier.dispatches, waits - earlier.waits, hostBytes - earlier.hostBytes};

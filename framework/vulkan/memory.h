@@ -25,7 +25,7 @@ enum class MemoryKind {
 /// A driver allocation, of a buffer or an image.
 struct DeviceMemory {
     VkDeviceMemory handle = VK_NULL_HANDLE;
-    uint64_t bytes = 0;  ///< With the driver's padding.
+    uint64_t bytes = 0;  ///< Including the driver's padding.
     uint32_t type = 0;   ///< Index of the memory type.
     bool addressable = false;
 };
@@ -97,7 +97,7 @@ class Image {
     explicit operator bool() const { return device_ != nullptr; }
     const std::string& name() const { return name_; }
     const ImageDesc& desc() const { return desc_; }
-    uint64_t bytes() const { return memory_.bytes; }  ///< With the driver's padding.
+    uint64_t bytes() const { return memory_.bytes; }  ///< Including the driver's padding.
     VkImage handle() const { return handle_; }
     VkImageView view() const { return view_; }
     VkImageView levelView(uint32_t level) const;  ///< One mip level, for storage access.

@@ -38,7 +38,7 @@ struct ShaderPushMember {
     std::string name;
     uint32_t offset = 0;  ///< Bytes from the block's start.
     uint32_t bytes = 0;
-    NumberKind kind = NumberKind::Integer;  ///< Of a vector or matrix: of its components.
+    NumberKind kind = NumberKind::Integer;  ///< For a vector or matrix: kind of its components.
     bool operator==(const ShaderPushMember&) const = default;
 };
 
@@ -54,7 +54,7 @@ struct ShaderModule {
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
     std::vector<uint32_t> spirv;
     std::vector<ShaderBinding> bindings;
-    uint32_t pushConstantBytes = 0;  ///< Of the block, padded to its largest scalar as in C++.
+    uint32_t pushConstantBytes = 0;  ///< Size of the block, padded to its largest scalar as in C++.
     std::vector<ShaderPushMember> pushMembers;
     std::vector<ShaderConstant> constants;
     glm::uvec3 localSize{1, 1, 1};  ///< Invocations of a compute shader's work group.
