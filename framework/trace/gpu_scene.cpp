@@ -105,15 +105,9 @@ void uploadEmitters(CommandStream& stream, const SceneState& state, GpuScene& sc
 }
 
 VkSamplerAddressMode toVulkan(Wrap wrap) {
-    switch (wrap) {
-        case Wrap::Repeat:
-            return VK_SAMPLER_ADDRESS_MODE_REPEAT;
-        case Wrap::ClampToEdge:
-            return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-        case Wrap::MirroredRepeat:
-            return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
-    }
-    return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    return wrap == Wrap::ClampToEdge      ? VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE
+           : wrap == Wrap::MirroredRepeat ? VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT
+                                          : VK_SAMPLER_ADDRESS_MODE_REPEAT;
 }
 
 ImageDesc describe(const Texture& texture) {

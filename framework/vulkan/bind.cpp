@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "base/error.h"
@@ -23,16 +24,8 @@ const char* kindName(VkDescriptorType type) {
 }
 
 const char* kindName(NumberKind kind) {
-    switch (kind) {
-        case NumberKind::Integer:
-            return "an integer";
-        case NumberKind::Float:
-            return "a float";
-        case NumberKind::Address:
-            return "a 64-bit integer";
-        default:
-            return "a struct";
-    }
+    constexpr std::array kNames{"an integer", "a float", "a 64-bit integer", "a struct"};
+    return kNames[size_t(kind)];
 }
 
 bool isNumber(const Binding& binding) {
