@@ -60,30 +60,15 @@ std::string digitsAdvice(const Value& value) {
 }
 
 std::string quotedJson(const std::string& text) {
+    constexpr std::string_view kEscaped = "\"\\\n\t\r", kLetters = "\"\\ntr";
     std::string out = "\"";
     for (const char c : text) {
-        switch (c) {
-            case '"':
-                out += "\\\"";
-                break;
-            case '\\':
-                out += "\\\\";
-                break;
-            case '\n':
-                out += "\\n";
-                break;
-            case '\t':
-                out += "\\t";
-                break;
-            case '\r':
-                out += "\\r";
-                break;
-            default:
-                if (static_cast<unsigned char>(c) < 0x20)
-                    out += fmt::format("\\u{:04x}", int(c));
-                else
-                    out += c;
-        }
+        if (const size_t i = kEscaped.find(c); i != std::string_view::npos)
+            out += {'\\', kLetters[i]};
+        else if (static_cast<unsigned char>(c) < 0x20)
+            out += fmt::format("\\u{:04x}", int(c));
+        else
+            out += c;
     }
     return out + "\"";
 }

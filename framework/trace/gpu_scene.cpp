@@ -167,12 +167,11 @@ uint64_t gpuEnvironmentBytes(const Environment& environment) {
     return imageBytes(desc);
 }
 
-std::vector<Binding> GpuScene::bindings(std::vector<Binding> more) const {
-    more.insert(more.begin(), {ifUsed({"sceneGeometry", geometry}), ifUsed({"sceneMaterials", materials}),
-                               ifUsed({"sceneLights", lights}), ifUsed({"sceneEmitters", emitters}),
-                               ifUsed({"sceneTextures", textures}),
-                               ifUsed({"sceneEnvironment", environment, environmentSampler})});
-    return more;
+std::vector<Binding> GpuScene::bindings() const {
+    return {
+        ifUsed({"sceneGeometry", geometry}), ifUsed({"sceneMaterials", materials}),
+        ifUsed({"sceneLights", lights}),     ifUsed({"sceneEmitters", emitters}),
+        ifUsed({"sceneTextures", textures}), ifUsed({"sceneEnvironment", environment, environmentSampler})};
 }
 
 GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& state) {

@@ -83,6 +83,15 @@ glm::vec4 sampleTexture(const Texture& texture, glm::vec2 uv) {
     return row(y.first) * (1.0f - y.weight) + row(y.second) * y.weight;
 }
 
+glm::vec4 sampleTexture(const SceneState& state, const TextureRef& ref, uint32_t triangle, float u, float v) {
+    const Geometry& g = state.geometry;
+    const glm::uvec3 corners = g.triangles[triangle];
+    const glm::vec4 texCoords =
+        interpolate(g.attributes[corners.x].texCoords, g.attributes[corners.y].texCoords,
+                    g.attributes[corners.z].texCoords, u, v);
+    return sampleTexture(state.scene->textures[size_t(ref.texture)], textureCoordinates(ref, texCoords));
+}
+
 float alphaThreshold(const Material& material) {
     return material.alphaCutoff * (1.0f - 0x1p-20f);
 }
@@ -91,16 +100,11 @@ bool isCutAway(const SceneState& state, uint32_t triangle, float u, float v) {
     const Geometry& geometry = state.geometry;
     const Material& material = state.scene->materials[geometry.triangleMaterials[triangle]];
     const glm::uvec3 corners = geometry.triangles[triangle];
-    const VertexAttributes& a = geometry.attributes[corners.x];
-    const VertexAttributes& b = geometry.attributes[corners.y];
-    const VertexAttributes& c = geometry.attributes[corners.z];
-    float alpha = material.baseColor.a * interpolate(a.color.a, b.color.a, c.color.a, u, v);
-    if (material.baseColorTexture.texture >= 0) {
-        const glm::vec4 texCoords = interpolate(a.texCoords, b.texCoords, c.texCoords, u, v);
-        alpha *= sampleTexture(state.scene->textures[size_t(material.baseColorTexture.texture)],
-                               textureCoordinates(material.baseColorTexture, texCoords))
-                     .a;
-    }
+    float alpha = material.baseColor.a * interpolate(geometry.attributes[corners.x].color.a,
+                                                     geometry.attributes[corners.y].color.a,
+                                                     geometry.attributes[corners.z].color.a, u, v);
+    if (material.baseColorTexture.texture >= 0)
+        alpha *= sampleTexture(state, material.baseColorTexture, triangle, u, v).a;
     return alpha < alphaThreshold(material);
 }
 

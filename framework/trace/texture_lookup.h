@@ -32,6 +32,9 @@ T interpolate(const T& a, const T& b, const T& c, float u, float v) {
     return a * (1.0f - u - v) + b * u + c * v;
 }
 
+/// A material's texture at a point of a triangle.
+glm::vec4 sampleTexture(const SceneState& state, const TextureRef& ref, uint32_t triangle, float u, float v);
+
 /// The material's alpha cutoff, less the rounding error of the product of factor, texture and vertex colour:
 /// an alpha equal to the cutoff is opaque.
 float alphaThreshold(const Material& material);
