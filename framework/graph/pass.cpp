@@ -4,6 +4,12 @@
 
 namespace voxray {
 
+Resource& PortAccess::required(const Port& port) const {
+    Resource* resource = bound(port);
+    if (!resource) throw Error("a pass accesses a port that it doesn't have with these parameters");
+    return *resource;
+}
+
 bool PassContext::changed(const Resource& input) const {
     for (size_t p = 0; p < resources_.size(); ++p)
         if (resources_[p] == &input && !owner_.ports()[p].output)

@@ -98,9 +98,10 @@ class PortAccess {
     PortAccess(const PortOwner& owner, const std::vector<Resource*>& resources)
         : owner_(owner), resources_(resources) {}
 
+    /// @throws Error for a port that the pass doesn't have with its parameters.
     template <typename T>
     const T& operator[](const In<T>& port) const {
-        return static_cast<const T&>(*bound(port));
+        return static_cast<const T&>(required(port));
     }
     /// Null where nothing writes it.
     template <typename T>
@@ -109,13 +110,14 @@ class PortAccess {
     }
     template <typename T>
     T& operator[](const Out<T>& port) const {
-        return static_cast<T&>(*bound(port));
+        return static_cast<T&>(required(port));
     }
 
  protected:
     Resource* bound(const Port& port) const {
         return port.index_ < 0 ? nullptr : resources_[size_t(port.index_)];
     }
+    Resource& required(const Port& port) const;
 
     const PortOwner& owner_;
     const std::vector<Resource*>& resources_;
