@@ -1,10 +1,47 @@
 #include "graph/graph.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
-#include "graph/pass_culling.h"
+#include <algorithm>
+#include <set>
 
 namespace voxray {
+namespace {
+
+const GraphNode* lastWriter(const std::vector<GraphNode>& nodes, const std::string& port) {
+    for (size_t n = nodes.size(); n-- > 0;)
+        if (outputNamed(nodes[n], port)) return &nodes[n];
+    return nullptr;
+}
+
+/// Nodes and resources that the last writers of some ports depend on.
+struct Needed {
+    std::vector<bool> nodes;         ///< Whether each node is needed.
+    std::set<const Resource*> read;  ///< What these nodes read, and what is read from outside.
+};
+
+/// Dependencies of the last writers of these ports. A node that writes nothing is always needed.
+/// @param nodes in execution order.
+Needed neededFor(const std::vector<GraphNode>& nodes, const std::vector<std::string>& portNames) {
+    // Backwards from the last writers: a node is needed if it writes nothing, or if a needed one reads it.
+    Needed needed{std::vector<bool>(nodes.size()), {}};
+    std::set<std::string> unresolved(portNames.begin(), portNames.end());
+    for (size_t n = nodes.size(); n-- > 0;) {
+        const GraphNode& node = nodes[n];
+        bool isNeeded = std::ranges::none_of(node.ports, &PortInfo::output);
+        for (size_t p = 0; p < node.ports.size(); ++p) {
+            if (!node.ports[p].output) continue;
+            if (unresolved.erase(node.ports[p].name) > 0) needed.read.insert(node.resources[p]);
+            isNeeded |= needed.read.contains(node.resources[p]);
+        }
+        needed.nodes[n] = isNeeded;
+        for (size_t p = 0; isNeeded && p < node.ports.size(); ++p)
+            if (!node.ports[p].output) needed.read.insert(node.resources[p]);
+    }
+    return needed;
+}
+
+}  // namespace
 
 uint64_t peakBytes(const std::vector<PassMemory>& passes) {
     uint64_t persistent = 0, scratch = 0;
@@ -30,42 +67,58 @@ std::vector<Graph::PassInfo> Graph::passes() const {
 }
 
 void Graph::checkReadsLast(const std::string& output, const std::string& input) const {
-    const GraphNode *lastWriter = nullptr, *reader = nullptr;
-    const Resource *lastWritten = nullptr, *read = nullptr;
-    bool reads = false;
-    for (const GraphNode& node : nodes_)
-        for (size_t p = 0; p < node.ports.size(); ++p) {
-            if (!node.ports[p].output) continue;
-            if (node.ports[p].name == input) lastWriter = &node, lastWritten = node.resources[p];
-            if (node.ports[p].name == output) reader = &node;
-        }
-    if (!lastWriter || !reader) return;
-    for (size_t p = 0; p < reader->ports.size(); ++p)
-        if (!reader->ports[p].output && reader->ports[p].name == input) {
-            reads = true;
-            read = reader->resources[p];
-        }
+    const GraphNode *writer = lastWriter(nodes_, input), *reader = lastWriter(nodes_, output);
+    if (!writer || !reader) return;
+    const std::optional<size_t> port = inputNamed(*reader, input);
     const Value* inputs = reader->resolved.find("inputs");
-    if (!reads || read == lastWritten || (inputs && inputs->find(input))) return;
+    if (!port || (inputs && inputs->find(input))) return;
+    if (reader->resources[*port] == writer->resources[*outputNamed(*writer, input)]) return;
     throw UsageError(
-        lastWriter->where,
+        writer->where,
         "{0}: writes '{1}', but that is not what '{2}' reads, so '{3}' lacks what it brings: put '{0}' "
         "right before '{2}', or choose with inputs of '{2}'",
-        lastWriter->id, input, reader->id, output);
+        writer->id, input, reader->id, output);
 }
 
 std::vector<Graph::Input> Graph::unboundInputs(const std::string& portName) const {
-    const auto isWriter = [&](const GraphNode& node) { return outputNamed(node, portName).has_value(); };
-    const auto last = std::find_if(nodes_.rbegin(), nodes_.rend(), isWriter);
     std::vector<Input> inputs;
-    for (size_t p = 0; last != nodes_.rend() && p < last->ports.size(); ++p)
-        if (!last->ports[p].output && !last->resources[p])
-            inputs.push_back({last->id, last->ports[p].name, last->where});
+    const GraphNode* writer = lastWriter(nodes_, portName);
+    for (size_t p = 0; writer && p < writer->ports.size(); ++p)
+        if (!writer->ports[p].output && !writer->resources[p])
+            inputs.push_back({writer->id, writer->ports[p].name, writer->where});
     return inputs;
 }
 
 std::string Graph::whyCulled(const std::string& id) const {
-    return voxray::whyCulled(nodes_, id);
+    const auto pass = std::ranges::find(nodes_, id, &GraphNode::id);
+    std::string why =
+        "no pass reads what it writes, and no image that is compared depends on it: leave it out";
+    for (size_t p = pass->ports.size(); p-- > 0;) {
+        const std::string& port = pass->ports[p].name;
+        if (!pass->ports[p].output) continue;
+        const auto isBound = [&](const GraphNode& node) {
+            return std::ranges::count(node.resources, pass->resources[p]) > 0;
+        };
+        const auto reader = std::find_if(pass + 1, nodes_.end(), isBound);
+        const auto laterWriter = std::find_if(pass + 1, nodes_.end(), [&](const GraphNode& node) {
+            return outputNamed(node, port).has_value();
+        });
+        if (reader != nodes_.end())
+            why = fmt::format("'{}' reads it, but no image that is compared depends on that", reader->id);
+        else if (laterWriter == nodes_.end())
+            continue;
+        else if (std::any_of(laterWriter + 1, nodes_.end(),
+                             [&](const GraphNode& node) { return inputNamed(node, port).has_value(); }))
+            why = fmt::format(
+                "'{0}', after it, writes '{1}' too, and passes read the nearest: "
+                "take one of the two out, or write 'inputs: {{{1}: {2}}}' in what shall read it",
+                laterWriter->id, port, id);
+        else
+            why = fmt::format(
+                "'{}', after it, writes '{}' too, and the last one counts: take one of the two out",
+                laterWriter->id, port);
+    }
+    return UsageError(pass->where, "'{}' is never run: {}", id, why).what();
 }
 
 std::vector<std::string> Graph::cullUnused(const std::vector<std::string>& portNames) {
@@ -123,8 +176,7 @@ std::vector<UnusedSetting> Graph::unused() const {
 }
 
 bool Graph::writes(const std::string& portName) const {
-    return std::ranges::any_of(
-        nodes_, [&](const GraphNode& node) { return outputNamed(node, portName).has_value(); });
+    return lastWriter(nodes_, portName);
 }
 
 const Resource* Graph::find(const std::string& portName, std::type_index type) const {

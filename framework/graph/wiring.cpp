@@ -18,6 +18,12 @@ struct Source {
     size_t port;
 };
 
+std::optional<size_t> portNamed(const GraphNode& node, const std::string& name, bool isOutput) {
+    for (size_t p = 0; p < node.ports.size(); ++p)
+        if (node.ports[p].output == isOutput && node.ports[p].name == name) return p;
+    return {};
+}
+
 std::vector<std::string> idsOf(const std::vector<GraphNode>& nodes) {
     std::vector<std::string> ids;
     for (const GraphNode& node : nodes) ids.push_back(node.id);
@@ -178,10 +184,12 @@ std::vector<size_t> topologicalOrder(const std::vector<GraphNode>& nodes,
 
 }  // namespace
 
+std::optional<size_t> inputNamed(const GraphNode& node, const std::string& name) {
+    return portNamed(node, name, false);
+}
+
 std::optional<size_t> outputNamed(const GraphNode& node, const std::string& name) {
-    for (size_t p = 0; p < node.ports.size(); ++p)
-        if (node.ports[p].output && node.ports[p].name == name) return p;
-    return {};
+    return portNamed(node, name, true);
 }
 
 void checkEntry(const Registry& registry, const Value& entry) {

@@ -32,7 +32,8 @@ struct GraphNode {
     PassMemoryTracker memory;
 };
 
-/// Index of a node's output port of that name.
+/// Index of a node's port of that name.
+std::optional<size_t> inputNamed(const GraphNode& node, const std::string& name);
 std::optional<size_t> outputNamed(const GraphNode& node, const std::string& name);
 
 /// Checks an entry of a pass list by itself: its pass, its parameters and which inputs it names.

@@ -63,9 +63,8 @@ class Device {
     VkDevice handle() const { return handle_; }
     VkQueue queue() const { return queue_; }
     uint32_t queueFamily() const { return queueFamily_; }
-    const VkPhysicalDeviceProperties& properties() const {
-        return properties_;
-    }  ///< Limits, timestampPeriod.
+    /// Limits, timestampPeriod.
+    const VkPhysicalDeviceProperties& properties() const { return properties_; }
     const VkPhysicalDeviceMemoryProperties& memoryProperties() const { return memoryProperties_; }
     /// Limits that are not in properties().
     struct Limits {
