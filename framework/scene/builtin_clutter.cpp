@@ -1,8 +1,6 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "scene/builtin.h"
 #include "scene/shapes.h"

@@ -1,5 +1,3 @@
-#include <glm/trigonometric.hpp>
-
 #include "scene/builtin.h"
 #include "scene/shapes.h"
 #include "scene/uniform_random.h"

@@ -1,6 +1,5 @@
 #include "scene/gltf_mesh.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 

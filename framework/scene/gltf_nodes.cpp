@@ -1,8 +1,6 @@
 #include "scene/gltf_nodes.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/trigonometric.hpp>
 
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_values.h"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cmath>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "scene/region_split.h"
 
 #include <algorithm>
-#include <array>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 

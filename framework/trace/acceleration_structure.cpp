@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <span>
 
-#include "base/error.h"
 #include "trace/uploaded.h"
 #include "vulkan/structure.h"
 

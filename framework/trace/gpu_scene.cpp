@@ -5,7 +5,6 @@
 #include <cmath>
 #include <span>
 
-#include "base/error.h"
 #include "scene/panes.h"
 #include "shaders/scene/scene_types.h"
 #include "trace/emission.h"
@@ -122,9 +121,7 @@ ImageDesc describe(const Texture& texture) {
 
 Image uploadedTexture(Device& device, CommandStream& stream, const Texture& texture) {
     Image image(device, "texture " + texture.name, describe(texture));
-    Buffer staging(device, "texture staging", texture.rgba.size(), MemoryKind::Upload);
-    stream.upload(staging, texture.rgba);
-    stream.copy(staging, image);
+    stream.upload(image, std::as_bytes(std::span(texture.rgba)));
     if (image.desc().mipLevels > 1) stream.makeMipLevels(image);
     stream.finish();
     return image;
@@ -210,9 +207,7 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
     scene.environment = Image(device, "environment", desc);
     scene.environmentSampler = Sampler(device, Filter::Linear, VK_SAMPLER_ADDRESS_MODE_REPEAT,
                                        VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
-    const Buffer pixels = uploaded(device, stream, "environment staging", environment.data);
-    stream.copy(pixels, scene.environment);
-    stream.finish();
+    stream.upload(scene.environment, std::as_bytes(std::span(environment.data)));
     scene.hasEnvironment = state.scene->environment.radiance != glm::vec3(0.0f);
 
     // Textures with mip levels; one white texel for a scene without textures.

@@ -1,7 +1,5 @@
 #include "vulkan/commands.h"
 
-#include <algorithm>
-
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "vulkan/allocate.h"

@@ -8,11 +8,9 @@
 #include <cstring>
 #include <functional>
 #include <glm/vec3.hpp>
-#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "vulkan/binding.h"

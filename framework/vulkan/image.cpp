@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <glm/common.hpp>
 #include <utility>
 
