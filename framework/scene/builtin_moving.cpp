@@ -51,10 +51,7 @@ std::shared_ptr<const Scene> make(const Spheres& params) {
             const float angle = start + turn * round;
             return center + glm::vec3(extent.x * std::cos(angle), 0, extent.y * std::sin(angle));
         };
-        Node node;
-        node.name = "sphere " + std::to_string(i);
-        node.translation = position(0);
-        b.scene().nodes.push_back(node);
+        b.scene().nodes.push_back({.name = fmt::format("sphere {}", i), .translation = position(0)});
         b.place(meshes[i % colorCount], int32_t(i));
         if (!params.moving) continue;
 

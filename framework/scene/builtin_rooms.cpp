@@ -122,10 +122,7 @@ std::shared_ptr<const Scene> make(const ThinWall& params) {
 }
 
 uint32_t perfectMirror(SceneBuilder& b) {
-    Material material;
-    material.name = "mirror";
-    material.roughness = 0;
-    return b.material(material);
+    return b.material({.name = "mirror", .roughness = 0});
 }
 
 struct MirrorRoom {

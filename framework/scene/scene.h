@@ -56,10 +56,10 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;  ///< Emits on both sides. All materials reflect and occlude on both.
-    TextureRef baseColorTexture;
-    TextureRef metallicRoughnessTexture;  ///< G roughness, B metallic.
-    TextureRef normalTexture;
-    TextureRef emissiveTexture;
+    TextureRef baseColorTexture{};
+    TextureRef metallicRoughnessTexture{};  ///< G roughness, B metallic.
+    TextureRef normalTexture{};
+    TextureRef emissiveTexture{};
 };
 
 /// Four joints and weights per vertex.
@@ -89,7 +89,7 @@ struct Node {
     glm::vec3 translation{0.0f};
     glm::quat rotation{1, 0, 0, 0};
     glm::vec3 scale{1.0f};
-    std::optional<glm::mat4> matrix;
+    std::optional<glm::mat4> matrix{};
 };
 
 /// A skin: joint i transforms vertices by its node's world matrix * inverseBindMatrices[i].
