@@ -52,10 +52,7 @@ struct Frame {
 
 /// Description of an image of the frame's size and format.
 inline ImageDesc frameImageDesc(const Frame& frame) {
-    ImageDesc desc;
-    desc.format = VK_FORMAT_R32G32B32A32_SFLOAT;
-    desc.extent = {frame.width, frame.height, 1};
-    return desc;
+    return {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .extent = {frame.width, frame.height, 1}};
 }
 
 /// Given to Pass::plan: describes buffers and images (MemoryPlan), before any memory is allocated.

@@ -73,13 +73,11 @@ TextureRef MaterialReader::texture(int index, int texCoord, const tinygltf::Exte
     const auto [entry, added] = textures_.try_emplace({source.source, srgb, wrapU, wrapV, texelFilter},
                                                       int32_t(scene_.textures.size()));
     if (added) {
-        Texture texture;
-        texture.name = shortLine(image.name);
-        texture.srgb = srgb;
-        texture.wrapU = wrapU;
-        texture.wrapV = wrapV;
-        texture.filter = texelFilter;
-        scene_.textures.push_back(std::move(texture));
+        scene_.textures.push_back({.name = shortLine(image.name),
+                                   .srgb = srgb,
+                                   .wrapU = wrapU,
+                                   .wrapV = wrapV,
+                                   .filter = texelFilter});
         images_.push_back(source.source);
     }
     ref.texture = entry->second;

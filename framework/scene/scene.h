@@ -27,8 +27,8 @@ struct Texture {
     std::string name;
     uint32_t width = 0;
     uint32_t height = 0;
-    std::vector<uint8_t> rgba;  ///< 4 bytes per texel, row 0 at the top.
-    bool srgb = false;          ///< RGB is sRGB-encoded (base colour, emission).
+    std::vector<uint8_t> rgba{};  ///< 4 bytes per texel, row 0 at the top.
+    bool srgb = false;            ///< RGB is sRGB-encoded (base colour, emission).
     Wrap wrapU = Wrap::Repeat;
     Wrap wrapV = Wrap::Repeat;
     TexelFilter filter = TexelFilter::Linear;  ///< Within a level: bilinear or nearest.

@@ -110,13 +110,11 @@ VkSamplerAddressMode toVulkan(Wrap wrap) {
 }
 
 ImageDesc describe(const Texture& texture) {
-    ImageDesc desc;
-    desc.format = texture.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
-    desc.extent = {texture.width, texture.height, 1};
-    desc.mipLevels = uint32_t(std::bit_width(std::max(texture.width, texture.height)));
-    desc.usage =
-        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    return desc;
+    return {.format = texture.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM,
+            .extent = {texture.width, texture.height, 1},
+            .mipLevels = uint32_t(std::bit_width(std::max(texture.width, texture.height))),
+            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                     VK_IMAGE_USAGE_TRANSFER_DST_BIT};
 }
 
 Image uploadedTexture(Device& device, CommandStream& stream, const Texture& texture) {
@@ -202,9 +200,7 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
 
     // The environment.
     const ImageF environment = environmentImage(state.scene->environment);
-    ImageDesc desc;
-    desc.extent = {environment.width, environment.height, 1};
-    scene.environment = Image(device, "environment", desc);
+    scene.environment = Image(device, "environment", {.extent = {environment.width, environment.height, 1}});
     scene.environmentSampler = Sampler(device, Filter::Linear, VK_SAMPLER_ADDRESS_MODE_REPEAT,
                                        VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
     stream.upload(scene.environment, std::as_bytes(std::span(environment.data)));
