@@ -39,7 +39,7 @@ struct Frame {
     uint32_t height = 0;
     uint64_t seed = 0;
     glm::uvec2 pixels() const { return {width, height}; }
-    /// Samples that a pass takes which writes their sums (ReferenceSums).
+    /// Samples per pixel of a pass that writes their sums (ReferenceSums).
     SamplePart samples;
     /// Where surfaces appeared, disappeared or moved since the build phase ran last (old and new bounds, by
     /// instance); nullopt: everything is new.
@@ -117,8 +117,8 @@ class PassContext : public PortAccess {
         const Resource* resource = bound(input);
         return resource && changed(*resource);
     }
-    /// Whether those of any input changed. If not, the graph takes the outputs for unchanged: the pass should
-    /// return without writing them.
+    /// Whether the contents of any input changed. If not, this marks the outputs as unchanged: the pass
+    /// should return without writing them.
     bool inputsChanged();
     /// Tells the graph that this run leaves the outputs unchanged.
     void markOutputsUnchanged() { outputsUnchanged_ = true; }

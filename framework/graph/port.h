@@ -7,7 +7,7 @@
 
 #include "graph/resource.h"
 
-/// What a pass reads and writes, as its members.
+/// Ports: what a pass reads and writes, declared as its members.
 namespace voxray {
 
 struct PortInfo {
@@ -72,7 +72,7 @@ class In : public Port {
         : Port(owner, {std::move(name), std::move(help), false, false, typeid(T)}, isPresent) {}
 };
 
-/// The same, but the graph is valid without it.
+/// An input without which the graph is valid, too.
 template <typename T>
 class InOptional : public Port {
  public:

@@ -72,16 +72,15 @@ class Registry {
                 typeOf<NoParams>([](const void*) { return make<P>(); }));
     }
 
-    /// A name of before, and what stands in its place: renamed("gather_all", "gather with 'light: all'").
+    /// An old name, and advice for errors: renamed("gather_all", "gather with 'light: all'").
     void renamed(std::string oldName, std::string advice);
 
     const std::vector<PassKind>& kinds() const { return kinds_; }
     const PassKind* find(const std::string& name) const;
-    /// @throws UsageError at `where`: what to write in place of a name of before, or "did you mean".
+    /// @throws UsageError at `where`: the advice for an old name, or "did you mean".
     const PassKind& require(const std::string& name, const TextLocation& where) const;
 
-    /// Names of passes that write a port of this name out of others. Those that change what they read under
-    /// it need a writer themselves.
+    /// Names of passes that write a port of this name without reading one of that name.
     std::vector<std::string> writersOf(const std::string& port) const;
 
  private:

@@ -35,7 +35,7 @@ struct Resource {
     /// Float images and float buffers that are checked for NaN and infinity after the producing pass ran.
     virtual std::vector<const Image*> checkedImages() const { return {}; }
     virtual std::vector<const Buffer*> checkedBuffers() const { return {}; }
-    /// What `run --aovs` writes of it, all of one size.
+    /// Images that `run --aovs` writes, all of one size.
     virtual std::vector<Aov> aovs() const { return {}; }
 };
 

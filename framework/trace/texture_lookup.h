@@ -8,7 +8,7 @@
 
 #include "scene/geometry.h"
 
-/// Texture lookups on the CPU: level 0, sRGB decoded before filtering (CONVENTIONS 10).
+/// Texture lookups on the CPU: level 0, sRGB decoded before filtering.
 namespace voxray {
 
 /// A texel's integer coordinate after wrapping; any `x` that fits in 32 bits, `size` >= 1.

@@ -55,7 +55,7 @@ VkOffset3D corner(glm::uvec3 size) {
 }  // namespace
 
 CommandStream::Staged CommandStream::stage(std::span<const std::byte> data) {
-    // Small data goes into the persistent buffer: an allocation takes a GPU's driver longer than most passes.
+    // Small data goes into the persistent buffer: on a GPU, an allocation takes longer than most passes.
     if (const uint64_t room = smallUploads_.bytes() - smallUploadBytes_; data.size() <= room) {
         const Staged staged{&smallUploads_, smallUploadBytes_};
         std::memcpy(static_cast<std::byte*>(smallUploads_.mapped()) + staged.offset, data.data(),
