@@ -113,6 +113,8 @@ class Writes {
             expect(shaderBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
             write.pBufferInfo = &buffers_.emplace_back(bufferInfo(shaderBinding, **buffer));
         } else if (const auto* image = std::get_if<const Image*>(&given.value)) {
+            if (!**image)
+                throw Error("{}: the image bound to '{}' is empty", program_.name(), shaderBinding.name);
             const bool isSampled = shaderBinding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
             expect(shaderBinding, isSampled || given.sampler ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
                                                              : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);

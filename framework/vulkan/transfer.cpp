@@ -73,10 +73,12 @@ CommandStream::Staged CommandStream::stage(std::span<const std::byte> data) {
 }
 
 void CommandStream::fill(const Buffer& buffer, uint32_t word) {
+    if (!buffer) throw Error("a buffer to fill is empty");
     vkCmdFillBuffer(recordAfterBarrier(), buffer.handle(), 0, VK_WHOLE_SIZE, word);
 }
 
 void CommandStream::clear(const Image& image, VkClearColorValue value) {
+    if (!image) throw Error("an image to clear is empty");
     const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, image.desc().mipLevels, 0, 1};
     vkCmdClearColorImage(recordAfterBarrier(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, &value, 1, &range);
 }
