@@ -24,14 +24,12 @@ AccelerationStructure::AccelerationStructure(Device& device, const char* name,
     create.buffer = buffer_.handle();
     create.size = bytes;
     create.type = type;
-    VkAccelerationStructureKHR handle = VK_NULL_HANDLE;
     check(device.function<PFN_vkCreateAccelerationStructureKHR>("vkCreateAccelerationStructureKHR")(
-              device.handle(), &create, nullptr, &handle),
+              device.handle(), &create, nullptr, handle_.receive(device.handle())),
           "vkCreateAccelerationStructureKHR");
-    handle_ = {device.handle(), handle};
     auto info = structure<VkAccelerationStructureDeviceAddressInfoKHR>(
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR);
-    info.accelerationStructure = handle;
+    info.accelerationStructure = handle_;
     address_ = device.function<PFN_vkGetAccelerationStructureDeviceAddressKHR>(
         "vkGetAccelerationStructureDeviceAddressKHR")(device.handle(), &info);
 }

@@ -37,18 +37,16 @@ CommandStream::CommandStream(Device& device)
     }
     auto poolInfo = structure<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
     poolInfo.queueFamilyIndex = device_.queueFamily();
-    VkCommandPool pool = VK_NULL_HANDLE;
-    check(vkCreateCommandPool(device_.handle(), &poolInfo, nullptr, &pool), "vkCreateCommandPool");
-    pool_ = {device_.handle(), pool};
+    check(vkCreateCommandPool(device_.handle(), &poolInfo, nullptr, pool_.receive(device_.handle())),
+          "vkCreateCommandPool");
     auto allocate = structure<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
     allocate.commandPool = pool_;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
     check(vkAllocateCommandBuffers(device_.handle(), &allocate, &commands_), "vkAllocateCommandBuffers");
     auto fenceInfo = structure<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
-    VkFence fence = VK_NULL_HANDLE;
-    check(vkCreateFence(device_.handle(), &fenceInfo, nullptr, &fence), "vkCreateFence");
-    fence_ = {device_.handle(), fence};
+    check(vkCreateFence(device_.handle(), &fenceInfo, nullptr, fence_.receive(device_.handle())),
+          "vkCreateFence");
 }
 
 VkCommandBuffer CommandStream::beginRecording() {
@@ -204,9 +202,9 @@ uint32_t CommandStream::timestamp() {
         auto create = structure<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
         create.queryType = VK_QUERY_TYPE_TIMESTAMP;
         create.queryCount = kTimestampsPerPool;
-        VkQueryPool queries = VK_NULL_HANDLE;
-        check(vkCreateQueryPool(device_.handle(), &create, nullptr, &queries), "vkCreateQueryPool");
-        queryPools_.emplace_back(device_.handle(), queries);
+        check(vkCreateQueryPool(device_.handle(), &create, nullptr,
+                                queryPools_.emplace_back().receive(device_.handle())),
+              "vkCreateQueryPool");
     }
     const VkCommandBuffer commands = recordAfterBarrier();
     if (query == 0) vkCmdResetQueryPool(commands, queryPools_[pool], 0, kTimestampsPerPool);

@@ -1,7 +1,6 @@
 #include "vulkan/program_builder.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "base/error.h"
 #include "base/suggest.h"
@@ -72,13 +71,12 @@ void ProgramBuilder::makeLayout() {
     set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
     set.bindingCount = uint32_t(pushed.size());
     set.pBindings = pushed.data();
-    VkDescriptorSetLayout pushSetLayout = VK_NULL_HANDLE;
-    check(vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr, &pushSetLayout),
+    check(vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr,
+                                      program_.pushSetLayout_.receive(device_.handle())),
           "vkCreateDescriptorSetLayout");
-    program_.pushSetLayout_ = {device_.handle(), pushSetLayout};
 
     // Set 1: the scene's textures.
-    const VkDescriptorSetLayout sets[] = {pushSetLayout, device_.textureSetLayout()};
+    const VkDescriptorSetLayout sets[] = {program_.pushSetLayout_, device_.textureSetLayout()};
     const uint32_t limit = device_.properties().limits.maxPushConstantsSize;
     if (program_.pushConstantBytes_ > limit)
         throw Error("{}: {} bytes of push constants; device '{}' allows {}", program_.name_,
@@ -89,9 +87,9 @@ void ProgramBuilder::makeLayout() {
     create.pSetLayouts = sets;
     create.pushConstantRangeCount = range.size > 0 ? 1 : 0;
     create.pPushConstantRanges = &range;
-    VkPipelineLayout layout = VK_NULL_HANDLE;
-    check(vkCreatePipelineLayout(device_.handle(), &create, nullptr, &layout), "vkCreatePipelineLayout");
-    program_.layout_ = {device_.handle(), layout};
+    check(vkCreatePipelineLayout(device_.handle(), &create, nullptr,
+                                 program_.layout_.receive(device_.handle())),
+          "vkCreatePipelineLayout");
 }
 
 uint32_t ProgramBuilder::constantId(std::span<const ShaderModule> modules, const std::string& name) const {
@@ -119,22 +117,17 @@ void ProgramBuilder::makeStages(std::span<const ShaderModule> modules,
         const std::vector<uint32_t> spirv = numbered(module);
         create.codeSize = spirv.size() * sizeof(uint32_t);
         create.pCode = spirv.data();
-        VkShaderModule handle = VK_NULL_HANDLE;
-        check(vkCreateShaderModule(device_.handle(), &create, nullptr, &handle), "vkCreateShaderModule");
-        modules_.emplace_back(device_.handle(), handle);
+        check(vkCreateShaderModule(device_.handle(), &create, nullptr,
+                                   modules_.emplace_back().receive(device_.handle())),
+              "vkCreateShaderModule");
         auto stage =
             structure<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
         stage.stage = module.stage;
-        stage.module = handle;
+        stage.module = modules_.back();
         stage.pName = "main";
         stage.pSpecializationInfo = &specialization_;
         stages_.push_back(stage);
     }
-}
-
-Program ProgramBuilder::finish(VkPipeline pipeline) {
-    program_.pipeline_ = {device_.handle(), pipeline};
-    return std::move(program_);
 }
 
 }  // namespace voxray

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "vulkan/program.h"
@@ -21,8 +22,10 @@ class ProgramBuilder {
     std::span<const VkPipelineShaderStageCreateInfo> stages() const { return stages_; }
     VkPipelineLayout layout() const { return program_.layout_; }
 
+    /// Where a vkCreate function writes the pipeline.
+    VkPipeline* receivePipeline() { return program_.pipeline_.receive(device_.handle()); }
     /// The program with its pipeline.
-    Program finish(VkPipeline pipeline);
+    Program finish() { return std::move(program_); }
 
  private:
     /// Assigns a binding number to each name: stages and files share names, not numbers.

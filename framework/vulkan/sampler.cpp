@@ -15,9 +15,8 @@ Sampler::Sampler(Device& device, Filter filter, VkSamplerAddressMode wrapU, VkSa
     create.addressModeV = wrapV;
     create.addressModeW = wrapV;
     create.maxLod = VK_LOD_CLAMP_NONE;
-    VkSampler sampler = VK_NULL_HANDLE;
-    check(vkCreateSampler(device.handle(), &create, nullptr, &sampler), "vkCreateSampler");
-    handle_ = {device.handle(), sampler};
+    check(vkCreateSampler(device.handle(), &create, nullptr, handle_.receive(device.handle())),
+          "vkCreateSampler");
 }
 
 TextureArray::TextureArray(Device& device, std::span<const Entry> entries) {
@@ -33,9 +32,8 @@ TextureArray::TextureArray(Device& device, std::span<const Entry> entries) {
     create.maxSets = 1;
     create.poolSizeCount = 1;
     create.pPoolSizes = &size;
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    check(vkCreateDescriptorPool(device.handle(), &create, nullptr, &pool), "vkCreateDescriptorPool");
-    pool_ = {device.handle(), pool};
+    check(vkCreateDescriptorPool(device.handle(), &create, nullptr, pool_.receive(device.handle())),
+          "vkCreateDescriptorPool");
     const VkDescriptorSetLayout layout = device.textureSetLayout();
     VkDescriptorSetVariableDescriptorCountAllocateInfo length{
         VK_STRUCTURE_TYPE_DESCRIPTOR_SET_VARIABLE_DESCRIPTOR_COUNT_ALLOCATE_INFO, nullptr, 1, &count};

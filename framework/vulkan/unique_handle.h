@@ -12,7 +12,6 @@ template <typename Handle, auto destroy>
 class UniqueHandle {
  public:
     UniqueHandle() = default;
-    UniqueHandle(VkDevice device, Handle handle) : device_(device), handle_(handle) {}
     ~UniqueHandle() {
         if (handle_ != VK_NULL_HANDLE) destroy(device_, handle_, nullptr);
     }
@@ -25,6 +24,11 @@ class UniqueHandle {
     }
 
     operator Handle() const { return handle_; }
+    /// Where a vkCreate function writes the handle. @pre it is empty.
+    Handle* receive(VkDevice device) {
+        device_ = device;
+        return &handle_;
+    }
 
  private:
     VkDevice device_ = VK_NULL_HANDLE;
