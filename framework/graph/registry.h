@@ -12,10 +12,9 @@
 
 namespace voxray {
 
-/// A port that a pass has, and the values of parameters that it has it with, such as "first: rsm"; empty:
-/// always.
+/// A port of a pass, with the parameters' values that ask for it.
 struct PortDoc : PortInfo {
-    std::string with;
+    std::string with;  ///< Such as "first: rsm"; empty: the pass always has the port.
 };
 
 /// A kind of pass without its types, so that one function reads parameters of all kinds.
@@ -39,7 +38,7 @@ const std::vector<std::string>& reservedKeys();
 /// Description of one kind of pass.
 struct PassKind {
     std::string name;
-    std::string family;  ///< Folder under passes/; empty of a pass from elsewhere.
+    std::string family;  ///< Folder under passes/; empty for a pass from elsewhere.
     std::string help;
     std::vector<ParameterDoc> parameters;
     std::vector<PortDoc> ports;  ///< All that it has with any values of its parameters.

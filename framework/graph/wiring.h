@@ -20,13 +20,12 @@ struct GraphNode {
     Phase phase = Phase::Build;  ///< The pass's, or Frame if it reads what is written in each frame.
     std::vector<PortInfo> ports;
     std::vector<Resource*> resources;  ///< One per port; null for an optional input that nothing writes.
-    std::optional<std::vector<uint64_t>>
-        seenVersions;                                ///< Versions of `resources` when the pass recorded last.
-    std::vector<std::unique_ptr<Resource>> outputs;  ///< Owned by this pass.
-    Value resolved;                                  ///< The config's entry with defaults filled in.
-    std::vector<std::string> sizeParameters;         ///< Integer parameters above their minimum.
-    std::vector<std::string> noiseParameters;        ///< Parameters whose larger values lower its noise.
-    std::vector<UnusedSetting> unused;               ///< Parameters of its entry that have no effect.
+    std::optional<std::vector<uint64_t>> seenVersions;  ///< Resources' versions at its last run.
+    std::vector<std::unique_ptr<Resource>> outputs;     ///< Owned by this pass.
+    Value resolved;                                     ///< The config's entry with defaults filled in.
+    std::vector<std::string> sizeParameters;            ///< Integer parameters above their minimum.
+    std::vector<std::string> noiseParameters;           ///< Parameters whose larger values lower its noise.
+    std::vector<UnusedSetting> unused;                  ///< Parameters of its entry that have no effect.
     TextLocation where;
     uint64_t lightRays = 0;  ///< As planned.
     PassMemoryTracker memory;
