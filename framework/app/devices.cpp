@@ -31,7 +31,6 @@ void printDevice(const DeviceInfo& device) {
     fmt::print("  ray tracers       {}\n", tracersOf(device));
     fmt::print("  geometry shader   {}\n", yesNo(device.geometryShader));
     fmt::print("  64-bit atomics    {}\n", yesNo(device.shaderInt64Atomics));
-    fmt::print("  float atomics     {}\n", yesNo(device.floatAtomics));
 }
 
 /// Prints all devices. @throws Error if none qualifies.

@@ -35,7 +35,7 @@ DeviceInfo capableDevice() {
     DeviceInfo device;
     device.name = "any";
     device.rayQuery = device.rayPipeline = device.geometryShader = true;
-    device.shaderInt64Atomics = device.floatAtomics = true;
+    device.shaderInt64Atomics = true;
     device.filteredVolumeSide = UINT32_MAX;
     return device;
 }

@@ -42,7 +42,7 @@ std::shared_ptr<const ParameterType> choiceType(std::vector<std::pair<uint32_t, 
 struct Parameter {
     /// A condition on another parameter: its value is one of `values`, or none of them.
     struct Condition {
-        size_t offset;  ///< Of the other parameter.
+        size_t offset;  ///< The other parameter's.
         std::vector<std::string> values;
         bool isOneOf;
     };

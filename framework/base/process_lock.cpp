@@ -40,7 +40,7 @@ ProcessLock::ProcessLock(std::filesystem::path file, Kind kind, const std::files
     : file_(std::move(file)) {
     constexpr int kTries = 100;
     constexpr std::chrono::milliseconds kPause(100);
-    bool isTold = false;
+    bool isAnnounced = false;
     for (int attempt = 0; attempt < kTries; ++attempt) {
         descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
         if (descriptor_ < 0) throw Error("{}: {}", file_.string(), std::strerror(errno));
@@ -56,7 +56,7 @@ ProcessLock::ProcessLock(std::filesystem::path file, Kind kind, const std::files
         ::close(descriptor_);
         if (isHeld && ifHeld == IfHeld::Wait) {
             if (interruptRequested()) throw Interrupted();
-            if (!std::exchange(isTold, true))
+            if (!std::exchange(isAnnounced, true))
                 fmt::print(stderr, "voxray: {}: waiting for process {}, which is writing there\n",
                            what.string(), lock.l_pid);
             std::this_thread::sleep_for(kPause);

@@ -76,17 +76,17 @@ std::vector<UnusedSetting> unusedSettings(const Schema& schema, const void* para
     for (const Parameter& parameter : schema) {
         const Value* written = map.find(parameter.name);
         if (!written || parameter.conditions.empty()) continue;
-        bool holds = false;
-        std::vector<std::string> present;
+        bool hasEffect = false;
+        std::vector<std::string> current;
         for (const Parameter::Condition& condition : parameter.conditions) {
             const Parameter& required = parameterAt(schema, condition.offset);
             const std::string text = required.type->text(required.of(params));
-            holds = holds || (std::ranges::count(condition.values, text) > 0) == condition.isOneOf;
-            present.push_back(fmt::format("{}: {}", required.name, text));
+            hasEffect = hasEffect || (std::ranges::count(condition.values, text) > 0) == condition.isOneOf;
+            current.push_back(fmt::format("{}: {}", required.name, text));
         }
-        if (!holds)
+        if (!hasEffect)
             unused.push_back({parameter.name, written->where,
-                              fmt::format("no effect with {}; only with {}", fmt::join(present, ", "),
+                              fmt::format("no effect with {}; only with {}", fmt::join(current, ", "),
                                           conditionsText(schema, parameter))});
     }
     return unused;

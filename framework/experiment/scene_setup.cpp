@@ -13,11 +13,11 @@
 #include "scene/compose.h"
 #include "scene/content_hash.h"
 #include "scene/load.h"
+#include "scene/mesh_repair.h"
 #include "scene/panes.h"
 #include "scene/region_split.h"
 #include "scene/select_instances.h"
 #include "scene/subdivide.h"
-#include "scene/value_ranges.h"
 
 namespace voxray {
 namespace fs = std::filesystem;

@@ -97,7 +97,7 @@ Value checkedReference(const Study& study) {
             throw UsageError(experiment.reference.where,
                              "reference: '{}' renders no reference: it writes no '{}'; use path_trace",
                              kind.name, port);
-    kind.resolve(experiment.reference, "reference", Graph::reservedKeys());
+    kind.create(experiment.reference, "reference");
     Value resolved = study.referenceGraph().resolved();
     // The reference's noise is computed from two halves of its samples
     if (const Value* spp = experiment.reference.find("spp"); spp && spp->asInteger("reference.spp") < 2)

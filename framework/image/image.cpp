@@ -23,8 +23,8 @@ constexpr uint64_t maxPixels = 1ull << 28;
 constexpr int maxSide = 1 << 16;
 
 // A library's message, which may be empty.
-std::string reasonOr(const std::string& said) {
-    return said.empty() ? "unknown reason" : said;
+std::string reasonOr(const std::string& message) {
+    return message.empty() ? "unknown reason" : message;
 }
 
 void checkSpec(const OIIO::ImageSpec& spec, const std::string& name) {

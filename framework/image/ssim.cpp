@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "image/metrics.h"
 #include "image/plane.h"
 

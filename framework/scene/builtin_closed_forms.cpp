@@ -51,8 +51,9 @@ struct WhiteRoom {
     float albedo = 0.8f;
     float intensity = 1.0f;
     static constexpr auto schema() {
-        return std::tuple{field("albedo", &WhiteRoom::albedo, "Albedo of all walls.", 0.0f, 1.0f),
-                          field("intensity", &WhiteRoom::intensity, "Of the point light, W/sr.", 0.0f, 1e6f)};
+        return std::tuple{
+            field("albedo", &WhiteRoom::albedo, "Albedo of all walls.", 0.0f, 1.0f),
+            field("intensity", &WhiteRoom::intensity, "Intensity of the point light, W/sr.", 0.0f, 1e6f)};
     }
 };
 
@@ -76,12 +77,12 @@ struct QuadLight {
     float albedo = 0.5f;
     static constexpr auto schema() {
         return std::tuple{
-            field("light_size", &QuadLight::lightSize, "Side of the square light, in metres.", 0.01f, 100.0f),
-            field("receiver_size", &QuadLight::receiverSize, "Side of the square receiver, in metres.", 0.01f,
+            field("light_size", &QuadLight::lightSize, "Side of the square light, m.", 0.01f, 100.0f),
+            field("receiver_size", &QuadLight::receiverSize, "Side of the square receiver, m.", 0.01f,
                   100.0f),
-            field("distance", &QuadLight::distance, "Between light and receiver, in metres.", 0.01f, 100.0f),
-            field("radiance", &QuadLight::radiance, "Of the light, W/(m² sr).", 0.0f, 1e6f),
-            field("albedo", &QuadLight::albedo, "Of the receiver.", 0.0f, 1.0f)};
+            field("distance", &QuadLight::distance, "Distance between light and receiver, m.", 0.01f, 100.0f),
+            field("radiance", &QuadLight::radiance, "Radiance of the light, W/(m² sr).", 0.0f, 1e6f),
+            field("albedo", &QuadLight::albedo, "Albedo of the receiver.", 0.0f, 1.0f)};
     }
 };
 
@@ -106,12 +107,12 @@ struct Plane {
     float height = 1.0f;
     float intensity = 1.0f;
     static constexpr auto schema() {
-        return std::tuple{
-            field("light", &Plane::light, "The light over the plane."),
-            field("albedo", &Plane::albedo, "Of the plane.", 0.0f, 1.0f),
-            field("height", &Plane::height, "Of a point or spot light over the plane, in metres.", 0.01f,
-                  100.0f),
-            field("intensity", &Plane::intensity, "W/sr, or W/m² of the directional light.", 0.0f, 1e6f)};
+        return std::tuple{field("light", &Plane::light, "The light over the plane."),
+                          field("albedo", &Plane::albedo, "Albedo of the plane.", 0.0f, 1.0f),
+                          field("height", &Plane::height,
+                                "Height of a point or spot light over the plane, m.", 0.01f, 100.0f),
+                          field("intensity", &Plane::intensity,
+                                "Intensity of the light, W/sr; of the directional one, W/m².", 0.0f, 1e6f)};
     }
 };
 

@@ -1,8 +1,6 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "scene/builtin.h"
 #include "scene/shapes.h"
@@ -18,9 +16,9 @@ struct Clutter {
     uint32_t seed = 1;
     static constexpr auto schema() {
         return std::tuple{
-            field("count", &Clutter::count, "Tables, chairs and shelves in the room.", 0u, 30u),
-            field("thickness", &Clutter::thickness, "Of their boards and legs, in metres.", 0.001f, 0.1f),
-            field("seed", &Clutter::seed, "Chooses kinds, places, sizes and colours.")};
+            field("count", &Clutter::count, "Number of tables, chairs and shelves in the room.", 0u, 30u),
+            field("thickness", &Clutter::thickness, "Thickness of their boards and legs, m.", 0.001f, 0.1f),
+            field("seed", &Clutter::seed, "Seed of their kinds, positions, sizes and colours.")};
     }
 };
 

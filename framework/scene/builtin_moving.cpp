@@ -1,5 +1,3 @@
-#include <glm/trigonometric.hpp>
-
 #include "scene/builtin.h"
 #include "scene/shapes.h"
 #include "scene/uniform_random.h"
@@ -16,12 +14,12 @@ struct Spheres {
     float period = 8.0f;
     static constexpr auto schema() {
         return std::tuple{field("count", &Spheres::count, "Number of spheres.", 1u, 4096u),
-                          field("radius", &Spheres::radius, "In metres.", 0.01f, 2.0f),
-                          field("seed", &Spheres::seed, "Chooses paths and colours."),
+                          field("radius", &Spheres::radius, "Radius of the spheres, m.", 0.01f, 2.0f),
+                          field("seed", &Spheres::seed, "Seed of paths and colours."),
                           field("moving", &Spheres::moving,
                                 "Whether the spheres move; otherwise they stay where they start."),
                           field("period", &Spheres::period,
-                                "Seconds that one round takes; then the spheres stop.", 0.1f, 3600.0f)};
+                                "Duration of one round, after which the spheres stop, s.", 0.1f, 3600.0f)};
     }
 };
 
@@ -53,10 +51,7 @@ std::shared_ptr<const Scene> make(const Spheres& params) {
             const float angle = start + turn * round;
             return center + glm::vec3(extent.x * std::cos(angle), 0, extent.y * std::sin(angle));
         };
-        Node node;
-        node.name = "sphere " + std::to_string(i);
-        node.translation = position(0);
-        b.scene().nodes.push_back(node);
+        b.scene().nodes.push_back({.name = fmt::format("sphere {}", i), .translation = position(0)});
         b.place(meshes[i % colorCount], int32_t(i));
         if (!params.moving) continue;
 

@@ -69,9 +69,9 @@ struct StillLife {
     static constexpr const char* name = "still_life";
     float glow = 9.0f;
     static constexpr auto schema() {
-        return std::tuple{field("glow", &StillLife::glow,
-                                "Red radiance of the glowing ball, in W/(m² sr); green and blue follow.",
-                                0.0f, 1e6f)};
+        return std::tuple{field(
+            "glow", &StillLife::glow,
+            "Red radiance of the glowing ball, W/(m² sr); green and blue are proportional.", 0.0f, 1e6f)};
     }
 };
 
@@ -103,7 +103,7 @@ struct ThinWall {
     ThinWallView view = ThinWallView::Dark;
     static constexpr auto schema() {
         return std::tuple{field("thickness", &ThinWall::thickness,
-                                "Thickness of the wall between the rooms, in metres.", 0.001f, 1.0f),
+                                "Thickness of the wall between the rooms, m.", 0.001f, 1.0f),
                           field("view", &ThinWall::view, "The room that the camera stands in.")};
     }
 };
@@ -122,10 +122,7 @@ std::shared_ptr<const Scene> make(const ThinWall& params) {
 }
 
 uint32_t perfectMirror(SceneBuilder& b) {
-    Material material;
-    material.name = "mirror";
-    material.roughness = 0;
-    return b.material(material);
+    return b.material({.name = "mirror", .roughness = 0});
 }
 
 struct MirrorRoom {
@@ -133,7 +130,7 @@ struct MirrorRoom {
     uint32_t count = 5;
     static constexpr auto schema() {
         return std::tuple{
-            field("count", &MirrorRoom::count, "Spheres in the row before the mirror.", 1u, 16u)};
+            field("count", &MirrorRoom::count, "Number of spheres in the row before the mirror.", 1u, 16u)};
     }
 };
 
@@ -167,7 +164,7 @@ struct MirrorRow {
     uint32_t count = 8;
     static constexpr auto schema() {
         return std::tuple{
-            field("count", &MirrorRow::count, "Spheres over the mirror, one every 2 m.", 1u, 64u)};
+            field("count", &MirrorRow::count, "Number of spheres over the mirror, one every 2 m.", 1u, 64u)};
     }
 };
 

@@ -8,14 +8,12 @@ namespace {
 
 Node nodeOf(const Placement& placement, const std::string& name) {
     const glm::vec3 angles = glm::radians(placement.rotateDegrees);
-    Node node;
-    node.name = name;
-    node.translation = placement.translate;
-    node.rotation = glm::angleAxis(angles.z, glm::vec3(0, 0, 1)) *
-                    glm::angleAxis(angles.y, glm::vec3(0, 1, 0)) *
-                    glm::angleAxis(angles.x, glm::vec3(1, 0, 0));
-    node.scale = placement.scale;
-    return node;
+    return {.name = name,
+            .translation = placement.translate,
+            .rotation = glm::angleAxis(angles.z, glm::vec3(0, 0, 1)) *
+                        glm::angleAxis(angles.y, glm::vec3(0, 1, 0)) *
+                        glm::angleAxis(angles.x, glm::vec3(1, 0, 0)),
+            .scale = placement.scale};
 }
 
 /// A direction transformed by a node, not normalized.

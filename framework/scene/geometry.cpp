@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <glm/gtc/matrix_access.hpp>
-#include <limits>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -164,12 +163,11 @@ void checkCoordinates(const glm::vec3& p, const Scene& scene, const Instance& in
 /// Bounds of an instance's vertices. @throws Error as checkCoordinates()
 Box boundsOf(const Geometry& geometry, const InstanceRange& range, const Scene& scene,
              const Instance& instance) {
-    Box box{glm::vec3(std::numeric_limits<float>::infinity()), glm::vec3(0.0f)};
-    box.max = -box.min;
+    Box box = Box::empty();
     for (uint32_t i = range.firstVertex; i < range.firstVertex + range.vertexCount; ++i) {
         const glm::vec3& p = geometry.positions[i];
         checkCoordinates(p, scene, instance);
-        box = {glm::min(box.min, p), glm::max(box.max, p)};
+        box.include(p);
     }
     return box;
 }
@@ -177,8 +175,7 @@ Box boundsOf(const Geometry& geometry, const InstanceRange& range, const Scene& 
 /// Bounds of all instances, for moving ones over all times.
 void findBounds(const Scene& scene, Geometry& geometry) {
     if (geometry.positions.empty()) return;
-    geometry.boundsMin = glm::vec3(std::numeric_limits<float>::infinity());
-    geometry.boundsMax = -geometry.boundsMin;
+    geometry.region = Box::empty();
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceRange& range = geometry.instances[i];
         Box box = boundsOf(geometry, range, scene, scene.instances[i]);
@@ -187,10 +184,10 @@ void findBounds(const Scene& scene, Geometry& geometry) {
             for (const glm::vec3& corner : {box.min, box.max})
                 checkCoordinates(corner, scene, scene.instances[i]);
         }
-        geometry.boundsMin = glm::min(geometry.boundsMin, box.min);
-        geometry.boundsMax = glm::max(geometry.boundsMax, box.max);
+        geometry.region.include(box);
     }
-    geometry.region = {geometry.boundsMin, geometry.boundsMax};
+    geometry.boundsMin = geometry.region.min;
+    geometry.boundsMax = geometry.region.max;
 }
 
 /// A node's axis in world space. @throws Error if the node is scaled by 0.

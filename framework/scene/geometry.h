@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <limits>
 #include <vector>
 
 #include "scene/scene.h"
@@ -17,6 +19,16 @@ constexpr float kMaxPosition = 1e9f;
 /// An axis-aligned box, m.
 struct Box {
     glm::vec3 min, max;
+    /// Without a point in it.
+    static Box empty() {
+        constexpr float kInfinity = std::numeric_limits<float>::infinity();
+        return {glm::vec3(kInfinity), glm::vec3(-kInfinity)};
+    }
+    void include(const Box& box) {
+        min = glm::min(min, box.min);
+        max = glm::max(max, box.max);
+    }
+    void include(const glm::vec3& point) { include(Box{point, point}); }
 };
 
 /// Per-vertex attributes, laid out as the shaders read them (see shaders/scene/scene_types.h). 64 bytes.

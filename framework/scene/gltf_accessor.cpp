@@ -19,36 +19,17 @@ struct Elements {
 };
 
 uint32_t componentBytes(const GltfFile& file, int type) {
-    switch (type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return 1;
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return 2;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        case TINYGLTF_COMPONENT_TYPE_FLOAT:
-            return 4;
-        default:
-            file.fail("component type {} is not one of glTF's", type);
-    }
+    const int bytes = tinygltf::GetComponentSizeInBytes(uint32_t(type));
+    if (bytes < 0 || type == TINYGLTF_COMPONENT_TYPE_INT || type == TINYGLTF_COMPONENT_TYPE_DOUBLE)
+        file.fail("component type {} is not one of glTF's", type);
+    return uint32_t(bytes);
 }
 
 uint32_t componentCount(const GltfFile& file, int type, const char* what) {
-    switch (type) {
-        case TINYGLTF_TYPE_SCALAR:
-            return 1;
-        case TINYGLTF_TYPE_VEC2:
-            return 2;
-        case TINYGLTF_TYPE_VEC3:
-            return 3;
-        case TINYGLTF_TYPE_VEC4:
-            return 4;
-        case TINYGLTF_TYPE_MAT4:
-            return 16;
-        default:
-            file.fail("{} can't be matrices of 2 or 3 columns", what);
-    }
+    const int count = tinygltf::GetNumComponentsInType(uint32_t(type));
+    if (count < 0 || type == TINYGLTF_TYPE_MAT2 || type == TINYGLTF_TYPE_MAT3)
+        file.fail("{} can't be matrices of 2 or 3 columns", what);
+    return uint32_t(count);
 }
 
 /// @throws Error if an element ends outside of the view, or the view outside of its buffer.

@@ -63,24 +63,24 @@ void readSkinWeights(GltfFile& file, const tinygltf::Primitive& primitive, Mesh&
         const auto joints = primitive.attributes.find(fmt::format("JOINTS_{}", set));
         const auto weights = primitive.attributes.find(fmt::format("WEIGHTS_{}", set));
         if (joints == primitive.attributes.end() || weights == primitive.attributes.end()) break;
-        const AccessorValues numbers = readAccessor(file, joints->second, 4, 4, "JOINTS");
+        const AccessorValues jointValues = readAccessor(file, joints->second, 4, 4, "JOINTS");
         const bool fractions = file.at(file.model().accessors, weights->second, "accessor").componentType !=
                                TINYGLTF_COMPONENT_TYPE_FLOAT;
-        const AccessorValues parts = readAccessor(file, weights->second, 4, 4, "WEIGHTS", fractions);
-        if (numbers.count != count || parts.count != count)
-            file.fail("{}: {} JOINTS and {} WEIGHTS for {} positions", what, numbers.count, parts.count,
-                      count);
+        const AccessorValues weightValues = readAccessor(file, weights->second, 4, 4, "WEIGHTS", fractions);
+        if (jointValues.count != count || weightValues.count != count)
+            file.fail("{}: {} JOINTS and {} WEIGHTS for {} positions", what, jointValues.count,
+                      weightValues.count, count);
         file.reserve(count, sizeof(glm::uvec4) + sizeof(glm::vec4));
         SkinWeights& out = mesh.skinWeights.emplace_back();
         out.joints.resize(count);
         out.weights.resize(count);
         for (size_t v = 0; v < count; ++v)
             for (uint32_t i = 0; i < 4; ++i) {
-                const float number = numbers.get(v, i);
+                const float number = jointValues.get(v, i);
                 if (!(number >= 0 && number <= 65535))
                     file.fail("{}: joint {} is not a number from 0 to 65535", what, number);
                 out.joints[v][int(i)] = uint32_t(number);
-                out.weights[v][int(i)] = parts.get(v, i);
+                out.weights[v][int(i)] = weightValues.get(v, i);
             }
     }
     if (mesh.skinWeights.empty()) return;

@@ -35,7 +35,7 @@ class SkinReader {
  private:
     GltfFile& file_;
     Scene& scene_;
-    std::vector<int32_t> sceneNodes_;  ///< By the file's node; -1: not in the scene.
+    std::vector<int32_t> sceneNodes_;  ///< Indexed by the file's nodes; -1: not in the scene.
     std::map<int, int32_t> skins_;
 };
 

@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 /// Removes the strides of buffer views: the parser accepts only multiples of 4 up to 252.
-std::vector<size_t> takeStrides(json& root) {
+std::vector<size_t> removeStrides(json& root) {
     std::vector<size_t> strides;
     for (size_t i = 0; i < objects(root, "bufferViews").size(); ++i) {
         json& view = root["bufferViews"][i];
@@ -28,7 +28,7 @@ std::vector<size_t> takeStrides(json& root) {
 }
 
 /// Removes the indices of primitives, by mesh: the parser refuses sparse ones without a buffer view.
-std::vector<int> takeIndices(json& root) {
+std::vector<int> removeIndices(json& root) {
     std::vector<int> indices;
     for (size_t m = 0; m < objects(root, "meshes").size(); ++m)
         for (size_t p = 0; p < objects(root["meshes"][m], "primitives").size(); ++p) {
@@ -44,8 +44,8 @@ std::vector<int> takeIndices(json& root) {
 
 /// Parses the JSON without buffers and images, which are read separately.
 tinygltf::Model parsed(json root) {
-    const std::vector<size_t> strides = takeStrides(root);
-    const std::vector<int> indices = takeIndices(root);
+    const std::vector<size_t> strides = removeStrides(root);
+    const std::vector<int> indices = removeIndices(root);
     root.erase("buffers");
     root.erase("images");
     const std::string text = root.dump();

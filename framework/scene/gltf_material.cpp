@@ -73,13 +73,11 @@ TextureRef MaterialReader::texture(int index, int texCoord, const tinygltf::Exte
     const auto [entry, added] = textures_.try_emplace({source.source, srgb, wrapU, wrapV, texelFilter},
                                                       int32_t(scene_.textures.size()));
     if (added) {
-        Texture texture;
-        texture.name = shortLine(image.name);
-        texture.srgb = srgb;
-        texture.wrapU = wrapU;
-        texture.wrapV = wrapV;
-        texture.filter = texelFilter;
-        scene_.textures.push_back(std::move(texture));
+        scene_.textures.push_back({.name = shortLine(image.name),
+                                   .srgb = srgb,
+                                   .wrapU = wrapU,
+                                   .wrapV = wrapV,
+                                   .filter = texelFilter});
         images_.push_back(source.source);
     }
     ref.texture = entry->second;
@@ -109,7 +107,7 @@ float MaterialReader::readIor(const tinygltf::Material& source, const std::strin
     float ior = 1.5f;
     readExtension(file_, what, source.extensions, extension, "ior", 0, 1000, ior);
     // 0 means infinite (KHR_materials_ior); values between 0 and 1 are invalid.
-    return ior == 0 ? 0 : limited(file_, ior, 1, 1000, what + ": KHR_materials_ior.ior");
+    return ior == 0 ? 0 : clampedFloat(file_, ior, 1, 1000, what + ": KHR_materials_ior.ior");
 }
 
 Material MaterialReader::read(int index) {
@@ -124,9 +122,9 @@ Material MaterialReader::read(int index) {
     const std::string what = fmt::format("material {} '{}'", index, m.name);
 
     // Factors.
-    readLimited(file_, pbr.baseColorFactor, m.baseColor, 0, 1, what + ": baseColorFactor");
-    m.metallic = limited(file_, pbr.metallicFactor, 0, 1, what + ": metallicFactor");
-    m.roughness = limited(file_, pbr.roughnessFactor, 0, 1, what + ": roughnessFactor");
+    readVector(file_, pbr.baseColorFactor, m.baseColor, 0, 1, what + ": baseColorFactor", clampedFloat);
+    m.metallic = clampedFloat(file_, pbr.metallicFactor, 0, 1, what + ": metallicFactor");
+    m.roughness = clampedFloat(file_, pbr.roughnessFactor, 0, 1, what + ": roughnessFactor");
     readExtension(file_, what, source.extensions, specular, "specularFactor", 0, 1, m.specular);
     readExtensionVector(file_, what, source.extensions, specular, "specularColorFactor", 0, maxNumber,
                         m.specularColor);
@@ -135,13 +133,15 @@ Material MaterialReader::read(int index) {
     float strength = 1;
     readExtension(file_, what, source.extensions, emissiveStrength, "emissiveStrength", 0, maxNumber,
                   strength);
-    readLimited(file_, source.emissiveFactor, m.emission, 0, maxNumber, what + ": emissiveFactor");
+    readVector(file_, source.emissiveFactor, m.emission, 0, maxNumber, what + ": emissiveFactor",
+               clampedFloat);
     for (int i = 0; i < 3; ++i)
-        m.emission[i] = limited(file_, double(m.emission[i]) * strength, 0, maxNumber, what + ": emission");
+        m.emission[i] =
+            clampedFloat(file_, double(m.emission[i]) * strength, 0, maxNumber, what + ": emission");
     m.doubleSided = source.doubleSided;
 
     // Alpha.
-    m.alphaCutoff = limited(file_, source.alphaCutoff, 0, maxNumber, what + ": alphaCutoff");
+    m.alphaCutoff = clampedFloat(file_, source.alphaCutoff, 0, maxNumber, what + ": alphaCutoff");
     if (source.alphaMode == "MASK")
         m.alphaMode = AlphaMode::Mask;
     else if (source.alphaMode == "BLEND")
@@ -160,7 +160,7 @@ Material MaterialReader::read(int index) {
     m.metallicRoughnessTexture = texture(rough.index, rough.texCoord, rough.extensions, false, what);
     m.normalTexture = texture(normal.index, normal.texCoord, normal.extensions, false, what);
     m.emissiveTexture = texture(emissive.index, emissive.texCoord, emissive.extensions, true, what);
-    m.normalScale = limited(file_, normal.scale, -maxNumber, maxNumber, what + ": normalTexture.scale");
+    m.normalScale = clampedFloat(file_, normal.scale, -maxNumber, maxNumber, what + ": normalTexture.scale");
 
     // Unsupported properties.
     if (isPane(m))

@@ -1,13 +1,11 @@
 #include "scene/gltf_mesh.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_deform.h"
 #include "scene/mesh_repair.h"
-#include "scene/value_ranges.h"
 
 namespace voxray {
 namespace {

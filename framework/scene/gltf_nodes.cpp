@@ -1,8 +1,6 @@
 #include "scene/gltf_nodes.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/trigonometric.hpp>
 
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_values.h"
@@ -42,9 +40,10 @@ Node readNode(GltfFile& file, int index, int32_t parent) {
         return node;
     }
     glm::vec4 rotation(0, 0, 0, 1);
-    readVector(file, source.translation, node.translation, -maxNumber, maxNumber, what + ": translation");
-    readVector(file, source.scale, node.scale, -maxNumber, maxNumber, what + ": scale");
-    readVector(file, source.rotation, rotation, -1.01, 1.01, what + ": rotation");
+    readVector(file, source.translation, node.translation, -maxNumber, maxNumber, what + ": translation",
+               checkedFloat);
+    readVector(file, source.scale, node.scale, -maxNumber, maxNumber, what + ": scale", checkedFloat);
+    readVector(file, source.rotation, rotation, -1.01, 1.01, what + ": rotation", checkedFloat);
     const float length = glm::length(rotation);
     if (!(length > 0)) file.fail("{}: its rotation is zero", what);
     rotation /= length;
@@ -102,16 +101,16 @@ void readLight(GltfFile& file, const tinygltf::Node& node, int32_t nodeIndex, Sc
         light.type = LightType::Directional;
     else
         file.fail("{}: type '{}' is not one of glTF's", what, source.type);
-    const float intensity = limited(file, source.intensity, 0, maxNumber, what + ": intensity");
-    readLimited(file, source.color, light.intensity, 0, maxNumber, what + ": color");
+    const float intensity = clampedFloat(file, source.intensity, 0, maxNumber, what + ": intensity");
+    readVector(file, source.color, light.intensity, 0, maxNumber, what + ": color", clampedFloat);
     for (int i = 0; i < 3; ++i)
         light.intensity[i] =
-            limited(file, double(light.intensity[i]) * intensity, 0, maxNumber, what + ": intensity");
+            clampedFloat(file, double(light.intensity[i]) * intensity, 0, maxNumber, what + ": intensity");
     if (light.type == LightType::Spot) {
         light.outerConeAngle =
-            limited(file, source.spot.outerConeAngle, 0, 1.5708, what + ": outerConeAngle");
+            clampedFloat(file, source.spot.outerConeAngle, 0, 1.5708, what + ": outerConeAngle");
         light.innerConeAngle =
-            limited(file, source.spot.innerConeAngle, 0, 1.5708, what + ": innerConeAngle");
+            clampedFloat(file, source.spot.innerConeAngle, 0, 1.5708, what + ": innerConeAngle");
         if (light.innerConeAngle > light.outerConeAngle) {
             file.warn("{}: innerConeAngle is wider than outerConeAngle; both are taken as the latter", what);
             light.innerConeAngle = light.outerConeAngle;

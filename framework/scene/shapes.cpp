@@ -32,13 +32,11 @@ SceneBuilder::SceneBuilder(std::string name) : scene_(std::make_shared<Scene>())
 }
 
 uint32_t SceneBuilder::lambert(const std::string& name, const glm::vec3& albedo, const glm::vec3& emission) {
-    Material m;
-    m.name = name;
-    m.baseColor = glm::vec4(albedo, 1.0f);
-    m.metallic = 0;
-    m.specular = 0;
-    m.emission = emission;
-    return material(m);
+    return material({.name = name,
+                     .baseColor = glm::vec4(albedo, 1.0f),
+                     .metallic = 0,
+                     .specular = 0,
+                     .emission = emission});
 }
 
 uint32_t SceneBuilder::material(Material material) {
@@ -117,43 +115,34 @@ void SceneBuilder::room(const glm::vec3& min, const glm::vec3& max,
 
 void SceneBuilder::camera(const glm::vec3& position, const glm::vec3& target, float verticalFovDegrees,
                           const glm::vec3& up) {
-    Camera c;
-    c.name = "camera";
-    c.verticalFovRadians = glm::radians(verticalFovDegrees);
-    c.position = position;
-    c.forward = glm::normalize(target - position);
-    c.up = glm::normalize(up - glm::dot(up, c.forward) * c.forward);
-    scene_->cameras.push_back(c);
+    const glm::vec3 forward = glm::normalize(target - position);
+    scene_->cameras.push_back({.name = "camera",
+                               .verticalFovRadians = glm::radians(verticalFovDegrees),
+                               .position = position,
+                               .forward = forward,
+                               .up = glm::normalize(up - glm::dot(up, forward) * forward)});
 }
 
 void SceneBuilder::pointLight(const glm::vec3& position, const glm::vec3& intensity) {
-    Light light;
-    light.name = "point light";
-    light.intensity = intensity;
-    light.position = position;
-    scene_->lights.push_back(light);
+    scene_->lights.push_back({.name = "point light", .intensity = intensity, .position = position});
 }
 
 void SceneBuilder::spotLight(const glm::vec3& position, const glm::vec3& direction, float innerDegrees,
                              float outerDegrees, const glm::vec3& intensity) {
-    Light light;
-    light.name = "spot light";
-    light.type = LightType::Spot;
-    light.intensity = intensity;
-    light.innerConeAngle = glm::radians(innerDegrees);
-    light.outerConeAngle = glm::radians(outerDegrees);
-    light.position = position;
-    light.direction = glm::normalize(direction);
-    scene_->lights.push_back(light);
+    scene_->lights.push_back({.name = "spot light",
+                              .type = LightType::Spot,
+                              .intensity = intensity,
+                              .innerConeAngle = glm::radians(innerDegrees),
+                              .outerConeAngle = glm::radians(outerDegrees),
+                              .position = position,
+                              .direction = glm::normalize(direction)});
 }
 
 void SceneBuilder::directionalLight(const glm::vec3& direction, const glm::vec3& irradiance) {
-    Light light;
-    light.name = "sun";
-    light.type = LightType::Directional;
-    light.intensity = irradiance;
-    light.direction = glm::normalize(direction);
-    scene_->lights.push_back(light);
+    scene_->lights.push_back({.name = "sun",
+                              .type = LightType::Directional,
+                              .intensity = irradiance,
+                              .direction = glm::normalize(direction)});
 }
 
 std::shared_ptr<const Scene> SceneBuilder::finish() {

@@ -2,54 +2,36 @@
 
 #include <algorithm>
 #include <span>
-#include <utility>
 
-#include "base/error.h"
 #include "trace/uploaded.h"
 #include "vulkan/structure.h"
 
 namespace voxray {
 
-// Delegating first makes the destructor clean up where the rest throws.
+void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR structure,
+                                  const VkAllocationCallbacks* allocator) {
+    const auto destroy = reinterpret_cast<PFN_vkDestroyAccelerationStructureKHR>(
+        vkGetDeviceProcAddr(device, "vkDestroyAccelerationStructureKHR"));
+    destroy(device, structure, allocator);
+}
+
 AccelerationStructure::AccelerationStructure(Device& device, const char* name,
                                              VkAccelerationStructureTypeKHR type, uint64_t bytes)
-    : AccelerationStructure() {
-    device_ = &device;
-    buffer_ = Buffer(device, name, bytes, MemoryKind::Device,
-                     VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR);
+    : buffer_(device, name, bytes, MemoryKind::Device,
+              VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR) {
     auto create = structure<VkAccelerationStructureCreateInfoKHR>(
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR);
     create.buffer = buffer_.handle();
     create.size = bytes;
     create.type = type;
-    const auto function =
-        device.function<PFN_vkCreateAccelerationStructureKHR>("vkCreateAccelerationStructureKHR");
-    check(function(device.handle(), &create, nullptr, &handle_), "vkCreateAccelerationStructureKHR");
-}
-
-AccelerationStructure::~AccelerationStructure() {
-    if (!handle_) return;
-    device_->function<PFN_vkDestroyAccelerationStructureKHR>("vkDestroyAccelerationStructureKHR")(
-        device_->handle(), handle_, nullptr);
-}
-
-AccelerationStructure::AccelerationStructure(AccelerationStructure&& other) noexcept {
-    *this = std::move(other);
-}
-
-AccelerationStructure& AccelerationStructure::operator=(AccelerationStructure&& other) noexcept {
-    std::swap(device_, other.device_);
-    std::swap(buffer_, other.buffer_);
-    std::swap(handle_, other.handle_);
-    return *this;
-}
-
-VkDeviceAddress AccelerationStructure::address() const {
+    check(device.function<PFN_vkCreateAccelerationStructureKHR>("vkCreateAccelerationStructureKHR")(
+              device.handle(), &create, nullptr, handle_.receive(device.handle())),
+          "vkCreateAccelerationStructureKHR");
     auto info = structure<VkAccelerationStructureDeviceAddressInfoKHR>(
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_DEVICE_ADDRESS_INFO_KHR);
     info.accelerationStructure = handle_;
-    return device_->function<PFN_vkGetAccelerationStructureDeviceAddressKHR>(
-        "vkGetAccelerationStructureDeviceAddressKHR")(device_->handle(), &info);
+    address_ = device.function<PFN_vkGetAccelerationStructureDeviceAddressKHR>(
+        "vkGetAccelerationStructureDeviceAddressKHR")(device.handle(), &info);
 }
 
 namespace {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <span>
 
-#include "base/error.h"
 #include "scene/panes.h"
 #include "shaders/scene/scene_types.h"
 #include "trace/emission.h"
@@ -105,32 +104,22 @@ void uploadEmitters(CommandStream& stream, const SceneState& state, GpuScene& sc
 }
 
 VkSamplerAddressMode toVulkan(Wrap wrap) {
-    switch (wrap) {
-        case Wrap::Repeat:
-            return VK_SAMPLER_ADDRESS_MODE_REPEAT;
-        case Wrap::ClampToEdge:
-            return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-        case Wrap::MirroredRepeat:
-            return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
-    }
-    return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    return wrap == Wrap::ClampToEdge      ? VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE
+           : wrap == Wrap::MirroredRepeat ? VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT
+                                          : VK_SAMPLER_ADDRESS_MODE_REPEAT;
 }
 
 ImageDesc describe(const Texture& texture) {
-    ImageDesc desc;
-    desc.format = texture.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM;
-    desc.extent = {texture.width, texture.height, 1};
-    desc.mipLevels = uint32_t(std::bit_width(std::max(texture.width, texture.height)));
-    desc.usage =
-        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    return desc;
+    return {.format = texture.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM,
+            .extent = {texture.width, texture.height, 1},
+            .mipLevels = uint32_t(std::bit_width(std::max(texture.width, texture.height))),
+            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                     VK_IMAGE_USAGE_TRANSFER_DST_BIT};
 }
 
 Image uploadedTexture(Device& device, CommandStream& stream, const Texture& texture) {
     Image image(device, "texture " + texture.name, describe(texture));
-    Buffer staging(device, "texture staging", texture.rgba.size(), MemoryKind::Upload);
-    stream.upload(staging, texture.rgba);
-    stream.copy(staging, image);
+    stream.upload(image, std::as_bytes(std::span(texture.rgba)));
     if (image.desc().mipLevels > 1) stream.makeMipLevels(image);
     stream.finish();
     return image;
@@ -173,12 +162,11 @@ uint64_t gpuEnvironmentBytes(const Environment& environment) {
     return imageBytes(desc);
 }
 
-std::vector<Binding> GpuScene::bindings(std::vector<Binding> more) const {
-    more.insert(more.begin(), {ifUsed({"sceneGeometry", geometry}), ifUsed({"sceneMaterials", materials}),
-                               ifUsed({"sceneLights", lights}), ifUsed({"sceneEmitters", emitters}),
-                               ifUsed({"sceneTextures", textures}),
-                               ifUsed({"sceneEnvironment", environment, environmentSampler})});
-    return more;
+std::vector<Binding> GpuScene::bindings() const {
+    return {
+        ifUsed({"sceneGeometry", geometry}), ifUsed({"sceneMaterials", materials}),
+        ifUsed({"sceneLights", lights}),     ifUsed({"sceneEmitters", emitters}),
+        ifUsed({"sceneTextures", textures}), ifUsed({"sceneEnvironment", environment, environmentSampler})};
 }
 
 GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& state) {
@@ -212,14 +200,10 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
 
     // The environment.
     const ImageF environment = environmentImage(state.scene->environment);
-    ImageDesc desc;
-    desc.extent = {environment.width, environment.height, 1};
-    scene.environment = Image(device, "environment", desc);
+    scene.environment = Image(device, "environment", {.extent = {environment.width, environment.height, 1}});
     scene.environmentSampler = Sampler(device, Filter::Linear, VK_SAMPLER_ADDRESS_MODE_REPEAT,
                                        VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
-    const Buffer pixels = uploaded(device, stream, "environment staging", environment.data);
-    stream.copy(pixels, scene.environment);
-    stream.finish();
+    stream.upload(scene.environment, std::as_bytes(std::span(environment.data)));
     scene.hasEnvironment = state.scene->environment.radiance != glm::vec3(0.0f);
 
     // Textures with mip levels; one white texel for a scene without textures.
@@ -255,9 +239,10 @@ void updateGpuScene(CommandStream& stream, const SceneState& state, GpuScene& sc
         upload(scene.triangles, g.triangles, run.firstTriangle, run.triangleCount);
     }
     uploadLights(stream, state, scene);
-    const bool emitterMoved = std::any_of(
-        g.instances.begin(), g.instances.end(),
-        [&](const InstanceRange& range) { return range.moves && canEmit(state, range.firstTriangle); });
+    bool emitterMoved = false;
+    for (const InstanceRange& run : movingInstanceRanges(g))
+        for (uint32_t t = run.firstTriangle; t < run.firstTriangle + run.triangleCount; ++t)
+            emitterMoved = emitterMoved || canEmit(state, t);
     if (emitterMoved) uploadEmitters(stream, state, scene);
     if (scene.panes) updateGpuScene(stream, *state.panes, *scene.panes);
 }

@@ -4,7 +4,7 @@
 
 namespace voxray {
 
-/// Streams by ray-tracing pipelines (VK_KHR_ray_tracing_pipeline).
+/// Traces streams by ray-tracing pipelines (VK_KHR_ray_tracing_pipeline).
 class RayPipelineTracer final : public GpuTracer {
  public:
     RayPipelineTracer(Device& device, ShaderCompiler& compiler, const SceneState& state,

@@ -4,7 +4,7 @@
 
 namespace voxray {
 
-/// Streams by ray queries in a compute shader (VK_KHR_ray_query).
+/// Traces streams by ray queries in a compute shader (VK_KHR_ray_query).
 class RayQueryTracer final : public GpuTracer {
  public:
     RayQueryTracer(Device& device, ShaderCompiler& compiler, const SceneState& state,

@@ -1,9 +1,10 @@
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "base/error.h"
 #include "base/suggest.h"
-#include "vulkan/commands_impl.h"
+#include "vulkan/commands.h"
 #include "vulkan/structure.h"
 
 namespace voxray {
@@ -23,16 +24,8 @@ const char* kindName(VkDescriptorType type) {
 }
 
 const char* kindName(NumberKind kind) {
-    switch (kind) {
-        case NumberKind::Integer:
-            return "an integer";
-        case NumberKind::Float:
-            return "a float";
-        case NumberKind::Address:
-            return "a 64-bit integer";
-        default:
-            return "a struct";
-    }
+    constexpr std::array kNames{"an integer", "a float", "a 64-bit integer", "a struct"};
+    return kNames[size_t(kind)];
 }
 
 bool isNumber(const Binding& binding) {
@@ -120,6 +113,8 @@ class Writes {
             expect(shaderBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
             write.pBufferInfo = &buffers_.emplace_back(bufferInfo(shaderBinding, **buffer));
         } else if (const auto* image = std::get_if<const Image*>(&given.value)) {
+            if (!**image)
+                throw Error("{}: the image bound to '{}' is empty", program_.name(), shaderBinding.name);
             const bool isSampled = shaderBinding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
             expect(shaderBinding, isSampled || given.sampler ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
                                                              : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
@@ -172,8 +167,7 @@ class Writes {
 
 }  // namespace
 
-void CommandStream::Impl::bind(VkCommandBuffer buffer, const Program& program,
-                               std::span<const Binding> given) {
+void CommandStream::bind(VkCommandBuffer buffer, const Program& program, std::span<const Binding> given) {
     checkUses(program, given);
     vkCmdBindPipeline(buffer, program.bindPoint(), program.pipeline());
     if (const std::vector<std::byte> block = pushBlock(program, given); !block.empty())
@@ -182,7 +176,7 @@ void CommandStream::Impl::bind(VkCommandBuffer buffer, const Program& program,
 
     // Set 0 is pushed; the texture array is a descriptor set.
     const std::vector<const Binding*> matched = matchBindings(program, given);
-    Writes writes(device, program, matched.size());
+    Writes writes(device_, program, matched.size());
     for (size_t i = 0; i < matched.size(); ++i) {
         const ShaderBinding& shaderBinding = program.bindings()[i];
         const auto* textures = std::get_if<const TextureArray*>(&matched[i]->value);
@@ -194,8 +188,8 @@ void CommandStream::Impl::bind(VkCommandBuffer buffer, const Program& program,
         vkCmdBindDescriptorSets(buffer, program.bindPoint(), program.layout(), 1, 1, &set, 0, nullptr);
     }
     if (!writes.list().empty())
-        pushDescriptors(buffer, program.bindPoint(), program.layout(), 0, uint32_t(writes.list().size()),
-                        writes.list().data());
+        pushDescriptors_(buffer, program.bindPoint(), program.layout(), 0, uint32_t(writes.list().size()),
+                         writes.list().data());
 }
 
 }  // namespace voxray

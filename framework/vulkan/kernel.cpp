@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <exception>
-#include <map>
 #include <utility>
 
 #include "base/error.h"

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -59,7 +58,7 @@ class PassProgram {
 
     ProgramOwner& owner_;
     std::vector<std::string> files_;  ///< Relative to the source root.
-    Defines baseDefines_, defines_;   ///< Of the constructor; with those of define().
+    Defines baseDefines_, defines_;   ///< Those of the constructor; and with those of define().
     SpecializationConstants constants_;
     bool isUsed_ = true;
 };

@@ -22,10 +22,10 @@ Program makeComputeProgram(Device& device, const ShaderModule& module,
     auto create = structure<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
     create.stage = builder.stages()[0];
     create.layout = builder.layout();
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
+    check(vkCreateComputePipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr,
+                                   builder.receivePipeline()),
           module.file.c_str());
-    return builder.finish(pipeline);
+    return builder.finish();
 }
 
 Program makeRasterProgram(Device& device, std::span<const ShaderModule> modules, const RasterState& state,
@@ -94,10 +94,10 @@ Program makeRasterProgram(Device& device, std::span<const ShaderModule> modules,
     create.pColorBlendState = &blend;
     create.pDynamicState = &dynamic;
     create.layout = builder.layout();
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
+    check(vkCreateGraphicsPipelines(device.handle(), VK_NULL_HANDLE, 1, &create, nullptr,
+                                    builder.receivePipeline()),
           modules[0].file.c_str());
-    return builder.finish(pipeline);
+    return builder.finish();
 }
 
 Program makeRayTracingProgram(Device& device, std::span<const ShaderModule> modules,
@@ -138,10 +138,10 @@ Program makeRayTracingProgram(Device& device, std::span<const ShaderModule> modu
     create.layout = builder.layout();
     const auto createPipelines =
         device.function<PFN_vkCreateRayTracingPipelinesKHR>("vkCreateRayTracingPipelinesKHR");
-    VkPipeline pipeline = VK_NULL_HANDLE;
-    check(createPipelines(device.handle(), VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &create, nullptr, &pipeline),
+    check(createPipelines(device.handle(), VK_NULL_HANDLE, VK_NULL_HANDLE, 1, &create, nullptr,
+                          builder.receivePipeline()),
           modules[0].file.c_str());
-    return builder.finish(pipeline);
+    return builder.finish();
 }
 
 }  // namespace voxray

@@ -1,7 +1,6 @@
 #include "vulkan/program_builder.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "base/error.h"
 #include "base/suggest.h"
@@ -9,36 +8,9 @@
 
 namespace voxray {
 
-Program::~Program() {
-    if (!device_) return;
-    vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
-    vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
-    vkDestroyDescriptorSetLayout(device_->handle(), pushSetLayout_, nullptr);
-}
-
-Program::Program(Program&& other) noexcept {
-    *this = std::move(other);
-}
-
-Program& Program::operator=(Program&& other) noexcept {
-    std::swap(device_, other.device_);
-    std::swap(name_, other.name_);
-    std::swap(pipeline_, other.pipeline_);
-    std::swap(layout_, other.layout_);
-    std::swap(pushSetLayout_, other.pushSetLayout_);
-    std::swap(bindPoint_, other.bindPoint_);
-    std::swap(stages_, other.stages_);
-    std::swap(bindings_, other.bindings_);
-    std::swap(pushConstantBytes_, other.pushConstantBytes_);
-    std::swap(pushMembers_, other.pushMembers_);
-    std::swap(localSize_, other.localSize_);
-    return *this;
-}
-
 ProgramBuilder::ProgramBuilder(Device& device, std::span<const ShaderModule> modules,
                                const SpecializationConstants& constants, VkPipelineBindPoint bindPoint)
     : device_(device) {
-    program_.device_ = &device;
     program_.bindPoint_ = bindPoint;
     for (const ShaderModule& module : modules) {
         program_.name_ += (program_.name_.empty() ? "" : " + ") + module.file;
@@ -55,10 +27,6 @@ ProgramBuilder::ProgramBuilder(Device& device, std::span<const ShaderModule> mod
             throw Error("{}: stages declare different push constants", program_.name_);
     makeLayout();
     makeStages(modules, constants);
-}
-
-ProgramBuilder::~ProgramBuilder() {
-    for (VkShaderModule module : modules_) vkDestroyShaderModule(device_.handle(), module, nullptr);
 }
 
 void ProgramBuilder::mergeBindings(const ShaderModule& module) {
@@ -94,20 +62,17 @@ void ProgramBuilder::makeLayout() {
         else
             hasTextures = true;
     }
-    auto push = structure<VkPhysicalDevicePushDescriptorPropertiesKHR>(
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR);
-    auto properties =
-        structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &push);
-    vkGetPhysicalDeviceProperties2(device_.physical(), &properties);
-    if (pushed.size() > push.maxPushDescriptors)
+    const uint32_t maxPushed = device_.limits().pushDescriptors;
+    if (pushed.size() > maxPushed)
         throw Error("{}: {} bindings in set 0; device '{}' allows {}", program_.name_, pushed.size(),
-                    device_.info().name, push.maxPushDescriptors);
+                    device_.info().name, maxPushed);
     auto set =
         structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
     set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
     set.bindingCount = uint32_t(pushed.size());
     set.pBindings = pushed.data();
-    check(vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr, &program_.pushSetLayout_),
+    check(vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr,
+                                      program_.pushSetLayout_.receive(device_.handle())),
           "vkCreateDescriptorSetLayout");
 
     // Set 1: the scene's textures.
@@ -122,7 +87,8 @@ void ProgramBuilder::makeLayout() {
     create.pSetLayouts = sets;
     create.pushConstantRangeCount = range.size > 0 ? 1 : 0;
     create.pPushConstantRanges = &range;
-    check(vkCreatePipelineLayout(device_.handle(), &create, nullptr, &program_.layout_),
+    check(vkCreatePipelineLayout(device_.handle(), &create, nullptr,
+                                 program_.layout_.receive(device_.handle())),
           "vkCreatePipelineLayout");
 }
 
@@ -151,22 +117,17 @@ void ProgramBuilder::makeStages(std::span<const ShaderModule> modules,
         const std::vector<uint32_t> spirv = numbered(module);
         create.codeSize = spirv.size() * sizeof(uint32_t);
         create.pCode = spirv.data();
-        VkShaderModule handle = VK_NULL_HANDLE;
-        check(vkCreateShaderModule(device_.handle(), &create, nullptr, &handle), "vkCreateShaderModule");
-        modules_.push_back(handle);
+        check(vkCreateShaderModule(device_.handle(), &create, nullptr,
+                                   modules_.emplace_back().receive(device_.handle())),
+              "vkCreateShaderModule");
         auto stage =
             structure<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
         stage.stage = module.stage;
-        stage.module = handle;
+        stage.module = modules_.back();
         stage.pName = "main";
         stage.pSpecializationInfo = &specialization_;
         stages_.push_back(stage);
     }
-}
-
-Program ProgramBuilder::finish(VkPipeline pipeline) {
-    program_.pipeline_ = pipeline;
-    return std::move(program_);
 }
 
 }  // namespace voxray

@@ -3,7 +3,6 @@
 #include <regex>
 #include <utility>
 
-#include "base/error.h"
 #include "base/files.h"
 
 namespace voxray {

@@ -59,9 +59,6 @@ struct FeatureChain {
     VkPhysicalDeviceRayTracingPipelineFeaturesKHR rayPipeline =
         structure<VkPhysicalDeviceRayTracingPipelineFeaturesKHR>(
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR);
-    VkPhysicalDeviceShaderAtomicFloatFeaturesEXT atomicFloat =
-        structure<VkPhysicalDeviceShaderAtomicFloatFeaturesEXT>(
-            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_ATOMIC_FLOAT_FEATURES_EXT);
 
     /// Links the core structures and those whose extension is in `extensions`.
     void link(const std::vector<std::string>& extensions);

@@ -195,7 +195,8 @@ TEST(HexColor, IsDecodedToLinearValues) {
 TEST(Schema, KnowsParametersWithoutEffect) {
     const auto unused = [](const Value& map) {
         std::string text;
-        for (const UnusedSetting& parameter : unusedSettings(readParams<Params>(map, "demo"), map))
+        const Params params = readParams<Params>(map, "demo");
+        for (const UnusedSetting& parameter : unusedSettings(schemaOf<Params>(), &params, map))
             text += fmt::format("{}: {}: {}", parameter.where.str(), parameter.name, parameter.why);
         return text;
     };

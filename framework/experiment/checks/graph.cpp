@@ -94,7 +94,7 @@ void checkOwnValues(const Experiment& experiment, const std::vector<Variant>& va
                     const Registry& registry) {
     for (const Value& entry : experiment.setup.graph.items) {
         if (!entry.find("pass")) continue;
-        checkEntry(registry, entry, Graph::reservedKeys());
+        checkEntry(registry, entry);
         if (const Value* inputs = entry.find("inputs"))
             for (const auto& [port, source] : inputs->members)
                 checkSource(passId(entry), port, source, variants, registry);
