@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The house checks find what they are for: each rule against a tree that breaks it, and one that does not."""
+"""Checks of the repository find what they are for: each rule against a tree that breaks it, and one that does not."""
 import graphlib
 import os
 import tempfile
@@ -238,7 +238,7 @@ class Commands(Tree):
                    "#define RAYS(scene, kind) \\\n    BENCHMARK_CAPTURE(trace, scene##_##kind##_closest, 1)\nRAYS(room, Embree);\n")
         self.write("tests/unit/x_test.cpp", "TEST(Voxels, AreFew) {}\nTEST_F(Rays, Hit) {}\n")
         self.write("scripts/bench_gpu.py", 'parser.add_argument("--device")\n')
-        self.write("tests/all.cmake", "voxray_tests(chain SHARDS 2)\nadd_test(NAME house.docs COMMAND x)\n")
+        self.write("tests/all.cmake", "voxray_tests(chain SHARDS 2)\nadd_test(NAME repository.docs COMMAND x)\n")
         self.write("program", "#!/usr/bin/env bash\n[[ $1 == run && $2 == --help ]] && echo '  --set PATH=VALUE  --dry-run' && exit\n"
                    "[[ $1 == run && $* == *good=1* ]] && exit\n[[ $1 == run ]] && { echo 'bad key' >&2; exit 2; }\n"
                    "[[ $1 == passes && ( $2 == --help || $2 == gather ) ]]\n", executable=True)
@@ -252,7 +252,7 @@ class Commands(Tree):
     def test_what_is_there(self):
         for text in ("run configs/one.yaml", "run CONFIG...", "bench gather", "bench 'gath|none'", "bench room_", "bench [FILTER]",
                      "bench gpu --device NAME",
-                     "test Voxels", "test chain", "test 'house\\.'", "test", "passes gather", "passes NAME", "run --dry-run",
+                     "test Voxels", "test chain", "test 'repository\\.'", "test", "passes gather", "passes NAME", "run --dry-run",
                      "run configs/one.yaml --set good=1"):
             self.assertEqual(self.problems(f"| `./voxray {text}` |"), [], text)
             self.assertEqual(self.problems(f"```\n./voxray {text}  # Why.\n```"), [], text)
