@@ -82,7 +82,7 @@ class Jobs(Parts):
         self.assertRegex(text, r"(?m)^reference\.[0-9a-f]{12}\.1-of-1: .* 6144 paths$")
         self.assertIn("variant.resolution-16: ", text)
         self.assertIn("8 samples", self.expect(2, "jobs", "tiny.yaml", "--reference-parts", "9").stderr)
-        self.assertIn("did you mean 'variant.resolution-8'",
+        self.assertIn("'variant.resolution-8'",
                       self.run_part("variant.resolution-9", status=2).stderr)
         self.run_part("merge", "--dry-run", status=2)
 

@@ -127,9 +127,9 @@ class Results(Run):
     def test_profile_and_set(self):
         self.run_tiny("out", "--profile", "smaller", "--set", "measure.frames=1")
         self.assertEqual(self.json("out", "manifest.json")["image"], {"width": 16, "height": 12})
-        self.assertIn("did you mean 'smaller'",
+        self.assertIn("'smaller'",
                       self.expect(2, "run", "tiny.yaml", "--profile", "smalller").stderr)
-        self.assertIn("did you mean", self.expect(2, "run", "tiny.yaml", "--set", "image.widht=3").stderr)
+        self.assertIn("'width'", self.expect(2, "run", "tiny.yaml", "--set", "image.widht=3").stderr)
 
     def test_build_timed_at_its_only_run(self):
         self.run_tiny("once", "--profile", "smaller", "--set", "measure.build_repeats=0")
