@@ -119,17 +119,6 @@ class Devices(CommandTest):
 
 
 class Validate(CommandTest):
-    def bad(self, old, new, *words, line=None):
-        self.assertIn(old, TINY)
-        text = TINY.replace(old, new, 1)
-        self.write("bad.yaml", text)
-        line = line or text[:text.index(new)].count("\n") + 1
-        for command in (("validate", "bad.yaml"), ("run", "bad.yaml", "--out", "out")):
-            error = self.expect(2, *command).stderr
-            for word in (f"bad.yaml:{line}: ", *words):
-                self.assertIn(word, error)
-            self.assertFalse(os.path.exists(self.path("out")), "a bad config leaves no results folder")
-
     def test_good_config(self):
         self.write("tiny.yaml", TINY)
         out = self.expect(0, "validate", "tiny.yaml").stdout
@@ -138,19 +127,21 @@ class Validate(CommandTest):
 
     def test_a_run_refuses_what_validate_does(self):
         """Of each stage of reading one; mistakes.py has the others."""
-        self.bad("{width: 32, height: 24}", "{width: 32, height: 24")
-        self.bad("  - {pass: gbuffer}", "\t- {pass: gbuffer}", line=6)
-        self.bad("width: 32", "widht: 32", "'width'")
-        self.bad("pass: composite", "pass: compsite", "'composite'")
-        self.bad("rays_per_light: 4096", "rays_per_light: 0", "rays_per_light")
-        self.bad("[8, 16]", "[8, -16]", "resolution")
-        self.bad("  - {pass: gbuffer}\n", "", "direct_shadow_rays: missing port 'gbuffer'", line=8)
-        self.bad("{builtin: cornell}", "{builtin: cornell, override: {floo: {roughness: 1}}}", "'floo'")
-        self.bad("{builtin: cornell}", "{builtin: cornell, camera: rear}", "'rear'")
-        self.bad("{builtin: cornell}", "{file: nowhere.glb}", "'nowhere.glb'")
-        self.bad("spp: 8", "spp: 1", "reference.spp")
-        self.bad("inject_light_rays, id: inject, rays_per_light: 4096", "inject_rsm, id: inject", "inject_rsm")
-        self.bad("bounces: 2}\n  - {pass: direct", "secondary: none, write: max}\n  - {pass: direct", "write")
+        for old, new, line, name in (("  - {pass: gbuffer}", "\t- {pass: gbuffer}", 6, ""), ("width: 32", "widht: 32", 3, "'width'"),
+                                     ("pass: composite", "pass: compsite", 11, "'composite'"),
+                                     ("rays_per_light: 4096", "rays_per_light: 0", 8, "rays_per_light"),
+                                     ("[8, 16]", "[8, -16]", 14, "resolution"),
+                                     ("  - {pass: gbuffer}\n", "", 8, "direct_shadow_rays: missing port 'gbuffer'"),
+                                     ("{builtin: cornell}", "{builtin: cornell, camera: rear}", 2, "'rear'"),
+                                     ("{builtin: cornell}", "{file: nowhere.glb}", 2, "'nowhere.glb'"),
+                                     ("spp: 8", "spp: 1", 12, "reference.spp"),
+                                     ("inject_light_rays, id: inject, rays_per_light: 4096", "inject_rsm, id: inject", 8, "inject_rsm")):
+            self.assertIn(old, TINY)
+            self.write("bad.yaml", TINY.replace(old, new, 1))
+            error = self.expect(2, "run", "bad.yaml", "--out", "out").stderr
+            self.assertIn(f"bad.yaml:{line}: ", error)
+            self.assertIn(name, error)
+            self.assertFalse(os.path.exists(self.path("out")), "a bad config leaves no results folder")
 
     def test_bounces_are_counted_to_the_image(self):
         # Each brings three bounces: to what it looks up, and one more where it gathers from what reflects.

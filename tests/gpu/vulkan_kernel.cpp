@@ -67,7 +67,7 @@ TEST_F(VulkanKernel, WhatIsLeftOutIsNotCompiled) {
     EXPECT_CONTAINS(error, "tests/gpu/not_there.comp");
     EXPECT_CONTAINS(error, "left it out");
     leftOut.compileIf(true);
-    EXPECT_CONTAINS(errorOf([&] { programs_.compile(); }), "tests/gpu/not_there.comp");
+    EXPECT_ERROR("tests/gpu/not_there.comp", programs_.compile());
 }
 
 TEST_F(VulkanKernel, SeveralOfOneSourceDifferByTheirDefinitions) {
@@ -96,7 +96,7 @@ TEST_F(VulkanKernel, OtherDefinitionsAndConstantsCompileAgain) {
     EXPECT_EQ(scaled(kernel), 28u);
 
     plan("30", 4);
-    EXPECT_CONTAINS(errorOf([&] { scaled(kernel); }), "vulkan_scale.comp");
+    EXPECT_ERROR("vulkan_scale.comp", scaled(kernel));
     programs_.compile();
     EXPECT_EQ(scaled(kernel), 38u);
     plan("30", 5);
@@ -109,7 +109,7 @@ TEST_F(VulkanKernel, OtherDefinitionsAndConstantsCompileAgain) {
     EXPECT_EQ(scaled(kernel), 10u);
 
     kernel.specialize({{"kFaktor", 1}});
-    EXPECT_CONTAINS(errorOf([&] { programs_.compile(); }), "constant 'kFaktor'");
+    EXPECT_ERROR("constant 'kFaktor'", programs_.compile());
 }
 
 TEST_F(VulkanKernel, AnErrorInOneOfSeveralNamesItsFile) {

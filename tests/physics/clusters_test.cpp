@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 
 #include "passes/clusters/voxel_clusters.h"
 #include "tests/physics/cluster_graph.h"
@@ -13,23 +12,21 @@
 namespace voxray::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Clusters of a chain, read back.
 struct Clusters {
     explicit Clusters(Chain& chain) : voxels(chain) {
-        const auto* resource = chain.graph().resource<VoxelClusters>("clusters");
-        clusters = chain.read<gpu::VoxelCluster>(resource->clusters);
-        clusterOfVoxel = chain.read<uint32_t>(resource->clusterOfVoxel);
-        memberVoxels = chain.read<uint32_t>(resource->memberVoxels);
-        coordinates = chain.read<glm::uvec3>(resource->coordinates);
-        unassigned = reported(chain.buildSamples.at(1), "voxels no seed reached, %");
+        const auto& c = chain.get<VoxelClusters>("clusters");
+        clusters = chain.read<gpu::VoxelCluster>(c.clusters);
+        clusterOfVoxel = chain.read<uint32_t>(c.clusterOfVoxel);
+        memberVoxels = chain.read<uint32_t>(c.memberVoxels);
+        coordinates = chain.read<glm::uvec3>(c.coordinates);
+        notReached = reported(chain.buildSamples.at(1), "voxels no seed reached, %");
     }
     Voxels voxels;
     std::vector<gpu::VoxelCluster> clusters;
     std::vector<uint32_t> clusterOfVoxel, memberVoxels;
     std::vector<glm::uvec3> coordinates;
-    double unassigned;  ///< Voxels that algorithm 1 left without a cluster, %.
+    double notReached;  ///< Voxels that algorithm 1 left without a cluster, %.
 };
 
 Clusters clustersOf(const std::string& scene, const std::string& parameters, const std::string& pass,
@@ -37,6 +34,10 @@ Clusters clustersOf(const std::string& scene, const std::string& parameters, con
     Chain chain(scene, parameters,
                 graphYaml({"voxelize, resolution: " + resolution, "cluster_voxels, " + pass}), 16, 16);
     return Clusters(chain);
+}
+
+int64_t unassigned(const Clusters& c) {
+    return std::ranges::count(c.clusterOfVoxel, NO_CLUSTER);
 }
 
 /// As voxel_normals.comp has it; not a number where that takes the largest face.
@@ -75,7 +76,7 @@ TEST(ClusterVoxels, GroupEachVoxelOnceAndTheSameInEachRun) {
         }
         EXPECT_EQ(next, c.voxels.count) << "0 unassigned: " << kind;
         std::printf("%s: %zu clusters of %u voxels, no seed reached %.2f %%\n", kind.c_str(),
-                    c.clusters.size(), c.voxels.count, c.unassigned);
+                    c.clusters.size(), c.voxels.count, c.notReached);
     }
 }
 
@@ -103,9 +104,6 @@ TEST(ClusterVoxels, TakeWhatNoOtherWantsInThePapersOrder) {
     const std::string few = "target: 1, iterations: 1, reach: 8, unassigned: leave, assign: ";
     const Clusters nearest = clustersOf("white_room", "{}", few + "nearest");
     const Clusters first = clustersOf("white_room", "{}", few + "first");
-    const auto unassigned = [](const Clusters& c) {
-        return std::ranges::count(c.clusterOfVoxel, NO_CLUSTER);
-    };
     EXPECT_GT(unassigned(nearest), 0);
     EXPECT_EQ(unassigned(first), 0);
     // Where each direction has its own clusters, nearly all voxels with a normal join one of like normal.
@@ -125,12 +123,9 @@ TEST(ClusterVoxels, TakeWhatNoOtherWantsInThePapersOrder) {
 
 TEST(ClusterVoxels, LeaveVoxelsOnlyWhereAsked) {
     const std::string few = "target: 12, iterations: 1, unassigned: ";
-    const auto unassigned = [](const Clusters& c) {
-        return std::ranges::count(c.clusterOfVoxel, NO_CLUSTER);
-    };
     const Clusters left = clustersOf("cornell", "{lights: point}", few + "leave");
     EXPECT_GT(unassigned(left), 0);
-    EXPECT_NEAR(100.0 * double(unassigned(left)) / left.voxels.count, left.unassigned, 1e-6);
+    EXPECT_NEAR(100.0 * double(unassigned(left)) / left.voxels.count, left.notReached, 1e-6);
     EXPECT_EQ(unassigned(clustersOf("cornell", "{lights: point}", few + "own")), 0);
     const Clusters nearest = clustersOf("cornell", "{lights: point}", few + "nearest");
     EXPECT_EQ(unassigned(nearest), 0);
@@ -157,7 +152,7 @@ TEST(ClusterVoxels, TakeAnyNumberOfVoxelsAndClusters) {
     EXPECT_EQ(many.clusters.size(), many.voxels.count);
     const Clusters few = clustersOf("white_room", "{}", "target: 1");
     EXPECT_GE(few.clusters.size(), 6u);
-    EXPECT_CONTAINS(errorOf([] { clustersOf("plane", "{}", "target: 0"); }), "target");
+    EXPECT_ERROR("target", clustersOf("plane", "{}", "target: 0"));
 }
 
 TEST(ClusterVisibility, CountsFormFactors) {
@@ -170,11 +165,11 @@ TEST(ClusterVisibility, CountsFormFactors) {
                                "cluster_visibility, rays: 256, near_distance: 0, visibility: " + visibility}),
                     16, 16);
         const Clusters c(chain);
-        const auto* patches = chain.graph().resource<VoxelPatches>("patches");
-        const auto groups = chain.read<gpu::SurfaceGroup>(patches->groups);
-        const auto components = chain.read<gpu::ClusterComponent>(patches->components);
-        const auto memberGroups = chain.read<uint32_t>(patches->memberGroups);
-        const auto materials = chain.read<gpu::PackedVoxelMaterial>(patches->materials);
+        const auto& patches = chain.get<VoxelPatches>("patches");
+        const auto groups = chain.read<gpu::SurfaceGroup>(patches.groups);
+        const auto components = chain.read<gpu::ClusterComponent>(patches.components);
+        const auto memberGroups = chain.read<uint32_t>(patches.memberGroups);
+        const auto materials = chain.read<gpu::PackedVoxelMaterial>(patches.materials);
         const auto faces = facesOfPatches(groups);
         const auto lists = readVisibilityLists(chain);
         double sum = 0, area = 0;
@@ -261,9 +256,8 @@ TEST(ClusterVisibility, LookAlongTheNormalOfEachWallOfACorner) {
                     graphYaml(clusterGraph(kDirect, "target: 100", "rays: 64, hemisphere: " + hemisphere, "0",
                                            "filter_passes: 0", "19")));
         Light light;
-        light.flux = readFlux(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->indirect);
-        const auto surfels =
-            chain.read<gpu::GroupedSurfel>(chain.graph().resource<VoxelPatches>("patches")->surfels);
+        light.flux = readFlux(chain, chain.get<VoxelIrradiance>("irradiance").indirect);
+        const auto surfels = chain.read<gpu::GroupedSurfel>(chain.get<VoxelPatches>("patches").surfels);
         light.faces.resize(light.flux.size() / 18);
         light.isAligned.resize(light.faces.size(), true);
         for (const gpu::GroupedSurfel& s : surfels)
@@ -302,18 +296,13 @@ TEST(ClusterVisibility, RefusesWhatMakesNoSense) {
     EXPECT_CONTAINS(message("rays: 0"), "rays");
     EXPECT_CONTAINS(message("rays: 2000"), "rays");
     // All surfaces in one voxel: none is open to light.
-    EXPECT_CONTAINS(
-        errorOf([] {
-            Chain("cornell", "{lights: point}",
-                  graphYaml(clusterGraph(kDirect, "target: 50", "rays: 16", "0", "filter_size: 3", "1")));
-        }),
-        "no light falls on any voxel");
-    EXPECT_CONTAINS(errorOf([] {
-                        Chain("cornell", "{lights: point}",
-                              graphYaml({"voxelize, resolution: 16, visibility_rays: 0", "place_surfels",
-                                         "cluster_voxels", "find_patches"}));
-                    }),
-                    "find_patches");
+    EXPECT_ERROR(
+        "no light",
+        Chain("cornell", "{lights: point}",
+              graphYaml(clusterGraph(kDirect, "target: 50", "rays: 16", "0", "filter_size: 3", "1"))));
+    EXPECT_ERROR("find_patches", Chain("cornell", "{lights: point}",
+                                       graphYaml({"voxelize, resolution: 16, visibility_rays: 0",
+                                                  "place_surfels", "cluster_voxels", "find_patches"})));
 }
 
 }  // namespace

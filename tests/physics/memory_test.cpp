@@ -4,6 +4,7 @@
 #include "passes/common/voxels/voxels.h"
 #include "passes/inject/light_paths/light_path_types.h"
 #include "tests/gpu/chain.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -91,12 +92,8 @@ TEST(Memory, TheLimitHoldsForWhatPassesCount) {
             needed = peakBytes(chain.graph().memory());
         }
         const uint64_t before = device().memoryUsedBytes();
-        std::string error;
-        try {
-            const Chain chain("cornell", c.scene, c.graph, 32, 32, 1, {}, needed * 3 / 4);
-        } catch (const Error& e) {
-            error = e.what();
-        }
+        const std::string error =
+            errorOf([&] { Chain("cornell", c.scene, c.graph, 32, 32, 1, {}, needed * 3 / 4); });
         // A place, a pass, and what to lower.
         EXPECT_EQ(error.find("graph:"), 0u) << c.name << ": " << error;
         EXPECT_NE(error.find("lower what it grows with, of "), std::string::npos) << c.name << ": " << error;
@@ -128,8 +125,8 @@ TEST(Memory, OfVoxelizationIsFreeForInjection) {
     const uint64_t before = device().memoryUsedBytes();
     const Chain chain("cornell", "{}",
                       graphYaml({"voxelize, resolution: 64", "inject_light_rays, rays_per_light: 1024"}));
-    const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
-    const VoxelIrradiance& light = *chain.graph().resource<VoxelIrradiance>("irradiance");
+    const SurfaceVoxels& voxels = chain.get<SurfaceVoxels>("voxels");
+    const VoxelIrradiance& light = chain.get<VoxelIrradiance>("irradiance");
     const std::map<std::string, uint64_t> held = device().memoryByResource();
     for (const char* scratch :
          {"surface accumulator", "visibility counts", "visibility rays", "flux accumulator", "light rays",

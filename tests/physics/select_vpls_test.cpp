@@ -36,7 +36,7 @@ TEST(SelectVpls, ResamplingKeepsSumsOnAverage) {
 TEST(SelectVpls, BringTheEnergyOfAll) {
     // The camera sees half of the walls
     Chain chain("white_room", "{}", selectedLights("4096", "2048"), 16, 16);
-    const Vpls& vpls = *chain.graph().resource<Vpls>("vpls");
+    const Vpls& vpls = chain.get<Vpls>("vpls");
     const auto points = chain.read<gpu::Vpl>(vpls.points);
     const auto list = chain.read<uint32_t>(vpls.activeIndices);
     EXPECT_LE(vpls.activeCount, 2048u);

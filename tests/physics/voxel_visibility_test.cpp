@@ -102,7 +102,7 @@ TEST(VoxelVisibility, RefusesGridsThatItCantWalkThrough) {
     window.grid = madeUpGrid(glm::uvec3(64), 1);
     window.grid.windowSize = 32;
     MemoryPlan plan;
-    EXPECT_CONTAINS(errorOf([&] { march.plan(plan, window); }), "64x64x64, of which 32 are held");
+    EXPECT_ERROR("64x64x64, of which 32 are held", march.plan(plan, window));
 }
 
 TEST(VoxelVisibility, ShadowsNarrowToThoseOfSurfaces) {
