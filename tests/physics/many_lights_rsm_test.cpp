@@ -23,13 +23,14 @@ TEST(ManyLights, OfReflectiveShadowMapsCarryEqualPartsOfAllFlux) {
 
 TEST(ManyLights, OfReflectiveShadowMapsBringTheLightOfLightRays) {
     for (const std::string parameters : {"{lights: point}", "{lights: spot}", "{lights: sun}"}) {
-        const double rays =
-            meanIndirect("cornell", parameters,
-                         manyLights("vpls_per_bounce: 16384", "visibility: exact, bound: 0, block: 1"));
+        const double rays = meanIndirect(
+            "cornell", parameters,
+            manyLights("vpls_per_bounce: 16384", "visibility: exact, bound: 0, block: 1"), 16, 16);
         const double map = meanIndirect(
             "cornell", parameters,
             graphYaml({"gbuffer", "voxelize", "render_rsm", "sample_vpls, first: rsm, vpls_per_bounce: 16384",
-                       "gather_vpls, visibility: exact, bound: 0, block: 1"}));
+                       "gather_vpls, visibility: exact, bound: 0, block: 1"}),
+            16, 16);
         EXPECT_NEAR(map / rays, 1, 0.02) << parameters;
     }
 }

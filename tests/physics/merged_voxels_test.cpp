@@ -164,16 +164,16 @@ double rms(const ImageF& image) {
 TEST(MergedVoxels, WithoutToleranceGiveWhatVoxelsGive) {
     // But for faces that hold nothing: voxels pass over those, in a tree they have the value of a leaf
     // nearby.
-    for (const Injection& injection : kInjections)
-        for (const std::string near : {"0", "2"}) {
-            const std::string inject = injection.withBounces(2), nearField = ", near_field_cells: " + near;
-            const ImageF voxels = gatherIn("cornell", "{lights: point}", inject, {"gather_rays" + nearField});
-            const ImageF tree =
-                gatherIn("cornell", "{lights: point}", inject, merged("tolerance: 0", nearField));
-            const double apart = nRmse(tree, voxels);
-            std::printf("%s, near field %s: %g apart\n", injection.pass.c_str(), near.c_str(), apart);
-            EXPECT_LT(apart, 2e-4) << injection.pass << near;
-        }
+    std::vector<std::pair<std::string, std::string>> cases{{kLightRays, "2"}};
+    for (const Injection& injection : kInjections) cases.emplace_back(injection.withBounces(2), "0");
+    for (const auto& [inject, near] : cases) {
+        const std::string nearField = ", near_field_cells: " + near;
+        const ImageF voxels = gatherIn("cornell", "{lights: point}", inject, {"gather_rays" + nearField});
+        const ImageF tree = gatherIn("cornell", "{lights: point}", inject, merged("tolerance: 0", nearField));
+        const double apart = nRmse(tree, voxels);
+        std::printf("%s, near field %s: %g apart\n", inject.c_str(), near.c_str(), apart);
+        EXPECT_LT(apart, 2e-4) << inject << near;
+    }
 }
 
 TEST(MergedVoxels, MayHoldIndirectLightAlone) {

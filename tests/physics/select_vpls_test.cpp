@@ -103,7 +103,7 @@ TEST(SelectVpls, BringOverManySeedsWhatManyLightsBring) {
 TEST(SelectVpls, AreThoseThatTheCameraSees) {
     // A room whose light comes in through a window, and as many virtual lights with and without a choice
     const auto image = [](const std::string& graph) {
-        return Chain("window_room", "{}", graph, 32, 32).image("indirect").data;
+        return Chain("window_room", "{}", graph, 16, 16).image("indirect").data;
     };
     const std::vector<float> right = image(allLights("65536"));
     const auto error = [&](const std::string& graph) {

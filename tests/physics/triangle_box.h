@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
+#include <glm/glm.hpp>
 #include <vector>
 
 #include "scene/geometry.h"
@@ -32,16 +31,20 @@ inline bool overlaps(const Triangle& t, glm::dvec3 center, double half) {
 /// The polygon of a triangle's part in a box.
 inline std::vector<glm::dvec3> partInBox(const Triangle& triangle, const glm::dvec3& low,
                                          const glm::dvec3& high) {
-    std::vector<glm::dvec3> polygon(triangle.begin(), triangle.end());
+    const auto& [a, b, c] = triangle;
+    if (glm::any(glm::greaterThan(glm::min(a, glm::min(b, c)), high)) ||
+        glm::any(glm::lessThan(glm::max(a, glm::max(b, c)), low)))
+        return {};
+    std::vector<glm::dvec3> polygon{a, b, c};
     for (int axis = 0; axis < 3; ++axis)
         for (const double sign : {-1.0, 1.0}) {
             std::vector<glm::dvec3> left;
             const double limit = sign > 0 ? high[axis] : -low[axis];
             for (size_t i = 0; i < polygon.size(); ++i) {
-                const glm::dvec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-                const double outA = sign * a[axis] - limit, outB = sign * b[axis] - limit;
-                if (outA <= 0) left.push_back(a);
-                if (outA * outB < 0) left.push_back(glm::mix(a, b, outA / (outA - outB)));
+                const glm::dvec3 from = polygon[i], to = polygon[(i + 1) % polygon.size()];
+                const double outFrom = sign * from[axis] - limit, outTo = sign * to[axis] - limit;
+                if (outFrom <= 0) left.push_back(from);
+                if (outFrom * outTo < 0) left.push_back(glm::mix(from, to, outFrom / (outFrom - outTo)));
             }
             polygon = left;
         }

@@ -57,16 +57,15 @@ TEST(StillVoxels, AreAllThatIsFilledWhereSheetsLieOnBorders) {
     for (uint32_t seed = 1; seed <= 24; ++seed) {
         const uint32_t resolution = 16 + 8 * (seed % 7);
         const auto state = boxWithSheets(seed, resolution);
-        for (const char* method : {"exact", "dominant_axis"}) {
-            Chain chain(state,
-                        graphYaml({fmt::format("voxelize, visibility_rays: 0, resolution: {}, method: {}",
-                                               resolution, method)}),
-                        8, 8);
-            const Voxels voxels(chain);
-            const uint32_t counted = countStaticVoxels(state->geometry, voxels.grid);
-            EXPECT_GE(counted, voxels.count) << "seed " << seed << ", " << method;
-            EXPECT_LE(counted, 1.25 * voxels.count) << "seed " << seed << ", " << method;
-        }
+        const char* method = seed % 2 == 0 ? "exact" : "dominant_axis";
+        Chain chain(state,
+                    graphYaml({fmt::format("voxelize, visibility_rays: 0, resolution: {}, method: {}",
+                                           resolution, method)}),
+                    8, 8);
+        const Voxels voxels(chain);
+        const uint32_t counted = countStaticVoxels(state->geometry, voxels.grid);
+        EXPECT_GE(counted, voxels.count) << "seed " << seed << ", " << method;
+        EXPECT_LE(counted, 1.25 * voxels.count) << "seed " << seed << ", " << method;
     }
 }
 

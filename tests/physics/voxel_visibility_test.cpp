@@ -123,10 +123,7 @@ TEST(VoxelVisibility, ShadowsNarrowToThoseOfSurfaces) {
     for (const int resolution : {32, 64, 128, 256}) {
         Chain voxels = chain("voxels", resolution);
         const ImageF image = voxels.image("direct");
-        double difference = 0;
-        for (size_t i = 0; i < image.data.size(); ++i)
-            difference += std::abs(double(image.data[i]) - double(expected.data[i]));
-        difference /= mean(expected) * double(image.data.size());
+        const double difference = meanDifference(image, expected);
         std::printf("%d voxels: energy %.4f of the exact, mean difference %.4f\n", resolution,
                     mean(image) / mean(expected), difference);
         EXPECT_LT(difference, 0.6 * before);
