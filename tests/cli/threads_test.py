@@ -23,7 +23,7 @@ sweep:
     clusters, first: [place_surfels, {pass: cluster_voxels, initial: 500, assign: first}, find_patches,
                       {pass: cluster_visibility, rays: 32}, {pass: inject_clusters, direct: shadow_rays, bounces: 1},
                       gather_clusters, gather_irradiance]
-measure: {frames: 1, warmup: 0}
+measure: {frames: 1, warmup: 0, build_repeats: 0}
 """
 
 

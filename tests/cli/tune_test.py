@@ -23,7 +23,7 @@ sweep:
   voxelize.resolution: [16, 32]
   inject.rays_per_light: [4096, 16384, 65536]
   trace.rays_per_block: [16, 32, 64, 128, 256, 512]
-measure: {frames: 1, warmup: 0}
+measure: {frames: 1, warmup: 0, build_repeats: 0}
 """
 
 
