@@ -74,6 +74,26 @@ std::span<const glm::ivec2> samplePoints(uint32_t samples) {
     return samples == 1 ? std::span<const glm::ivec2>(kCenter) : kEight;
 }
 
+/// Voxels twice as wide, half as many along each axis, rounded up: those with a marked one in them.
+VoxelBits coarser(const VoxelBits& voxels) {
+    VoxelBits result((voxels.size() + 1u) / 2u);
+    voxels.forEach([&](glm::ivec3 v) { result.mark(v / 2); });
+    return result;
+}
+
+/// The marked voxels and the 26 around each of them, as far as they are in the box.
+VoxelBits withNeighbors(const VoxelBits& voxels) {
+    VoxelBits result(voxels.size());
+    voxels.forEach([&](glm::ivec3 v) {
+        glm::ivec3 d;
+        for (d.z = -1; d.z <= 1; ++d.z)
+            for (d.y = -1; d.y <= 1; ++d.y)
+                for (d.x = -1; d.x <= 1; ++d.x)
+                    if (voxels.isInside(v + d)) result.mark(v + d);
+    });
+    return result;
+}
+
 }  // namespace
 
 uint64_t BrickOctreeCount::nodes() const {
@@ -91,10 +111,10 @@ uint64_t BrickOctreeCount::bricks() const {
 BrickOctreeCount countBrickOctree(VoxelBits voxels, bool neighbors) {
     BrickOctreeCount count;
     while (true) {
-        const uint32_t bricks = (neighbors ? voxels.withNeighbors() : voxels).count();
+        const uint32_t bricks = (neighbors ? withNeighbors(voxels) : voxels).count();
         count.levels.push_back({voxels.count(), bricks, 0});
         if (voxels.size() == glm::uvec3(1)) break;
-        voxels = voxels.coarser();
+        voxels = coarser(voxels);
     }
     for (size_t level = 0; level + 1 < count.levels.size(); ++level)
         count.levels[level].nodes = 8 * count.levels[level + 1].bricks;

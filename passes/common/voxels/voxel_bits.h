@@ -3,8 +3,8 @@
 #include <atomic>
 #include <bit>
 #include <cstdint>
-#include <glm/common.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 #include <vector>
 
 namespace voxray {
@@ -41,26 +41,6 @@ class VoxelBits {
                 for (size_t i = 0; i < wordsPerRow_; ++i)
                     for (uint64_t bits = words_[word({int(64 * i), v.y, v.z})]; bits; bits &= bits - 1)
                         visit(glm::ivec3(64 * int(i) + std::countr_zero(bits), v.y, v.z));
-    }
-
-    /// Voxels twice as wide, half as many along each axis, rounded up: those with a marked one in them.
-    VoxelBits coarser() const {
-        VoxelBits result((size_ + 1u) / 2u);
-        forEach([&](glm::ivec3 v) { result.mark(v / 2); });
-        return result;
-    }
-    /// The marked voxels and the 26 round each of them, as far as they are in the box.
-    VoxelBits withNeighbors() const {
-        VoxelBits result(size_);
-        forEach([&](glm::ivec3 v) {
-            const glm::ivec3 low = glm::max(v - 1, glm::ivec3(0)),
-                             high = glm::min(v + 1, glm::ivec3(size_) - 1);
-            glm::ivec3 n;
-            for (n.z = low.z; n.z <= high.z; ++n.z)
-                for (n.y = low.y; n.y <= high.y; ++n.y)
-                    for (n.x = low.x; n.x <= high.x; ++n.x) result.mark(n);
-        });
-        return result;
     }
 
  private:
