@@ -10,6 +10,7 @@
 
 #include "base/byte_units.h"
 #include "vulkan/memory_pool.h"
+#include "vulkan/program_cache.h"
 #include "vulkan/size_error.h"
 #include "vulkan/structure.h"
 #include "vulkan/support.h"
@@ -82,6 +83,7 @@ struct Device::Impl {
     std::optional<Instance> instance;
     bool hasValidation;
     std::unique_ptr<MemoryPool> pool;
+    ProgramCache programs;
     DeviceSupport support;
     VkDevice device = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;
@@ -200,7 +202,9 @@ Device::Device(const DeviceOptions& options) : impl_(std::make_unique<Impl>(opti
     impl_->createTexelSampler();
 }
 
-Device::~Device() = default;
+Device::~Device() {
+    impl_->programs.clear();  // They refer to the device
+}
 
 const DeviceInfo& Device::info() const {
     return impl_->support.info;
@@ -290,6 +294,10 @@ bool Device::hasValidation() const {
 
 MemoryPool& Device::memoryPool() {
     return *impl_->pool;
+}
+
+ProgramCache& Device::programCache() {
+    return impl_->programs;
 }
 
 uint64_t Device::memoryLimitBytes() const {

@@ -12,6 +12,7 @@
 namespace voxray {
 
 class MemoryPool;
+class ProgramCache;
 
 /// Features of a Vulkan device that Voxray uses.
 struct DeviceInfo {
@@ -105,6 +106,7 @@ class Device {
     void reserveMemory(uint64_t bytes, const std::string& name);
     void releaseMemory(uint64_t bytes, const std::string& name);
     MemoryPool& memoryPool();
+    ProgramCache& programCache();
     /// Bytes in use now, by resource name.
     std::map<std::string, uint64_t> memoryByResource() const;
 
