@@ -18,7 +18,7 @@ WARNINGS = {
     "a sun that shines upwards, and no lamp": (
         "  lights:\n    - {point: [0, 1.8, 0], intensity: [1, 1, 1]}",
         "  override: {lamp: {emission: 0}}\n  lights:\n    - {directional: [0, 1, 0], irradiance: 5}",
-        7, "scene.lights[0]"),
+        7, "upwards"),
     "radians for a spot's degrees": ("{point: [0, 1.8, 0],", "{spot: [0, 1.8, 0], outer_deg: 0.5,", 6, "28.65 degrees"),
     "a black light": (INTENSITY, "intensity: 0", 6, "black"),
     "a lamp of 80000 W/sr": (INTENSITY, "intensity: 80000", 6, "white"),
