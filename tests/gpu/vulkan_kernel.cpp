@@ -81,6 +81,26 @@ TEST_F(VulkanKernel, SeveralOfOneSourceDifferByTheirDefinitions) {
     EXPECT_EQ(scaled(tripled), 106u);
 }
 
+TEST_F(VulkanKernel, EqualOnesShareAPipeline) {
+    const auto pipelineOf = [](const Program& program) { return program.pipeline(); };
+    const Kernel one(programs_, "vulkan_scale.comp", {{"OFFSET", "7"}});
+    const Kernel equal(programs_, "vulkan_scale.comp", {{"OFFSET", "7"}});
+    const Kernel defined(programs_, "vulkan_scale.comp", {{"OFFSET", "8"}});
+    Kernel specialized(programs_, "vulkan_scale.comp", {{"OFFSET", "7"}});
+    specialized.specialize({{"kFactor", 3}});
+    programs_.compile();
+    EXPECT_EQ(pipelineOf(one), pipelineOf(equal));
+    EXPECT_NE(pipelineOf(one), pipelineOf(defined));
+    EXPECT_NE(pipelineOf(one), pipelineOf(specialized));
+
+    const std::vector<VkFormat> formats{VK_FORMAT_R32G32B32A32_SFLOAT};
+    RasterPipeline drawn(programs_, {"vulkan_triangle.vert", "vulkan_color.frag"}, {.colorFormats = formats});
+    RasterPipeline culled(programs_, {"vulkan_triangle.vert", "vulkan_color.frag"},
+                          {.colorFormats = formats, .cull = VK_CULL_MODE_BACK_BIT});
+    programs_.compile();
+    EXPECT_NE(pipelineOf(drawn), pipelineOf(culled));
+}
+
 TEST_F(VulkanKernel, OtherDefinitionsAndConstantsCompileAgain) {
     Kernel kernel(programs_, "vulkan_scale.comp", {{"UNUSED", "1"}});
     const auto plan = [&](const char* offset, uint32_t factor) {
