@@ -10,6 +10,7 @@
 
 #include "base/byte_units.h"
 #include "vulkan/memory_pool.h"
+#include "vulkan/program_cache.h"
 #include "vulkan/size_error.h"
 #include "vulkan/structure.h"
 #include "vulkan/support.h"
@@ -61,7 +62,9 @@ std::string whyNoDevice(const std::vector<DeviceInfo>& devices) {
 }
 
 Device::Device(std::unique_ptr<Instance> instance, bool hasValidation)
-    : instance_(std::move(instance)), hasValidation_(hasValidation) {}
+    : instance_(std::move(instance)),
+      hasValidation_(hasValidation),
+      programs_(std::make_unique<ProgramCache>()) {}
 
 // Delegating first makes the destructor clean up where the rest throws.
 Device::Device(const DeviceOptions& options)
@@ -80,6 +83,7 @@ Device::Device(const DeviceOptions& options)
 Device::~Device() {
     if (!handle_) return;
     vkDeviceWaitIdle(handle_);
+    programs_.reset();
     pool_.reset();
     vkDestroyDescriptorSetLayout(handle_, textureSetLayout_, nullptr);
     vkDestroySampler(handle_, texelSampler_, nullptr);

@@ -32,6 +32,13 @@ inline void expectSameLight(const ImageF& ours, const ImageF& sampled, const std
     EXPECT_LT(difference, 2 * weightError());
 }
 
+/// The Cornell box, 2 m wide, seen from `camera`.
+inline State cornellFrom(const glm::vec3& camera) {
+    const auto state = builtin("cornell", "{lights: point}");
+    state->cameras.at(0).position = camera;
+    return state;
+}
+
 /// A place in the center of a layer across `axis`, as cones read it, in voxels of a level.
 struct LayerPlace {
     glm::vec3 voxels;
@@ -58,11 +65,25 @@ inline std::vector<LayerPlace> randomPlaces(const gpu::RadianceGrid& grid, size_
     return places;
 }
 
+/// Anywhere in the grid and up to two voxels outside.
+inline std::vector<LayerPlace> randomPlaces(const gpu::RadianceGrid& grid, size_t count) {
+    return randomPlaces(grid, count, [&](uint32_t level) {
+        return VoxelBox{glm::ivec3(0), levelResolution(grid.resolution, level)};
+    });
+}
+
 inline RadianceQuery queryAt(const gpu::RadianceGrid& grid, const LayerPlace& p, glm::vec3 voxels) {
     const float voxel = grid.voxelSize * float(1u << p.level);
     glm::vec3 direction(0.0f);
     direction[p.axis] = p.sign;
     return {grid.origin + voxel * (voxels + 0.5f), voxel, direction};
+}
+
+inline std::vector<RadianceQuery> queriesAt(const gpu::RadianceGrid& grid,
+                                            const std::vector<LayerPlace>& places) {
+    std::vector<RadianceQuery> queries;
+    for (const LayerPlace& p : places) queries.push_back(queryAt(grid, p, p.voxels));
+    return queries;
 }
 
 /// Of each place the twelve voxels that a filter may read: two along each of the axes across, and the layers
@@ -82,6 +103,18 @@ inline std::vector<RadianceQuery> voxelsRound(const gpu::RadianceGrid& grid,
         }
     }
     return queries;
+}
+
+/// Plans a graph for the Cornell box on a device whose filtered volumes may have `side` texels.
+inline void planWithVolumes(uint32_t side, const std::string& graph) {
+    const auto state = builtin("cornell", "{lights: point}");
+    Frame frame;
+    frame.scene = state.get();
+    frame.camera = state->cameras.at(0);
+    frame.width = frame.height = 8;
+    DeviceInfo info = device().info();
+    info.filteredVolumeSide = side;
+    Graph(allPasses(), parseYaml(graph, "graph")).plan(frame, info, device().memoryLimitBytes());
 }
 
 /// What minimumLevel() of passes/cones/radiance/radiance_clipmap.glsl answers.

@@ -11,6 +11,10 @@
 
 namespace voxray::test {
 
+inline const RadianceVoxels& radiance(const Chain& chain) {
+    return chain.get<RadianceVoxels>("radiance");
+}
+
 /// A question to radiance voxels, as passes/cones/radiance/radiance_voxels.glsl takes it.
 struct RadianceQuery {
     glm::vec3 position;  ///< m
@@ -49,6 +53,15 @@ inline std::vector<glm::vec4> sampleRadiance(const RadianceVoxels& radiance,
     stream.dispatch(kernel, queries.size(),
                     {radiance, {"queries", input}, {"answers", output}, {"count", uint32_t(queries.size())}});
     return stream.readAs<glm::vec4>(output, queries.size());
+}
+inline std::vector<glm::vec4> sampleRadiance(const Chain& chain, const std::vector<RadianceQuery>& queries) {
+    return sampleRadiance(radiance(chain), queries);
+}
+
+/// Samples everywhere in voxels with one direction.
+inline std::vector<glm::vec4> samplesOf(const Chain& chain) {
+    const gpu::RadianceGrid& g = radiance(chain).grid;
+    return sampleRadiance(chain, randomQueries({g.origin, g.voxelSize, g.resolution, 0, 1, 1024, {}}, 20000));
 }
 
 /// All that a layout stores, in one buffer or a texture, as words.

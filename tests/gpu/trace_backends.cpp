@@ -190,7 +190,7 @@ TEST_F(TraceBackends, RaysThatAreNotFiniteMissOnTheGpuAndAreNamedByEmbree) {
     for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
         if (kind == TracerKind::Embree) {
-            EXPECT_CONTAINS(errorOf([&] { closestHits(*tracer, rays); }), "ray 0 of a stream of 6");
+            EXPECT_ERROR("ray 0 of a stream of 6", closestHits(*tracer, rays));
             continue;
         }
         for (const Hit& hit : closestHits(*tracer, rays)) EXPECT_EQ(hit.triangle, Hit::kMiss);
@@ -268,8 +268,8 @@ TEST_F(TraceBackends, SmallBuffersAreNamed) {
     CommandStream stream(device());
     for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
-        EXPECT_CONTAINS(errorOf([&] { tracer->closestHit(stream, rays, hits, 4); }), "'few rays'");
-        EXPECT_CONTAINS(errorOf([&] { tracer->closestHit(stream, more, hits, 4); }), "'few hits'");
+        EXPECT_ERROR("'few rays'", tracer->closestHit(stream, rays, hits, 4));
+        EXPECT_ERROR("'few hits'", tracer->closestHit(stream, more, hits, 4));
         tracer->closestHit(stream, rays, hits, 0);
         stream.finish();
     }

@@ -60,7 +60,7 @@ TEST_F(ShaderCompile, ErrorNamesFileAndLine) {
 
 TEST_F(ShaderCompile, ErrorInAnIncludeNamesTheInclude) {
     write("shaders/detail.glsl", "// A comment.\nfloat detail(float x) { return y; }\n");
-    EXPECT_CONTAINS(errorOf([&] { compile(); }), "shaders/detail.glsl:2: ");
+    EXPECT_ERROR("shaders/detail.glsl:2: ", compile());
 }
 
 TEST_F(ShaderCompile, MissingIncludeIsNamed) {
@@ -72,8 +72,8 @@ TEST_F(ShaderCompile, MissingIncludeIsNamed) {
 
 TEST_F(ShaderCompile, MissingFileAndUnknownStageAreNamed) {
     const ShaderCompiler compiler(root_, {});
-    EXPECT_CONTAINS(errorOf([&] { compiler.compile("passes/two.comp"); }), "two.comp");
-    EXPECT_CONTAINS(errorOf([&] { compiler.compile("passes/one/one.txt"); }), "one.txt");
+    EXPECT_ERROR("two.comp", compiler.compile("passes/two.comp"));
+    EXPECT_ERROR("one.txt", compiler.compile("passes/one/one.txt"));
 }
 
 TEST_F(ShaderCompile, UnsupportedBindingsAreNamed) {
@@ -81,11 +81,11 @@ TEST_F(ShaderCompile, UnsupportedBindingsAreNamed) {
           "#version 460\nuniform Numbers { vec4 a; } numbers;\n"
           "buffer Target { vec4 value; } target;\n"
           "void main() { target.value = numbers.a; }\n");
-    EXPECT_CONTAINS(errorOf([&] { compile(); }), "uniform buffer");
+    EXPECT_ERROR("uniform buffer", compile());
     write("passes/one/one.comp",
           "#version 460\nlayout(set = 2) buffer Target { vec4 value; } target;\n"
           "void main() { target.value = vec4(1); }\n");
-    EXPECT_CONTAINS(errorOf([&] { compile(); }), "'target' (set 2");
+    EXPECT_ERROR("'target' (set 2", compile());
 }
 
 TEST_F(ShaderCompile, CacheIsKeyedByContentIncludesAndDefines) {

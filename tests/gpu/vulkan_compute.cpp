@@ -124,10 +124,8 @@ TEST_F(VulkanCompute, DefinesAndSpecializationConstantsReachTheShader) {
 }
 
 TEST_F(VulkanCompute, UnknownSpecializationConstantIsNamed) {
-    EXPECT_CONTAINS(errorOf([] {
-                        computeProgram("vulkan_scale.comp", {}, {{"kFaktor", 1}});
-                    }),
-                    "constant 'kFaktor'; did you mean 'kFactor'");
+    EXPECT_ERROR("constant 'kFaktor'; did you mean 'kFactor'",
+                 computeProgram("vulkan_scale.comp", {}, {{"kFaktor", 1}}));
 }
 
 TEST_F(VulkanCompute, ReflectsWhatTheCodeUses) {
@@ -160,7 +158,7 @@ TEST_F(VulkanCompute, NoGroupsRecordNothingAndTooManyAreRefused) {
     CommandStream stream(device());
     stream.dispatch(program, 0, {});
     const uint32_t limit = device().properties().limits.maxComputeWorkGroupCount[1];
-    EXPECT_CONTAINS(errorOf([&] { stream.dispatch(program, glm::uvec2(1, limit + 1), {}); }), "work groups");
+    EXPECT_ERROR("work groups", stream.dispatch(program, glm::uvec2(1, limit + 1), {}));
 }
 
 TEST_F(VulkanCompute, SamplesATextureAndATextureArray) {
@@ -204,7 +202,7 @@ TEST_F(VulkanCompute, SamplesATextureAndATextureArray) {
 }
 
 TEST_F(VulkanCompute, EmptyTextureArrayIsRefused) {
-    EXPECT_CONTAINS(errorOf([] { TextureArray(device(), {}); }), "at least one");
+    EXPECT_ERROR("at least one", TextureArray(device(), {}));
 }
 
 TEST_F(VulkanCompute, WritesAVolume) {

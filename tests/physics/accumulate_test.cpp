@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "passes/common/filter/noisy_irradiance.h"
@@ -67,9 +66,8 @@ class FrameIrradiance final : public Pass {
 
 constexpr uint32_t kSize = 48;
 
-Chain chainOf(const std::shared_ptr<const SceneState>& state, const std::string& source,
-              const std::string& settings, const std::string& gbuffer = "samples_per_pixel_edge: 1",
-              uint32_t size = kSize) {
+Chain chainOf(const State& state, const std::string& source, const std::string& settings,
+              const std::string& gbuffer = "samples_per_pixel_edge: 1", uint32_t size = kSize) {
     return Chain(state,
                  "[{pass: gbuffer, " + gbuffer + "}, {pass: frame_irradiance, id: source, " + source +
                      "}, {pass: accumulate, inputs: {noisy_irradiance: source.known_irradiance}, " +
@@ -77,23 +75,15 @@ Chain chainOf(const std::shared_ptr<const SceneState>& state, const std::string&
                  size, size, 1, [](Registry& registry) { registry.add<FrameIrradiance>(); });
 }
 
-std::shared_ptr<const SceneState> builtin(const std::string& scene, const std::string& parameters = "{}",
-                                          Playback playback = Playback::Frozen) {
-    return std::make_shared<SceneState>(
-        evaluate(makeBuiltinScene(scene, parseYaml(parameters, "scene")), 0.0, playback));
-}
-
 /// Irradiance and number of rays of all texels.
 std::vector<glm::vec4> accumulated(Chain& chain) {
-    return chain.readImage<glm::vec4>(
-        chain.graph().resource<NoisyIrradiance>("noisy_irradiance")->irradiance);
+    return chain.readImage<glm::vec4>(chain.get<NoisyIrradiance>("noisy_irradiance").irradiance);
 }
 std::vector<glm::vec4> source(Chain& chain) {
-    return chain.readImage<glm::vec4>(
-        chain.graph().resource<NoisyIrradiance>("known_irradiance")->irradiance);
+    return chain.readImage<glm::vec4>(chain.get<NoisyIrradiance>("known_irradiance").irradiance);
 }
 std::vector<glm::vec4> previous(Chain& chain) {
-    return chain.readImage<glm::vec4>(chain.graph().resource<SurfaceMotion>("motion")->previous);
+    return chain.readImage<glm::vec4>(chain.get<SurfaceMotion>("motion").previous);
 }
 
 /// Variance of the first channel.
@@ -183,7 +173,7 @@ TEST(Accumulate, ForgetsWhatTheCameraDidNotSee) {
     const glm::vec3 from = state->cameras.at(0).position;
     chain.runFrameFrom(from + glm::vec3(0.5f, 0, 0));
     const auto texels = accumulated(chain), points = previous(chain);
-    const auto motion = chain.readImage<glm::vec4>(chain.graph().resource<SurfaceMotion>("motion")->motion);
+    const auto motion = chain.readImage<glm::vec4>(chain.get<SurfaceMotion>("motion").motion);
     const EmbreeScene scene(*state);
     const auto isHidden = [&](size_t i) {
         const glm::vec3 away = glm::vec3(points[i]) - from;
@@ -222,7 +212,7 @@ TEST(Accumulate, FollowsWhatMoves) {
     const auto before = previous(chain);
     chain.goTo(0.15);
     const auto texels = accumulated(chain), points = previous(chain);
-    const auto positions = chain.readImage<glm::vec4>(chain.graph().resource<GBuffer>("gbuffer")->position);
+    const auto positions = chain.readImage<glm::vec4>(chain.get<GBuffer>("gbuffer").position);
     size_t moving = 0, kept = 0;
     double way = 0;
     for (size_t i = 0; i < texels.size(); ++i) {

@@ -9,7 +9,7 @@
 #include "passes/cones/clipmap/clipmap_voxels.h"
 #include "passes/cones/radiance/radiance_voxels.h"
 #include "scene/shapes.h"
-#include "tests/gpu/radiance_samples.h"
+#include "tests/gpu/radiance_places.h"
 #include "tests/support/errors.h"
 
 namespace voxray::test {
@@ -22,23 +22,8 @@ std::string graphOf(const std::string& layout) {
 const std::string kGraph = graphOf("clipmap");
 const std::string kLayouts[] = {"clipmap", "clipmap_textures"};
 
-std::shared_ptr<SceneState> stateOf(const std::string& scene, const std::string& parameters) {
-    return std::make_shared<SceneState>(evaluate(makeBuiltinScene(scene, parseYaml(parameters, "scene")), 0));
-}
-
-/// The Cornell box, 2 m wide, seen from `camera`.
-std::shared_ptr<SceneState> cornellFrom(const glm::vec3& camera) {
-    auto state = stateOf("cornell", "{lights: point}");
-    state->cameras.at(0).position = camera;
-    return state;
-}
-
 const ClipmapVoxels& clipmap(const Chain& chain) {
-    return *chain.graph().resource<ClipmapVoxels>("clipmap");
-}
-
-const RadianceVoxels& radiance(const Chain& chain) {
-    return *chain.graph().resource<RadianceVoxels>("radiance");
+    return chain.get<ClipmapVoxels>("clipmap");
 }
 
 /// All that a clipmap holds: radiance; of each level occupancy, ranks and materials.
@@ -60,7 +45,7 @@ std::pair<uint64_t, uint64_t> updated(const Chain& chain) {
 TEST(ClipmapVoxels, ScrolledAreAsMadeFromScratch) {
     for (const std::string& layout : kLayouts) {
         const glm::vec3 start(-0.31f, 0.9f, 0.2f);
-        Chain scrolled(cornellFrom(start), graphOf(layout), 8, 8, 1);
+        Chain scrolled(cornellFrom(start), graphOf(layout), 8, 8);
         const auto first = content(scrolled);
         // Shorter than a voxel, of many along all axes, farther than windows are wide, and out of the scene.
         const std::vector<glm::vec3> walk{{-0.3f, 0.91f, 0.2f},
@@ -70,7 +55,7 @@ TEST(ClipmapVoxels, ScrolledAreAsMadeFromScratch) {
                                           {-0.63f, 0.3f, -0.2f}};
         for (const glm::vec3& camera : walk) {
             scrolled.runFrameFrom(camera);
-            Chain fresh(cornellFrom(camera), graphOf(layout), 8, 8, 1);
+            Chain fresh(cornellFrom(camera), graphOf(layout), 8, 8);
             EXPECT_TRUE(content(scrolled) == content(fresh)) << layout << ", " << camera.x;
             EXPECT_LE(updated(scrolled).first, updated(fresh).first);
         }
@@ -85,7 +70,7 @@ TEST(ClipmapVoxels, ScrolledAreAsMadeFromScratch) {
 
 TEST(ClipmapVoxels, VoxelizeWhatScrollsInAlone) {
     const glm::vec3 start(0, 1, 0);
-    Chain chain(cornellFrom(start), kGraph, 8, 8, 1);
+    Chain chain(cornellFrom(start), kGraph, 8, 8);
     const uint64_t allRays = chain.frameSamples.at(0).rays;
     EXPECT_GT(allRays, 0u);
     chain.runFrameFrom(start);
@@ -102,18 +87,9 @@ TEST(ClipmapVoxels, VoxelizeWhatScrollsInAlone) {
 
 /// Cornell with a sphere that moves through it, a place a second.
 std::shared_ptr<const Scene> roomWithSphere() {
-    auto scene = std::make_shared<Scene>(*makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")));
-    scene->meshes.push_back(sphereMesh("sphere", glm::vec3(0), 0.13f, 2, 0, false, true));
-    AnimationChannel channel;
-    channel.node = uint32_t(scene->nodes.size());
-    for (const glm::vec3& place : {glm::vec3(0.3f, 1.4f, 0.3f), glm::vec3(0.32f, 1.41f, 0.3f),
-                                   glm::vec3(-0.86f, 0.7f, 0.3f), glm::vec3(0.87f, 0.13f, -0.8f)}) {
-        channel.timesSeconds.push_back(float(channel.timesSeconds.size()));
-        channel.values.push_back(glm::vec4(place, 0));
-    }
-    scene->nodes.emplace_back();
-    scene->animation.push_back(channel);
-    scene->instances.push_back({uint32_t(scene->meshes.size() - 1), int32_t(channel.node)});
+    auto scene = builtinScene("cornell", "{lights: point}");
+    addMovingSphere(*scene, 0,
+                    {{0.3f, 1.4f, 0.3f}, {0.32f, 1.41f, 0.3f}, {-0.86f, 0.7f, 0.3f}, {0.87f, 0.13f, -0.8f}});
     return scene;
 }
 
@@ -122,12 +98,12 @@ TEST(ClipmapVoxels, FollowWhatMoves) {
         // A sphere, the light, and the camera at the same time.
         const auto scene = roomWithSphere();
         const auto stateAt = [&](double second) {
-            auto state = std::make_shared<SceneState>(evaluate(scene, second, Playback::Looping));
+            auto state = evaluated(scene, second, Playback::Looping);
             state->cameras.at(0).position = glm::vec3(0.1f, 1, 0.2f);
             if (second >= 2) state->lights.at(0).position += glm::vec3(0.2f, -0.1f, 0.1f);
             return state;
         };
-        Chain moved(stateAt(0), graphOf(layout), 8, 8, 1);
+        Chain moved(stateAt(0), graphOf(layout), 8, 8);
         auto last = content(moved);
         const uint64_t whole = updated(moved).first;
         for (int second = 1; second <= 3; ++second) {
@@ -137,7 +113,7 @@ TEST(ClipmapVoxels, FollowWhatMoves) {
                 return changed;
             });
             EXPECT_LT(updated(moved).first, whole / 2);
-            Chain made(stateAt(second), graphOf(layout), 8, 8, 1);
+            Chain made(stateAt(second), graphOf(layout), 8, 8);
             EXPECT_TRUE(content(moved) == content(made)) << layout << ", " << second;
             EXPECT_FALSE(content(moved) == last) << layout << ", " << second;
             last = content(moved);
@@ -152,7 +128,7 @@ TEST(ClipmapVoxels, FollowWhatMoves) {
         EXPECT_FALSE(content(moved) == last);
         auto lit = stateAt(3);
         lit->lights.at(0).position.x -= 0.3f;
-        EXPECT_TRUE(content(moved) == content(*std::make_unique<Chain>(lit, graphOf(layout), 8, 8, 1)));
+        EXPECT_TRUE(content(moved) == content(*std::make_unique<Chain>(lit, graphOf(layout), 8, 8)));
     }
 }
 
@@ -252,24 +228,23 @@ TEST(ClipmapVoxels, BouncesAreThoseOfTheSceneAndFollowTheCamera) {
 
     const std::string graph =
         graphYaml({"voxelize_clipmap, resolution: 24, clipmap_resolution: 16", "light_clipmap, bounces: 2"});
-    Chain scrolled(cornellFrom({-0.3f, 0.3f, 0.2f}), graph, 8, 8, 1);
+    Chain scrolled(cornellFrom({-0.3f, 0.3f, 0.2f}), graph, 8, 8);
     const glm::vec3 camera(0.25f, 1.3f, -0.4f);
     scrolled.runFrameFrom(camera);
-    Chain fresh(cornellFrom(camera), graph, 8, 8, 1);
+    Chain fresh(cornellFrom(camera), graph, 8, 8);
     EXPECT_TRUE(content(scrolled) == content(fresh));
 }
 
 TEST(ClipmapVoxels, BadInputIsNamed) {
-    const auto expectError = [](const std::shared_ptr<SceneState>& state, const std::string& voxelize,
-                                const std::string& rest, const std::string& text) {
-        const std::string graph = graphYaml({"gbuffer", "voxelize_clipmap, resolution: 16" + voxelize, rest});
-        EXPECT_CONTAINS(errorOf([&] { Chain(state, graph, 8, 8, 1); }), text);
+    const auto errorWith = [](const std::string& lights, const std::string& inject) {
+        return errorOf([&] {
+            Chain("cornell", "{lights: " + lights + "}",
+                  graphYaml({"gbuffer", "voxelize_clipmap, resolution: 16", inject}), 8, 8);
+        });
     };
-    const std::string light = "light_clipmap";
-    expectError(stateOf("cornell", "{lights: area}"), "", light,
-                "light_clipmap: emissive surfaces have no single viewpoint");
+    EXPECT_CONTAINS(errorWith("area", "light_clipmap"), "light_clipmap: emissive surfaces");
     // Methods that need one grid of the whole scene can't be wired to it.
-    expectError(cornellFrom({0, 0, 0}), "", "inject_light_rays", "voxels");
+    EXPECT_CONTAINS(errorWith("point", "inject_light_rays"), "voxels");
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 
 #include "passes/clusters/voxel_clusters.h"
 #include "tests/physics/cluster_graph.h"
@@ -13,15 +12,13 @@
 namespace voxray::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Clusters of a chain, read back.
 struct Clusters {
     explicit Clusters(Chain& chain) : voxels(chain) {
-        const auto* resource = chain.graph().resource<VoxelClusters>("clusters");
-        clusters = chain.read<gpu::VoxelCluster>(resource->clusters);
-        clusterOfVoxel = chain.read<uint32_t>(resource->clusterOfVoxel);
-        coordinates = chain.read<glm::uvec3>(resource->coordinates);
+        const auto& c = chain.get<VoxelClusters>("clusters");
+        clusters = chain.read<gpu::VoxelCluster>(c.clusters);
+        clusterOfVoxel = chain.read<uint32_t>(c.clusterOfVoxel);
+        coordinates = chain.read<glm::uvec3>(c.coordinates);
         unassigned = reported(chain.buildSamples.at(1), "voxels no seed reached, %");
     }
     Voxels voxels;
@@ -36,6 +33,10 @@ Clusters clustersOf(const std::string& scene, const std::string& parameters, con
     Chain chain(scene, parameters,
                 graphYaml({"voxelize, resolution: " + resolution, "cluster_voxels, " + pass}), 16, 16);
     return Clusters(chain);
+}
+
+int64_t unassigned(const Clusters& c) {
+    return std::ranges::count(c.clusterOfVoxel, NO_CLUSTER);
 }
 
 /// As voxel_normals.comp has it; not a number where that takes the largest face.
@@ -90,9 +91,6 @@ TEST(ClusterVoxels, TakeWhatNoOtherWantsInThePapersOrder) {
     const std::string few = "target: 1, iterations: 1, reach: 8, unassigned: leave, assign: ";
     const Clusters nearest = clustersOf("white_room", "{}", few + "nearest");
     const Clusters first = clustersOf("white_room", "{}", few + "first");
-    const auto unassigned = [](const Clusters& c) {
-        return std::ranges::count(c.clusterOfVoxel, NO_CLUSTER);
-    };
     EXPECT_GT(unassigned(nearest), 0);
     EXPECT_EQ(unassigned(first), 0);
     // Where each direction has its own clusters, nearly all voxels with a normal join one of like normal.
@@ -112,9 +110,6 @@ TEST(ClusterVoxels, TakeWhatNoOtherWantsInThePapersOrder) {
 
 TEST(ClusterVoxels, LeaveVoxelsOnlyWhereAsked) {
     const std::string few = "target: 12, iterations: 1, unassigned: ";
-    const auto unassigned = [](const Clusters& c) {
-        return std::ranges::count(c.clusterOfVoxel, NO_CLUSTER);
-    };
     const Clusters left = clustersOf("cornell", "{lights: point}", few + "leave");
     EXPECT_GT(unassigned(left), 0);
     EXPECT_NEAR(100.0 * double(unassigned(left)) / left.voxels.count, left.unassigned, 1e-6);
@@ -143,7 +138,7 @@ TEST(ClusterVoxels, TakeAnyNumberOfVoxelsAndClusters) {
     EXPECT_EQ(many.clusters.size(), many.voxels.count);
     const Clusters few = clustersOf("white_room", "{}", "target: 1");
     EXPECT_GE(few.clusters.size(), 6u);
-    EXPECT_CONTAINS(errorOf([] { clustersOf("plane", "{}", "target: 0"); }), "target");
+    EXPECT_ERROR("target", clustersOf("plane", "{}", "target: 0"));
 }
 
 TEST(ClusterVisibility, CountsFormFactors) {
@@ -156,11 +151,11 @@ TEST(ClusterVisibility, CountsFormFactors) {
                                "cluster_visibility, rays: 256, near_distance: 0, visibility: " + visibility}),
                     16, 16);
         const Clusters c(chain);
-        const auto* patches = chain.graph().resource<VoxelPatches>("patches");
-        const auto groups = chain.read<gpu::SurfaceGroup>(patches->groups);
-        const auto components = chain.read<gpu::ClusterComponent>(patches->components);
-        const auto memberGroups = chain.read<uint32_t>(patches->memberGroups);
-        const auto materials = chain.read<gpu::PackedVoxelMaterial>(patches->materials);
+        const auto& patches = chain.get<VoxelPatches>("patches");
+        const auto groups = chain.read<gpu::SurfaceGroup>(patches.groups);
+        const auto components = chain.read<gpu::ClusterComponent>(patches.components);
+        const auto memberGroups = chain.read<uint32_t>(patches.memberGroups);
+        const auto materials = chain.read<gpu::PackedVoxelMaterial>(patches.materials);
         const auto faces = facesOfPatches(groups);
         const auto lists = readVisibilityLists(chain);
         double sum = 0, area = 0;
@@ -247,9 +242,8 @@ TEST(ClusterVisibility, LookAlongTheNormalOfEachWallOfACorner) {
                     graphYaml(clusterGraph(kDirect, "target: 100", "rays: 64, hemisphere: " + hemisphere, "0",
                                            "filter_passes: 0", "19")));
         Light light;
-        light.flux = readFlux(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->indirect);
-        const auto surfels =
-            chain.read<gpu::GroupedSurfel>(chain.graph().resource<VoxelPatches>("patches")->surfels);
+        light.flux = readFlux(chain, chain.get<VoxelIrradiance>("irradiance").indirect);
+        const auto surfels = chain.read<gpu::GroupedSurfel>(chain.get<VoxelPatches>("patches").surfels);
         light.faces.resize(light.flux.size() / 18);
         light.isAligned.resize(light.faces.size(), true);
         for (const gpu::GroupedSurfel& s : surfels)
@@ -288,18 +282,13 @@ TEST(ClusterVisibility, RefusesWhatMakesNoSense) {
     EXPECT_CONTAINS(message("rays: 0"), "rays");
     EXPECT_CONTAINS(message("rays: 2000"), "rays");
     // All surfaces in one voxel: none is open to light.
-    EXPECT_CONTAINS(
-        errorOf([] {
-            Chain("cornell", "{lights: point}",
-                  graphYaml(clusterGraph(kDirect, "target: 50", "rays: 16", "0", "filter_size: 3", "1")));
-        }),
-        "no light falls on any voxel");
-    EXPECT_CONTAINS(errorOf([] {
-                        Chain("cornell", "{lights: point}",
-                              graphYaml({"voxelize, resolution: 16, visibility_rays: 0", "place_surfels",
-                                         "cluster_voxels", "find_patches"}));
-                    }),
-                    "find_patches");
+    EXPECT_ERROR(
+        "no light",
+        Chain("cornell", "{lights: point}",
+              graphYaml(clusterGraph(kDirect, "target: 50", "rays: 16", "0", "filter_size: 3", "1"))));
+    EXPECT_ERROR("find_patches", Chain("cornell", "{lights: point}",
+                                       graphYaml({"voxelize, resolution: 16, visibility_rays: 0",
+                                                  "place_surfels", "cluster_voxels", "find_patches"})));
 }
 
 }  // namespace

@@ -46,12 +46,10 @@ TEST(CompareVoxels, CountsWhatIsMissedAndAdded) {
 }
 
 TEST(CompareVoxels, RefusesDifferentGrids) {
-    EXPECT_CONTAINS(errorOf([&] {
-                        Chain("cornell", "{}",
-                              graphYaml({"voxelize, id: a, resolution: 8", "voxelize, id: b, resolution: 9",
-                                         "compare_voxels, inputs: {truth: a.voxels}"}));
-                    }),
-                    "'resolution'");
+    EXPECT_ERROR("'resolution'",
+                 Chain("cornell", "{}",
+                       graphYaml({"voxelize, id: a, resolution: 8", "voxelize, id: b, resolution: 9",
+                                  "compare_voxels, inputs: {truth: a.voxels}"})));
 }
 
 }  // namespace

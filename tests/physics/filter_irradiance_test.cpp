@@ -2,16 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "passes/common/filter/noisy_irradiance.h"
 #include "tests/gpu/chain.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// A source of irradiance around 2 W/m² from so many rays a texel.
 class KnownIrradiance final : public Pass {
@@ -99,12 +97,6 @@ ImageF filterKnown(const std::string& source, const std::string& filter, const s
     return chain.image("indirect");
 }
 
-double difference(const ImageF& a, const ImageF& b) {
-    double sum = 0;
-    for (size_t i = 0; i < a.data.size(); ++i) sum += std::abs(double(a.data[i]) - b.data[i]);
-    return sum / double(b.data.size()) / mean(b);
-}
-
 TEST(FilterIrradiance, KeepsConstantIrradianceExactly) {
     // Cornell's edges, walls of different albedo, background and sub-pixels; a mean of equal values is that
     // value, however taps are weighted and wherever rays are missing.
@@ -141,7 +133,7 @@ TEST(FilterIrradiance, LeavesWellKnownIrradianceAlone) {
     const ImageF noisy =
         filterKnown("noise: 1, rays: 1e9", "levels: 1, edge_stopping_scale: 100", "white_room");
     const ImageF filtered = filterKnown("noise: 1, rays: 1e9", "levels: 4", "white_room");
-    EXPECT_LT(difference(filtered, noisy), 1e-3);
+    EXPECT_LT(meanDifference(filtered, noisy), 1e-3);
 }
 
 TEST(FilterIrradiance, LeavesEverySurfaceOfAPixelItsOwn) {
@@ -201,12 +193,7 @@ TEST(FilterIrradiance, KeepsTheEnergyOfRareRays) {
 }
 
 TEST(FilterIrradiance, NamesGapsThatItCannotFill) {
-    try {
-        filterKnown("spacing: 8", "levels: 2", "cornell");
-        FAIL() << "no error";
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("raise 'levels' to 4"), std::string::npos) << error.what();
-    }
+    EXPECT_ERROR("'levels' to 4", filterKnown("spacing: 8", "levels: 2", "cornell"));
 }
 
 const std::string kPaths = "{pass: path_trace, light: indirect, ";
@@ -219,7 +206,7 @@ TEST(FilterIrradiance, PathsIrradianceTimesAlbedoIsTheirRadiance) {
         "white_room", "{albedo: 0.5}",
         "[{pass: gbuffer, samples_per_pixel_edge: 2}, " + kPaths + "spp: 16}, " + "{pass: composite}]");
     const ImageF indirect = chain.image("indirect");
-    const NoisyIrradiance& noisy = *chain.graph().resource<NoisyIrradiance>("noisy_irradiance");
+    const NoisyIrradiance& noisy = chain.get<NoisyIrradiance>("noisy_irradiance");
     const std::vector<glm::vec4> texels = chain.readImage<glm::vec4>(noisy.irradiance);
     for (uint32_t y = 0; y < indirect.height; ++y)
         for (uint32_t x = 0; x < indirect.width; ++x) {
@@ -277,8 +264,7 @@ TEST(FilterIrradiance, KeepsTheEnergyOfAPathTracedFurnace) {
 
 TEST(FilterIrradiance, FollowsAnySource) {
     // The same scene by gather rays and by paths: the same light, and less noise than without the filter.
-    Chain reference("cornell", "{lights: point}", "[{pass: path_trace, spp: 256, bounces: 4}]", 64, 64);
-    const ImageF expected = reference.image("indirect");
+    const ImageF& expected = pathTraced("cornell", "{lights: point}", 256, 4, 64, 64);
     const auto image = [](const std::string& source, const std::string& end) {
         return Chain("cornell", "{lights: point}",
                      "[{pass: gbuffer, samples_per_pixel_edge: 2}, {pass: voxelize, resolution: "
@@ -291,7 +277,7 @@ TEST(FilterIrradiance, FollowsAnySource) {
     for (const std::string& source : {std::string("{pass: gather_rays}"), kPaths + "spp: 4, bounces: 4}"}) {
         const ImageF raw = image(source, ", {pass: composite}]"), filtered = image(source, kFilter);
         EXPECT_NEAR(mean(filtered) / mean(expected), 1, 0.03) << source;
-        EXPECT_LT(difference(filtered, expected), 0.5 * difference(raw, expected)) << source;
+        EXPECT_LT(meanDifference(filtered, expected), 0.5 * meanDifference(raw, expected)) << source;
     }
 }
 

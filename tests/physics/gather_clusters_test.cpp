@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <tuple>
 
 #include "tests/physics/cluster_graph.h"
@@ -12,17 +11,6 @@
 
 namespace voxray::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-/// Indirect flux at all faces, W, green.
-double indirectFlux(Chain& chain) {
-    const std::vector<float> flux =
-        readFlux(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->indirect);
-    double sum = 0;
-    for (size_t i = 1; i < flux.size(); i += 3) sum += flux[i];
-    return sum;
-}
 
 TEST(GatherClusters, KeepTheEnergyOfAFurnace) {
     // Walls that emit e and reflect a: direct irradiance is pi e, and after n bounces between clusters and
@@ -74,8 +62,8 @@ TEST(InjectClusters, KeepTheFluxInAGapNarrowerThanAVoxel) {
         const auto groups = readGroups(chain);
         const auto light = readRadiosity(chain);
         const auto materials =
-            chain.read<gpu::PackedVoxelMaterial>(chain.graph().resource<VoxelPatches>("patches")->materials);
-        const float voxelSize = chain.graph().resource<SurfaceVoxels>("voxels")->grid.voxelSize;
+            chain.read<gpu::PackedVoxelMaterial>(chain.get<VoxelPatches>("patches").materials);
+        const float voxelSize = chain.get<SurfaceVoxels>("voxels").grid.voxelSize;
         const auto faces = facesOfPatches(groups);
         ASSERT_EQ(light.size(), faces.size());
         double flux = 0, area = 0, outside = 0;
@@ -102,10 +90,11 @@ TEST(GatherClusters, KeepTheEnergyOfASphere) {
     // Its walls are sheets at all angles to the voxels, whose dark outer faces must not be seen from within.
     // About the axis of a face a hemisphere reaches behind a slanted sheet and loses light.
     const auto ratio = [](const std::string& hemisphere) {
-        Chain chain("furnace", "{shape: sphere, albedo: 0.7, emission: 1}",
-                    graphYaml(clusterGraph(kDirect, "target: 200", "rays: 64, hemisphere: " + hemisphere, "1",
-                                           "filter_passes: 0")));
-        return mean(chain.image("indirect")) / (0.7 * (0.7 + 0.7 * 0.7));
+        return meanIndirect(
+                   "furnace", "{shape: sphere, albedo: 0.7, emission: 1}",
+                   graphYaml(clusterGraph(kDirect, "target: 200", "rays: 64, hemisphere: " + hemisphere, "1",
+                                          "filter_passes: 0"))) /
+               (0.7 * (0.7 + 0.7 * 0.7));
     };
     const double surface = ratio("surface"), face = ratio("face");
     std::printf("sphere: %.4f of the closed form, about faces' axes %.4f\n", surface, face);
@@ -144,10 +133,10 @@ TEST(GatherClusters, FilterOverAllOrOverWhatIsLit) {
     // A lamp in a room lights all walls: the same image. The sun through a window leaves most of what the
     // room's patches see dark: what spreads into these is light that nothing lost.
     const auto light = [](const std::string& scene, const std::string& parameters, const std::string& over) {
-        Chain chain(scene, parameters,
-                    graphYaml(clusterGraph(kDirect, "target: 200", "rays: 16", "0",
-                                           "filter_passes: 2, filter_size: 5, filter_over: " + over)));
-        return mean(chain.image("indirect"));
+        return meanIndirect(
+            scene, parameters,
+            graphYaml(clusterGraph(kDirect, "target: 200", "rays: 16", "0",
+                                   "filter_passes: 2, filter_size: 5, filter_over: " + over)));
     };
     EXPECT_EQ(light("white_room", "{}", "lit"), light("white_room", "{}", "all"));
     const double all = light("window_room", "{slats: 0}", "all"),
@@ -191,9 +180,8 @@ TEST(GatherClusters, AreLinearInLightAndTheSameTwice) {
     const auto run = [](const std::string& intensity) {
         Chain chain("white_room", "{intensity: " + intensity + "}",
                     graphYaml(clusterGraph(kDirect, "target: 100", "rays: 32", "1", "filter_size: 3")));
-        return std::pair{
-            chain.read<uint32_t>(chain.graph().resource<VoxelIrradiance>("irradiance")->indirect),
-            indirectFlux(chain)};
+        return std::pair{chain.read<uint32_t>(chain.get<VoxelIrradiance>("irradiance").indirect),
+                         indirectFlux(chain)};
     };
     const auto [words, flux] = run("2");
     EXPECT_EQ(words, run("2").first);
@@ -203,10 +191,10 @@ TEST(GatherClusters, AreLinearInLightAndTheSameTwice) {
 TEST(GatherClusters, AgreeWithGatheringFromEveryVoxel) {
     // Clusters average over their voxels; the sum of light stays.
     const auto run = [](const std::string& near) {
-        Chain chain("cornell", "{lights: point}",
-                    graphYaml(clusterGraph(kDirect, "target: 400", "rays: 128, near_distance: " + near, "0",
-                                           "filter_passes: 0", "32")));
-        return mean(chain.image("indirect"));
+        return meanIndirect(
+            "cornell", "{lights: point}",
+            graphYaml(clusterGraph(kDirect, "target: 400", "rays: 128, near_distance: " + near, "0",
+                                   "filter_passes: 0", "32")));
     };
     const double voxels = run("10000");
     const double clusters = run("0") / voxels, mixed = run("4") / voxels;
@@ -229,7 +217,7 @@ TEST(GatherClusters, OfSeenVoxelsShowWhatThoseOfAllShow) {
         EXPECT_EQ(seen->image("indirect").data, all->image("indirect").data) << when;
     };
     const auto found = [&] { return reported(seen->frameSamples.at(1), "voxels gathered"); };
-    const double voxels = seen->graph().resource<SurfaceVoxels>("voxels")->voxelCount;
+    const double voxels = seen->get<SurfaceVoxels>("voxels").voxelCount;
     const double first = found();
     expectTheSame("at first");
     EXPECT_LT(first, voxels);
@@ -246,10 +234,6 @@ TEST(GatherClusters, OfSeenVoxelsShowWhatThoseOfAllShow) {
     moveCamera({});
     EXPECT_EQ(found(), 0);
     expectTheSame("back again");
-    const auto moveLight = [](SceneState& state) {
-        state.lights[0].position += glm::vec3(0.3f, -0.4f, 0);
-        return std::vector<Box>();
-    };
     seen->update(moveLight);
     all->update(moveLight);
     EXPECT_EQ(found(), first);
@@ -273,24 +257,24 @@ TEST(GatherClusters, OfSeenVoxelsReachAsFarAsTheLookup) {
         };
         const auto seen = [&](int voxels) { return image("update: seen, reach: " + std::to_string(voxels)); };
         EXPECT_EQ(seen(reach), image("update: all")) << lookup;
-        EXPECT_CONTAINS(errorOf([&] { seen(reach - 1); }),
-                        "set the 'reach' of gather_clusters to " + std::to_string(reach));
+        EXPECT_ERROR("'reach' of gather_clusters to " + std::to_string(reach), seen(reach - 1));
     }
 }
 
 TEST(GatherClusters, AgreeWithTheReferenceOnCornell) {
-    Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 512, bounces: 3"}));
-    const double expected = mean(reference.image("indirect"));
+    const double expected =
+        meanIndirect("cornell", "{lights: point}", graphYaml({"path_trace, spp: 512, bounces: 3"}));
     for (const auto& [visibility, direct] : {std::pair<std::string, std::string>{"voxels", "injected"},
                                              {"exact", "injected"},
                                              {"bresenham", "injected"},
                                              {"exact", "shadow_rays"},
                                              {"exact", "shadow_rays, lit_test: points"}}) {
-        Chain chain(
-            "cornell", "{lights: point}",
-            graphYaml(clusterGraph(kDirect, "target: 800", "rays: 128, visibility: " + visibility,
-                                   "2, direct: " + direct, "filter_passes: 2, filter_size: 3", "48")));
-        const double ratio = mean(chain.image("indirect")) / expected;
+        const double ratio =
+            meanIndirect(
+                "cornell", "{lights: point}",
+                graphYaml(clusterGraph(kDirect, "target: 800", "rays: 128, visibility: " + visibility,
+                                       "2, direct: " + direct, "filter_passes: 2, filter_size: 3", "48"))) /
+            expected;
         std::printf("%s, %s: %.4f of the reference\n", visibility.c_str(), direct.c_str(), ratio);
         EXPECT_NEAR(ratio, 1, 0.05) << visibility << direct;
     }

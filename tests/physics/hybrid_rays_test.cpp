@@ -33,7 +33,7 @@ TEST(HybridRays, RaysMeetTheTrianglesThatEmbreeMeets) {
 
 TEST(HybridRays, RaysThatStartOnATriangleMeetWhatEmbreeMeets) {
     // On the triangles of the leaf that they start in, in all directions, without an offset
-    const std::shared_ptr<const SceneState> state = builtin("spheres");
+    const State state = builtin("spheres");
     const Geometry& g = state->geometry;
     Hybrid hybrid(state, 24, "primitives: 100000");
     TestRandom random(3);
@@ -119,7 +119,7 @@ TEST(HybridRays, MasksLeaveHolesInListsAndGrids) {
     for (int i = 0; i < 2; ++i) b.place(b.mesh(square));
     b.quad("wall", {-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, b.lambert("grey", glm::vec3(0.5f)));
     b.camera({0, 0, 3}, {0, 0, 0}, 60);
-    const auto state = std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
+    const auto state = evaluated(b);
     TestRandom random(6);
     std::vector<Ray> rays;
     // Away from the mask's edge by more than what a texel is blended in, 1/256 of its width
@@ -161,7 +161,7 @@ TEST(HybridRays, RaysDoNotMeetTheSurfaceThatTheyLeave) {
 }
 
 TEST(HybridRays, RaysWiderThanAVoxelEnd) {
-    const std::shared_ptr<const SceneState> state = builtin("cornell");
+    const State state = builtin("cornell");
     Hybrid hybrid(state, 32, "primitives: 1000");
     const std::vector<Ray> rays = raysThrough(state->geometry, 20000);
     const std::vector<Hit> bare = hybrid.closest(HybridTraversal::Hierarchical, rays);
@@ -182,7 +182,7 @@ TEST(HybridRays, RaysWiderThanAVoxelEnd) {
 }
 
 TEST(HybridRays, FragmentsMissTriangles) {
-    const std::shared_ptr<const SceneState> state = builtin("clutter");
+    const State state = builtin("clutter");
     Hybrid exact(state, 32, "primitives: 1000"), fragments(state, 32, "primitives: 1000, lists: fragments");
     EXPECT_LT(fragments.leaves().primitiveCount, exact.leaves().primitiveCount);
     const std::vector<Ray> rays = raysThrough(state->geometry, 20000);

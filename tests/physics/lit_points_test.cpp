@@ -28,8 +28,7 @@ std::string litGraph(const std::string& test, const std::string& resolution) {
 
 std::vector<LitPatch> litPatches(Chain& chain) {
     const auto groups = readGroups(chain);
-    const auto surfels =
-        chain.read<gpu::GroupedSurfel>(chain.graph().resource<VoxelPatches>("patches")->surfels);
+    const auto surfels = chain.read<gpu::GroupedSurfel>(chain.get<VoxelPatches>("patches").surfels);
     const auto faces = facesOfPatches(groups);
     const auto light = readRadiosity(chain);
     std::vector<LitPatch> patches;
@@ -55,8 +54,7 @@ std::shared_ptr<const Scene> ground(float tiltDegrees, const glm::vec3& sun, boo
 
 std::vector<LitPatch> litGround(float tiltDegrees, const glm::vec3& sun, bool hasWall,
                                 const std::string& test, const std::string& resolution = "32") {
-    Chain chain(std::make_shared<SceneState>(evaluate(ground(tiltDegrees, sun, hasWall), 0.0)),
-                litGraph(test, resolution), 16, 16, 1);
+    Chain chain(evaluated(ground(tiltDegrees, sun, hasWall)), litGraph(test, resolution), 16, 16);
     return litPatches(chain);
 }
 
@@ -140,8 +138,7 @@ TEST(LitPoints, LightARoomAsSurfelsDo) {
 }
 
 TEST(LitPoints, AskForPunctualLights) {
-    EXPECT_CONTAINS(errorOf([] { Chain("furnace", "{shape: box}", litGraph("points", "16")); }),
-                    "lit_test: surfels");
+    EXPECT_ERROR("lit_test: surfels", Chain("furnace", "{shape: box}", litGraph("points", "16")));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 /// Mean of an image that a graph writes, over that of the twin that lacks the half.
 void expectTwinsLight(const std::vector<std::string>& passes, const std::string& image, double tolerance) {
     const auto light = [&](CutBy cut) {
-        Chain chain(roomWithHalfALamp(cut), graphYaml(passes), 24, 24, 1);
+        Chain chain(roomWithHalfALamp(cut), graphYaml(passes), 24, 24);
         return mean(chain.image(image));
     };
     const double whole = light(CutBy::Nothing);

@@ -1,22 +1,13 @@
 #pragma once
 
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "passes/common/view/gbuffer.h"
-#include "scene/shapes.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {
-
-using State = std::shared_ptr<const SceneState>;
-
-/// Ends a scene.
-inline State evaluated(SceneBuilder& b) {
-    return std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
-}
 
 inline Material metal(const glm::vec3& color, float roughness = 0.0f) {
     Material material;
@@ -63,7 +54,7 @@ inline State wallRoom(const Material& material, float intensity = 1.0f) {
 /// the ratio of the means.
 inline std::pair<double, double> errorAt(Chain& chain, const std::string& port, const ImageF& expected,
                                          float depth) {
-    const GBuffer& gbuffer = *chain.graph().resource<GBuffer>("gbuffer");
+    const GBuffer& gbuffer = chain.get<GBuffer>("gbuffer");
     const auto positions = chain.readImage<glm::vec4>(gbuffer.position);
     const ImageF image = chain.image(port);
     const uint32_t s = gbuffer.samples, width = uint32_t(image.width);

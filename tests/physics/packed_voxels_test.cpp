@@ -50,10 +50,10 @@ glm::ivec4 merged(PackedWrite write, uint32_t threads, uint32_t firstSamples, gl
 /// The words of a chain, read back.
 struct Volumes {
     explicit Volumes(Chain& chain) {
-        const auto* voxels = chain.graph().resource<PackedVoxels>("packed_voxels");
-        grid = voxels->grid;
-        normals = chain.read<uint32_t>(voxels->normals);
-        albedos = chain.read<uint32_t>(voxels->albedos);
+        const PackedVoxels& voxels = chain.get<PackedVoxels>("packed_voxels");
+        grid = voxels.grid;
+        normals = chain.read<uint32_t>(voxels.normals);
+        albedos = chain.read<uint32_t>(voxels.albedos);
         if (const auto* light = chain.graph().resource<PackedLight>("packed_light")) {
             irradiance = chain.read<uint32_t>(light->irradiance);
             white = light->white;
@@ -75,7 +75,7 @@ struct Volumes {
 };
 
 Volumes volumesOf(const std::shared_ptr<const Scene>& scene, const std::vector<std::string>& graph) {
-    Chain chain(std::make_shared<SceneState>(evaluate(scene, 0.0)), graphYaml(graph), 16, 16, 1);
+    Chain chain(evaluated(scene), graphYaml(graph), 16, 16);
     return Volumes(chain);
 }
 
@@ -113,7 +113,7 @@ TEST(PackedWrite, BlueDecidesWhatIsTheMaximum) {
 }
 
 TEST(VoxelizePacked, HoldsNormalsAndAlbedosOfWalls) {
-    const auto room = makeBuiltinScene("white_room", parseYaml("{albedo: 0.8}", "scene"));
+    const auto room = builtinScene("white_room", "{albedo: 0.8}");
     for (const std::string write : {"moving_average", "max", "none"}) {
         const Volumes v = volumesOf(room, {"voxelize_packed, resolution: 15, write: " + write});
         for (int axis = 0; axis < 3; ++axis)

@@ -41,8 +41,8 @@ std::shared_ptr<SceneState> glazedRoom(Shines shines, int panes, const glm::vec3
 void expectTwinsImage(Shines shines, int panes, const std::vector<std::string>& passes,
                       const std::string& image, double tolerance) {
     const glm::vec3 color = panes == 1 ? kGlass : kGlass * kGlass;
-    Chain glazed(glazedRoom(shines, panes, glm::vec3(1)), graphYaml(passes), 24, 24, 1);
-    Chain twin(glazedRoom(shines, 0, color), graphYaml(passes), 24, 24, 1);
+    Chain glazed(glazedRoom(shines, panes, glm::vec3(1)), graphYaml(passes), 24, 24);
+    Chain twin(glazedRoom(shines, 0, color), graphYaml(passes), 24, 24);
     const ImageF a = glazed.image(image), b = twin.image(image);
     for (size_t channel = 0; channel < 3; ++channel) {
         double sumA = 0, sumB = 0;

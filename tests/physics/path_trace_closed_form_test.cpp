@@ -1,12 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "base/error.h"
 #include "tests/physics/path_trace_scene.h"
 
 namespace voxray::test {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = std::numbers::pi;
 constexpr double kTolerance = 1e-3;
 
 PathTraceOptions options(uint32_t spp, uint32_t bounces, uint32_t size = 16) {

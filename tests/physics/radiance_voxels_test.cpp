@@ -8,10 +8,6 @@
 namespace voxray::test {
 namespace {
 
-const RadianceVoxels& radiance(const Chain& chain) {
-    return *chain.graph().resource<RadianceVoxels>("radiance");
-}
-
 std::string filterGraph(const std::string& voxelize, const std::string& filter = "emission: false") {
     return graphYaml({"voxelize, " + voxelize, "inject_light_rays, bounces: 0", "filter_voxels, " + filter});
 }
@@ -23,7 +19,7 @@ double coverageAlong(const Chain& chain, glm::vec3 from, glm::vec3 direction, do
     for (float t = 0; t < length; t += 0.5f * footprint)
         queries.push_back({from + t * direction, footprint, direction});
     double sum = 0;
-    for (const glm::vec4 met : sampleRadiance(radiance(chain), queries)) sum += 0.5 * met.a;
+    for (const glm::vec4 met : sampleRadiance(chain, queries)) sum += 0.5 * met.a;
     return sum;
 }
 
@@ -45,7 +41,7 @@ TEST(RadianceVoxels, SendWhatTheirSurfacesReflect) {
     const float voxel = radiance(chain).grid.voxelSize;
     for (const float footprint : {voxel, 3 * voxel, 8 * voxel}) {
         const std::vector<glm::vec4> met = sampleRadiance(
-            radiance(chain), {{{0.99f, 0, 0}, footprint, {1, 0, 0}}, {{0.99f, 0, 0}, footprint, {-1, 0, 0}}});
+            chain, {{{0.99f, 0, 0}, footprint, {1, 0, 0}}, {{0.99f, 0, 0}, footprint, {-1, 0, 0}}});
         EXPECT_GT(met[0].a, 0.3) << footprint;
         EXPECT_NEAR(met[0].y / met[0].a, 3.0, 0.01) << footprint;
         EXPECT_EQ(met[1].y, 0.0f) << footprint;
@@ -56,7 +52,7 @@ TEST(RadianceVoxels, OneDirectionMixesTheSides) {
     const Chain chain("furnace", "{shape: box, albedo: 0, emission: 3}",
                       filterGraph("resolution: 32, directions: 1", "emission: true"));
     const std::vector<glm::vec4> met =
-        sampleRadiance(radiance(chain), {{{0.99f, 0, 0}, radiance(chain).grid.voxelSize, {-1, 0, 0}}});
+        sampleRadiance(chain, {{{0.99f, 0, 0}, radiance(chain).grid.voxelSize, {-1, 0, 0}}});
     EXPECT_NEAR(met[0].y / met[0].a, 1.5, 0.01);
 }
 

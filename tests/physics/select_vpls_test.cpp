@@ -36,7 +36,7 @@ TEST(SelectVpls, ResamplingKeepsSumsOnAverage) {
 TEST(SelectVpls, BringTheEnergyOfAll) {
     // The camera sees half of the walls
     Chain chain("white_room", "{}", selectedLights("4096", "2048"), 16, 16);
-    const Vpls& vpls = *chain.graph().resource<Vpls>("vpls");
+    const Vpls& vpls = chain.get<Vpls>("vpls");
     const auto points = chain.read<gpu::Vpl>(vpls.points);
     const auto list = chain.read<uint32_t>(vpls.activeIndices);
     EXPECT_LE(vpls.activeCount, 2048u);
@@ -103,7 +103,7 @@ TEST(SelectVpls, BringOverManySeedsWhatManyLightsBring) {
 TEST(SelectVpls, AreThoseThatTheCameraSees) {
     // A room whose light comes in through a window, and as many virtual lights with and without a choice
     const auto image = [](const std::string& graph) {
-        return Chain("window_room", "{}", graph, 32, 32).image("indirect").data;
+        return Chain("window_room", "{}", graph, 16, 16).image("indirect").data;
     };
     const std::vector<float> right = image(allLights("65536"));
     const auto error = [&](const std::string& graph) {

@@ -8,7 +8,6 @@
 
 #include "image/metrics.h"
 #include "passes/common/voxels/voxels.h"
-#include "scene/moving_spheres.h"
 #include "scene/shapes.h"
 #include "tests/gpu/radiance_samples.h"
 #include "tests/support/brick_octree_count.h"
@@ -24,10 +23,6 @@ std::string filterGraph(const std::string& layout, const std::string& resolution
     return graphYaml({"voxelize, directions: 1, resolution: " + resolution,
                       "inject_light_rays, rays_per_light: 65536, bounces: 2",
                       "filter_voxels, layout: " + layout + more});
-}
-
-const RadianceVoxels& radiance(const Chain& chain) {
-    return *chain.graph().resource<RadianceVoxels>("radiance");
 }
 
 /// What a level's samples are made of, in doubles: values half a voxel apart, on nodes' corners and between.
@@ -146,7 +141,7 @@ TEST(SvoBricks, AreTheGaussianPyramidOfTheirVoxels) {
         }
         return glm::dvec4(0.0);
     });
-    const std::vector<glm::vec4> met = sampleRadiance(radiance(dense), queries);
+    const std::vector<glm::vec4> met = sampleRadiance(dense, queries);
     double brightest = 0;
     for (size_t i = 0; i < cells.size(); ++i) {
         centers.values[centers.index(cells[i])] = met[i];
@@ -158,7 +153,7 @@ TEST(SvoBricks, AreTheGaussianPyramidOfTheirVoxels) {
     for (uint32_t level = 0; level < grid.levels; ++level) {
         if (level > 0) lattice = coarser(lattice);
         const LevelPlaces p = randomPlaces(grid, level, 50000);
-        const std::vector<glm::vec4> found = sampleRadiance(radiance(bricks), p.queries);
+        const std::vector<glm::vec4> found = sampleRadiance(bricks, p.queries);
         double worst = 0, largest = 0, sum = 0;
         for (size_t i = 0; i < found.size(); ++i) {
             const glm::dvec4 expected = interpolated(lattice, p.places[i]);
@@ -183,24 +178,17 @@ TEST(SvoBricks, MixTheSidesOfALampEvenly) {
     for (const float height : {0.0f, 1.0f}) b.quad("floor", {-1, height, -1}, {0, 0, 2}, {2, 0, 0}, lamp);
     b.pointLight({0, 2, 0}, glm::vec3(1.0f));
     b.camera({0, 2, 0}, {0, 0, 0.1f}, 60);
-    const Chain chain(std::make_shared<SceneState>(evaluate(b.finish(), 0.0)),
-                      filterGraph("svo_bricks", "24", ", emission: true"), 8, 8, 1);
+    const Chain chain(evaluated(b), filterGraph("svo_bricks", "24", ", emission: true"), 8, 8);
     size_t tested = 0;
     for (uint32_t level = 0; level < radiance(chain).grid.levels; ++level) {
         const LevelPlaces p = randomPlaces(radiance(chain).grid, level, 5000);
-        for (const glm::vec4& met : sampleRadiance(radiance(chain), p.queries)) {
+        for (const glm::vec4& met : sampleRadiance(chain, p.queries)) {
             const double rounding = (2.1 + 4 * level) * kCode;
             ASSERT_NEAR(met.g, 1.5 * met.a, 2 * 1.5 * rounding) << level;
             tested += met.a > 0.25f;
         }
     }
     EXPECT_GT(tested, 2000);
-}
-
-std::vector<glm::vec4> samplesOf(const Chain& chain) {
-    const gpu::RadianceGrid& g = radiance(chain).grid;
-    return sampleRadiance(radiance(chain),
-                          randomQueries({g.origin, g.voxelSize, g.resolution, 0, 1, 1024, {}}, 20000));
 }
 
 TEST(SvoBricks, AreLinearInLightAndTheSameEachTime) {
@@ -220,18 +208,17 @@ TEST(SvoBricks, FollowALightThatChanges) {
     // Structure stays, values are new: as if it had been so from the start.
     const std::string graph = filterGraph("svo_bricks", "16");
     const auto state = [](float intensity) {
-        auto made = std::make_shared<SceneState>(
-            evaluate(makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")), 0.0));
+        auto made = builtin("cornell", "{lights: point}");
         made->lights.at(0).intensity *= intensity;
         made->lights.at(0).position.x += 0.1f * intensity;
         return made;
     };
-    Chain changed(state(1), graph, 16, 16, 1);
+    Chain changed(state(1), graph, 16, 16);
     changed.update([&](SceneState& scene) {
         scene.lights = state(3)->lights;
         return std::vector<Box>{};
     });
-    EXPECT_EQ(samplesOf(changed), samplesOf(Chain(state(3), graph, 16, 16, 1)));
+    EXPECT_EQ(samplesOf(changed), samplesOf(Chain(state(3), graph, 16, 16)));
 }
 
 TEST(SvoBricks, TakeWhatTheHostCounts) {
@@ -240,7 +227,7 @@ TEST(SvoBricks, TakeWhatTheHostCounts) {
                           graphYaml({"voxelize, resolution: 48, directions: 1",
                                      "inject_light_rays, rays_per_light: 1024, bounces: 0",
                                      "filter_voxels, layout: svo_bricks"}));
-        const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
+        const SurfaceVoxels& voxels = chain.get<SurfaceVoxels>("voxels");
         const BrickOctreeCount count = countBrickOctree(metVoxels(chain.state().geometry, voxels.grid));
         EXPECT_NEAR(double(radiance(chain).storage[1].bytes()) / double(count.bricks() * kBrickBytes), 1.0,
                     0.03)
@@ -250,7 +237,7 @@ TEST(SvoBricks, TakeWhatTheHostCounts) {
 }
 
 /// Voxels 3 and 4 along x and z of eight, of which one of four has no surface: (x, z) = (4, 3).
-std::shared_ptr<const SceneState> threeOfFour() {
+State threeOfFour() {
     SceneBuilder b("three_of_four");
     const uint32_t grey = b.lambert("grey", glm::vec3(0.5f));
     b.box("low corner", {0.005f, 0, 0.005f}, glm::vec3(0.01f), 0, grey);
@@ -265,7 +252,7 @@ std::shared_ptr<const SceneState> threeOfFour() {
     floor(4, 4, 0.75f);
     b.pointLight({4, 7, 4}, glm::vec3(50.0f));
     b.camera({4, 7, 4}, {4, 0, 4.1f}, 60);
-    return std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
+    return evaluated(b);
 }
 
 TEST(SvoBricks, DifferWhereANeighborIsMissing) {
@@ -276,7 +263,7 @@ TEST(SvoBricks, DifferWhereANeighborIsMissing) {
                           graphYaml({"voxelize, resolution: 8, directions: 1, visibility_rays: 0",
                                      "inject_light_rays, bounces: 0",
                                      "filter_voxels, layout: svo_bricks, brick_neighbors: " + neighbors}),
-                          8, 8, 1);
+                          8, 8);
         const gpu::RadianceGrid& g = radiance(chain).grid;
         EXPECT_EQ(g.resolution, glm::uvec3(8));
         std::vector<RadianceQuery> queries;
@@ -284,7 +271,7 @@ TEST(SvoBricks, DifferWhereANeighborIsMissing) {
              {glm::vec2(3.5f, 3.5f), glm::vec2(3.5f, 4.5f), glm::vec2(4.5f, 4.5f), glm::vec2(3.999f, 3.999f),
               glm::vec2(3.999f, 4.001f), glm::vec2(4.001f, 4.001f)})
             queries.push_back({g.origin + g.voxelSize * glm::vec3(xz.x, 3.5f, xz.y), g.voxelSize, {1, 0, 0}});
-        return sampleRadiance(radiance(chain), queries);
+        return sampleRadiance(chain, queries);
     };
     const std::vector<glm::vec4> whole = opacities("true"), missing = opacities("false");
     const float sw = whole[0].a, nw = whole[1].a, ne = whole[2].a;
@@ -323,28 +310,21 @@ TEST(SvoBricks, ErrLittleMoreThanFullGrids) {
 }
 
 TEST(SvoBricks, RefuseWhatWasNotPublished) {
-    EXPECT_CONTAINS(errorOf([] {
-                        const Chain chain("cornell", "{lights: point}",
-                                          graphYaml({"voxelize, resolution: 16, directions: 6",
-                                                     "inject_light_rays, rays_per_light: 1024, bounces: 0",
-                                                     "filter_voxels, layout: svo_bricks"}));
-                    }),
-                    "here are 6. Set voxelize's 'directions' to 1");
+    EXPECT_ERROR("voxelize's 'directions'",
+                 Chain("cornell", "{}",
+                       graphYaml({"voxelize, resolution: 16, directions: 6", "inject_light_rays, bounces: 0",
+                                  "filter_voxels, layout: svo_bricks"})));
 }
 
 TEST(SvoBricks, FollowSurfacesThatMove) {
     // The whole octree is built again: as if surfaces had been there from the start.
-    auto scene = std::make_shared<Scene>(*makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")));
-    addMovingSpheres(*scene, {});
-    const auto at = [&](double seconds) {
-        return std::make_shared<SceneState>(evaluate(scene, seconds, Playback::Looping));
-    };
+    const auto scene = cornellWithBall({});
     const std::string graph = filterGraph("svo_bricks", "24");
-    Chain moved(at(0), graph, 8, 8, 1);
-    moved.update([](SceneState& state) { return advance(state, 0.4); });
-    const std::vector<glm::vec4> samples = samplesOf(moved);
-    EXPECT_EQ(samples, samplesOf(Chain(at(0.4), graph, 8, 8, 1)));
-    EXPECT_NE(samples, samplesOf(Chain(at(0), graph, 8, 8, 1)));
+    const auto moved = chainAt(scene, 0, graph);
+    const std::vector<glm::vec4> before = samplesOf(*moved);
+    moved->goTo(0.4);
+    EXPECT_EQ(samplesOf(*moved), samplesOf(*chainAt(scene, 0.4, graph)));
+    EXPECT_NE(samplesOf(*moved), before);
 }
 
 }  // namespace

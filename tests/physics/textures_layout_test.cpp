@@ -17,10 +17,6 @@ std::string filterGraph(const std::string& layout, const std::string& resolution
                       "filter_voxels, layout: " + layout, "gather_cones"});
 }
 
-const RadianceVoxels& radiance(const Chain& chain) {
-    return *chain.graph().resource<RadianceVoxels>("radiance");
-}
-
 TEST(TexturesLayout, SamplesInLayersAgreeWithFullGrids) {
     // Three weights, each off by what the sampler's precision allows, of what the voxels round the place
     // hold; and a rounding to half floats for each level on the way up and for the answer. Of 24 voxels'
@@ -32,14 +28,11 @@ TEST(TexturesLayout, SamplesInLayersAgreeWithFullGrids) {
             const Chain textures("cornell", "{lights: point}",
                                  filterGraph("textures", resolution, directions), 8, 8);
             const gpu::RadianceGrid& grid = radiance(dense).grid;
-            const std::vector<LayerPlace> places = randomPlaces(grid, 50000, [&](uint32_t level) {
-                return VoxelBox{glm::ivec3(0), levelResolution(grid.resolution, level)};
-            });
-            std::vector<RadianceQuery> queries;
-            for (const LayerPlace& p : places) queries.push_back(queryAt(grid, p, p.voxels));
-            const std::vector<glm::vec4> expected = sampleRadiance(radiance(dense), queries);
-            const std::vector<glm::vec4> found = sampleRadiance(radiance(textures), queries);
-            const std::vector<glm::vec4> round = sampleRadiance(radiance(dense), voxelsRound(grid, places));
+            const std::vector<LayerPlace> places = randomPlaces(grid, 50000);
+            const std::vector<RadianceQuery> queries = queriesAt(grid, places);
+            const std::vector<glm::vec4> expected = sampleRadiance(dense, queries);
+            const std::vector<glm::vec4> found = sampleRadiance(textures, queries);
+            const std::vector<glm::vec4> round = sampleRadiance(dense, voxelsRound(grid, places));
             double worst = 0;
             size_t lit = 0;
             for (size_t i = 0; i < places.size(); ++i) {
@@ -82,22 +75,9 @@ TEST(TexturesLayout, MemoryIsPredicted) {
 }
 
 TEST(TexturesLayout, WhatADeviceLacksIsNamed) {
-    const auto plan = [](uint32_t side) {
-        const SceneState state = evaluate(makeBuiltinScene("cornell", parseYaml("{}", "scene")), 0.0);
-        Registry registry;
-        registerPasses(registry);
-        Frame frame;
-        frame.scene = &state;
-        frame.camera = state.cameras.at(0);
-        frame.width = frame.height = 8;
-        DeviceInfo info = device().info();
-        info.filteredVolumeSide = side;
-        Graph(registry, parseYaml(filterGraph("textures", "32", "6"), "graph"))
-            .plan(frame, info, device().memoryLimitBytes());
-    };
-    EXPECT_CONTAINS(errorOf([&] { plan(0); }), "storage image and linear filter");
-    EXPECT_CONTAINS(errorOf([&] { plan(191); }), "192x32x32 texels");
-    EXPECT_CONTAINS(errorOf([&] { plan(191); }), "maxImageDimension3D");
+    const auto plan = [](uint32_t side) { planWithVolumes(side, filterGraph("textures", "32", "6")); };
+    EXPECT_ERROR("storage image and linear filter", plan(0));
+    EXPECT_ERROR("192x32x32 texels", plan(191));
     plan(192);
 }
 

@@ -17,7 +17,7 @@ struct Merged {
            float white = 8) {
         static Chain& room =
             *kept(std::make_shared<Chain>("white_room", "{}", graphYaml({"voxelize, resolution: 12"})));
-        const SurfaceVoxels& voxels = *room.graph().resource<SurfaceVoxels>("voxels");
+        const SurfaceVoxels& voxels = room.get<SurfaceVoxels>("voxels");
         TestPrograms programs;
         VoxelAccumulator writes(programs, {write, white});
         const Kernel writer(programs, "tests/gpu/voxel_accumulator.comp", VoxelAccumulator::defines(write));

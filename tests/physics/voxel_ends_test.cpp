@@ -61,7 +61,7 @@ std::vector<SurfacePair> pairsOf(const Geometry& geometry, size_t count, RandomN
 }
 
 const SurfaceVoxels& voxelsOf(const Chain& chain) {
-    return *chain.graph().resource<SurfaceVoxels>("voxels");
+    return chain.get<SurfaceVoxels>("voxels");
 }
 
 size_t sum(const std::vector<uint32_t>& hidden) {
@@ -87,8 +87,7 @@ std::vector<SurfacePair> raysIntoTheOpen(const std::vector<SurfaceSample>& sampl
 TEST(VoxelEnds, FlatSurfacesDoNotHideThemselvesAtAnyTilt) {
     RandomNumbers random;
     for (int tilt = 0; tilt < 12; ++tilt) {
-        auto state =
-            std::make_shared<SceneState>(evaluate(makeBuiltinScene("plane", parseYaml("{}", "scene")), 0.0));
+        auto state = builtin("plane");
         Geometry& g = state->geometry;
         const glm::quat rotation = glm::angleAxis(tilt == 0 ? 0 : 3 * random.uniform(), random.direction());
         g.boundsMin = glm::vec3(1e9f), g.boundsMax = glm::vec3(-1e9f);
@@ -97,7 +96,7 @@ TEST(VoxelEnds, FlatSurfacesDoNotHideThemselvesAtAnyTilt) {
             g.boundsMin = glm::min(g.boundsMin, p), g.boundsMax = glm::max(g.boundsMax, p);
         }
         g.region = {g.boundsMin, g.boundsMax};
-        Chain chain(state, graphYaml({"voxelize, resolution: 32"}), 8, 8, 1);
+        Chain chain(state, graphYaml({"voxelize, resolution: 32"}), 8, 8);
         std::vector<SurfaceSample> samples = surfaceSamples(g, 20000, random);
         for (size_t i = 0; i < samples.size(); i += 2) samples[i].normal = -samples[i].normal;
         EXPECT_EQ(sum(hiddenByVoxels(voxelsOf(chain), raysIntoTheOpen(samples, 500, random))), 0u) << tilt;

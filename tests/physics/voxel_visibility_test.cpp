@@ -102,7 +102,7 @@ TEST(VoxelVisibility, RefusesGridsThatItCantWalkThrough) {
     window.grid = madeUpGrid(glm::uvec3(64), 1);
     window.grid.windowSize = 32;
     MemoryPlan plan;
-    EXPECT_CONTAINS(errorOf([&] { march.plan(plan, window); }), "64x64x64, of which 32 are held");
+    EXPECT_ERROR("64x64x64, of which 32 are held", march.plan(plan, window));
 }
 
 TEST(VoxelVisibility, ShadowsNarrowToThoseOfSurfaces) {
@@ -123,10 +123,7 @@ TEST(VoxelVisibility, ShadowsNarrowToThoseOfSurfaces) {
     for (const int resolution : {32, 64, 128, 256}) {
         Chain voxels = chain("voxels", resolution);
         const ImageF image = voxels.image("direct");
-        double difference = 0;
-        for (size_t i = 0; i < image.data.size(); ++i)
-            difference += std::abs(double(image.data[i]) - double(expected.data[i]));
-        difference /= mean(expected) * double(image.data.size());
+        const double difference = meanDifference(image, expected);
         std::printf("%d voxels: energy %.4f of the exact, mean difference %.4f\n", resolution,
                     mean(image) / mean(expected), difference);
         EXPECT_LT(difference, 0.6 * before);

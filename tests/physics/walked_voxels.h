@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <glm/glm.hpp>
-#include <limits>
 #include <random>
 
 #include "passes/common/voxel_march/voxel_tracer.h"
@@ -11,8 +10,6 @@
 #include "tests/physics/made_up_voxels.h"
 
 namespace voxray::test {
-
-inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// As in tests/gpu/voxel_march.comp.
 struct WalkAnswer {
@@ -68,11 +65,7 @@ class WalkedVoxels {
         VoxelTracer tracer(programs, walk);
         prepare(programs, tracer, voxels_);
         tracer.begin(stream_, voxels_);
-        const Buffer in(device(), "rays", rays.size() * sizeof(Ray)),
-            out(device(), "hits", rays.size() * sizeof(Hit));
-        stream_.upload(in, rays);
-        tracer.closestHit(stream_, in, out, uint32_t(rays.size()));
-        return stream_.readAs<Hit>(out, rays.size());
+        return test::closestHits(stream_, tracer, rays);
     }
 
     gpu::VoxelGrid grid{};

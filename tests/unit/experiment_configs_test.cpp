@@ -5,7 +5,7 @@
 
 #include "experiment/scene_setup.h"
 #include "experiment/study.h"
-#include "passes/common/families.h"
+#include "tests/support/all_passes.h"
 #include "tests/support/places.h"
 
 using namespace voxray;
@@ -20,8 +20,7 @@ bool needsFiles(const SceneSettings& scene) {
 
 /// Every config that is shipped, with each of its profiles.
 TEST(ShippedConfigs, ReadAndValidate) {
-    Registry registry;
-    registerPasses(registry);
+    const Registry registry = test::allPasses();
     int configs = 0;
     for (const auto& entry : fs::recursive_directory_iterator(test::sourceRoot() / "configs")) {
         if (entry.path().extension() != ".yaml") continue;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -17,6 +16,7 @@
 #include "graph/graph.h"
 #include "graph/reference_sums.h"
 #include "tests/support/places.h"
+#include "tests/support/temporary_folder.h"
 
 /// Tiny passes that write constant images, and a folder for each test.
 namespace voxray::fakes {
@@ -236,15 +236,10 @@ inline Registry registry() {
 class RunTest : public testing::Test {
  protected:
     void SetUp() override {
-        const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        root_ =
-            std::filesystem::temp_directory_path() / fmt::format("voxray_{}_{}", info->name(), ::getpid());
-        std::filesystem::create_directories(root_);
         setenv("VOXRAY_CACHE", (root_ / "cache").c_str(), 1);
         Constant::runs = Truth::runs = 0;
         Truth::seeds.clear();
     }
-    void TearDown() override { std::filesystem::remove_all(root_); }
 
     static std::string config(const std::string& rest) {
         return "name: fake\nscene: {builtin: cornell, lights: point}\nimage: {width: 8, height: 4}\n"
@@ -291,7 +286,7 @@ class RunTest : public testing::Test {
         }
         return fields;
     }
-    std::filesystem::path root_;
+    const test::TemporaryFolder root_;
 };
 
 }  // namespace voxray::fakes

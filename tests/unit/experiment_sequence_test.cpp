@@ -163,9 +163,9 @@ TEST_F(PartsTest, MasksHaveTheirOwnScores) {
 
 TEST_F(PartsTest, NamesThatTheSceneLacksAreSuggestedBeforeAnythingIsRendered) {
     EXPECT_CONTAINS(errorOf<UsageError>([&] { runWith({"measure.masks={box: {object: tal box}}"}); }),
-                    "measure.masks.box: the scene has no object 'tal box'; did you mean 'tall box'?");
+                    "'tall box'");
     EXPECT_CONTAINS(errorOf<UsageError>([&] { runWith({"measure.masks={wall: {material: greeen}}"}); }),
-                    "did you mean 'green'?");
+                    "'green'");
     EXPECT_EQ(Truth::runs, 0);
 }
 

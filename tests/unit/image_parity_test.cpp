@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -9,6 +8,7 @@
 
 #include "image/score.h"
 #include "tests/support/places.h"
+#include "tests/support/temporary_folder.h"
 
 /// Every metric against tests/images/metrics_reference.py, an independent numpy version, on synthetic pairs.
 namespace voxray {
@@ -84,8 +84,7 @@ void store(const fs::path& path, const Pair& pair) {
 
 TEST(ImageParity, EveryMetricAgreesWithNumpy) {
     // Hand the pairs to the numpy version.
-    const fs::path folder = fs::temp_directory_path() / ("voxray-parity-" + std::to_string(::getpid()));
-    fs::create_directories(folder);
+    const test::TemporaryFolder folder;
     const std::vector<Pair> pairs = syntheticPairs();
     std::string command =
         "/usr/bin/python3 " + (test::sourceRoot() / "tests/images/metrics_reference.py").string();
@@ -113,7 +112,6 @@ TEST(ImageParity, EveryMetricAgreesWithNumpy) {
             RecordProperty(pair.name + ": " + name, std::to_string(value));
         }
     }
-    fs::remove_all(folder);
 }
 
 }  // namespace

@@ -112,8 +112,7 @@ TEST_F(RunInParts, FinishedPartsAreKeptOnResume) {
 }
 
 TEST_F(RunInParts, UnknownPartsAndOtherExperimentsAreRefused) {
-    EXPECT_CONTAINS(errorOf<UsageError>([&] { runPart("variant.value-2"); }),
-                    "did you mean 'variant.value-1'?");
+    EXPECT_CONTAINS(errorOf<UsageError>([&] { runPart("variant.value-2"); }), "'variant.value-1'");
     EXPECT_FALSE(fs::exists(root_ / "out"));
     runPart(parts(1)[0].id);
     const std::string other = std::string(kSweep) + "seed: 3\n";
@@ -173,7 +172,7 @@ TEST_F(RunInParts, AFailedReferenceIsWhyVariantsFailed) {
     PreparedExperiment prepared(wired(), o);
     const std::string id = partsOf(prepared, 1)[0].id;
     o.part = id;
-    EXPECT_CONTAINS(errorOf([&] { runExperiment(wired(), o); }), "no truth");
+    EXPECT_ERROR("no truth", runExperiment(wired(), o));
     o.part = "merge";
     EXPECT_EQ(runExperiment(wired(), o).failed, 2u);
     EXPECT_EQ(cell("value-1", "status"), "failed");
@@ -183,7 +182,7 @@ TEST_F(RunInParts, AFailedReferenceIsWhyVariantsFailed) {
 TEST_F(RunInParts, AFailedVariantIsAnErrorAndARowOfTheMerge) {
     const std::string sweep = "sweep: {constant.fail: [true, false]}\n";
     runPart(parts(1, sweep)[0].id, "out", sweep);
-    EXPECT_CONTAINS(errorOf([&] { runPart("variant.fail-true", "out", sweep); }), "the pass gave up");
+    EXPECT_ERROR("the pass gave up", runPart("variant.fail-true", "out", sweep));
     EXPECT_FALSE(fs::exists(root_ / "out" / "images" / "fail-true"));
     runPart("variant.fail-false", "out", sweep);
     const RunSummary summary = merge({"out"}, "all");
@@ -236,7 +235,7 @@ TEST_F(RunInParts, WhatDiffersIsNotMerged) {
         EXPECT_FALSE(fs::exists(root_ / "all"));
         return message;
     };
-    EXPECT_CONTAINS(refusal(), "both hold 'value-1'");
+    EXPECT_CONTAINS(refusal(), "'value-1'");
 
     // Each of the manifest's keys that tell an experiment apart
     const std::string text = readTextFile(root_ / "copy" / "manifest.json");
@@ -285,7 +284,7 @@ TEST_F(RunInParts, SumsAreKeptToTheBitAndDamageIsNoticed) {
     const ReferenceImages images = imagesOf(sum), again = imagesOf(partOf(images));
     EXPECT_EQ(images.final.a.data, again.final.a.data);
     EXPECT_EQ(images.indirect.mean.data, again.indirect.mean.data);
-    EXPECT_CONTAINS(errorOf([&] { folder.load(hash, 2, 2); }), "another reference");
+    EXPECT_ERROR("another reference", folder.load(hash, 2, 2));
 
     const fs::path file = root_ / "parts" / (ReferenceParts::id(hash, {1, 2}) + ".sums");
     const std::string whole = readTextFile(file);

@@ -143,35 +143,32 @@ TEST(GltfAccessors, HostileNumbersAreRefusedInOneLine) {
         return b.error();
     };
     // accessor 0: indices, accessor 1: positions.
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["count"] = 4; }), "4 elements of 12 bytes");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["count"] = 0x7fffffffffffffff; }),
-                    "more than 2^31");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["count"] = 1u << 31; }), "don't fit");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["byteOffset"] = 4; }), "end outside");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["byteOffset"] = 0xfffffffffffffff0u; }),
-                    "too big");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["type"] = "MAT3"; }), "matrices");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["type"] = "VEC2"; }), "components");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["componentType"] = 5124; }),
-                    "component type");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][0]["componentType"] = floatType; }), "indices");
-    EXPECT_CONTAINS(refused([](auto& b) {
-                        b.root["accessors"][1].erase("bufferView"),
-                            b.root["accessors"][1]["count"] = 1u << 30;
+    const std::tuple<const char*, json, const char*> cases[] = {
+        {"/accessors/1/count", 4, "4 elements of 12 bytes"},
+        {"/accessors/1/count", 0x7fffffffffffffff, "more than 2^31"},
+        {"/accessors/1/count", 1u << 31, "don't fit"},
+        {"/accessors/1/byteOffset", 4, "end outside"},
+        {"/accessors/1/byteOffset", 0xfffffffffffffff0u, "too big"},
+        {"/accessors/1/type", "MAT3", "matrices"},
+        {"/accessors/1/type", "VEC2", "components"},
+        {"/accessors/1/componentType", 5124, "component type"},
+        {"/accessors/0/componentType", floatType, "indices"},
+        {"/accessors/1/bufferView", 9, "bufferView 9"},
+        {"/bufferViews/1/byteLength", 4096, "outside of buffer 0"},
+        {"/bufferViews/1/byteOffset", -8, "byteOffset"},
+        {"/buffers", {{{"byteLength", 1 << 20}}}, "byteLength"},
+        {"/meshes/0/primitives/0/attributes/NORMAL", 77, "accessor 77"},
+        {"/meshes/0/primitives/0/mode", 9, "mode 9"}};
+    for (const auto& [where, value, said] : cases)
+        EXPECT_CONTAINS(refused([&](GltfBuilder& b) { b.root[json::json_pointer(where)] = value; }), said);
+    EXPECT_CONTAINS(refused([](GltfBuilder& b) {
+                        b.root["accessors"][1].erase("bufferView");
+                        b.root["accessors"][1]["count"] = 1u << 30;
                     }),
                     "without a buffer");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["bufferView"] = 9; }), "bufferView 9");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["bufferViews"][1]["byteLength"] = 4096; }),
-                    "outside of buffer 0");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["bufferViews"][1]["byteOffset"] = -8; }), "byteOffset");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["buffers"] = {{{"byteLength", 1 << 20}}}; }), "byteLength");
-    EXPECT_CONTAINS(refused([](auto& b) { b.bytes[4] = 7; }), "index 7 for 3 vertices");
-    EXPECT_CONTAINS(
-        refused([](auto& b) { b.root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 77; }),
-        "accessor 77");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["meshes"][0]["primitives"][0]["mode"] = 9; }), "mode 9");
+    EXPECT_CONTAINS(refused([](GltfBuilder& b) { b.bytes[4] = 7; }), "index 7 for 3 vertices");
     const float bad = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_CONTAINS(refused([&](auto& b) { std::memcpy(b.bytes.data() + 8, &bad, 4); }), "not finite");
+    EXPECT_CONTAINS(refused([&](GltfBuilder& b) { std::memcpy(b.bytes.data() + 8, &bad, 4); }), "not finite");
 }
 
 }  // namespace

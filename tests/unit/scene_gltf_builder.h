@@ -1,7 +1,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
@@ -12,6 +11,7 @@
 
 #include "scene/load.h"
 #include "tests/support/errors.h"
+#include "tests/support/temporary_folder.h"
 
 namespace voxray::test {
 
@@ -19,26 +19,6 @@ using nlohmann::json;
 
 constexpr int byteType = 5120, ubyteType = 5121, shortType = 5122, ushortType = 5123, uintType = 5125,
               floatType = 5126;
-
-/// A folder that is gone after the test.
-class TemporaryFolder {
- public:
-    TemporaryFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "voxray-scene-XXXXXX").string();
-        if (mkdtemp(pattern.data()) == nullptr) throw Error("no temporary folder");
-        path_ = pattern;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-    std::filesystem::path path_;
-};
 
 inline void writeBytes(const std::filesystem::path& path, const std::string& bytes) {
     std::ofstream out(path, std::ios::binary);

@@ -63,7 +63,7 @@ TEST(GltfReading, TextThatIsNotQuiteJson) {
     writeBytes(folder / "scene.glb", glb);
     EXPECT_EQ(loadGltf(folder / "scene.glb")->nodes[0].name, "stra\ufffd\ufffde");
     writeBytes(folder / "scene.glb", GltfBuilder::glb(b.root.dump() + std::string(3, '\0'), ""));
-    EXPECT_CONTAINS(errorOf([&] { loadGltf(folder / "scene.glb"); }), "buffer");
+    EXPECT_ERROR("buffer", loadGltf(folder / "scene.glb"));
 
     // Whole numbers as 3.0, strides that are no multiple of 4
     GltfBuilder floats;
@@ -137,14 +137,14 @@ TEST(GltfReading, CoordinatesHaveABound) {
         b.primitive({{"attributes", {{"POSITION", positions}}}}, {{"name", "stray"}});
         b.root["meshes"][0]["name"] = "roof";
         const std::string text = errorOf([&] { evaluate(b.load(), 0); });
-        EXPECT_CONTAINS(text, "mesh 'roof' of node 'stray'");
+        EXPECT_CONTAINS(text, "'roof'");
         EXPECT_CONTAINS(text, "vertex at (");
         b.root["nodes"][0]["scale"] = {1e-12, 1, 1};
         EXPECT_NO_THROW(evaluate(b.load(), 0));
     }
     GltfBuilder scaled;
     scaled.triangle({}, {{"scale", {1e12, 1, 1}}});
-    EXPECT_CONTAINS(errorOf([&] { evaluate(scaled.load(), 0); }), "scale the scene down");
+    EXPECT_ERROR("scale the scene down", evaluate(scaled.load(), 0));
 
     // Where it goes later counts, too.
     GltfBuilder moving;
@@ -155,7 +155,7 @@ TEST(GltfReading, CoordinatesHaveABound) {
                {{"samplers", {{{"input", input}, {"output", output}}}},
                 {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}}});
     EXPECT_NO_THROW(evaluate(moving.load(), 0));
-    EXPECT_CONTAINS(errorOf([&] { evaluate(moving.load(), 0, Playback::Looping); }), "vertex at (");
+    EXPECT_ERROR("vertex at (", evaluate(moving.load(), 0, Playback::Looping));
 }
 
 TEST(GltfReading, InstancesOfOneNode) {

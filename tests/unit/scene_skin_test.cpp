@@ -97,7 +97,7 @@ TEST(Skins, WhatCanNotBeSkinnedIsNamed) {
     EXPECT_CONTAINS(few.error(), "no joints");
 
     Scene skinned = *Skinned().load();
-    EXPECT_CONTAINS(errorOf([&] { subdivide(skinned, 1); }), "export-scene");
+    EXPECT_ERROR("export-scene", subdivide(skinned, 1));
 }
 
 TEST(Morphs, DefaultWeightsAreAppliedAndANodesOwnComeFirst) {

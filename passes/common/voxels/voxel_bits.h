@@ -3,8 +3,8 @@
 #include <atomic>
 #include <bit>
 #include <cstdint>
-#include <glm/common.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 #include <vector>
 
 namespace voxray {
