@@ -214,7 +214,7 @@ class Commands(Tree):
         self.write("scripts/bench_gpu.py", 'parser.add_argument("--device")\n')
         self.write("tests/all.cmake", "voxray_tests(chain SHARDS 2)\nadd_test(NAME repository.docs COMMAND x)\n")
         self.write("program", "#!/usr/bin/env bash\n[[ $1 == run && $2 == --help ]] && echo '  --set PATH=VALUE  --dry-run' && exit\n"
-                   "[[ $1 == run && $* == *good=1* ]] && exit\n[[ $1 == run ]] && { echo 'bad key' >&2; exit 2; }\n"
+                   "[[ $1 == plan && $* == *good=1* ]] && exit\n[[ $1 == plan ]] && { echo 'bad key' >&2; exit 2; }\n"
                    "[[ $1 == passes && ( $2 == --help || $2 == gather ) ]]\n", executable=True)
         self.program = commands.Program(os.path.join(self.root, "program"))
 

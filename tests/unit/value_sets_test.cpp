@@ -40,13 +40,9 @@ std::string errorIn(const std::string& graph) {
 TEST(ValueSets, AreCheckedBeforeAnythingRuns) {
     for (const ValueSetCase& c : kCases) {
         const std::string pass = fmt::format("  - {{pass: {}, id: p", c.pass);
-        EXPECT_CONTAINS(errorIn(fmt::format("{}, {}: {}}}
-", pass, c.parameter, c.bad)),
+        EXPECT_CONTAINS(errorIn(fmt::format("{}, {}: {}}}\n", pass, c.parameter, c.bad)),
                         "x.yaml:4: p." + c.parameter + ": ");
-        EXPECT_CONTAINS(errorIn(fmt::format("{}}}
-sweep:
-  p.{}: [{}]
-", pass, c.parameter, c.bad)),
+        EXPECT_CONTAINS(errorIn(fmt::format("{}}}\nsweep:\n  p.{}: [{}]\n", pass, c.parameter, c.bad)),
                         "x.yaml:6: p." + c.parameter + ": ");
     }
 }
