@@ -30,8 +30,7 @@ void planExperiment(const std::filesystem::path& file, const ConfigArguments& ar
     options.sourceRoot = sourceRoot();
     options.preview = pathTracedPreview;
     PreparedExperiment prepared(loadStudy(file, arguments.config, registry), options);
-    for (const std::string& warning : prepared.warnings())
-        fmt::print(stderr, "voxray: warning: {}\n", warning);
+    for (const std::string& warning : prepared.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     use(prepared);
 }
 

@@ -50,8 +50,8 @@ struct ConfigCheck {
 /// Checks a config with the given profile, or without a profile and again with each of its profiles. Each
 /// warning is reported once, with the first profile that has it.
 /// @throws UsageError for the first error.
-void validate(const std::filesystem::path& config, const ConfigOptions& options, SceneLoader& loader,
-              ViewChecks& views, const Registry& registry, ConfigCheck& outcome) {
+void validate(const std::filesystem::path& config, const ConfigOptions& options, SceneLoader& loader, ViewChecks& views,
+              const Registry& registry, ConfigCheck& outcome) {
     std::vector<std::string> profiles{options.profile};
     if (options.profile.empty())
         for (const std::string& name : profileNames(config)) profiles.push_back(name);
@@ -66,9 +66,8 @@ void validate(const std::filesystem::path& config, const ConfigOptions& options,
             if (reported.insert(warning).second)
                 outcome.messages += fmt::format("voxray: warning: {}{}\n", warning, under);
         const size_t variants = study.variants.size();
-        verdict +=
-            fmt::format("{}{}: valid, {} variant{}\n", config.string(),
-                        profile.empty() ? "" : " --profile " + profile, variants, variants == 1 ? "" : "s");
+        verdict += fmt::format("{}{}: valid, {} variant{}\n", config.string(),
+                               profile.empty() ? "" : " --profile " + profile, variants, variants == 1 ? "" : "s");
     }
     outcome.verdict = std::move(verdict);
 }
@@ -136,8 +135,8 @@ int validateAll(const ValidateArguments& arguments) {
 }  // namespace
 
 void addValidateCommand(CLI::App& app, int& status) {
-    CLI::App* command = app.add_subcommand(
-        "validate", "Check configs and all their profiles, scenes included, without rendering.");
+    CLI::App* command =
+        app.add_subcommand("validate", "Check configs and all their profiles, scenes included, without rendering.");
     auto arguments = std::make_shared<ValidateArguments>();
     command->add_option("CONFIG", arguments->configs, "Config files.")->required();
     addConfigOptions(*command, *arguments);

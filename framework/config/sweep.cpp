@@ -28,16 +28,14 @@ void checkPath(const std::string& path, const TextLocation& where) {
     const std::string first = path.substr(0, path.find('.'));
     if (std::ranges::count(fixed, first) > 0)
         throw UsageError(
-            where,
-            "sweep: '{}' is the same for all variants; sweep over a pass, scene, image, seed or tracer",
-            path);
+            where, "sweep: '{}' is the same for all variants; sweep over a pass, scene, image, seed or tracer", path);
 }
 
 std::string fileSafe(const std::string& text) {
     std::string safe;
     for (const char c : text) {
-        const bool isPlain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                             c == '_' || c == '.' || c == '-';
+        const bool isPlain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+                             c == '.' || c == '-';
         if (isPlain)
             safe += c;
         else if (safe.empty() || safe.back() != '-')
@@ -62,8 +60,8 @@ std::vector<Axis> readAxes(const Experiment& experiment) {
         for (size_t i = 0; i < list.members.size(); ++i)
             for (size_t j = 0; j < i; ++j)
                 if (list.members[i].value == list.members[j].value)
-                    throw UsageError(list.members[i].value.where, "sweep.{}: '{}' and '{}' are the same",
-                                     path, list.members[j].key, list.members[i].key);
+                    throw UsageError(list.members[i].value.where, "sweep.{}: '{}' and '{}' are the same", path,
+                                     list.members[j].key, list.members[i].key);
     }
     for (Axis& axis : axes)
         if (labels[axis.label] > 1) axis.label = axis.path;
@@ -95,8 +93,7 @@ void setValue(Value& config, const Axis& axis, size_t chosen) {
 /// Configs without sweep and with replaced passes, shared by variants that differ only in other values.
 class BaseConfigs {
  public:
-    BaseConfigs(const Experiment& experiment, const std::vector<Axis>& axes)
-        : axes_(axes), plain_(experiment.config) {
+    BaseConfigs(const Experiment& experiment, const std::vector<Axis>& axes) : axes_(axes), plain_(experiment.config) {
         plain_.erase("sweep");
     }
 
@@ -161,8 +158,7 @@ void selectSweepValues(Value& config, const std::vector<std::string>& choices) {
         Value* sweep = config.find("sweep");
         Value* axis = sweep ? sweep->find(path) : nullptr;
         std::vector<std::string> names;
-        for (const auto& member : sweep ? sweep->members : std::vector<Value::Member>())
-            names.push_back(member.key);
+        for (const auto& member : sweep ? sweep->members : std::vector<Value::Member>()) names.push_back(member.key);
         if (!axis) throw UsageError("--only: the sweep has no axis '{}'{}", path, didYouMean(path, names));
         const std::vector<std::string> labels = sweepLabels(*axis);
         for (const std::string& value : values)

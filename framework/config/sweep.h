@@ -10,9 +10,9 @@ namespace voxray {
 
 /// One point of the sweep.
 struct SweepPoint {
-    std::string name;  ///< Unique, safe as a file name, e.g. "resolution-64_inject-inject_rsm".
+    std::string name;                 ///< Unique, safe as a file name, e.g. "resolution-64_inject-inject_rsm".
     std::vector<std::string> values;  ///< Label of each axis' value, in the order of sweepKeys().
-    Value config;  ///< The experiment's config with this variant's values and without sweep.
+    Value config;                     ///< The experiment's config with this variant's values and without sweep.
     Setup setup;
 };
 

@@ -22,8 +22,7 @@ namespace {
 void applyTracerOption(Study& study, const std::string& name) {
     if (name.empty()) return;
     Experiment& experiment = study.experiment;
-    if (experiment.sweep.find("tracer"))
-        throw UsageError("--tracer {}: this config sweeps over the tracer", name);
+    if (experiment.sweep.find("tracer")) throw UsageError("--tracer {}: this config sweeps over the tracer", name);
     Value value = Value::map();
     value.set("tracer", Value::fromScalar(name));
     value.find("tracer")->where = {"--tracer", 0};
@@ -35,9 +34,8 @@ void applyTracerOption(Study& study, const std::string& name) {
 /// Whether no pass of the experiment needs Vulkan.
 bool runsOnHost(const Study& study) {
     const auto needsNoDevice = [&](const Graph& graph) {
-        return std::ranges::none_of(graph.passes(), [&](const Graph::PassInfo& pass) {
-            return study.registry->find(pass.kind)->needsDevice;
-        });
+        return std::ranges::none_of(
+            graph.passes(), [&](const Graph::PassInfo& pass) { return study.registry->find(pass.kind)->needsDevice; });
     };
     return std::ranges::all_of(study.variants, needsNoDevice, &Variant::graph) &&
            (study.reference.isNull() || needsNoDevice(study.referenceGraph()));
@@ -77,9 +75,8 @@ class VariantWarnings {
     }
     void appendTo(std::vector<std::string>& lines) const {
         for (const auto& [text, names] : variants_)
-            lines.push_back(names.size() == 1
-                                ? fmt::format("{} ({})", text, names[0])
-                                : fmt::format("{} ({} and {} more)", text, names[0], names.size() - 1));
+            lines.push_back(names.size() == 1 ? fmt::format("{} ({})", text, names[0])
+                                              : fmt::format("{} ({} and {} more)", text, names[0], names.size() - 1));
     }
 
  private:
@@ -148,8 +145,7 @@ class Planner {
         const ImageSettings& image = variant.setup.image;
         const auto [selections, isNew] = study_.masks.try_emplace(maskKey(key_, image));
         if (!isNew) return;
-        selections->second =
-            voxray::selectPixels(masks, scene.state, scene.camera, image.width, image.height);
+        selections->second = voxray::selectPixels(masks, scene.state, scene.camera, image.width, image.height);
         warnings.add(maskWarnings(masks, selections->second, scene.state), variant);
     }
 
@@ -189,8 +185,8 @@ PreparedExperiment::PreparedExperiment(Study study, const RunOptions& options)
     DeviceOptions device;
     device.name = options_.deviceName;
     device.validation = options_.validation;
-    device.isHost = device.name.empty() && !device.validation && runsOnHost(study_) &&
-                    !whyNoDevice(listDevices()).empty();
+    device.isHost =
+        device.name.empty() && !device.validation && runsOnHost(study_) && !whyNoDevice(listDevices()).empty();
     session_.emplace(device, options_.sourceRoot,
                      sceneFolders(options_.scenes, options_.sourceRoot, study_.experiment.file));
 

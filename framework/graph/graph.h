@@ -98,8 +98,7 @@ class Graph {
     /// the measured time). @throws Error naming the pass, also one that runs out of memory.
     /// @return a sample by pass of that phase, in the order of passes().
     std::vector<PassSample> run(Phase phase, const Frame& frame, Device& device, CommandStream& stream,
-                                RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex,
-                                bool checkFinite);
+                                RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex, bool checkFinite);
 
     /// AOVs of all resources, by the id of the pass that wrote them.
     std::vector<std::pair<std::string, std::vector<Aov>>> aovs() const;

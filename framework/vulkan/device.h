@@ -38,7 +38,7 @@ std::vector<DeviceInfo> listDevices();
 std::string whyNoDevice(const std::vector<DeviceInfo>& devices);
 
 struct DeviceOptions {
-    std::string name;  ///< Substring of the device's name, case-insensitive; empty: the best that qualifies.
+    std::string name;         ///< Substring of the device's name, case-insensitive; empty: the best that qualifies.
     bool validation = false;  ///< Enables the Khronos validation layer.
     bool isHost = false;      ///< No Vulkan (Device::isHost()).
 };
@@ -75,9 +75,7 @@ class Device {
         uint32_t textures = 0;  ///< In a TextureArray.
     };
     const Limits& limits() const { return limits_; }
-    const VkPhysicalDeviceRayTracingPipelinePropertiesKHR& rayPipelineProperties() const {
-        return rayPipeline_;
-    }
+    const VkPhysicalDeviceRayTracingPipelinePropertiesKHR& rayPipelineProperties() const { return rayPipeline_; }
     const VkPhysicalDeviceAccelerationStructurePropertiesKHR& accelerationStructureProperties() const {
         return accelerationStructure_;
     }

@@ -136,8 +136,8 @@ void compile(const std::vector<PassProgram*>& programs, Device& device, const Sh
         }
         for (const auto& [name, value] : program.constants_) hash.add(name).addPlain(value);
         program.addState(hash);
-        program.program_ = device.programCache().get(
-            hash.hex(), [&] { return program.make(device, stages, program.constants_); });
+        program.program_ =
+            device.programCache().get(hash.hex(), [&] { return program.make(device, stages, program.constants_); });
     });
 }
 

@@ -71,8 +71,7 @@ class PassProgram {
 class Kernel final : public PassProgram {
  public:
     /// @param file relative to the folder of `sourceFile`, or from "passes/" or "shaders/" on.
-    Kernel(ProgramOwner& owner, std::string_view file, Defines defines = {},
-           const char* sourceFile = __builtin_FILE());
+    Kernel(ProgramOwner& owner, std::string_view file, Defines defines = {}, const char* sourceFile = __builtin_FILE());
 
  private:
     Program make(Device& device, std::span<const ShaderModule> modules,

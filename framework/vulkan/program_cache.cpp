@@ -10,8 +10,7 @@ constexpr size_t kMaxPrograms = 512;
 
 }  // namespace
 
-std::shared_ptr<const Program> ProgramCache::get(const std::string& key,
-                                                 const std::function<Program()>& make) {
+std::shared_ptr<const Program> ProgramCache::get(const std::string& key, const std::function<Program()>& make) {
     {
         const std::lock_guard lock(mutex_);
         if (const auto found = programs_.find(key); found != programs_.end()) return found->second;

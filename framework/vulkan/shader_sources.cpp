@@ -26,8 +26,7 @@ void ShaderSources::gather(const std::string& file) {
     }
 }
 
-std::optional<std::string> ShaderSources::resolve(const std::string& header,
-                                                  const std::string& includer) const {
+std::optional<std::string> ShaderSources::resolve(const std::string& header, const std::string& includer) const {
     const std::filesystem::path adjacent = std::filesystem::path(includer).parent_path() / header;
     for (const std::filesystem::path& candidate : {adjacent, std::filesystem::path(header)}) {
         const std::string name = candidate.lexically_normal().generic_string();

@@ -46,9 +46,9 @@ struct VoxelPatches : Resource {
         neighbours = {}, components = {}, memberGroups = {}, componentOfGroup = {}, previousGroups = {};
     }
     uint64_t bytes() const {
-        return surfels.bytes() + surfelIndex.bytes() + firstGroup.bytes() + groups.bytes() +
-               materials.bytes() + firstNeighbour.bytes() + neighbours.bytes() + components.bytes() +
-               memberGroups.bytes() + componentOfGroup.bytes() + previousGroups.bytes();
+        return surfels.bytes() + surfelIndex.bytes() + firstGroup.bytes() + groups.bytes() + materials.bytes() +
+               firstNeighbour.bytes() + neighbours.bytes() + components.bytes() + memberGroups.bytes() +
+               componentOfGroup.bytes() + previousGroups.bytes();
     }
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }
 };

@@ -15,8 +15,7 @@ SurfelSort::SurfelSort(ProgramOwner& owner)
       sortVoxel_(owner, "sort_voxel_surfels.comp"),
       prefixSum_(owner, PrefixSum::Of::Values) {}
 
-void SurfelSort::run(CommandStream& stream, const Surfels& surfels, uint32_t voxels,
-                     SurfelsByVoxel& result) const {
+void SurfelSort::run(CommandStream& stream, const Surfels& surfels, uint32_t voxels, SurfelsByVoxel& result) const {
     Device& device = stream.device();
     result.lists = {}, result.sorted = {}, result.sortedIndices = {};
     result.lists = Buffer(device, "lists of surfels by voxel", voxels * kListBytes);
@@ -26,15 +25,14 @@ void SurfelSort::run(CommandStream& stream, const Surfels& surfels, uint32_t vox
     const Buffer ends(device, "last surfel of each voxel", voxels * sizeof(uint32_t));
     stream.fill(begins, 0);
     for (const Surfels::Chunk& chunk : surfels.chunks)
-        stream.dispatch(count_, chunk.count,
-                        {{"surfels", chunk.surfels}, {"counts", begins}, {"count", chunk.count}});
+        stream.dispatch(count_, chunk.count, {{"surfels", chunk.surfels}, {"counts", begins}, {"count", chunk.count}});
     result.sortedCount = prefixSum_.run(stream, begins, begins, voxels);
     stream.copy(begins, ends, voxels * sizeof(uint32_t));
 
     result.sorted =
         LargeBuffer(device, "surfels by voxel", std::max(result.sortedCount, 1u) * sizeof(gpu::SortedSurfel));
-    result.sortedIndices = LargeBuffer(device, "sorted indices of surfels",
-                                       std::max<uint64_t>(surfels.count, 1) * sizeof(uint32_t));
+    result.sortedIndices =
+        LargeBuffer(device, "sorted indices of surfels", std::max<uint64_t>(surfels.count, 1) * sizeof(uint32_t));
     stream.fill(result.sortedIndices, SurfelsByVoxel::kNone);
     for (const Surfels::Chunk& chunk : surfels.chunks)
         stream.dispatch(scatter_, chunk.count,

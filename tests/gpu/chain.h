@@ -25,8 +25,7 @@ class Chain {
     Chain(const std::string& scene, const std::string& sceneParameters, const std::string& graphYaml,
           uint32_t width = 32, uint32_t height = 32, uint64_t seed = 1,
           const std::function<void(Registry&)>& addPasses = {}, std::optional<uint64_t> memoryLimitBytes = {})
-        : Chain(builtin(scene, sceneParameters), graphYaml, width, height, seed, addPasses,
-                memoryLimitBytes) {}
+        : Chain(builtin(scene, sceneParameters), graphYaml, width, height, seed, addPasses, memoryLimitBytes) {}
 
     /// @param addPasses adds a test's own passes to those of the program.
     /// @param memoryLimitBytes of the graph; none: what the device has.
@@ -46,8 +45,7 @@ class Chain {
         Registry registry = allPasses();
         if (addPasses) addPasses(registry);
         graph_ = std::make_unique<Graph>(registry, parseYaml(graphYaml, "graph"));
-        planned =
-            graph_->plan(frame_, device().info(), memoryLimitBytes.value_or(device().memoryLimitBytes()));
+        planned = graph_->plan(frame_, device().info(), memoryLimitBytes.value_or(device().memoryLimitBytes()));
         graph_->prepare(frame_, device(), compiler_, stream_);
         buildSamples = run(Phase::Build);
         frameSamples = run(Phase::Frame);
@@ -173,16 +171,14 @@ inline double mean(const ImageF& image) {
 }
 
 /// Indirect light by the path tracer; of a built-in scene once in a program.
-inline ImageF pathTraced(const State& state, int samples, int bounces, uint32_t width = 32,
-                         uint32_t height = 32) {
+inline ImageF pathTraced(const State& state, int samples, int bounces, uint32_t width = 32, uint32_t height = 32) {
     const std::string pass = fmt::format("path_trace, spp: {}, bounces: {}", samples, bounces);
     return Chain(state, graphYaml({pass}), width, height).image("indirect");
 }
-inline const ImageF& pathTraced(const std::string& scene, const std::string& parameters, int samples,
-                                int bounces, uint32_t width = 32, uint32_t height = 32) {
+inline const ImageF& pathTraced(const std::string& scene, const std::string& parameters, int samples, int bounces,
+                                uint32_t width = 32, uint32_t height = 32) {
     static std::map<std::string, ImageF> images;
-    ImageF& image =
-        images[fmt::format("{} {} {} {} {} {}", scene, parameters, samples, bounces, width, height)];
+    ImageF& image = images[fmt::format("{} {} {} {} {} {}", scene, parameters, samples, bounces, width, height)];
     if (image.data.empty()) image = pathTraced(builtin(scene, parameters), samples, bounces, width, height);
     return image;
 }
@@ -195,16 +191,16 @@ inline double meanDifference(const ImageF& a, const ImageF& b) {
 }
 
 /// Indirect light that a graph brings to the image of a scene.
-inline ImageF indirectLight(const std::string& scene, const std::string& parameters,
-                            const std::string& graphYaml, uint32_t width = 32, uint32_t height = 32) {
+inline ImageF indirectLight(const std::string& scene, const std::string& parameters, const std::string& graphYaml,
+                            uint32_t width = 32, uint32_t height = 32) {
     return Chain(scene, parameters, graphYaml, width, height).image("indirect");
 }
 inline double meanIndirect(const SceneState& state, const std::string& graphYaml, uint32_t width = 32,
                            uint32_t height = 32) {
     return mean(Chain(state, graphYaml, width, height).image("indirect"));
 }
-inline double meanIndirect(const std::string& scene, const std::string& parameters,
-                           const std::string& graphYaml, uint32_t width = 32, uint32_t height = 32) {
+inline double meanIndirect(const std::string& scene, const std::string& parameters, const std::string& graphYaml,
+                           uint32_t width = 32, uint32_t height = 32) {
     return mean(indirectLight(scene, parameters, graphYaml, width, height));
 }
 

@@ -23,8 +23,7 @@ inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 template <typename Tracer>
 std::vector<Hit> closestHits(CommandStream& stream, Tracer& tracer, const std::vector<Ray>& rays) {
-    const Buffer in(device(), "rays", rays.size() * sizeof(Ray)),
-        out(device(), "hits", rays.size() * sizeof(Hit));
+    const Buffer in(device(), "rays", rays.size() * sizeof(Ray)), out(device(), "hits", rays.size() * sizeof(Hit));
     stream.upload(in, rays);
     tracer.closestHit(stream, in, out, uint32_t(rays.size()));
     return stream.readAs<Hit>(out, rays.size());

@@ -33,8 +33,7 @@ inline std::vector<RadianceQuery> randomQueries(const gpu::VoxelGrid& grid, size
     for (RadianceQuery& q : list) {
         for (int axis = 0; axis < 3; ++axis)
             q.position[axis] = grid.origin[axis] + extent[axis] * (1.2f * uniform(random) - 0.1f);
-        q.footprint =
-            grid.voxelSize * std::exp2(-1 + float(gridLevels(grid.resolution) + 1) * uniform(random));
+        q.footprint = grid.voxelSize * std::exp2(-1 + float(gridLevels(grid.resolution) + 1) * uniform(random));
         q.direction = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
     }
     return list;
@@ -67,8 +66,7 @@ inline std::vector<glm::vec4> samplesOf(const Chain& chain) {
 /// All that a layout stores, in one buffer or a texture, as words.
 inline std::vector<uint32_t> radianceContent(const RadianceVoxels& radiance) {
     CommandStream stream(device());
-    if (!radiance.texture)
-        return stream.readAs<uint32_t>(radiance.storage.at(0), radiance.storage[0].bytes() / 4);
+    if (!radiance.texture) return stream.readAs<uint32_t>(radiance.storage.at(0), radiance.storage[0].bytes() / 4);
     const uint64_t bytes = imageBytes(radiance.texture.desc());
     const Buffer texels(device(), "texels", bytes, MemoryKind::Readback);
     stream.copy(radiance.texture, texels);

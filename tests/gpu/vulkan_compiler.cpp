@@ -16,8 +16,7 @@ class ShaderCompile : public testing::Test {
         std::filesystem::remove_all(root_);
         std::filesystem::create_directories(root_ / "passes/one");
         std::filesystem::create_directories(root_ / "shaders");
-        write("shaders/common.glsl",
-              "#include \"detail.glsl\"\nfloat twice(float x) { return detail(x); }\n");
+        write("shaders/common.glsl", "#include \"detail.glsl\"\nfloat twice(float x) { return detail(x); }\n");
         write("shaders/detail.glsl", "float detail(float x) { return x * 2.0; }\n");
         write("passes/one/one.comp",
               "#version 460\n"
@@ -28,9 +27,7 @@ class ShaderCompile : public testing::Test {
     }
     void TearDown() override { std::filesystem::remove_all(root_); }
 
-    void write(const std::string& file, const std::string& text) const {
-        std::ofstream(root_ / file) << text;
-    }
+    void write(const std::string& file, const std::string& text) const { std::ofstream(root_ / file) << text; }
     ShaderModule compile(const Defines& defines = {{"SCALE", "1.0"}}) const {
         return ShaderCompiler(root_, root_ / "cache").compile("passes/one/one.comp", defines);
     }
@@ -116,8 +113,7 @@ TEST_F(ShaderCompile, CorruptCacheFileIsMadeAgain) {
     const std::string good = readTextFile(path);
     std::string flipped = good;
     flipped[good.size() / 2] ^= 1;
-    for (const std::string& bad :
-         {flipped, good.substr(0, good.size() - 4), std::string("x"), std::string()}) {
+    for (const std::string& bad : {flipped, good.substr(0, good.size() - 4), std::string("x"), std::string()}) {
         std::ofstream(path, std::ios::trunc | std::ios::binary) << bad;
         EXPECT_EQ(compile().spirv, spirv);
         EXPECT_EQ(readTextFile(path), good);

@@ -169,8 +169,7 @@ TEST_F(VulkanMemory, CopiesBetweenBuffersWithOffsets) {
 
 TEST_F(VulkanMemory, UnusedFormatIsRefused) {
     EXPECT_THROW(texelBytes(VK_FORMAT_BC7_SRGB_BLOCK), Error);
-    EXPECT_EQ(imageBytes({.format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {5, 3, 1}, .mipLevels = 3}),
-              4u * (15 + 2 + 1));
+    EXPECT_EQ(imageBytes({.format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {5, 3, 1}, .mipLevels = 3}), 4u * (15 + 2 + 1));
 }
 
 class VulkanImages : public VulkanTest {
@@ -185,8 +184,7 @@ class VulkanImages : public VulkanTest {
 };
 
 TEST_F(VulkanImages, ClearFillsEveryLevel) {
-    const Image image(device(), "image",
-                      {.format = VK_FORMAT_R32_SFLOAT, .extent = {8, 8, 1}, .mipLevels = 2});
+    const Image image(device(), "image", {.format = VK_FORMAT_R32_SFLOAT, .extent = {8, 8, 1}, .mipLevels = 2});
     CommandStream stream(device());
     stream.clear(image, {{2.5f}});
     EXPECT_EQ(levelOf(stream, image, 0), std::vector<float>(64, 2.5f));
@@ -196,8 +194,7 @@ TEST_F(VulkanImages, ClearFillsEveryLevel) {
 TEST_F(VulkanImages, MipLevelsAreBoxFiltered2D) {
     std::vector<float> texels(8 * 4);
     std::iota(texels.begin(), texels.end(), 0.0f);
-    const Image image(device(), "image",
-                      {.format = VK_FORMAT_R32_SFLOAT, .extent = {8, 4, 1}, .mipLevels = 3});
+    const Image image(device(), "image", {.format = VK_FORMAT_R32_SFLOAT, .extent = {8, 4, 1}, .mipLevels = 3});
     CommandStream stream(device());
     stream.upload(image, std::as_bytes(std::span(texels)));
     stream.makeMipLevels(image);
@@ -212,8 +209,7 @@ TEST_F(VulkanImages, MipLevelsAreBoxFiltered2D) {
 TEST_F(VulkanImages, MipLevelsAreBoxFiltered3D) {
     std::vector<float> texels(4 * 4 * 4);
     std::iota(texels.begin(), texels.end(), 0.0f);
-    const Image image(device(), "image",
-                      {.format = VK_FORMAT_R32_SFLOAT, .extent = {4, 4, 4}, .mipLevels = 2});
+    const Image image(device(), "image", {.format = VK_FORMAT_R32_SFLOAT, .extent = {4, 4, 4}, .mipLevels = 2});
     CommandStream stream(device());
     stream.upload(image, std::as_bytes(std::span(texels)));
     stream.makeMipLevels(image);

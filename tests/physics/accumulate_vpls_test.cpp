@@ -24,8 +24,7 @@ State twoLights() {
     return state;
 }
 
-Chain chainOf(const State& state, uint32_t history, const std::string& clamp,
-              const std::string& block = "4") {
+Chain chainOf(const State& state, uint32_t history, const std::string& clamp, const std::string& block = "4") {
     return Chain(state,
                  graphYaml({"gbuffer", "sample_vpls, vpls_per_bounce: 1024, bounces: 2",
                             "gather_vpls, visibility: none, block: " + block,
@@ -104,8 +103,8 @@ TEST(AccumulateVirtualLights, ALightThatIsOffStaysAsLongAsItsVirtualLightsCount)
         // virtual lights and count for less, so that the light stays longer
         const size_t lit = Afterglow::framesLit(seen.left);
         const auto alike = size_t(std::log(kSeen) / std::log((history - 1.0) / history));
-        std::printf("history of %u frames: seen in %zu frames, %zu were all alike; %.3f left in the first\n",
-                    history, lit, alike, seen.left[0]);
+        std::printf("history of %u frames: seen in %zu frames, %zu were all alike; %.3f left in the first\n", history,
+                    lit, alike, seen.left[0]);
         EXPECT_GT(lit, alike);
         EXPECT_LT(lit, 2 * alike);
     }

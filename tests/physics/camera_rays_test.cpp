@@ -35,8 +35,7 @@ double seenAtAGrazingAngle(const std::string& write) {
                            "inject_camera_rays, rays_per_image: 262144, bounces: 0, write: " + write}),
                 32, 32);
     const Voxels voxels(chain);
-    const glm::ivec3 cell(
-        glm::floor((glm::vec3(0.1f, 0, 0.1f) - voxels.grid.origin) / voxels.grid.voxelSize));
+    const glm::ivec3 cell(glm::floor((glm::vec3(0.1f, 0, 0.1f) - voxels.grid.origin) / voxels.grid.voxelSize));
     const size_t voxel = size_t(&voxels.at(cell) - voxels.materials.data());
     const glm::dvec3 low = glm::dvec3(voxels.grid.origin) + double(voxels.grid.voxelSize) * glm::dvec3(cell);
     const glm::dvec3 high = low + double(voxels.grid.voxelSize);

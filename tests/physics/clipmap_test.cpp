@@ -30,8 +30,8 @@ std::vector<RadianceQuery> heldQueries(const gpu::RadianceGrid& grid, uint32_t s
     std::vector<RadianceQuery> queries(count);
     for (RadianceQuery& q : queries) {
         for (int axis = 0; axis < 3; ++axis)
-            q.position[axis] = grid.origin[axis] + grid.voxelSize * float(grid.resolution[axis]) *
-                                                       (1.1f * uniform(random) - 0.05f);
+            q.position[axis] =
+                grid.origin[axis] + grid.voxelSize * float(grid.resolution[axis]) * (1.1f * uniform(random) - 0.05f);
         const float finest = std::ceil(minimumLevel(windows, grid, camera, q.position));
         q.footprint = grid.voxelSize * std::exp2(finest + (float(grid.levels) - finest) * uniform(random));
         q.direction = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
@@ -58,8 +58,8 @@ TEST(Clipmap, SamplesAgreeWithFullGrids) {
     const glm::vec3 camera(0.3f, -0.2f, 0.45f);
     for (const uint32_t directions : {1u, 6u}) {
         const Chain dense(cornellFrom(camera), litVoxels(72, "layout: dense", directions), 8, 8);
-        const Chain clipmap(cornellFrom(camera),
-                            litVoxels(72, "layout: clipmap, clipmap_resolution: 16", directions), 8, 8);
+        const Chain clipmap(cornellFrom(camera), litVoxels(72, "layout: clipmap, clipmap_resolution: 16", directions),
+                            8, 8);
         const std::vector<RadianceQuery> queries = heldQueries(radiance(dense).grid, 16, camera, 100000);
         const std::vector<glm::vec4> expected = sampleRadiance(dense, queries);
         const std::vector<glm::vec4> answers = sampleRadiance(clipmap, queries);
@@ -70,8 +70,8 @@ TEST(Clipmap, SamplesAgreeWithFullGrids) {
             worst = std::max({worst, difference.r, difference.g, difference.b});
             worstCoverage = std::max(worstCoverage, std::abs(answers[i].a - expected[i].a));
         }
-        std::printf("directions %u: radiance %.2g of the brightest, coverage %.2g\n", directions,
-                    worst / brightest, worstCoverage);
+        std::printf("directions %u: radiance %.2g of the brightest, coverage %.2g\n", directions, worst / brightest,
+                    worstCoverage);
         EXPECT_GT(brightest, 0);
         EXPECT_LT(worst, 4 * std::exp2(-11) * brightest);
         EXPECT_LT(worstCoverage, 4 * std::exp2(-11));
@@ -80,8 +80,7 @@ TEST(Clipmap, SamplesAgreeWithFullGrids) {
 
 TEST(Clipmap, ScrolledIsAsMadeFromScratch) {
     for (const std::string& storage : kStorages) {
-        const std::string graph =
-            litVoxels(80, "layout: " + storage + ", clipmap_resolution: 16, emission: true");
+        const std::string graph = litVoxels(80, "layout: " + storage + ", clipmap_resolution: 16, emission: true");
         const glm::vec3 start(-0.31f, 0.1f, 0.2f);
         Chain scrolled(cornellFrom(start), graph, 8, 8);
         const std::vector<uint32_t> first = content(scrolled);
@@ -106,8 +105,7 @@ TEST(Clipmap, ScrolledIsAsMadeFromScratch) {
 }
 
 TEST(Clipmap, FillsWhatScrollsInAlone) {
-    const glm::vec3 start =
-        center(radiance(Chain("cornell", "{lights: point}", litVoxels(80, "layout: dense"))).grid);
+    const glm::vec3 start = center(radiance(Chain("cornell", "{lights: point}", litVoxels(80, "layout: dense"))).grid);
     Chain chain(cornellFrom(start), litVoxels(80, "layout: clipmap, clipmap_resolution: 16"), 8, 8);
     const gpu::RadianceGrid& grid = radiance(chain).grid;
     const ClipmapWindows windows(grid, 16);
@@ -123,8 +121,7 @@ TEST(Clipmap, FillsWhatScrollsInAlone) {
     for (uint32_t level = 0; level < grid.levels; ++level) {
         const gpu::ClipmapWindow before = windows.window(level, start), after = windows.window(level, moved);
         const glm::ivec3 kept = glm::ivec3(after.size) - glm::abs(after.first - before.first);
-        expected +=
-            VoxelBox{after.first, after.size}.count() - VoxelBox{after.first, glm::uvec3(kept)}.count();
+        expected += VoxelBox{after.first, after.size}.count() - VoxelBox{after.first, glm::uvec3(kept)}.count();
         if (level == 0) {
             EXPECT_EQ(expected, 16u * 16 * 16 - 15 * 16 * 14);
         }
@@ -173,8 +170,7 @@ TEST(Clipmap, NothingJumpsWhenWindowsScroll) {
         // Samples at fixed places, before and after the camera passes where a level's window moves by a
         // voxel.
         constexpr float kStep = 1.0f / 400;  // Voxels.
-        Chain chain(cornellFrom({0, 0, 0}), litVoxels(80, "layout: " + storage + ", clipmap_resolution: 16"),
-                    8, 8);
+        Chain chain(cornellFrom({0, 0, 0}), litVoxels(80, "layout: " + storage + ", clipmap_resolution: 16"), 8, 8);
         const gpu::RadianceGrid grid = radiance(chain).grid;
         std::vector<RadianceQuery> queries = heldQueries(grid, 16, {0, 0, 0}, 20000);
         for (RadianceQuery& q : queries) q.footprint = grid.voxelSize;
@@ -204,9 +200,9 @@ TEST(Clipmap, EuclideanDistanceLeavesCornersOut) {
         // level from 22 on. In the ball both ways read the same. Beyond it, in the window's corner, the next
         // level stands in.
         const auto chainOf = [&](const std::string& distance) {
-            return std::make_unique<Chain>(
-                cornellFrom({0, 0, 0}),
-                litVoxels(80, "layout: " + storage + ", clipmap_resolution: 32" + distance), 8, 8);
+            return std::make_unique<Chain>(cornellFrom({0, 0, 0}),
+                                           litVoxels(80, "layout: " + storage + ", clipmap_resolution: 32" + distance),
+                                           8, 8);
         };
         const auto axis = chainOf(""), euclidean = chainOf(", level_distance: euclidean");
         const gpu::RadianceGrid grid = radiance(*axis).grid;
@@ -232,8 +228,7 @@ TEST(Clipmap, EuclideanDistanceLeavesCornersOut) {
         size_t lit = 0;
         for (size_t i = 0; i < found.size(); ++i) {
             lit += found[i].r > 0;
-            EXPECT_LT(glm::length(found[i] - 0.5f * expected[i]), 1e-5f * (1 + glm::length(expected[i])))
-                << i;
+            EXPECT_LT(glm::length(found[i] - 0.5f * expected[i]), 1e-5f * (1 + glm::length(expected[i]))) << i;
         }
         EXPECT_GT(lit, 100u);
         EXPECT_NE(sampleRadiance(*axis, corner), found);
@@ -254,8 +249,7 @@ TEST(Clipmap, MayEndBeforeASingleVoxel) {
     const glm::vec4 wider = sampleRadiance(some, {query})[0];
     EXPECT_GT(coarsest.g, 0);
     for (int c = 0; c < 4; ++c) EXPECT_FLOAT_EQ(wider[c], 4 * coarsest[c]);
-    EXPECT_ERROR("set 'clipmap_levels' to 4 or more",
-                 Chain(cornellFrom({0, 0, 0}), litVoxels(80, filter + "3"), 8, 8));
+    EXPECT_ERROR("set 'clipmap_levels' to 4 or more", Chain(cornellFrom({0, 0, 0}), litVoxels(80, filter + "3"), 8, 8));
 }
 
 TEST(Clipmap, ConesKeepTheEnergyOfAFurnace) {
@@ -265,8 +259,7 @@ TEST(Clipmap, ConesKeepTheEnergyOfAFurnace) {
         // to 3.
         Chain chain(
             "furnace", "{shape: box, albedo: 0.5, emission: 1}",
-            graphYaml({"gbuffer", "voxelize, resolution: 64",
-                       "inject_light_rays, rays_per_light: 131072, bounces: 2",
+            graphYaml({"gbuffer", "voxelize, resolution: 64", "inject_light_rays, rays_per_light: 131072, bounces: 2",
                        "filter_voxels, emission: true, layout: " + storage + ", clipmap_resolution: 16",
                        "gather_cones, cones: 6"}),
             16, 16);
@@ -277,13 +270,12 @@ TEST(Clipmap, ConesKeepTheEnergyOfAFurnace) {
 TEST(Clipmap, ConesKeepTheEnergyOfAFurnaceWithFewLevels) {
     // The coarsest voxels are an eighteenth of the box wide, and the grid is no multiple of a large power of
     // two.
-    Chain chain("furnace", "{shape: box, albedo: 0.5, emission: 1}",
-                graphYaml({"gbuffer", "voxelize, resolution: 72",
-                           "inject_light_rays, rays_per_light: 131072, bounces: 2",
-                           "filter_voxels, emission: true, layout: clipmap, clipmap_resolution: "
-                           "32, clipmap_levels: 3",
-                           "gather_cones, cones: 6"}),
-                16, 16);
+    Chain chain(
+        "furnace", "{shape: box, albedo: 0.5, emission: 1}",
+        graphYaml({"gbuffer", "voxelize, resolution: 72", "inject_light_rays, rays_per_light: 131072, bounces: 2",
+                   "filter_voxels, emission: true, layout: clipmap, clipmap_resolution: 32, clipmap_levels: 3",
+                   "gather_cones, cones: 6"}),
+        16, 16);
     EXPECT_EQ(radiance(chain).grid.levels, 3u);
     EXPECT_NEAR(mean(chain.image("indirect")) / (0.5 * 1.875), 1.0, 0.03);
 }

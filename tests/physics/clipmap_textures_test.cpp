@@ -63,8 +63,7 @@ void compare(const RadianceVoxels& buffer, const RadianceVoxels& texture, const 
     const std::vector<glm::vec4> found = sampleRadiance(texture, queries);
     const std::vector<glm::vec4> round = sampleRadiance(full, voxelsRound(grid, places));
     double brightest = 0;
-    for (const glm::vec4& voxel : round)
-        brightest = std::max<double>(brightest, glm::compMax(glm::vec3(voxel)));
+    for (const glm::vec4& voxel : round) brightest = std::max<double>(brightest, glm::compMax(glm::vec3(voxel)));
     for (size_t i = 0; i < places.size(); ++i) {
         const LayerPlace& p = places[i];
         glm::vec4 most(0.0f);
@@ -73,12 +72,10 @@ void compare(const RadianceVoxels& buffer, const RadianceVoxels& texture, const 
         for (int c = 0; c < 4; ++c) {
             const double difference = std::abs(double(found[i][c]) - expected[i][c]);
             const double rounding = c < 3 ? std::exp2(-14) * brightest : std::exp2(-15);
-            EXPECT_LE(difference, part * most[c] + (p.level + 2) * rounding)
-                << "place " << i << ", channel " << c;
+            EXPECT_LE(difference, part * most[c] + (p.level + 2) * rounding) << "place " << i << ", channel " << c;
         }
         if (expected[i].g <= 0 || most.g <= 0) continue;
-        agreement.largest =
-            std::max(agreement.largest, double(std::abs(found[i].g - expected[i].g) / most.g));
+        agreement.largest = std::max(agreement.largest, double(std::abs(found[i].g - expected[i].g) / most.g));
         ++agreement.lit;
         if (p.level >= windows.firstWhole()) continue;
         for (int k = 0; k < 3; ++k)
@@ -93,8 +90,7 @@ TEST(ClipmapTextures, SamplesInLayersAreThoseOfTheBuffer) {
     for (const uint32_t directions : {1u, 6u}) {
         const Chain full(cornellFrom(kWalk[0]), filterGraph(directions, "dense"), 8, 8);
         Chain buffer(cornellFrom(kWalk[0]), filterGraph(directions, "clipmap, clipmap_resolution: 16"), 8, 8);
-        Chain texture(cornellFrom(kWalk[0]),
-                      filterGraph(directions, "clipmap_textures, clipmap_resolution: 16"), 8, 8);
+        Chain texture(cornellFrom(kWalk[0]), filterGraph(directions, "clipmap_textures, clipmap_resolution: 16"), 8, 8);
         Agreement agreement;
         for (const glm::vec3& camera : kWalk) {
             buffer.runFrameFrom(camera);
@@ -145,11 +141,10 @@ TEST(ClipmapTextures, BouncesBringWhatTheyBringInTheBuffer) {
 TEST(ClipmapTextures, ConesGatherWhatTheyGatherInTheBuffer) {
     for (const std::string directions : {"1", "6"}) {
         const auto indirect = [&](const std::string& layout) {
-            Chain chain(
-                "cornell", "{lights: point}",
-                graphYaml({"gbuffer", "voxelize, resolution: 48, directions: " + directions,
-                           "inject_light_rays, rays_per_light: 131072, bounces: 2",
-                           "filter_voxels, clipmap_resolution: 16, layout: " + layout, "gather_cones"}));
+            Chain chain("cornell", "{lights: point}",
+                        graphYaml({"gbuffer", "voxelize, resolution: 48, directions: " + directions,
+                                   "inject_light_rays, rays_per_light: 131072, bounces: 2",
+                                   "filter_voxels, clipmap_resolution: 16, layout: " + layout, "gather_cones"}));
             return chain.image("indirect");
         };
         expectSameLight(indirect("clipmap"), indirect("clipmap_textures"), directions);
@@ -196,9 +191,8 @@ TEST(ClipmapTextures, WhatADeviceLacksIsNamed) {
     const std::string filter =
         graphYaml({"gbuffer", "voxelize, resolution: 32", "inject_light_rays",
                    "filter_voxels, layout: clipmap_textures, clipmap_resolution: 16", "gather_cones"});
-    const std::string light =
-        graphYaml({"gbuffer", "voxelize_clipmap, resolution: 32, clipmap_resolution: 16",
-                   "light_clipmap, layout: clipmap_textures", "gather_cones"});
+    const std::string light = graphYaml({"gbuffer", "voxelize_clipmap, resolution: 32, clipmap_resolution: 16",
+                                         "light_clipmap, layout: clipmap_textures", "gather_cones"});
     EXPECT_ERROR("filter_voxels: device", planWithVolumes(0, filter));
     EXPECT_ERROR("light_clipmap: device", planWithVolumes(0, light));
     EXPECT_ERROR("'layout'", planWithVolumes(107, light));

@@ -30,8 +30,8 @@ const ClipmapVoxels& clipmap(const Chain& chain) {
 std::vector<std::vector<uint32_t>> content(Chain& chain) {
     std::vector<std::vector<uint32_t>> all{radianceContent(radiance(chain))};
     for (const ClipmapVoxels::Level& level : clipmap(chain).levels)
-        for (const Buffer* buffer : {&level.voxels.occupancy, &level.voxels.rank,
-                                     static_cast<const Buffer*>(&level.voxels.materials)})
+        for (const Buffer* buffer :
+             {&level.voxels.occupancy, &level.voxels.rank, static_cast<const Buffer*>(&level.voxels.materials)})
             all.push_back(chain.read<uint32_t>(*buffer));
     return all;
 }
@@ -48,11 +48,8 @@ TEST(ClipmapVoxels, ScrolledAreAsMadeFromScratch) {
         Chain scrolled(cornellFrom(start), graphOf(layout), 8, 8);
         const auto first = content(scrolled);
         // Shorter than a voxel, of many along all axes, farther than windows are wide, and out of the scene.
-        const std::vector<glm::vec3> walk{{-0.3f, 0.91f, 0.2f},
-                                          {-0.1f, 1.12f, 0.25f},
-                                          {0.8f, 1.8f, -0.77f},
-                                          {0.8f, 1.5f, 5},
-                                          {-0.63f, 0.3f, -0.2f}};
+        const std::vector<glm::vec3> walk{
+            {-0.3f, 0.91f, 0.2f}, {-0.1f, 1.12f, 0.25f}, {0.8f, 1.8f, -0.77f}, {0.8f, 1.5f, 5}, {-0.63f, 0.3f, -0.2f}};
         for (const glm::vec3& camera : walk) {
             scrolled.runFrameFrom(camera);
             Chain fresh(cornellFrom(camera), graphOf(layout), 8, 8);
@@ -88,8 +85,7 @@ TEST(ClipmapVoxels, VoxelizeWhatScrollsInAlone) {
 /// Cornell with a sphere that moves through it, a place a second.
 std::shared_ptr<const Scene> roomWithSphere() {
     auto scene = builtinScene("cornell", "{lights: point}");
-    addMovingSphere(*scene, 0,
-                    {{0.3f, 1.4f, 0.3f}, {0.32f, 1.41f, 0.3f}, {-0.86f, 0.7f, 0.3f}, {0.87f, 0.13f, -0.8f}});
+    addMovingSphere(*scene, 0, {{0.3f, 1.4f, 0.3f}, {0.32f, 1.41f, 0.3f}, {-0.86f, 0.7f, 0.3f}, {0.87f, 0.13f, -0.8f}});
     return scene;
 }
 
@@ -137,8 +133,8 @@ TEST(ClipmapVoxels, FollowWhatMoves) {
 glm::dvec4 unpack(glm::uvec2 t) {
     const uint64_t bits = uint64_t(t.x) | uint64_t(t.y) << 32;
     const double scale = std::ldexp(1.0, int(bits >> 42 & 255) - 126 - 1);
-    return {scale * double(bits & 16383), scale * double(bits >> 14 & 16383),
-            scale * double(bits >> 28 & 16383), double(bits >> 50) / 16383};
+    return {scale * double(bits & 16383), scale * double(bits >> 14 & 16383), scale * double(bits >> 28 & 16383),
+            double(bits >> 50) / 16383};
 }
 
 /// Radiance times coverage summed over the finest level's values, and each of them.
@@ -159,8 +155,7 @@ TEST(ClipmapVoxels, ClosedRoomCatchesAllLight) {
     // 8 pi W of a point light in a closed room of albedo 0.5. Each face of a voxel in a wall holds albedo /
     // pi E times its area, but along the room's edges, where coverages add up to more than the area.
     Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
-                graphYaml({"voxelize_clipmap, resolution: 60, clipmap_resolution: 64", "light_clipmap"}), 8,
-                8);
+                graphYaml({"voxelize_clipmap, resolution: 60, clipmap_resolution: 64", "light_clipmap"}), 8, 8);
     double sum = 0;
     for (const glm::dvec4& value : finestLevel(chain)) sum += value.g;
     const double face = std::pow(radiance(chain).grid.voxelSize, 2);
@@ -190,8 +185,8 @@ TEST(ClipmapVoxels, HoldWhatAGridOfTheSceneHolds) {
         sum += b[i].g;
         ownSum += a[i].g;
     }
-    std::printf("mean difference %.3f, ratio %.4f, other coverage %zu of %zu\n", difference / sum,
-                ownSum / sum, otherCoverage, a.size());
+    std::printf("mean difference %.3f, ratio %.4f, other coverage %zu of %zu\n", difference / sum, ownSum / sum,
+                otherCoverage, a.size());
     EXPECT_LT(double(otherCoverage) / double(a.size()), 0.001);
     EXPECT_LT(difference / sum, 0.01);
     EXPECT_NEAR(ownSum / sum, 1.0, 0.01);
@@ -199,14 +194,12 @@ TEST(ClipmapVoxels, HoldWhatAGridOfTheSceneHolds) {
 
 TEST(ClipmapVoxels, ConesBringTheFirstBounce) {
     const double expected =
-        mean(Chain("cornell", "{lights: point}", graphYaml({"path_trace, spp: 128, bounces: 1"}))
-                 .image("indirect"));
+        mean(Chain("cornell", "{lights: point}", graphYaml({"path_trace, spp: 128, bounces: 1"})).image("indirect"));
     for (const uint32_t side : {64u, 16u})
         for (const std::string& layout : kLayouts) {
             Chain chain(
                 "cornell", "{lights: point}",
-                graphYaml({"gbuffer",
-                           fmt::format("voxelize_clipmap, resolution: 64, clipmap_resolution: {}", side),
+                graphYaml({"gbuffer", fmt::format("voxelize_clipmap, resolution: 64, clipmap_resolution: {}", side),
                            "light_clipmap, layout: " + layout, "gather_cones"}));
             const double ratio = mean(chain.image("indirect")) / expected;
             std::printf("%s, windows of %u: %.3f of the path tracer's\n", layout.c_str(), side, ratio);
@@ -217,8 +210,7 @@ TEST(ClipmapVoxels, ConesBringTheFirstBounce) {
 TEST(ClipmapVoxels, BouncesAreThoseOfTheSceneAndFollowTheCamera) {
     // One more bounce: against the path tracer, and scrolled against made there.
     const double expected =
-        mean(Chain("cornell", "{lights: point}", graphYaml({"path_trace, spp: 128, bounces: 2"}))
-                 .image("indirect"));
+        mean(Chain("cornell", "{lights: point}", graphYaml({"path_trace, spp: 128, bounces: 2"})).image("indirect"));
     Chain chain("cornell", "{lights: point}",
                 graphYaml({"gbuffer", "voxelize_clipmap, resolution: 48, clipmap_resolution: 16",
                            "light_clipmap, bounces: 1", "gather_cones"}));

@@ -16,8 +16,7 @@ inline const std::string kDirect = "rays_per_light: 262144, bounces: 0";
 
 inline std::vector<std::string> clusterGraph(const std::string& inject, const std::string& cluster,
                                              const std::string& visibility, const std::string& bounces,
-                                             const std::string& gather,
-                                             const std::string& resolution = "24") {
+                                             const std::string& gather, const std::string& resolution = "24") {
     return {"gbuffer",
             "voxelize, resolution: " + resolution,
             "place_surfels",

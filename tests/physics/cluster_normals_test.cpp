@@ -54,8 +54,7 @@ TEST(ClusterNormals, OfAThinPlateFollowItsFragmentsWhereBothWaysAreOpen) {
     // fragments the finer sheet has more in each voxel. Without probes: their noise would decide by area.
     for (const bool isFinerBelow : {true, false}) {
         const auto scene = isFinerBelow ? plate(1, 16) : plate(16, 1);
-        const NormalCounts bySurface = countNormals(scene, "surfaces"),
-                           byFragments = countNormals(scene, "fragments");
+        const NormalCounts bySurface = countNormals(scene, "surfaces"), byFragments = countNormals(scene, "fragments");
         for (const NormalCounts& counts : {bySurface, byFragments}) {
             EXPECT_EQ(counts.tied, 100);
             EXPECT_EQ(counts.up + counts.down, 64);

@@ -68,13 +68,11 @@ TEST(ConeTracing, EveryLayoutKeepsTheEnergyOfACurvedFurnace) {
 TEST(ConeTracing, SteppedConesAsPublishedAreLinearAndKeepNoEnergy) {
     // Where every surface sends the same, what is missing to 1 is opacity that a march in free steps lost, or
     // that a surface's own voxels took: with a value for each direction its dark back hides most of the room.
-    const auto part = [](const std::string& layout, const std::string& directions,
-                         const std::string& emission) {
-        return meanIndirect(
-                   "furnace", "{shape: box, albedo: 0.5, emission: " + emission + "}",
-                   graphYaml({"gbuffer", "voxelize, resolution: 32, directions: " + directions,
-                              "inject_light_rays, rays_per_light: 65536, bounces: 2",
-                              "filter_voxels, emission: true, layout: " + layout, "gather_stepped_cones"})) /
+    const auto part = [](const std::string& layout, const std::string& directions, const std::string& emission) {
+        return meanIndirect("furnace", "{shape: box, albedo: 0.5, emission: " + emission + "}",
+                            graphYaml({"gbuffer", "voxelize, resolution: 32, directions: " + directions,
+                                       "inject_light_rays, rays_per_light: 65536, bounces: 2",
+                                       "filter_voxels, emission: true, layout: " + layout, "gather_stepped_cones"})) /
                (0.5 * 1.875);
     };
     const double one = part("dense", "1", "1"), six = part("dense", "6", "1");
@@ -136,8 +134,7 @@ TEST(ConeTracing, EverySetKeepsTheEnergyOfAWhiteRoom) {
 TEST(ConeTracing, IsLinearInLight) {
     const Setting s;
     // Radiance is kept in half floats, in units of a power of two.
-    EXPECT_NEAR(indirect("white_room", "{intensity: 7}", s) / indirect("white_room", "{intensity: 1}", s),
-                7.0, 0.01);
+    EXPECT_NEAR(indirect("white_room", "{intensity: 7}", s) / indirect("white_room", "{intensity: 1}", s), 7.0, 0.01);
 }
 
 TEST(ConeTracing, IsDeterministic) {

@@ -69,17 +69,15 @@ TEST(VoxelRays, AreDeterministic) {
                              gatherGraph(inject, "rays_per_block: 4", kRaw, "resolution: 24"))
             .data;
     };
-    for (const std::string inject :
-         {"inject_voxel_rays, bounces: 2", "inject_voxel_rays, points: gather_hits",
-          "inject_camera_rays, rays_per_image: 8192"})
+    for (const std::string inject : {"inject_voxel_rays, bounces: 2", "inject_voxel_rays, points: gather_hits",
+                                     "inject_camera_rays, rays_per_image: 8192"})
         EXPECT_EQ(run(inject), run(inject)) << inject;
 }
 
 TEST(VoxelRays, AreLinearInLight) {
     const auto run = [](const std::string& intensity) {
-        Chain chain(
-            "white_room", "{intensity: " + intensity + "}",
-            graphYaml({"voxelize, resolution: 12", "place_surfels", "inject_voxel_rays, bounces: 3"}));
+        Chain chain("white_room", "{intensity: " + intensity + "}",
+                    graphYaml({"voxelize, resolution: 12", "place_surfels", "inject_voxel_rays, bounces: 3"}));
         return indirectFlux(chain);
     };
     EXPECT_NEAR(run("7") / run("1"), 7.0, 1e-3);
@@ -92,8 +90,7 @@ TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAFurnace) {
         if (!injection.takesEmission) continue;
         const bool fromLights = injection.pass.starts_with("inject_light_rays");
         const std::string inject = injection.withBounces(2) + (fromLights ? "" : ", light_samples: 16");
-        Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
-                    gatherGraph(inject, "rays_per_block: 64"));
+        Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}", gatherGraph(inject, "rays_per_block: 64"));
         EXPECT_NEAR(mean(chain.image("indirect")), 0.36 + 0.216 + 0.1296, 0.02 * 0.7056) << injection.pass;
     }
 }
@@ -123,9 +120,9 @@ TEST(FinalGather, ShadowRaysAtHitsKeepTheEnergyOfAWhiteRoom) {
     const ImageF& reference = pathTraced("white_room", "{albedo: 0.5}", 256, 4);
     const std::string exact = "gather_rays, direct_at_hits: shadow_rays";
     const auto image = [](const std::string& intensity, const Passes& gather) {
-        return meanIndirect("white_room", "{albedo: 0.5, intensity: " + intensity + "}",
-                            gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 3",
-                                        "rays_per_block: 64", gather));
+        return meanIndirect(
+            "white_room", "{albedo: 0.5, intensity: " + intensity + "}",
+            gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 3", "rays_per_block: 64", gather));
     };
     EXPECT_NEAR(image("1", {exact}) / mean(reference), 1.0, 0.02);
     EXPECT_NEAR(image("1", filtered(4, exact)) / mean(reference), 1.0, 0.02);
@@ -138,11 +135,10 @@ TEST(FinalGather, ShadowRaysAtHitsKnowNoVoxels) {
     const ImageF& reference = pathTraced("white_room", "{albedo: 0.5}", 1024, 1);
     const auto error = [&](const std::string& gather) {
         return meanDifference(
-            indirectLight(
-                "white_room", "{albedo: 0.5}",
-                gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 0", "rays_per_block: 256",
-                            {"gather_rays, near_field_cells: 0, direct_at_hits: " + gather},
-                            "resolution: 3, visibility_rays: 0", "2")),
+            indirectLight("white_room", "{albedo: 0.5}",
+                          gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 0", "rays_per_block: 256",
+                                      {"gather_rays, near_field_cells: 0, direct_at_hits: " + gather},
+                                      "resolution: 3, visibility_rays: 0", "2")),
             reference);
     };
     const double exact = error("shadow_rays"), coarse = error("voxels");
@@ -156,9 +152,8 @@ TEST(FinalGather, FilterKeepsAUniformImage) {
     const auto image = [](int levels) {
         return indirectLight(
             "furnace", "{shape: box, albedo: 0.6, emission: 1}",
-            gatherGraph("inject_light_rays, rays_per_light: 524288, bounces: 2",
-                        "rays_per_block: 16, block: 4", filtered(levels, "gather_rays, near_field_cells: 0"),
-                        "resolution: 4"));
+            gatherGraph("inject_light_rays, rays_per_light: 524288, bounces: 2", "rays_per_block: 16, block: 4",
+                        filtered(levels, "gather_rays, near_field_cells: 0"), "resolution: 4"));
     };
     EXPECT_LT(meanDifference(image(5), image(1)), 0.01);
 }
@@ -169,10 +164,8 @@ TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAWhiteRoom) {
     // the path tracer is the reference.
     Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 256, bounces: 4"}));
     for (const Injection& injection : kInjections) {
-        Chain chain("white_room", "{albedo: 0.5}",
-                    gatherGraph(injection.withBounces(3), "rays_per_block: 64"));
-        EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.02)
-            << injection.pass;
+        Chain chain("white_room", "{albedo: 0.5}", gatherGraph(injection.withBounces(3), "rays_per_block: 64"));
+        EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.02) << injection.pass;
     }
 }
 
@@ -186,18 +179,16 @@ TEST(FinalGather, AllPairsOfStrategiesAgreeOnCornell) {
     }
     for (size_t i = 0; i < means.size(); ++i)
         for (size_t j = 0; j < i; ++j)
-            EXPECT_NEAR(means[i] / means[j], 1.0, 0.015)
-                << kInjections[i].pass << " and " << kInjections[j].pass;
+            EXPECT_NEAR(means[i] / means[j], 1.0, 0.015) << kInjections[i].pass << " and " << kInjections[j].pass;
 }
 
 TEST(FinalGather, ConvergesToTheReference) {
     const ImageF& reference = pathTraced("cornell", "{lights: point}", 1024, 6);
     const auto error = [&](const std::string& rays) {
-        return meanDifference(
-            indirectLight("cornell", "{lights: point}",
-                          gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5",
-                                      "rays_per_block: " + rays, kRaw, "resolution: 64", "3")),
-            reference);
+        return meanDifference(indirectLight("cornell", "{lights: point}",
+                                            gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5",
+                                                        "rays_per_block: " + rays, kRaw, "resolution: 64", "3")),
+                              reference);
     };
     const double few = error("1"), many = error("32");
     EXPECT_LT(many, 0.35 * few);
@@ -208,10 +199,10 @@ TEST(FinalGather, BlocksShareRaysWithoutLosingEnergy) {
     // Each block's rays reach every texel, fewer or more rays than texels: the mean does not depend on the
     // split.
     const auto image = [](const std::string& trace) {
-        return meanIndirect("white_room", "{albedo: 0.5}",
-                            gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 2", trace,
-                                        filtered(3), "resolution: 16"),
-                            48, 48);
+        return meanIndirect(
+            "white_room", "{albedo: 0.5}",
+            gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 2", trace, filtered(3), "resolution: 16"),
+            48, 48);
     };
     const double expected = image("rays_per_block: 32");
     for (const std::string trace :
@@ -222,22 +213,20 @@ TEST(FinalGather, BlocksShareRaysWithoutLosingEnergy) {
 TEST(FinalGather, FilterLowersTheError) {
     const ImageF& reference = pathTraced("cornell", "{lights: point}", 128, 6, 64, 64);
     const auto error = [&](const Passes& gather) {
-        return meanDifference(
-            indirectLight("cornell", "{lights: point}",
-                          gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5",
-                                      "rays_per_block: 4", gather, "resolution: 48"),
-                          64, 64),
-            reference);
+        return meanDifference(indirectLight("cornell", "{lights: point}",
+                                            gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5",
+                                                        "rays_per_block: 4", gather, "resolution: 48"),
+                                            64, 64),
+                              reference);
     };
     EXPECT_LT(error(filtered(3)), 0.6 * error(kRaw));
 }
 
 TEST(FinalGather, SubPixelsAreAveraged) {
     const auto image = [](const std::string& samples, const std::string& rays) {
-        return meanIndirect(
-            "cornell", "{lights: point}",
-            graphYaml({"gbuffer, samples_per_pixel_edge: " + samples, "voxelize", "inject_light_rays",
-                       "trace_gather_rays, rays_per_block: " + rays, "gather_rays"}));
+        return meanIndirect("cornell", "{lights: point}",
+                            graphYaml({"gbuffer, samples_per_pixel_edge: " + samples, "voxelize", "inject_light_rays",
+                                       "trace_gather_rays, rays_per_block: " + rays, "gather_rays"}));
     };
     EXPECT_NEAR(image("3", "16") / image("1", "64"), 1.0, 0.03);
 }
@@ -259,12 +248,11 @@ TEST(FinalGather, BadInputIsNamed) {
     const std::string scene = "cornell";
     EXPECT_CONTAINS(messageOf(scene, gatherGraph("inject_light_rays", "rays_per_block: 2, block: 4")),
                     "filter_irradiance");
+    EXPECT_CONTAINS(messageOf(scene, gatherGraph("inject_light_rays", "rays_per_block: 2, block: 4", filtered(1))),
+                    "'levels' to 3");
     EXPECT_CONTAINS(
-        messageOf(scene, gatherGraph("inject_light_rays", "rays_per_block: 2, block: 4", filtered(1))),
-        "'levels' to 3");
-    EXPECT_CONTAINS(messageOf(scene, graphYaml({"gbuffer", "voxelize", "place_surfels",
-                                                "inject_voxel_rays, points: gather_hits"})),
-                    "gather_hits");
+        messageOf(scene, graphYaml({"gbuffer", "voxelize", "place_surfels", "inject_voxel_rays, points: gather_hits"})),
+        "gather_hits");
     EXPECT_CONTAINS(
         messageOf("white_room", gatherGraph("inject_voxel_rays", "rays_per_block: 4", kRaw, "resolution: 1")),
         "voxelize's 'resolution'");
@@ -273,8 +261,7 @@ TEST(FinalGather, BadInputIsNamed) {
         const std::string graph = graphYaml({"voxelize, resolution: 8", "place_surfels", inject});
         const auto dark = builtinScene("white_room");
         dark->lights.clear();
-        EXPECT_CONTAINS(errorOf([&] { Chain(evaluated(dark), graph, 8, 8); }),
-                        inject + ": the scene has no lights");
+        EXPECT_CONTAINS(errorOf([&] { Chain(evaluated(dark), graph, 8, 8); }), inject + ": the scene has no lights");
     }
 }
 
@@ -284,11 +271,11 @@ TEST(FinalGather, RaysGoOnFromNearHits) {
     const auto state = builtin("window_room", "{slats: 0}");
     const ImageF reference = pathTraced(state, 1024, 8, 32, 18);
     const auto run = [&](const std::string& nearField) {
-        Chain chain(state,
-                    gatherGraph("inject_light_rays, rays_per_light: 2097152, bounces: 7",
-                                "rays_per_block: 128, block: 2",
-                                {"gather_rays, near_field_cells: " + nearField}, "resolution: 64", "2"),
-                    32, 18);
+        Chain chain(
+            state,
+            gatherGraph("inject_light_rays, rays_per_light: 2097152, bounces: 7", "rays_per_block: 128, block: 2",
+                        {"gather_rays, near_field_cells: " + nearField}, "resolution: 64", "2"),
+            32, 18);
         return chain.image("indirect");
     };
     const double read = relMse(run("0"), reference), gone = relMse(run("2"), reference);
@@ -313,10 +300,9 @@ TEST(FinalGather, ReportsHowManyHitsAreOnUnlitFaces) {
     // In a furnace every lit face reflects 0.6, of which pixels reflect 0.6, and what reads an unlit one
     // shows nothing: the image lacks just the part that is reported.
     const auto run = [](const std::string& rays, const std::string& nearField) {
-        return Chain(
-            "furnace", "{shape: box, albedo: 0.6, emission: 1}",
-            gatherGraph("inject_camera_rays, rays_per_image: " + rays + ", bounces: 0, light_samples: 64",
-                        "rays_per_block: 64", {"gather_rays, near_field_cells: " + nearField}));
+        return Chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
+                     gatherGraph("inject_camera_rays, rays_per_image: " + rays + ", bounces: 0, light_samples: 64",
+                                 "rays_per_block: 64", {"gather_rays, near_field_cells: " + nearField}));
     };
     const auto unlit = [](const Chain& chain) {
         return reported(chain.frameSamples.back(), "hits on unlit faces, % of rays") / 100;
@@ -340,15 +326,14 @@ TEST(FinalGather, GridOfOneVoxel) {
     // alone.
     const ImageF& reference = pathTraced("white_room", "{albedo: 0.5}", 16, 4);
     for (const Injection& injection : kInjections) {
-        Chain chain("white_room", "{albedo: 0.5}",
-                    graphYaml({"gbuffer", "voxelize, resolution: 1, visibility_rays: 0",
-                               "place_surfels, points_per_voxel: 256", "link_surfels",
-                               "trace_gather_rays, rays_per_block: 16", injection.withBounces(3),
-                               "gather_rays, near_field_cells: 0", "composite"}));
+        Chain chain(
+            "white_room", "{albedo: 0.5}",
+            graphYaml({"gbuffer", "voxelize, resolution: 1, visibility_rays: 0", "place_surfels, points_per_voxel: 256",
+                       "link_surfels", "trace_gather_rays, rays_per_block: 16", injection.withBounces(3),
+                       "gather_rays, near_field_cells: 0", "composite"}));
         const double ratio = mean(chain.image("indirect")) / mean(reference);
         std::printf("%s: %.4f\n", injection.pass.c_str(), ratio);
-        EXPECT_NEAR(ratio, injection.pass.starts_with("inject_camera_rays") ? 1.0 : 0.5, 0.04)
-            << injection.pass;
+        EXPECT_NEAR(ratio, injection.pass.starts_with("inject_camera_rays") ? 1.0 : 0.5, 0.04) << injection.pass;
     }
 }
 

@@ -42,8 +42,7 @@ TEST(GatherMirror, WalksThroughListsFindWhatTheRayTracerFinds) {
         const ImageF image = hybrid->image("indirect");
         EXPECT_LT(meanDifference(image, expected), 1e-4) << walk;
         for (const std::string value : {"mirror rays that hit triangles", "mirror rays that missed"})
-            EXPECT_EQ(reported(hybrid->frameSamples.back(), value),
-                      reported(exact->frameSamples.back(), value));
+            EXPECT_EQ(reported(hybrid->frameSamples.back(), value), reported(exact->frameSamples.back(), value));
     }
 }
 
@@ -52,10 +51,10 @@ TEST(GatherMirror, GridsShowWhatVoxelsOfTheirSizeCan) {
     const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}));
     const ImageF expected = pathTraced(state, 256, 1);
     const auto error = [&](const std::string& cells) {
-        Chain chain(state,
-                    roomGraph("walk: hierarchical, bounces: 1",
-                              {"build_hybrid_leaves, primitives: 1, grid: " + cells}, "16"),
-                    32, 32);
+        Chain chain(
+            state,
+            roomGraph("walk: hierarchical, bounces: 1", {"build_hybrid_leaves, primitives: 1, grid: " + cells}, "16"),
+            32, 32);
         const auto [difference, ratio] = errorAt(chain, "indirect", expected, -0.999f);
         std::printf("grids of %s: %.4f, ratio %.4f\n", cells.c_str(), difference, ratio);
         EXPECT_NEAR(ratio, 1.0, 0.05) << cells;
@@ -104,14 +103,13 @@ TEST(GatherMirror, WideRaysMeetCoarserCells) {
 
 TEST(GatherMirror, TellsWhatRaysEndedOn) {
     // Parts of a pixel's rays, one a pixel here: their sums are what values.csv counts.
-    Chain chain(wallRoom(metal({0.9f, 0.5f, 0.2f})),
-                mirrorGraph("walk: hierarchical, bounces: 1", "bounces: 0",
-                            "build_hybrid_leaves, primitives: 1, grid: 8"),
-                24, 24);
+    Chain chain(
+        wallRoom(metal({0.9f, 0.5f, 0.2f})),
+        mirrorGraph("walk: hierarchical, bounces: 1", "bounces: 0", "build_hybrid_leaves, primitives: 1, grid: 8"), 24,
+        24);
     const MirrorEnds& ends = chain.get<MirrorEnds>("mirror_ends");
     glm::dvec4 sum(0);
-    for (const glm::vec4& fractions : chain.readImage<glm::vec4>(ends.fractions))
-        sum += glm::dvec4(fractions);
+    for (const glm::vec4& fractions : chain.readImage<glm::vec4>(ends.fractions)) sum += glm::dvec4(fractions);
     const PassSample& mirrorPass = *(chain.frameSamples.end() - 2);  // Before composite.
     EXPECT_EQ(sum.x, reported(mirrorPass, "mirror rays that hit triangles"));
     EXPECT_EQ(sum.y, reported(mirrorPass, "mirror rays that hit cells of grids"));

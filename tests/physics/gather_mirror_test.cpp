@@ -69,8 +69,7 @@ TEST(GatherMirror, KeepsTheEnergyOfAFurnaceOfGlossyMetal) {
         Chain reference(state, graphYaml({"path_trace, spp: 256, bounces: 2"}), 16, 16);
         Chain chain(state, mirrorGraph("max_roughness: 1, rays: 32, bounces: 3"), 16, 16);
         EXPECT_EQ(mean(chain.image("direct")), 0.0);
-        EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.005)
-            << roughness;
+        EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.005) << roughness;
     }
 }
 
@@ -104,11 +103,11 @@ TEST(GatherMirror, LightThatMirrorsThrowIsInTheVoxels) {
         return sum;
     };
     const auto ratio = [&](const std::string& secondary) {
-        Chain chain(state,
-                    graphYaml({"gbuffer", "voxelize, resolution: 32",
-                               "inject_light_rays, rays_per_light: 262144, bounces: 3, " + secondary,
-                               "gather_irradiance"}),
-                    32, 32);
+        Chain chain(
+            state,
+            graphYaml({"gbuffer", "voxelize, resolution: 32",
+                       "inject_light_rays, rays_per_light: 262144, bounces: 3, " + secondary, "gather_irradiance"}),
+            32, 32);
         return wallsOf(chain, chain.image("indirect")) / wallsOf(chain, reference.image("indirect"));
     };
     const double with = ratio("secondary: material, caustics: false"), without = ratio("secondary: diffuse");
@@ -124,13 +123,11 @@ TEST(GatherMirror, ShowsTheBuiltInMirrorsAsTheReferenceDoes) {
         const char *scene, *parameters;
         float depth;  ///< As errorAt() takes it: the wall, and all.
     };
-    for (const View& view :
-         {View{"mirror_room", "{count: 3}", -1.999f}, View{"mirror_row", "{count: 3}", 1e9f}}) {
+    for (const View& view : {View{"mirror_room", "{count: 3}", -1.999f}, View{"mirror_row", "{count: 3}", 1e9f}}) {
         const ImageF& reference = pathTraced(view.scene, view.parameters, 256, 1);
-        Chain chain(
-            view.scene, view.parameters,
-            graphYaml({"gbuffer, samples_per_pixel_edge: 4", "voxelize, resolution: 16",
-                       "inject_light_rays, bounces: 0", "gather_mirror, bounces: 1, light_samples: 4"}));
+        Chain chain(view.scene, view.parameters,
+                    graphYaml({"gbuffer, samples_per_pixel_edge: 4", "voxelize, resolution: 16",
+                               "inject_light_rays, bounces: 0", "gather_mirror, bounces: 1, light_samples: 4"}));
         const auto [difference, ratio] = errorAt(chain, "indirect", reference, view.depth);
         std::printf("%s: %.4f, ratio %.4f\n", view.scene, difference, ratio);
         EXPECT_NEAR(ratio, 1.0, 0.02) << view.scene;
@@ -144,8 +141,7 @@ State lampRoom(const Material& wall) {
     const uint32_t white = b.lambert("white", glm::vec3(0.7f)), red = b.lambert("red", {0.7f, 0.2f, 0.1f});
     b.room({-1, 0, -1}, {1, 2, 1}, {red, white, white, white, b.material(wall), white});
     b.box("box", {0.3f, 0, 0}, {0.5f, 0.7f, 0.5f}, 0.3f, red);
-    b.quad("lamp", {-0.9f, 1.3f, 0.99f}, {0, 0.6f, 0}, {1.8f, 0, 0},
-           b.lambert("lamp", glm::vec3(0.7f), {10, 8, 5}));
+    b.quad("lamp", {-0.9f, 1.3f, 0.99f}, {0, 0.6f, 0}, {1.8f, 0, 0}, b.lambert("lamp", glm::vec3(0.7f), {10, 8, 5}));
     b.camera({-0.2f, 1, 0.9f}, {0, 0.9f, -1}, 70);
     return evaluated(b);
 }
@@ -169,10 +165,9 @@ TEST(GatherMirror, DirectAndFinalLightAreTheReferences) {
         std::string mirror;
     };
     const glm::vec3 gold(0.9f, 0.8f, 0.6f);
-    for (const View& view :
-         {View{"mirror_room", lampInMirrorRoom(), -1.999f, "rays: 1"},
-          View{"mirror", lampRoom(metal(gold)), -0.999f, "rays: 1"},
-          View{"glossy", lampRoom(metal(gold, 0.3f)), -0.999f, "max_roughness: 1, rays: 4"}}) {
+    for (const View& view : {View{"mirror_room", lampInMirrorRoom(), -1.999f, "rays: 1"},
+                             View{"mirror", lampRoom(metal(gold)), -0.999f, "rays: 1"},
+                             View{"glossy", lampRoom(metal(gold, 0.3f)), -0.999f, "max_roughness: 1, rays: 4"}}) {
         Chain reference(view.state, graphYaml({"path_trace, spp: 1024, bounces: 1"}), 32, 32);
         Chain chain(view.state,
                     graphYaml({"gbuffer, samples_per_pixel_edge: 8", "voxelize, resolution: 16",
@@ -184,8 +179,7 @@ TEST(GatherMirror, DirectAndFinalLightAreTheReferences) {
         for (size_t i = 0; i < direct.data.size(); ++i) direct.data[i] -= indirect.data[i];
         const auto check = [&](const char* port, const ImageF& expected, float depth, double noise) {
             const auto [difference, ratio] = errorAt(chain, port, expected, depth);
-            std::printf("%s, %s up to %g: %.4f, ratio %.4f\n", view.name, port, double(depth), difference,
-                        ratio);
+            std::printf("%s, %s up to %g: %.4f, ratio %.4f\n", view.name, port, double(depth), difference, ratio);
             EXPECT_NEAR(ratio, 1.0, 0.02) << view.name << " " << port;
             EXPECT_LT(difference, noise) << view.name << " " << port;
         };
@@ -255,9 +249,9 @@ TEST(GatherMirror, IsLinearInLightAndDeterministic) {
 }
 
 TEST(GatherMirror, RefusesConesThatBringLamps) {
-    EXPECT_ERROR("'emission' of filter_voxels",
-                 Chain("mirror_room", "{}",
-                       roomGraph("bounces: 1", {"filter_voxels, emission: true", "gather_cones"})));
+    EXPECT_ERROR(
+        "'emission' of filter_voxels",
+        Chain("mirror_room", "{}", roomGraph("bounces: 1", {"filter_voxels, emission: true", "gather_cones"})));
 }
 
 }  // namespace

@@ -67,8 +67,7 @@ std::vector<uint32_t> listOf(uint32_t word, const std::vector<ListItem>& primiti
 TEST(HybridLeaves, ListEveryTriangleThatOverlaps) {
     // In voxels larger and smaller by four of the voxelizer's margins
     constexpr double kEpsilon = 1e-3;
-    for (const State state :
-         {builtin("cornell"), builtin("clutter"), builtin("spheres", "{count: 8}"), soup()}) {
+    for (const State state : {builtin("cornell"), builtin("clutter"), builtin("spheres", "{count: 8}"), soup()}) {
         constexpr uint32_t kCapacity = 12;
         Hybrid hybrid(state, 10, fmt::format("primitives: {}, grid: 4", kCapacity));
         const SurfaceVoxels& leafVoxels = hybrid.leaves().voxels(hybrid.voxels());
@@ -91,8 +90,8 @@ TEST(HybridLeaves, ListEveryTriangleThatOverlaps) {
                 if (glm::any(glm::greaterThan(glm::min(a, glm::min(b, c)), glm::dvec3(v) + 1.01)) ||
                     glm::any(glm::lessThan(glm::max(a, glm::max(b, c)), glm::dvec3(v) - 0.01)))
                     continue;
-                const double area = glm::length(
-                    glm::cross(triangles[t][1] - triangles[t][0], triangles[t][2] - triangles[t][0]));
+                const double area =
+                    glm::length(glm::cross(triangles[t][1] - triangles[t][0], triangles[t][2] - triangles[t][0]));
                 if (area < 1e-6) continue;  // Has no voxels.
                 if (overlaps(triangles[t], glm::dvec3(v) + 0.5, 0.5 + kEpsilon)) near.insert(t);
                 if (overlaps(triangles[t], glm::dvec3(v) + 0.5, 0.5 - kEpsilon)) within.insert(t);
@@ -136,8 +135,7 @@ TEST(HybridLeaves, BoxesAreThoseOfTheTrianglesInTheLeaf) {
                     const size_t row = size_t(z) * grid.resolution.y + size_t(y);
                     if (!(occupancy[row * grid.wordsPerRow + size_t(x) / 32] >> (x % 32) & 1u)) continue;
                     for (const ListItem& item : itemsOf(words[leaf++], primitives)) {
-                        const AlphaMode mode =
-                            state->scene->materials[g.triangleMaterials[item.triangle]].alphaMode;
+                        const AlphaMode mode = state->scene->materials[g.triangleMaterials[item.triangle]].alphaMode;
                         EXPECT_EQ(item.box >> 30, mode == AlphaMode::Mask ? 1u : 0u);
                         const glm::dvec3 corner(x, y, z);
                         const auto part = partInBox(triangles[item.triangle], corner, corner + 1.0);
@@ -180,8 +178,7 @@ TEST(HybridLeaves, CellsKeepPlaneNormalAndMeanColour) {
         const glm::vec3 origin = target + normal + 0.5f * random.vector(-1, 1);
         rays.push_back({origin, 0, target - origin, kInfinity});
     }
-    const std::vector<Hit> expected = hybrid.embree(rays),
-                           hits = hybrid.closest(HybridTraversal::Hierarchical, rays);
+    const std::vector<Hit> expected = hybrid.embree(rays), hits = hybrid.closest(HybridTraversal::Hierarchical, rays);
     const float cell = hybrid.voxels().grid.voxelSize / 8;
     float worst = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
@@ -254,8 +251,7 @@ TEST(HybridLeaves, TwoBuildsAreTheSameBits) {
 }
 
 TEST(HybridLeaves, TheLastWriterWritesOneOfTheSurfaces) {
-    Hybrid hybrid(mesh({2, 0.3f, 0.1f}, {-0.2f, 0.4f, 1.8f}, true), 16,
-                  "primitives: 1, grid: 4, write: none");
+    Hybrid hybrid(mesh({2, 0.3f, 0.1f}, {-0.2f, 0.4f, 1.8f}, true), 16, "primitives: 1, grid: 4, write: none");
     const std::vector<uint32_t> cells = hybrid.chain().read<uint32_t>(hybrid.leaves().cells);
     for (uint32_t cell = 0; cell < hybrid.leaves().cellCount; ++cell) {
         const glm::vec3 albedo = unpackCell(&cells[GRID_CELL_WORDS * cell]).albedo;

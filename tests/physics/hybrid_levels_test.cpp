@@ -173,9 +173,8 @@ TEST(HybridLevels, BareRaysMeetTheFinestCells) {
 }
 
 TEST(HybridLevels, WideRaysMeetCoarserCellsAndMissNoSurface) {
-    for (const auto& [name, state] : {std::pair{"clutter", builtin("clutter")},
-                                      {"spheres", builtin("spheres")},
-                                      {"cornell", builtin("cornell")}}) {
+    for (const auto& [name, state] :
+         {std::pair{"clutter", builtin("clutter")}, {"spheres", builtin("spheres")}, {"cornell", builtin("cornell")}}) {
         Hybrid hybrid(state, 32, "primitives: 3, grid: 7, grid_levels: footprint");
         const std::vector<Ray> rays = raysThrough(state->geometry, 30000);
         const std::vector<Hit> expected = hybrid.embree(rays);
@@ -200,8 +199,8 @@ TEST(HybridLevels, WideRaysMeetCoarserCellsAndMissNoSurface) {
             }
             EXPECT_GT(cells, 150u) << name;
             EXPECT_EQ(missed, 0u) << name << " " << level;
-            std::printf("%s, level %u: %zu of %zu rays meet a cell, %zu too early\n", name, level, cells,
-                        rays.size(), far);
+            std::printf("%s, level %u: %zu of %zu rays meet a cell, %zu too early\n", name, level, cells, rays.size(),
+                        far);
             const std::vector<Hit> other = hybrid.closest(HybridTraversal::VoxelByVoxel, rays, start);
             EXPECT_EQ(std::memcmp(hits.data(), other.data(), hits.size() * sizeof(Hit)), 0) << name;
         }

@@ -40,8 +40,7 @@ class Hybrid {
         HybridTracer tracer(programs, walk);
         prepare(programs, tracer, voxels());
         tracer.begin(stream_, scene_, voxels(), leaves(), maxWidth);
-        const std::vector<Hit> hits =
-            start ? closestFrom(tracer, rays, *start) : closestHits(stream_, tracer, rays);
+        const std::vector<Hit> hits = start ? closestFrom(tracer, rays, *start) : closestHits(stream_, tracer, rays);
         counts = stream_.readAs<uint64_t>(tracer.counts(), 2);
         tests = stream_.readAs<uint64_t>(tracer.testCounts(), 1)[0];
         return hits;
@@ -56,8 +55,7 @@ class Hybrid {
  private:
     std::vector<Hit> closestFrom(HybridTracer& tracer, const std::vector<Ray>& rays, gpu::RayStart start) {
         const Buffer in(device(), "rays", rays.size() * sizeof(Ray)),
-            starts(device(), "starts", rays.size() * sizeof(start)),
-            out(device(), "hits", rays.size() * sizeof(Hit));
+            starts(device(), "starts", rays.size() * sizeof(start)), out(device(), "hits", rays.size() * sizeof(Hit));
         stream_.upload(in, rays);
         stream_.upload(starts, std::vector<gpu::RayStart>(rays.size(), start));
         tracer.setStarts(&starts);
@@ -126,8 +124,8 @@ inline CellValue unpackCell(const uint32_t* words) {
         n.y = n.y >= 0 ? folded.y : -folded.y;
     }
     const uint32_t a = words[1];
-    return {glm::normalize(n), glm::vec3(float(a & 2047u), float(a >> 11 & 2047u), float(a >> 22)) /
-                                   glm::vec3(2047, 2047, 1023)};
+    return {glm::normalize(n),
+            glm::vec3(float(a & 2047u), float(a >> 11 & 2047u), float(a >> 22)) / glm::vec3(2047, 2047, 1023)};
 }
 
 /// A soup of triangles with alpha masks and degenerate triangles, every third one twice, and two that are no
@@ -154,8 +152,7 @@ inline std::shared_ptr<SceneState> soup() {
 /// A plane of many small triangles, of two colours one upon the other where `twice`.
 inline State mesh(glm::vec3 edgeU, glm::vec3 edgeV, bool twice) {
     SceneBuilder b("mesh");
-    const uint32_t first = b.lambert("first", {0.2f, 0.4f, 0.9f}),
-                   second = b.lambert("second", {0.6f, 0.4f, 0.1f});
+    const uint32_t first = b.lambert("first", {0.2f, 0.4f, 0.9f}), second = b.lambert("second", {0.6f, 0.4f, 0.1f});
     constexpr int kSide = 32;
     for (int i = 0; i < kSide * kSide; ++i) {
         const glm::vec3 u = edgeU / float(kSide), v = edgeV / float(kSide);

@@ -20,9 +20,8 @@ TEST(Injection, ClosedRoomCatchesAllLight) {
 
 TEST(Injection, BouncesSumToTheGeometricSeries) {
     // Walls of albedo a reflect a of all that arrives: indirect flux = direct * (a + a² + ... + a^bounces).
-    Chain chain(
-        "white_room", "{albedo: 0.5, intensity: 2}",
-        graphYaml({"voxelize, resolution: 24", "inject_light_rays, rays_per_light: 262144, bounces: 3"}));
+    Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
+                graphYaml({"voxelize, resolution: 24", "inject_light_rays, rays_per_light: 262144, bounces: 3"}));
     const double expected = 4 * kPi * 2 * (0.5 + 0.25 + 0.125);
     EXPECT_NEAR(totalFlux(chain, irradiance(chain).indirect) / expected, 1.0, 0.01);
 }
@@ -30,11 +29,10 @@ TEST(Injection, BouncesSumToTheGeometricSeries) {
 TEST(Injection, EmissiveFurnaceReachesItsClosedForm) {
     // Every surface emits e and reflects a: the irradiance is pi e / (1 - a) everywhere, of which pi e is
     // direct.
-    Chain chain(
-        "furnace", "{shape: box, albedo: 0.6, emission: 1}",
-        graphYaml({"gbuffer", "voxelize, resolution: 16, samples_per_voxel_edge: 4",
-                   "inject_light_rays, rays_per_light: 262144, bounces: 24", "gather_irradiance, radius: 2",
-                   "gather_irradiance, id: direct, light: direct, radius: 2", "composite"}));
+    Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
+                graphYaml({"gbuffer", "voxelize, resolution: 16, samples_per_voxel_edge: 4",
+                           "inject_light_rays, rays_per_light: 262144, bounces: 24", "gather_irradiance, radius: 2",
+                           "gather_irradiance, id: direct, light: direct, radius: 2", "composite"}));
     EXPECT_NEAR(mean(chain.image("direct")), 0.6, 0.02 * 0.6);
     EXPECT_NEAR(mean(chain.image("final")), 1 / (1 - 0.6), 0.02 / (1 - 0.6));
 }
@@ -53,18 +51,16 @@ TEST(Injection, SheetsInBordersCatchTheirLightInTheVoxelsThatHoldTheirArea) {
     b.quad("speck", high, {0, 0, -0.003f}, {0, -0.003f, 0}, grey);
     double caught = 0;
     for (int i = 0; i < 7; ++i) {
-        const float x = grid.origin.x + size * float(3 * i + 2),
-                    y = grid.origin.y + size * (float(2 * i) + 1.1f);
+        const float x = grid.origin.x + size * float(3 * i + 2), y = grid.origin.y + size * (float(2 * i) + 1.1f);
         b.quad("sheet", {x, y, -0.31f}, {0, 0, 0.7f}, {0, 0.8f * size, 0}, grey);
         b.quad("panel", {x - size, y + 0.4f * size, -0.31f}, {0, 0, 0.7f}, {2 * size, 0, 0}, grey);
         caught += double(kSun * 0.7f * 0.8f * size);
     }
     b.directionalLight({1, 0, 0}, glm::vec3(kSun));
     b.camera({0, 0, 3}, {0, 0, 0}, 60);
-    Chain chain(
-        evaluated(b),
-        graphYaml({"voxelize, resolution: 24", "inject_light_rays, rays_per_light: 1048576, bounces: 0"}), 16,
-        16);
+    Chain chain(evaluated(b),
+                graphYaml({"voxelize, resolution: 24", "inject_light_rays, rays_per_light: 1048576, bounces: 0"}), 16,
+                16);
 
     const std::vector<float> flux = readFlux(chain, irradiance(chain).direct),
                              areas = readAreas(chain, irradiance(chain).area);
@@ -78,8 +74,7 @@ TEST(Injection, IsLinearInLight) {
     const std::string graph =
         graphYaml({"voxelize, resolution: 16", "inject_light_rays, rays_per_light: 16384, bounces: 2"});
     Chain one("white_room", "{intensity: 1}", graph), seven("white_room", "{intensity: 7}", graph);
-    EXPECT_NEAR(totalFlux(seven, irradiance(seven).indirect) / totalFlux(one, irradiance(one).indirect), 7.0,
-                1e-4);
+    EXPECT_NEAR(totalFlux(seven, irradiance(seven).indirect) / totalFlux(one, irradiance(one).indirect), 7.0, 1e-4);
 }
 
 TEST(Injection, IsDeterministic) {
@@ -125,8 +120,7 @@ TEST(DirectShadowRays, EnvironmentConvergesToTheReference) {
     scene->environment.radiance = glm::vec3(1.0f);
     const State state = evaluated(scene);
     Chain chain(state,
-                graphYaml({"gbuffer, samples_per_pixel_edge: 2", "direct_shadow_rays, light_samples: 32",
-                           "composite"}),
+                graphYaml({"gbuffer, samples_per_pixel_edge: 2", "direct_shadow_rays, light_samples: 32", "composite"}),
                 64, 48);
     Chain reference(state, graphYaml({"path_trace, spp: 128, bounces: 0"}), 64, 48);
     const ImageF image = chain.image("final"), truth = reference.image("final");
@@ -139,10 +133,9 @@ TEST(VoxelLookup, OfDirectLightApproachesShadowRaysAsVoxelsShrink) {
     const auto error = [](uint32_t resolution) {
         Chain chain(
             "plane", "{light: point}",
-            graphYaml({"gbuffer",
-                       "voxelize, samples_per_voxel_edge: 4, resolution: " + std::to_string(resolution),
-                       "inject_light_rays, rays_per_light: 1048576, bounces: 0",
-                       "gather_irradiance, light: direct", "composite"}));
+            graphYaml({"gbuffer", "voxelize, samples_per_voxel_edge: 4, resolution: " + std::to_string(resolution),
+                       "inject_light_rays, rays_per_light: 1048576, bounces: 0", "gather_irradiance, light: direct",
+                       "composite"}));
         Chain exact("plane", "{light: point}", graphYaml({"gbuffer", "direct_shadow_rays", "composite"}));
         return meanDifference(chain.image("final"), exact.image("final"));
     };
@@ -152,8 +145,7 @@ TEST(VoxelLookup, OfDirectLightApproachesShadowRaysAsVoxelsShrink) {
 }
 
 TEST(VoxelLookup, SevenTapKeepsAConstantAndBlursAnEdge) {
-    const auto direct = [](const std::string& scene, const std::string& parameters,
-                           const std::string& lookup) {
+    const auto direct = [](const std::string& scene, const std::string& parameters, const std::string& lookup) {
         Chain chain(scene, parameters,
                     graphYaml({"gbuffer", "voxelize, resolution: 16, samples_per_voxel_edge: 4",
                                "inject_light_rays, rays_per_light: 1048576, bounces: 0",

@@ -12,8 +12,7 @@ namespace {
 
 /// What a graph of one injection left in the voxels, green channel.
 struct Lit {
-    Lit(const std::string& scene, const std::string& parameters, const std::string& voxelize,
-        const std::string& inject)
+    Lit(const std::string& scene, const std::string& parameters, const std::string& voxelize, const std::string& inject)
         : chain(scene, parameters, graphYaml({"voxelize, " + voxelize, inject})) {
         take();
     }
@@ -112,8 +111,7 @@ TEST(LightPaths, MaxIsTheIrradianceAtTheNearestPoint) {
             const glm::vec2 center = (glm::vec2(x, z) - 11.5f) * (2 * half);
             const glm::vec2 nearest = glm::max(glm::abs(center) - half, glm::vec2(0.0f));
             const size_t face = max.face({center.x, 0, center.y}, 2);
-            expected +=
-                std::pow(1 + double(glm::dot(nearest, nearest)), -1.5) * max.area[face] * 4 * half * half;
+            expected += std::pow(1 + double(glm::dot(nearest, nearest)), -1.5) * max.area[face] * 4 * half * half;
         }
     EXPECT_NEAR(sum(max.direct) / expected, 1.0, 0.02);
     EXPECT_LT(sum(average.direct), 0.9 * expected);
@@ -133,9 +131,7 @@ TEST(LightPaths, ScenesWithoutLightsAreRefused) {
 }
 
 TEST(LightPaths, OneVoxelIsRefusedUnlessExposureIsOff) {
-    const auto make = [] {
-        Lit("white_room", "{}", "resolution: 1", "inject_light_rays, rays_per_light: 4096");
-    };
+    const auto make = [] { Lit("white_room", "{}", "resolution: 1", "inject_light_rays, rays_per_light: 4096"); };
     EXPECT_CONTAINS(errorOf(make), "visibility_rays");
     Lit lit("white_room", "{}", "resolution: 1, visibility_rays: 0",
             "inject_light_rays, rays_per_light: 4096, secondary: none");
@@ -163,14 +159,12 @@ TEST(InjectRsm, AgreesWithLightRays) {
     for (const std::string light : {"point", "spot", "directional"}) {
         const std::string scene = "{light: " + light + "}";
         Lit rsm("plane", scene, "resolution: 16", "inject_rsm, secondary: none, rsm_resolution: 512");
-        Lit rays("plane", scene, "resolution: 16",
-                 "inject_light_rays, secondary: none, rays_per_light: 262144");
+        Lit rays("plane", scene, "resolution: 16", "inject_light_rays, secondary: none, rays_per_light: 262144");
         EXPECT_NEAR(sum(rsm.direct) / sum(rays.direct), 1.0, 0.005) << light;
         EXPECT_LT(meanDifference(rsm.direct, rays.direct), 0.03) << light;
     }
     Lit rsm("cornell", "{lights: point}", "resolution: 16", "inject_rsm, rsm_resolution: 256, bounces: 3");
-    Lit rays("cornell", "{lights: point}", "resolution: 16",
-             "inject_light_rays, rays_per_light: 524288, bounces: 3");
+    Lit rays("cornell", "{lights: point}", "resolution: 16", "inject_light_rays, rays_per_light: 524288, bounces: 3");
     EXPECT_NEAR(sum(rsm.direct) / sum(rays.direct), 1.0, 0.005);
     EXPECT_NEAR(sum(rsm.indirect) / sum(rays.indirect), 1.0, 0.01);
     EXPECT_LT(meanDifference(rsm.direct, rays.direct), 0.03);

@@ -47,8 +47,7 @@ TEST(ManyLights, ShadowMapsOfAnEmptyRoomHideNothingButAtEdges) {
     // Walls are at a distance of 1 m from the center, texels at most 13 cm wide. A few virtual lights are
     // next to edges themselves
     const auto chain = [](const std::string& visibility) {
-        return Chain("white_room", "{}",
-                     manyLights("vpls_per_bounce: 256", "block: 1, visibility: " + visibility));
+        return Chain("white_room", "{}", manyLights("vpls_per_bounce: 256", "block: 1, visibility: " + visibility));
     };
     const std::vector<float> open = chain("none").image("indirect").data;
     for (const std::string kind : {"shadow_map", "imperfect_shadow_map"}) {

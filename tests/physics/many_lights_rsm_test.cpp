@@ -23,9 +23,9 @@ TEST(ManyLights, OfReflectiveShadowMapsCarryEqualPartsOfAllFlux) {
 
 TEST(ManyLights, OfReflectiveShadowMapsBringTheLightOfLightRays) {
     for (const std::string parameters : {"{lights: point}", "{lights: spot}", "{lights: sun}"}) {
-        const double rays = meanIndirect(
-            "cornell", parameters,
-            manyLights("vpls_per_bounce: 16384", "visibility: exact, bound: 0, block: 1"), 16, 16);
+        const double rays =
+            meanIndirect("cornell", parameters,
+                         manyLights("vpls_per_bounce: 16384", "visibility: exact, bound: 0, block: 1"), 16, 16);
         const double map = meanIndirect(
             "cornell", parameters,
             graphYaml({"gbuffer", "voxelize", "render_rsm", "sample_vpls, first: rsm, vpls_per_bounce: 16384",
@@ -63,8 +63,7 @@ TEST(ManyLights, OfReflectiveShadowMapsMoveWithTheLight) {
     };
     const std::vector<gpu::Vpl> before = positions(0.1f), after = positions(0.101f);
     size_t far = 0;
-    for (size_t i = 0; i < before.size(); ++i)
-        far += glm::distance(before[i].position, after[i].position) > 0.03f;
+    for (size_t i = 0; i < before.size(); ++i) far += glm::distance(before[i].position, after[i].position) > 0.03f;
     std::printf("%zu of %zu virtual lights moved by more than 3 cm\n", far, before.size());
     EXPECT_LT(double(far), 0.02 * double(before.size()));
 }

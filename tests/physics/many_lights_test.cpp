@@ -42,8 +42,8 @@ TEST(ManyLights, BouncesThroughVoxelsComeNearToExactOnes) {
     const auto energy = [](const std::string& voxels, const std::string& sample) {
         return meanIndirect(
             "cornell", "{lights: point}",
-            graphYaml({"gbuffer", "voxelize, resolution: " + voxels,
-                       "sample_vpls, vpls_per_bounce: 8192, " + sample, "gather_vpls, visibility: exact"}));
+            graphYaml({"gbuffer", "voxelize, resolution: " + voxels, "sample_vpls, vpls_per_bounce: 8192, " + sample,
+                       "gather_vpls, visibility: exact"}));
     };
     const double one = energy("32", "bounces: 1"), exact = energy("32", "bounces: 3") - one;
     double before = 1;
@@ -92,8 +92,7 @@ TEST(ManyLights, AreLinearInLightAndDeterministic) {
 TEST(ManyLights, SubsetsBringTheSameOnAverage) {
     // Also where some subsets have no light at all
     const auto energy = [](const std::string& sample, const std::string& block) {
-        return meanIndirect("white_room", "{}", manyLights(sample, "visibility: none, block: " + block), 128,
-                            128);
+        return meanIndirect("white_room", "{}", manyLights(sample, "visibility: none, block: " + block), 128, 128);
     };
     const std::string many = "vpls_per_bounce: 512", few = "vpls_per_bounce: 10, bounces: 1";
     EXPECT_NEAR(energy(many, "4") / energy(many, "1"), 1, 0.01);
@@ -104,8 +103,7 @@ TEST(ManyLights, SubsetsBringTheSameOnAverage) {
 TEST(ManyLights, ABoundTakesLightAwayAndVanishesWithMoreLights) {
     const auto energy = [](const std::string& count, const std::string& bound) {
         return meanIndirect("white_room", "{}",
-                            manyLights("vpls_per_bounce: " + count, "visibility: exact, bound: " + bound), 32,
-                            32);
+                            manyLights("vpls_per_bounce: " + count, "visibility: exact, bound: " + bound), 32, 32);
     };
     const double without = energy("16384", "0");
     EXPECT_LT(energy("256", "4"), 0.99 * without);
@@ -152,16 +150,13 @@ TEST(ManyLights, BouncesAreThoseOfTheReference) {
     };
     for (const int bounces : {1, 2, 3}) {
         SCOPED_TRACE(bounces);
-        const auto with = [](const std::string& pass, int of) {
-            return fmt::format("{}, bounces: {}", pass, of);
-        };
+        const auto with = [](const std::string& pass, int of) { return fmt::format("{}, bounces: {}", pass, of); };
         const double reference = energy({with("path_trace, spp: 256", bounces)});
         const double lights = energy({gbuffer, with("sample_vpls, vpls_per_bounce: 4096", bounces),
                                       "gather_vpls, visibility: exact, compensation_rays: 4"});
-        const double read =
-            energy({gbuffer, "voxelize", with("inject_light_rays", bounces), "gather_irradiance"});
-        const double gathered = energy({gbuffer, "voxelize", with("inject_light_rays", bounces - 1),
-                                        "trace_gather_rays", "gather_rays"});
+        const double read = energy({gbuffer, "voxelize", with("inject_light_rays", bounces), "gather_irradiance"});
+        const double gathered =
+            energy({gbuffer, "voxelize", with("inject_light_rays", bounces - 1), "trace_gather_rays", "gather_rays"});
         std::printf("%d bounces: %.4f, %.4f, %.4f, %.4f\n", bounces, reference, lights, read, gathered);
         EXPECT_NEAR(lights / reference, 1, 0.02);
         EXPECT_NEAR(read / reference, 1, 0.02);
@@ -193,8 +188,7 @@ TEST(ManyLights, OfSurfacesWithShadingNormalsBringTheLightOfTheReference) {
 TEST(ManyLights, AreOtherOnesInEachFrameWhereAsked) {
     const auto differs = [](const std::string& resample) {
         Chain chain("white_room", "{}",
-                    manyLights("vpls_per_bounce: 64, bounces: 1, resample: " + resample, "visibility: none"),
-                    4, 4);
+                    manyLights("vpls_per_bounce: 64, bounces: 1, resample: " + resample, "visibility: none"), 4, 4);
         const auto first = chain.read<gpu::Vpl>(vpls(chain).points);
         chain.runFrames(1);
         return chain.read<gpu::Vpl>(vpls(chain).points)[0].position != first[0].position;
@@ -207,9 +201,8 @@ TEST(ManyLights, RouletteSavesRaysAndKeepsTheEnergy) {
     double energy[2];
     uint64_t steps[2];
     for (const int roulette : {0, 1}) {
-        Chain chain(
-            "cornell", "{lights: point}",
-            manyLights("vpls_per_bounce: 4096", "visibility: svo, roulette: " + std::to_string(roulette)));
+        Chain chain("cornell", "{lights: point}",
+                    manyLights("vpls_per_bounce: 4096", "visibility: svo, roulette: " + std::to_string(roulette)));
         energy[roulette] = mean(chain.image("indirect"));
         steps[roulette] = chain.frameSamples.back().voxelSteps;
     }
@@ -218,8 +211,7 @@ TEST(ManyLights, RouletteSavesRaysAndKeepsTheEnergy) {
 }
 
 TEST(ManyLights, WithoutLightAreAnError) {
-    EXPECT_ERROR("none of 1024 rays",
-                 Chain("white_room", "{albedo: 0}", manyLights("bounces: 1", "block: 4")));
+    EXPECT_ERROR("none of 1024 rays", Chain("white_room", "{albedo: 0}", manyLights("bounces: 1", "block: 4")));
 }
 
 }  // namespace

@@ -22,21 +22,18 @@ const Case kCases[] = {
                 "filter_voxels, layout: svo", "gather_cones"})},
     {"one_direction",
      graphYaml({"gbuffer", "voxelize, resolution: 48, directions: 1, visibility_rays: 0, method: three_axis",
-                "inject_light_rays, rays_per_light: 4096, bounces: 0",
-                "filter_voxels, layout: svo, bounces: 1", "gather_cones"})},
+                "inject_light_rays, rays_per_light: 4096, bounces: 0", "filter_voxels, layout: svo, bounces: 1",
+                "gather_cones"})},
     {"each_frame",
      graphYaml({"gbuffer", "voxelize, resolution: 48", "inject_camera_rays, rays_per_image: 1024, bounces: 1",
                 "filter_voxels, layout: svo, bounces: 1", "gather_cones"})},
-    {"surfels",
-     graphYaml({"voxelize, resolution: 48, visibility_rays: 0", "place_surfels, points_per_voxel: 1",
-                "inject_voxel_rays, paths_per_point: 1, bounces: 1", "filter_voxels"})},
-    {"radiosity",
-     graphYaml({"gbuffer", "voxelize, resolution: 48, visibility_rays: 0",
-                "place_surfels, points_per_voxel: 1", "link_surfels, rays_per_surfel: 8",
-                "inject_radiosity, bounces: 1", "smooth_surfels", "gather_surfels", "filter_voxels"})},
+    {"surfels", graphYaml({"voxelize, resolution: 48, visibility_rays: 0", "place_surfels, points_per_voxel: 1",
+                           "inject_voxel_rays, paths_per_point: 1, bounces: 1", "filter_voxels"})},
+    {"radiosity", graphYaml({"gbuffer", "voxelize, resolution: 48, visibility_rays: 0",
+                             "place_surfels, points_per_voxel: 1", "link_surfels, rays_per_surfel: 8",
+                             "inject_radiosity, bounces: 1", "smooth_surfels", "gather_surfels", "filter_voxels"})},
     {"shadow_map",
-     graphYaml({"gbuffer", "voxelize, resolution: 48, method: dominant_axis",
-                "place_surfels, points_per_voxel: 2",
+     graphYaml({"gbuffer", "voxelize, resolution: 48, method: dominant_axis", "place_surfels, points_per_voxel: 2",
                 "inject_voxel_rays, direct: shadow_maps, shadow_resolution: 128",
                 "filter_voxels, layout: clipmap, clipmap_resolution: 16", "gather_cones"}),
      "{lights: point}"},
@@ -50,18 +47,17 @@ const Case kCases[] = {
                 "light_clipmap, shadow_resolution: 128, bounces: 1", "gather_cones"}),
      "{lights: point}"},
     {"published octree",
-     graphYaml({"gbuffer", "voxelize_octree, resolution: 48", "render_rsm, rsm_resolution: 128",
-                "light_octree", "gather_stepped_cones"}),
+     graphYaml({"gbuffer", "voxelize_octree, resolution: 48", "render_rsm, rsm_resolution: 128", "light_octree",
+                "gather_stepped_cones"}),
      "{lights: point}"},
     {"bricks", graphYaml({"voxelize, resolution: 48, directions: 1", "inject_light_rays, bounces: 0",
                           "filter_voxels, layout: svo_bricks"})},
     {"lists", graphYaml({"voxelize, resolution: 48", "build_hybrid_leaves"})},
     {"grids", graphYaml({"voxelize, resolution: 48", "build_hybrid_leaves, primitives: 1, grid: 6"})},
-    {"levels of grids", graphYaml({"voxelize, resolution: 48",
-                                   "build_hybrid_leaves, primitives: 1, grid: 7, grid_levels: footprint"})},
+    {"levels of grids",
+     graphYaml({"voxelize, resolution: 48", "build_hybrid_leaves, primitives: 1, grid: 7, grid_levels: footprint"})},
     {"path_trace", graphYaml({"path_trace, spp: 1, bounces: 0"})},
-    {"accumulate",
-     graphYaml({"gbuffer, samples_per_pixel_edge: 2", "path_trace, spp: 1, bounces: 1", "accumulate"})},
+    {"accumulate", graphYaml({"gbuffer, samples_per_pixel_edge: 2", "path_trace, spp: 1, bounces: 1", "accumulate"})},
 };
 
 TEST(Memory, IsAsDescribedAndEstimatedAndTheLimitHoldsForIt) {
@@ -80,16 +76,14 @@ TEST(Memory, IsAsDescribedAndEstimatedAndTheLimitHoldsForIt) {
                 EXPECT_GE(taken[i].bytes, own.bytes) << pass;
                 EXPECT_GE(taken[i].scratchBytes, own.scratchBytes) << pass;
                 if (own.estimatedBytes == 0) continue;
-                const double counted = double(taken[i].bytes - own.bytes),
-                             estimated = double(own.estimatedBytes);
+                const double counted = double(taken[i].bytes - own.bytes), estimated = double(own.estimatedBytes);
                 EXPECT_LT(counted, 2 * estimated + kPadding) << pass;
                 EXPECT_GT(counted + kPadding, estimated / 2) << pass;
             }
         }
         // With less, an error names a place, a pass, and what to lower
         const uint64_t before = device().memoryUsedBytes();
-        const std::string error =
-            errorOf([&] { Chain("cornell", c.scene, c.graph, 32, 32, 1, {}, needed * 3 / 4); });
+        const std::string error = errorOf([&] { Chain("cornell", c.scene, c.graph, 32, 32, 1, {}, needed * 3 / 4); });
         EXPECT_EQ(error.find("graph:"), 0u) << c.name << ": " << error;
         EXPECT_CONTAINS(error, "lower what it grows with, of ") << c.name;
         EXPECT_EQ(device().memoryUsedBytes(), before) << c.name;
@@ -99,9 +93,8 @@ TEST(Memory, IsAsDescribedAndEstimatedAndTheLimitHoldsForIt) {
 TEST(Memory, RaysOfBouncesAreForThoseWhoHaveThem) {
     // Shadow maps measure direct light without a ray.
     const auto held = [](const std::string& inject) {
-        const Chain chain(
-            "cornell", "{lights: point}",
-            graphYaml({"voxelize, resolution: 16", "place_surfels, points_per_voxel: 1", inject}));
+        const Chain chain("cornell", "{lights: point}",
+                          graphYaml({"voxelize, resolution: 16", "place_surfels, points_per_voxel: 1", inject}));
         return device().memoryByResource();
     };
     for (const std::string rays : {"shadow rays", "shadow ray irradiance", "path rays", "ends of paths"}) {
@@ -123,9 +116,8 @@ TEST(Memory, OfVoxelizationIsFreeForInjection) {
     const SurfaceVoxels& voxels = chain.get<SurfaceVoxels>("voxels");
     const VoxelIrradiance& light = chain.get<VoxelIrradiance>("irradiance");
     const std::map<std::string, uint64_t> held = device().memoryByResource();
-    for (const char* scratch :
-         {"surface accumulator", "visibility counts", "visibility rays", "flux accumulator", "light rays",
-          "light ray hits", "light paths", "visibility results"})
+    for (const char* scratch : {"surface accumulator", "visibility counts", "visibility rays", "flux accumulator",
+                                "light rays", "light ray hits", "light paths", "visibility results"})
         EXPECT_EQ(held.count(scratch), 0u) << scratch;
     EXPECT_GT(device().memoryUsedBytes() - before,
               voxels.materials.bytes() + VoxelIrradiance::bytes(voxels.voxelCount));

@@ -179,8 +179,7 @@ TEST(MergedVoxels, WithoutToleranceGiveWhatVoxelsGive) {
 TEST(MergedVoxels, MayHoldIndirectLightAlone) {
     const ImageF voxels =
         gatherIn("cornell", "{lights: point}", kLightRays, {"gather_rays, direct_at_hits: shadow_rays"});
-    const ImageF tree =
-        gatherIn("cornell", "{lights: point}", kLightRays, merged("tolerance: 0, light: indirect"));
+    const ImageF tree = gatherIn("cornell", "{lights: point}", kLightRays, merged("tolerance: 0, light: indirect"));
     EXPECT_LT(nRmse(tree, voxels), 2e-4);
 }
 
@@ -192,8 +191,7 @@ TEST(MergedVoxels, TakeLessMemoryAndErrMoreWithMoreTolerance) {
         Chain chain("cornell", "{lights: point}", gatherGraph(kLightRays, merged("tolerance: " + tolerance)));
         const uint64_t bytes = chain.get<IrradianceTree>("irradiance_tree").words.bytes();
         const double apart = nRmse(chain.image("indirect"), voxels);
-        std::printf("tolerance %s: %llu bytes, %g apart\n", tolerance.c_str(), (unsigned long long)bytes,
-                    apart);
+        std::printf("tolerance %s: %llu bytes, %g apart\n", tolerance.c_str(), (unsigned long long)bytes, apart);
         EXPECT_LT(bytes, lastBytes);
         EXPECT_GT(apart, lastApart);
         lastBytes = bytes;
@@ -203,8 +201,7 @@ TEST(MergedVoxels, TakeLessMemoryAndErrMoreWithMoreTolerance) {
 
 TEST(MergedVoxels, AreDeterministicAndLinearInLight) {
     const auto run = [](const std::string& intensity) {
-        Chain chain("white_room", "{intensity: " + intensity + "}",
-                    gatherGraph(kLightRays, merged("tolerance: 0.3")));
+        Chain chain("white_room", "{intensity: " + intensity + "}", gatherGraph(kLightRays, merged("tolerance: 0.3")));
         const IrradianceTree& tree = chain.get<IrradianceTree>("irradiance_tree");
         return std::pair{chain.read<uint32_t>(tree.words), mean(chain.image("indirect"))};
     };

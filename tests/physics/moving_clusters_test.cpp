@@ -14,10 +14,9 @@ std::shared_ptr<const Scene> swingingBall() {
 }
 
 std::string graphOf(const std::string& see, const std::string& cluster = "target: 200") {
-    return graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels, sides: all",
-                      "cluster_voxels, " + cluster, "find_patches", "cluster_visibility, " + see,
-                      "inject_clusters, direct: shadow_rays, bounces: 1", "gather_clusters",
-                      "gather_irradiance"});
+    return graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels, sides: all", "cluster_voxels, " + cluster,
+                      "find_patches", "cluster_visibility, " + see, "inject_clusters, direct: shadow_rays, bounces: 1",
+                      "gather_clusters", "gather_irradiance"});
 }
 
 constexpr size_t kVisibility = 4;  ///< cluster_visibility, among the passes of the build.
@@ -37,8 +36,8 @@ void expectSame(Chain& a, Chain& b) {
         expectSameBuffer(clustersA.*buffer, clustersB.*buffer);
     const auto &patchesA = a.get<VoxelPatches>("patches"), &patchesB = b.get<VoxelPatches>("patches");
     for (Buffer VoxelPatches::*buffer :
-         {&VoxelPatches::firstGroup, &VoxelPatches::groups, &VoxelPatches::firstNeighbour,
-          &VoxelPatches::components, &VoxelPatches::memberGroups, &VoxelPatches::componentOfGroup})
+         {&VoxelPatches::firstGroup, &VoxelPatches::groups, &VoxelPatches::firstNeighbour, &VoxelPatches::components,
+          &VoxelPatches::memberGroups, &VoxelPatches::componentOfGroup})
         expectSameBuffer(patchesA.*buffer, patchesB.*buffer);
     expectSameBuffer(patchesA.materials, patchesB.materials);
     expectSameBuffer(patchesA.neighbours, patchesB.neighbours);

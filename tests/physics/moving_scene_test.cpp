@@ -25,8 +25,7 @@ void expectAsMadeThere(const std::string& graph) {
     for (const double time : {0.7, 3.1}) {
         moving->goTo(time);
         const ImageF image = moving->image("final");
-        EXPECT_TRUE(sameBits(image.data, chainAt(scene, time, graph)->image("final").data))
-            << graph << " at " << time;
+        EXPECT_TRUE(sameBits(image.data, chainAt(scene, time, graph)->image("final").data)) << graph << " at " << time;
         EXPECT_FALSE(sameBits(image.data, before.data));
         before = image;
     }
@@ -34,9 +33,9 @@ void expectAsMadeThere(const std::string& graph) {
 
 TEST(MovingScene, EveryLayoutIsAsMadeThere) {
     for (const TestedLayout& layout : kRadianceLayouts)
-        expectAsMadeThere(graphOf(
-            "inject_voxel_rays, direct: shadow_maps, shadow_resolution: 64, paths_per_point: 2, bounces: 1",
-            "layout: " + layout.filter));
+        expectAsMadeThere(
+            graphOf("inject_voxel_rays, direct: shadow_maps, shadow_resolution: 64, paths_per_point: 2, bounces: 1",
+                    "layout: " + layout.filter));
 }
 
 TEST(MovingScene, EveryInjectionIsAsMadeThere) {
@@ -59,9 +58,9 @@ TEST(MovingScene, LightsMoveWithoutSurfaces) {
     const auto there = evaluated(scene, 0, Playback::Looping);
     moveLight(*there);
     for (const TestedLayout& layout : kRadianceLayouts) {
-        const std::string graph = graphOf(
-            "inject_voxel_rays, direct: shadow_maps, shadow_resolution: 64, paths_per_point: 2, bounces: 1",
-            "layout: " + layout.filter);
+        const std::string graph =
+            graphOf("inject_voxel_rays, direct: shadow_maps, shadow_resolution: 64, paths_per_point: 2, bounces: 1",
+                    "layout: " + layout.filter);
         const auto moved = chainAt(scene, 0, graph);
         moved->update(moveLight);
         EXPECT_TRUE(sameBits(moved->image("final").data, Chain(there, graph, 16, 16).image("final").data))

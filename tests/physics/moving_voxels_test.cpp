@@ -15,16 +15,9 @@ namespace {
 /// Places of two spheres in Cornell, one a second. Through the room: in the open; a fraction of a voxel on;
 /// to the wall and over a box, less than a voxel from it; into boxes, floor and walls; back to where it
 /// began.
-const std::vector<glm::vec3> kWalks[] = {{{0.3f, 1.4f, 0.3f},
-                                          {0.32f, 1.41f, 0.3f},
-                                          {-0.86f, 0.7f, 0.3f},
-                                          {0.333f, 0.5f, 0.7f},
-                                          {0.3f, 1.4f, 0.3f}},
-                                         {{0.5f, 1.5f, -0.5f},
-                                          {0.5f, 1.5f, -0.5f},
-                                          {-0.3f, 1.34f, -0.25f},
-                                          {0.87f, 0.13f, -0.8f},
-                                          {0.5f, 1.5f, -0.5f}}};
+const std::vector<glm::vec3> kWalks[] = {
+    {{0.3f, 1.4f, 0.3f}, {0.32f, 1.41f, 0.3f}, {-0.86f, 0.7f, 0.3f}, {0.333f, 0.5f, 0.7f}, {0.3f, 1.4f, 0.3f}},
+    {{0.5f, 1.5f, -0.5f}, {0.5f, 1.5f, -0.5f}, {-0.3f, 1.34f, -0.25f}, {0.87f, 0.13f, -0.8f}, {0.5f, 1.5f, -0.5f}}};
 
 /// Cornell with two spheres on their walk, one of which glows.
 std::shared_ptr<const Scene> roomWithSpheres() {
@@ -53,9 +46,8 @@ void followWalk(const std::string& graph, size_t stride, const Compare& compare)
 TEST(MovingVoxels, HybridLeavesAreThoseThatAreRebuilt) {
     for (const std::string levels : {"finest", "footprint"}) {
         SCOPED_TRACE(levels);
-        const std::string graph =
-            graphYaml({"voxelize, resolution: 24",
-                       "build_hybrid_leaves, primitives: 6, grid: 4, grid_levels: " + levels});
+        const std::string graph = graphYaml(
+            {"voxelize, resolution: 24", "build_hybrid_leaves, primitives: 6, grid: 4, grid_levels: " + levels});
         followWalk(graph, 2, [](Chain& moved, Chain& made) {
             const auto& a = moved.get<HybridLeaves>("hybrid_leaves");
             const auto& b = made.get<HybridLeaves>("hybrid_leaves");
@@ -64,8 +56,8 @@ TEST(MovingVoxels, HybridLeavesAreThoseThatAreRebuilt) {
             EXPECT_GT(reported(moved.updateSamples[1], "leaves built again"), 0);
             EXPECT_LT(reported(moved.updateSamples[1], "leaves built again"), a.shape.leaves / 2);
             for (Buffer HybridLeaves::*buffer :
-                 {&HybridLeaves::words, &HybridLeaves::primitives, &HybridLeaves::corners,
-                  &HybridLeaves::gridBits, &HybridLeaves::gridRanks, &HybridLeaves::cells})
+                 {&HybridLeaves::words, &HybridLeaves::primitives, &HybridLeaves::corners, &HybridLeaves::gridBits,
+                  &HybridLeaves::gridRanks, &HybridLeaves::cells})
                 EXPECT_TRUE(sameBits(moved.read<uint32_t>(a.*buffer), made.read<uint32_t>(b.*buffer)))
                     << (a.*buffer).name();
         });
@@ -97,8 +89,7 @@ TEST(MovingVoxels, CarryTheSameLightInEachLayout) {
     for (const TestedLayout& layout : kRadianceLayouts) cases.emplace_back(once, layout.filter);
     for (const auto& [light, layout] : cases) {
         SCOPED_TRACE(light + " " + layout);
-        followWalk(graphYaml({"voxelize, resolution: 24", light,
-                              "filter_voxels, emission: true, layout: " + layout}),
+        followWalk(graphYaml({"voxelize, resolution: 24", light, "filter_voxels, emission: true, layout: " + layout}),
                    2, [](Chain& moved, Chain& made) {
                        const auto samples = [](Chain& chain) {
                            const SurfaceVoxels& voxels = chain.get<SurfaceVoxels>("voxels");
@@ -114,12 +105,11 @@ TEST(MovingVoxels, StayWhereNothingMoves) {
     const auto made = chainAt(roomWithSpheres(), 0, graphYaml({"voxelize, resolution: 40"}));
     Chain& chain = *made;
     const Voxels before(chain);
-    const std::vector<std::vector<Box>> lists{
-        {},
-        {{{5, 5, 5}, {6, 6, 6}}},
-        {{{0.45f, 1.5f, 0.6f}, {0.5f, 1.52f, 0.65f}}},
-        {{{-2, -1, -1}, {0.3f, 2, 0.4f}}, {{-0.2f, 0.3f, 0}, {0.9f, 1.9f, 0.9f}}},
-        {{{-2, -1, -2}, {2, 3, 2}}}};
+    const std::vector<std::vector<Box>> lists{{},
+                                              {{{5, 5, 5}, {6, 6, 6}}},
+                                              {{{0.45f, 1.5f, 0.6f}, {0.5f, 1.52f, 0.65f}}},
+                                              {{{-2, -1, -1}, {0.3f, 2, 0.4f}}, {{-0.2f, 0.3f, 0}, {0.9f, 1.9f, 0.9f}}},
+                                              {{{-2, -1, -2}, {2, 3, 2}}}};
     for (const std::vector<Box>& boxes : lists) {
         chain.update([&](SceneState&) { return boxes; });
         const Voxels after(chain);

@@ -140,8 +140,8 @@ TEST(PathTraceClosedForm, EnvironmentMapOnPlane) {
         HandScene s;
         s.ground(s.lambert(glm::vec3(0.5f)));
         s.scene->environment = {glm::vec3(2), map};
-        for (const auto strategy : {path_trace::Strategy::Mis, path_trace::Strategy::ReflectionOnly,
-                                    path_trace::Strategy::LightsOnly}) {
+        for (const auto strategy :
+             {path_trace::Strategy::Mis, path_trace::Strategy::ReflectionOnly, path_trace::Strategy::LightsOnly}) {
             const PathTraceResult r = s.render(downCamera(4, 1), options(256, 0), strategy);
             expectRelative(meanOf(r.total), constant ? 1.0 : 2.0 / 3.0);
         }
@@ -204,8 +204,8 @@ TEST(PathTraceClosedForm, EmissionHasOneSideUnlessDoubleSided) {
         Material lamp = s.scene->materials[s.lambert({}, glm::vec3(1))];
         lamp.doubleSided = doubleSided;
         s.quad({-1, 2, -1}, {0, 0, 2}, {2, 0, 0}, s.material(lamp));  // Faces up.
-        for (const auto strategy : {path_trace::Strategy::Mis, path_trace::Strategy::ReflectionOnly,
-                                    path_trace::Strategy::LightsOnly}) {
+        for (const auto strategy :
+             {path_trace::Strategy::Mis, path_trace::Strategy::ReflectionOnly, path_trace::Strategy::LightsOnly}) {
             const PathTraceResult r = s.render(downCamera(1, 0.01f), options(256, 0, 8), strategy);
             if (doubleSided)
                 expectRelative(meanOf(r.total), 0.5 * 4 * quadrant(0.5, 0.5), 1e-2);

@@ -61,8 +61,7 @@ std::string treeGraph(const std::string& resolution, const std::string& more = "
 }
 
 std::string lightGraph(const std::string& resolution) {
-    return graphYaml(
-        {"voxelize_octree, resolution: " + resolution, "render_rsm, rsm_resolution: 512", "light_octree"});
+    return graphYaml({"voxelize_octree, resolution: " + resolution, "render_rsm, rsm_resolution: 512", "light_octree"});
 }
 
 TEST(BrickOctreeCount, OneVoxelHasTwentySixNeighborsOnEachLevel) {
@@ -83,9 +82,9 @@ TEST(BrickOctreeCount, OneVoxelHasTwentySixNeighborsOnEachLevel) {
 TEST(PublishedOctree, HasTheNodesThatAreCountedOnTheHost) {
     for (const std::string samples : {"1", "8"})
         for (const bool neighbors : {true, false}) {
-            Chain chain("spheres", "{}",
-                        treeGraph("24", ", samples: " + samples +
-                                            ", brick_neighbors: " + (neighbors ? "true" : "false")));
+            Chain chain(
+                "spheres", "{}",
+                treeGraph("24", ", samples: " + samples + ", brick_neighbors: " + (neighbors ? "true" : "false")));
             const Nodes nodes(chain);
             const VoxelBits voxels =
                 rasterizedVoxels(chain.state().geometry, nodes.octree.grid, uint32_t(std::stoi(samples)));
@@ -143,8 +142,7 @@ TEST(PublishedOctree, LinksNodesToChildrenAndNeighbours) {
 TEST(PublishedOctree, DynamicSectionFollowsWhatMoves) {
     // Whatever was there before: nodes and light are those of an octree that is built at that time, and what
     // stays keeps its place.
-    const auto scene =
-        cornellWithBall({.count = 2, .radius = 0.2f, .spacing = 0.6f, .swing = {0.4f, 0.2f, 0}});
+    const auto scene = cornellWithBall({.count = 2, .radius = 0.2f, .spacing = 0.6f, .swing = {0.4f, 0.2f, 0}});
     const auto moved = chainAt(scene, 0, lightGraph("24"));
     const std::vector<gpu::BrickNode> before = Nodes(*moved).data;
     const std::vector<glm::vec4> samplesBefore = samplesOf(*moved);
@@ -245,9 +243,7 @@ TEST(PublishedOctree, NormalsThatCancelReflectNothing) {
 }
 
 TEST(PublishedOctree, IsTheSameEachTime) {
-    const auto samples = [] {
-        return samplesOf(Chain("cornell", "{lights: point}", lightGraph("20"), 8, 8));
-    };
+    const auto samples = [] { return samplesOf(Chain("cornell", "{lights: point}", lightGraph("20"), 8, 8)); };
     EXPECT_EQ(samples(), samples());
 }
 
@@ -269,8 +265,8 @@ TEST(PublishedOctree, LightsARoomAndNoMoreThanThat) {
     EXPECT_NEAR(ours / published, 0.5, 0.1);
 
     // Nearly all of it is light of the surface that a cone starts from: further off there is next to none.
-    const double farther = indirect(
-        {"voxelize_octree, resolution: 32", "render_rsm", "light_octree", "gather_stepped_cones, start: 6"});
+    const double farther =
+        indirect({"voxelize_octree, resolution: 32", "render_rsm", "light_octree", "gather_stepped_cones, start: 6"});
     EXPECT_LT(farther, 0.1 * published);
 }
 

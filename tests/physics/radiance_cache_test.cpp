@@ -32,8 +32,7 @@ TEST(RadianceCache, KeepsTheEnergyOfAFurnace) {
     // Every surface emits 1 and reflects 0.6: three bounces of light add 0.36 + 0.216 + 0.1296 to what is
     // direct. The gather itself is one of them. A sphere, whose light samples all weigh alike: where the
     // walls of a box meet they have a tail so long that 65536 paths miss one percent of the mean.
-    Chain chain("furnace", "{albedo: 0.6, emission: 1}",
-                cacheGraph(", bounces: 2", 64, ", near_field_cells: 0.0625"));
+    Chain chain("furnace", "{albedo: 0.6, emission: 1}", cacheGraph(", bounces: 2", 64, ", near_field_cells: 0.0625"));
     const double ratio = mean(chain.image("indirect")) / (0.36 + 0.216 + 0.1296);
     std::printf("%.4f of the closed form\n", ratio);
     EXPECT_NEAR(ratio, 1.0, 0.005);
@@ -56,8 +55,7 @@ TEST(RadianceCache, KeepsTheEnergyOfALitSphere) {
     const State state = litSphere();
     const double expected = 0.6 / kPi * (0.6 + 0.36 + 0.216 + 0.1296 + 0.07776);
     for (const std::string update : {"once", "each_frame"}) {
-        Chain chain(state, cacheGraph(", bounces: 4, update: " + update, 64, ", near_field_cells: 0.0625"),
-                    32, 32);
+        Chain chain(state, cacheGraph(", bounces: 4, update: " + update, 64, ", near_field_cells: 0.0625"), 32, 32);
         const double ratio = mean(chain.image("indirect")) / expected;
         std::printf("%s: %.4f of the closed form\n", update.c_str(), ratio);
         EXPECT_NEAR(ratio, 1.0, 0.005) << update;
@@ -69,14 +67,12 @@ TEST(RadianceCache, ConvergesToTheReference) {
     // gather rays a pixel and of the reference.
     const ImageF& truth = pathTraced("cornell", "{lights: point}", 4096, 8, 16, 16);
     double before = 1e9, ratio = 0;
-    for (const std::string cache :
-         {"rays_per_image: 4096, cell_size: 0.4", "rays_per_image: 32768, cell_size: 0.1",
-          "rays_per_image: 262144, cell_size: 0.025"}) {
-        Chain chain(
-            "cornell", "{lights: point}",
-            graphYaml({"gbuffer, samples_per_pixel_edge: 4", "trace_gather_rays, rays_per_block: 64",
-                       "update_radiance_cache, bounces: 7, " + cache, "gather_rays, source: radiance_cache"}),
-            16, 16);
+    for (const std::string cache : {"rays_per_image: 4096, cell_size: 0.4", "rays_per_image: 32768, cell_size: 0.1",
+                                    "rays_per_image: 262144, cell_size: 0.025"}) {
+        Chain chain("cornell", "{lights: point}",
+                    graphYaml({"gbuffer, samples_per_pixel_edge: 4", "trace_gather_rays, rays_per_block: 64",
+                               "update_radiance_cache, bounces: 7, " + cache, "gather_rays, source: radiance_cache"}),
+                    16, 16);
         const ImageF image = chain.image("indirect");
         const double error = squaredError(image, truth);
         ratio = mean(image) / mean(truth);
@@ -97,8 +93,7 @@ TEST(RadianceCache, IsLinearInLight) {
 
 TEST(RadianceCache, IsDeterministic) {
     const auto run = [] {
-        Chain chain("cornell", "{lights: point}",
-                    cacheGraph(", bounces: 2, history_frames: 4, samples_to_end: 2"));
+        Chain chain("cornell", "{lights: point}", cacheGraph(", bounces: 2, history_frames: 4, samples_to_end: 2"));
         chain.runFrameFrom({0.1f, 0.9f, 2.5f});
         return chain.image("indirect").data;
     };
@@ -132,8 +127,7 @@ TEST(RadianceCache, CountsHashCollisionsAsLinearProbingHasThem) {
     for (const std::string capacity : {"32768", "65536"}) {
         const auto [occupancy, collisions] = run(capacity);
         const double expected = occupancy / (2 * (1 - occupancy));
-        std::printf("full to %.3f: %.4f collisions per cell, expected %.4f\n", occupancy, collisions,
-                    expected);
+        std::printf("full to %.3f: %.4f collisions per cell, expected %.4f\n", occupancy, collisions, expected);
         EXPECT_NEAR(collisions / expected, 1.0, 0.1) << capacity;
         EXPECT_EQ(run(capacity).second, collisions);
     }
@@ -186,8 +180,7 @@ TEST(RadianceCache, PathsThatEndInTheCacheAreShorterAndBringTheSameLight) {
     };
     const auto [whole, wholeVertices] = run("");
     const auto [ended, endedVertices] = run(", samples_to_end: 4");
-    std::printf("%.2f and %.2f vertices per path, mean ratio %.4f\n", wholeVertices, endedVertices,
-                ended / whole);
+    std::printf("%.2f and %.2f vertices per path, mean ratio %.4f\n", wholeVertices, endedVertices, ended / whole);
     EXPECT_NEAR(ended / whole, 1.0, 0.02);
     EXPECT_LT(endedVertices, 0.6 * wholeVertices);
 }

@@ -19,8 +19,7 @@ namespace {
 double fluxOfRoom(const std::string& intensity, int rays) {
     Chain chain("white_room", "{albedo: 0.5, intensity: " + intensity + "}",
                 graphYaml({"voxelize, resolution: 12", "place_surfels, points_per_voxel: 8",
-                           "link_surfels, rays_per_surfel: " + std::to_string(rays),
-                           "inject_radiosity, bounces: 3"}));
+                           "link_surfels, rays_per_surfel: " + std::to_string(rays), "inject_radiosity, bounces: 3"}));
     return indirectFlux(chain);
 }
 
@@ -44,8 +43,7 @@ TEST(Radiosity, LinksHoldWhatRaysSee) {
     constexpr uint32_t kRays = 8;
     Chain chain("white_room", "{albedo: 0.5}",
                 graphYaml({"voxelize, resolution: 12", "place_surfels, points_per_voxel: 8",
-                           "link_surfels, rays_per_surfel: " + std::to_string(kRays),
-                           "inject_radiosity, bounces: 1"}));
+                           "link_surfels, rays_per_surfel: " + std::to_string(kRays), "inject_radiosity, bounces: 1"}));
     const SurfelLinks& links = chain.get<SurfelLinks>("links");
     const std::vector<uint32_t> numbers = chain.read<uint32_t>(links.links);
     ASSERT_EQ(numbers.size(), size_t(links.surfelCount) * kRays);
@@ -64,10 +62,9 @@ TEST(Radiosity, LinksHoldWhatRaysSee) {
 }
 
 TEST(Radiosity, NeighboursAreTheSurfelsWithinAVoxel) {
-    Chain chain(
-        "clutter", "{}",
-        graphYaml({"voxelize, resolution: 12", "place_surfels, sides: all",
-                   "link_surfels, rays_per_surfel: 1", "inject_radiosity, bounces: 1", "smooth_surfels"}));
+    Chain chain("clutter", "{}",
+                graphYaml({"voxelize, resolution: 12", "place_surfels, sides: all", "link_surfels, rays_per_surfel: 1",
+                           "inject_radiosity, bounces: 1", "smooth_surfels"}));
     const SurfelNeighbours& neighbours = chain.get<SurfelNeighbours>("neighbours");
     const auto begins = chain.read<uint32_t>(neighbours.begins);
     const auto pairs = chain.read<glm::uvec2>(neighbours.pairs);
@@ -110,8 +107,7 @@ TEST(Radiosity, LookupsConvergeToTheReference) {
     for (const std::string gather : {"gather_irradiance", "gather_surfels"}) {
         const double few = errorInCornell(24, 1, 1, {gather}), coarse = errorInCornell(24, 8, 16, {gather});
         const double fine = errorInCornell(48, 8, 32, {gather});
-        std::printf("%s: few rays %.3f, more %.3f, and smaller voxels %.3f\n", gather.c_str(), few, coarse,
-                    fine);
+        std::printf("%s: few rays %.3f, more %.3f, and smaller voxels %.3f\n", gather.c_str(), few, coarse, fine);
         EXPECT_LT(coarse, 0.8 * few) << gather;
         EXPECT_LT(fine, 0.8 * coarse) << gather;
     }
@@ -141,8 +137,7 @@ ImageF truthOf(const State& state, int bounces) {
 ImageF linkedLight(const State& state, int bounces, const std::string& sides, const std::string& gather) {
     return Chain(state,
                  graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 16",
-                            "place_surfels, points_per_voxel: 16, sides: " + sides,
-                            "link_surfels, rays_per_surfel: 32",
+                            "place_surfels, points_per_voxel: 16, sides: " + sides, "link_surfels, rays_per_surfel: 32",
                             fmt::format("inject_radiosity, bounces: {}", bounces), gather}),
                  48, 48)
         .image("indirect");
@@ -162,8 +157,7 @@ TEST(Radiosity, SurfelsTellSurfacesInAVoxelApart) {
 // Shelves, nearer to each other than voxels are wide, open towards a lamp and a camera in front of them.
 State narrowShelves() {
     SceneBuilder scene("shelves");
-    const uint32_t white = scene.lambert("white", glm::vec3(0.8f)),
-                   grey = scene.lambert("grey", glm::vec3(0.5f));
+    const uint32_t white = scene.lambert("white", glm::vec3(0.8f)), grey = scene.lambert("grey", glm::vec3(0.5f));
     scene.room({-1, -1, -1}, {1, 1, 1}, {grey, grey, grey, grey, grey, grey});
     constexpr int kShelves = 20;
     for (int i = 1; i < kShelves; ++i) {
@@ -224,11 +218,10 @@ TEST(Radiosity, SmoothSurfelsAreLessNoisy) {
 
 // Mean irradiance of all slots, W/m², by one to many iterations of smooth_surfels; 0 of them: without it.
 double meanOfSurfels(int iterations) {
-    Chain chain(
-        "cornell", "{lights: point}",
-        graphYaml({"voxelize, resolution: 24", "place_surfels, points_per_voxel: 4",
-                   "link_surfels, rays_per_surfel: 8", "inject_radiosity, bounces: 3",
-                   iterations > 0 ? "smooth_surfels, iterations: " + std::to_string(iterations) : ""}));
+    Chain chain("cornell", "{lights: point}",
+                graphYaml({"voxelize, resolution: 24", "place_surfels, points_per_voxel: 4",
+                           "link_surfels, rays_per_surfel: 8", "inject_radiosity, bounces: 3",
+                           iterations > 0 ? "smooth_surfels, iterations: " + std::to_string(iterations) : ""}));
     double sum = 0;
     const std::vector<glm::uvec3> surfels =
         chain.read<glm::uvec3>(chain.get<SurfelIrradiance>("surfel_irradiance").lit);
@@ -239,8 +232,7 @@ double meanOfSurfels(int iterations) {
 
 TEST(Radiosity, SmoothSurfelsKeepEnergy) {
     const double measured = meanOfSurfels(0);
-    for (const int iterations : {1, 2, 5})
-        EXPECT_NEAR(meanOfSurfels(iterations) / measured, 1.0, 0.01) << iterations;
+    for (const int iterations : {1, 2, 5}) EXPECT_NEAR(meanOfSurfels(iterations) / measured, 1.0, 0.01) << iterations;
 }
 
 // An image of furniture, some of it nearer to the wall than a voxel, looked up in surfels on all sides.
@@ -254,10 +246,9 @@ ImageF furniture(const std::string& samples, uint32_t width, uint32_t height) {
 
 TEST(Radiosity, TwoRunsAreIdentical) {
     const auto image = [] {
-        return indirectLight(
-            "cornell", "{lights: point}",
-            graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels", "link_surfels",
-                       "inject_radiosity", "smooth_surfels", "gather_surfels"}));
+        return indirectLight("cornell", "{lights: point}",
+                             graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels", "link_surfels",
+                                        "inject_radiosity", "smooth_surfels", "gather_surfels"}));
     };
     EXPECT_EQ(image().data, image().data);
     EXPECT_EQ(furniture("2", 64, 36).data, furniture("2", 64, 36).data);

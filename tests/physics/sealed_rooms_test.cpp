@@ -36,8 +36,7 @@ std::vector<glm::vec3> endsOf(const SceneState& state, const std::vector<Ray>& r
 
 bool isWithin(const glm::vec3& point, const glm::vec3& min, const glm::vec3& max) {
     constexpr float kRounding = 1e-5f;
-    return glm::all(glm::greaterThan(point, min - kRounding)) &&
-           glm::all(glm::lessThan(point, max + kRounding));
+    return glm::all(glm::greaterThan(point, min - kRounding)) && glm::all(glm::lessThan(point, max + kRounding));
 }
 
 ImageF render(const SceneState& state) {
@@ -54,8 +53,7 @@ TEST(SealedRooms, NoRayLeavesTheShell) {
     for (const std::string thickness : {"0.001", "0.1"}) {
         const std::vector<Ray> rays = raysFrom(min, max, 1000000);
         size_t outside = 0;
-        for (const glm::vec3& end :
-             endsOf(*builtin("shell_room", "{wall_thickness: " + thickness + "}"), rays))
+        for (const glm::vec3& end : endsOf(*builtin("shell_room", "{wall_thickness: " + thickness + "}"), rays))
             outside += !isWithin(end, min, max);
         EXPECT_EQ(outside, 0u) << thickness;
     }

@@ -13,10 +13,10 @@ namespace voxray::test {
 namespace {
 
 std::string seenGraph(const std::string& update, const std::string& resolution) {
-    return graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: " + resolution,
-                      "place_surfels", "cluster_voxels, target: 1000", "find_patches",
-                      "cluster_visibility, rays: 16", "inject_clusters, direct: shadow_rays",
-                      "gather_clusters, filter_passes: 0, update: " + update, "gather_irradiance"});
+    return graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: " + resolution, "place_surfels",
+                      "cluster_voxels, target: 1000", "find_patches", "cluster_visibility, rays: 16",
+                      "inject_clusters, direct: shadow_rays", "gather_clusters, filter_passes: 0, update: " + update,
+                      "gather_irradiance"});
 }
 
 /// By voxel: whether light was gathered for it.
@@ -45,29 +45,26 @@ TEST(SeenPoints, LeaveOutWhatIsBehindAWallAndBehindTheCamera) {
     const float voxel = grid.voxelSize, tangent = std::tan(glm::radians(30.0f));
     uint32_t before = 0, behindWall = 0, behindCamera = 0, beyondEdge = 0;
     for (size_t i = 0; i < isGathered.size(); ++i) {
-        const glm::vec3 center = grid.origin + voxel * (glm::vec3(coordinates[i]) + 0.5f),
-                        fromEye = center - eye;
+        const glm::vec3 center = grid.origin + voxel * (glm::vec3(coordinates[i]) + 0.5f), fromEye = center - eye;
         const float reach = 2 * voxel;
         const float aside = std::max(std::abs(fromEye.y), std::abs(fromEye.z));
         if (center.x > 0.3f + 1.5f * voxel) {
-            EXPECT_FALSE(isGathered[i])
-                << "behind the wall at " << center.x << " " << center.y << " " << center.z;
+            EXPECT_FALSE(isGathered[i]) << "behind the wall at " << center.x << " " << center.y << " " << center.z;
             ++behindWall;
         } else if (fromEye.x < -reach) {
             EXPECT_FALSE(isGathered[i]) << "behind the camera at " << center.x << " " << center.z;
             ++behindCamera;
         } else if (aside - reach > tangent * (fromEye.x + reach)) {
-            EXPECT_FALSE(isGathered[i])
-                << "beyond the image's edge at " << center.x << " " << center.y << " " << center.z;
+            EXPECT_FALSE(isGathered[i]) << "beyond the image's edge at " << center.x << " " << center.y << " "
+                                        << center.z;
             ++beyondEdge;
         } else if (aside < tangent * fromEye.x) {
-            EXPECT_TRUE(isGathered[i])
-                << "before the wall at " << center.x << " " << center.y << " " << center.z;
+            EXPECT_TRUE(isGathered[i]) << "before the wall at " << center.x << " " << center.y << " " << center.z;
             ++before;
         }
     }
-    std::printf("%u before, %u behind the wall, %u behind the camera, %u beyond the image's edge\n", before,
-                behindWall, behindCamera, beyondEdge);
+    std::printf("%u before, %u behind the wall, %u behind the camera, %u beyond the image's edge\n", before, behindWall,
+                behindCamera, beyondEdge);
     EXPECT_GT(before, 100u);
     EXPECT_GT(behindWall, 300u);
     EXPECT_GT(behindCamera, 100u);
@@ -111,8 +108,7 @@ LeftOut leftOut(const State& state, uint32_t width, uint32_t height) {
     std::vector<bool> isRead(byLookup.size());
     for (const glm::vec4& p : positions) {
         if (p.w == 0) continue;
-        const glm::vec3 corner =
-            glm::floor((glm::vec3(p) - voxels.grid.origin) / voxels.grid.voxelSize - 0.5f);
+        const glm::vec3 corner = glm::floor((glm::vec3(p) - voxels.grid.origin) / voxels.grid.voxelSize - 0.5f);
         for (int i = 0; i < 8; ++i) {
             const glm::ivec3 v = glm::ivec3(corner) + glm::ivec3(i & 1, i >> 1 & 1, i >> 2);
             if (glm::any(glm::lessThan(v, glm::ivec3(0))) ||

@@ -24,8 +24,7 @@ std::vector<double> directFlux(Chain& chain) {
 TEST(ShadowMap, ClosedRoomCatchesAllLight) {
     // A point light of 2 W/sr in a closed room: 8 pi W arrive, and the albedo's part of that again with each
     // bounce.
-    Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
-                injectGraph(kMaps + ", paths_per_point: 4, bounces: 2"));
+    Chain chain("white_room", "{albedo: 0.5, intensity: 2}", injectGraph(kMaps + ", paths_per_point: 4, bounces: 2"));
     EXPECT_NEAR(sum(directFlux(chain)) / (8 * kPi), 1.0, 0.01);
     EXPECT_NEAR(indirectFlux(chain) / (8 * kPi * 0.75), 1.0, 0.02);
 }
@@ -111,8 +110,7 @@ TEST(ShadowMap, IndirectLightOfCornellIsThatOfVoxelRays) {
 ImageF directImage(const std::string& scene, const std::string& parameters, const std::string& pass,
                    const std::string& resolution = "1024") {
     return Chain(scene, parameters,
-                 graphYaml({"gbuffer, samples_per_pixel_edge: 2", "render_rsm, rsm_resolution: " + resolution,
-                            pass}),
+                 graphYaml({"gbuffer, samples_per_pixel_edge: 2", "render_rsm, rsm_resolution: " + resolution, pass}),
                  64, 64)
         .image("direct");
 }
@@ -133,8 +131,7 @@ TEST(ShadowMap, OfPixelsComesNearToRays) {
         const auto apart = [&](const std::string& resolution) {
             const double difference = meanDifference(
                 directImage("cornell", "{lights: " + light + "}", "direct_shadow_maps", resolution), rays);
-            std::printf("%s, maps of %s texels a side: %.4f\n", light.c_str(), resolution.c_str(),
-                        difference);
+            std::printf("%s, maps of %s texels a side: %.4f\n", light.c_str(), resolution.c_str(), difference);
             return difference;
         };
         const double coarse = apart("128"), fine = apart("2048");
@@ -155,8 +152,7 @@ TEST(ShadowMap, BadInputIsNamed) {
     const auto sky = builtinScene("white_room");
     sky->environment.radiance = glm::vec3(1.0f);
     EXPECT_CONTAINS(errorWith(evaluated(sky)), "an environment");
-    EXPECT_CONTAINS(errorWith(builtin("white_room", "{intensity: 0}")),
-                    "inject_voxel_rays: the scene has no lights");
+    EXPECT_CONTAINS(errorWith(builtin("white_room", "{intensity: 0}")), "inject_voxel_rays: the scene has no lights");
     for (const char* wrong : {", shadow_resolution: 0", ", paths_per_point: 0"})
         EXPECT_CONTAINS(errorWith(builtin("white_room"), wrong), "out of range");
 }

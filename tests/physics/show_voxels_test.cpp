@@ -41,8 +41,8 @@ TEST(ShowVoxels, DrawsWhatTheVoxelsOfAWallHold) {
 
     // The back wall looks towards +z and fills its voxels
     const auto center = [](const char* show) {
-        Chain chain("cornell", kEmptyBox, graphYaml({"voxelize", std::string("show_voxels, show: ") + show}),
-                    kSize, kSize);
+        Chain chain("cornell", kEmptyBox, graphYaml({"voxelize", std::string("show_voxels, show: ") + show}), kSize,
+                    kSize);
         return pixelOf(chain.image("final"), kSize / 2, kSize / 2);
     };
     EXPECT_LT(glm::distance(center("normal"), glm::vec3(0.5f, 0.5f, 1.0f)), 1e-3f);
@@ -80,10 +80,8 @@ TEST(ShowVoxels, DrawsEachLevelOfPrefilteredVoxels) {
     for (const char* layout : {"dense", "svo"}) {
         const auto shown = [&](const std::string& parameters) {
             return Chain("cornell", kEmptyBox,
-                         graphYaml({"voxelize, resolution: 32",
-                                    "inject_light_rays, rays_per_light: 262144, bounces: 0",
-                                    std::string("filter_voxels, layout: ") + layout,
-                                    "show_voxels, " + parameters}),
+                         graphYaml({"voxelize, resolution: 32", "inject_light_rays, rays_per_light: 262144, bounces: 0",
+                                    std::string("filter_voxels, layout: ") + layout, "show_voxels, " + parameters}),
                          kSize, kSize)
                 .image("final");
         };
@@ -91,8 +89,7 @@ TEST(ShowVoxels, DrawsEachLevelOfPrefilteredVoxels) {
         double atLevel[2] = {};
         for (const uint32_t level : {0u, 1u}) {
             const std::string levelText = ", level: " + std::to_string(level);
-            EXPECT_NEAR(pixelOf(shown("show: radiance_opacity" + levelText), 16, 16).x, 1, 1e-3)
-                << layout << level;
+            EXPECT_NEAR(pixelOf(shown("show: radiance_opacity" + levelText), 16, 16).x, 1, 1e-3) << layout << level;
             const ImageF image = shown("show: radiance" + levelText);
             for (uint32_t y = 10; y < 22; ++y)
                 for (uint32_t x = 10; x < 22; ++x) atLevel[level] += double(pixelOf(image, x, y).x) / 144;
@@ -109,13 +106,11 @@ TEST(ShowVoxels, DrawsEachLevelOfPrefilteredVoxels) {
 TEST(ShowVoxels, CountsTheLitFacesOfARoomThatAFaceSees) {
     // A lamp lights all walls of a closed room of 8 voxels. All voxels are one cluster: each face sees all of
     // its component's that look another way, 5 times 8², but for those in a corner that no surfel fell on.
-    Chain chain(
-        "white_room", "{}",
-        graphYaml({"voxelize, resolution: 8", "place_surfels",
-                   "cluster_voxels, target: 1, unassigned: nearest", "find_patches",
-                   "cluster_visibility, rays: 256, near_distance: 0", "inject_clusters, direct: shadow_rays",
-                   "show_voxels, show: lit_faces, red_at: 640"}),
-        kSize, kSize);
+    Chain chain("white_room", "{}",
+                graphYaml({"voxelize, resolution: 8", "place_surfels", "cluster_voxels, target: 1, unassigned: nearest",
+                           "find_patches", "cluster_visibility, rays: 256, near_distance: 0",
+                           "inject_clusters, direct: shadow_rays", "show_voxels, show: lit_faces, red_at: 640"}),
+                kSize, kSize);
     chain.runFrameFrom({});  // From the center: the camera's own place is in a wall's voxels.
     const auto faces = facesOfPatches(readGroups(chain));
     const std::vector<bool> isLit = litPatches(chain);
@@ -132,20 +127,18 @@ TEST(ShowVoxels, CountsTheLitFacesOfARoomThatAFaceSees) {
     const float red = float(lit - back) / 640;
     for (uint32_t y = 0; y < kSize; ++y)
         for (uint32_t x = 0; x < kSize; ++x)
-            EXPECT_LT(glm::distance(pixelOf(image, x, y), glm::vec3(red, 1 - red, 0)), 1e-6f)
-                << x << " " << y;
+            EXPECT_LT(glm::distance(pixelOf(image, x, y), glm::vec3(red, 1 - red, 0)), 1e-6f) << x << " " << y;
 }
 
 TEST(ShowVoxels, CountsLitFacesAsListsTell) {
     // A spot lights a part of the floor: what faces of the back wall see of it, near by voxels and far by
     // clusters, out of the lists themselves.
     constexpr uint32_t kRed = 1000;
-    Chain chain(
-        "cornell", "{lights: spot, boxes: false}",
-        graphYaml({"voxelize, resolution: 16", "place_surfels", "cluster_voxels, target: 100", "find_patches",
-                   "cluster_visibility, rays: 64", "inject_clusters, direct: shadow_rays",
-                   "show_voxels, show: lit_faces, red_at: " + std::to_string(kRed)}),
-        kSize, kSize);
+    Chain chain("cornell", "{lights: spot, boxes: false}",
+                graphYaml({"voxelize, resolution: 16", "place_surfels", "cluster_voxels, target: 100", "find_patches",
+                           "cluster_visibility, rays: 64", "inject_clusters, direct: shadow_rays",
+                           "show_voxels, show: lit_faces, red_at: " + std::to_string(kRed)}),
+                kSize, kSize);
     const auto& patches = chain.get<VoxelPatches>("patches");
     const auto groups = readGroups(chain);
     const auto components = chain.read<gpu::ClusterComponent>(patches.components);
@@ -171,24 +164,22 @@ TEST(ShowVoxels, CountsLitFacesAsListsTell) {
     for (uint32_t y = 10; y < 22; ++y)
         for (uint32_t x = 10; x < 22; ++x) {
             const float u = 2 * (float(x) + 0.5f) / kSize - 1, v = 2 * (float(y) + 0.5f) / kSize - 1;
-            const glm::vec3 at = camera.position +
-                                 (camera.position.z - front) * glm::vec3(u * halfHeight, -v * halfHeight, -1);
+            const glm::vec3 at =
+                camera.position + (camera.position.z - front) * glm::vec3(u * halfHeight, -v * halfHeight, -1);
             glm::ivec3 voxel = glm::ivec3(glm::floor((at - voxels.grid.origin) / size));
             voxel.z = wall;
             const uint32_t number = voxels.number(voxel);
             uint32_t seen = 0;
             for (uint32_t patch = 0; patch < faces.size(); ++patch) {
                 const uint32_t group = faces[patch] / 6;
-                if (faces[patch] % 6 != 4 || group < firstGroup[number] || group >= firstGroup[number + 1])
-                    continue;
+                if (faces[patch] % 6 != 4 || group < firstGroup[number] || group >= firstGroup[number + 1]) continue;
                 for (const VisibilityEntry& entry : lists[patch])
                     seen += entry.target < litOfComponents.size()
                                 ? litOfComponents[entry.target]
                                 : uint32_t(isLit[entry.target - litOfComponents.size()]);
             }
             const float red = float(seen) / kRed;
-            EXPECT_LT(glm::distance(pixelOf(image, x, y), glm::vec3(red, 1 - red, 0)), 1e-5f)
-                << x << " " << y;
+            EXPECT_LT(glm::distance(pixelOf(image, x, y), glm::vec3(red, 1 - red, 0)), 1e-5f) << x << " " << y;
             most = std::max(most, seen);
             none += seen == 0 ? 1 : 0;
         }

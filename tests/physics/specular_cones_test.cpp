@@ -11,8 +11,8 @@ namespace {
 
 std::string coneGraph(const std::string& gbuffer, const std::string& resolution, const std::string& inject,
                       const std::string& filter, const std::string& gather) {
-    return graphYaml({"gbuffer, " + gbuffer, "voxelize, resolution: " + resolution,
-                      "inject_light_rays, " + inject, "filter_voxels, " + filter, "gather_cones, " + gather});
+    return graphYaml({"gbuffer, " + gbuffer, "voxelize, resolution: " + resolution, "inject_light_rays, " + inject,
+                      "filter_voxels, " + filter, "gather_cones, " + gather});
 }
 
 /// Mean of what surfaces reflect where all of them emit 1, by cones and by the reference. Voxels hold what
@@ -22,8 +22,8 @@ void expectFurnace(const std::string& name, const std::function<void(Material&)>
     Chain reference(state, graphYaml({"path_trace, spp: 1024, bounces: 0"}), 16, 16);
     const double expected = mean(reference.image("final")) - 1.0;
     Chain cones(state,
-                coneGraph("samples_per_pixel_edge: 1", "32", "rays_per_light: 65536, bounces: 0",
-                          "emission: true", "cones: 16"),
+                coneGraph("samples_per_pixel_edge: 1", "32", "rays_per_light: 65536, bounces: 0", "emission: true",
+                          "cones: 16"),
                 16, 16);
     const Material& wall = state->scene->materials[0];
     const double seen = 1.0 + wall.baseColor.r * (1.0 - wall.metallic);
@@ -52,8 +52,8 @@ TEST(SpecularCones, KeepTheEnergyOfAFurnaceOfVarnish) {
 TEST(SpecularCones, LeaveLambertSurfacesAlone) {
     const auto run = [](const std::string& cones) {
         Chain chain("cornell", "{lights: point}",
-                    coneGraph("samples_per_pixel_edge: 2", "32", "rays_per_light: 65536, bounces: 2",
-                              "emission: false", "cones: 6, specular: " + cones));
+                    coneGraph("samples_per_pixel_edge: 2", "32", "rays_per_light: 65536, bounces: 2", "emission: false",
+                              "cones: 6, specular: " + cones));
         return chain.image("indirect").data;
     };
     EXPECT_EQ(run("7"), run("0"));
@@ -65,9 +65,8 @@ State mirrorRoom(float roughness) {
 
 /// Over the pixels that show the mirror, by cones and by the reference, as errorAt() has it. The others show
 /// light that the mirror throws at them, which voxels don't hold.
-std::pair<double, double> mirrorError(float roughness, const std::string& cones,
-                                      const std::string& resolution, const std::string& layout,
-                                      const ImageF& expected) {
+std::pair<double, double> mirrorError(float roughness, const std::string& cones, const std::string& resolution,
+                                      const std::string& layout, const ImageF& expected) {
     Chain chain(mirrorRoom(roughness),
                 coneGraph("samples_per_pixel_edge: 2", resolution, "rays_per_light: 524288, bounces: 0",
                           "layout: " + layout, "cones: 5, stride: 16, specular: " + cones));

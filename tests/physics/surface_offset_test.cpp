@@ -47,8 +47,7 @@ TEST(SurfaceOffset, LevelGroundIsAsCertainHoweverFarItReaches) {
     // corners' floats are: the shadow's edge moves by that in the 0.73 m that the camera sees
     const double expected = directMean(sheetOverGround(2, 0.02f));
     for (const float half : {1e3f, 1e5f}) {
-        const double tolerance =
-            (2e-3 + 0.5 * std::numeric_limits<float>::epsilon() * half / 0.73) * expected;
+        const double tolerance = (2e-3 + 0.5 * std::numeric_limits<float>::epsilon() * half / 0.73) * expected;
         EXPECT_NEAR(directMean(sheetOverGround(half, 0.02f)), expected, tolerance) << half;
         EXPECT_NEAR(referenceMean(sheetOverGround(half, 0.02f)), expected, tolerance) << half;
     }
@@ -74,8 +73,8 @@ TEST(SurfaceOffset, RaysEndShortOfLightsThatLieNearTheOrigin) {
 TEST(SurfaceOffset, PointsOnTheEdgesOfARoomAreInIt) {
     // Pixels of a square image whose centers lie on the edges between the walls
     for (const uint32_t size : {32u, 64u, 96u}) {
-        Chain chain("cornell", "{lights: point, boxes: false}", graphYaml({"gbuffer", "direct_shadow_rays"}),
-                    size, size, 1);
+        Chain chain("cornell", "{lights: point, boxes: false}", graphYaml({"gbuffer", "direct_shadow_rays"}), size,
+                    size, 1);
         const ImageF image = chain.image("direct");
         const uint32_t border = size / 32;
         for (uint32_t y = border; y < size - border; ++y)

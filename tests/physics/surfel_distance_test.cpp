@@ -27,8 +27,8 @@ TEST(SurfelDistance, InASphereItIsTheRadius) {
     scene.place(scene.mesh(sphereMesh("sphere", glm::vec3(0.0f), 1, 6, wall, true, false)));
     scene.camera({0, 0, 0}, {0, 0, -1}, 60);
     Chain chain(evaluated(scene),
-                graphYaml({"voxelize, resolution: 32", "place_surfels, sides: all",
-                           "link_surfels, rays_per_surfel: 64", "inject_radiosity, bounces: 1"}),
+                graphYaml({"voxelize, resolution: 32", "place_surfels, sides: all", "link_surfels, rays_per_surfel: 64",
+                           "inject_radiosity, bounces: 1"}),
                 32, 32);
     const SurfelsByVoxel& surfels = chain.get<SurfelsByVoxel>("surfels_by_voxel");
     const double voxelSize = chain.get<SurfaceVoxels>("voxels").grid.voxelSize;
@@ -75,14 +75,13 @@ TEST(SurfelDistance, LightOfANarrowLedgeStaysNearIt) {
     const State state = ledge();
     const double truth =
         lightAbove(Chain(state, graphYaml({"path_trace, spp: 512, bounces: 1"}), 64, 64).image("indirect"));
-    const double looked =
-        lightAbove(Chain(state,
-                         graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 16",
-                                    "place_surfels, points_per_voxel: 32, sides: all",
-                                    "link_surfels, rays_per_surfel: 64", "inject_radiosity, bounces: 1",
-                                    "gather_surfels"}),
-                         64, 64)
-                       .image("indirect"));
+    const double looked = lightAbove(
+        Chain(state,
+              graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 16",
+                         "place_surfels, points_per_voxel: 32, sides: all", "link_surfels, rays_per_surfel: 64",
+                         "inject_radiosity, bounces: 1", "gather_surfels"}),
+              64, 64)
+            .image("indirect"));
     std::printf("light above the ledge over the reference's: %.3f\n", looked / truth);
     EXPECT_NEAR(looked / truth, 1.0, 0.2);
 }

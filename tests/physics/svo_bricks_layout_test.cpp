@@ -18,8 +18,7 @@ namespace {
 
 constexpr double kCode = 1.0 / 255;  // The step of 8 bits.
 
-std::string filterGraph(const std::string& layout, const std::string& resolution,
-                        const std::string& more = "") {
+std::string filterGraph(const std::string& layout, const std::string& resolution, const std::string& more = "") {
     return graphYaml({"voxelize, directions: 1, resolution: " + resolution,
                       "inject_light_rays, rays_per_light: 65536, bounces: 2",
                       "filter_voxels, layout: " + layout + more});
@@ -33,8 +32,7 @@ struct Lattice {
     explicit Lattice(glm::uvec3 size) : nodes(size), values(size_t(glm::compMul(2 * nodes + 1))) {}
     glm::ivec3 last() const { return 2 * nodes; }
     size_t index(glm::ivec3 at) const {
-        return (size_t(at.z) * size_t(2 * nodes.y + 1) + size_t(at.y)) * size_t(2 * nodes.x + 1) +
-               size_t(at.x);
+        return (size_t(at.z) * size_t(2 * nodes.y + 1) + size_t(at.y)) * size_t(2 * nodes.x + 1) + size_t(at.x);
     }
     /// Outside nothing.
     glm::dvec4 operator[](glm::ivec3 at) const {
@@ -60,8 +58,7 @@ Lattice leafLattice(const Lattice& centers) {
             const glm::ivec3 side = (glm::ivec3(octant, octant >> 1, octant >> 2) & 1) * 2 - 1;
             glm::ivec3 center;
             for (int k = 0; k < 3; ++k) center[k] = at[k] % 2 ? at[k] : at[k] + side[k];
-            if (glm::any(glm::lessThan(center, glm::ivec3(0))) ||
-                glm::any(glm::greaterThan(center, centers.last())))
+            if (glm::any(glm::lessThan(center, glm::ivec3(0))) || glm::any(glm::greaterThan(center, centers.last())))
                 continue;
             sum += centers[center];
             ++met;
@@ -136,8 +133,7 @@ TEST(SvoBricks, AreTheGaussianPyramidOfTheirVoxels) {
     centers.fill([&](glm::ivec3 at) {
         if (at.x % 2 && at.y % 2 && at.z % 2) {
             cells.push_back(at);
-            queries.push_back(
-                {grid.origin + 0.5f * grid.voxelSize * glm::vec3(at), grid.voxelSize, {1, 0, 0}});
+            queries.push_back({grid.origin + 0.5f * grid.voxelSize * glm::vec3(at), grid.voxelSize, {1, 0, 0}});
         }
         return glm::dvec4(0.0);
     });
@@ -157,14 +153,13 @@ TEST(SvoBricks, AreTheGaussianPyramidOfTheirVoxels) {
         double worst = 0, largest = 0, sum = 0;
         for (size_t i = 0; i < found.size(); ++i) {
             const glm::dvec4 expected = interpolated(lattice, p.places[i]);
-            const glm::dvec4 error =
-                glm::abs(expected - glm::dvec4(found[i])) / glm::dvec4(glm::dvec3(brightest), 1.0);
+            const glm::dvec4 error = glm::abs(expected - glm::dvec4(found[i])) / glm::dvec4(glm::dvec3(brightest), 1.0);
             worst = std::max(worst, glm::compMax(error));
             largest = std::max(largest, expected.a);
             sum += error.a;
         }
-        std::printf("level %u: opacity up to %.3f, off by at most %.2f codes, %.3f in the mean\n", level,
-                    largest, worst / kCode, sum / double(found.size()) / kCode);
+        std::printf("level %u: opacity up to %.3f, off by at most %.2f codes, %.3f in the mean\n", level, largest,
+                    worst / kCode, sum / double(found.size()) / kCode);
         EXPECT_LT(worst, (2.1 + 4 * level) * kCode) << level;
         EXPECT_GT(largest, 0.05) << level;
     }
@@ -223,14 +218,13 @@ TEST(SvoBricks, FollowALightThatChanges) {
 
 TEST(SvoBricks, TakeWhatTheHostCounts) {
     for (const std::string scene : {"cornell", "thin_wall", "spheres"}) {
-        const Chain chain(scene, "{}",
-                          graphYaml({"voxelize, resolution: 48, directions: 1",
-                                     "inject_light_rays, rays_per_light: 1024, bounces: 0",
-                                     "filter_voxels, layout: svo_bricks"}));
+        const Chain chain(
+            scene, "{}",
+            graphYaml({"voxelize, resolution: 48, directions: 1", "inject_light_rays, rays_per_light: 1024, bounces: 0",
+                       "filter_voxels, layout: svo_bricks"}));
         const SurfaceVoxels& voxels = chain.get<SurfaceVoxels>("voxels");
         const BrickOctreeCount count = countBrickOctree(metVoxels(chain.state().geometry, voxels.grid));
-        EXPECT_NEAR(double(radiance(chain).storage[1].bytes()) / double(count.bricks() * kBrickBytes), 1.0,
-                    0.03)
+        EXPECT_NEAR(double(radiance(chain).storage[1].bytes()) / double(count.bricks() * kBrickBytes), 1.0, 0.03)
             << scene;
         EXPECT_NEAR(double(chain.graph().memory().back().bytes) / double(count.bytes()), 1.0, 0.03) << scene;
     }
@@ -259,17 +253,16 @@ TEST(SvoBricks, DifferWhereANeighborIsMissing) {
     // Figure 28. Where the four voxels meet, all bricks hold their mean. Without the empty one means are
     // taken along x, then along z, each of the two that there are.
     const auto opacities = [](const std::string& neighbors) {
-        const Chain chain(threeOfFour(),
-                          graphYaml({"voxelize, resolution: 8, directions: 1, visibility_rays: 0",
-                                     "inject_light_rays, bounces: 0",
-                                     "filter_voxels, layout: svo_bricks, brick_neighbors: " + neighbors}),
-                          8, 8);
+        const Chain chain(
+            threeOfFour(),
+            graphYaml({"voxelize, resolution: 8, directions: 1, visibility_rays: 0", "inject_light_rays, bounces: 0",
+                       "filter_voxels, layout: svo_bricks, brick_neighbors: " + neighbors}),
+            8, 8);
         const gpu::RadianceGrid& g = radiance(chain).grid;
         EXPECT_EQ(g.resolution, glm::uvec3(8));
         std::vector<RadianceQuery> queries;
-        for (const glm::vec2 xz :
-             {glm::vec2(3.5f, 3.5f), glm::vec2(3.5f, 4.5f), glm::vec2(4.5f, 4.5f), glm::vec2(3.999f, 3.999f),
-              glm::vec2(3.999f, 4.001f), glm::vec2(4.001f, 4.001f)})
+        for (const glm::vec2 xz : {glm::vec2(3.5f, 3.5f), glm::vec2(3.5f, 4.5f), glm::vec2(4.5f, 4.5f),
+                                   glm::vec2(3.999f, 3.999f), glm::vec2(3.999f, 4.001f), glm::vec2(4.001f, 4.001f)})
             queries.push_back({g.origin + g.voxelSize * glm::vec3(xz.x, 3.5f, xz.y), g.voxelSize, {1, 0, 0}});
         return sampleRadiance(chain, queries);
     };
@@ -290,8 +283,7 @@ TEST(SvoBricks, ErrLittleMoreThanFullGrids) {
     const std::string room = "{lights: point}";
     const ImageF reference =
         Chain("cornell", room, graphYaml({"path_trace, spp: 256, bounces: 3"}), 24, 24).image("indirect");
-    const auto error = [&](const std::string& layout, const std::string& resolution,
-                           const std::string& gather) {
+    const auto error = [&](const std::string& layout, const std::string& resolution, const std::string& gather) {
         const std::string inject = "inject_light_rays, rays_per_light: 262144, bounces: 2";
         const std::string voxelize = "voxelize, directions: 1, resolution: " + resolution;
         const std::string filter = "filter_voxels, layout: " + layout;
@@ -302,8 +294,7 @@ TEST(SvoBricks, ErrLittleMoreThanFullGrids) {
         for (const std::string resolution : {"8", "16", "32"}) {
             const double bricks = error("svo_bricks", resolution, gather);
             const double dense = error("dense", resolution, gather);
-            std::printf("%s at %s: %.3f, full grids %.3f\n", gather.c_str(), resolution.c_str(), bricks,
-                        dense);
+            std::printf("%s at %s: %.3f, full grids %.3f\n", gather.c_str(), resolution.c_str(), bricks, dense);
             EXPECT_LT(bricks, 1.33 * dense) << gather << ' ' << resolution;
             EXPECT_GT(bricks, 0.9 * dense) << gather << ' ' << resolution;
         }

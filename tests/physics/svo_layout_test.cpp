@@ -38,8 +38,8 @@ TEST(SvoLayout, AgreesWithTheDenseLayout) {
         EXPECT_GT(brightest, 0.05);
         EXPECT_LT(worst, 3 * std::exp2(-11) * brightest);
         EXPECT_LT(worstCoverage, 3 * std::exp2(-11) * 2);
-        std::printf("directions %s: radiance differs by %.2g of the brightest, coverage by %.2g\n",
-                    directions.c_str(), worst / brightest, worstCoverage);
+        std::printf("directions %s: radiance differs by %.2g of the brightest, coverage by %.2g\n", directions.c_str(),
+                    worst / brightest, worstCoverage);
     }
 }
 

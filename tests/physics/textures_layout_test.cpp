@@ -10,11 +10,10 @@
 namespace voxray::test {
 namespace {
 
-std::string filterGraph(const std::string& layout, const std::string& resolution,
-                        const std::string& directions) {
+std::string filterGraph(const std::string& layout, const std::string& resolution, const std::string& directions) {
     return graphYaml({"gbuffer", "voxelize, resolution: " + resolution + ", directions: " + directions,
-                      "inject_light_rays, rays_per_light: 131072, bounces: 2",
-                      "filter_voxels, layout: " + layout, "gather_cones"});
+                      "inject_light_rays, rays_per_light: 131072, bounces: 2", "filter_voxels, layout: " + layout,
+                      "gather_cones"});
 }
 
 TEST(TexturesLayout, SamplesInLayersAgreeWithFullGrids) {
@@ -23,10 +22,8 @@ TEST(TexturesLayout, SamplesInLayersAgreeWithFullGrids) {
     // levels some round up, of the box's grid no side is a power of two.
     for (const std::string resolution : {"24", "32"})
         for (const std::string directions : {"1", "6"}) {
-            const Chain dense("cornell", "{lights: point}", filterGraph("dense", resolution, directions), 8,
-                              8);
-            const Chain textures("cornell", "{lights: point}",
-                                 filterGraph("textures", resolution, directions), 8, 8);
+            const Chain dense("cornell", "{lights: point}", filterGraph("dense", resolution, directions), 8, 8);
+            const Chain textures("cornell", "{lights: point}", filterGraph("textures", resolution, directions), 8, 8);
             const gpu::RadianceGrid& grid = radiance(dense).grid;
             const std::vector<LayerPlace> places = randomPlaces(grid, 50000);
             const std::vector<RadianceQuery> queries = queriesAt(grid, places);
@@ -48,9 +45,8 @@ TEST(TexturesLayout, SamplesInLayersAgreeWithFullGrids) {
                 if (expected[i].y > 0) ++lit;
             }
             EXPECT_GT(lit, places.size() / 20);
-            std::printf(
-                "%s voxels, %s directions: off by %.2g of the brightest voxel round a place at most\n",
-                resolution.c_str(), directions.c_str(), worst);
+            std::printf("%s voxels, %s directions: off by %.2g of the brightest voxel round a place at most\n",
+                        resolution.c_str(), directions.c_str(), worst);
         }
 }
 

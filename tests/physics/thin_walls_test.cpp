@@ -25,10 +25,9 @@ State redAndGreenWall() {
 }
 
 Chain wall(const std::string& voxelize, const std::string& filter) {
-    return Chain(
-        redAndGreenWall(),
-        graphYaml({"voxelize, " + voxelize, "inject_light_rays, bounces: 0", "filter_voxels, " + filter}), 16,
-        16);
+    return Chain(redAndGreenWall(),
+                 graphYaml({"voxelize, " + voxelize, "inject_light_rays, bounces: 0", "filter_voxels, " + filter}), 16,
+                 16);
 }
 
 /// What a ray along ±x (`towards`) meets in the wall, in steps of half a footprint of so many voxels.
@@ -70,10 +69,9 @@ TEST(ThinWalls, OneDirectionMakesThemBrown) {
 /// one.
 double leakOfGatherRays(const std::string& inject) {
     const auto seen = [&](const std::string& view) {
-        return meanIndirect(
-            "thin_wall", "{thickness: 0.05, view: " + view + "}",
-            graphYaml({"gbuffer", "voxelize, resolution: 64", "place_surfels", inject + ", bounces: 3",
-                       "trace_gather_rays, rays_per_block: 64", "gather_rays"}));
+        return meanIndirect("thin_wall", "{thickness: 0.05, view: " + view + "}",
+                            graphYaml({"gbuffer", "voxelize, resolution: 64", "place_surfels", inject + ", bounces: 3",
+                                       "trace_gather_rays, rays_per_block: 64", "gather_rays"}));
     };
     return seen("dark") / seen("lit");
 }
@@ -107,9 +105,8 @@ double visibleArea(int copies, bool hasPart, float rise) {
 TEST(ThinWalls, SurfacesThatCoincideHaveTheAreaOfOne) {
     for (const float rise : {0.0f, 0.37f}) {
         const double one = visibleArea(1, false, rise);
-        EXPECT_NEAR(
-            one / (2 * 2 * glm::length(glm::cross(glm::vec3(0, rise, 2), glm::vec3(1, 0.25f * rise, 0)))),
-            1.0, 0.01)
+        EXPECT_NEAR(one / (2 * 2 * glm::length(glm::cross(glm::vec3(0, rise, 2), glm::vec3(1, 0.25f * rise, 0)))), 1.0,
+                    0.01)
             << rise;
         EXPECT_NEAR(visibleArea(2, false, rise) / one, 1.0, 0.01) << rise;
         EXPECT_NEAR(visibleArea(3, false, rise) / one, 1.0, 0.01) << rise;

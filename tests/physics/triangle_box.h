@@ -29,8 +29,7 @@ inline bool overlaps(const Triangle& t, glm::dvec3 center, double half) {
 }
 
 /// The polygon of a triangle's part in a box.
-inline std::vector<glm::dvec3> partInBox(const Triangle& triangle, const glm::dvec3& low,
-                                         const glm::dvec3& high) {
+inline std::vector<glm::dvec3> partInBox(const Triangle& triangle, const glm::dvec3& low, const glm::dvec3& high) {
     const auto& [a, b, c] = triangle;
     if (glm::any(glm::greaterThan(glm::min(a, glm::min(b, c)), high)) ||
         glm::any(glm::lessThan(glm::max(a, glm::max(b, c)), low)))
@@ -54,8 +53,7 @@ inline std::vector<glm::dvec3> partInBox(const Triangle& triangle, const glm::dv
 inline double areaInBox(const Triangle& triangle, const glm::dvec3& low, const glm::dvec3& high) {
     const std::vector<glm::dvec3> polygon = partInBox(triangle, low, high);
     glm::dvec3 sum(0);
-    for (size_t i = 2; i < polygon.size(); ++i)
-        sum += glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
+    for (size_t i = 2; i < polygon.size(); ++i) sum += glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
     return 0.5 * glm::length(sum);
 }
 

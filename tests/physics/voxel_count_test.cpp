@@ -58,10 +58,10 @@ TEST(StillVoxels, AreAllThatIsFilledWhereSheetsLieOnBorders) {
         const uint32_t resolution = 16 + 8 * (seed % 7);
         const auto state = boxWithSheets(seed, resolution);
         const char* method = seed % 2 == 0 ? "exact" : "dominant_axis";
-        Chain chain(state,
-                    graphYaml({fmt::format("voxelize, visibility_rays: 0, resolution: {}, method: {}",
-                                           resolution, method)}),
-                    8, 8);
+        Chain chain(
+            state,
+            graphYaml({fmt::format("voxelize, visibility_rays: 0, resolution: {}, method: {}", resolution, method)}), 8,
+            8);
         const Voxels voxels(chain);
         const uint32_t counted = countStaticVoxels(state->geometry, voxels.grid);
         EXPECT_GE(counted, voxels.count) << "seed " << seed << ", " << method;

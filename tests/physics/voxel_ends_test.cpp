@@ -14,9 +14,7 @@ namespace {
 class RandomNumbers {
  public:
     float uniform() { return uniform_(random_); }
-    glm::vec3 direction() {
-        return glm::normalize(glm::vec3(normal_(random_), normal_(random_), normal_(random_)));
-    }
+    glm::vec3 direction() { return glm::normalize(glm::vec3(normal_(random_), normal_(random_), normal_(random_))); }
 
  private:
     std::mt19937 random_{7};
@@ -32,8 +30,8 @@ struct SurfaceSample {
 std::vector<SurfaceSample> surfaceSamples(const Geometry& g, size_t count, RandomNumbers& random) {
     std::vector<float> area;
     for (const glm::uvec3& t : g.triangles)
-        area.push_back(glm::length(
-            glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x])));
+        area.push_back(
+            glm::length(glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x])));
     std::discrete_distribution<size_t> pick(area.begin(), area.end());
     std::mt19937 picks(3);
     std::vector<SurfaceSample> samples(count);
@@ -141,8 +139,8 @@ TEST(VoxelEnds, ConcaveEdgesHideWithinTwoVoxels) {
 TEST(VoxelEnds, ConcaveCurvesHideLittle) {
     RandomNumbers random;
     for (const int resolution : {32, 64, 128}) {
-        Chain chain("furnace", "{shape: sphere}",
-                    graphYaml({fmt::format("voxelize, resolution: {}", resolution)}), 8, 8);
+        Chain chain("furnace", "{shape: sphere}", graphYaml({fmt::format("voxelize, resolution: {}", resolution)}), 8,
+                    8);
         const std::vector<SurfacePair> pairs = pairsOf(chain.state().geometry, 50000, random);
         const double part = double(sum(hiddenByVoxels(voxelsOf(chain), pairs))) / double(pairs.size());
         std::printf("a sphere of %d voxels: %.4f of the pairs are hidden\n", resolution, part);

@@ -45,9 +45,8 @@ TEST(VoxelVisibility, StepsByAnEpsilonSkipSlivers) {
             closest += steps[i].voxel != exact[i].voxel && steps[i].hit == exact[i].hit;
         }
         const double fraction = double(occlusion + closest) / double(rays.size());
-        std::printf(
-            "epsilon %g voxels: occlusion differs for %.2g of the rays, the closest voxel alone for %.2g\n",
-            double(epsilon), double(occlusion) / double(rays.size()), double(closest) / double(rays.size()));
+        std::printf("epsilon %g voxels: occlusion differs for %.2g of the rays, the closest voxel alone for %.2g\n",
+                    double(epsilon), double(occlusion) / double(rays.size()), double(closest) / double(rays.size()));
         EXPECT_GE(fraction, before);
         EXPECT_LT(fraction, 0.01 + 2 * epsilon);
         before = fraction;
@@ -90,8 +89,7 @@ TEST(VoxelVisibility, StreamsHaveTheTracersInterface) {
             ASSERT_EQ(hits[i].triangle != Hit::kMiss, expected[i].hit != 0) << name;
             ASSERT_EQ(hits[i].t, expected[i].hit ? expected[i].t : rays[i].tMax) << name;
         }
-        for (size_t i = expected.size(); i < rays.size(); ++i)
-            EXPECT_EQ(hits[i].triangle, Hit::kMiss) << name;
+        for (size_t i = expected.size(); i < rays.size(); ++i) EXPECT_EQ(hits[i].triangle, Hit::kMiss) << name;
     }
 }
 

@@ -36,8 +36,7 @@ std::vector<Triangle> inVoxels(const std::vector<glm::vec3>& corners, const gpu:
 
 TEST(VoxelizeExact, MarksTheVoxelsThatTrianglesOverlap) {
     const std::vector<glm::vec3> corners = randomCorners(7, 60);
-    const Voxels voxels =
-        voxelize(triangleScene(corners), "method: exact, resolution: 27, visibility_rays: 0");
+    const Voxels voxels = voxelize(triangleScene(corners), "method: exact, resolution: 27, visibility_rays: 0");
     const std::vector<Triangle> triangles = inVoxels(corners, voxels.grid);
     constexpr double kEpsilon = 1e-3;  // Of which the shader's margin is a quarter.
     int marked = 0;
@@ -57,8 +56,7 @@ TEST(VoxelizeExact, MarksTheVoxelsThatTrianglesOverlap) {
 
 TEST(VoxelizeExact, HoldsTheClippedAreaOfEveryVoxel) {
     const std::vector<glm::vec3> corners = randomCorners(3, 60);
-    const Voxels voxels =
-        voxelize(triangleScene(corners), "method: exact, resolution: 19, visibility_rays: 0");
+    const Voxels voxels = voxelize(triangleScene(corners), "method: exact, resolution: 19, visibility_rays: 0");
     const std::vector<Triangle> triangles = inVoxels(corners, voxels.grid);
     double total = 0;
     voxels.forEach([&](glm::ivec3 v) {

@@ -14,8 +14,7 @@ namespace voxray::test {
 inline double surfaceArea(const Geometry& g) {
     double area = 0;
     for (const glm::uvec3 t : g.triangles)
-        area += 0.5 * glm::length(glm::cross(g.positions[t.y] - g.positions[t.x],
-                                             g.positions[t.z] - g.positions[t.x]));
+        area += 0.5 * glm::length(glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x]));
     return area;
 }
 
@@ -135,8 +134,7 @@ inline std::shared_ptr<const Scene> triangleScene(const std::vector<glm::vec3>& 
     mesh.material = b.lambert("grey", glm::vec3(0.5f));
     for (uint32_t i = 0; i < corners.size(); ++i) {
         const uint32_t first = i - i % 3;
-        const glm::vec3 n =
-            glm::cross(corners[first + 1] - corners[first], corners[first + 2] - corners[first]);
+        const glm::vec3 n = glm::cross(corners[first + 1] - corners[first], corners[first + 2] - corners[first]);
         mesh.positions.push_back(corners[i]);
         mesh.normals.push_back(glm::length(n) > 0 ? glm::normalize(n) : glm::vec3(0, 1, 0));
         if (i % 3 == 2) mesh.triangles.push_back({first, first + 1, first + 2});

@@ -21,10 +21,10 @@ ImageF indirect(const std::string& gather, const std::string& before = "") {
 TEST(VplVisibility, LeavesWithTrianglesHideWhatTrianglesHide) {
     const ImageF exact = indirect("visibility: exact");
     const double voxels = meanDifference(indirect("visibility: svo"), exact);
-    const double lists = meanDifference(
-        indirect("visibility: hybrid_leaves", "build_hybrid_leaves, primitives: 1048576"), exact);
-    const double grids = meanDifference(
-        indirect("visibility: hybrid_leaves", "build_hybrid_leaves, primitives: 1, grid: 8"), exact);
+    const double lists =
+        meanDifference(indirect("visibility: hybrid_leaves", "build_hybrid_leaves, primitives: 1048576"), exact);
+    const double grids =
+        meanDifference(indirect("visibility: hybrid_leaves", "build_hybrid_leaves, primitives: 1, grid: 8"), exact);
     std::printf("off the exact image: voxels %.5f, grids %.5f, lists %.5f\n", voxels, grids, lists);
     EXPECT_LT(lists, 1e-5);
     EXPECT_LT(grids, 0.5 * voxels);
@@ -95,9 +95,9 @@ TEST(VplVisibility, AllCutAwayByMasksIsAnError) {
         return errorOf([&] { Chain(evaluated(cutAway(builtinScene("white_room"))), passes, 8, 8); });
     };
     EXPECT_CONTAINS(refused(graph("visibility: svo")), "voxelize: no surface");
-    EXPECT_CONTAINS(refused(graphYaml(
-                        {"gbuffer", "sample_vpls, vpls_per_bounce: 256", "gather_vpls, visibility: exact"})),
-                    "none of 256 rays");
+    EXPECT_CONTAINS(
+        refused(graphYaml({"gbuffer", "sample_vpls, vpls_per_bounce: 256", "gather_vpls, visibility: exact"})),
+        "none of 256 rays");
 }
 
 }  // namespace

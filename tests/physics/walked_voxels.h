@@ -52,9 +52,8 @@ class WalkedVoxels {
         const Buffer in(device(), "rays", rays.size() * sizeof(Ray));
         const Buffer out(device(), "answers", rays.size() * sizeof(WalkAnswer));
         stream_.upload(in, rays);
-        stream_.dispatch(
-            kernel, rays.size(),
-            {march, {"rays", in}, {"answers", out}, {"grid", grid}, {"count", uint32_t(rays.size())}});
+        stream_.dispatch(kernel, rays.size(),
+                         {march, {"rays", in}, {"answers", out}, {"grid", grid}, {"count", uint32_t(rays.size())}});
         counts = stream_.readAs<uint64_t>(march.counts(), 2);
         return stream_.readAs<WalkAnswer>(out, rays.size());
     }
@@ -114,8 +113,7 @@ inline WalkedVoxels longVoxels() {
     return WalkedVoxels({1024, 11, 18}, 0.02f, [](glm::ivec3 v) { return isSparse(v, 3); });
 }
 inline WalkedVoxels emptyVoxels() {
-    return WalkedVoxels({250, 256, 64}, 0.02f,
-                        [](glm::ivec3 v) { return isSparse(v / 16, 80) && isSparse(v, 60); });
+    return WalkedVoxels({250, 256, 64}, 0.02f, [](glm::ivec3 v) { return isSparse(v / 16, 80) && isSparse(v, 60); });
 }
 
 }  // namespace voxray::test

@@ -30,17 +30,16 @@ struct Params {
     std::string label = "x";
     uint32_t edge = 4;
     static constexpr auto schema() {
-        return std::tuple{
-            field("flag", &Params::flag, "A flag."),
-            field("count", &Params::count, "How many.", 1u, 10u),
-            field("offset", &Params::offset, "Where.", -5, 5),
-            field("scale", &Params::scale, "How large.", 0.0f, 2.0f),
-            field("color", &Params::color, "Which.", glm::vec3(0.0f), glm::vec3(9.0f)),
-            field("fruit", &Params::fruit, "Which one."),
-            field("label", &Params::label, "Name."),
-            field("edge", &Params::edge, "How long.", powersOfTwo(1, 8))
-                .lessNoise()
-                .onlyWith(oneOf(&Params::fruit, {Fruit::Apple}), noneOf(&Params::offset, {0, 1}))};
+        return std::tuple{field("flag", &Params::flag, "A flag."),
+                          field("count", &Params::count, "How many.", 1u, 10u),
+                          field("offset", &Params::offset, "Where.", -5, 5),
+                          field("scale", &Params::scale, "How large.", 0.0f, 2.0f),
+                          field("color", &Params::color, "Which.", glm::vec3(0.0f), glm::vec3(9.0f)),
+                          field("fruit", &Params::fruit, "Which one."),
+                          field("label", &Params::label, "Name."),
+                          field("edge", &Params::edge, "How long.", powersOfTwo(1, 8))
+                              .lessNoise()
+                              .onlyWith(oneOf(&Params::fruit, {Fruit::Apple}), noneOf(&Params::offset, {0, 1}))};
     }
 };
 
@@ -104,9 +103,7 @@ TEST(Value, TypedReads) {
     for (const char* bad : {"", "yes", "True", "1"})
         EXPECT_THROW(Value::fromScalar(bad).asBool("x"), UsageError) << bad;
     EXPECT_THROW(Value::fromScalar("1", true).asInteger("x"), UsageError);
-    const auto integerError = [](const char* text) {
-        return errorOf([&] { Value::fromScalar(text).asInteger("x"); });
-    };
+    const auto integerError = [](const char* text) { return errorOf([&] { Value::fromScalar(text).asInteger("x"); }); };
     EXPECT_CONTAINS(integerError("1e6"), "1000000");
     EXPECT_CONTAINS(integerError("4_096"), "4096");
     EXPECT_CONTAINS(integerError("9223372036854775808"), "9223372036854775808 is out of range, at most");
@@ -135,10 +132,9 @@ TEST(Value, JsonEscapesAndLiterals) {
     for (const char* text : {"007", "+1", ".5", "5.", "nan", "-"})
         map.find("odd")->items.push_back(Value::fromScalar(text));
     map.set("nothing", Value());
-    EXPECT_EQ(
-        map.json(-1),
-        "{\"a\\\"b\":\"line\\nback\\\\slash\\ttab \\\"quote\\\" \\u0001\",\"n\":1e3,\"t\":true,\"s\":\"12\","
-        "\"odd\":[\"007\",\"+1\",\".5\",\"5.\",\"nan\",\"-\"],\"nothing\":null}");
+    EXPECT_EQ(map.json(-1),
+              "{\"a\\\"b\":\"line\\nback\\\\slash\\ttab \\\"quote\\\" \\u0001\",\"n\":1e3,\"t\":true,\"s\":\"12\","
+              "\"odd\":[\"007\",\"+1\",\".5\",\"5.\",\"nan\",\"-\"],\"nothing\":null}");
 }
 
 TEST(Schema, ReadsEveryType) {
@@ -197,8 +193,8 @@ TEST(Schema, KnowsParametersWithoutEffect) {
     EXPECT_EQ(unused(mapOf({{"edge", "2"}, {"offset", "1"}})),
               "f.yaml:3: edge: no effect with fruit: pear, offset: 1; only with fruit: "
               "apple or offset other than 0 | 1");
-    for (const auto& map : {mapOf({{"fruit", "apple"}, {"edge", "2"}}),
-                            mapOf({{"offset", "2"}, {"edge", "2"}}), mapOf({{"fruit", "pear"}})})
+    for (const auto& map : {mapOf({{"fruit", "apple"}, {"edge", "2"}}), mapOf({{"offset", "2"}, {"edge", "2"}}),
+                            mapOf({{"fruit", "pear"}})})
         EXPECT_EQ(unused(map), "");
 }
 
@@ -219,8 +215,7 @@ TEST(Schema, DescribesItself) {
     EXPECT_EQ(docs[7].type, "integer");
     EXPECT_EQ(docs[7].choices, (std::vector<std::string>{"1", "2", "4", "8"}));
     EXPECT_TRUE(docs[7].min.empty());
-    EXPECT_EQ(docs[7].help,
-              "How long. Larger: less noise. Only with fruit: apple or offset other than 0 | 1.");
+    EXPECT_EQ(docs[7].help, "How long. Larger: less noise. Only with fruit: apple or offset other than 0 | 1.");
     EXPECT_TRUE(docs[7].isLessNoise);
     EXPECT_FALSE(docs[1].isLessNoise);
 }
@@ -260,8 +255,7 @@ TEST_F(Folder, FullDiskIsOneErrorAndLeavesNothing) {
     std::signal(SIGXFSZ, SIG_IGN);
     const rlimit small{4096, before.rlim_max};
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-    const std::string message =
-        errorOf([&] { writeFileAtomically(folder_ / "a.txt", std::string(1 << 20, 'x')); });
+    const std::string message = errorOf([&] { writeFileAtomically(folder_ / "a.txt", std::string(1 << 20, 'x')); });
     setrlimit(RLIMIT_FSIZE, &before);
     EXPECT_CONTAINS(message, "a.txt: ");
     EXPECT_EQ(readTextFile(folder_ / "a.txt"), "old");
@@ -279,8 +273,8 @@ TEST_F(Folder, UnwritablePlacesAreErrors) {
 TEST(Files, TemporaryNamesAreKnown) {
     for (const char* name : {".manifest.12.tmp.json", "a/.results.1.tmp.csv", "..writable.345.tmp"})
         EXPECT_TRUE(isTemporaryName(name)) << name;
-    for (const char* name : {"manifest.json", "manifest.12.tmp.json", ".manifest.json", ".a.tmp.json",
-                             ".a.b.tmp.json", ".tmp", ".12.tmpx", ".git"})
+    for (const char* name : {"manifest.json", "manifest.12.tmp.json", ".manifest.json", ".a.tmp.json", ".a.b.tmp.json",
+                             ".tmp", ".12.tmpx", ".git"})
         EXPECT_FALSE(isTemporaryName(name)) << name;
 }
 

@@ -46,8 +46,7 @@ std::string configError(const std::string& yaml, const ConfigOptions& options = 
     return errorOf<UsageError>([&] { parseExperiment(yaml, "demo.yaml", options); });
 }
 
-void expectError(const std::string& yaml, std::initializer_list<const char*> parts,
-                 const ConfigOptions& options = {}) {
+void expectError(const std::string& yaml, std::initializer_list<const char*> parts, const ConfigOptions& options = {}) {
     const std::string message = configError(yaml, options);
     for (const char* part : parts) EXPECT_CONTAINS(message, part) << "'" << message << "'";
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
@@ -85,8 +84,7 @@ TEST(Config, ErrorsNamePlaceAndNearestWord) {
     expectError(replaced(kValid, "builtin: cornell", "builtin: cornell\n  file: a.glb"), {"both"});
     expectError(replaced(kValid, "id: inject", "id: image"), {"demo.yaml:11: ", "key of the config"});
     expectError(replaced(kValid, "target: [0, 1, 0]", "target: [0, 1, 4]"), {"demo.yaml:5: ", "same point"});
-    expectError(replaced(kValid, "position: [0, 1, 4]", "position: [0, .inf, 4]"),
-                {"demo.yaml:5: ", "number"});
+    expectError(replaced(kValid, "position: [0, 1, 4]", "position: [0, .inf, 4]"), {"demo.yaml:5: ", "number"});
     expectError(replaced(kValid, "graph:", "measure: {}\ngraph:"), {"demo.yaml:16: ", "appears twice"});
     expectError("name: x\n", {"demo.yaml:1: ", "'scene'"});
     expectError("", {"demo.yaml:1: "});
@@ -98,10 +96,9 @@ TEST(Config, Lights) {
         return "name: x\nscene:\n  file: a.glb\n  lights:\n" + lights + "graph: [{pass: a}]\n";
     };
     const Experiment e = parseExperiment(
-        withLights(
-            "    - {directional: [0, -2, 0], irradiance: [10, 9, 8]}\n"
-            "    - {point: [1, 2, 3], intensity: 5}\n"
-            "    - {spot: [0, 1, 0], direction: [0, 0, 3], intensity: 2, inner_deg: 10, outer_deg: 30}\n"),
+        withLights("    - {directional: [0, -2, 0], irradiance: [10, 9, 8]}\n"
+                   "    - {point: [1, 2, 3], intensity: 5}\n"
+                   "    - {spot: [0, 1, 0], direction: [0, 0, 3], intensity: 2, inner_deg: 10, outer_deg: 30}\n"),
         "x");
     ASSERT_EQ(e.setup.scene.lights.size(), 3u);
     EXPECT_EQ(e.setup.scene.lights[0].light.type, LightType::Directional);
@@ -125,8 +122,7 @@ TEST(Config, Motion) {
     EXPECT_FALSE(changesInTime(still));
     EXPECT_FALSE(still.movingSpheres);
     const SceneSettings moving =
-        parseExperiment(
-            with("  time_step: 0.1\n  moving_spheres: {count: 27, swing: [0, 2, 0], albedo: 0.25}\n"), "x")
+        parseExperiment(with("  time_step: 0.1\n  moving_spheres: {count: 27, swing: [0, 2, 0], albedo: 0.25}\n"), "x")
             .setup.scene;
     EXPECT_TRUE(changesInTime(moving));
     EXPECT_FALSE(changesInTime(moving, false)) << "a time step without anything animated";
@@ -146,14 +142,13 @@ TEST(Config, Motion) {
     expectError(with("  moving_spheres: {period: 0}\n"), {"demo.yaml:4: ", "out of range"});
     expectError(with("  moving_spheres: 9\n"), {"demo.yaml:4: ", "scene.moving_spheres"});
     expectError(with("  moving_sphere: {count: 9}\n"), {"demo.yaml:4: ", "'moving_spheres'"});
-    expectError(with("  lights: [{point: [0, 0, 0], move: 3 m}]\n"),
-                {"demo.yaml:4: ", "scene.lights[0].move"});
+    expectError(with("  lights: [{point: [0, 0, 0], move: 3 m}]\n"), {"demo.yaml:4: ", "scene.lights[0].move"});
 }
 
 TEST(Config, Environment) {
     const auto with = [](const std::string& environment) {
-        return parseExperiment(
-                   "name: x\nscene: {file: a.glb, environment: " + environment + "}\ngraph: [{pass: a}]", "x")
+        return parseExperiment("name: x\nscene: {file: a.glb, environment: " + environment + "}\ngraph: [{pass: a}]",
+                               "x")
             .setup.scene.environment;
     };
     EXPECT_EQ(with("none")->scale, glm::vec3(0.0f));
@@ -198,8 +193,8 @@ TEST(Config, Assignments) {
     EXPECT_TRUE(parseExperiment(kValid, "x", {"", {"reference=null"}}).reference.isNull());
 
     // A chain of passes
-    const Experiment chain = parseExperiment(
-        kValid, "x", {"", {"inject=[place_surfels, {pass: inject_voxel_rays}]", "inject.bounces=2"}});
+    const Experiment chain =
+        parseExperiment(kValid, "x", {"", {"inject=[place_surfels, {pass: inject_voxel_rays}]", "inject.bounces=2"}});
     ASSERT_EQ(chain.setup.graph.items.size(), 4u);
     EXPECT_EQ(chain.setup.graph.items[2].text(), "{pass: place_surfels}");
     EXPECT_EQ(chain.setup.graph.items[3].text(), "{pass: inject_voxel_rays, id: inject, bounces: 2}");
@@ -214,8 +209,8 @@ TEST(Config, Assignments) {
 
 TEST(Config, MasksAndComparedFramesAreChecked) {
     const auto with = [](const std::string& assignment) { return ConfigOptions{"", {assignment}}; };
-    const Experiment e = parseExperiment(
-        kValid, "x", with("measure.masks={floor: {material: stone}, mirrors: {max_roughness: 0.1}}"));
+    const Experiment e =
+        parseExperiment(kValid, "x", with("measure.masks={floor: {material: stone}, mirrors: {max_roughness: 0.1}}"));
     ASSERT_EQ(e.measure.masks.size(), 2u);
     EXPECT_EQ(e.measure.masks[0].name, "floor");
     EXPECT_EQ(e.measure.masks[0].material, "stone");
@@ -223,8 +218,7 @@ TEST(Config, MasksAndComparedFramesAreChecked) {
     EXPECT_EQ(comparedFrames(e.measure), 1u);
 
     expectError(kValid, {"measure.masks: expected a map"}, with("measure.masks=[floor]"));
-    expectError(kValid, {"measure.masks: 'a b' can't name a mask"},
-                with("measure.masks={a b: {material: x}}"));
+    expectError(kValid, {"measure.masks: 'a b' can't name a mask"}, with("measure.masks={a b: {material: x}}"));
     expectError(kValid, {"measure.masks.floor: expected conditions"}, with("measure.masks={floor: {}}"));
     expectError(kValid, {"'material'"}, with("measure.masks={floor: {materail: x}}"));
     expectError(kValid, {"max_roughness"}, with("measure.masks={floor: {max_roughness: 2}}"));
@@ -252,8 +246,7 @@ TEST(Config, BlocksWithoutEffectAreRefusedInTheFileAlone) {
 
 TEST(Config, AnAxisWhoseOneValueIsWrittenIsWarnedOf) {
     const auto warnings = [](const std::string& axis, const ConfigOptions& options = {}) {
-        return parseExperiment(replaced(kValid, "voxelize.resolution: [32, 64]", axis), "demo.yaml", options)
-            .warnings;
+        return parseExperiment(replaced(kValid, "voxelize.resolution: [32, 64]", axis), "demo.yaml", options).warnings;
     };
     ASSERT_EQ(warnings("voxelize.resolution: [64]").size(), 1u);
     EXPECT_CONTAINS(warnings("voxelize.resolution: [64]")[0], "demo.yaml:14: sweep.voxelize.resolution: ");
@@ -262,9 +255,8 @@ TEST(Config, AnAxisWhoseOneValueIsWrittenIsWarnedOf) {
     EXPECT_EQ(warnings("gbuffer: [{pass: gbuffer}]").size(), 1u);
 
     // Another value, a pass without the written one's parameters, what a profile or --set makes of it
-    for (const char* other :
-         {"voxelize.resolution: [64, 128]", "voxelize.resolution: [65]", "voxelize.method: [exact]",
-          "inject: [inject_light_rays]", "gbuffer: [[gbuffer]]", "scene.lights: [[]]"})
+    for (const char* other : {"voxelize.resolution: [64, 128]", "voxelize.resolution: [65]", "voxelize.method: [exact]",
+                              "inject: [inject_light_rays]", "gbuffer: [[gbuffer]]", "scene.lights: [[]]"})
         EXPECT_TRUE(warnings(other).empty()) << other;
     const std::string several = "voxelize.resolution: [32, 64]";
     EXPECT_TRUE(warnings(several, {"", {"sweep.voxelize.resolution=[64]"}}).empty());
@@ -333,10 +325,8 @@ TEST(Yaml, KeysThatAreIndentedUnlikeTheirNeighbours) {
         return errorOf<UsageError>([&] { parseYaml(text, "f.yaml"); });
     };
     // Too deep: below a key that has its value
-    EXPECT_CONTAINS(failure("graph:\n  - pass: a\n      size: 16\n      more: 1\n"),
-                    "f.yaml:3: bad YAML: 'size'");
-    EXPECT_CONTAINS(failure("graph:\n  - pass: a\n    size: 16\n     more: 1\n"),
-                    "f.yaml:4: bad YAML: 'more'");
+    EXPECT_CONTAINS(failure("graph:\n  - pass: a\n      size: 16\n      more: 1\n"), "f.yaml:3: bad YAML: 'size'");
+    EXPECT_CONTAINS(failure("graph:\n  - pass: a\n    size: 16\n     more: 1\n"), "f.yaml:4: bad YAML: 'more'");
     EXPECT_CONTAINS(failure("name: a\n\n# What it is\n seed: 7\n"), "f.yaml:4: bad YAML: 'seed'");
     EXPECT_CONTAINS(failure("image: {width: 3}\n  seed: 7\n"), "f.yaml:2: bad YAML: 'seed'");
 

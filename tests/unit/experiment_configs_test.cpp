@@ -13,9 +13,8 @@ namespace fs = std::filesystem;
 
 /// Scene files are not part of the repository.
 bool needsFiles(const SceneSettings& scene) {
-    return !scene.source.file.empty() || std::ranges::any_of(scene.additions, [](const SceneAddition& added) {
-        return !added.source.file.empty();
-    });
+    return !scene.source.file.empty() ||
+           std::ranges::any_of(scene.additions, [](const SceneAddition& added) { return !added.source.file.empty(); });
 }
 
 /// Every config that is shipped, with each of its profiles.

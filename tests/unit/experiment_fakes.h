@@ -33,9 +33,7 @@ struct Testimony : Resource {};
 /// Images to look at, in two formats.
 struct LayerImages : Resource {
     Image wide, half;
-    std::vector<Aov> aovs() const override {
-        return {{&wide, {"P.X", "P.Y", "P.Z"}}, {&half, {"R", "G", "B"}}};
-    }
+    std::vector<Aov> aovs() const override { return {{&wide, {"P.X", "P.Y", "P.Z"}}, {&half, {"R", "G", "B"}}}; }
 };
 
 /// Writes `value` into final and half of it into indirect. Takes a witness where there is one.
@@ -56,10 +54,10 @@ class Constant : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("value", &Params::value, "Radiance.", 0.0f, 100.0f),
-                field("flicker", &Params::flicker, "Added to radiance in even frames, taken off in odd ones.",
-                      0.0f, 1.0f),
-                field("noise", &Params::noise, "Added to radiance with even seeds, taken off with odd ones.",
-                      0.0f, 1.0f),
+                field("flicker", &Params::flicker, "Added to radiance in even frames, taken off in odd ones.", 0.0f,
+                      1.0f),
+                field("noise", &Params::noise, "Added to radiance with even seeds, taken off with odd ones.", 0.0f,
+                      1.0f),
                 field("nan", &Params::nan, "Write NaN instead."),
                 field("fail", &Params::fail, "Throw with commands recorded."),
                 field("interrupt", &Params::interrupt, "Raise SIGINT."),
@@ -158,9 +156,7 @@ class Relay : public Pass {
     static constexpr const char* kHelp = "Reads what another pass writes.";
     struct Params {
         uint32_t steps = 1;
-        static constexpr auto schema() {
-            return std::tuple{field("steps", &Params::steps, "Steps.", 1u, 8u)};
-        }
+        static constexpr auto schema() { return std::tuple{field("steps", &Params::steps, "Steps.", 1u, 8u)}; }
     };
     explicit Relay(const Params&) {}
     Phase phase() const override { return Phase::Build; }

@@ -42,32 +42,31 @@ TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
     // Of two passes that write the image the last one counts, unless it reads the first one's
     Registry registry = fakes::registry();
     registry.add<Veil>();
-    const auto wired = makeStudy(
-        parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: a}\n"
-                        "  - {pass: constant, id: b}\nsweep: {b: [constant, veil], a.value: [4, 5]}\n",
-                        "x.yaml"),
-        registry);
+    const auto wired =
+        makeStudy(parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: a}\n"
+                                  "  - {pass: constant, id: b}\nsweep: {b: [constant, veil], a.value: [4, 5]}\n",
+                                  "x.yaml"),
+                  registry);
     std::vector<std::string> names;
     for (const Variant& variant : wired.variants) names.push_back(variant.name);
     EXPECT_EQ(names, (std::vector<std::string>{"b-constant", "b-veil_value-4", "b-veil_value-5"}));
     EXPECT_EQ(wired.variants[0].values, (std::vector<std::string>{"constant", "-"}));
 
     // A whole pass neither, where nothing of what stands in its place runs
-    const auto swapped = makeStudy(
-        parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: a}\n"
-                        "  - {pass: constant, id: b}\nsweep:\n  a: {x: {pass: constant, value: 4}, y: "
-                        "[layers, constant]}\n"
-                        "  b: [constant, veil]\n",
-                        "x.yaml"),
-        registry);
+    const auto swapped =
+        makeStudy(parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: a}\n"
+                                  "  - {pass: constant, id: b}\nsweep:\n  a: {x: {pass: constant, value: 4}, y: "
+                                  "[layers, constant]}\n"
+                                  "  b: [constant, veil]\n",
+                                  "x.yaml"),
+                  registry);
     names.clear();
     for (const Variant& variant : swapped.variants) names.push_back(variant.name);
     EXPECT_EQ(names, (std::vector<std::string>{"b-constant", "a-x_b-veil", "a-y_b-constant", "a-y_b-veil"}));
 
     // One that changes nothing anywhere is a mistake; an image that is written over is told first
-    expectError(
-        "graph:\n  - {pass: constant, id: unseen}\n  - {pass: constant}\nsweep:\n  unseen.value: [1, 2]\n",
-        {"x.yaml:4: ", "'unseen'"});
+    expectError("graph:\n  - {pass: constant, id: unseen}\n  - {pass: constant}\nsweep:\n  unseen.value: [1, 2]\n",
+                {"x.yaml:4: ", "'unseen'"});
 }
 
 TEST(Validate, AValueWhosePassNeverRunsIsRefusedWhereAnothersRuns) {
@@ -76,9 +75,8 @@ TEST(Validate, AValueWhosePassNeverRunsIsRefusedWhereAnothersRuns) {
         "  constant:\n    - constant\n    - [{pass: constant, id: other}, layers]\n",
         {"x.yaml:8: ", "'layers'"});
     // Values that have names
-    expectError(
-        "graph:\n  - {pass: constant, id: c}\nsweep:\n  c: {whole: constant, part: [constant, layers]}\n",
-        {"x.yaml:6: ", "'layers'"});
+    expectError("graph:\n  - {pass: constant, id: c}\nsweep:\n  c: {whole: constant, part: [constant, layers]}\n",
+                {"x.yaml:6: ", "'layers'"});
     // Different passes that are read
     makeStudy(parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: layers, id: l}\n"
                               "  - {pass: constant}\nsweep: {l: [layers, witness]}\n",
@@ -92,8 +90,7 @@ TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
     expectError("graph:\n  - {pass: constant, value: 1000}\n", {"x.yaml:4: ", "out of range"});
     expectError("graph:\n  - {pass: constant, value: high}\n", {"x.yaml:4: ", "expected a number"});
     expectError("graph:\n  - {pass: constant}\n  - {pass: relay}\n", {"x.yaml:5: ", "'extra'"});
-    expectError("graph:\n  - {pass: constant}\n  - {pass: constant}\n",
-                {"x.yaml:5: ", "two passes have the id"});
+    expectError("graph:\n  - {pass: constant}\n  - {pass: constant}\n", {"x.yaml:5: ", "two passes have the id"});
     expectError(
         "graph:\n  - {pass: constant}\n  - {pass: relay, id: a, inputs: {extra: b}}\n"
         "  - {pass: relay, id: b, inputs: {extra: a}}\n",
@@ -111,11 +108,9 @@ TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
         "graph:\n  - {pass: constant, id: c}\nsweep:\n"
         "  c:\n    - constant\n    - [witness, witness, constant]\n",
         {"x.yaml:8: ", "'witness'"});
-    expectError("graph:\n  - {pass: constnat}\nsweep:\n  constant.value: [1]\n",
-                {"x.yaml:4: ", "'constant'"});
-    expectError(
-        "graph:\n  - {pass: constant, id: c}\nsweep:\n  c: [constant, {pass: constnat}]\n  c.value: [1]\n",
-        {"x.yaml:6: ", "'constant'"});
+    expectError("graph:\n  - {pass: constnat}\nsweep:\n  constant.value: [1]\n", {"x.yaml:4: ", "'constant'"});
+    expectError("graph:\n  - {pass: constant, id: c}\nsweep:\n  c: [constant, {pass: constnat}]\n  c.value: [1]\n",
+                {"x.yaml:6: ", "'constant'"});
     // Inputs of a pass that no variant runs as it is written
     const auto expectInputError = [](const std::string& input, std::initializer_list<const char*> parts) {
         expectError("graph:\n  - {pass: witness}\n  - {pass: constant, id: c, inputs: {" + input +
@@ -153,8 +148,7 @@ TEST(Validate, MotionIsRefusedWhereItHasNoEffectInAnyVariant) {
 
     // A single frame
     const std::string single = "measure: {frames: 1, warmup: 0}";
-    const std::string camera =
-        "builtin: cornell, camera: {position: [0, 1, 3], target: [0, 1, 0], move: [0, 0, 1]}";
+    const std::string camera = "builtin: cornell, camera: {position: [0, 1, 3], target: [0, 1, 0], move: [0, 0, 1]}";
     EXPECT_CONTAINS(refusal("builtin: spheres, time_step: 0.1", single),
                     "scene.time_step: no effect: there is one frame");
     EXPECT_CONTAINS(refusal(camera, single), "x.yaml:2: scene.camera.move: ");

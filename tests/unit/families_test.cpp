@@ -30,6 +30,5 @@ TEST(Families, NamesOfBeforeTellWhatToWrite) {
     };
     EXPECT_EQ(message("inject_gather_hits"),
               "x.yaml:4: 'inject_gather_hits' is now inject_voxel_rays with 'points: gather_hits'");
-    EXPECT_EQ(message("direct_voxels"),
-              "x.yaml:4: 'direct_voxels' is now gather_irradiance with 'light: direct'");
+    EXPECT_EQ(message("direct_voxels"), "x.yaml:4: 'direct_voxels' is now gather_irradiance with 'light: direct'");
 }

@@ -54,9 +54,7 @@ void wire(const std::string& yaml) {
 
 TEST(GraphIndex, LightIsReadWithItsOwnVoxels) {
     wire("- {pass: make_voxels}\n- {pass: light_faces}\n- {pass: show_faces}\n");
-    wire(
-        "- {pass: make_voxels}\n- {pass: make_voxels, id: finer}\n- {pass: light_faces}\n- {pass: "
-        "show_faces}\n");
+    wire("- {pass: make_voxels}\n- {pass: make_voxels, id: finer}\n- {pass: light_faces}\n- {pass: show_faces}\n");
     wire(
         "- {pass: make_voxels}\n- {pass: light_faces}\n- {pass: make_voxels, id: finer}\n"
         "- {pass: show_faces, inputs: {voxels: make_voxels}}\n");

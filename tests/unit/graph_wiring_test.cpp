@@ -80,9 +80,7 @@ struct SumUp : Idle {
     static constexpr const char* kHelp = "Writes light.";
     struct Params {
         uint32_t mib = 1;
-        static constexpr auto schema() {
-            return std::tuple{field("mib", &Params::mib, "MiB of scratch.", 0u, 64u)};
-        }
+        static constexpr auto schema() { return std::tuple{field("mib", &Params::mib, "MiB of scratch.", 0u, 64u)}; }
     };
     explicit SumUp(const Params& p) : params(p) {}
     void plan(PassPlan& plan) override {
@@ -156,35 +154,31 @@ TEST(GraphWiring, TakesTheNearestEarlierWriter) {
 }
 
 TEST(GraphWiring, WhatIsChangedAfterItWasReadIsRefused) {
-    const std::string late =
-        "- {pass: make_voxels}\n- {pass: light_voxels}\n- {pass: make_voxels, id: late}\n";
+    const std::string late = "- {pass: make_voxels}\n- {pass: light_voxels}\n- {pass: make_voxels, id: late}\n";
     const std::string message = errorOf<UsageError>([&] { graph(late).checkReadsLast("light", "voxels"); });
     EXPECT_CONTAINS(message, "g.yaml:3: late: ");
     EXPECT_CONTAINS(message, "'late'");
 
     // In order, chosen on purpose, or not made of it at all
     graph("- {pass: make_voxels}\n- {pass: light_voxels}\n").checkReadsLast("light", "voxels");
-    graph(
-        "- {pass: make_voxels, id: a}\n- {pass: light_voxels, inputs: {voxels: a}}\n- {pass: make_voxels}\n")
+    graph("- {pass: make_voxels, id: a}\n- {pass: light_voxels, inputs: {voxels: a}}\n- {pass: make_voxels}\n")
         .checkReadsLast("light", "voxels");
     graph("- {pass: make_voxels}\n- {pass: sum_up}\n").checkReadsLast("light", "voxels");
 }
 
 TEST(GraphWiring, SortsWritersBeforeReaders) {
-    const Graph g =
-        graph("- {pass: light_voxels, inputs: {voxels: late}}\n- {pass: make_voxels, id: late}\n");
+    const Graph g = graph("- {pass: light_voxels, inputs: {voxels: late}}\n- {pass: make_voxels, id: late}\n");
     EXPECT_EQ(g.passes()[0].id, "late");
 }
 
 TEST(GraphWiring, ReadersOfFramePassesRunInEachFrame) {
     const Graph g = graph(
-        "[{pass: make_voxels}, {pass: light_voxels, id: once}, {pass: light_voxels, id: second, inputs: "
-        "{light: first}}, {pass: light_voxels, id: first, inputs: {light: blink}}, {pass: blink}]");
+        "[{pass: make_voxels}, {pass: light_voxels, id: once}, {pass: light_voxels, id: second, inputs: {light: "
+        "first}}, {pass: light_voxels, id: first, inputs: {light: blink}}, {pass: blink}]");
     const auto passes = g.passes();
     ASSERT_EQ(passes.size(), 5u);
     for (const Graph::PassInfo& pass : passes)
-        EXPECT_EQ(pass.phase, pass.id == "make_voxels" || pass.id == "once" ? Phase::Build : Phase::Frame)
-            << pass.id;
+        EXPECT_EQ(pass.phase, pass.id == "make_voxels" || pass.id == "once" ? Phase::Build : Phase::Frame) << pass.id;
 }
 
 TEST(GraphWiring, RecordsEveryDefault) {
@@ -194,9 +188,9 @@ TEST(GraphWiring, RecordsEveryDefault) {
 
 TEST(GraphWiring, KeepsOnlyWhatIsAskedFor) {
     Graph g = graph(
-        "[{pass: make_voxels}, {pass: make_voxels, id: unread}, {pass: light_voxels, id: a, inputs: "
-        "{voxels: make_voxels}}, {pass: light_voxels, id: reads_unread, inputs: {light: a}}, {pass: "
-        "light_voxels, id: b, inputs: {voxels: make_voxels, light: a}}]");
+        "[{pass: make_voxels}, {pass: make_voxels, id: unread}, {pass: light_voxels, id: a, inputs: {voxels: "
+        "make_voxels}}, {pass: light_voxels, id: reads_unread, inputs: {light: a}}, {pass: light_voxels, id: "
+        "b, inputs: {voxels: make_voxels, light: a}}]");
     EXPECT_EQ(g.cullUnused({"light", "indirect"}), (std::vector<std::string>{"unread", "reads_unread"}));
     const auto passes = g.passes();
     ASSERT_EQ(passes.size(), 3u);
@@ -231,8 +225,7 @@ TEST(GraphWiring, TellsProducersWhatIsRead) {
         for (const PassMemory& pass : g.plan(Frame(), DeviceInfo(), 1u << 20)) all.push_back(pass.bytes);
         return all;
     };
-    EXPECT_EQ(bytes(graph("[{pass: two_outputs}, {pass: two_outputs, id: last}]")),
-              (std::vector<uint64_t>{0, 3}));
+    EXPECT_EQ(bytes(graph("[{pass: two_outputs}, {pass: two_outputs, id: last}]")), (std::vector<uint64_t>{0, 3}));
     const std::string linked =
         "[{pass: two_outputs}, {pass: two_outputs, id: last, inputs: {before: two_outputs.light}}]";
     EXPECT_EQ(bytes(graph(linked)), (std::vector<uint64_t>{1, 3}));
@@ -243,8 +236,8 @@ TEST(GraphWiring, TellsProducersWhatIsRead) {
 
 TEST(GraphWiring, KeepsWhatOnlyReports) {
     Graph g = graph(
-        "[{pass: make_voxels}, {pass: light_voxels}, {pass: make_voxels, id: counted}, {pass: "
-        "count_voxels}, {pass: make_voxels, id: unread}]");
+        "[{pass: make_voxels}, {pass: light_voxels}, {pass: make_voxels, id: counted}, {pass: count_voxels}, {pass: "
+        "make_voxels, id: unread}]");
     EXPECT_EQ(g.cullUnused({"light"}), std::vector<std::string>{"unread"});
     EXPECT_EQ(g.passes().back().id, "count_voxels");
 }

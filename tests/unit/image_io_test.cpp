@@ -148,8 +148,7 @@ TEST_F(ImageFiles, EncodedPngGivesItsBytesBack) {
     // Colour under transparent texels stays; equal texels take little room.
     DecodedImage image{64, 33, {}};
     for (uint32_t i = 0; i < 64 * 33; ++i)
-        for (uint32_t c = 0; c < 4; ++c)
-            image.rgba.push_back(i < 640 ? uint8_t(i * (c + 3)) : uint8_t(50 * c));
+        for (uint32_t c = 0; c < 4; ++c) image.rgba.push_back(i < 640 ? uint8_t(i * (c + 3)) : uint8_t(50 * c));
     const std::vector<uint8_t> png = encodePng(image);
     const DecodedImage back = decodeImage(png, "back.png");
     EXPECT_EQ(back.width, 64u);

@@ -51,8 +51,7 @@ TEST_F(ExrLayers, TheWholePictureIsChosenByItsName) {
     EXPECT_EQ(read(blender, "View.AO"), Values({0, 1, 2}));
     EXPECT_EQ(read(blender, "ao"), Values({0, 1, 2}));
     EXPECT_EQ(read(blender, "Depth"), Values({7, 7, 7}));
-    EXPECT_EQ(read({"diffuse.R", "diffuse.G", "diffuse.B", "beauty.B", "beauty.G", "beauty.R"}),
-              Values({5, 4, 3}));
+    EXPECT_EQ(read({"diffuse.R", "diffuse.G", "diffuse.B", "beauty.B", "beauty.G", "beauty.R"}), Values({5, 4, 3}));
     EXPECT_EQ(read({"Z", "only.R", "only.G", "only.B"}), Values({1, 2, 3}));
 }
 
@@ -68,8 +67,7 @@ TEST_F(ExrLayers, PartsAreLayersAndWholeNumbersAreNoPicture) {
     const auto out = OIIO::ImageOutput::create("openexr");
     std::vector<OIIO::ImageSpec> parts;
     for (const char* name : {"AO", "beauty", "id"}) {
-        OIIO::ImageSpec spec(2, 1, 3,
-                             name == std::string("id") ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::HALF);
+        OIIO::ImageSpec spec(2, 1, 3, name == std::string("id") ? OIIO::TypeDesc::UINT32 : OIIO::TypeDesc::HALF);
         spec.channelnames = {"R", "G", "B"};
         spec.attribute("oiio:subimagename", name);
         parts.push_back(spec);

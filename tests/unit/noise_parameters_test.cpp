@@ -39,8 +39,7 @@ TEST(NoiseParameters, AreThoseOfThePassesThatAnImageDependsOn) {
 }
 
 TEST(NoiseParameters, AreLeftOutWhereTheyHaveNoEffect) {
-    EXPECT_EQ(noiseOf(", bounces: 0", "indirect"),
-              (Names{"place_surfels.points_per_voxel", "trace.rays_per_block"}));
+    EXPECT_EQ(noiseOf(", bounces: 0", "indirect"), (Names{"place_surfels.points_per_voxel", "trace.rays_per_block"}));
 }
 
 TEST(NoiseParameters, StandInTheHelpOfTheirPass) {

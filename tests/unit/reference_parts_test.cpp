@@ -20,8 +20,7 @@ class RunInParts : public RunTest {
         PreparedExperiment prepared(makeStudy(parseExperiment(config(rest), "fake.yaml"), passes), o);
         return partsOf(prepared, referenceParts);
     }
-    RunSummary runPart(const std::string& id, const std::string& out = "out",
-                       const std::string& rest = kSweep) const {
+    RunSummary runPart(const std::string& id, const std::string& out = "out", const std::string& rest = kSweep) const {
         RunOptions o = options();
         o.out = root_ / out;
         o.part = id;
@@ -48,8 +47,7 @@ TEST_F(RunInParts, PartsAreListedInOrder) {
     EXPECT_EQ(parts(2, "sweep: {constant.value: [0.25, 1]}\n")[0].id, all[0].id);
     EXPECT_NE(parts(2, std::string(kSweep) + "seed: 3\n")[0].id, all[0].id);
     EXPECT_EQ(parts(1, "sweep: {image.width: [8, 16]}\n").size(), 5u);
-    EXPECT_CONTAINS(errorOf<UsageError>([&] { parts(5); }),
-                    "4 samples a pixel can't be divided into 5 parts");
+    EXPECT_CONTAINS(errorOf<UsageError>([&] { parts(5); }), "4 samples a pixel can't be divided into 5 parts");
 }
 
 TEST_F(RunInParts, InAnyOrderTheyMakeWhatARunMakes) {
@@ -223,8 +221,7 @@ TEST_F(RunInParts, FoldersOfSeveralMachinesAreMerged) {
         EXPECT_TRUE(fs::exists(root_ / "out" / "images" / folder / "final.exr")) << folder;
         EXPECT_EQ(reference["variants"].size(), 1u);
     }
-    EXPECT_EQ(std::ranges::count(readTextFile(root_ / "out" / "passes.csv"), '\n'),
-              std::ranges::count(right, '\n'));
+    EXPECT_EQ(std::ranges::count(readTextFile(root_ / "out" / "passes.csv"), '\n'), std::ranges::count(right, '\n'));
 }
 
 TEST_F(RunInParts, WhatDiffersIsNotMerged) {
@@ -246,8 +243,7 @@ TEST_F(RunInParts, WhatDiffersIsNotMerged) {
         EXPECT_CONTAINS(refusal(), key);
         EXPECT_CONTAINS(refusal(), value);
     };
-    refusalOf("config.measure.frames: 3 and 4", "copy",
-              [](auto& m) { m["config"]["measure"]["frames"] = 4; });
+    refusalOf("config.measure.frames: 3 and 4", "copy", [](auto& m) { m["config"]["measure"]["frames"] = 4; });
     refusalOf("voxray_version: ", "\"0.0\"", [](auto& m) { m["voxray_version"] = "0.0"; });
     refusalOf("commit: ", "\"abc\"", [](auto& m) { m["commit"] = "abc"; });
     refusalOf("inputs.value-1.scene: ", "\"abc\"", [](auto& m) { m["inputs"]["value-1"]["scene"] = "abc"; });
@@ -255,10 +251,7 @@ TEST_F(RunInParts, WhatDiffersIsNotMerged) {
 
     // Other results in the target, and no results
     EXPECT_CONTAINS(errorOf<UsageError>([&] { merge({"out"}, "copy"); }), "holds results already");
-    EXPECT_CONTAINS(errorOf<UsageError>([&] {
-                        merge({"out", "nowhere"}, "all");
-                    }),
-                    "holds no results of Voxray");
+    EXPECT_CONTAINS(errorOf<UsageError>([&] { merge({"out", "nowhere"}, "all"); }), "holds no results of Voxray");
 }
 
 TEST_F(RunInParts, SumsAreKeptToTheBitAndDamageIsNoticed) {

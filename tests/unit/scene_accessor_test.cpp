@@ -16,14 +16,11 @@ TEST(GltfAccessors, IndicesOfAllTypesAndNone) {
         GltfBuilder b;
         json primitive = positionOnly(b.floats(corners, "VEC3"));
         if (type == ubyteType)
-            primitive["indices"] =
-                b.accessor(b.view(std::vector<uint8_t>{0, 1, 2, 0, 2, 3}), 6, "SCALAR", type);
+            primitive["indices"] = b.accessor(b.view(std::vector<uint8_t>{0, 1, 2, 0, 2, 3}), 6, "SCALAR", type);
         if (type == ushortType)
-            primitive["indices"] =
-                b.accessor(b.view(std::vector<uint16_t>{0, 1, 2, 0, 2, 3}), 6, "SCALAR", type);
+            primitive["indices"] = b.accessor(b.view(std::vector<uint16_t>{0, 1, 2, 0, 2, 3}), 6, "SCALAR", type);
         if (type == uintType)
-            primitive["indices"] =
-                b.accessor(b.view(std::vector<uint32_t>{0, 1, 2, 0, 2, 3}), 6, "SCALAR", type);
+            primitive["indices"] = b.accessor(b.view(std::vector<uint32_t>{0, 1, 2, 0, 2, 3}), 6, "SCALAR", type);
         b.primitive(primitive);
         const auto scene = b.load();
         const Mesh& mesh = scene->meshes.at(0);
@@ -62,14 +59,14 @@ TEST(GltfAccessors, PointsAndLinesAreSkippedWithAWarning) {
 
 TEST(GltfAccessors, NormalisedIntegersAreFractions) {
     GltfBuilder b;
-    const int s8 = b.accessor(b.view(std::vector<int8_t>{127, 0, 0, 0, 0, -127, -128, 0, 0, 0, 127, 0}, 4), 3,
-                              "VEC3", byteType, {{"normalized", true}});
-    const int u16 = b.accessor(b.view(std::vector<uint16_t>{0, 65535, 32768, 0, 65535, 13107}), 3, "VEC2",
-                               ushortType, {{"normalized", true}});
-    const int s16 = b.accessor(b.view(std::vector<int16_t>{-32768, 32767, -32767, 0, 16384, 0}), 3, "VEC2",
-                               shortType, {{"normalized", true}});
-    const int u8 = b.accessor(b.view(std::vector<uint8_t>{0, 51, 255, 0, 1, 2, 3, 0, 4, 5, 6, 0}, 4), 3,
-                              "VEC3", ubyteType, {{"normalized", true}});
+    const int s8 = b.accessor(b.view(std::vector<int8_t>{127, 0, 0, 0, 0, -127, -128, 0, 0, 0, 127, 0}, 4), 3, "VEC3",
+                              byteType, {{"normalized", true}});
+    const int u16 = b.accessor(b.view(std::vector<uint16_t>{0, 65535, 32768, 0, 65535, 13107}), 3, "VEC2", ushortType,
+                               {{"normalized", true}});
+    const int s16 = b.accessor(b.view(std::vector<int16_t>{-32768, 32767, -32767, 0, 16384, 0}), 3, "VEC2", shortType,
+                               {{"normalized", true}});
+    const int u8 = b.accessor(b.view(std::vector<uint8_t>{0, 51, 255, 0, 1, 2, 3, 0, 4, 5, 6, 0}, 4), 3, "VEC3",
+                              ubyteType, {{"normalized", true}});
     b.triangle({{"attributes", {{"NORMAL", s8}, {"TEXCOORD_0", u16}, {"TEXCOORD_1", s16}, {"COLOR_0", u8}}}});
     const Mesh mesh = b.load()->meshes.at(0);
     const float root = std::sqrt(0.5f);
@@ -127,8 +124,8 @@ TEST(GltfAccessors, IndicesMayBeSparseAlone) {
         {"count", 2},
         {"indices", {{"bufferView", b.view(std::vector<uint8_t>{1, 2})}, {"componentType", ubyteType}}},
         {"values", {{"bufferView", b.view(std::vector<uint16_t>{1, 2})}}}};
-    const int indices = b.add(
-        "accessors", {{"count", 3}, {"type", "SCALAR"}, {"componentType", ushortType}, {"sparse", sparse}});
+    const int indices =
+        b.add("accessors", {{"count", 3}, {"type", "SCALAR"}, {"componentType", ushortType}, {"sparse", sparse}});
     b.triangle({{"indices", indices}});
     EXPECT_EQ(b.load()->meshes.at(0).triangles.at(0), glm::uvec3(0, 1, 2));
 }

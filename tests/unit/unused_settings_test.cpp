@@ -42,10 +42,9 @@ TEST(UnusedSettings, AreRefusedWhereTheyStand) {
     EXPECT_CONTAINS(messageOf(graphWith("") + "sweep: {voxelize.samples_per_voxel_edge: [1, 2]}\n"),
                     "x.yaml:10: sweep.voxelize.samples_per_voxel_edge: ");
     // Swept values of whole passes bring parameters of their own
-    EXPECT_CONTAINS(
-        messageOf(graphWith("") + "sweep:\n  inject:\n    - inject_light_rays\n"
-                                  "    - {pass: inject_light_rays, secondary: none, bounces: 3}\n"),
-        "x.yaml:13: inject.bounces: no effect");
+    EXPECT_CONTAINS(messageOf(graphWith("") + "sweep:\n  inject:\n    - inject_light_rays\n"
+                                              "    - {pass: inject_light_rays, secondary: none, bounces: 3}\n"),
+                    "x.yaml:13: inject.bounces: no effect");
 }
 
 TEST(UnusedSettings, StayWhereASweepUsesThem) {
@@ -64,16 +63,15 @@ TEST(UnusedSettings, ShadowMapsAreForAllPointsAndTakeNoSamples) {
                "  - {pass: trace_gather_rays}\n  - {pass: inject_voxel_rays, id: inject, " +
                inject + "}\n  - {pass: gather_rays}\n  - {pass: direct_shadow_rays}\n  - {pass: composite}\n";
     };
-    for (const auto& [parameters, name] : std::vector<std::pair<std::string, std::string>>{
-             {"points: gather_hits, direct: shadow_maps", "direct"},
-             {"shadow_resolution: 64", "shadow_resolution"},
-             {"direct: shadow_maps, light_samples: 4", "light_samples"}})
+    for (const auto& [parameters, name] :
+         std::vector<std::pair<std::string, std::string>>{{"points: gather_hits, direct: shadow_maps", "direct"},
+                                                          {"shadow_resolution: 64", "shadow_resolution"},
+                                                          {"direct: shadow_maps, light_samples: 4", "light_samples"}})
         EXPECT_CONTAINS(messageOf(graph(parameters)), "x.yaml:8: inject." + name + ": no effect");
-    EXPECT_EQ(
-        namesOf(wired(graph("points: all") + "sweep: {inject.points: [all, gather_hits], inject.direct: "
-                                             "[shadow_rays, shadow_maps]}\n"))
-            .size(),
-        3u);
+    EXPECT_EQ(namesOf(wired(graph("points: all") + "sweep: {inject.points: [all, gather_hits], inject.direct: "
+                                                   "[shadow_rays, shadow_maps]}\n"))
+                  .size(),
+              3u);
 }
 
 TEST(UnusedSettings, OfGatherRaysGoWithTheirSource) {

@@ -48,8 +48,7 @@ void checkAddedSceneUnits(const PlannedVariant&, Diagnostics&);
 /// Warns of added scenes of another unit: one in centimetres is 100 times too large. A flat scene, such as a
 /// ground plane, may have any size.
 /// @param prepared that of `scene`, which `loader` has loaded.
-Diagnostics checkAddedSceneUnits(const SceneSettings& scene, const PreparedScene& prepared,
-                                 SceneLoader& loader);
+Diagnostics checkAddedSceneUnits(const SceneSettings& scene, const PreparedScene& prepared, SceneLoader& loader);
 void keepFileLightsWithoutLights(const PlannedVariant&, Diagnostics&);
 void staticMovingSpheres(const PlannedVariant&, Diagnostics&);
 // Time and memory (cost.cpp)

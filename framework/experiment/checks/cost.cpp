@@ -98,11 +98,10 @@ void LightRays::check(std::span<const Graph::PassInfo> passes, Diagnostics& foun
         found.push_back(
             {pass.where,
              fmt::format(
-                 "{}: {} lights take {:.0f} million rays, "
-                 "about {} on this machine's CPU each time that it runs: it takes as long for each light",
+                 "{}: {} lights take {:.0f} million rays, about {} on this machine's CPU each time that it runs: "
+                 "it takes as long for each light",
                  pass.id, state_.lights.size(), double(pass.lightRays) / 1e6, duration(seconds)),
-             "lower the size of the image or its own parameters, "
-             "or leave lights out with 'keep_file_lights: false'"});
+             "lower the size of the image or its own parameters, or leave lights out with 'keep_file_lights: false'"});
     }
 }
 
@@ -124,8 +123,7 @@ void exceededMemoryLimit(const Study& study, Diagnostics& found) {
     std::ranges::stable_sort(needs, {}, &MemoryNeed::bytes);
     const auto& [variant, bytes, largest] = *std::ranges::find_if(needs, isOver);
     const Diagnostic finding{locationOf(study.experiment.config, "measure.memory_limit_mb"),
-                             fmt::format("measure.memory_limit_mb: "
-                                         "{} MiB are too few for {} of {} variants: "
+                             fmt::format("measure.memory_limit_mb: {} MiB are too few for {} of {} variants: "
                                          "{} takes at least {:.1f} MiB, the largest part of it by '{}'",
                                          limitMb, over, needs.size(), variant, double(bytes) / kMiB, largest),
                              ""};
@@ -145,10 +143,9 @@ std::string sceneSizeAdvice(const SceneSettings& settings, const SceneState& sta
     else
         remedies = fewerTriangles(settings);
     remedies.emplace_back("take another --device");
-    return fmt::format(
-        "its {} triangles take {:.1f} MiB, its {} textures {:.1f} MiB, its environment {:.1f} MiB: {}",
-        state.geometry.triangles.size(), double(triangles) / kMiB, scene.textures.size(),
-        double(textures) / kMiB, double(map) / kMiB, fmt::join(remedies, ", or "));
+    return fmt::format("its {} triangles take {:.1f} MiB, its {} textures {:.1f} MiB, its environment {:.1f} MiB: {}",
+                       state.geometry.triangles.size(), double(triangles) / kMiB, scene.textures.size(),
+                       double(textures) / kMiB, double(map) / kMiB, fmt::join(remedies, ", or "));
 }
 
 }  // namespace voxray

@@ -13,8 +13,7 @@ namespace voxray {
 void checkPassNames(const Experiment& experiment, const Registry& registry);
 
 /// Checks the values in the graph's config, including those that the sweep replaces in all variants.
-void checkOwnValues(const Experiment& experiment, const std::vector<Variant>& variants,
-                    const Registry& registry);
+void checkOwnValues(const Experiment& experiment, const std::vector<Variant>& variants, const Registry& registry);
 
 /// Rejects lights that are switched off after the last frame.
 void checkLightsGoOff(const SceneSettings& scene, const MeasureSettings& measure);

@@ -30,8 +30,7 @@ void refuseUnusedParameters(const Study& study) {
         for (const Value& pass : variant.setup.graph.items)
             for (const auto& [key, value] : pass.members) {
                 const std::string path = passId(pass) + "." + key;
-                if (paths.contains(path) &&
-                    std::ranges::count(variant.unused, path, &UnusedSetting::name) == 0)
+                if (paths.contains(path) && std::ranges::count(variant.unused, path, &UnusedSetting::name) == 0)
                     effective.insert(keyOf(variant, path, value.where));
             }
     for (const auto& [key, parameter] : unused)
@@ -46,8 +45,7 @@ void UnusedMotion::add(const Variant& variant, const Scene& scene) {
     };
     const SceneSettings& settings = variant.setup.scene;
     const bool isAnimated = !scene.animation.empty();
-    const char* nothing =
-        "nothing in the scene is animated: leave it out, or add 'moving_spheres' to the scene";
+    const char* nothing = "nothing in the scene is animated: leave it out, or add 'moving_spheres' to the scene";
     if (settings.options.time > 0) addUse("scene.time", isAnimated, nothing);
     if (settings.options.timeStep > 0 && !isAnimated) addUse("scene.time_step", false, nothing);
 
@@ -56,8 +54,7 @@ void UnusedMotion::add(const Variant& variant, const Scene& scene) {
     const char* single = "there is one frame, in which nothing moves: raise measure.frames, or leave it out";
     const auto moves = [](const ConfigLight& light) { return light.move != glm::vec3(0.0f); };
     if (settings.options.timeStep > 0 && isAnimated) addUse("scene.time_step", hasFrames, single);
-    if (settings.camera && settings.camera->move != glm::vec3(0.0f))
-        addUse("scene.camera.move", hasFrames, single);
+    if (settings.camera && settings.camera->move != glm::vec3(0.0f)) addUse("scene.camera.move", hasFrames, single);
     if (std::ranges::any_of(settings.lights, moves)) addUse("scene.lights", hasFrames, single);
 }
 

@@ -64,11 +64,10 @@ class FindClusterVisibility final : public Pass {
         "Measures form factors from each patch to voxel clusters. "
         "Traces cosine-distributed rays from the surfels of each patch (find_patches: "
         "a surface group as seen from one of its voxel's six faces). "
-        "Lists the cluster components that they hit, with the number of rays for each, "
-        "which is a form factor. Surfaces within near_distance are listed as patches instead of clusters. "
-        "Biased by: cluster size; "
-        "through voxels also by voxel size (surfaces are as thick as their voxels). Noisy by: rays. "
-        "Source: Cosin and Patow 2022, section 4.3.";
+        "Lists the cluster components that they hit, with the number of rays for each, which is a form factor. "
+        "Surfaces within near_distance are listed as patches instead of clusters. "
+        "Biased by: cluster size; through voxels also by voxel size (surfaces are as thick as their voxels). "
+        "Noisy by: rays. Source: Cosin and Patow 2022, section 4.3.";
     struct Params {
         uint32_t rays = 128;
         float nearDistance = 4;
@@ -78,9 +77,8 @@ class FindClusterVisibility final : public Pass {
             return std::tuple{
                 field("rays", &Params::rays, "Rays from each patch.", 1u, MAX_RAYS_PER_PATCH).lessNoise(),
                 field("near_distance", &Params::nearDistance,
-                      "Distance in voxels below which lists have patches, "
-                      "and beyond which they have clusters. 0: clusters only. "
-                      "10000: patches only, for comparison.",
+                      "Distance in voxels below which lists have patches, and beyond which they have clusters. "
+                      "0: clusters only. 10000: patches only, for comparison.",
                       0.0f, 10000.0f),
                 field("visibility", &Params::visibility,
                       "exact: rays are traced through the scene. voxels: through every voxel on their way. "
@@ -109,11 +107,9 @@ class FindClusterVisibility final : public Pass {
     uint32_t traceRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
                        const Buffer& packedHits);
     /// The same through voxels.
-    void marchRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
-                   const Buffer& packedHits);
+    void marchRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count, const Buffer& packedHits);
     /// Lists the rays that have to be traced. @return their number.
-    uint32_t listRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
-                      const Buffer& packedHits);
+    uint32_t listRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count, const Buffer& packedHits);
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
@@ -155,9 +151,8 @@ void FindClusterVisibility::plan(PassPlan& plan) {
         plan.scratchBuffer(packedHits_, "packed hits", rays * sizeof(uint32_t));
     }
     const double raysPerPatch = params_.rays, cachedHits = reusesHits ? raysPerPatch : 0;
-    const double entries = listsPatches()
-                               ? raysPerPatch
-                               : std::min(raysPerPatch, kEntriesPerRootOfRays * std::sqrt(raysPerPatch));
+    const double entries =
+        listsPatches() ? raysPerPatch : std::min(raysPerPatch, kEntriesPerRootOfRays * std::sqrt(raysPerPatch));
     plan.estimate(voxels.estimatedCount * kPatchesPerVoxel * (entries + cachedHits) * sizeof(uint32_t));
     marchRays_.compileIf(!isExact());
     for (Kernel* kernel : {&listAllRays_, &generateRays_, &findHitGroups_}) kernel->compileIf(isExact());
@@ -207,9 +202,8 @@ void FindClusterVisibility::record(PassContext& context) {
         updateCache_->clear();
     const uint32_t count = patches.patchCount, perChunk = visibility.layout.patchesPerChunk;
     patchFaces_ = Buffer(context.device, "faces of patches", std::max(count, 1u) * sizeof(uint32_t));
-    context.dispatch(
-        listPatchFaces_, patches.groupCount,
-        {{"groups", patches.groups}, {"patchFaces", patchFaces_}, {"groupCount", patches.groupCount}});
+    context.dispatch(listPatchFaces_, patches.groupCount,
+                     {{"groups", patches.groups}, {"patchFaces", patchFaces_}, {"groupCount", patches.groupCount}});
     stream.fill(missed_, 0);
     tracedRays_ = 0;
     for (uint32_t first = 0; first < count; first += perChunk)
@@ -230,13 +224,11 @@ void FindClusterVisibility::record(PassContext& context) {
     const auto percent = [&](uint32_t lost) { return count > 0 ? 100 * lost / rays : 0; };
     // Keys of values.csv. A "hit without surfel" is HIT_NO_GROUP
     context.report("patches", count);
-    context.report("visibility list entries of a patch",
-                   count > 0 ? double(visibility.entryCount) / count : 0);
+    context.report("visibility list entries of a patch", count > 0 ? double(visibility.entryCount) / count : 0);
     context.report("rays without a hit, %", percent(missed[0]));
     context.report("hits without surfel, % of rays", percent(missed[1]));
     context.report("bytes of the lists", double(visibility.bytes()));
-    if (updateCache_)
-        context.report("rays traced, % of all", count > 0 ? 100 * double(tracedRays_) / rays : 0);
+    if (updateCache_) context.report("rays traced, % of all", count > 0 ? 100 * double(tracedRays_) / rays : 0);
 }
 
 std::vector<Binding> FindClusterVisibility::rayBindings(PassContext& context, uint32_t firstPatch) const {
@@ -252,33 +244,28 @@ std::vector<Binding> FindClusterVisibility::rayBindings(PassContext& context, ui
             {"aboutFaceAxis", params_.hemisphere == HemisphereAxis::Face}};
 }
 
-uint32_t FindClusterVisibility::listRays(PassContext& context, const std::vector<Binding>& rays,
-                                         uint32_t count, const Buffer& packedHits) {
+uint32_t FindClusterVisibility::listRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
+                                         const Buffer& packedHits) {
     CommandStream& stream = context.stream;
     if (!updateCache_ || !updateCache_->isActive()) {
         stream.dispatch(listAllRays_, count, {{"values", listedRays_}, {"count", count}});
         return count;
     }
     stream.fill(flags_, 0);
-    updateCache_->reuse(stream,
-                        {context.scene,
-                         rays,
-                         {"packedHits", packedHits},
-                         {"flags", flags_},
-                         {"rayCount", count},
-                         {"round", 0u}},
-                        count);
+    updateCache_->reuse(
+        stream,
+        {context.scene, rays, {"packedHits", packedHits}, {"flags", flags_}, {"rayCount", count}, {"round", 0u}},
+        count);
     return compaction_->run(stream, flags_, listedRays_, (count + 31) / 32);
 }
 
-uint32_t FindClusterVisibility::traceRays(PassContext& context, const std::vector<Binding>& rays,
-                                          uint32_t count, const Buffer& packedHits) {
+uint32_t FindClusterVisibility::traceRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
+                                          const Buffer& packedHits) {
     const VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
     const uint32_t listed = listRays(context, rays, count, packedHits);
     if (listed == 0) return 0;
-    const Bindings listedRays{
-        context.scene, rays, {"listedRays", listedRays_}, {"rays", rays_}, {"rayCount", listed}};
+    const Bindings listedRays{context.scene, rays, {"listedRays", listedRays_}, {"rays", rays_}, {"rayCount", listed}};
     context.dispatch(generateRays_, listed, {listedRays.all(), {"round", 0u}});
     context.tracer.closestHit(stream, rays_, hits_, listed);
     // The last round only evaluates the visibility of the last candidates
@@ -340,11 +327,9 @@ void FindClusterVisibility::buildChunk(PassContext& context, uint32_t first, uin
     chunk.offsets = Buffer(context.device, "offsets of visibility lists", (count + 1) * sizeof(uint32_t));
     const uint32_t entries = prefixSum_.run(stream, entryCounts_, chunk.offsets, count + 1);
     const uint64_t words = (uint64_t(entries) * visibility.layout.entryBits + 31) / 32;
-    chunk.entries =
-        Buffer(context.device, "visibility lists", std::max<uint64_t>(words, 1) * sizeof(uint32_t));
+    chunk.entries = Buffer(context.device, "visibility lists", std::max<uint64_t>(words, 1) * sizeof(uint32_t));
     stream.fill(chunk.entries, 0);
-    context.dispatch(packLists_, count,
-                     {lists.all(), {"offsets", chunk.offsets}, {"entries", chunk.entries}});
+    context.dispatch(packLists_, count, {lists.all(), {"offsets", chunk.offsets}, {"entries", chunk.entries}});
     stream.finish();
     visibility.chunks.push_back(std::move(chunk));
     visibility.entryCount += entries;

@@ -32,12 +32,11 @@ RayUpdateCache::RayUpdateCache(ProgramOwner& owner)
       reuseHits_(owner, "reuse_hits.comp"),
       regions_(owner) {}
 
-void RayUpdateCache::startUpdate(CommandStream& stream, const SurfaceVoxels& voxels,
-                                 const VoxelClusters& clusters, const VoxelPatches& patches,
-                                 const std::vector<Box>& changed) {
+void RayUpdateCache::startUpdate(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
+                                 const VoxelPatches& patches, const std::vector<Box>& changed) {
     Device& device = stream.device();
-    const Buffer changedNeighbourhood = regions_.bits(
-        stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, kHitReach)), voxels);
+    const Buffer changedNeighbourhood =
+        regions_.bits(stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, kHitReach)), voxels);
     newGroups_ = Buffer(device, "new numbers of groups", uintBytes(groupCount_));
     previousFirstPatches_ = Buffer(device, "previous first patches of groups", uintBytes(patches.groupCount));
     stream.fill(newGroups_, NO_GROUP);
@@ -86,9 +85,8 @@ void RayUpdateCache::store(CommandStream& stream, const VoxelPatches& patches) {
     previousHitAddresses_ = {}, newGroups_ = {}, previousFirstPatches_ = {}, boxes_ = {}, firstPatches_ = {};
     groupCount_ = patches.groupCount;
     firstPatches_ = Buffer(stream.device(), "first patches of groups", uintBytes(groupCount_));
-    stream.dispatch(
-        storeFirstPatches_, groupCount_,
-        {{"groups", patches.groups}, {"firstPatches", firstPatches_}, {"groupCount", groupCount_}});
+    stream.dispatch(storeFirstPatches_, groupCount_,
+                    {{"groups", patches.groups}, {"firstPatches", firstPatches_}, {"groupCount", groupCount_}});
     stream.finish();
 }
 

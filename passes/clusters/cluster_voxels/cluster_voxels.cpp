@@ -17,8 +17,8 @@ class ClusterVoxels final : public Pass {
         "Groups surface voxels into clusters by position and normal. "
         "Light is gathered from clusters instead of their voxels (cluster_visibility, inject_clusters, "
         "gather_clusters). Repeatedly, voxels are assigned to seeds of similar normals, "
-        "which begin in a uniform grid and move to the mean of their voxels. Biased by: "
-        "the size of clusters, over which light is averaged. No noise: the same clusters in each run. "
+        "which begin in a uniform grid and move to the mean of their voxels. "
+        "Biased by: the size of clusters, over which light is averaged. No noise: the same clusters in each run. "
         "Source: Cosin and Patow 2022, section 4.2; Achanta et al. 2012 (SLIC).";
     using Params = ClusterParams;
 
@@ -48,11 +48,9 @@ void ClusterVoxels::record(PassContext& context) {
     VoxelClusters& clusters = context[clusters_];
     CommandStream& stream = context.stream;
     clusters.clusters = {}, clusters.clusterOfVoxel = {}, clusters.coordinates = {};
-    clusters.coordinates =
-        Buffer(context.device, "coordinates of voxels", voxels.voxelCount * sizeof(glm::uvec3));
+    clusters.coordinates = Buffer(context.device, "coordinates of voxels", voxels.voxelCount * sizeof(glm::uvec3));
     const uint32_t words = uint32_t(voxels.words());
-    context.dispatch(listVoxels_, words,
-                     {voxels, {"voxelCoordinates", clusters.coordinates}, {"words", words}});
+    context.dispatch(listVoxels_, words, {voxels, {"voxelCoordinates", clusters.coordinates}, {"words", words}});
     FragmentAngles::Sums fragments;
     if (fragments_) fragments = fragments_->measure(context, voxels);
     const SlicClustering::Result slic = clustering_.run(stream, voxels, clusters.coordinates, fragments);

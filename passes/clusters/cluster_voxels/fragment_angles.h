@@ -12,7 +12,7 @@ namespace voxray {
 class FragmentAngles {
  public:
     struct Sums {
-        Buffer angles;  ///< Per voxel: sums of angles to +x, +y and +z, and the number of fragments.
+        Buffer angles;              ///< Per voxel: sums of angles to +x, +y and +z, and the number of fragments.
         float fixedPointScale = 0;  ///< Units of these sums in a radian.
     };
 

@@ -46,13 +46,11 @@ glm::uvec3 SlicClustering::seedCells(const gpu::VoxelGrid& grid, uint32_t voxelC
         width = std::sqrt(double(voxelCount) / params_.target);
         if (params_.assign == ClusterAssignment::First) width /= 2;
     }
-    return glm::max(glm::uvec3(glm::round(glm::dvec3(grid.resolution) / std::max(width, 1.0))),
-                    glm::uvec3(1));
+    return glm::max(glm::uvec3(glm::round(glm::dvec3(grid.resolution) / std::max(width, 1.0))), glm::uvec3(1));
 }
 
-void SlicClustering::findNormals(CommandStream& stream, const SurfaceVoxels& voxels,
-                                 const Buffer& coordinates, const FragmentAngles::Sums& fragments,
-                                 Result& result) const {
+void SlicClustering::findNormals(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates,
+                                 const FragmentAngles::Sums& fragments, Result& result) const {
     const uint32_t count = voxels.voxelCount;
     result.normals = Buffer(stream.device(), "voxel normals", count * sizeof(glm::vec3));
     Buffer counts;
@@ -72,8 +70,7 @@ void SlicClustering::findNormals(CommandStream& stream, const SurfaceVoxels& vox
 }
 
 SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceVoxels& voxels,
-                                           const Buffer& coordinates,
-                                           const FragmentAngles::Sums& fragments) const {
+                                           const Buffer& coordinates, const FragmentAngles::Sums& fragments) const {
     Device& device = stream.device();
     const uint32_t count = voxels.voxelCount;
     const glm::uvec3 cells = seedCells(voxels.grid, count);
@@ -126,17 +123,14 @@ SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceV
     const Buffer unassigned(device, "voxels without a cluster", sizeof(uint32_t));
     result.assignment = Buffer(device, "clusters of voxels", count * sizeof(uint32_t));
     stream.fill(unassigned, 0);
-    stream.dispatch(extractAssignment_, count,
-                    {{"bestSeed", bestSeed},
-                     {"assignment", result.assignment},
-                     {"unassigned", unassigned},
-                     {"count", count}});
+    stream.dispatch(
+        extractAssignment_, count,
+        {{"bestSeed", bestSeed}, {"assignment", result.assignment}, {"unassigned", unassigned}, {"count", count}});
     result.unassigned = stream.readAs<uint32_t>(unassigned, 1)[0];
 
     // These voxels join the nearest cluster or form new ones
     const Buffer scratch(device, "new clusters of voxels", count * sizeof(uint32_t));
-    const Bindings assignment{
-        neighbourhood(count), {"coordinates", coordinates}, {"assignment", result.assignment}};
+    const Bindings assignment{neighbourhood(count), {"coordinates", coordinates}, {"assignment", result.assignment}};
     uint32_t remaining = result.unassigned;
     if (params_.unassigned == UnassignedVoxels::Nearest && remaining > 0 && remaining < count) {
         stream.dispatch(joinNearestCluster_, count, {assignment.all(), {"newAssignment", scratch}});

@@ -61,28 +61,24 @@ struct ClusterParams {
     UnassignedVoxels unassigned = UnassignedVoxels::NewClusters;
     ClusterNormals normals = ClusterNormals::Area;
     OpenSpaceTies ties = OpenSpaceTies::Surfaces;
-    bool usesFragments() const {
-        return normals == ClusterNormals::OpenSpace && ties == OpenSpaceTies::Fragments;
-    }
+    bool usesFragments() const { return normals == ClusterNormals::OpenSpace && ties == OpenSpaceTies::Fragments; }
     static constexpr auto schema() {
         return std::tuple{
             field("initial", &ClusterParams::initial,
-                  "Approximate number of seeds in a cube as wide as the grid's longest axis, "
-                  "as in the paper; those outside of the grid are left out, and most others have no voxel. "
-                  "0: `target` is used.",
+                  "Approximate number of seeds in a cube as wide as the grid's longest axis, as in the paper; "
+                  "those outside of the grid are left out, and most others have no voxel. 0: `target` is used.",
                   0u, 1u << 24),
             field("target", &ClusterParams::target,
-                  "Approximate number of clusters on flat surfaces: "
-                  "a cluster is sqrt(voxels / target) voxels wide. Thin and curved surfaces have more.",
+                  "Approximate number of clusters on flat surfaces: a cluster is sqrt(voxels / target) voxels wide. "
+                  "Thin and curved surfaces have more.",
                   1u, 1u << 22)
                 .onlyWith(oneOf(&ClusterParams::initial, {0u})),
             field("iterations", &ClusterParams::iterations,
-                  "How often voxels are assigned; in between, clusters move to the mean of their voxels.", 1u,
-                  100u),
+                  "How often voxels are assigned; in between, clusters move to the mean of their voxels.", 1u, 100u),
             field("reach", &ClusterParams::reach,
                   "Largest distance of voxels from their cluster's center along each axis, "
-                  "in widths of a seed's cell. 1: that of SLIC. With more, "
-                  "fewer voxels stay without a cluster, and `first` makes fewer, larger clusters.",
+                  "in widths of a seed's cell. 1: that of SLIC. "
+                  "With more, fewer voxels stay without a cluster, and `first` makes fewer, larger clusters.",
                   0.5f, 8.0f),
             field("max_angle", &ClusterParams::maxAngle,
                   "Largest angle between a cluster's normal and those of its voxels, degrees; "
@@ -102,9 +98,9 @@ struct ClusterParams {
                   "the axis direction in which fewest of 3x3 voxels are occupied (the paper's)."),
             field("ties", &ClusterParams::ties,
                   "Choice between directions with as few occupied voxels. "
-                  "surfaces: the nearest to the normal by area. "
-                  "fragments: the one to which the normals of the triangles "
-                  "in the voxel have the smallest sum of angles, whatever their areas (the paper's).")
+                  "surfaces: the nearest to the normal by area. fragments: "
+                  "the one to which the normals of the triangles in the voxel have the smallest sum of angles, "
+                  "whatever their areas (the paper's).")
                 .onlyWith(oneOf(&ClusterParams::normals, {ClusterNormals::OpenSpace}))};
     }
 };

@@ -26,10 +26,9 @@ class FindPatches final : public Pass {
         "Splits voxels' surfels and clusters at walls thinner than a voxel. "
         "Surfels of a voxel that see each other form a surface group; "
         "clusters are split into connected components of these groups. "
-        "So both sides of a wall thinner than a voxel have their own light (cluster_visibility, "
-        "inject_clusters, gather_clusters). With place_surfels' 'sides: "
-        "all' gaps narrower than a voxel have groups, too, which send and receive light. "
-        "Biased by: voxel size (occluders lower than half a voxel split nothing). "
+        "So both sides of a wall thinner than a voxel have their own light (cluster_visibility, inject_clusters, "
+        "gather_clusters). With place_surfels' 'sides: all' gaps narrower than a voxel have groups, too, "
+        "which send and receive light. Biased by: voxel size (occluders lower than half a voxel split nothing). "
         "Noisy by: points_per_voxel (a surface without a point is in no group). Source: docs/clusters.md.";
 
     void plan(PassPlan& plan) override;
@@ -73,8 +72,7 @@ class FindPatches final : public Pass {
 void FindPatches::plan(PassPlan& plan) {
     batch_.plan(plan, plan[surfels_].hasOccludedSurfels);
     const bool surfacesMove = !movingInstanceRanges(plan.frame.scene->geometry).empty();
-    for (Kernel* kernel : {&updateSurfels_, &updateNeighbourRays_, &updateNeighbours_})
-        kernel->compileIf(surfacesMove);
+    for (Kernel* kernel : {&updateSurfels_, &updateNeighbourRays_, &updateNeighbours_}) kernel->compileIf(surfacesMove);
     if (surfacesMove) updateCache_.emplace(*this);
 }
 
@@ -84,8 +82,7 @@ void FindPatches::record(PassContext& context) {
     const std::optional<std::vector<Box>>& changed = context.frame.changed;
     if (!voxels.unoccludedAreaOnly)
         throw Error(
-            "{}: surfels without open space before them have no side; "
-            "leave voxelize's 'visibility_rays' above 0",
+            "{}: surfels without open space before them have no side; leave voxelize's 'visibility_rays' above 0",
             kName);
     VoxelPatches& patches = context[patches_];
     if (updateCache_ && changed && !context.isFirstRun())
@@ -115,8 +112,8 @@ void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& lists) {
     VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
     patches.surfelCount = lists.sortedCount;
-    patches.surfels = LargeBuffer(context.device, "surfels by group",
-                                  std::max(lists.sortedCount, 1u) * sizeof(gpu::GroupedSurfel));
+    patches.surfels =
+        LargeBuffer(context.device, "surfels by group", std::max(lists.sortedCount, 1u) * sizeof(gpu::GroupedSurfel));
     std::vector<Binding> storedGroups;
     if (isUpdate()) storedGroups = updateCache_->surfelBindings(context[clusters_]);
     uint32_t firstIndex = 0;
@@ -171,9 +168,8 @@ void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& lists) 
                       {"GroupedSurfelsRef", patches.surfels.ref()},
                       {"voxels", count}});
     patches.patchCount = prefixSum_.run(stream, patchCounts, patchCounts, patches.groupCount);
-    context.dispatch(
-        numberPatches_, patches.groupCount,
-        {{"firstPatches", patchCounts}, {"groups", patches.groups}, {"groupCount", patches.groupCount}});
+    context.dispatch(numberPatches_, patches.groupCount,
+                     {{"firstPatches", patchCounts}, {"groups", patches.groups}, {"groupCount", patches.groupCount}});
     if (isUpdate()) updateCache_->findPrevious(stream, voxels, context[clusters_], patches);
     stream.finish();
 }
@@ -189,11 +185,9 @@ void FindPatches::findNeighbours(PassContext& context) {
                              {"firstGroup", patches.firstGroup},
                              {"GroupMaterialsRef", patches.materials.ref()},
                              {"groupCount", groups}};
-    patches.firstNeighbour =
-        Buffer(context.device, "first neighbours of surface groups", uintBytes(groups + 1));
+    patches.firstNeighbour = Buffer(context.device, "first neighbours of surface groups", uintBytes(groups + 1));
     context.dispatch(countNeighbours_, groups + 1, {adjacency.all(), {"counts", patches.firstNeighbour}});
-    const uint32_t neighbours =
-        prefixSum_.run(stream, patches.firstNeighbour, patches.firstNeighbour, groups + 1);
+    const uint32_t neighbours = prefixSum_.run(stream, patches.firstNeighbour, patches.firstNeighbour, groups + 1);
     patches.neighbours = LargeBuffer(context.device, "neighbours of surface groups", uintBytes(neighbours));
     const LargeBuffer neighbourOf(context.device, "groups by neighbour", uintBytes(neighbours));
     context.dispatch(listNeighbours_, groups + 1,

@@ -17,8 +17,7 @@ GroupUpdateCache::GroupUpdateCache(ProgramOwner& owner)
 void GroupUpdateCache::startUpdate(CommandStream& stream, const SurfaceVoxels& voxels, VoxelPatches& patches,
                                    const std::vector<Box>& changed) {
     const auto changedBits = [&](uint32_t margin) {
-        return regions_.bits(stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, margin)),
-                             voxels);
+        return regions_.bits(stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, margin)), voxels);
     };
     changed_ = changedBits(0);
     changedNeighbourhood_ = changedBits(1);
@@ -29,16 +28,13 @@ void GroupUpdateCache::startUpdate(CommandStream& stream, const SurfaceVoxels& v
 }
 
 std::vector<Binding> GroupUpdateCache::surfelBindings(const VoxelClusters& clusters) const {
-    return {{"coordinates", clusters.coordinates},
-            {"changed", changed_},
-            {"StoredGroupsRef", storedGroups_.ref()}};
+    return {{"coordinates", clusters.coordinates}, {"changed", changed_}, {"StoredGroupsRef", storedGroups_.ref()}};
 }
 
-void GroupUpdateCache::findPrevious(CommandStream& stream, const SurfaceVoxels& voxels,
-                                    const VoxelClusters& clusters, VoxelPatches& patches) {
+void GroupUpdateCache::findPrevious(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
+                                    VoxelPatches& patches) {
     patches.previousGroups = Buffer(stream.device(), "previous groups", uintBytes(patches.groupCount));
-    reusedGroup_ =
-        Buffer(stream.device(), "groups whose neighbours are reused", uintBytes(patches.groupCount));
+    reusedGroup_ = Buffer(stream.device(), "groups whose neighbours are reused", uintBytes(patches.groupCount));
     stream.dispatch(findPreviousGroups_, patches.groupCount,
                     {{"groups", patches.groups},
                      {"firstGroup", patches.firstGroup},

@@ -38,11 +38,10 @@ class SurfelGrouping {
              const SurfelsByVoxel& lists, const VoxelPatches& patches) const;
 
  private:
-    void measureGaps(PassContext& context, const RayBatch& batch, float voxelSize,
-                     const VoxelPatches& patches) const;
+    void measureGaps(PassContext& context, const RayBatch& batch, float voxelSize, const VoxelPatches& patches) const;
     /// Groups only occluded or only unoccluded surfels.
-    void groupByVisibility(PassContext& context, const RayBatch& batch, uint32_t voxels,
-                           const SurfelsByVoxel& lists, const VoxelPatches& patches, bool occluded) const;
+    void groupByVisibility(PassContext& context, const RayBatch& batch, uint32_t voxels, const SurfelsByVoxel& lists,
+                           const VoxelPatches& patches, bool occluded) const;
 
     Kernel generateGapRays_, measureGapHeight_, selectSeed_, generateVisibilityRays_, joinGroup_;
 };

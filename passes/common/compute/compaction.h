@@ -17,8 +17,7 @@ class Compaction {
     uint32_t run(CommandStream& stream, const Buffer& flags, const Buffer& indices, uint32_t words) const {
         const Buffer before(stream.device(), "flagged items before", uint64_t(words) * sizeof(uint32_t));
         const uint32_t count = prefixSum_.run(stream, flags, before, words);
-        stream.dispatch(list_, words,
-                        {{"flags", flags}, {"before", before}, {"indices", indices}, {"words", words}});
+        stream.dispatch(list_, words, {{"flags", flags}, {"before", before}, {"indices", indices}, {"words", words}});
         stream.finish();
         return count;
     }

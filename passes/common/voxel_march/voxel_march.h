@@ -22,8 +22,8 @@ template <>
 struct EnumNames<VoxelTraversal> {
     static constexpr std::array names{
         std::pair{VoxelTraversal::Bits, "bits"}, std::pair{VoxelTraversal::Bricks, "bricks"},
-        std::pair{VoxelTraversal::SvoRestart, "svo_restart"},
-        std::pair{VoxelTraversal::SvoVoxels, "svo_voxels"}, std::pair{VoxelTraversal::Svo, "svo"}};
+        std::pair{VoxelTraversal::SvoRestart, "svo_restart"}, std::pair{VoxelTraversal::SvoVoxels, "svo_voxels"},
+        std::pair{VoxelTraversal::Svo, "svo"}};
 };
 
 /// Surface voxels with the data structure of a traversal, for shaders that trace rays through them. Such a
