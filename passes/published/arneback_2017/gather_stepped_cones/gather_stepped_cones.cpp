@@ -22,8 +22,7 @@ class GatherSteppedCones final : public Pass {
                                     "a sample's opacity counts for this fraction of its width.",
                                     0.125f, 1.0f),
                               field("start", &Params::start,
-                                    "Distance from the surface to a cone's first sample, in voxels, "
-                                    "which the thesis does not give. "
+                                    "Voxels from the surface to a cone's first sample (not given in the thesis). "
                                     "If small, the surface itself is sampled; if large, close surfaces are skipped.",
                                     0.5f, 16.0f)};
         }
