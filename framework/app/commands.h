@@ -2,8 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
-/// The commands of `voxray`. Each function adds one to the program; its callback writes the exit status:
-/// 0 done, 1 something failed, 2 bad usage or config, 130 interrupted. Callbacks throw Error and UsageError.
+/// The commands of `voxray`. Each function adds a command. Its callback sets the exit status (0: done, 1:
+/// something failed, 2: invalid usage or config, 130: interrupted) and may throw Error and UsageError.
 namespace voxray {
 
 void addRunCommand(CLI::App& app, int& status);

@@ -56,7 +56,7 @@ void printTable(const std::vector<Row>& rows) {
     }
 }
 
-/// Numbers that JSON has no word for (the PSNR of equal images) become null.
+/// Prints scores as JSON. Numbers that are not finite (the PSNR of equal images) become null.
 void printJson(const std::vector<Row>& rows, const CompareOptions& options, const FlipExposures& exposures) {
     const auto number = [](double value) {
         return std::isfinite(value) ? Value::fromScalar(fmt::format("{:.9g}", value)) : Value();
@@ -68,8 +68,7 @@ void printJson(const std::vector<Row>& rows, const CompareOptions& options, cons
         Value scores = Value::map();
         for (const Metric& metric : metrics())
             for (const char* end : {"", kLow, kHigh})
-                if (const auto score = row.scores.find(std::string(metric.name) + end);
-                    score != row.scores.end())
+                if (const auto score = row.scores.find(std::string(metric.name) + end); score != row.scores.end())
                     scores.set(score->first, number(score->second));
         out.set(row.name == "test" ? "scores" : row.name, std::move(scores));
     }
@@ -82,32 +81,33 @@ void printJson(const std::vector<Row>& rows, const CompareOptions& options, cons
     fmt::print("{}\n", out.json());
 }
 
-/// The layer of that name, or the picture of a file that has plain channels alone.
+/// Reads the layer of that name, or the image of a file without layers.
 LayeredImage readLayerOrOnly(const std::filesystem::path& path, const std::string& layer) {
     if (!layer.empty()) try {
             LayeredImage only = readLayer(path, "");
             if (only.layerCount <= 1 && only.layer.empty()) return only;
         } catch (const Error&) {
-            // It isn't clear which is the picture: the name says.
+            // The file has several images: the layer is selected by its name
         }
     return readLayer(path, layer);
 }
 
-/// Tells which layer it takes where a file has several. @throws UsageError for a file that is no whole image.
+/// Reads an image, and prints the selected layer if there are several. @throws UsageError for an invalid
+/// file.
 LayeredImage readGiven(const std::filesystem::path& path, const std::string& layer) {
     try {
         LayeredImage read = readLayerOrOnly(path, layer);
         if (read.layerCount > 1 && !read.layer.empty())
-            fmt::print(stderr, "voxray: {}: layer '{}' of {} is compared\n", path.string(),
-                       oneLine(read.layer), read.layerCount);
+            fmt::print(stderr, "voxray: {}: layer '{}' of {} is compared\n", path.string(), oneLine(read.layer),
+                       read.layerCount);
         return read;
     } catch (const Error& error) {
         throw UsageError("{}", error.what());
     }
 }
 
-/// The halves of a reference X.exr, X_a.exr and X_b.exr next to it, as `run` writes them; empty where they
-/// aren't there. @throws Error where their mean isn't the reference.
+/// Reads the halves of a reference X.exr, X_a.exr and X_b.exr in the same folder, as `run` writes them; empty
+/// if they don't exist. @throws Error if their mean isn't the reference.
 std::vector<ImageF> readHalves(const std::filesystem::path& path, const ImageF& reference) {
     std::vector<ImageF> halves;
     std::vector<std::filesystem::path> paths;
@@ -117,20 +117,20 @@ std::vector<ImageF> readHalves(const std::filesystem::path& path, const ImageF& 
     }
     for (const std::filesystem::path& half : paths) halves.push_back(readGiven(half, "").image);
     double difference = 0, sum = 0;
-    const bool fits = std::ranges::all_of(
-        halves, [&](const ImageF& half) { return half.data.size() == reference.data.size(); });
+    const bool fits =
+        std::ranges::all_of(halves, [&](const ImageF& half) { return half.data.size() == reference.data.size(); });
     for (size_t i = 0; fits && i < reference.data.size(); ++i) {
         const double mean = 0.5 * (double(halves[0].data[i]) + double(halves[1].data[i]));
         difference += std::abs(mean - double(reference.data[i]));
         sum += std::abs(double(reference.data[i]));
     }
     if (!fits || difference > 1e-5 * sum)
-        throw Error("{} isn't the mean of {} and {}, which are named like its halves: rename them",
-                    path.string(), paths[0].filename().string(), paths[1].filename().string());
+        throw Error("{} isn't the mean of {} and {}, which are named like its halves: rename them", path.string(),
+                    paths[0].filename().string(), paths[1].filename().string());
     return halves;
 }
 
-/// Whether a file holds display values of 8 bits, as previews do.
+/// Whether a file has 8-bit values, as previews do.
 bool isPreview(const std::filesystem::path& file) {
     std::string end = file.extension().string();
     std::ranges::transform(end, end.begin(), [](unsigned char c) { return char(std::tolower(c)); });
@@ -139,8 +139,7 @@ bool isPreview(const std::filesystem::path& file) {
 
 void compare(const CompareOptions& options) {
     for (const std::filesystem::path& file : {options.test, options.reference})
-        if (!std::filesystem::exists(file))
-            throw UsageError("no file '{}'{}", file.string(), didYouMeanFile(file));
+        if (!std::filesystem::exists(file)) throw UsageError("no file '{}'{}", file.string(), didYouMeanFile(file));
     const LayeredImage given = readGiven(options.test, options.layer);
     const LayeredImage wanted = readGiven(options.reference, options.layer);
     if (!options.layer.empty() && given.layer.empty() && wanted.layer.empty())
@@ -148,11 +147,10 @@ void compare(const CompareOptions& options) {
     const ImageF& test = given.image;
     const ImageF& reference = wanted.image;
     if (test.width != reference.width || test.height != reference.height)
-        throw UsageError("{} is {}x{} and {} is {}x{}: images to compare are of one size",
-                         options.test.string(), test.width, test.height, options.reference.string(),
-                         reference.width, reference.height);
+        throw UsageError("{} is {}x{} and {} is {}x{}: images to compare are of one size", options.test.string(),
+                         test.width, test.height, options.reference.string(), reference.width, reference.height);
 
-    // The same exposures for all rows, chosen from the reference alone.
+    // All rows have the same exposures, which depend only on the reference
     ScoreOptions scoring;
     scoring.exposureStops = options.exposureStops;
     scoring.flipExposures = flipExposures(reference);
@@ -164,8 +162,7 @@ void compare(const CompareOptions& options) {
                              {"black", score({blackLike(reference), reference, scoring, halves})},
                              {"constant", score({constantLike(reference), reference, scoring, halves})}};
     if (halves)
-        rows.push_back(
-            {"noise", noiseFloors({halves->a, reference, scoring}, {halves->b, reference, scoring})});
+        rows.push_back({"noise", noiseFloors({halves->a, reference, scoring}, {halves->b, reference, scoring})});
     if (!options.flipMap.empty()) writePng(options.flipMap, comparison.flip.map);
 
     for (const std::filesystem::path& file : {options.test, options.reference})
@@ -186,8 +183,7 @@ void compare(const CompareOptions& options) {
 
 void addCompareCommand(CLI::App& app, int&) {
     CLI::App* command = app.add_subcommand(
-        "compare",
-        "Metrics of an image against a reference, with a black and a constant image's next to them.");
+        "compare", "Metrics of an image against a reference, with a black and a constant image's next to them.");
     auto options = std::make_shared<CompareOptions>();
     command->add_option("TEST", options->test, "Image to compare (EXR, HDR, PNG, JPEG).")->required();
     command
@@ -196,16 +192,14 @@ void addCompareCommand(CLI::App& app, int&) {
                      "its noise is taken off nRMSE and relMSE, which then have 95 % confidence intervals.")
         ->required();
     command->add_flag("--json", options->json, "Print JSON.");
-    command->add_option(
-        "--layer", options->layer,
-        "Layer of EXR files that have several, as in View.Combined, or its last word. "
-        "Without: plain R, G, B, else the one called Combined, Beauty, RGBA, RGB, Color or Final.");
+    command->add_option("--layer", options->layer,
+                        "Layer of EXR files that have several, as in View.Combined, or its last word. "
+                        "Without: plain R, G, B, else the one called Combined, Beauty, RGBA, RGB, Color or Final.");
     command->add_option("--flip-map", options->flipMap, "Write the HDR-FLIP error map to this PNG.")
         ->check(endsWith(".png"));
     command
-        ->add_option(
-            "--exposure", options->exposureStops,
-            "Stops by which the previews are brightened before FLIP (LDR), SSIM and PSNR. Default 0.")
+        ->add_option("--exposure", options->exposureStops,
+                     "Stops by which the previews are brightened before FLIP (LDR), SSIM and PSNR. Default 0.")
         ->check(CLI::Range(-32.0f, 32.0f));
     command->callback([options] { compare(*options); });
 }

@@ -12,7 +12,7 @@
 
 namespace voxray {
 
-/// What every command that reads a config and its scene takes besides.
+/// Common arguments of all commands that read a config and its scene.
 struct ConfigArguments {
     ConfigOptions config;
     std::filesystem::path scenes;
@@ -43,21 +43,19 @@ inline bool isSceneFile(const std::filesystem::path& what) {
     return what.extension() == ".glb" || what.extension() == ".gltf";
 }
 
-/// Refuses the name of a file to write that says another format than the file will have.
+/// Rejects an output file whose extension is not that of its format.
 inline CLI::Validator endsWith(const std::string& ending) {
     return CLI::Validator(
         [ending](const std::string& name) {
-            return name.ends_with(ending) ? std::string()
-                                          : fmt::format("'{}' does not end in {}", name, ending);
+            return name.ends_with(ending) ? std::string() : fmt::format("'{}' does not end in {}", name, ending);
         },
         "");
 }
 
-/// What every command takes besides that asks a device for what it can.
+/// Common options of all commands that use a device.
 inline void addDeviceOptions(CLI::App& command, RunOptions& options) {
     command
-        .add_option("--device", options.deviceName,
-                    "Part of a Vulkan device's name; default: the best that qualifies.")
+        .add_option("--device", options.deviceName, "Part of a Vulkan device's name; default: the best that qualifies.")
         ->type_name("NAME");
     command
         .add_option("--tracer", options.tracer,
@@ -65,7 +63,7 @@ inline void addDeviceOptions(CLI::App& command, RunOptions& options) {
         ->type_name("NAME");
 }
 
-/// What every command that renders variants takes besides.
+/// Common options of all commands that render variants.
 inline void addRunOptions(CLI::App& command, RunOptions& options, const std::string& outHelp) {
     command.add_option("--out", options.out, outHelp)->type_name("DIR");
     addDeviceOptions(command, options);

@@ -12,7 +12,7 @@ namespace voxray {
 
 namespace {
 
-/// The ray tracers that a device can run; the CPU's needs no feature of it.
+/// The ray tracers that a device supports. Embree runs on the CPU with any device.
 std::string tracersOf(const DeviceInfo& device) {
     std::string names;
     if (device.rayQuery) names += "ray_query, ";
@@ -31,10 +31,9 @@ void printDevice(const DeviceInfo& device) {
     fmt::print("  ray tracers       {}\n", tracersOf(device));
     fmt::print("  geometry shader   {}\n", yesNo(device.geometryShader));
     fmt::print("  64-bit atomics    {}\n", yesNo(device.shaderInt64Atomics));
-    fmt::print("  float atomics     {}\n", yesNo(device.floatAtomics));
 }
 
-/// Prints all devices. @throws Error where none qualifies.
+/// Prints all devices. @throws Error if none qualifies.
 void printDevices() {
     const std::vector<DeviceInfo> devices = listDevices();
     for (const DeviceInfo& device : devices) printDevice(device);
@@ -44,8 +43,8 @@ void printDevices() {
 }  // namespace
 
 void addDevicesCommand(CLI::App& app, int&) {
-    CLI::App* command = app.add_subcommand(
-        "devices", "List Vulkan devices, their features and the ray tracers that each can run.");
+    CLI::App* command =
+        app.add_subcommand("devices", "List Vulkan devices, their features and the ray tracers that each can run.");
     command->callback([] { printDevices(); });
 }
 

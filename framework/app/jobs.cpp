@@ -22,7 +22,7 @@ struct JobsArguments : ConfigArguments {
     std::filesystem::path claim;
 };
 
-/// @throws UsageError where the folder holds anything but parts of this experiment.
+/// Reserves a results folder for the parts of an experiment. @throws UsageError if it has anything else.
 void claimForParts(const PreparedExperiment& prepared, const std::filesystem::path& results) {
     const ResultsFolder folder(results, prepared.experiment().setup.general.name, FolderUse::Part,
                                ProcessLock::IfHeld::Wait);
@@ -35,10 +35,10 @@ void claimForParts(const PreparedExperiment& prepared, const std::filesystem::pa
 
 void addJobsCommand(CLI::App& app, int&) {
     auto arguments = std::make_shared<JobsArguments>();
-    CLI::App* command = app.add_subcommand(
-        "jobs",
-        "List the parts of an experiment for an engine that runs them: what each comes after, "
-        "the memory and cost that are predicted. 'voxray run CONFIG --part ID --out DIR' does one.");
+    CLI::App* command =
+        app.add_subcommand("jobs",
+                           "List the parts of an experiment for an engine that runs them: what each comes after, "
+                           "the memory and cost that are predicted. 'voxray run CONFIG --part ID --out DIR' does one.");
     command->add_option("CONFIG", arguments->file, "Config file.")->required();
     command->add_flag("--json", arguments->json, "Print JSON.");
     command

@@ -19,32 +19,31 @@ using namespace voxray;
 constexpr int kFailed = 1;
 constexpr int kBadUsage = 2;
 
-int complain(const std::string& message, int status) {
+int printError(const std::string& message, int status) {
     fmt::print(stderr, "voxray: error: {}\n", oneLine(message));
     return status;
 }
 
-/// The launcher has two commands of its own; a user who asks the program for one gets the hint.
+/// @throws UsageError for an unknown command, with a hint for commands of the launcher.
 void checkCommandName(const CLI::App& app, const std::string& word) {
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) {
         if (command->get_name() == word) return;
         names.push_back(command->get_name());
     }
-    if (word == "test" || word == "bench")
-        throw UsageError("'{0}' is a command of the launcher: ./voxray {0}", word);
+    if (word == "test" || word == "bench") throw UsageError("'{0}' is a command of the launcher: ./voxray {0}", word);
     if (word.ends_with(".yaml") || word.ends_with(".yml"))
         throw UsageError("unknown command '{0}'; to render a config, write: voxray run {0}", word);
     throw UsageError("unknown command '{}'{}", word, didYouMean(word, names));
 }
 
-/// "; see voxray run --help": of the command that was asked for.
+/// "; see voxray run --help" for the given command.
 std::string seeHelp(const CLI::App& app) {
-    const auto asked = app.get_subcommands();
-    return fmt::format("; see voxray {}--help", asked.empty() ? "" : asked[0]->get_name() + " ");
+    const auto given = app.get_subcommands();
+    return fmt::format("; see voxray {}--help", given.empty() ? "" : given[0]->get_name() + " ");
 }
 
-/// What was written that no command takes, with the nearest option where it is one.
+/// The message for an unknown argument; for an option with the most similar one.
 std::string unknownArguments(const CLI::App& app) {
     const std::string first = app.remaining(true).empty() ? "" : app.remaining(true).front();
     std::vector<std::string> names;
@@ -100,19 +99,19 @@ int main(int argc, char** argv) {
         if (argv[1][0] != '-') checkCommandName(app, argv[1]);
         app.parse(argc, argv);
         if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-            return complain("cannot write to the standard output", kFailed);
+            return printError("cannot write to the standard output", kFailed);
         return status;
-    } catch (const CLI::Success& asked) {  // --help, --version
-        return app.exit(asked);
+    } catch (const CLI::Success& success) {  // --help, --version
+        return app.exit(success);
     } catch (const CLI::ExtrasError&) {
-        return complain(unknownArguments(app), kBadUsage);
+        return printError(unknownArguments(app), kBadUsage);
     } catch (const CLI::ParseError& error) {
-        return complain(oneLine(error.what()) + seeHelp(app), kBadUsage);
+        return printError(oneLine(error.what()) + seeHelp(app), kBadUsage);
     } catch (const UsageError& error) {
-        return complain(error.what(), kBadUsage);
+        return printError(error.what(), kBadUsage);
     } catch (const std::bad_alloc&) {
-        return complain("out of memory", kFailed);
+        return printError("out of memory", kFailed);
     } catch (const std::exception& error) {
-        return complain(error.what(), kFailed);
+        return printError(error.what(), kFailed);
     }
 }

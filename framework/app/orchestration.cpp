@@ -3,43 +3,39 @@
 
 #include "app/commands.h"
 #include "app/config_options.h"
-#include "app/hand_over.h"
+#include "app/orchestration_process.h"
 
-/// The options of the commands that framework/orchestration does.
+/// Options of the commands that framework/orchestration implements.
 namespace voxray {
 
 namespace {
 
-/// What shared options are bound to; what was written for them is handed over, not this.
-struct Bound : ConfigArguments {
+/// Variables to which common options are bound. They are not read, see runOrchestration().
+struct UnusedValues : ConfigArguments {
     RunOptions run;
 };
 
-CLI::App* handedOver(CLI::App& app, const std::string& name, const std::string& help,
-                     const std::shared_ptr<Bound>& bound = {}) {
+CLI::App* addOrchestrationCommand(CLI::App& app, const std::string& name, const std::string& help,
+                                  const std::shared_ptr<UnusedValues>& values = {}) {
     CLI::App* command = app.add_subcommand(name, help);
-    command->callback([command, bound] { handOver(*command); });
+    command->callback([command, values] { runOrchestration(*command); });
     return command;
 }
 
-CLI::Option* addText(CLI::App& command, const std::string& name, const std::string& type,
-                     const std::string& help) {
+CLI::Option* addText(CLI::App& command, const std::string& name, const std::string& type, const std::string& help) {
     return command.add_option(name, help)->type_name(type);
 }
 
-CLI::Option* addTexts(CLI::App& command, const std::string& name, const std::string& type,
-                      const std::string& help) {
-    return addText(command, name, type, help)
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+CLI::Option* addTexts(CLI::App& command, const std::string& name, const std::string& type, const std::string& help) {
+    return addText(command, name, type, help)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+/// Without it CLI11's overloads are ambiguous for a literal.
 void addFlag(CLI::App& command, const std::string& name, const std::string& help) {
     command.add_flag(name, help);
 }
 
-CLI::Option* addCount(CLI::App& command, const std::string& name, const std::string& help,
-                      int most = 1 << 16) {
+CLI::Option* addCount(CLI::App& command, const std::string& name, const std::string& help, int most = 1 << 16) {
     return addText(command, name, "N", help)->check(CLI::Range(1, most));
 }
 
@@ -47,7 +43,7 @@ CLI::Option* addConfig(CLI::App& command) {
     return addText(command, "CONFIG", "TEXT", "Config file.")->required();
 }
 
-void addPlaceOptions(CLI::App& command) {
+void addExecutorOptions(CLI::App& command) {
     addCount(command, "--cores", "Run on this machine, on so many cores.");
     addFlag(command, "--slurm", "Run as jobs of Slurm.");
     addText(command, "--partition", "NAME", "Slurm's partition. Default: its own.")->needs("--slurm");
@@ -59,11 +55,9 @@ void addPlaceOptions(CLI::App& command) {
 
 void addPartOptions(CLI::App& command) {
     addCount(command, "--reference-parts",
-             "How many parts each reference's samples are divided into. "
-             "Default: one for each of --cores, else 1.",
+             "How many parts each reference's samples are divided into. Default: one for each of --cores, else 1.",
              1 << 20);
-    addFlag(command, "--untimed",
-            "Times don't matter: variants share machines, and a warning on the page says so.");
+    addFlag(command, "--untimed", "Times don't matter: variants share machines, and a warning on the page says so.");
     addCount(command, "--threads", "Threads of each part that shares a machine.")->default_str("1");
     addText(command, "--retries", "N", "How often a part that failed is tried again.")
         ->check(CLI::Range(0, 1 << 16))
@@ -80,102 +74,91 @@ void addPartOptions(CLI::App& command) {
 }  // namespace
 
 void addTuneCommand(CLI::App& app, int&) {
-    const auto bound = std::make_shared<Bound>();
-    CLI::App& command = *handedOver(app, "tune",
-                                    "Search the variants of a config's sweep "
-                                    "for the cheapest one whose error meets a target: "
-                                    "small images first, the best of them at the config's own.",
-                                    bound);
+    const auto values = std::make_shared<UnusedValues>();
+    CLI::App& command = *addOrchestrationCommand(app, "tune",
+                                                 "Search the variants of a config's sweep "
+                                                 "for the cheapest one whose error meets a target: "
+                                                 "small images first, the best of them at the config's own.",
+                                                 values);
     addConfig(command);
-    addTexts(
-        command, "--target", "NAME=VALUE",
-        "Column of results.csv and the value to meet, as in indirect_relmse=0.02. May be given many times.")
+    addTexts(command, "--target", "NAME=VALUE",
+             "Column of results.csv and the value to meet, as in indirect_relmse=0.02. May be given many times.")
         ->required();
-    addText(command, "--minimize", "TEXT",
-            "What is to be cheap: ms or rays (of one build and one frame) or bytes.")
+    addText(command, "--minimize", "TEXT", "What is to be cheap: ms or rays (of one build and one frame) or bytes.")
         ->check(CLI::IsMember({"ms", "rays", "bytes"}))
         ->default_str("ms");
     addTexts(command, "--vary", "ID.PARAMETER",
              "A pass's parameter that is searched besides the sweep, over halves and doubles of its value, "
              "as in gather.rays. May be given many times.");
-    addText(command, "--budget", "FLOAT",
-            "What trials may cost, in variants of mean cost; 0: a fifth of the sweep.")
+    addText(command, "--budget", "FLOAT", "What trials may cost, in variants of mean cost; 0: a fifth of the sweep.")
         ->check(CLI::NonNegativeNumber)
         ->default_str("0");
-    addFlag(command, "--every",
-            "Run the whole sweep, too, and compare: how good the choice is, what it saved.");
+    addFlag(command, "--every", "Run the whole sweep, too, and compare: how good the choice is, what it saved.");
     addFlag(command, "--resume", "Keep the trials that an earlier search finished.");
-    addDeviceOptions(command, bound->run);
+    addDeviceOptions(command, values->run);
     addText(command, "--out", "DIR", "Folder of trials; default results/tune_<experiment>.");
-    addConfigOptions(command, *bound);
+    addConfigOptions(command, *values);
 }
 
 void addExplainCommand(CLI::App& app, int&) {
-    const auto bound = std::make_shared<Bound>();
-    CLI::App& command = *handedOver(app, "explain",
-                                    "Say where a config's error comes from: "
-                                    "render it with each stage swapped for an exact counterpart, "
-                                    "and give each its part of the error of the indirect light.",
-                                    bound);
+    const auto values = std::make_shared<UnusedValues>();
+    CLI::App& command = *addOrchestrationCommand(app, "explain",
+                                                 "Say where a config's error comes from: "
+                                                 "render it with each stage swapped for an exact counterpart, "
+                                                 "and give each its part of the error of the indirect light.",
+                                                 values);
     addConfig(command);
     addText(command, "--variant", "NAME",
-            "Which variant of the config's sweep is explained, "
-            "by its name in results.csv or the end of it, as in lookup for indirect-lookup.");
-    addConfigOptions(command, *bound);
-    addRunOptions(command, bound->run, "Results folder; default results/explain_<experiment>.");
+            "Which variant of the config's sweep is explained, by its name in results.csv or the end of it, "
+            "as in lookup for indirect-lookup.");
+    addConfigOptions(command, *values);
+    addRunOptions(command, values->run, "Results folder; default results/explain_<experiment>.");
 }
 
 void addStabilityCommand(CLI::App& app, int&) {
-    const auto bound = std::make_shared<Bound>();
-    CLI::App& command = *handedOver(app, "stability",
-                                    "Show where methods fail: "
-                                    "run each in scenes that provoke one failure each (leaks, lost energy, "
-                                    "flicker ...), and hold every result against its limit.",
-                                    bound);
-    addText(command, "METHOD", "TEXT", "Methods of the matrix; all by default.")
-        ->expected(1, -1)
-        ->allow_extra_args();
+    const auto values = std::make_shared<UnusedValues>();
+    CLI::App& command =
+        *addOrchestrationCommand(app, "stability",
+                                 "Show where methods fail: run each in scenes that provoke one failure each (leaks, "
+                                 "lost energy, flicker ...), and hold every result against its limit.",
+                                 values);
+    addText(command, "METHOD", "TEXT", "Methods of the matrix; all by default.")->expected(1, -1)->allow_extra_args();
     addTexts(command, "--scenario", "NAME",
              "Run this scene of the matrix, and the first of its profile. May be given many times.");
     addText(command, "--config", "CONFIG",
-            "The matrix, its limits next to it in a .csv of the same name; "
-            "default configs/stability/matrix.yaml.");
+            "The matrix, its limits next to it in a .csv of the same name; default configs/stability/matrix.yaml.");
     addFlag(command, "--remedies",
-            "Run what fails again with finer settings, one kind at a time, "
-            "and say which of them lowers each error; "
+            "Run what fails again with finer settings, one kind at a time, and say which of them lowers each error; "
             "they stand next to the matrix, in a file that ends in _remedies.json.");
-    addConfigOptions(command, *bound);
-    addRunOptions(
-        command, bound->run,
-        "Folder of the tables and of a results folder for each profile; default results/stability.");
+    addConfigOptions(command, *values);
+    addRunOptions(command, values->run,
+                  "Folder of the tables and of a results folder for each profile; default results/stability.");
 }
 
 void addSweepCommand(CLI::App& app, int&) {
-    const auto bound = std::make_shared<Bound>();
-    CLI::App& command = *handedOver(
+    const auto values = std::make_shared<UnusedValues>();
+    CLI::App& command = *addOrchestrationCommand(
         app, "sweep",
         "Run the parts of an experiment at once, by Snakemake: on this machine's cores, on Slurm, "
         "or wherever a profile of Snakemake says. Started again, it goes on with what is left.",
-        bound);
+        values);
     addConfig(command);
-    addText(command, "SNAKEMAKE", "TEXT", "After --: more options for Snakemake.")
-        ->expected(1, -1)
-        ->allow_extra_args();
+    addText(command, "SNAKEMAKE", "TEXT", "After --: more options for Snakemake.")->expected(1, -1)->allow_extra_args();
     addText(command, "--out", "DIR", "Results folder; default results/<experiment>.");
-    addPlaceOptions(command);
+    addExecutorOptions(command);
     addPartOptions(command);
     addText(command, "--program", "COMMAND",
             "What starts Voxray in a job, as in 'apptainer exec voxray.sif voxray'. Default: this program.");
     addFlag(command, "--print", "Print Snakemake's command line, in place of starting it.");
-    addConfigOptions(command, *bound);
-    addDeviceOptions(command, bound->run);
+    addConfigOptions(command, *values);
+    addDeviceOptions(command, values->run);
 }
 
 void addParetoCommand(CLI::App& app, int&) {
-    CLI::App& command = *handedOver(app, "pareto",
-                                    "Chart the methods of many runs, speed against accuracy: "
-                                    "which are on the front, scene by scene, which are beaten everywhere, "
-                                    "and what each saves over filtered path tracing.");
+    CLI::App& command = *addOrchestrationCommand(app, "pareto",
+                                                 "Chart the methods of many runs, speed against accuracy: "
+                                                 "which are on the front, scene by scene, which are beaten everywhere, "
+                                                 "and what each saves over filtered path tracing.");
     addText(command, "RESULTS", "DIR", "Results folders of runs, also of several machines.")
         ->required()
         ->expected(1, -1)

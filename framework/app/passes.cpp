@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t kTextWidth = 100;
 
-/// The text broken at spaces into lines of at most kTextWidth, all but the first indented.
+/// Breaks a text into lines of at most kTextWidth columns, and indents all but the first one.
 std::string wrapped(const std::string& text, size_t firstColumn, size_t indent) {
     std::string out;
     size_t column = firstColumn;
@@ -48,11 +48,10 @@ void printList(const Registry& registry, bool withExperiments) {
         }
     }
     fmt::print("\nvoxray passes NAME tells a pass's ports and parameters.\n");
-    if (!withExperiments)
-        fmt::print("voxray passes --experiments adds those that measure for experiments.\n");
+    if (!withExperiments) fmt::print("voxray passes --experiments adds those that measure for experiments.\n");
 }
 
-/// A name and what it is, in two columns.
+/// Prints a name and its description in two columns.
 void printEntry(const std::string& name, const std::string& text) {
     constexpr size_t kColumn = 22;
     fmt::print("  {:<{}} {}\n", name, kColumn - 3, wrapped(text, kColumn, kColumn));
@@ -71,8 +70,7 @@ void printPorts(const PassKind& kind, bool outputs) {
 
 std::string rangeOf(const ParameterDoc& parameter) {
     if (!parameter.choices.empty()) return fmt::format("{}", fmt::join(parameter.choices, " | "));
-    if (!parameter.min.empty())
-        return fmt::format("{} from {} to {}", parameter.type, parameter.min, parameter.max);
+    if (!parameter.min.empty()) return fmt::format("{} from {} to {}", parameter.type, parameter.min, parameter.max);
     return parameter.type;
 }
 
@@ -85,8 +83,7 @@ void printPass(const PassKind& kind) {
     fmt::print("\nParameters:\n");
     for (const ParameterDoc& parameter : kind.parameters) {
         const std::string defaults = parameter.defaults.empty() ? "''" : parameter.defaults;
-        printEntry(parameter.name,
-                   fmt::format("{} Default {}; {}.", parameter.help, defaults, rangeOf(parameter)));
+        printEntry(parameter.name, fmt::format("{} Default {}; {}.", parameter.help, defaults, rangeOf(parameter)));
     }
     if (kind.parameters.empty()) fmt::print("  none\n");
 }

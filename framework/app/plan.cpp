@@ -30,18 +30,17 @@ Value listOf(const std::vector<std::string>& words) {
 }
 
 Value variantValue(const Variant& variant) {
-    Value map = Value::map(), places = Value::list();
-    for (const Value& entry : variant.setup.graph.items)
-        places.items.push_back(quotedText(entry.where.str()));
+    Value map = Value::map(), locations = Value::list();
+    for (const Value& entry : variant.setup.graph.items) locations.items.push_back(quotedText(entry.where.str()));
     map.set("name", quotedText(variant.name));
     map.set("values", listOf(variant.values));
     map.set("config", variant.config);
-    map.set("places", places);
-    map.set("left_out", listOf(variant.leftOut));
+    map.set("places", locations);
+    map.set("left_out", listOf(variant.culledPasses));
     return map;
 }
 
-/// What docs/programs.md lists.
+/// The JSON that docs/programs.md describes.
 Value planValue(const Study& study, const std::filesystem::path& file) {
     const Experiment& experiment = study.experiment;
     Value plan = Value::map(), axes = Value::list(), variants = Value::list();

@@ -14,11 +14,11 @@ namespace voxray {
 Study loadStudy(const std::filesystem::path& file, const ConfigOptions& options, const Registry& registry) {
     Study study = makeStudy(loadExperiment(file, options), registry);
     if (options.only.empty()) return study;
-    ConfigOptions everything = options;
-    everything.only.clear();
-    const Study whole = makeStudy(loadExperiment(file, everything), registry);
-    for (const auto& [id, count] : variantsWithout(study))
-        if (runsSomewhere(whole, id)) study.deselected.push_back(id);
+    ConfigOptions allOptions = options;
+    allOptions.only.clear();
+    const Study all = makeStudy(loadExperiment(file, allOptions), registry);
+    for (const auto& [id, count] : cullCounts(study))
+        if (runsSomewhere(all, id)) study.deselected.push_back(id);
     return study;
 }
 
@@ -30,8 +30,7 @@ void planExperiment(const std::filesystem::path& file, const ConfigArguments& ar
     options.sourceRoot = sourceRoot();
     options.preview = pathTracedPreview;
     PreparedExperiment prepared(loadStudy(file, arguments.config, registry), options);
-    for (const std::string& warning : prepared.warnings())
-        fmt::print(stderr, "voxray: warning: {}\n", warning);
+    for (const std::string& warning : prepared.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     use(prepared);
 }
 

@@ -8,10 +8,11 @@
 
 namespace voxray {
 
-/// Reads a config and wires it. Passes that values which --only leaves out would run are no mistake.
+/// Reads a config and makes its study. Passes that run only in variants excluded by --only are recorded, so
+/// that they are not reported as unused.
 Study loadStudy(const std::filesystem::path& file, const ConfigOptions& options, const Registry& registry);
 
-/// Plans the experiment of a config as a run would, prints what may mislead, and hands it over.
+/// Plans the experiment of a config as a run does, prints warnings, and calls `use`.
 /// @throws UsageError as loadExperiment(), makeStudy() and runExperiment().
 void planExperiment(const std::filesystem::path& file, const ConfigArguments& arguments, RunOptions options,
                     const std::function<void(PreparedExperiment&)>& use);

@@ -22,11 +22,10 @@ namespace voxray {
 
 void printSummary(const RunSummary& summary, const RunOptions& options) {
     if (options.dryRun) return;
-    if (!summary.reportError.empty())
-        fmt::print(stderr, "voxray: error: no report: {}\n", summary.reportError);
+    if (!summary.reportError.empty()) fmt::print(stderr, "voxray: error: no report: {}\n", summary.reportError);
     if (summary.validationMessages > 0)
-        fmt::print(stderr, "voxray: error: the Vulkan validation layer has {} message{}\n",
-                   summary.validationMessages, summary.validationMessages == 1 ? "" : "s");
+        fmt::print(stderr, "voxray: error: the Vulkan validation layer has {} message{}\n", summary.validationMessages,
+                   summary.validationMessages == 1 ? "" : "s");
     if (summary.interrupted)
         fmt::print(stderr, "voxray: interrupted; finished variants are kept in {}, --resume goes on\n",
                    summary.out.string());
@@ -47,14 +46,14 @@ struct RunArguments : ConfigArguments {
     std::optional<unsigned> threads;
 };
 
-/// Runs the configs one after the other. @return the exit status.
+/// Runs the configs one after another. @return the exit status.
 int run(const RunArguments& arguments) {
     std::optional<ThreadLimit> limit;
     if (arguments.threads) limit.emplace(*arguments.threads);
     Registry registry;
     registerPasses(registry);
 
-    // Nothing runs while any of the configs is wrong.
+    // Check all configs before the first one runs
     std::vector<Study> experiments;
     for (const std::filesystem::path& config : arguments.configs) {
         experiments.push_back(loadStudy(config, arguments.config, registry));
@@ -94,9 +93,8 @@ void addRunCommand(CLI::App& app, int& status) {
     RunOptions& options = arguments->options;
     command->add_option("CONFIG", arguments->configs, "Config files.")->required();
     addConfigOptions(*command, *arguments);
-    addRunOptions(
-        *command, options,
-        "Results folder; default results/<experiment>. With many configs, each gets a folder in it.");
+    addRunOptions(*command, options,
+                  "Results folder; default results/<experiment>. With many configs, each gets a folder in it.");
     command->add_flag("--aovs", options.aovs,
                       "Write what passes offer to look at in frame 0 (position, normals, albedo, depth, "
                       "ids) into aovs.PASS.exr of each variant.");
@@ -118,8 +116,7 @@ void addRunCommand(CLI::App& app, int& status) {
         ->type_name("N")
         ->check(CLI::Range(1u, 1u << 16));
     command->add_flag("--validate", options.validation,
-                      "Turn Vulkan's validation layer on: "
-                      "its messages are printed and fail the run (exit status 1). "
+                      "Turn Vulkan's validation layer on: its messages are printed and fail the run (exit status 1). "
                       "Times are then not the method's.");
     command->callback([arguments, &status] { status = run(*arguments); });
 }

@@ -4,7 +4,7 @@
 
 namespace voxray {
 
-/// What a run or a merge says at its end.
+/// Prints the result of a run or a merge.
 void printSummary(const RunSummary& summary, const RunOptions& options);
 
 }  // namespace voxray

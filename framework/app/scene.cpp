@@ -12,12 +12,13 @@
 
 #include "app/commands.h"
 #include "app/config_options.h"
-#include "app/first_config.h"
 #include "app/scene_view.h"
 #include "app/source_root.h"
+#include "app/starter_config.h"
 #include "app/view_search.h"
 #include "base/files.h"
 #include "base/suggest.h"
+#include "experiment/checks/view.h"
 #include "experiment/pixel_masks.h"
 #include "experiment/scene_files.h"
 #include "experiment/scene_setup.h"
@@ -40,12 +41,11 @@ bool isConfig(const std::filesystem::path& what) {
     return what.extension() == ".yaml" || what.extension() == ".yml";
 }
 
-/// @throws UsageError for a name that no built-in scene has, with the nearest one, or the nearest file of the
-/// folders of scenes.
+/// @throws UsageError for a name that no built-in scene has, with the most similar scene or file.
 void checkName(const std::string& name, const std::vector<std::filesystem::path>& folders) {
     std::vector<std::string> names = builtinSceneNames();
     if (std::ranges::count(names, name) > 0) return;
-    std::map<std::string, std::string> files;  // By their names without the ending.
+    std::map<std::string, std::string> files;  // Names of files by their stems.
     std::error_code code;
     for (const std::filesystem::path& folder : folders)
         for (const auto& entry : std::filesystem::directory_iterator(folder, code))
@@ -54,11 +54,10 @@ void checkName(const std::string& name, const std::vector<std::filesystem::path>
     for (const auto& [stem, file] : files) names.push_back(stem);
     const std::string near = files.contains(name) ? name : nearest(name, names);
     if (near.empty()) throw UsageError("no built-in scene '{}'{}", name, didYouMean(name, names));
-    throw UsageError("no built-in scene '{}'; did you mean '{}'?", name,
-                     files.contains(near) ? files.at(near) : near);
+    throw UsageError("no built-in scene '{}'; did you mean '{}'?", name, files.contains(near) ? files.at(near) : near);
 }
 
-/// The scene that a config renders, of a file, or that is built in.
+/// Settings for the scene of a config, a scene file, or a built-in scene.
 SceneSettings settingsOf(const SceneArguments& arguments, const std::vector<std::filesystem::path>& folders) {
     if (isConfig(arguments.what)) return loadExperiment(arguments.what, arguments.config).setup.scene;
     if (!arguments.config.profile.empty() || !arguments.config.assignments.empty())
@@ -72,12 +71,8 @@ SceneSettings settingsOf(const SceneArguments& arguments, const std::vector<std:
     return readSceneSettings(map);
 }
 
-std::string triple(glm::vec3 v) {
-    return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v.x, v.y, v.z);
-}
-
-/// Square metres and triangles of each material.
-std::vector<std::pair<double, size_t>> usesOf(const SceneState& state) {
+/// Area (m²) and number of triangles of each material.
+std::vector<std::pair<double, size_t>> materialUses(const SceneState& state) {
     const Geometry& g = state.geometry;
     std::vector<std::pair<double, size_t>> uses(state.scene->materials.size());
     for (size_t i = 0; i < g.triangles.size(); ++i) {
@@ -92,14 +87,13 @@ bool emits(const Material& material) {
     return material.emission != glm::vec3(0.0f);
 }
 
-/// Lights, and what else shines. @return whether anything does.
+/// Prints lights, emissive materials and environment. @return whether there are any.
 bool printLights(const SceneState& state) {
     const Environment& environment = state.scene->environment;
     const bool hasEnvironment = environment.radiance != glm::vec3(0.0f);
-    const auto uses = usesOf(state);
+    const auto uses = materialUses(state);
     size_t emissive = 0;
-    for (size_t i = 0; i < uses.size(); ++i)
-        emissive += emits(state.scene->materials[i]) && uses[i].first > 0;
+    for (size_t i = 0; i < uses.size(); ++i) emissive += emits(state.scene->materials[i]) && uses[i].first > 0;
     fmt::print("lights: {} punctual, {} emissive material{}, {} environment\n", state.lights.size(), emissive,
                emissive == 1 ? "" : "s", hasEnvironment ? "an" : "no");
     for (const Light& light : state.lights) {
@@ -107,144 +101,133 @@ bool printLights(const SceneState& state) {
                            : light.type == LightType::Spot ? "spot"
                                                            : "directional";
         if (light.type == LightType::Directional)
-            fmt::print("  - {{{}: {}, irradiance: {}}}  # W/m²\n", name, triple(light.direction),
-                       triple(light.intensity));
+            fmt::print("  - {{{}: {}, irradiance: {}}}  # W/m²\n", name, bracketed(light.direction),
+                       bracketed(light.intensity));
         else
-            fmt::print("  - {{{}: {}, {}intensity: {}}}  # W/sr\n", name, triple(light.position),
-                       light.type == LightType::Spot ? "direction: " + triple(light.direction) + ", " : "",
-                       triple(light.intensity));
+            fmt::print("  - {{{}: {}, {}intensity: {}}}  # W/sr\n", name, bracketed(light.position),
+                       light.type == LightType::Spot ? "direction: " + bracketed(light.direction) + ", " : "",
+                       bracketed(light.intensity));
     }
     if (hasEnvironment)
-        fmt::print("  environment {}{}\n", triple(environment.radiance),
+        fmt::print("  environment {}{}\n", bracketed(environment.radiance),
                    environment.map ? " times a map" : " W/(m² sr)");
     return emissive > 0 || hasEnvironment || !state.lights.empty();
 }
 
 void printMaterials(const SceneState& state) {
-    const auto uses = usesOf(state);
+    const auto uses = materialUses(state);
     fmt::print("materials: {}\n  {:32} {:>10} {:>10}  {:22} {:>8} {:>9}\n", uses.size(), "name", "triangles",
                "area, m²", "base color", "metallic", "roughness");
     for (size_t i = 0; i < uses.size(); ++i) {
         const Material& m = state.scene->materials[i];
-        fmt::print("  {:32} {:10} {:10.3g}  {:22} {:8.2g} {:9.2g}{}{}\n", m.name, uses[i].second,
-                   uses[i].first, triple(glm::vec3(m.baseColor)), m.metallic, m.roughness,
+        fmt::print("  {:32} {:10} {:10.3g}  {:22} {:8.2g} {:9.2g}{}{}\n", m.name, uses[i].second, uses[i].first,
+                   bracketed(glm::vec3(m.baseColor)), m.metallic, m.roughness,
                    m.baseColorTexture.texture >= 0 ? ", textured" : "",
-                   emits(m) ? ", emits " + triple(m.emission) + " W/(m² sr)" : "");
+                   emits(m) ? ", emits " + bracketed(m.emission) + " W/(m² sr)" : "");
     }
 }
 
-/// Objects by the names that `measure.masks` takes.
+/// Prints names of objects, as they are used in `measure.masks`.
 void printObjects(const Scene& scene) {
     constexpr size_t kListed = 20;
     std::vector<std::string> names = objectNames(scene);
     const size_t more = names.size() - std::min(names.size(), kListed);
     names.resize(names.size() - more);
-    fmt::print("objects: {}{}\n",
-               names.empty() ? "none has a name" : fmt::format("'{}'", fmt::join(names, "', '")),
+    fmt::print("objects: {}{}\n", names.empty() ? "none has a name" : fmt::format("'{}'", fmt::join(names, "', '")),
                more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// The scene in even light from all sides.
-SceneState inEvenLight(SceneState state) {
-    auto lit = std::make_shared<Scene>(*state.scene);
-    lit->environment.radiance = glm::vec3(1.0f);
-    state.scene = lit;
-    return state;
-}
-
-/// The scene with a lamp.
+/// The scene with an additional lamp.
 SceneState withLamp(SceneState state, const Light& lamp) {
     state.lights.push_back(lamp);
     return state;
 }
 
-/// A path-traced picture of a few samples. What nothing lights is shown by the lamp that is proposed, else in
-/// even light.
-void writePicture(const SceneState& scene, const EmbreeScene& tracer, const Camera& camera, bool shines,
+/// Writes a path-traced picture of a few samples. A scene without light is lit by the suggested lamp, else by
+/// a constant environment.
+void writePicture(const SceneState& scene, const EmbreeScene& tracer, const Camera& camera, bool hasLight,
                   const std::optional<Light>& lamp, bool isLit, const std::filesystem::path& file) {
-    const SceneState state = lamp ? withLamp(scene, *lamp) : shines ? scene : inEvenLight(scene);
+    const SceneState state = lamp ? withLamp(scene, *lamp) : hasLight ? scene : withEnvironment(scene);
     const PathTraceOptions options{.width = 320, .height = 180, .spp = 32, .bounces = 4};
     writePng(file, preview(pathTrace(state, tracer, camera, options).total, 0));
     fmt::print("{}: 320 x 180 pixels{}\n", file.string(),
-               lamp      ? ", by the lamp that is proposed"
-               : !shines ? ", in even light, for the scene has none"
-               : isLit   ? ""
-                         : ", nearly all black: its camera sees none of what shines");
+               lamp        ? ", by the lamp that is proposed"
+               : !hasLight ? ", in even light, for the scene has none"
+               : isLit     ? ""
+                           : ", nearly all black: its camera sees none of what shines");
 }
 
-/// Writes a config of the scene. @throws UsageError where the file is there already.
+/// Writes a config of the scene. @throws UsageError if the file exists.
 void writeConfig(const std::filesystem::path& file, const SceneSource& source, const CameraSettings& camera,
                  const std::string& light) {
     if (std::filesystem::exists(file))
         throw UsageError("{}: it is there already; give another name, or remove it", file.string());
     const auto quoted = [](const std::string& text) { return Value::fromScalar(text, true).json(-1); };
-    writeFileAtomically(file, firstConfig({.name = quoted(file.stem().string()),
-                                           .source = source.builtin.empty() ? "file: " + quoted(source.file)
-                                                                            : "builtin: " + source.builtin,
-                                           .camera = yamlOf(camera),
-                                           .light = light}));
-    fmt::print("{0}: a config of this scene; './voxray run {0}' renders it and makes a report\n",
-               file.string());
+    writeFileAtomically(file, starterConfig({.name = quoted(file.stem().string()),
+                                             .source = source.builtin.empty() ? "file: " + quoted(source.file)
+                                                                              : "builtin: " + source.builtin,
+                                             .camera = yamlOf(camera),
+                                             .light = light}));
+    fmt::print("{0}: a config of this scene; './voxray run {0}' renders it and makes a report\n", file.string());
 }
 
 void describe(const SceneArguments& arguments) {
     if (!arguments.newConfig.empty() && isConfig(arguments.what))
-        throw UsageError("--write-config writes a config of a scene; {} is a config",
-                         arguments.what.string());
+        throw UsageError("--write-config writes a config of a scene; {} is a config", arguments.what.string());
     const auto folders = sceneFolders(arguments.scenes, sourceRoot(), arguments.what);
     SceneSettings settings = settingsOf(arguments, folders);
 
-    // All cameras of the scene itself; where it has none and the config gives none, one that sees it
+    // Cameras of the scene. Without one here or in the config, a camera is suggested below
     SceneLoader loader(folders);
-    const SceneState own = evaluate(loader.load(settings.source), settings.options.time);
-    const bool hasCamera = settings.camera || !own.cameras.empty();
-    if (!hasCamera) settings.camera = CameraSettings{.target = {0, 0, -1}};  // Until one is found.
+    const SceneState original = evaluate(loader.load(settings.source), settings.options.time);
+    const bool hasCamera = settings.camera || !original.cameras.empty();
+    if (!hasCamera) settings.camera = CameraSettings{.target = {0, 0, -1}};  // Replaced below.
     PreparedScene scene = loader.prepare(settings);
     const Geometry& g = scene.state.geometry;
     const EmbreeScene tracer(scene.state);
 
     const glm::vec3 size = g.boundsMax - g.boundsMin;
     const size_t objects = scene.state.scene->instances.size();
-    fmt::print("{}: {} triangles in {} object{}, {} textures\n", arguments.what.string(), g.triangles.size(),
-               objects, objects == 1 ? "" : "s", scene.state.scene->textures.size());
-    fmt::print("bounds: {} to {}, {:.4g} x {:.4g} x {:.4g} m\n", triple(g.boundsMin), triple(g.boundsMax),
-               size.x, size.y, size.z);
-    fmt::print("cameras: {}\n", own.cameras.size());
-    for (const Camera& camera : own.cameras)
+    fmt::print("{}: {} triangles in {} object{}, {} textures\n", arguments.what.string(), g.triangles.size(), objects,
+               objects == 1 ? "" : "s", scene.state.scene->textures.size());
+    fmt::print("bounds: {} to {}, {:.4g} x {:.4g} x {:.4g} m\n", bracketed(g.boundsMin), bracketed(g.boundsMax), size.x,
+               size.y, size.z);
+    fmt::print("cameras: {}\n", original.cameras.size());
+    for (const Camera& camera : original.cameras)
         fmt::print("  '{}'  {}\n", camera.name, yamlOf(settingsOf(camera, g, tracer)));
-    const bool shines = printLights(scene.state);
+    const bool hasLight = printLights(scene.state);
     printMaterials(scene.state);
     printObjects(*scene.state.scene);
 
-    // A camera to paste, and light for it
+    // Suggest a camera and a light
     bool isSeen = false;
-    CameraSettings toBegin;
+    CameraSettings suggested;
     std::string light;
     std::optional<Light> lamp;
     if (hasCamera) {
-        toBegin = settingsOf(scene.camera, g, tracer);
-        isSeen = seesLight(scene.state, tracer, toBegin);
-        fmt::print("the camera in use:\n  {}\n", yamlOf(toBegin));
+        suggested = settingsOf(scene.camera, g, tracer);
+        isSeen = seesLight(scene.state, tracer, suggested);
+        fmt::print("the camera in use:\n  {}\n", yamlOf(suggested));
     }
-    if (!isSeen || (settings.camera && own.cameras.empty())) {
+    if (!isSeen || (settings.camera && original.cameras.empty())) {
         const SuggestedView view = suggestView(scene.state, tracer);
         fmt::print("{}:\n  {}\n", hasCamera ? "another camera, which sees more" : "a camera to begin with",
                    yamlOf(view.camera));
         if (!view.light.empty())
-            fmt::print("{}; write under 'scene'\n  {}\n",
-                       shines ? "no light is seen from there" : "nothing shines", view.light);
+            fmt::print("{}; write under 'scene'\n  {}\n", hasLight ? "no light is seen from there" : "nothing shines",
+                       view.light);
         if (!hasCamera) scene.camera = cameraOf(view.camera);
-        const bool isSeenWithLight = hasCamera && !shines && !view.light.empty() &&
-                                     seesLight(inEvenLight(scene.state), tracer, toBegin);
+        const bool isSeenWithLight =
+            hasCamera && !hasLight && !view.light.empty() && seesLight(withEnvironment(scene.state), tracer, suggested);
         if (!isSeen) light = view.light;
-        if (!isSeen && (!hasCamera || !shines)) lamp = view.lamp;
-        if (!isSeen && !isSeenWithLight) toBegin = view.camera;
+        if (!isSeen && (!hasCamera || !hasLight)) lamp = view.lamp;
+        if (!isSeen && !isSeenWithLight) suggested = view.camera;
     }
     for (const std::string& warning : loader.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     if (!arguments.picture.empty())
-        writePicture(scene.state, tracer, scene.camera, shines, lamp, isSeen || (!hasCamera && light.empty()),
+        writePicture(scene.state, tracer, scene.camera, hasLight, lamp, isSeen || (!hasCamera && light.empty()),
                      arguments.picture);
-    if (!arguments.newConfig.empty()) writeConfig(arguments.newConfig, settings.source, toBegin, light);
+    if (!arguments.newConfig.empty()) writeConfig(arguments.newConfig, settings.source, suggested, light);
 }
 
 }  // namespace

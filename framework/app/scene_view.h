@@ -9,26 +9,29 @@
 
 namespace voxray {
 
-/// What to write into `scene` to see something of it.
+/// A camera, and a light if necessary, with which a scene is visible.
 struct SuggestedView {
     CameraSettings camera;
-    std::string light;          ///< "environment: 1", or a lamp at the camera; "" where what shines is seen.
-    std::optional<Light> lamp;  ///< What `light` says, where that is a lamp.
+    std::string light;          ///< YAML of an environment or lamp; "": the lights of the scene suffice.
+    std::optional<Light> lamp;  ///< The lamp of `light`, if any.
 };
 
-/// A view of a scene that shows lit fronts of surfaces, found by looking from many places: from outside at
-/// all of it and at its parts, and from inside. The first that is good is taken: from inside, where the
-/// center is enclosed by surfaces that look inwards, else from outside. The same for the same scene.
+/// The scene with an environment of radiance 1.
+SceneState withEnvironment(SceneState state);
+
+/// Searches a view that shows lit front sides of surfaces, from many positions outside and inside of the
+/// scene. The first good one is returned: one from inside if the center is enclosed by surfaces that face
+/// inwards, else one from outside. Deterministic.
 SuggestedView suggestView(const SceneState& state, const EmbreeScene& tracer);
 
-/// Whether a camera sees lit surfaces, and more fronts than backs.
+/// Whether a camera sees lit surfaces, and more front sides than back sides.
 bool seesLight(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera);
 
-/// The settings that describe a camera; its target is as far as the scene's center, a tenth of the scene's
-/// diagonal at least, but not far behind what it looks at.
+/// The settings of a camera. The distance of its target is that of the scene's center, at least a tenth of
+/// the scene's diagonal, but not far behind the first surface.
 CameraSettings settingsOf(const Camera& camera, const Geometry& geometry, const EmbreeScene& tracer);
 
-/// "camera: {position: [0, 1, 4], ...}", with as many digits as the view needs.
+/// "camera: {position: [0, 1, 4], ...}" with as many digits as necessary.
 std::string yamlOf(const CameraSettings& camera);
 
 }  // namespace voxray

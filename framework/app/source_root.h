@@ -4,7 +4,7 @@
 
 namespace voxray {
 
-/// The source tree that the program was built from: its shaders are compiled when they are used.
+/// The source tree from which the program was built. Shaders are compiled from it at run time.
 const std::filesystem::path& sourceRoot();
 
 }  // namespace voxray

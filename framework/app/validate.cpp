@@ -30,32 +30,32 @@ struct ValidateArguments : ConfigArguments {
     std::vector<std::filesystem::path> configs;
 };
 
-/// A device that has all that a pass may ask for: a config is right or wrong whatever it runs on.
+/// A device with all features, since the validity of a config doesn't depend on the device.
 DeviceInfo capableDevice() {
     DeviceInfo device;
     device.name = "any";
     device.rayQuery = device.rayPipeline = device.geometryShader = true;
-    device.shaderInt64Atomics = device.floatAtomics = true;
+    device.shaderInt64Atomics = true;
     device.filteredVolumeSide = UINT32_MAX;
     return device;
 }
 
-/// What is found of a config.
+/// The result of the checks of a config.
 struct ConfigCheck {
-    std::string verdict;   ///< For the standard output; empty where it is not valid under all profiles.
-    std::string messages;  ///< For the standard error: warnings, and the first fault.
+    std::string verdict;   ///< For the standard output; empty if a profile is invalid.
+    std::string messages;  ///< For the standard error: warnings and the first error.
     bool isDone = false;
 };
 
-/// Checks a config under the profile that is asked for, or as it stands and again under each of its
-/// profiles; what is warned of is said once, with the profile where it holds under one alone.
-/// @throws UsageError for the first fault.
-void validate(const std::filesystem::path& config, const ConfigOptions& options, SceneLoader& loader,
-              ViewChecks& views, const Registry& registry, ConfigCheck& outcome) {
+/// Checks a config with the given profile, or without a profile and again with each of its profiles. Each
+/// warning is reported once, with the first profile that has it.
+/// @throws UsageError for the first error.
+void validate(const std::filesystem::path& config, const ConfigOptions& options, SceneLoader& loader, ViewChecks& views,
+              const Registry& registry, ConfigCheck& outcome) {
     std::vector<std::string> profiles{options.profile};
     if (options.profile.empty())
         for (const std::string& name : profileNames(config)) profiles.push_back(name);
-    std::set<std::string> said;
+    std::set<std::string> reported;
     std::string verdict;
     for (const std::string& profile : profiles) {
         const std::string under =
@@ -63,18 +63,16 @@ void validate(const std::filesystem::path& config, const ConfigOptions& options,
         Study study = loadStudy(config, {profile, options.assignments, options.only}, registry);
         planVariants(study, loader, views, capableDevice());
         for (const std::string& warning : study.warnings)
-            if (said.insert(warning).second)
+            if (reported.insert(warning).second)
                 outcome.messages += fmt::format("voxray: warning: {}{}\n", warning, under);
         const size_t variants = study.variants.size();
-        verdict +=
-            fmt::format("{}{}: valid, {} variant{}\n", config.string(),
-                        profile.empty() ? "" : " --profile " + profile, variants, variants == 1 ? "" : "s");
+        verdict += fmt::format("{}{}: valid, {} variant{}\n", config.string(),
+                               profile.empty() ? "" : " --profile " + profile, variants, variants == 1 ? "" : "s");
     }
     outcome.verdict = std::move(verdict);
 }
 
-/// Indices of the configs by the scene that they render, those of many configs first: who checks them all
-/// loads it once.
+/// Indices of the configs, grouped by their scene so that it is loaded once; the largest groups come first.
 std::vector<std::vector<size_t>> byScene(const ValidateArguments& arguments) {
     std::map<std::string, std::vector<size_t>> ofScene;
     for (size_t i = 0; i < arguments.configs.size(); ++i) {
@@ -82,7 +80,7 @@ std::vector<std::vector<size_t>> byScene(const ValidateArguments& arguments) {
         try {
             scene = loadExperiment(arguments.configs[i], arguments.config).setup.scene.source.name();
         } catch (const Error&) {
-            scene.clear();  // The fault is told when its turn comes.
+            scene.clear();  // The error is reported by validate().
         }
         ofScene[scene].push_back(i);
     }
@@ -92,16 +90,16 @@ std::vector<std::vector<size_t>> byScene(const ValidateArguments& arguments) {
     return groups;
 }
 
-/// Checks every config, so that one run shows the faults of all, several at a time. @return the exit status.
+/// Checks all configs in parallel, also after an error. @return the exit status.
 int validateAll(const ValidateArguments& arguments) {
-    constexpr unsigned kMaxWorkers = 4;  // Each holds scenes of its own.
+    constexpr unsigned kMaxWorkers = 4;  // Each one has scenes in memory.
     Registry registry;
     registerPasses(registry);
     std::vector<ConfigCheck> outcomes(arguments.configs.size());
     std::mutex printing;
-    size_t printed =
-        0;  // Outcomes are told in the order of the configs, each as soon as those before it are.
-    const auto end = [&](ConfigCheck& outcome) {
+    // Results are printed in the order of the configs, each as soon as those before it are
+    size_t printed = 0;
+    const auto finish = [&](ConfigCheck& outcome) {
         const std::lock_guard lock(printing);
         outcome.isDone = true;
         for (; printed < outcomes.size() && outcomes[printed].isDone; ++printed) {
@@ -123,7 +121,7 @@ int validateAll(const ValidateArguments& arguments) {
                 } catch (const Error& error) {
                     outcomes[i].messages += fmt::format("voxray: error: {}\n", error.what());
                 }
-                end(outcomes[i]);
+                finish(outcomes[i]);
             }
     };
     std::vector<std::future<void>> workers;
@@ -137,8 +135,8 @@ int validateAll(const ValidateArguments& arguments) {
 }  // namespace
 
 void addValidateCommand(CLI::App& app, int& status) {
-    CLI::App* command = app.add_subcommand(
-        "validate", "Check configs and all their profiles, scenes included, without rendering.");
+    CLI::App* command =
+        app.add_subcommand("validate", "Check configs and all their profiles, scenes included, without rendering.");
     auto arguments = std::make_shared<ValidateArguments>();
     command->add_option("CONFIG", arguments->configs, "Config files.")->required();
     addConfigOptions(*command, *arguments);

@@ -8,6 +8,8 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 
+#include "experiment/checks/facing.h"
+#include "experiment/scene_setup.h"
 #include "passes/path_trace/path_tracer.h"
 #include "scene/camera_rays.h"
 #include "scene/outliers.h"
@@ -16,39 +18,31 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kWidth = 32, kHeight = 18;  ///< Of a look.
+constexpr uint32_t kWidth = 32, kHeight = 18;  ///< Resolution of views.
 constexpr int kRays = 200;                     ///< In all directions.
-constexpr float kEnclosed = 0.7f;              ///< Part of them that must meet a surface that looks inwards.
-constexpr size_t kParts = 6;                   ///< Instances that are looked at by themselves.
+constexpr float kEnclosed = 0.7f;              ///< Fraction of them that hits front sides in an enclosed point.
+constexpr size_t kMaxInstances = 6;            ///< Number of instances with cameras of their own.
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// A point of a Fibonacci lattice, which is spread evenly over the sphere.
+/// A point of a Fibonacci lattice, which is uniform on the sphere.
 glm::vec3 directionOf(int ray) {
     const float z = 1 - (2 * float(ray) + 1) / kRays, angle = float(ray) * 2.39996323f;
     const float r = std::sqrt(1 - z * z);
     return {r * std::cos(angle), z, r * std::sin(angle)};
 }
 
-bool isFront(const SceneState& state, uint32_t triangle, const glm::vec3& direction) {
-    const Geometry& g = state.geometry;
-    if (state.scene->materials[g.triangleMaterials[triangle]].doubleSided) return true;
-    const glm::uvec3 t = g.triangles[triangle];
-    const glm::vec3 a = g.positions[t.x];
-    return glm::dot(glm::cross(g.positions[t.y] - a, g.positions[t.z] - a), direction) < 0;
-}
-
 bool isEnclosed(glm::vec3 from, const SceneState& state, const EmbreeScene& tracer) {
-    int inwards = 0;
+    int fronts = 0;
     for (int i = 0; i < kRays; ++i) {
         const glm::vec3 direction = directionOf(i);
         const Hit hit = tracer.closestHit({from, 0, direction, kInfinity});
-        inwards += hit.triangle != Hit::kMiss && isFront(state, hit.triangle, direction);
+        fronts += hit.triangle != Hit::kMiss && !isSingleSidedBack(state, hit.triangle, direction);
     }
-    return float(inwards) >= kEnclosed * kRays;
+    return float(fronts) >= kEnclosed * kRays;
 }
 
-/// All of the scene, most of it, and its largest parts.
+/// Bounding boxes of the scene, of the scene without outliers, and of its largest instances.
 std::vector<Box> boxesOf(const Geometry& g) {
     std::vector<Box> boxes;
     for (const InstanceRange& range : g.instances) {
@@ -61,7 +55,7 @@ std::vector<Box> boxesOf(const Geometry& g) {
         boxes.push_back(box);
     }
     std::ranges::stable_sort(boxes, std::greater(), [](const Box& b) { return glm::length(b.max - b.min); });
-    if (boxes.size() > kParts) boxes.resize(kParts);
+    if (boxes.size() > kMaxInstances) boxes.resize(kMaxInstances);
     boxes.insert(boxes.begin(), {{g.boundsMin, g.boundsMax}, boundsWithoutOutliers(g)});
     return boxes;
 }
@@ -73,7 +67,7 @@ CameraSettings lookingFrom(const glm::vec3& position, const glm::vec3& target) {
     return camera;
 }
 
-/// From outside, where all of a box is in view.
+/// A camera outside of a box that sees all of it.
 CameraSettings outside(const Box& box, const glm::vec3& direction) {
     CameraSettings camera;
     const glm::vec3 center = 0.5f * (box.min + box.max);
@@ -82,7 +76,7 @@ CameraSettings outside(const Box& box, const glm::vec3& direction) {
     return lookingFrom(center + distance * glm::normalize(direction), center);
 }
 
-/// From inside of a box, at its center and along the axes.
+/// Adds cameras inside of a box, at its center and along the axes.
 void addInside(const Box& box, std::vector<CameraSettings>& cameras) {
     const glm::vec3 center = 0.5f * (box.min + box.max), half = 0.5f * (box.max - box.min);
     const float reach = std::max({half.x, half.y, half.z, 1e-3f});
@@ -101,24 +95,14 @@ void addInside(const Box& box, std::vector<CameraSettings>& cameras) {
 
 }  // namespace
 
-float Sight::score() const {
+float ViewStats::score() const {
     return std::sqrt(std::min(1.0f, 2 * filled)) * fronts * (1 - near) * (0.01f + lit);
 }
 
-Camera cameraOf(const CameraSettings& settings) {
-    Camera camera;
-    camera.verticalFovRadians = glm::radians(settings.fovDegrees);
-    camera.position = settings.position;
-    camera.forward = glm::normalize(settings.target - settings.position);
-    const glm::vec3 right = glm::normalize(glm::cross(camera.forward, settings.up));
-    camera.up = glm::normalize(glm::cross(right, camera.forward));
-    return camera;
-}
-
-Sight lookAround(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& settings) {
+ViewStats measureGeometry(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& settings) {
     const CameraRays rays = cameraRays(cameraOf(settings), kWidth, kHeight);
     std::vector<float> distances;
-    Sight sight;
+    ViewStats stats;
     for (uint32_t y = 0; y < kHeight; ++y)
         for (uint32_t x = 0; x < kWidth; ++x) {
             const glm::vec3 direction =
@@ -126,33 +110,33 @@ Sight lookAround(const SceneState& state, const EmbreeScene& tracer, const Camer
             const Hit hit = tracer.closestHit({rays.origin, 0, direction, kInfinity});
             if (hit.triangle == Hit::kMiss) continue;
             distances.push_back(hit.t);
-            sight.fronts += isFront(state, hit.triangle, direction) ? 1.0f : 0.0f;
+            stats.fronts += isSingleSidedBack(state, hit.triangle, direction) ? 0.0f : 1.0f;
         }
-    if (distances.empty()) return sight;
+    if (distances.empty()) return stats;
     std::ranges::sort(distances);
-    const float far = distances[distances.size() * 3 / 4], seen = float(distances.size());
-    sight.filled = seen / float(kWidth * kHeight);
-    sight.fronts /= seen;
-    sight.near = float(std::ranges::lower_bound(distances, far / 20) - distances.begin()) / seen;
-    sight.distance = distances[distances.size() / 2];
-    // Of a camera that stands in a surface rounding decides what it sees
-    if (sight.distance < 10 * pointOffset(settings.position)) sight.filled = 0;
-    return sight;
+    const float far = distances[distances.size() * 3 / 4], count = float(distances.size());
+    stats.filled = count / float(kWidth * kHeight);
+    stats.fronts /= count;
+    stats.near = float(std::ranges::lower_bound(distances, far / 20) - distances.begin()) / count;
+    stats.distance = distances[distances.size() / 2];
+    // The view of a camera on a surface depends on rounding
+    if (stats.distance < 10 * pointOffset(settings.position)) stats.filled = 0;
+    return stats;
 }
 
-Sight look(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera) {
-    Sight sight = lookAround(state, tracer, camera);
-    if (sight.filled == 0) return sight;
+ViewStats measureView(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera) {
+    ViewStats stats = measureGeometry(state, tracer, camera);
+    if (stats.filled == 0) return stats;
     const PathTraceOptions options{.width = kWidth, .height = kHeight, .spp = 4, .bounces = 4};
     const ImageF image = pathTrace(state, tracer, cameraOf(camera), options).total;
     size_t lit = 0;
     for (size_t i = 0; i + 2 < image.data.size(); i += 3)
         lit += image.data[i] > 0 || image.data[i + 1] > 0 || image.data[i + 2] > 0;
-    // A sky fills what surfaces do not
+    // Pixels without surfaces show the sky
     const bool hasSky = state.scene->environment.radiance != glm::vec3(0.0f);
-    const float pixels = float(kWidth * kHeight), sky = hasSky ? (1 - sight.filled) * pixels : 0;
-    sight.lit = std::clamp((float(lit) - sky) / (sight.filled * pixels), 0.0f, 1.0f);
-    return sight;
+    const float pixels = float(kWidth * kHeight), sky = hasSky ? (1 - stats.filled) * pixels : 0;
+    stats.lit = std::clamp((float(lit) - sky) / (stats.filled * pixels), 0.0f, 1.0f);
+    return stats;
 }
 
 std::vector<CameraSettings> cameraCandidates(const SceneState& state, const EmbreeScene& tracer) {
@@ -165,13 +149,12 @@ std::vector<CameraSettings> cameraCandidates(const SceneState& state, const Embr
             cameras.push_back(lookingFrom(center + 0.8f * along, center));
         for (const float up : {0.4f, 1.5f, -0.4f})
             for (int i = 0; i < 8; ++i) {
-                const float angle = float(i) * glm::quarter_pi<float>(), c = std::cos(angle),
-                            s = std::sin(angle);
+                const float angle = float(i) * glm::quarter_pi<float>(), c = std::cos(angle), s = std::sin(angle);
                 cameras.push_back(outside(box, {0.6f * c - s, up, 0.6f * s + c}));
             }
         addInside(box, cameras);
     }
-    // Of a flat box, or of one that is small for its coordinates, some positions are one
+    // Remove cameras without a direction, as in flat boxes or because of rounding
     std::erase_if(cameras, [](const CameraSettings& camera) { return camera.position == camera.target; });
     return cameras;
 }

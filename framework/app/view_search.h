@@ -8,28 +8,26 @@
 
 namespace voxray {
 
-/// What a camera sees of a scene, by a few rays.
-struct Sight {
-    float filled = 0;    ///< Part of the view that shows surfaces.
-    float fronts = 0;    ///< Part of these that show their fronts, or have no back.
-    float near = 0;      ///< Part of these that are within a twentieth of what the farthest quarter is.
-    float distance = 0;  ///< The median, m; 0 where nothing is seen.
-    float lit = 0;       ///< Part of the surfaces seen that any light came from.
+/// What a camera sees of a scene, from a few rays.
+struct ViewStats {
+    float filled = 0;    ///< Fraction of the view that shows surfaces.
+    float fronts = 0;    ///< Fraction of these surfaces that show their front side or are double-sided.
+    float near = 0;      ///< Fraction of these closer than a twentieth of the 75th percentile of distances.
+    float distance = 0;  ///< Median distance, m; 0 if nothing is visible.
+    float lit = 0;       ///< Fraction of visible surfaces with radiance over 0.
 
-    /// From 0, nothing to see, to 1.
+    /// Quality of the view, 0 to 1.
     float score() const;
-    /// Whether it shows as much as a view needs.
+    /// Whether the view is good enough to stop the search.
     bool isGood() const { return filled >= 0.05f && fronts >= 0.6f && near < 0.3f && lit >= 0.5f; }
 };
 
-/// A camera as the path tracer takes it.
-Camera cameraOf(const CameraSettings& settings);
-/// Without light.
-Sight lookAround(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera);
-/// With light, by path tracing.
-Sight look(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera);
+/// Computes all members except `lit`.
+ViewStats measureGeometry(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera);
+/// Computes all members. `lit` is found by path tracing.
+ViewStats measureView(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera);
 
-/// Cameras to try, the likeliest first.
+/// Candidates of cameras, the most promising ones first.
 std::vector<CameraSettings> cameraCandidates(const SceneState& state, const EmbreeScene& tracer);
 
 }  // namespace voxray

@@ -49,10 +49,11 @@ class Hasher {
 
     Hasher& add(const void* data, size_t bytes);
     Hasher& add(std::string_view text);  ///< Length first, so that "ab"+"c" differs from "a"+"bc".
-    template <typename T>
-    Hasher& addPlain(const T& value) {
-        static_assert(std::is_trivially_copyable_v<T>);
-        return add(&value, sizeof value);
+    template <typename... T>
+    Hasher& addPlain(const T&... values) {
+        static_assert((std::is_trivially_copyable_v<T> && ...));
+        (add(&values, sizeof values), ...);
+        return *this;
     }
     std::string hex() const;
 

@@ -25,18 +25,18 @@ void install(void (*handler)(int), int flags) {
 }
 
 /// Async-signal-safe. An unterminated progress line may precede the text.
-void say(std::string_view line) {
+void writeToStderr(std::string_view line) {
     [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
 }
 
 void onSignal(int number) {
     const int error = errno;
     if (!requested.exchange(true)) {
-        say("\nvoxray: stopping; a second Ctrl-C ends the program at once\n");
+        writeToStderr("\nvoxray: stopping; a second Ctrl-C ends the program at once\n");
         errno = error;
         return;
     }
-    say("\nvoxray: ended\n");
+    writeToStderr("\nvoxray: ended\n");
     if (const pid_t process = child.load(); process > 0) ::kill(process, SIGINT);
     install(SIG_DFL, 0);
     ::raise(number);

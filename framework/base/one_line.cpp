@@ -13,7 +13,7 @@ struct Character {
     bool isValid = true;  ///< Not truncated, overlong, a surrogate or past the last code point.
 };
 
-/// The first character of a nonempty text. Source: RFC 3629, section 3.
+/// The first character of a nonempty text.
 Character firstCharacter(std::string_view text) {
     const auto byteAt = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
     const unsigned char lead = byteAt(0);
@@ -35,8 +35,8 @@ Character firstCharacter(std::string_view text) {
 /// Unicode control characters, line separators and marks of writing direction.
 bool isControl(uint32_t code) {
     const auto within = [&](uint32_t first, uint32_t last) { return code >= first && code <= last; };
-    return code < 0x20 || within(0x7f, 0x9f) || code == 0x61c || within(0x200e, 0x200f) ||
-           within(0x2028, 0x202e) || within(0x2066, 0x2069) || code == 0xfeff;
+    return code < 0x20 || within(0x7f, 0x9f) || code == 0x61c || within(0x200e, 0x200f) || within(0x2028, 0x202e) ||
+           within(0x2066, 0x2069) || code == 0xfeff;
 }
 
 bool isSpace(char c) {
@@ -44,6 +44,11 @@ bool isSpace(char c) {
 }
 
 }  // namespace
+
+size_t utf8Length(std::string_view text) {
+    const Character c = firstCharacter(text);
+    return c.isValid ? c.bytes : 0;
+}
 
 std::string oneLine(std::string_view text, size_t maxBytes) {
     while (!text.empty() && isSpace(text.back())) text.remove_suffix(1);

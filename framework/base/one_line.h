@@ -12,4 +12,7 @@ namespace voxray {
 /// @param maxBytes longer text is truncated with "...".
 std::string oneLine(std::string_view text, size_t maxBytes = std::string_view::npos);
 
+/// Bytes of the first character of a nonempty UTF-8 text; 0 if it is invalid. Source: RFC 3629, section 3.
+size_t utf8Length(std::string_view text);
+
 }  // namespace voxray

@@ -32,8 +32,7 @@ class ParameterType {
 
 /// Defined for bool, the integers, float, double, glm::vec3 and std::string (parameter.cpp).
 template <typename T>
-std::shared_ptr<const ParameterType> parameterType(T min, T max, bool isRanged, std::vector<T> allowed,
-                                                   bool isVector);
+std::shared_ptr<const ParameterType> parameterType(T min, T max, bool isRanged, std::vector<T> allowed, bool isVector);
 
 /// An enum of 32 bits by its names.
 std::shared_ptr<const ParameterType> choiceType(std::vector<std::pair<uint32_t, std::string>> names);
@@ -42,7 +41,7 @@ std::shared_ptr<const ParameterType> choiceType(std::vector<std::pair<uint32_t, 
 struct Parameter {
     /// A condition on another parameter: its value is one of `values`, or none of them.
     struct Condition {
-        size_t offset;  ///< Of the other parameter.
+        size_t offset;  ///< The other parameter's.
         std::vector<std::string> values;
         bool isOneOf;
     };
@@ -63,8 +62,7 @@ using Schema = std::vector<Parameter>;
 namespace schema_detail {
 
 template <typename T>
-std::shared_ptr<const ParameterType> typeOf(T min, T max, bool isRanged, std::vector<T> allowed,
-                                            bool isVector) {
+std::shared_ptr<const ParameterType> typeOf(T min, T max, bool isRanged, std::vector<T> allowed, bool isVector) {
     if constexpr (std::is_enum_v<T>) {
         static_assert(sizeof(T) == sizeof(uint32_t));
         std::vector<std::pair<uint32_t, std::string>> names;
@@ -116,11 +114,8 @@ const Schema& schemaOf() {
     static const Schema schema = [] {
         Schema parameters;
         const P params;
-        std::apply(
-            [&](auto... fields) {
-                (schema_detail::addParameter(parameters, params, std::move(fields)), ...);
-            },
-            P::schema());
+        std::apply([&](auto... fields) { (schema_detail::addParameter(parameters, params, std::move(fields)), ...); },
+                   P::schema());
         return parameters;
     }();
     return schema;

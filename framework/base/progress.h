@@ -19,8 +19,8 @@ class Progress {
     void begin(const std::string& step);
     /// How much of the step is done, in [0, 1]. Redraws at most ten times a second.
     void update(double fraction);
-    /// Ends the step; `line` goes to stdout. Steps that took no time (`counted` false) don't bend the
-    /// forecast.
+    /// Ends the step; `line` goes to stdout. Steps that took no time (`counted` false) don't enter the
+    /// estimate of the time left.
     void end(const std::string& line, bool counted = true);
     /// A line that is shown even on a quiet run, on stderr.
     void warn(const std::string& line);

@@ -12,10 +12,10 @@ namespace voxray {
 /// Documentation of a parameter, for help pages and JSON Schema.
 struct ParameterDoc {
     std::string name;
-    std::string type;      ///< "boolean", "integer", "number", "string", "choice", "rgb", "vector"
-    std::string help;      ///< Includes its conditions, and whether it lowers noise.
-    std::string defaults;  ///< Default as YAML text.
-    std::string min, max;  ///< Empty without a range.
+    std::string type;                  ///< "boolean", "integer", "number", "string", "choice", "rgb", "vector"
+    std::string help;                  ///< Includes its conditions, and whether it lowers noise.
+    std::string defaults;              ///< Default as YAML text.
+    std::string min, max;              ///< Empty without a range.
     std::vector<std::string> choices;  ///< The only values; empty: any of the type and range.
     bool isLessNoise = false;          ///< Larger values lower the pass's noise.
     /// Values of another parameter: one of them, or none of them.
@@ -34,11 +34,13 @@ struct UnusedSetting {
     std::string why;  ///< "no effect with method: exact; only with method: three_axis"
 };
 
+/// Parameters in a map that have no effect because of others.
+std::vector<UnusedSetting> unusedSettings(const Schema& schema, const void* params, const Value& map);
+
 /// Type-erased versions of the functions below.
 void readParams(const Schema& schema, void* params, const Value& map, const std::string& owner,
                 const std::vector<std::string>& alsoAllowed);
 Value writeParams(const Schema& schema, const void* params);
-std::vector<UnusedSetting> unusedSettings(const Schema& schema, const void* params, const Value& map);
 std::vector<ParameterDoc> describeParams(const Schema& schema, const void* defaults);
 
 template <typename P>
@@ -64,12 +66,6 @@ void readParam(P& params, T P::*member, const Value& value, const std::string& w
     const size_t offset = schema_detail::offsetOf(params, member);
     for (const Parameter& parameter : schemaOf<P>())
         if (parameter.offset == offset) parameter.type->read(parameter.of(&params), value, what);
-}
-
-/// Parameters in a map that have no effect because of others.
-template <typename P>
-std::vector<UnusedSetting> unusedSettings(const P& params, const Value& map) {
-    return unusedSettings(schemaOf<P>(), &params, map);
 }
 
 /// All parameters with their values, including defaults, for the manifest.

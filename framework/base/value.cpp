@@ -35,21 +35,20 @@ bool parseAll(const std::string& text, T& out) {
 }
 
 /// ": write '-'..." for a number with a typographic minus or dash, else "".
-std::string withHyphen(const Value& value) {
+std::string hyphenAdvice(const Value& value) {
     for (const char* dash : {"\u2212", "\u2013"})
         if (value.isScalar() && value.scalar.starts_with(dash)) return ": write a plain '-' for the minus";
     return {};
 }
 
 /// "; a space is missing before '#'" for a comment that was read as part of the value, else "".
-std::string withComment(const Value& value) {
-    const bool isComment =
-        value.isScalar() && !value.quoted && value.scalar.find('#', 1) != std::string::npos;
+std::string commentAdvice(const Value& value) {
+    const bool isComment = value.isScalar() && !value.quoted && value.scalar.find('#', 1) != std::string::npos;
     return isComment ? "; a space is missing before '#'" : "";
 }
 
 /// ": write 1000000" for a whole number that is written as 1e6 or 1_000_000, else "".
-std::string inDigits(const Value& value) {
+std::string digitsAdvice(const Value& value) {
     if (!value.isScalar() || value.quoted) return {};
     std::string text = value.scalar;
     std::erase(text, '_');
@@ -60,30 +59,15 @@ std::string inDigits(const Value& value) {
 }
 
 std::string quotedJson(const std::string& text) {
+    constexpr std::string_view kEscaped = "\"\\\n\t\r", kLetters = "\"\\ntr";
     std::string out = "\"";
     for (const char c : text) {
-        switch (c) {
-            case '"':
-                out += "\\\"";
-                break;
-            case '\\':
-                out += "\\\\";
-                break;
-            case '\n':
-                out += "\\n";
-                break;
-            case '\t':
-                out += "\\t";
-                break;
-            case '\r':
-                out += "\\r";
-                break;
-            default:
-                if (static_cast<unsigned char>(c) < 0x20)
-                    out += fmt::format("\\u{:04x}", int(c));
-                else
-                    out += c;
-        }
+        if (const size_t i = kEscaped.find(c); i != std::string_view::npos)
+            out += {'\\', kLetters[i]};
+        else if (static_cast<unsigned char>(c) < 0x20)
+            out += fmt::format("\\u{:04x}", int(c));
+        else
+            out += c;
     }
     return out + "\"";
 }
@@ -107,9 +91,8 @@ void checkLeadingZero(const Value& value, std::string_view what) {
     const size_t digits = std::min(value.scalar.find_first_not_of('0', sign), value.scalar.size() - 1);
     const bool isDigits = value.scalar.find_first_not_of("0123456789", sign) == std::string::npos;
     if (isDigits && digits > sign)
-        throw UsageError(value.where, "{}: '{}' begins with a zero: write {}{}", what,
-                         oneLine(value.scalar, kShown), value.scalar.substr(0, sign),
-                         value.scalar.substr(digits));
+        throw UsageError(value.where, "{}: '{}' begins with a zero: write {}{}", what, oneLine(value.scalar, kShown),
+                         value.scalar.substr(0, sign), value.scalar.substr(digits));
 }
 
 void writeJson(const Value& value, int indent, int depth, std::string& out) {
@@ -133,8 +116,7 @@ void writeJson(const Value& value, int indent, int depth, std::string& out) {
         case Value::Kind::Map:
             out += "{";
             for (size_t i = 0; i < value.members.size(); ++i) {
-                out +=
-                    (i ? "," : "") + newline + quotedJson(value.members[i].key) + (indent < 0 ? ":" : ": ");
+                out += (i ? "," : "") + newline + quotedJson(value.members[i].key) + (indent < 0 ? ":" : ": ");
                 writeJson(value.members[i].value, indent, depth + 1, out);
             }
             out += (value.members.empty() ? "" : lastNewline) + "}";
@@ -190,8 +172,7 @@ bool Value::asBool(std::string_view what) const {
         if (scalar == "true") return true;
         if (scalar == "false") return false;
     }
-    throw UsageError(where, "{}: expected true or false, not {}{}", what, describe(*this),
-                     withComment(*this));
+    throw UsageError(where, "{}: expected true or false, not {}{}", what, describe(*this), commentAdvice(*this));
 }
 
 int64_t Value::asInteger(std::string_view what) const {
@@ -200,12 +181,11 @@ int64_t Value::asInteger(std::string_view what) const {
         checkLeadingZero(*this, what);
         return number;
     }
-    if (isScalar() && !quoted && !scalar.empty() &&
-        scalar.find_first_not_of("0123456789") == std::string::npos)
+    if (isScalar() && !quoted && !scalar.empty() && scalar.find_first_not_of("0123456789") == std::string::npos)
         throw UsageError(where, "{}: {} is out of range, at most {}", what, scalar,
                          std::numeric_limits<int64_t>::max());
-    throw UsageError(where, "{}: expected a whole number, not {}{}{}{}", what, describe(*this),
-                     inDigits(*this), withHyphen(*this), withComment(*this));
+    throw UsageError(where, "{}: expected a whole number, not {}{}{}{}", what, describe(*this), digitsAdvice(*this),
+                     hyphenAdvice(*this), commentAdvice(*this));
 }
 
 bool Value::isNumber() const {
@@ -216,8 +196,8 @@ bool Value::isNumber() const {
 double Value::asNumber(std::string_view what) const {
     double number = 0;
     if (isNumber() && parseAll(scalar, number)) return number;
-    throw UsageError(where, "{}: expected a number, not {}{}{}", what, describe(*this), withHyphen(*this),
-                     withComment(*this));
+    throw UsageError(where, "{}: expected a number, not {}{}{}", what, describe(*this), hyphenAdvice(*this),
+                     commentAdvice(*this));
 }
 
 std::string Value::asString(std::string_view what) const {

@@ -10,23 +10,22 @@
 namespace voxray {
 namespace {
 
-// A results folder is named after the experiment.
+/// Checks the experiment's name, which is also that of the results folder.
 void checkName(const Value& config, const std::string& name) {
     const Value* entry = config.find("name");
     const TextLocation where = entry ? entry->where : config.where;
     if (name.empty()) throw UsageError(where, "name: an experiment needs a name");
-    const bool isPlain = name.size() <= 100 && name[0] != '.' && name[0] != '-' &&
-                         std::all_of(name.begin(), name.end(), [](unsigned char c) {
-                             return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
-                                    (c >= 'A' && c <= 'Z') || c == '_' || c == '-' || c == '.';
-                         });
+    const bool isPlain =
+        name.size() <= 100 && name[0] != '.' && name[0] != '-' && std::ranges::all_of(name, [](unsigned char c) {
+            return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-' ||
+                   c == '.';
+        });
     if (!isPlain)
-        throw UsageError(where,
-                         "name: '{}' can't name a folder; use up to 100 letters, digits, '_', '-', '.'",
+        throw UsageError(where, "name: '{}' can't name a folder; use up to 100 letters, digits, '_', '-', '.'",
                          oneLine(name, 60));
 }
 
-/// The first pass of a graph that is a map, as an entry of a list.
+/// The first pass of a graph that was written as a map, as an entry of a list.
 std::string firstEntry(const Value& graph) {
     if (graph.find("pass")) return graph.text();
     const auto& [name, parameters] = graph.members[0];
@@ -36,7 +35,7 @@ std::string firstEntry(const Value& graph) {
     return entry.text();
 }
 
-// Ids and config keys share the first component of override paths.
+/// Checks ids, which must differ from config keys: both may be the first component of override paths.
 void checkGraph(const Value& graph) {
     if (graph.isMap() && !graph.members.empty())
         throw UsageError(graph.where, "graph: expected a list of passes, each with a dash: write '- {}'",
@@ -50,34 +49,31 @@ void checkGraph(const Value& graph) {
         if (id.find('.') != std::string::npos)
             throw UsageError(entry.where, "graph: the id '{}' must not contain a dot", id);
         if (id.find_first_of(" \t\n") != std::string::npos)
-            throw UsageError(entry.where, "graph: the id '{}' must not contain a blank; write '_' for it",
-                             id);
+            throw UsageError(entry.where, "graph: the id '{}' must not contain a blank; write '_' for it", id);
         const auto& keys = configKeys();
-        if (std::find(keys.begin(), keys.end(), id) != keys.end())
+        if (std::ranges::count(keys, id) > 0)
             throw UsageError(entry.where, "graph: the id '{}' is a key of the config; choose another", id);
     }
 }
 
 void checkSweep(const Value& sweep) {
     if (!sweep.isMap())
-        throw UsageError(sweep.where,
-                         "sweep: expected a map of lists, as in {{voxelize.resolution: [64, 128]}}");
+        throw UsageError(sweep.where, "sweep: expected a map of lists, as in {{voxelize.resolution: [64, 128]}}");
     for (const auto& [path, values] : sweep.members)
         if (values.items.empty() && values.members.empty())
-            throw UsageError(
-                values.where,
-                "sweep.{}: expected a list of values, as in [64, 128], or a map of names and values", path);
-    // A map of names, not a value that is a map
+            throw UsageError(values.where,
+                             "sweep.{}: expected a list of values, as in [64, 128], or a map of names and values",
+                             path);
+    // Reject a map that is a value instead of a map of names
     for (const auto& [path, values] : sweep.members)
         for (const char* key : {"pass", "builtin", "file"})
             if (values.find(key))
-                throw UsageError(values.where,
-                                 "sweep.{}: '{}' is part of a value: write it in a list, as in [{}]", path,
-                                 key, values.text());
+                throw UsageError(values.where, "sweep.{}: '{}' is part of a value: write it in a list, as in [{}]",
+                                 path, key, values.text());
 }
 
-/// Rejects a top-level key within a block, which is mostly indented too far. A built-in scene may have a
-/// parameter of that name.
+/// Rejects top-level keys within a block, which are probably indented too far. A built-in scene may have a
+/// parameter with that name.
 void checkBlocks(const Value& config) {
     const auto& keys = configKeys();
     for (const char* name : {"scene", "image", "measure", "reference"}) {
@@ -85,12 +81,11 @@ void checkBlocks(const Value& config) {
         for (const auto& [key, value] : block ? block->members : std::vector<Value::Member>())
             if (std::ranges::count(keys, key) > 0 && !(value.isScalar() && block == config.find("scene")))
                 throw UsageError(value.where,
-                                 "{0}: '{1}' is a key of its own, next to '{0}': indent it as far as '{0}'",
-                                 name, key);
+                                 "{0}: '{1}' is a key of its own, next to '{0}': indent it as far as '{0}'", name, key);
     }
 }
 
-/// The first pass of the graph, or the reference, with a parameter of that name; "" if there is none.
+/// The id of the first pass, or "reference", with a parameter of that name; "" if there is none.
 std::string passWith(const Value& config, const std::string& parameter) {
     const Value *graph = config.find("graph"), *reference = config.find("reference");
     for (const Value& entry : graph ? graph->items : std::vector<Value>())
@@ -106,23 +101,19 @@ void checkTopLevel(const Value& config) {
                                            : "");
     for (const auto& [key, value] : config.members) {
         const auto& keys = configKeys();
-        if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
+        if (std::ranges::count(keys, key) > 0) continue;
         if (const std::string path = pathOfKey(key); !path.empty())
-            throw UsageError(value.where, "unknown key '{}'; it stands in '{}'", key,
-                             path.substr(0, path.find('.')));
+            throw UsageError(value.where, "unknown key '{}'; it stands in '{}'", key, path.substr(0, path.find('.')));
         if (const std::string pass = passWith(config, key); !pass.empty())
             throw UsageError(value.where, "unknown key '{}'; it stands in the pass '{}'", key, pass);
         if (const std::string option = optionFor(key); !option.empty())
-            throw UsageError(value.where, "unknown key '{}'; it is said on the command line: {}", key,
-                             option);
+            throw UsageError(value.where, "unknown key '{}'; it is said on the command line: {}", key, option);
         throw UsageError(value.where, "unknown key '{}'{}", key, didYouMean(key, keys));
     }
     checkBlocks(config);
-    if (const Value* profiles = config.find("profiles");
-        profiles && !profiles->isMap() && !profiles->isNull())
-        throw UsageError(
-            profiles->where,
-            "profiles: expected a map of named overrides, as in {{small: {{image: {{width: 160}}}}}}");
+    if (const Value* profiles = config.find("profiles"); profiles && !profiles->isMap() && !profiles->isNull())
+        throw UsageError(profiles->where,
+                         "profiles: expected a map of named overrides, as in {{small: {{image: {{width: 160}}}}}}");
 }
 
 bool hasReference(const Value& config) {
@@ -130,8 +121,8 @@ bool hasReference(const Value& config) {
     return reference && !reference->isNull();
 }
 
-/// Checks for settings of the config's text without effect in all profiles. Overrides may remove axes of the
-/// sweep or the reference, which is no error. @param config with all overrides applied.
+/// Rejects settings in the config's text that have no effect in any profile. It is no error if overrides
+/// remove axes of the sweep or the reference. @param config with all overrides applied.
 void checkEmptyBlocks(const Value& root, const Value& config) {
     if (const Value* sweep = root.find("sweep"); sweep && sweep->isMap() && sweep->members.empty())
         throw UsageError(sweep->where,
@@ -148,16 +139,16 @@ void checkEmptyBlocks(const Value& root, const Value& config) {
         if (const Value* value = measure->find(key);
             value && !value->isNull() && value->scalar != "false" && value->scalar != "0")
             throw UsageError(value->where,
-                             "measure.{}: no effect without a 'reference' to compare with; "
-                             "add one, as in reference: {{pass: path_trace, spp: 64}}, or leave it out",
+                             "measure.{}: no effect without a 'reference' to compare with; add one, as in reference: "
+                             "{{pass: path_trace, spp: 64}}, or leave it out",
                              key);
 }
 
-/// Whether the config has that value without the axis of the sweep. A swapped pass has default parameters.
-bool isWritten(const Value& config, const std::string& path, const Value& value) {
+/// Whether the config has that value at `path` without the sweep. A pass's name alone means default
+/// parameters.
+bool hasValue(const Value& config, const std::string& path, const Value& value) {
     const Value* written = valueAt(config, path);
-    if (!written || path.find('.') != std::string::npos || !written->find("pass"))
-        return written && *written == value;
+    if (!written || path.find('.') != std::string::npos || !written->find("pass")) return written && *written == value;
     Value existing = *written, swapped = value.isScalar() ? Value::map() : value;
     if (value.isScalar()) swapped.set("pass", value);
     existing.erase("id");
@@ -165,9 +156,9 @@ bool isWritten(const Value& config, const std::string& path, const Value& value)
     return existing == swapped;
 }
 
-/// Warnings for axes of the config's text whose only value equals that in the graph or the scene. Axes that a
-/// profile or --set reduces to one value are intended.
-std::vector<std::string> idleAxes(const Value& root, const Experiment& experiment) {
+/// Warns of axes in the config's text whose only value equals that in the graph or the scene. Axes that are
+/// reduced to one value by a profile or --set are not reported.
+std::vector<std::string> axesWithoutEffect(const Value& root, const Experiment& experiment) {
     std::vector<std::string> warnings;
     const Value* sweep = root.find("sweep");
     for (const auto& [path, axis] : sweep ? sweep->members : std::vector<Value::Member>()) {
@@ -175,7 +166,7 @@ std::vector<std::string> idleAxes(const Value& root, const Experiment& experimen
         const size_t values = axis.items.size() + axis.members.size();
         if (values != 1 || !effective || effective->where.str() != axis.where.str()) continue;
         const Value& value = axis.isMap() ? axis.members[0].value : axis.items[0];
-        if (isWritten(experiment.config, path, value))
+        if (hasValue(experiment.config, path, value))
             warnings.push_back(UsageError(axis.where,
                                           "sweep.{}: its one value, {}, is the one that is written anyway, "
                                           "so that it varies nothing: write more values, or leave it out",
@@ -185,14 +176,14 @@ std::vector<std::string> idleAxes(const Value& root, const Experiment& experimen
     return warnings;
 }
 
-/// Reads a config file. @throws UsageError for a scene.
+/// Reads a config file. @throws UsageError for a scene file.
 Value readConfig(const std::filesystem::path& path) {
     const std::filesystem::path ending = path.extension();
     if (ending == ".glb" || ending == ".gltf")
         throw UsageError(
             "{0}: a scene, not a config; "
-            "'./voxray scene {0} --write-config {1}' writes one that compares methods in it, "
-            "with a camera, see docs/tutorial.md",
+            "'./voxray scene {0} --write-config {1}' writes one that compares methods in it, with a camera, "
+            "see docs/tutorial.md",
             path.string(), path.stem().string() + ".yaml");
     return readYaml(path);
 }
@@ -200,7 +191,7 @@ Value readConfig(const std::filesystem::path& path) {
 Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
     checkTopLevel(root);
 
-    // Profiles that aren't used must be valid, too
+    // All profiles must be valid, also those that are not used
     if (const Value* profiles = root.find("profiles")) {
         for (const auto& member : profiles->members) {
             Value config = root;
@@ -214,7 +205,7 @@ Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
     selectSweepValues(config, options.only);
     Experiment experiment = readExperiment(std::move(config));
     checkEmptyBlocks(root, experiment.config);
-    experiment.warnings = idleAxes(root, experiment);
+    experiment.warnings = axesWithoutEffect(root, experiment);
     return experiment;
 }
 
@@ -258,8 +249,7 @@ Experiment readExperiment(Value config) {
             throw UsageError(
                 file ? file->where : reference->where,
                 "reference: expected a map with 'pass', as in {{pass: path_trace, spp: 64}}{}",
-                file ? fmt::format("; './voxray compare final.exr {}' compares a result with a picture",
-                                   file->text())
+                file ? fmt::format("; './voxray compare final.exr {}' compares a result with a picture", file->text())
                      : "");
         }
         experiment.reference = *reference;
@@ -268,8 +258,7 @@ Experiment readExperiment(Value config) {
     return experiment;
 }
 
-Experiment parseExperiment(const std::string& yaml, const std::string& fileName,
-                           const ConfigOptions& options) {
+Experiment parseExperiment(const std::string& yaml, const std::string& fileName, const ConfigOptions& options) {
     return readWithOptions(parseYaml(yaml, fileName), options);
 }
 

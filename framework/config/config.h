@@ -9,38 +9,37 @@
 
 namespace voxray {
 
-/// Input of one variant.
+/// The settings of one variant.
 struct Setup {
     GeneralSettings general;
     SceneSettings scene;
     ImageSettings image;
-    Value graph;  ///< The list of passes, checked by class Graph.
+    Value graph;  ///< The list of passes, which class Graph checks.
 };
 
-/// A config with profile and assignments applied, and its sweep not expanded.
+/// A config with profile and assignments applied, before its sweep is expanded.
 struct Experiment {
     std::filesystem::path file;  ///< Empty for a config from text.
     Value config;                ///< Without `profiles`.
     Setup setup;
     MeasureSettings measure;
     Value reference;                    ///< One entry of a graph, or null: no reference, no metrics.
-    Value sweep = Value::map();         ///< Path -> non-empty list, in the file's order.
+    Value sweep = Value::map();         ///< Axes: paths with non-empty lists of values, in the file's order.
     std::vector<std::string> warnings;  ///< With file and line.
 };
 
 struct ConfigOptions {
     std::string profile;                   ///< Empty: none.
     std::vector<std::string> assignments;  ///< "path=value" of --set, applied in order after the profile.
-    std::vector<std::string> only = {};    ///< "axis=value" of --only: values of the sweep that stay.
+    std::vector<std::string> only = {};    ///< "axis=value" of --only: selected values of the sweep.
 };
 
-/// Reads a config. Checks all, including its profiles, except the graph's passes and the contents of scene
+/// Reads and checks a config including all its profiles, except the graph's passes and the contents of scene
 /// files.
 /// @throws UsageError with file, line and the nearest valid word.
 Experiment loadExperiment(const std::filesystem::path& path, const ConfigOptions& options = {});
 /// Reads a config from text; `fileName` is for messages.
-Experiment parseExperiment(const std::string& yaml, const std::string& fileName,
-                           const ConfigOptions& options = {});
+Experiment parseExperiment(const std::string& yaml, const std::string& fileName, const ConfigOptions& options = {});
 /// Reads a config with all overrides applied.
 Experiment readExperiment(Value config);
 

@@ -10,16 +10,15 @@
 namespace voxray {
 namespace {
 
-/// Removes the first key and its dot from a path below `parent`. A name with dots is one key if it exists
-/// there already, or in double quotes.
+/// Removes the first key and its dot from a path below `parent`. A name with dots is one key if `parent` has
+/// it or if it is in double quotes.
 std::string takeKey(const Value& parent, std::string_view& path) {
     const size_t quote = path.starts_with('"') ? path.find('"', 1) : std::string_view::npos;
     const bool isQuoted = quote != std::string_view::npos;
     size_t length = isQuoted ? quote + 1 : std::min(path.find('.'), path.size());
     if (!isQuoted)
         for (const auto& [key, value] : parent.members)
-            if (key.size() > length && path.starts_with(key) &&
-                (path.size() == key.size() || path[key.size()] == '.'))
+            if (key.size() > length && path.starts_with(key) && (path.size() == key.size() || path[key.size()] == '.'))
                 length = key.size();
     const std::string key(isQuoted ? path.substr(1, quote - 1) : path.substr(0, length));
     path.remove_prefix(std::min(length + 1, path.size()));
@@ -36,7 +35,7 @@ void mergeInto(Value& target, const Value& value, Merge merge) {
     }
 }
 
-// Sets a key of a map; null removes it.
+/// Sets a key of a map; null removes it.
 void setNested(Value& parent, const std::string& key, const Value& value, Merge merge) {
     if (value.isNull()) {
         parent.erase(key);
@@ -47,9 +46,8 @@ void setNested(Value& parent, const std::string& key, const Value& value, Merge 
     }
 }
 
-// Sets the value at a dotted path below `root`, creating maps as needed.
-void setAtPath(Value& root, std::string_view path, const std::string& fullPath, const Value& value,
-               Merge merge) {
+/// Sets the value at a dotted path below `root`. Missing maps are created.
+void setAtPath(Value& root, std::string_view path, const std::string& fullPath, const Value& value, Merge merge) {
     if (path.ends_with('.')) throw UsageError(value.where, "'{}': a path must not end in a dot", fullPath);
     Value* parent = &root;
     std::string key = takeKey(root, path);
@@ -63,8 +61,8 @@ void setAtPath(Value& root, std::string_view path, const std::string& fullPath, 
         if (!child->isMap())
             throw UsageError(value.where, "{}: '{}' is {}, which has no keys{}", fullPath, key, child->text(),
                              child->isList()
-                                 ? fmt::format("; give it as a whole: "
-                                               "in a sweep write a list of lists, as in {}: [[...], [...]]",
+                                 ? fmt::format("; give it as a whole: in a sweep write a list of lists, as in {}: "
+                                               "[[...], [...]]",
                                                fullPath.substr(0, fullPath.size() - path.size() - 1))
                                  : "");
         parent = child;
@@ -72,20 +70,19 @@ void setAtPath(Value& root, std::string_view path, const std::string& fullPath, 
     setNested(*parent, key, value, merge);
 }
 
-// An entry of the graph, given as a pass's name or a map with `pass`.
+/// An entry of the graph from a pass's name or a map with `pass`.
 Value passEntry(const Value& value, const std::string& path) {
     if (value.isMap() && value.find("pass")) return value;
     if (!value.isScalar())
         throw UsageError(value.where,
-                         "{}: expected a pass, which is its name or a map with 'pass', or a list of passes",
-                         path);
+                         "{}: expected a pass, which is its name or a map with 'pass', or a list of passes", path);
     Value entry = Value::map();
     entry.where = value.where;
     entry.set("pass", value);
     return entry;
 }
 
-// Replaces a pass by another one or a chain. The last one takes over the id, so that later passes find it.
+/// Replaces a pass by another one or a chain, whose last pass gets the id, so that later passes find it.
 void swapPass(Value& graph, size_t index, const Value& value, const std::string& path) {
     std::vector<Value> chain;
     if (value.isList())
@@ -100,8 +97,8 @@ void swapPass(Value& graph, size_t index, const Value& value, const std::string&
     graph.items.insert(graph.items.begin() + ptrdiff_t(index), chain.begin(), chain.end() - 1);
 }
 
-void overridePass(Value& graph, size_t index, const std::string& subpath, const std::string& path,
-                  const Value& value, Merge merge) {
+void overridePass(Value& graph, size_t index, const std::string& subpath, const std::string& path, const Value& value,
+                  Merge merge) {
     const bool isSwap = subpath.empty() && (merge == Merge::Replace || !value.isMap() || value.find("pass"));
     if (isSwap) {
         swapPass(graph, index, value, path);
@@ -112,9 +109,9 @@ void overridePass(Value& graph, size_t index, const std::string& subpath, const 
     }
 }
 
-/// "; did you mean ...": the path with dots instead of other separators, the id of a pass of that name, a
-/// parameter of a pass without its id or with an underscore instead of the dot, a key of a block, or the
-/// nearest candidate. `word`: the path's first component.
+/// "; did you mean ..." with the first match of: the path with dots instead of other separators; the id of a
+/// pass of that name; a parameter of a pass, written without its id or with an underscore instead of the dot;
+/// a key of a block; the most similar candidate. @param word the path's first component.
 std::string nearestPath(const Value& config, const std::string& path, const std::string& word,
                         const std::vector<std::string>& candidates) {
     std::string dotted = path;
@@ -129,8 +126,7 @@ std::string nearestPath(const Value& config, const std::string& path, const std:
         for (const auto& [key, value] : entry.members)
             if (word == key || word == passId(entry) + "_" + key)
                 return fmt::format("; did you mean '{}.{}'?", passId(entry), key);
-    if (const std::string path = pathOfKey(word); !path.empty())
-        return fmt::format("; did you mean '{}'?", path);
+    if (const std::string path = pathOfKey(word); !path.empty()) return fmt::format("; did you mean '{}'?", path);
     return didYouMean(word, candidates);
 }
 
@@ -172,11 +168,10 @@ std::string optionFor(const std::string& key) {
 
 bool hasTarget(const Value& config, const std::string& path) {
     const std::string first = path.substr(0, path.find('.'));
-    if (std::find(configKeys().begin(), configKeys().end(), first) != configKeys().end()) return true;
+    if (std::ranges::count(configKeys(), first) > 0) return true;
     const Value* graph = config.find("graph");
     if (!graph || !graph->isList()) return false;
-    return std::any_of(graph->items.begin(), graph->items.end(),
-                       [&](const Value& entry) { return passId(entry) == first; });
+    return std::ranges::any_of(graph->items, [&](const Value& entry) { return passId(entry) == first; });
 }
 
 const Value* valueAt(const Value& config, const std::string& path) {
@@ -225,10 +220,9 @@ void applyOverride(Value& config, const std::string& path, const Value& value, M
     const std::string first = path.substr(0, dot);
     const std::string subpath = dot == std::string::npos ? std::string() : path.substr(dot + 1);
     if (first == "sweep") return overrideSweep(config, subpath, value);
-    if (first == "profiles")
-        throw UsageError(value.where, "'{}': profiles can't be changed by an override", path);
+    if (first == "profiles") throw UsageError(value.where, "'{}': profiles can't be changed by an override", path);
 
-    // A pass
+    // The path of a pass or its parameter
     std::vector<std::string> candidates(configKeys());
     if (Value* graph = config.find("graph"); graph && graph->isList()) {
         for (size_t i = 0; i < graph->items.size(); ++i) {
@@ -238,8 +232,8 @@ void applyOverride(Value& config, const std::string& path, const Value& value, M
         }
     }
 
-    // A key of the config
-    if (std::find(configKeys().begin(), configKeys().end(), first) == configKeys().end())
+    // The path of a config key
+    if (std::ranges::count(configKeys(), first) == 0)
         throw UsageError(value.where, "'{}': neither a key of the config nor a pass of its graph{}", first,
                          optionFor(first).empty() ? nearestPath(config, path, first, candidates)
                                                   : "; it is said on the command line: " + optionFor(first));
@@ -258,8 +252,7 @@ void applyProfile(Value& config, const std::string& name) {
                          names.empty() ? "; this config has none" : didYouMean(name, names));
     }
     if (!profile->isMap())
-        throw UsageError(profile->where,
-                         "profiles.{}: expected a map of overrides, as in {{image.width: 160}}", name);
+        throw UsageError(profile->where, "profiles.{}: expected a map of overrides, as in {{image.width: 160}}", name);
     const Value overrides = *profile;
     for (const auto& [path, value] : overrides.members) {
         for (const char* required : {"name", "scene", "graph"})
@@ -276,7 +269,7 @@ void applyAssignment(Value& config, const std::string& assignment) {
         throw UsageError("{}: expected path=value, as in image.width=320", label);
     Value value = parseYaml(assignment.substr(equals + 1), label);
 
-    // No line numbers for a single line
+    // An assignment has no line numbers
     const auto clearLines = [](auto&& self, Value& node) -> void {
         node.where.line = 0;
         for (Value& item : node.items) self(self, item);

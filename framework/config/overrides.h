@@ -5,23 +5,22 @@
 
 #include "base/value.h"
 
-/// Changes to a config before it is read: profiles, `--set`, sweeps. All address values by a dotted path:
+/// Changes to a config before it is read, by profiles, `--set` and sweeps. Values have dotted paths:
 ///   image.width            a key of the config
 ///   voxelize.resolution    a parameter of the pass with that id
 ///   inject                 a pass: its name, a map with `pass`, or a list of these (a chain), whose last
-///   pass
-///                          takes over the id
+///                          pass gets the id
 ///   sweep.inject           an axis of the sweep (followed by the axis' path)
 ///   scene.override."Wood.001".metallic    a name with dots, in quotes unless it exists already
 namespace voxray {
 
-/// Keys of a config's top level.
+/// Top-level keys of a config.
 const std::vector<std::string>& configKeys();
 
 /// The id of an entry of `graph`: its `id`, else its `pass`; "" if it has neither.
 std::string passId(const Value& entry);
 
-/// The command-line option for a key that configs of other tools have; "" if there is none.
+/// The command-line option for a setting that is a config key in other tools; "" if there is none.
 std::string optionFor(const std::string& key);
 
 /// Whether the first component of `path` exists: a key of the config, or a pass of its graph.

@@ -10,8 +10,7 @@ const std::vector<std::string> kAdditionKeys{"transform", "material"};
 
 SceneAddition readAddition(const Value& entry, const std::string& owner) {
     if (!entry.isMap())
-        throw UsageError(entry.where, "{}: expected a map such as {{file: dragon.glb}} or {{builtin: plane}}",
-                         owner);
+        throw UsageError(entry.where, "{}: expected a map such as {{file: dragon.glb}} or {{builtin: plane}}", owner);
     SceneAddition addition;
     addition.source = readSceneSource(entry, owner, kAdditionKeys);
     if (const Value* transform = entry.find("transform"))
@@ -21,8 +20,8 @@ SceneAddition readAddition(const Value& entry, const std::string& owner) {
     return addition;
 }
 
-/// Location of the later of two values: that of a sweep or the command line, or the lower one in the file.
-TextLocation secondOf(const Value& a, const Value& b) {
+/// Location of the later of two values: that of a sweep or the command line, else the lower in the file.
+TextLocation laterLocation(const Value& a, const Value& b) {
     if (a.where.file != b.where.file) return a.where.line == 0 ? a.where : b.where;
     return a.where.line > b.where.line ? a.where : b.where;
 }
@@ -33,8 +32,7 @@ std::string SceneSource::name() const {
     return file.empty() ? builtin : std::filesystem::path(file).stem().string();
 }
 
-SceneSource readSceneSource(const Value& map, const std::string& owner,
-                            const std::vector<std::string>& otherKeys) {
+SceneSource readSceneSource(const Value& map, const std::string& owner, const std::vector<std::string>& otherKeys) {
     const bool isBuiltin = map.find("builtin") != nullptr;
     const auto isOneOf = [](const std::vector<std::string>& keys, const std::string& key) {
         return std::ranges::count(keys, key) > 0;
@@ -58,7 +56,7 @@ SceneSource readSceneSource(const Value& map, const std::string& owner,
     // Exactly one source
     const bool hasFile = !read.file.empty(), hasBuiltin = !read.builtin.empty();
     if (hasFile && hasBuiltin)
-        throw UsageError(secondOf(*map.find("file"), *map.find("builtin")),
+        throw UsageError(laterLocation(*map.find("file"), *map.find("builtin")),
                          "{}: both 'file' and 'builtin' are set; take one out (null removes a key)", owner);
     if (!hasFile && !hasBuiltin) throw UsageError(map.where, "{}: needs 'file' or 'builtin'", owner);
     read.where = map.find(hasFile ? "file" : "builtin")->where;
@@ -84,21 +82,18 @@ std::vector<SceneAddition> readSceneAdditions(const Value& list) {
 
 std::vector<MaterialOverride> readMaterialOverrides(const Value& map) {
     if (!map.isMap() && !map.isNull())
-        throw UsageError(
-            map.where,
-            "scene.override: expected a map of materials by name, as in {{floor: {{roughness: 0}}}}");
+        throw UsageError(map.where,
+                         "scene.override: expected a map of materials by name, as in {{floor: {{roughness: 0}}}}");
     std::vector<MaterialOverride> overrides;
     for (const auto& [name, settings] : map.members) {
         const std::string owner = "scene.override." + name;
         if (!settings.isMap() || settings.members.empty())
-            throw UsageError(settings.where, "{}: expected settings of a material, as in {{roughness: 0}}",
-                             owner);
+            throw UsageError(settings.where, "{}: expected settings of a material, as in {{roughness: 0}}", owner);
         for (const auto& [key, value] : settings.members)
             if (value.isMap())
                 throw UsageError(value.where,
                                  "{0}: no setting of a material is called '{1}'; "
-                                 "in a path a name with dots stands in double quotes: "
-                                 "scene.override.\"{2}.{1}\"",
+                                 "in a path a name with dots stands in double quotes: scene.override.\"{2}.{1}\"",
                                  owner, key, name);
         MaterialOverride change{name, {readParams<MaterialSettings>(settings, owner), {}}, settings.where};
         for (const auto& member : settings.members) change.change.keys.push_back(member.key);

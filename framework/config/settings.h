@@ -13,14 +13,14 @@
 #include "scene/scene.h"
 #include "trace/ray_tracer.h"
 
-/// The typed blocks of a config, with names, ranges, defaults and help of all scalar keys.
+/// Settings of the blocks of a config, with names, ranges, defaults and help of all scalar keys.
 namespace voxray {
 
 template <>
 struct EnumNames<TracerKind> {
-    static constexpr std::array names{
-        std::pair{TracerKind::Auto, "auto"}, std::pair{TracerKind::RayQuery, "ray_query"},
-        std::pair{TracerKind::RayPipeline, "ray_pipeline"}, std::pair{TracerKind::Embree, "embree"}};
+    static constexpr std::array names{std::pair{TracerKind::Auto, "auto"}, std::pair{TracerKind::RayQuery, "ray_query"},
+                                      std::pair{TracerKind::RayPipeline, "ray_pipeline"},
+                                      std::pair{TracerKind::Embree, "embree"}};
 };
 
 enum class MaterialMode { AsIs, Lambert };
@@ -34,6 +34,12 @@ struct EnumNames<MaterialMode> {
 inline constexpr float kMaxCoordinate = 1e6f;
 inline constexpr float kMaxLight = 1e12f;
 
+/// A position or direction.
+template <typename Settings>
+constexpr auto vectorField(const char* name, glm::vec3 Settings::*member, const char* help) {
+    return field(name, member, help, glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate)).asVector();
+}
+
 /// Top-level scalars.
 struct GeneralSettings {
     std::string name;
@@ -43,8 +49,7 @@ struct GeneralSettings {
         return std::tuple{
             field("name", &GeneralSettings::name,
                   "Name of the experiment and of its results folder: letters, digits, '_', '-', '.'."),
-            field("seed", &GeneralSettings::seed, "Seed of all random numbers.", uint64_t(0),
-                  uint64_t(INT64_MAX)),
+            field("seed", &GeneralSettings::seed, "Seed of all random numbers.", uint64_t(0), uint64_t(INT64_MAX)),
             field("tracer", &GeneralSettings::tracer,
                   "Ray-tracing backend; auto takes the GPU's where it has one, else Embree.")};
     }
@@ -56,16 +61,14 @@ struct ImageSettings {
     uint32_t height = 360;
     float exposureStops = 0;
     static constexpr auto schema() {
-        return std::tuple{
-            field("width", &ImageSettings::width, "Width in pixels.", 1u, 8192u),
-            field("height", &ImageSettings::height, "Height in pixels.", 1u, 8192u),
-            field("exposure_stops", &ImageSettings::exposureStops,
-                  "Exposure of previews and LDR metrics: radiance is scaled by 2^stops.", -30.0f, 30.0f)};
+        return std::tuple{field("width", &ImageSettings::width, "Width in pixels.", 1u, 8192u),
+                          field("height", &ImageSettings::height, "Height in pixels.", 1u, 8192u),
+                          field("exposure_stops", &ImageSettings::exposureStops,
+                                "Exposure of previews and LDR metrics: radiance is scaled by 2^stops.", -30.0f, 30.0f)};
     }
 };
 
-/// An entry of `measure.masks`: conditions on a surface, all of which must hold for its pixels to be
-/// selected.
+/// An entry of `measure.masks`: pixels are selected if their surface meets all its conditions.
 struct MaskSettings {
     std::string name;  ///< Its key.
     std::string material;
@@ -76,16 +79,15 @@ struct MaskSettings {
     static constexpr auto schema() {
         return std::tuple{
             field("material", &MaskSettings::material, "Name of the surface's material; empty: any."),
-            field("object", &MaskSettings::object,
-                  "Name of its mesh or of the node that places it; empty: any."),
-            field("min_metallic", &MaskSettings::minMetallic,
-                  "Smallest metallic value at the point, texture included.", 0.0f, 1.0f),
-            field("max_roughness", &MaskSettings::maxRoughness,
-                  "Largest roughness at the point, texture included.", 0.0f, 1.0f)};
+            field("object", &MaskSettings::object, "Name of its mesh or of the node that places it; empty: any."),
+            field("min_metallic", &MaskSettings::minMetallic, "Smallest metallic value at the point, texture included.",
+                  0.0f, 1.0f),
+            field("max_roughness", &MaskSettings::maxRoughness, "Largest roughness at the point, texture included.",
+                  0.0f, 1.0f)};
     }
 };
 
-/// `measure`; the schema has its scalars.
+/// `measure`; the schema has its scalar keys.
 struct MeasureSettings {
     uint32_t frames = 20;
     uint32_t warmup = 3;
@@ -93,32 +95,31 @@ struct MeasureSettings {
     uint32_t buildRepeats = 1;
     bool secondSeed = false;
     uint64_t memoryLimitMb = 0;
-    std::vector<std::string> metrics;  ///< Of metricNames().
+    std::vector<std::string> metrics;  ///< A subset of metricNames().
     std::vector<MaskSettings> masks;
     static constexpr auto schema() {
-        return std::tuple{
-            field("frames", &MeasureSettings::frames,
-                  "Frames that are timed. The first is compared with the reference.", 1u, 100000u),
-            field("warmup", &MeasureSettings::warmup, "Frames before the measured ones, not timed.", 0u,
-                  100000u),
-            field("compare_every", &MeasureSettings::compareEvery,
-                  "0: frame 0 alone is compared with a reference. n: every n-th measured frame is, "
-                  "each with the reference of its own time, and temporal error is reported.",
-                  0u, 100000u),
-            field("build_repeats", &MeasureSettings::buildRepeats,
-                  "Timed runs of the build passes, after one that is not timed. "
-                  "0: that first one is timed, with all that only a first run takes.",
-                  0u, 1000u),
-            field("second_seed", &MeasureSettings::secondSeed,
-                  "Render each variant once more with other random numbers, not timed: "
-                  "splits its error into bias and noise."),
-            field("memory_limit_mb", &MeasureSettings::memoryLimitMb,
-                  "Device memory in MiB that a graph may take; 0: what the device has.", uint64_t(0),
-                  uint64_t(1) << 24)};
+        return std::tuple{field("frames", &MeasureSettings::frames,
+                                "Number of timed frames. The first one is compared with the reference.", 1u, 100000u),
+                          field("warmup", &MeasureSettings::warmup,
+                                "Number of frames before the measured ones, which are not timed.", 0u, 100000u),
+                          field("compare_every", &MeasureSettings::compareEvery,
+                                "0: frame 0 alone is compared with a reference. n: every n-th measured frame is, "
+                                "each with the reference of its own time, and temporal error is reported.",
+                                0u, 100000u),
+                          field("build_repeats", &MeasureSettings::buildRepeats,
+                                "Timed runs of the build passes, after one that is not timed. "
+                                "0: that first one is timed, with all that only a first run takes.",
+                                0u, 1000u),
+                          field("second_seed", &MeasureSettings::secondSeed,
+                                "Render each variant once more with other random numbers, not timed: "
+                                "splits its error into bias and noise."),
+                          field("memory_limit_mb", &MeasureSettings::memoryLimitMb,
+                                "Device memory in MiB that a graph may take; 0: what the device has.", uint64_t(0),
+                                uint64_t(1) << 24)};
     }
 };
 
-/// Path of a key of `scene`, `image` or `measure`, such as "scene.camera" for `camera`; "" for other words.
+/// The path of a key of `scene`, `image` or `measure`, e.g. "scene.camera" for `camera`; "" for other words.
 std::string pathOfKey(const std::string& key);
 
 /// Number of measured frames compared with a reference: 0, compareEvery, 2 compareEvery ...
@@ -127,7 +128,7 @@ uint32_t comparedFrames(const MeasureSettings& settings);
 /// Valid names in `measure.metrics`.
 std::vector<std::string> metricNames();
 
-/// Scalars of `scene`, except its source.
+/// Scalar keys of `scene`, except its source.
 struct SceneOptions {
     bool keepFileLights = true;
     MaterialMode materials = MaterialMode::AsIs;
@@ -140,13 +141,11 @@ struct SceneOptions {
                   "Keep the scene's own punctual lights; false leaves those of `lights` alone. "
                   "Emissive surfaces always stay."),
             field("materials", &SceneOptions::materials,
-                  "as_is, or lambert: drop specular, metal and transmission of what scenes bring, "
-                  "keep base colour and emission."),
+                  "as_is, or lambert: "
+                  "drop specular, metal and transmission of what scenes bring, keep base colour and emission."),
             field("subdivide", &SceneOptions::subdivide,
-                  "Splits every triangle in four in place, so often: the same surfaces of more triangles.",
-                  0u, 4u),
-            field("time", &SceneOptions::time, "Time of the compared frame in the animation, seconds.", 0.0,
-                  1e6),
+                  "Splits every triangle in four in place, so often: the same surfaces of more triangles.", 0u, 4u),
+            field("time", &SceneOptions::time, "Time of the compared frame in the animation, seconds.", 0.0, 1e6),
             field("time_step", &SceneOptions::timeStep,
                   "Seconds of animation from one frame to the next; 0: everything stands still. "
                   "Warm-up frames lead up to `time`; the animation repeats after its last key.",
@@ -162,32 +161,25 @@ struct CameraSettings {
     float fovDegrees = 60;
     glm::vec3 move{0.0f};
     static constexpr auto schema() {
-        constexpr glm::vec3 low(-kMaxCoordinate), high(kMaxCoordinate);
         return std::tuple{
-            field("position", &CameraSettings::position, "Where the camera stands, metres.", low, high)
-                .asVector(),
-            field("target", &CameraSettings::target, "The point that it looks at, metres.", low, high)
-                .asVector(),
-            field("up", &CameraSettings::up, "The direction that is up in the image.", low, high).asVector(),
+            vectorField("position", &CameraSettings::position, "Position of the camera, metres."),
+            vectorField("target", &CameraSettings::target, "The point that the camera looks at, metres."),
+            vectorField("up", &CameraSettings::up, "The direction that is up in the image."),
             field("fov_deg", &CameraSettings::fovDegrees, "Vertical field of view in degrees.", 1.0f, 179.0f),
-            field("move", &CameraSettings::move,
-                  "How far the camera moves from one frame to the next, metres: "
-                  "warm-up frames lead up to `position`, where the first measured frame is taken; "
-                  "the others go on from there.",
-                  low, high)
-                .asVector()};
+            vectorField("move", &CameraSettings::move,
+                        "How far the camera moves from one frame to the next, metres: "
+                        "warm-up frames lead up to `position`, where the first measured frame is taken; "
+                        "the others go on from there.")};
     }
 };
 
-/// `scene.region`: a box.
+/// `scene.region`, a box.
 struct RegionSettings {
     glm::vec3 min{0.0f};
     glm::vec3 max{0.0f};
     static constexpr auto schema() {
-        constexpr glm::vec3 low(-kMaxCoordinate), high(kMaxCoordinate);
-        return std::tuple{
-            field("min", &RegionSettings::min, "Its lowest corner, metres.", low, high).asVector(),
-            field("max", &RegionSettings::max, "Its highest corner, metres.", low, high).asVector()};
+        return std::tuple{vectorField("min", &RegionSettings::min, "Its lowest corner, metres."),
+                          vectorField("max", &RegionSettings::max, "Its highest corner, metres.")};
     }
 };
 
@@ -200,25 +192,26 @@ constexpr auto lightOffField(uint32_t Light::*offAt) {
                  0u, 100000u);
 }
 
-/// Entries of `scene.lights`; the first key is the kind.
+/// `move` of a point or spot light.
+inline constexpr const char* kLightMoveHelp =
+    "How far it moves from one frame to the next, metres: at its place in the compared frame.";
+
+/// Entries of `scene.lights`; the first key is the type of light.
 struct DirectionalLightSettings {
     glm::vec3 direction{0, -1, 0};
     glm::vec3 irradiance{1.0f};
     glm::vec3 move{0.0f};
     uint32_t offAt = 0;
     static constexpr auto schema() {
-        return std::tuple{field("directional", &DirectionalLightSettings::direction,
-                                "The way the light travels, any length but 0.", glm::vec3(-kMaxCoordinate),
-                                glm::vec3(kMaxCoordinate))
-                              .asVector(),
-                          field("irradiance", &DirectionalLightSettings::irradiance,
-                                "On a surface that faces it, W/m².", glm::vec3(0.0f), glm::vec3(kMaxLight)),
-                          field("move", &DirectionalLightSettings::move,
-                                "Added to the direction from one frame to the next; "
-                                "in the compared frame it shines along `directional`.",
-                                glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                              .asVector(),
-                          lightOffField(&DirectionalLightSettings::offAt)};
+        return std::tuple{
+            vectorField("directional", &DirectionalLightSettings::direction,
+                        "Direction in which the light travels, of any length but 0."),
+            field("irradiance", &DirectionalLightSettings::irradiance,
+                  "Irradiance on a surface that faces the light, W/m².", glm::vec3(0.0f), glm::vec3(kMaxLight)),
+            vectorField("move", &DirectionalLightSettings::move,
+                        "Added to the direction from one frame to the next; "
+                        "in the compared frame it shines along `directional`."),
+            lightOffField(&DirectionalLightSettings::offAt)};
     }
 };
 struct PointLightSettings {
@@ -227,17 +220,11 @@ struct PointLightSettings {
     glm::vec3 move{0.0f};
     uint32_t offAt = 0;
     static constexpr auto schema() {
-        return std::tuple{
-            field("point", &PointLightSettings::position, "Where the light is, metres.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector(),
-            field("intensity", &PointLightSettings::intensity, "W/sr.", glm::vec3(0.0f),
-                  glm::vec3(kMaxLight)),
-            field("move", &PointLightSettings::move,
-                  "How far it moves from one frame to the next, metres: at its place in the compared frame.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector(),
-            lightOffField(&PointLightSettings::offAt)};
+        return std::tuple{vectorField("point", &PointLightSettings::position, "Position of the light, metres."),
+                          field("intensity", &PointLightSettings::intensity, "Radiant intensity, W/sr.",
+                                glm::vec3(0.0f), glm::vec3(kMaxLight)),
+                          vectorField("move", &PointLightSettings::move, kLightMoveHelp),
+                          lightOffField(&PointLightSettings::offAt)};
     }
 };
 struct SpotLightSettings {
@@ -250,22 +237,15 @@ struct SpotLightSettings {
     uint32_t offAt = 0;
     static constexpr auto schema() {
         return std::tuple{
-            field("spot", &SpotLightSettings::position, "Where the light is, metres.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector(),
-            field("direction", &SpotLightSettings::direction, "The way its axis points, any length but 0.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector(),
-            field("intensity", &SpotLightSettings::intensity, "On the axis, W/sr.", glm::vec3(0.0f),
+            vectorField("spot", &SpotLightSettings::position, "Position of the light, metres."),
+            vectorField("direction", &SpotLightSettings::direction, "Direction of its axis, of any length but 0."),
+            field("intensity", &SpotLightSettings::intensity, "Radiant intensity on the axis, W/sr.", glm::vec3(0.0f),
                   glm::vec3(kMaxLight)),
             field("inner_deg", &SpotLightSettings::innerDegrees,
-                  "Angle from the axis, in degrees, up to which it shines in full.", 0.0f, 90.0f),
+                  "Angle from the axis, in degrees, up to which it has its full intensity.", 0.0f, 90.0f),
             field("outer_deg", &SpotLightSettings::outerDegrees,
-                  "Angle from the axis, in degrees, beyond which it doesn't shine.", 0.0f, 90.0f),
-            field("move", &SpotLightSettings::move,
-                  "How far it moves from one frame to the next, metres: at its place in the compared frame.",
-                  glm::vec3(-kMaxCoordinate), glm::vec3(kMaxCoordinate))
-                .asVector(),
+                  "Angle from the axis, in degrees, beyond which its intensity is 0.", 0.0f, 90.0f),
+            vectorField("move", &SpotLightSettings::move, kLightMoveHelp),
             lightOffField(&SpotLightSettings::offAt)};
     }
 };
@@ -276,21 +256,20 @@ struct EnvironmentSettings {
     std::string layer;
     glm::vec3 scale{1.0f};
     static constexpr auto schema() {
-        return std::tuple{
-            field("map", &EnvironmentSettings::map, "An equirectangular EXR or HDR file, row 0 at +Y."),
-            field("layer", &EnvironmentSettings::layer,
-                  "Layer of an EXR map that has several, or the last word of its name."),
-            field("scale", &EnvironmentSettings::scale,
-                  "Multiplies the map. A radiance alone, W/(m² sr), stands in place of both keys.",
-                  glm::vec3(0.0f), glm::vec3(kMaxLight))};
+        return std::tuple{field("map", &EnvironmentSettings::map, "An equirectangular EXR or HDR file, row 0 at +Y."),
+                          field("layer", &EnvironmentSettings::layer,
+                                "Layer of an EXR map that has several, or the last word of its name."),
+                          field("scale", &EnvironmentSettings::scale,
+                                "Multiplies the map. A radiance alone, W/(m² sr), stands in place of both keys.",
+                                glm::vec3(0.0f), glm::vec3(kMaxLight))};
     }
 };
 
-/// A light of the config in the compared frame.
+/// A light of the config, in the compared frame.
 struct ConfigLight {
     Light light;
-    glm::vec3 move{0.0f};  ///< Per frame: of its position, m, or of a directional light's direction.
-    uint32_t offAt = 0;    ///< Frame from which on it is off; 0: never.
+    glm::vec3 move{0.0f};  ///< Change in each frame of its position, m, or of a directional light's direction.
+    uint32_t offAt = 0;    ///< First frame in which it is off; 0: never.
     TextLocation where;
 };
 
@@ -304,15 +283,15 @@ struct HiddenName {
 struct SceneSettings {
     SceneSource source;
     SceneOptions options;
-    std::optional<Placement> placement;  ///< Of the source; empty: identity.
+    std::optional<Placement> placement;  ///< Transform of the source; empty: identity.
     std::vector<SceneAddition> additions;
     std::vector<MaterialOverride> overrides;
     std::vector<HiddenName> hidden;
-    std::string cameraName;  ///< Empty: `camera`, or the scene's first camera.
+    std::string cameraName;  ///< Empty: `camera`, else the scene's first camera.
     std::optional<CameraSettings> camera;
     std::vector<ConfigLight> lights;
     std::optional<MovingSpheres> movingSpheres;
-    std::optional<RegionSettings> region;            ///< Extent of voxels and parallel light; empty: all.
+    std::optional<RegionSettings> region;            ///< Bounds of voxels and directional light; empty: the scene's.
     std::optional<EnvironmentSettings> environment;  ///< Empty: that of the source.
     TextLocation where, cameraWhere, environmentWhere, regionWhere;
 };
@@ -325,7 +304,7 @@ MeasureSettings readMeasureSettings(const Value& map);
 SceneSettings readSceneSettings(const Value& map);
 
 /// Whether surfaces or lights move from frame to frame, or a light is switched off.
-/// @param isAnimated whether the scene has anything that a time step moves.
+/// @param isAnimated whether the scene has animations.
 bool changesInTime(const SceneSettings& settings, bool isAnimated = true);
 
 /// The first frame in which a light is off; nullopt if none is switched off.

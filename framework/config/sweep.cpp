@@ -17,7 +17,7 @@ constexpr size_t kMaxNameLength = 120;
 
 struct Axis {
     std::string path;
-    std::string label;  ///< Short name, in names of variants.
+    std::string label;  ///< Short name that is used in names of variants.
     std::vector<Value> values;
     std::vector<std::string> texts;  ///< Labels of the values.
     TextLocation where;
@@ -26,18 +26,16 @@ struct Axis {
 void checkPath(const std::string& path, const TextLocation& where) {
     static const std::vector<std::string> fixed{"name", "graph", "reference", "sweep", "measure", "profiles"};
     const std::string first = path.substr(0, path.find('.'));
-    if (std::find(fixed.begin(), fixed.end(), first) != fixed.end())
+    if (std::ranges::count(fixed, first) > 0)
         throw UsageError(
-            where,
-            "sweep: '{}' is the same for all variants; sweep over a pass, scene, image, seed or tracer",
-            path);
+            where, "sweep: '{}' is the same for all variants; sweep over a pass, scene, image, seed or tracer", path);
 }
 
 std::string fileSafe(const std::string& text) {
     std::string safe;
     for (const char c : text) {
-        const bool isPlain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                             c == '_' || c == '.' || c == '-';
+        const bool isPlain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+                             c == '.' || c == '-';
         if (isPlain)
             safe += c;
         else if (safe.empty() || safe.back() != '-')
@@ -62,15 +60,15 @@ std::vector<Axis> readAxes(const Experiment& experiment) {
         for (size_t i = 0; i < list.members.size(); ++i)
             for (size_t j = 0; j < i; ++j)
                 if (list.members[i].value == list.members[j].value)
-                    throw UsageError(list.members[i].value.where, "sweep.{}: '{}' and '{}' are the same",
-                                     path, list.members[j].key, list.members[i].key);
+                    throw UsageError(list.members[i].value.where, "sweep.{}: '{}' and '{}' are the same", path,
+                                     list.members[j].key, list.members[i].key);
     }
     for (Axis& axis : axes)
         if (labels[axis.label] > 1) axis.label = axis.path;
     return axes;
 }
 
-// Value indices of a combination: the digits of `index`, the last axis varies fastest.
+/// Indices of values of a combination: the digits of `index`. The last axis varies fastest.
 std::vector<size_t> choose(const std::vector<Axis>& axes, size_t index) {
     std::vector<size_t> chosen(axes.size());
     for (size_t a = axes.size(); a-- > 0;) {
@@ -80,46 +78,46 @@ std::vector<size_t> choose(const std::vector<Axis>& axes, size_t index) {
     return chosen;
 }
 
-bool swapsPass(const Axis& axis) {
+/// Whether the axis replaces a whole pass.
+bool replacesPass(const Axis& axis) {
     return axis.path.find('.') == std::string::npos;
 }
 
-/// Errors of an invalid path are located at the axis, others at the value.
+/// Sets the value of an axis in a config. Errors of paths are located at the axis, others at the value.
 void setValue(Value& config, const Axis& axis, size_t chosen) {
     Value value = axis.values[chosen];
     if (!hasTarget(config, axis.path)) value.where = axis.where;
     applyOverride(config, axis.path, value, Merge::Replace);
 }
 
-/// Configs without sweep and with passes swapped, shared by variants that differ in other values.
-class SwappedConfigs {
+/// Configs without sweep and with replaced passes, shared by variants that differ only in other values.
+class BaseConfigs {
  public:
-    SwappedConfigs(const Experiment& experiment, const std::vector<Axis>& axes)
-        : axes_(axes), plain_(experiment.config) {
+    BaseConfigs(const Experiment& experiment, const std::vector<Axis>& axes) : axes_(axes), plain_(experiment.config) {
         plain_.erase("sweep");
     }
 
-    /// @param chosen value index of each axis; those that swap no pass are ignored.
+    /// @param chosen index of the value of each axis; axes that replace no pass are ignored.
     const Value& with(std::vector<size_t> chosen) {
         for (size_t a = 0; a < axes_.size(); ++a)
-            if (!swapsPass(axes_[a])) chosen[a] = 0;
+            if (!replacesPass(axes_[a])) chosen[a] = 0;
         const auto [config, isNew] = configs_.try_emplace(chosen);
         if (isNew) {
             config->second = plain_;
             for (size_t a = 0; a < axes_.size(); ++a)
-                if (swapsPass(axes_[a])) setValue(config->second, axes_[a], chosen[a]);
+                if (replacesPass(axes_[a])) setValue(config->second, axes_[a], chosen[a]);
         }
         return config->second;
     }
     /// Whether any config so far has the target of an axis.
-    bool hasSomewhere(const std::string& path) const {
+    bool anyHasTarget(const std::string& path) const {
         return std::ranges::any_of(configs_, [&](const auto& c) { return hasTarget(c.second, path); });
     }
 
  private:
     const std::vector<Axis>& axes_;
     Value plain_;
-    std::map<std::vector<size_t>, Value> configs_;  ///< By the indices of swapped passes.
+    std::map<std::vector<size_t>, Value> configs_;  ///< By the indices of replaced passes.
 };
 
 std::string shortened(const std::string& name) {
@@ -160,8 +158,7 @@ void selectSweepValues(Value& config, const std::vector<std::string>& choices) {
         Value* sweep = config.find("sweep");
         Value* axis = sweep ? sweep->find(path) : nullptr;
         std::vector<std::string> names;
-        for (const auto& member : sweep ? sweep->members : std::vector<Value::Member>())
-            names.push_back(member.key);
+        for (const auto& member : sweep ? sweep->members : std::vector<Value::Member>()) names.push_back(member.key);
         if (!axis) throw UsageError("--only: the sweep has no axis '{}'{}", path, didYouMean(path, names));
         const std::vector<std::string> labels = sweepLabels(*axis);
         for (const std::string& value : values)
@@ -186,12 +183,12 @@ std::vector<SweepPoint> expandSweep(const Experiment& experiment) {
             throw UsageError(experiment.sweep.where, "sweep: more than {} variants", kMaxVariants);
     }
 
-    // Passes are swapped first, so that parameters apply to the final pass. An axis of a pass that only some
-    // graphs have does not multiply the others
-    SwappedConfigs configs(experiment, axes);
+    // Passes are replaced first, so that parameters apply to the final pass. An axis of a pass that only some
+    // graphs have does not multiply the variants of other graphs
+    BaseConfigs configs(experiment, axes);
     for (size_t index = 0; index < count; ++index) configs.with(choose(axes, index));
-    std::vector<bool> somewhere(axes.size());
-    for (size_t a = 0; a < axes.size(); ++a) somewhere[a] = configs.hasSomewhere(axes[a].path);
+    std::vector<bool> isKnown(axes.size());
+    for (size_t a = 0; a < axes.size(); ++a) isKnown[a] = configs.anyHasTarget(axes[a].path);
 
     std::vector<SweepPoint> variants;
     for (size_t index = 0; index < count; ++index) {
@@ -200,8 +197,8 @@ std::vector<SweepPoint> expandSweep(const Experiment& experiment) {
         variant.config = configs.with(chosen);
         bool isRepeat = false;
         for (size_t a = 0; a < axes.size(); ++a) {
-            if (!swapsPass(axes[a])) {
-                if (somewhere[a] && !hasTarget(variant.config, axes[a].path)) {
+            if (!replacesPass(axes[a])) {
+                if (isKnown[a] && !hasTarget(variant.config, axes[a].path)) {
                     isRepeat = isRepeat || chosen[a] > 0;
                     variant.values.push_back(kNoValue);
                     continue;
@@ -229,7 +226,7 @@ std::string VariantNames::next(const std::vector<std::string>& values) {
         if (values[a] != kNoValue) name += (name.empty() ? "" : "_") + fileSafe(labels_[a] + "-" + values[a]);
     name = shortened(name.empty() ? "default" : name);
 
-    // Sanitized names of different values may be equal
+    // Names of different values may be equal after fileSafe()
     const std::string plain = name;
     for (int copy = 2; !taken_.insert(name).second; ++copy) name = plain + "-" + std::to_string(copy);
     return name;

@@ -46,8 +46,7 @@ std::string label(const Value& entry, size_t number, const MemberNames& shownMem
 std::string label(const Value& value, const MemberNames& shownMembers) {
     std::string text;
     const std::vector<const Value*> entries = entriesOf(value);
-    for (size_t e = 0; e < entries.size(); ++e)
-        text += (e ? " + " : "") + label(*entries[e], e, shownMembers);
+    for (size_t e = 0; e < entries.size(); ++e) text += (e ? " + " : "") + label(*entries[e], e, shownMembers);
     return text;
 }
 

@@ -39,9 +39,8 @@ class Converter {
                 value.kind = Value::Kind::Scalar;
                 value.scalar = node.Scalar();
                 value.quoted = node.Tag() == "!";
-                if (value.quoted && goesOnInNextLine(node.Mark()))
-                    throw UsageError(where,
-                                     "a text in quotes goes on in the next line: is a quote left open?");
+                if (value.quoted && hasSeveralLines(node.Mark()))
+                    throw UsageError(where, "a text in quotes goes on in the next line: is a quote left open?");
                 break;
             case YAML::NodeType::Sequence:
                 value.kind = Value::Kind::List;
@@ -57,8 +56,8 @@ class Converter {
     TextLocation locate(const YAML::Mark& mark) const { return {file_, mark.is_null() ? 0 : mark.line + 1}; }
 
  private:
-    /// Whether a line ends before the quote that ends the text in quotes at `mark`.
-    bool goesOnInNextLine(const YAML::Mark& mark) const {
+    /// Whether the quoted text at `mark` does not end in its first line.
+    bool hasSeveralLines(const YAML::Mark& mark) const {
         if (mark.is_null() || size_t(mark.pos) >= text_.size()) return false;
         const char quote = text_[size_t(mark.pos)];
         if (quote != '"' && quote != '\'') return false;
@@ -75,14 +74,13 @@ class Converter {
 
     void convertMap(const YAML::Node& node, int depth, Value& value) {
         value.kind = Value::Kind::Map;
-        std::unordered_set<std::string> seen;
+        std::unordered_set<std::string> keys;
         std::vector<Value> merged;
         for (const auto& entry : node) {
-            const TextLocation where =
-                entry.first.Mark().is_null() ? value.where : locate(entry.first.Mark());
+            const TextLocation where = entry.first.Mark().is_null() ? value.where : locate(entry.first.Mark());
             if (!entry.first.IsScalar()) throw UsageError(where, "a key must be a word");
             const std::string& key = entry.first.Scalar();
-            if (!seen.insert(key).second) throw UsageError(where, "'{}' appears twice in the same map", key);
+            if (!keys.insert(key).second) throw UsageError(where, "'{}' appears twice in the same map", key);
             Value member = convert(entry.second, depth + 1, where);
             member.where = where;
             if (key == "<<" && entry.first.Tag() != "!")
@@ -94,7 +92,7 @@ class Converter {
         // Entries of the map take precedence, then those of earlier merged maps
         for (const Value& map : merged)
             for (const Value::Member& member : map.members)
-                if (seen.insert(member.key).second) value.members.push_back(member);
+                if (keys.insert(member.key).second) value.members.push_back(member);
     }
 
     /// The value of a merge key: a map, or a list of maps.
@@ -130,8 +128,7 @@ Value parseYaml(const std::string& text, const std::string& fileName) {
     try {
         const std::vector<YAML::Node> documents = YAML::LoadAll(text);
         if (documents.size() > 1)
-            throw UsageError(converter.locate(documents[1].Mark()),
-                             "a second document; one file holds one config");
+            throw UsageError(converter.locate(documents[1].Mark()), "a second document; one file holds one config");
         if (documents.empty()) return converter.convert(YAML::Node(), 0, {fileName, 1});
         return converter.convert(documents[0], 0, {fileName, 1});
     } catch (const YAML::Exception& error) {

@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kIdentity = "identity";
 
-/// Of the keys under which a reference's noise floors stand, behind the metric's column.
+/// Suffix of the keys of a reference's noise floors.
 constexpr const char* kNoiseSuffix = "_noise";
 
 template <typename Infos>
@@ -42,7 +42,7 @@ Json exposuresJson(const FlipExposures& e) {
     return {{"start", e.start}, {"stop", e.stop}, {"count", e.count}};
 }
 
-/// An entry of `references`, but for the variants.
+/// An entry of `references`, without its variants.
 Json entryJson(const ReferenceRecord& r, const Value& pass) {
     Json json;
     if (pass.isMap()) json = Json::parse(pass.json());
@@ -58,37 +58,35 @@ Json entryJson(const ReferenceRecord& r, const Value& pass) {
     return json;
 }
 
-/// Writes `references`, and on top what most runs have: one reference.
+/// Sets `references`, and keys of the first one at the top level: most runs have a single one.
 void setReferences(Json& manifest, const std::vector<ReferenceEntry>& references) {
-    std::map<std::string, Json> variants;  // By the hash of their reference.
+    std::map<std::string, Json> variants;  // Names by hash of their reference.
     for (const auto& [variant, inputs] : manifest["inputs"].items())
-        variants.try_emplace(inputs.at("reference").get<std::string>(), Json::array())
-            .first->second.push_back(variant);
+        variants.try_emplace(inputs.at("reference").get<std::string>(), Json::array()).first->second.push_back(variant);
     manifest["references"] = Json::array();
     for (const ReferenceEntry& reference : references) {
         Json entry = Json::parse(reference.text);
         entry["folder"] = reference.folder;
-        const auto own = variants.find(reference.hash);
-        entry["variants"] = own == variants.end() ? Json::array() : own->second;
+        const auto found = variants.find(reference.hash);
+        entry["variants"] = found == variants.end() ? Json::array() : found->second;
         manifest["references"].push_back(std::move(entry));
     }
     if (references.empty()) return;
     Json first = manifest["references"][0];
     for (const char* key : {"flip_exposures", "baselines"}) manifest[key] = first[key];
-    for (const char* key : {"flip_exposures", "indirect_flip_exposures", "baselines", "variants"})
-        first.erase(key);
+    for (const char* key : {"flip_exposures", "indirect_flip_exposures", "baselines", "variants"}) first.erase(key);
     manifest["reference"] = std::move(first);
 }
 
-/// What of a run is known once variants are done, and changes where results are put together.
+/// Data of a run that is known once variants have finished, and that changes when results are merged.
 struct Outcome {
-    const std::string& finished;  ///< When, UTC; empty: not yet.
+    const std::string& finished;  ///< Time in UTC; empty: not yet.
     const Sessions& sessions;
     const std::vector<ReferenceEntry>& references;
     const std::vector<std::string>&warnings, &notes;
 };
 
-/// Writes what is known of the outcome; `inputs` are there already.
+/// Sets the keys of the outcome. `inputs` must exist.
 void setOutcome(Json& manifest, const Outcome& outcome) {
     manifest["finished"] = outcome.finished.empty() ? Json(nullptr) : Json(outcome.finished);
     manifest["sessions"] = Json::array();
@@ -103,7 +101,7 @@ std::string textOf(const Json& manifest) {
     return manifest.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-/// Where two nodes differ first: a path and both values.
+/// The first difference of two nodes: a path and both values.
 std::string firstDifference(const Json& a, const Json& b, const std::string& path) {
     if (a == b) return {};
     if (!a.is_object() || !b.is_object()) return fmt::format("{}: {} and {}", path, a.dump(), b.dump());
@@ -114,13 +112,13 @@ std::string firstDifference(const Json& a, const Json& b, const std::string& pat
     }
     for (const auto& [key, value] : b.items())
         if (!a.contains(key)) return fmt::format("{}.{}: nothing and {}", path, key, value.dump());
-    return {};  // In another order.
+    return {};  // Only the order of keys differs.
 }
 
 std::string cpuName() {
     std::istringstream lines(readTextFile("/proc/cpuinfo"));
     for (std::string line; std::getline(lines, line);)
-        if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
+        if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
     return "unknown";
 }
 
@@ -156,9 +154,10 @@ std::string manifestJson(const ManifestData& data) {
     json["auto"] = {{"tracer", data.tracer}, {"device", data.device.name}};
     json["requested"] = {{"tracer", enumName(experiment.setup.general.tracer)},
                          {"device", data.requestedDevice.empty() ? "best" : data.requestedDevice}};
-    // Names are unique: they are added without a look at the others
+    // Names are unique, so that they are appended without a search
     Json::object_t graphs, inputs;
-    std::map<std::string, std::map<std::string, std::vector<std::string>>> noise;  // By image and variant.
+    // By image, then by variant
+    std::map<std::string, std::map<std::string, std::vector<std::string>>> noise;
     for (const Variant& variant : data.study->variants) {
         const std::string& name = variant.name;
         graphs.emplace_back(name, Json::parse(variant.resolved.json(-1)));
@@ -196,7 +195,7 @@ std::vector<ReferenceEntry> referencesIn(const fs::path& images) {
         std::string text;
         try {
             text = readTextFile(at.path() / "reference.json");
-        } catch (const Error&) {  // Another process may just replace it.
+        } catch (const Error&) {  // Another process may be replacing it.
             continue;
         }
         const Json json = Json::parse(text, nullptr, false);
@@ -204,9 +203,8 @@ std::vector<ReferenceEntry> referencesIn(const fs::path& images) {
             entries.push_back({folder, json["hash"].get<std::string>(), std::move(text)});
     }
     // reference, reference.2, ..., reference.10
-    std::ranges::sort(entries, {}, [](const ReferenceEntry& entry) {
-        return std::pair(entry.folder.size(), entry.folder);
-    });
+    std::ranges::sort(entries, {},
+                      [](const ReferenceEntry& entry) { return std::pair(entry.folder.size(), entry.folder); });
     return entries;
 }
 
@@ -227,8 +225,7 @@ Json parseManifest(const std::string& text) {
 
 std::string manifestDifference(const Json& first, const Json& second) {
     for (const char* key : {"voxray_version", "commit", "config", "inputs"})
-        if (std::string text = firstDifference(first.at(key), second.at(key), key); !text.empty())
-            return text;
+        if (std::string text = firstDifference(first.at(key), second.at(key), key); !text.empty()) return text;
     return {};
 }
 
@@ -238,9 +235,9 @@ Sessions sessionsOf(const std::vector<VariantResult>& results) {
     return sessions;
 }
 
-std::string mergedManifest(Json first, const std::vector<ReferenceEntry>& references,
-                           const Sessions& sessions, const std::vector<std::string>& warnings,
-                           const std::vector<std::string>& notes, bool isWhole) {
+std::string mergedManifest(Json first, const std::vector<ReferenceEntry>& references, const Sessions& sessions,
+                           const std::vector<std::string>& warnings, const std::vector<std::string>& notes,
+                           bool isWhole) {
     const std::string finished = isWhole ? utcNow() : "";
     setOutcome(first, {finished, sessions, references, warnings, notes});
     return textOf(first);
@@ -256,7 +253,7 @@ std::string commitOf(const fs::path& sourceRoot) {
         };
         if (!fs::is_directory(git)) git = sourceRoot / firstLine(git).substr(8);
         const std::string head = firstLine(git / "HEAD");
-        if (head.rfind("ref: ", 0) != 0) return head;
+        if (!head.starts_with("ref: ")) return head;
         const std::string branch = head.substr(5);
         if (fs::exists(git / branch)) return firstLine(git / branch);
         std::istringstream packed(readTextFile(git / "packed-refs"));

@@ -11,7 +11,7 @@ namespace {
 
 constexpr uint32_t kFirstWarmupFrame = 1000000;
 
-/// Samples of one phase over its repeats.
+/// Timings of the passes of a phase over its repeats.
 class PhaseSamples {
  public:
     void add(const std::vector<PassSample>& run) {
@@ -49,8 +49,7 @@ PassSample timeOnHost(CommandStream& stream, const std::function<void()>& work) 
     stream.finish();
     PassSample sample;
     sample.work = stream.counts() - before;
-    sample.milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    sample.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return sample;
 }
 
@@ -60,9 +59,9 @@ Percentiles percentiles(std::vector<double> values) {
     if (values.empty()) return {};
     std::sort(values.begin(), values.end());
     const auto at = [&](double fraction) {
-        const double place = fraction * double(values.size() - 1);
-        const size_t below = size_t(place), above = std::min(below + 1, values.size() - 1);
-        return values[below] + (values[above] - values[below]) * (place - double(below));
+        const double position = fraction * double(values.size() - 1);
+        const size_t below = size_t(position), above = std::min(below + 1, values.size() - 1);
+        return values[below] + (values[above] - values[below]) * (position - double(below));
     };
     return {at(0.05), at(0.5), at(0.95)};
 }
@@ -85,8 +84,7 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
                          const std::function<void(double)>& progress,
                          const std::function<void(const Frame&, uint32_t)>& afterFrame) {
     const double runsOfFrame = target.goToFrame ? 2 : 1;
-    const double steps =
-        1 + settings.buildRepeats + runsOfFrame * (double(settings.warmup) + settings.frames);
+    const double steps = 1 + settings.buildRepeats + runsOfFrame * (double(settings.warmup) + settings.frames);
     double done = 0;
     Frame frame = target.frame;
     frame.progress = [&](double part) {
@@ -95,16 +93,16 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
     };
     const auto run = [&](Phase phase, uint32_t frameIndex, bool checkFinite) {
         if (interruptRequested()) throw Interrupted();
-        auto samples = graph.run(phase, frame, target.device, target.stream, target.tracer, target.scene,
-                                 frameIndex, checkFinite);
+        auto samples =
+            graph.run(phase, frame, target.device, target.stream, target.tracer, target.scene, frameIndex, checkFinite);
         if (interruptRequested()) throw Interrupted();
         progress(++done / steps);
         return samples;
     };
 
     Measurement result;
-    const auto keepValues = [&](Phase phase, std::optional<uint32_t> frameIndex,
-                                const std::vector<PassSample>& samples) {
+    const auto storeValues = [&](Phase phase, std::optional<uint32_t> frameIndex,
+                                 const std::vector<PassSample>& samples) {
         auto sample = samples.begin();
         for (const Graph::PassInfo& pass : graph.passes())
             if (pass.phase == phase)
@@ -112,12 +110,12 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
                     result.values.push_back({pass.id, v.name, frameIndex, v.value});
     };
 
-    // Build: once cold and checked, then timed; without repeats the cold run counts
+    // Build: a first run with checks, then timed ones. Without repeats the first run is timed
     PhaseSamples build, frames;
     std::vector<PassSample> last = run(Phase::Build, 0, true);
     if (settings.buildRepeats == 0) build.add(last);
     for (uint32_t i = 0; i < settings.buildRepeats; ++i) build.add(last = run(Phase::Build, 0, false));
-    keepValues(Phase::Build, std::nullopt, last);
+    storeValues(Phase::Build, std::nullopt, last);
 
     // Frames: the first measured one is compared
     const auto runFrame = [&](int fromCompared, uint32_t frameIndex, bool checkFinite) {
@@ -127,13 +125,13 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
         if (target.goToFrame) {
             samples.push_back(timeOnHost(target.stream, [&] { target.goToFrame(frame, fromCompared); }));
             const auto updates = run(Phase::Build, 0, checkFinite);
-            if (measured) keepValues(Phase::Build, frameIndex, updates);
+            if (measured) storeValues(Phase::Build, frameIndex, updates);
             samples.insert(samples.end(), updates.begin(), updates.end());
         }
         frame.camera.position += float(fromCompared) * frame.cameraMove;
-        const auto own = run(Phase::Frame, frameIndex, checkFinite);
-        if (measured) keepValues(Phase::Frame, frameIndex, own);
-        samples.insert(samples.end(), own.begin(), own.end());
+        const auto frameSamples = run(Phase::Frame, frameIndex, checkFinite);
+        if (measured) storeValues(Phase::Frame, frameIndex, frameSamples);
+        samples.insert(samples.end(), frameSamples.begin(), frameSamples.end());
         return samples;
     };
     for (uint32_t i = 0; i < settings.warmup; ++i)
@@ -143,7 +141,7 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
         afterFrame(frame, i);
     }
 
-    // Cost of each pass, in the graph's order; its memory stands in its first row
+    // Costs of each pass, in the graph's order. A pass with two costs has its memory in the first one
     const auto addCost = [&](PassCost cost, const std::string& id, Phase phase, const PassMemory& memory) {
         cost.id = id;
         cost.phase = phase;
@@ -162,8 +160,7 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
         for (const Graph::PassInfo& pass : passes) nextFrame += pass.phase == Phase::Build;
     for (size_t i = 0; i < passes.size(); ++i) {
         const bool isBuild = passes[i].phase == Phase::Build;
-        addCost(isBuild ? build.cost(nextBuild++) : frames.cost(nextFrame++), passes[i].id, passes[i].phase,
-                memory[i]);
+        addCost(isBuild ? build.cost(nextBuild++) : frames.cost(nextFrame++), passes[i].id, passes[i].phase, memory[i]);
         if (isBuild && target.goToFrame) addCost(frames.cost(nextUpdate++), passes[i].id, Phase::Frame, {});
     }
     result.peakBytes = peakBytes(memory);

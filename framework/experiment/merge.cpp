@@ -24,14 +24,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A results folder that is read.
+/// An input folder of the merge.
 struct Source {
     fs::path path;
     Json manifest;
     std::map<std::string, PartRecord> records;  ///< By the ids of parts.
 };
 
-/// @throws UsageError where a folder holds no results, or not those of the first one's experiment.
+/// @throws UsageError if a folder has no results, or results of another experiment than the first one.
 std::vector<Source> readSources(const std::vector<fs::path>& folders) {
     std::vector<Source> sources;
     for (const fs::path& path : folders) {
@@ -43,8 +43,7 @@ std::vector<Source> readSources(const std::vector<fs::path>& folders) {
         } catch (const Error& error) {
             throw UsageError("{}: {}", file.string(), error.what());
         }
-        const std::string what =
-            sources.empty() ? "" : manifestDifference(sources[0].manifest, source.manifest);
+        const std::string what = sources.empty() ? "" : manifestDifference(sources[0].manifest, source.manifest);
         if (!what.empty())
             throw UsageError("{} and {} can't be merged: {}", sources[0].path.string(), path.string(), what);
         sources.push_back(std::move(source));
@@ -57,13 +56,12 @@ bool isSameFolder(const fs::path& a, const fs::path& b) {
     return fs::equivalent(a, b, code);
 }
 
-/// Refuses a folder for the merged results that holds others.
+/// @throws UsageError if the output folder has results of another run.
 void checkTarget(const std::vector<Source>& sources, const fs::path& out) {
     const auto isOut = [&](const Source& source) { return isSameFolder(source.path, out); };
     if (fs::exists(out / "manifest.json") && std::ranges::none_of(sources, isOut))
-        throw UsageError(
-            "{}: holds results already: choose another --out, or name it among the folders to merge",
-            out.string());
+        throw UsageError("{}: holds results already: choose another --out, or name it among the folders to merge",
+                         out.string());
 }
 
 void copyImages(const fs::path& from, const ResultsFolder& target, const std::string& name) {
@@ -72,7 +70,7 @@ void copyImages(const fs::path& from, const ResultsFolder& target, const std::st
     });
 }
 
-/// Takes over the references that the target lacks, each under a name of its own.
+/// Copies the references that the target lacks, with unique names.
 void mergeReferences(const std::vector<Source>& sources, const ResultsFolder& target) {
     std::vector<ReferenceEntry> known = target.references();
     for (const Source& source : sources) {
@@ -88,15 +86,15 @@ void mergeReferences(const std::vector<Source>& sources, const ResultsFolder& ta
     }
 }
 
-/// A variant that is finished.
+/// A finished variant.
 struct Found {
     std::string name;
     const Source* from;
     VariantResult result;
 };
 
-/// In the experiment's order. @throws UsageError where two folders hold a variant, or its inputs aren't those
-/// of the experiment.
+/// Finds finished variants, in the experiment's order. @throws UsageError if two folders have the same
+/// variant, or if its inputs aren't those of the experiment.
 std::vector<Found> findVariants(const std::vector<Source>& sources, std::vector<std::string>& missing) {
     std::vector<Found> found;
     for (const auto& [name, keys] : sources[0].manifest["inputs"].items()) {
@@ -104,8 +102,8 @@ std::vector<Found> findVariants(const std::vector<Source>& sources, std::vector<
         for (const Source& source : sources) {
             if (!fs::exists(source.path / "images" / name / "result.json")) continue;
             if (from && !isSameFolder(from->path, source.path))
-                throw UsageError("{} and {} can't be merged: both hold '{}'", from->path.string(),
-                                 source.path.string(), name);
+                throw UsageError("{} and {} can't be merged: both hold '{}'", from->path.string(), source.path.string(),
+                                 name);
             from = &source;
         }
         if (!from) {
@@ -121,23 +119,22 @@ std::vector<Found> findVariants(const std::vector<Source>& sources, std::vector<
     return found;
 }
 
-/// A part that failed, and what it left.
+/// A part that failed, and its record.
 struct Failure {
     std::string part;
     const PartRecord* record;
 };
 
-/// Why a variant has no result: its own part failed, or else one of its reference.
-/// @param hash of its reference.
-std::optional<Failure> failureOf(const std::string& name, const std::string& hash,
-                                 const std::vector<Source>& sources) {
+/// The part whose failure is the reason that a variant has no result: its own or one of its reference.
+/// @param hash that of its reference.
+std::optional<Failure> failureOf(const std::string& name, const std::string& hash, const std::vector<Source>& sources) {
     const std::string whole = ReferenceParts::id(hash, {});
     const std::string reference = whole.substr(0, whole.rfind('.') + 1);
     std::optional<Failure> failure;
     for (const Source& source : sources) {
-        if (const auto own = source.records.find("variant." + name);
-            own != source.records.end() && !own->second.error.empty())
-            failure = {own->first, &own->second};
+        if (const auto variant = source.records.find("variant." + name);
+            variant != source.records.end() && !variant->second.error.empty())
+            failure = {variant->first, &variant->second};
         auto record = source.records.lower_bound(reference);
         for (; !failure && record != source.records.end() && record->first.starts_with(reference); ++record)
             if (!record->second.error.empty()) failure = {record->first, &record->second};
@@ -145,31 +142,31 @@ std::optional<Failure> failureOf(const std::string& name, const std::string& has
     return failure;
 }
 
-/// Rows of the missing variants that failed, which go out of `missing`; their records go into the target.
+/// Rows of missing variants that failed. Removes them from `missing`, and copies their records to the target.
 std::vector<VariantResult> failedRows(std::vector<std::string>& missing, const std::vector<Source>& sources,
                                       const Experiment& experiment, const ResultsFolder& target) {
     std::vector<VariantResult> rows;
     if (missing.empty()) return rows;
     std::map<std::string, std::vector<std::string>> sweepValues;
     for (SweepPoint& variant : expandSweep(experiment)) sweepValues[variant.name] = std::move(variant.values);
-    std::map<std::string, std::string> hashes;  // Of each variant's reference.
+    std::map<std::string, std::string> hashes;  // Hash of each variant's reference.
     for (const auto& [name, keys] : sources[0].manifest["inputs"].items())
         hashes[name] = keys.at("reference").get<std::string>();
     std::erase_if(missing, [&](const std::string& name) {
         const auto failure = failureOf(name, hashes.at(name), sources);
         if (!failure) return false;
-        const bool isOwn = failure->part.starts_with("variant.");
+        const bool isVariant = failure->part.starts_with("variant.");
         const PartRecord& record = *failure->record;
         VariantResult row;
         row.variant = name;
-        row.error = isOwn ? record.error : failure->part + ": " + record.error;
+        row.error = isVariant ? record.error : failure->part + ": " + record.error;
         row.sweepValues = sweepValues[name];
-        const auto orOf = [&](const std::string& text, const char* key) {
-            return isOwn ? text : sources[0].manifest.at(key).get<std::string>();
+        const auto recordedOr = [&](const std::string& text, const char* key) {
+            return isVariant ? text : sources[0].manifest.at(key).get<std::string>();
         };
-        row.device = orOf(record.device, "device");
-        row.tracer = orOf(record.tracer, "tracer");
-        row.session = orOf(record.session, "started");
+        row.device = recordedOr(record.device, "device");
+        row.tracer = recordedOr(record.tracer, "tracer");
+        row.session = recordedOr(record.session, "started");
         rows.push_back(std::move(row));
         PartRecords(target.path()).store(failure->part, record);
         return true;
@@ -177,14 +174,14 @@ std::vector<VariantResult> failedRows(std::vector<std::string>& missing, const s
     return rows;
 }
 
-/// Rows in the experiment's order.
+/// Sorts rows into the experiment's order.
 void sortRows(std::vector<VariantResult>& rows, const Json& inputs) {
-    std::map<std::string, size_t> places;
-    for (const auto& [name, keys] : inputs.items()) places.emplace(name, places.size());
-    std::ranges::sort(rows, {}, [&](const VariantResult& row) { return places.at(row.variant); });
+    std::map<std::string, size_t> indices;
+    for (const auto& [name, keys] : inputs.items()) indices.emplace(name, indices.size());
+    std::ranges::sort(rows, {}, [&](const VariantResult& row) { return indices.at(row.variant); });
 }
 
-/// Texts of a list of all manifests, each once.
+/// The union of a list of texts in all manifests.
 std::vector<std::string> textsOf(const std::vector<Source>& sources, const char* key) {
     std::vector<std::string> texts;
     for (const Source& source : sources)
@@ -193,7 +190,7 @@ std::vector<std::string> textsOf(const std::vector<Source>& sources, const char*
     return texts;
 }
 
-/// Warnings of all manifests and of all parts, each once.
+/// The union of the warnings of all manifests and parts.
 std::vector<std::string> warningsOf(const std::vector<Source>& sources) {
     std::vector<std::string> warnings = textsOf(sources, "warnings");
     std::set<std::string> known(warnings.begin(), warnings.end());
@@ -204,27 +201,24 @@ std::vector<std::string> warningsOf(const std::vector<Source>& sources) {
     return warnings;
 }
 
-/// What to say of variants that ran on different machines.
+/// A warning if variants ran on different devices.
 std::vector<std::string> differences(const std::vector<VariantResult>& rows) {
     std::set<std::string> devices;
     for (const VariantResult& row : rows) devices.insert(row.device + " with " + row.tracer);
     if (devices.size() < 2) return {};
-    return {fmt::format("the variants ran on {}: compare times within one of them alone",
-                        fmt::join(devices, ", "))};
+    return {fmt::format("the variants ran on {}: compare times within one of them alone", fmt::join(devices, ", "))};
 }
 
 }  // namespace
 
-RunSummary mergeResults(const std::vector<fs::path>& folders, const fs::path& out,
-                        const RunOptions& options) {
+RunSummary mergeResults(const std::vector<fs::path>& folders, const fs::path& out, const RunOptions& options) {
     std::vector<Source> sources = readSources(folders);
     checkTarget(sources, out);
-    const Experiment experiment =
-        readExperiment(parseYaml(sources[0].manifest.at("config").dump(), "manifest.json"));
+    const Experiment experiment = readExperiment(parseYaml(sources[0].manifest.at("config").dump(), "manifest.json"));
     std::vector<std::string> missing;
     std::vector<Found> found = findVariants(sources, missing);
 
-    // Nothing is written before all is known to fit
+    // Everything was checked: write
     const ResultsFolder target(out, experiment.setup.general.name, FolderUse::Resume,
                                options.resume ? ProcessLock::IfHeld::Wait : ProcessLock::IfHeld::Refuse);
     std::vector<VariantResult> rows;
@@ -252,8 +246,7 @@ RunSummary mergeResults(const std::vector<fs::path>& folders, const fs::path& ou
         fmt::print(stderr, "voxray: warning: {}\n", text);
         if (std::ranges::count(warnings, text) == 0) warnings.push_back(text);
     }
-    for (const std::string& name : missing)
-        fmt::print(stderr, "voxray: warning: there is no result of '{}'\n", name);
+    for (const std::string& name : missing) fmt::print(stderr, "voxray: warning: there is no result of '{}'\n", name);
     const std::vector<std::string> notes = textsOf(sources, "notes");
     target.writeText("manifest.json", mergedManifest(std::move(sources[0].manifest), target.references(),
                                                      sessionsOf(rows), warnings, notes, missing.empty()));

@@ -12,19 +12,18 @@
 namespace voxray {
 namespace {
 
-/// One line for the terminal: costs, then the two scores that come first in tables. Those of the indirect
-/// light, which methods differ in, stand before those of the whole image.
+/// A line for the terminal: costs, then the first two metrics. Scores of indirect light, in which methods
+/// differ, are before those of the whole image.
 std::string outcome(const VariantResult& r) {
     if (!r.ok) return fmt::format("{}: failed: {}", r.variant, r.error);
-    std::string line =
-        fmt::format("{}: build {:.1f} ms, frame {:.1f} ms", r.variant, r.buildMs, r.frameMs.median);
+    std::string line = fmt::format("{}: build {:.1f} ms, frame {:.1f} ms", r.variant, r.buildMs, r.frameMs.median);
     for (const Metric& metric : metrics().first(2)) {
         const auto total = r.scores.find(metric.name);
         if (total == r.scores.end()) continue;
         const auto indirect = r.scores.find(std::string(kLightPrefixes[1]) + metric.name);
-        line += indirect == r.scores.end() ? fmt::format(", {} {:.4g}", metric.label, total->second)
-                                           : fmt::format(", indirect {} {:.4g} (total {:.4g})", metric.label,
-                                                         indirect->second, total->second);
+        line += indirect == r.scores.end()
+                    ? fmt::format(", {} {:.4g}", metric.label, total->second)
+                    : fmt::format(", indirect {} {:.4g} (total {:.4g})", metric.label, indirect->second, total->second);
     }
     return line;
 }
@@ -33,19 +32,18 @@ std::string outcome(const VariantResult& r) {
 
 PartRunner::PartRunner(PreparedExperiment& prepared, const ResultsFolder& folder)
     : prepared_(prepared), folder_(folder), references_(folder.references()) {
-    prepared.session().takeParts(ReferenceParts(folder.path()));
+    prepared.session().setReferenceParts(ReferenceParts(folder.path()));
     const unsigned cores = std::thread::hardware_concurrency();
     if (prepared.options().untimed)
         warnings_.emplace_back(
             "variants ran next to other work on the same machine (--untimed): their times tell nothing");
     else if (workerThreads() < cores && !prepared.options().part.starts_with("reference."))
-        warnings_.push_back(
-            fmt::format("variants ran on {} of {} threads (--threads)", workerThreads(), cores));
+        warnings_.push_back(fmt::format("variants ran on {} of {} threads (--threads)", workerThreads(), cores));
 }
 
 std::string PartRunner::referenceFolder(const std::string& hash) const {
-    // Those that are there keep their names; the others get theirs in the order of the variants, so that
-    // parts in other processes call them the same
+    // Existing references keep their names; new ones get names in the order of variants, so that parts in
+    // other processes use the same names
     std::map<std::string, std::string> folders;  // By hash.
     std::set<std::string> taken;
     for (const ReferenceEntry& reference : references_) {
@@ -64,8 +62,7 @@ std::string PartRunner::referenceFolder(const std::string& hash) const {
 
 bool PartRunner::hasReferenceImages(const Variant& variant) const {
     const std::string& hash = variant.referenceHash;
-    return hash.empty() ||
-           std::ranges::any_of(references_, [&](const ReferenceEntry& r) { return r.hash == hash; });
+    return hash.empty() || std::ranges::any_of(references_, [&](const ReferenceEntry& r) { return r.hash == hash; });
 }
 
 void PartRunner::dropReferences() {
@@ -80,8 +77,8 @@ const PreparedReference* PartRunner::referenceOf(const Variant& variant, Progres
 
     Session& session = prepared_.session();
     std::vector<PixelSelection> masks = session.selectPixels(prepared_.study(), variant.setup, 0);
-    const ReferenceImages& images = session.reference(prepared_.study(), variant.setup,
-                                                      [&](double fraction) { progress.update(fraction); });
+    const ReferenceImages& images =
+        session.reference(prepared_.study(), variant.setup, [&](double fraction) { progress.update(fraction); });
 
     const std::vector<float>& radiance = images.final.mean.data;
     if (std::ranges::all_of(radiance, [](float value) { return value == 0; }))
@@ -97,7 +94,7 @@ const PreparedReference* PartRunner::referenceOf(const Variant& variant, Progres
 void PartRunner::writeReference(const Variant& variant, Progress& progress) {
     const bool isKnown = reference_ && reference_->images.hash == variant.referenceHash;
     if (!isKnown || hasReferenceImages(variant)) return;
-    references_ = folder_.references();  // Another process may have been faster.
+    references_ = folder_.references();  // Another process may have written it.
     if (hasReferenceImages(variant)) return;
     const ReferenceRecord& record = reference_->record;
     const float stops = variant.setup.image.exposureStops;
@@ -131,8 +128,7 @@ bool PartRunner::runVariant(Variant& variant, Progress& progress) {
         reference = referenceOf(variant, progress);
     });
 
-    // What can't be written ends the run; what was written stays. The reference comes first, to be looked at
-    // while variants render
+    // An error of writing aborts the run. The reference is written first, so that users can view it early
     if (!interruptRequested()) writeReference(variant, progress);
     VariantImages images;
     if (failure.empty())
@@ -169,13 +165,13 @@ VariantImages PartRunner::render(Variant& variant, const PreparedReference* refe
     Session& session = prepared_.session();
     const auto update = [&](double fraction) { progress.update(fraction); };
     std::function<FrameReference(uint32_t)> referenceOfFrame;
-    if (!standsStill(variant.setup.scene))
+    if (!isStatic(variant.setup.scene))
         referenceOfFrame = [&](uint32_t number) {
             return FrameReference{session.frameReference(prepared_.study(), variant.setup, number, update),
                                   session.selectPixels(prepared_.study(), variant.setup, number)};
         };
-    return renderVariant(variant, prepared_.study(), session, reference, referenceOfFrame,
-                         prepared_.options().aovs, update);
+    return renderVariant(variant, prepared_.study(), session, reference, referenceOfFrame, prepared_.options().aovs,
+                         update);
 }
 
 void PartRunner::runReference(const Part& part, Progress& progress) {
@@ -183,9 +179,8 @@ void PartRunner::runReference(const Part& part, Progress& progress) {
     const Variant& variant = prepared_.variants()[part.variant];
     RenderedPart rendered;
     try {
-        rendered =
-            prepared_.session().referencePart(prepared_.study(), variant.setup, part.frame, part.samples,
-                                              [&](double fraction) { progress.update(fraction); });
+        rendered = prepared_.session().referencePart(prepared_.study(), variant.setup, part.frame, part.samples,
+                                                     [&](double fraction) { progress.update(fraction); });
     } catch (const Error&) {
         prepared_.session().stream().discard();
         if (interruptRequested()) throw Interrupted();
@@ -208,8 +203,7 @@ void PartRunner::printWarnings(Progress& progress) {
 
 size_t PartRunner::printValidationMessages(Progress& progress) {
     const std::vector<std::string> messages = prepared_.session().device().validationMessages();
-    for (; messages_ < messages.size(); ++messages_)
-        progress.warn("Vulkan validation: " + messages[messages_]);
+    for (; messages_ < messages.size(); ++messages_) progress.warn("Vulkan validation: " + messages[messages_]);
     return messages_;
 }
 

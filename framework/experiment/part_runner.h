@@ -13,33 +13,31 @@
 
 namespace voxray {
 
-/// Renders parts of an experiment into a results folder, one after the other: all of them in a run.
+/// Renders parts of an experiment into a results folder, one after another.
 class PartRunner {
  public:
     /// Both must outlive this object.
     PartRunner(PreparedExperiment& prepared, const ResultsFolder& folder);
 
-    /// Renders, measures and scores a variant and writes its images with its result, whole, and those of its
-    /// reference where they aren't there. What throws is a failed result that is not written.
-    /// @return false where it was interrupted, and has no result. @throws Error where the folder can't be
-    /// written.
+    /// Renders, measures and scores a variant and writes its images and its result atomically, and those of
+    /// its reference unless they exist. Errors of the variant become a failed result, which is not written.
+    /// @return false if it was interrupted and has no result. @throws Error if the folder can't be written.
     bool runVariant(Variant& variant, Progress& progress);
 
-    /// Renders a part of a reference and writes its sums. @throws Error, Interrupted.
+    /// Renders a part of a reference and writes its sums of samples. @throws Error, Interrupted.
     void runReference(const Part& part, Progress& progress);
 
     /// Whether the images of a variant's reference are in the folder, or it has none.
     bool hasReferenceImages(const Variant& variant) const;
-    /// Removes the references in the folder: of an older run of which nothing is kept, and whose masks may
-    /// have been others.
+    /// Removes all references in the folder, e.g. those of an older run with other masks.
     void dropReferences();
     /// The references whose images are in the folder.
     const std::vector<ReferenceEntry>& references() const { return references_; }
-    /// The experiment's and those that came up here.
+    /// Warnings of the experiment and of its parts so far.
     std::vector<std::string> warnings() const;
     /// Prints warnings that it has not printed yet.
     void printWarnings(Progress& progress);
-    /// Prints messages of the Vulkan validation layer. @return how many there are by now.
+    /// Prints new messages of the Vulkan validation layer. @return the number of all messages so far.
     size_t printValidationMessages(Progress& progress);
 
  private:
@@ -51,10 +49,10 @@ class PartRunner {
     PreparedExperiment& prepared_;
     const ResultsFolder& folder_;
     std::vector<ReferenceEntry> references_;
-    std::optional<PreparedReference> reference_;  ///< The last one.
-    std::vector<std::string> warnings_;           ///< More than the experiment's.
-    std::set<std::string> printed_;               ///< Of the warnings.
-    size_t messages_ = 0;                         ///< Of the validation layer, printed.
+    std::optional<PreparedReference> reference_;  ///< That of the last variant.
+    std::vector<std::string> warnings_;           ///< In addition to those of the experiment.
+    std::set<std::string> printed_;               ///< Warnings that were printed.
+    size_t messages_ = 0;                         ///< Number of validation messages that were printed.
 };
 
 }  // namespace voxray

@@ -19,12 +19,12 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kMerge = "merge";
 
-/// The measured frames that have a reference of their own.
+/// The measured frames that need different references.
 std::vector<uint32_t> referenceFrames(const PreparedExperiment& prepared, const Setup& setup) {
     if (prepared.experiment().reference.isNull()) return {};
     const MeasureSettings& measure = prepared.experiment().measure;
     std::vector<uint32_t> frames{0};
-    if (measure.compareEvery > 0 && !standsStill(setup.scene))
+    if (measure.compareEvery > 0 && !isStatic(setup.scene))
         for (uint32_t i = 1; i < comparedFrames(measure); ++i) frames.push_back(i * measure.compareEvery);
     return frames;
 }
@@ -35,7 +35,7 @@ std::vector<std::string> idsOf(const std::string& hash, uint32_t parts) {
     return ids;
 }
 
-/// How many parts a reference has that the id names a part of; 1 for other ids.
+/// Total number of parts in the id of a reference's part; 1 for other ids.
 uint32_t partsIn(const std::string& id) {
     const size_t at = id.rfind('-');
     uint32_t parts = 1;
@@ -44,7 +44,13 @@ uint32_t partsIn(const std::string& id) {
     return std::max(parts, 1u);
 }
 
-/// What a part takes.
+/// Samples per pixel of the reference, which is the limit of its parts; 1 if there is no reference.
+uint32_t referenceSamples(const PreparedExperiment& prepared) {
+    const Value* spp = prepared.manifest().referencePass.find("spp");
+    return spp ? uint32_t(spp->asInteger("reference.spp")) : 1;
+}
+
+/// Estimated memory and cost of a part.
 struct PartNeed {
     uint64_t bytes = 0;
     uint64_t cost = 0;
@@ -59,14 +65,12 @@ PartNeed partNeedOf(const Part& part, PreparedExperiment& prepared, Forecaster& 
         // Total and indirect light of two halves, in double
         const uint64_t pixels = uint64_t(variant.setup.image.width) * variant.setup.image.height;
         const uint64_t spp = referenceSamples(prepared);
-        return {pixels * 4 * 3 * sizeof(double),
-                pixels * (part.samples.end(spp) - part.samples.first(spp)),
-                "paths",
-                {}};
+        return {
+            pixels * 4 * 3 * sizeof(double), pixels * (part.samples.end(spp) - part.samples.first(spp)), "paths", {}};
     }
-    const Forecast own = forecaster.forecast(variant);
-    return {peakBytes(own.memory) + estimatedBytes(own.memory) + own.sceneBytes,
-            graphRuns(prepared.experiment()), "runs of the graph", own.error};
+    const Forecast forecast = forecaster.forecast(variant);
+    return {peakBytes(forecast.memory) + estimatedBytes(forecast.memory) + forecast.sceneBytes,
+            graphRuns(prepared.experiment()), "runs of the graph", forecast.error};
 }
 
 const char* nameOf(Part::Kind kind) {
@@ -84,15 +88,15 @@ Json jobJson(const Part& part, const PartNeed& need) {
 }
 
 std::string jobLine(const Part& part, const PartNeed& need) {
-    std::vector<std::string> said;
+    std::vector<std::string> details;
     if (!need.error.empty())
-        said.push_back("would fail: " + need.error);
+        details.push_back("would fail: " + need.error);
     else if (part.kind != Part::Kind::Merge)
-        said.push_back(fmt::format("{:.1f} MiB, {} {}", double(need.bytes) / kMiB, need.cost, need.unit));
-    if (part.after.size() == 1) said.push_back("after " + part.after[0]);
+        details.push_back(fmt::format("{:.1f} MiB, {} {}", double(need.bytes) / kMiB, need.cost, need.unit));
+    if (part.after.size() == 1) details.push_back("after " + part.after[0]);
     if (part.after.size() > 1)
-        said.push_back(fmt::format("after {} and {} more", part.after[0], part.after.size() - 1));
-    return fmt::format("{}: {}\n", part.id, fmt::join(said, "; "));
+        details.push_back(fmt::format("after {} and {} more", part.after[0], part.after.size() - 1));
+    return fmt::format("{}: {}\n", part.id, fmt::join(details, "; "));
 }
 
 void print(const Forecast& forecast) {
@@ -100,72 +104,63 @@ void print(const Forecast& forecast) {
         fmt::print("  would fail: {}\n", forecast.error);
         return;
     }
-    uint64_t kept = 0;
+    uint64_t persistent = 0;
     for (size_t i = 0; i < forecast.passes.size(); ++i) {
         const PassMemory& memory = forecast.memory[i];
         fmt::print("  {:24} {:6} {:10.1f} MiB", forecast.passes[i].id,
                    forecast.passes[i].phase == Phase::Build ? "build" : "frame", double(memory.bytes) / kMiB);
-        if (memory.scratchBytes > 0)
-            fmt::print(" and {:.1f} MiB of scratch", double(memory.scratchBytes) / kMiB);
+        if (memory.scratchBytes > 0) fmt::print(" and {:.1f} MiB of scratch", double(memory.scratchBytes) / kMiB);
         if (memory.estimatedBytes > 0)
             fmt::print(", about {:.1f} MiB more by the scene's size", double(memory.estimatedBytes) / kMiB);
         fmt::print("\n");
-        kept += memory.bytes + memory.estimatedBytes;
+        persistent += memory.bytes + memory.estimatedBytes;
     }
-    fmt::print("  {:24} {:6} {:10.1f} MiB, {:.1f} MiB with the largest scratch; the scene {:.1f} MiB\n",
-               "sum", "", double(kept) / kMiB,
-               double(peakBytes(forecast.memory) + estimatedBytes(forecast.memory)) / kMiB,
+    fmt::print("  {:24} {:6} {:10.1f} MiB, {:.1f} MiB with the largest scratch; the scene {:.1f} MiB\n", "sum", "",
+               double(persistent) / kMiB, double(peakBytes(forecast.memory) + estimatedBytes(forecast.memory)) / kMiB,
                double(forecast.sceneBytes) / kMiB);
 }
 
 }  // namespace
 
-uint32_t referenceSamples(const PreparedExperiment& prepared) {
-    const Value* spp = prepared.manifest().referencePass.find("spp");
-    return spp ? uint32_t(spp->asInteger("reference.spp")) : 1;
-}
-
 std::vector<Part> partsOf(PreparedExperiment& prepared, uint32_t referenceParts) {
     if (!prepared.experiment().reference.isNull() && referenceParts > referenceSamples(prepared))
         throw UsageError(prepared.experiment().reference.where,
-                         "reference.spp: {} samples a pixel can't be divided into {} parts",
-                         referenceSamples(prepared), referenceParts);
+                         "reference.spp: {} samples a pixel can't be divided into {} parts", referenceSamples(prepared),
+                         referenceParts);
     std::vector<Part> references, variants;
     Part merge;
     std::set<std::string> listed;
-    const auto& wired = prepared.variants();
-    for (size_t v = 0; v < wired.size(); ++v) {
+    const auto& all = prepared.variants();
+    for (size_t v = 0; v < all.size(); ++v) {
         Part variant;
         variant.kind = Part::Kind::Variant;
-        variant.id = "variant." + wired[v].name;
-        variant.writes = "images/" + wired[v].name + "/result.json";
+        variant.id = "variant." + all[v].name;
+        variant.writes = "images/" + all[v].name + "/result.json";
         variant.variant = v;
-        for (const uint32_t frame : referenceFrames(prepared, wired[v].setup)) {
-            const std::string hash =
-                prepared.session().referenceHashOf(prepared.study(), wired[v].setup, frame);
+        for (const uint32_t frame : referenceFrames(prepared, all[v].setup)) {
+            const std::string hash = prepared.session().referenceHashOf(prepared.study(), all[v].setup, frame);
             const std::vector<std::string> ids = idsOf(hash, referenceParts);
             variant.after.insert(variant.after.end(), ids.begin(), ids.end());
             if (!listed.insert(hash).second) continue;
             for (uint32_t i = 0; i < referenceParts; ++i)
-                references.push_back(
-                    {Part::Kind::Reference,
-                     ids[i],
-                     {},
-                     std::string(ReferenceParts::kFolder) + "/" + ids[i] + ReferenceParts::kEnding,
-                     v,
-                     hash,
-                     frame,
-                     {i, referenceParts}});
+                references.push_back({Part::Kind::Reference,
+                                      ids[i],
+                                      {},
+                                      std::string(ReferenceParts::kFolder) + "/" + ids[i] + ReferenceParts::kEnding,
+                                      v,
+                                      hash,
+                                      frame,
+                                      {i, referenceParts}});
         }
         merge.after.push_back(variant.id);
         variants.push_back(std::move(variant));
     }
     merge.id = kMerge;
     merge.writes = "results.csv";
-    std::vector<Part> all = std::move(references);
-    all.insert(all.end(), variants.begin(), variants.end());
-    all.push_back(std::move(merge));
-    return all;
+    std::vector<Part> parts = std::move(references);
+    parts.insert(parts.end(), variants.begin(), variants.end());
+    parts.push_back(std::move(merge));
+    return parts;
 }
 
 Part partNamed(PreparedExperiment& prepared, const std::string& id) {
@@ -175,9 +170,8 @@ Part partNamed(PreparedExperiment& prepared, const std::string& id) {
         ids.push_back(part.id);
     }
     const std::string near = nearest(id, ids);
-    throw UsageError(
-        "--part: this experiment has no part '{}'{}", id,
-        near.empty() ? "; './voxray jobs' lists them" : fmt::format("; did you mean '{}'?", near));
+    throw UsageError("--part: this experiment has no part '{}'{}", id,
+                     near.empty() ? "; './voxray jobs' lists them" : fmt::format("; did you mean '{}'?", near));
 }
 
 std::vector<std::string> missingBefore(const Part& part, PreparedExperiment& prepared) {
@@ -200,33 +194,32 @@ Forecast Forecaster::forecast(Variant& variant) {
         sceneKey_ = std::move(key);
     }
     const Frame frame = frameOf(variant.setup, scene_, variant.setup.general.seed);
-    Forecast own;
+    Forecast forecast;
     try {
-        own.memory = session.plan(variant.graph, frame, prepared_.experiment().measure.memoryLimitMb);
-        own.passes = variant.graph.passes();
-        own.sceneBytes = sceneBytes_;
+        forecast.memory = session.plan(variant.graph, frame, prepared_.experiment().measure.memoryLimitMb);
+        forecast.passes = variant.graph.passes();
+        forecast.sceneBytes = sceneBytes_;
     } catch (const Error& error) {
-        own.error = error.what();
+        forecast.error = error.what();
     }
-    return own;
+    return forecast;
 }
 
 size_t printForecasts(PreparedExperiment& prepared) {
     const size_t count = prepared.variants().size();
-    fmt::print("{}: {} variant{} on {}\n", prepared.experiment().setup.general.name, count,
-               count == 1 ? "" : "s", prepared.session().device().info().name);
+    fmt::print("{}: {} variant{} on {}\n", prepared.experiment().setup.general.name, count, count == 1 ? "" : "s",
+               prepared.session().device().info().name);
     size_t failed = 0;
     Forecaster forecaster(prepared);
     for (Variant& variant : prepared.variants()) {
         if (interruptRequested()) throw Interrupted();
         fmt::print("{} (tracer {}, {} x {})\n", variant.name, prepared.session().tracerName(variant.setup),
                    variant.setup.image.width, variant.setup.image.height);
-        const Forecast own = forecaster.forecast(variant);
-        print(own);
-        failed += own.error.empty() ? 0 : 1;
+        const Forecast forecast = forecaster.forecast(variant);
+        print(forecast);
+        failed += forecast.error.empty() ? 0 : 1;
     }
-    fmt::print(
-        "What passes count on the device (voxels, surfels ...) is estimated, or counted while they run.\n");
+    fmt::print("What passes count on the device (voxels, surfels ...) is estimated, or counted while they run.\n");
     return failed;
 }
 

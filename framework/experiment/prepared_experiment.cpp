@@ -18,12 +18,11 @@
 namespace voxray {
 namespace {
 
-// --tracer overrides the config.
+/// Replaces the config's tracer by that of --tracer.
 void applyTracerOption(Study& study, const std::string& name) {
     if (name.empty()) return;
     Experiment& experiment = study.experiment;
-    if (experiment.sweep.find("tracer"))
-        throw UsageError("--tracer {}: this config sweeps over the tracer", name);
+    if (experiment.sweep.find("tracer")) throw UsageError("--tracer {}: this config sweeps over the tracer", name);
     Value value = Value::map();
     value.set("tracer", Value::fromScalar(name));
     value.find("tracer")->where = {"--tracer", 0};
@@ -34,119 +33,120 @@ void applyTracerOption(Study& study, const std::string& name) {
 
 /// Whether no pass of the experiment needs Vulkan.
 bool runsOnHost(const Study& study) {
-    const auto doesWithout = [&](const Graph& graph) {
-        return std::ranges::none_of(graph.passes(), [&](const Graph::PassInfo& pass) {
-            return study.registry->find(pass.kind)->needsDevice;
-        });
+    const auto needsNoDevice = [&](const Graph& graph) {
+        return std::ranges::none_of(
+            graph.passes(), [&](const Graph::PassInfo& pass) { return study.registry->find(pass.kind)->needsDevice; });
     };
-    return std::ranges::all_of(study.variants, doesWithout, &Variant::graph) &&
-           (study.reference.isNull() || doesWithout(study.referenceGraph()));
+    return std::ranges::all_of(study.variants, needsNoDevice, &Variant::graph) &&
+           (study.reference.isNull() || needsNoDevice(study.referenceGraph()));
 }
 
-/// No limit of memory.
-constexpr uint64_t kAnySize = std::numeric_limits<uint64_t>::max();
+constexpr uint64_t kNoMemoryLimit = std::numeric_limits<uint64_t>::max();
 
-/// The reference's graph, planned once for variants in a row that share scene and size of the image.
+/// Plans the reference's graph, once for consecutive variants with the same scene and image size.
 class ReferencePlan {
  public:
     ReferencePlan(const Study& study, const DeviceInfo& device) : study_(study), device_(device) {}
 
-    /// @param scene the key of the frame's scene. @throws Error for what the reference refuses.
-    const Graph& in(const Frame& frame, const std::string& scene) {
-        const Place place{scene, frame.width, frame.height};
-        if (graph_ && place == place_) return *graph_;
+    /// @param scene key of the frame's scene. @throws Error for parameters that the reference rejects.
+    const Graph& graphFor(const Frame& frame, const std::string& scene) {
+        const Key key{scene, frame.width, frame.height};
+        if (graph_ && key == key_) return *graph_;
         graph_.reset();
         Graph graph = study_.referenceGraph();
-        graph.plan(frame, device_, kAnySize);
-        place_ = place;
+        graph.plan(frame, device_, kNoMemoryLimit);
+        key_ = key;
         return graph_.emplace(std::move(graph));
     }
 
  private:
-    using Place = std::tuple<std::string, uint32_t, uint32_t>;
+    using Key = std::tuple<std::string, uint32_t, uint32_t>;
     const Study& study_;
     const DeviceInfo& device_;
     std::optional<Graph> graph_;
-    Place place_;
+    Key key_;
 };
 
-/// Diagnostics of variants. Equal ones are reported once, with the name of the first variant.
-class Notices {
+/// Collects diagnostics of variants. Equal ones are reported once, with the name of the first variant.
+class VariantWarnings {
  public:
     void add(const Diagnostics& found, const Variant& variant) {
         for (const Diagnostic& diagnostic : found) variants_[diagnostic.str()].push_back(variant.name);
     }
     void appendTo(std::vector<std::string>& lines) const {
         for (const auto& [text, names] : variants_)
-            lines.push_back(names.size() == 1
-                                ? fmt::format("{} ({})", text, names[0])
-                                : fmt::format("{} ({} and {} more)", text, names[0], names.size() - 1));
+            lines.push_back(names.size() == 1 ? fmt::format("{} ({})", text, names[0])
+                                              : fmt::format("{} ({} and {} more)", text, names[0], names.size() - 1));
     }
 
  private:
     std::map<std::string, std::vector<std::string>> variants_;  ///< Names by message.
 };
 
-/// Plans and checks variants one after another. Consecutive variants usually share a scene, which is prepared
+/// Plans and checks variants one after another. Consecutive ones usually share a scene, which is prepared
 /// once.
 class Planner {
  public:
     Planner(Study& study, SceneLoader& loader, ViewChecks& views, const DeviceInfo& device)
-        : motion(study.experiment.measure),
+        : unusedMotion(study.experiment.measure),
           study_(study),
           loader_(loader),
           views_(views),
           device_(device),
           reference_(study, device) {}
 
-    /// @param keepsMemory whether the prediction is kept in the variant.
-    void plan(Variant& variant, bool keepsMemory) {
+    /// @param storesMemory whether Variant::memory is set.
+    void plan(Variant& variant, bool storesMemory) {
         if (variant.sceneKey.empty()) variant.sceneKey = loader_.key(variant.setup.scene);
-        const PreparedScene& scene = loader_.prepareOnce(variant.setup.scene, variant.sceneKey);
+        const PreparedScene& scene = loader_.prepareCached(variant.setup.scene, variant.sceneKey);
         const bool isNewScene = variant.sceneKey != key_;
-        if (isNewScene) enter(variant, scene);
+        if (isNewScene) checkScene(variant, scene);
         selectPixels(variant, scene);
-        motion.look(variant, *scene.state.scene);
+        unusedMotion.add(variant, *scene.state.scene);
         try {
             const Frame frame = frameOf(variant.setup, scene, variant.setup.general.seed);
-            std::vector<PassMemory> memory = variant.graph.plan(frame, device_, kAnySize);
-            if (keepsMemory) variant.memory = std::move(memory);
+            std::vector<PassMemory> memory = variant.graph.plan(frame, device_, kNoMemoryLimit);
+            if (storesMemory) variant.memory = std::move(memory);
             const bool hasReference = !study_.reference.isNull();
-            const PlannedVariant planned{
-                study_,  variant,     scene,  isNewScene,
-                loader_, *lightRays_, metal_, hasReference ? &reference_.in(frame, key_) : nullptr};
+            const PlannedVariant planned{study_,
+                                         variant,
+                                         scene,
+                                         isNewScene,
+                                         loader_,
+                                         *lightRays_,
+                                         metallicFraction_,
+                                         hasReference ? &reference_.graphFor(frame, key_) : nullptr};
             Diagnostics found;
             for (const Check<PlannedVariant> check : kVariantChecks) check(planned, found);
-            notices.add(found, variant);
+            warnings.add(found, variant);
         } catch (const Error& error) {
             throw UsageError("{}{}", error.what(),
                              study_.variants.size() > 1 ? fmt::format(" (variant {})", variant.name) : "");
         }
     }
 
-    Notices notices;
-    UnusedMotion motion;
+    VariantWarnings warnings;
+    UnusedMotion unusedMotion;
 
  private:
-    void enter(const Variant& variant, const PreparedScene& scene) {
+    void checkScene(const Variant& variant, const PreparedScene& scene) {
         key_ = variant.sceneKey;
         lightRays_.emplace(scene.state);
         checkMaskNames(study_.experiment.measure.masks, *scene.state.scene);
         const ViewCheck& view = views_.of(variant.setup, key_, scene);
-        metal_ = view.metal;
-        notices.add(view.found, variant);
+        metallicFraction_ = view.metallicFraction;
+        warnings.add(view.found, variant);
     }
 
-    /// Of each scene and size of the image, once.
+    /// Evaluates the masks once for each scene and image size.
     void selectPixels(const Variant& variant, const PreparedScene& scene) {
         const std::vector<MaskSettings>& masks = study_.experiment.measure.masks;
         if (masks.empty() || study_.reference.isNull()) return;
         const ImageSettings& image = variant.setup.image;
         const auto [selections, isNew] = study_.masks.try_emplace(maskKey(key_, image));
         if (!isNew) return;
-        selections->second =
-            voxray::selectPixels(masks, scene.state, scene.camera, image.width, image.height);
-        notices.add(maskWarnings(masks, selections->second, scene.state), variant);
+        selections->second = voxray::selectPixels(masks, scene.state, scene.camera, image.width, image.height);
+        warnings.add(maskWarnings(masks, selections->second, scene.state), variant);
     }
 
     Study& study_;
@@ -154,9 +154,10 @@ class Planner {
     ViewChecks& views_;
     const DeviceInfo& device_;
     ReferencePlan reference_;
-    std::string key_;  ///< Of the last scene, likewise what follows.
+    // State of the last scene
+    std::string key_;
     std::optional<LightRays> lightRays_;
-    double metal_ = 0;
+    double metallicFraction_ = 0;
 };
 
 }  // namespace
@@ -169,13 +170,13 @@ void planVariants(Study& study, SceneLoader& loader, ViewChecks& views, const De
         if (interruptRequested()) throw Interrupted();
         planner.plan(variant, !only);
     }
-    if (!only) planner.motion.refuse();
+    if (!only) planner.unusedMotion.refuse();
 
     study.warnings = study.experiment.warnings;
     Diagnostics found;
     for (const Check<Study> check : kStudyChecks) check(study, found);
     for (const Diagnostic& diagnostic : found) study.warnings.push_back(diagnostic.str());
-    planner.notices.appendTo(study.warnings);
+    planner.warnings.appendTo(study.warnings);
 }
 
 PreparedExperiment::PreparedExperiment(Study study, const RunOptions& options)
@@ -184,12 +185,12 @@ PreparedExperiment::PreparedExperiment(Study study, const RunOptions& options)
     DeviceOptions device;
     device.name = options_.deviceName;
     device.validation = options_.validation;
-    device.isHost = device.name.empty() && !device.validation && runsOnHost(study_) &&
-                    !whyNoDevice(listDevices()).empty();
+    device.isHost =
+        device.name.empty() && !device.validation && runsOnHost(study_) && !whyNoDevice(listDevices()).empty();
     session_.emplace(device, options_.sourceRoot,
                      sceneFolders(options_.scenes, options_.sourceRoot, study_.experiment.file));
 
-    // Every scene, its parameters and files, before anything is rendered
+    // Checks every scene with its parameters and files before anything is rendered
     for (Variant& variant : study_.variants) {
         variant.sceneKey = session_->loader().key(variant.setup.scene);
         variant.referenceHash = session_->referenceHashOf(study_, variant.setup);
@@ -197,10 +198,10 @@ PreparedExperiment::PreparedExperiment(Study study, const RunOptions& options)
     }
     recordInputs();
     ViewChecks views(options_.preview);
-    planVariants(study_, session_->loader(), views, session_->device().info(), ownVariant());
+    planVariants(study_, session_->loader(), views, session_->device().info(), selectedVariant());
 }
 
-std::optional<size_t> PreparedExperiment::ownVariant() {
+std::optional<size_t> PreparedExperiment::selectedVariant() {
     if (options_.part.empty()) return std::nullopt;
     const Part part = partNamed(*this, options_.part);
     if (part.kind == Part::Kind::Merge) return std::nullopt;
@@ -209,14 +210,14 @@ std::optional<size_t> PreparedExperiment::ownVariant() {
 
 void PreparedExperiment::recordInputs() {
     manifest_.study = &study_;
-    std::vector<std::string> leftOut;
-    for (const auto& [id, count] : variantsWithout(study_))
-        if (runsSomewhere(study_, id)) leftOut.push_back(fmt::format("'{}' in {}", id, count));
-    if (!leftOut.empty())
+    std::vector<std::string> culledIds;
+    for (const auto& [id, count] : cullCounts(study_))
+        if (runsSomewhere(study_, id)) culledIds.push_back(fmt::format("'{}' in {}", id, count));
+    if (!culledIds.empty())
         manifest_.notes.push_back(
             fmt::format("passes without a use are left out: {} of {} variants: "
                         "no image that is compared depends on them there",
-                        fmt::join(leftOut, ", "), study_.variants.size()));
+                        fmt::join(culledIds, ", "), study_.variants.size()));
     if (!study_.reference.isNull()) manifest_.referencePass = study_.reference.items[0];
     manifest_.device = session_->device().info();
     manifest_.requestedDevice = options_.deviceName;

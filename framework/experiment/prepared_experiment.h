@@ -10,18 +10,18 @@
 
 namespace voxray {
 
-/// Prepares the scene of every variant, plans its graph and the reference's there and does all checks
-/// (checks/checks.h), so that mistakes show before anything is rendered. How much memory the device has does
-/// not count. Fills in Study::warnings and masks, Variant::sceneKey and memory.
-/// @param only the index of the variant to look at alone; what can be said of all variants together is left
-/// out, and no memory is filled in.
-/// @throws UsageError with file and line: for a scene as SceneLoader::prepare(); for what a pass refuses;
-/// where all variants are over the limit of memory; for settings of the scene without effect in all variants
-/// that have them.
+/// Prepares the scene of each variant, plans its graph and the reference's on it and does all checks
+/// (checks/checks.h), so that mistakes are reported before anything is rendered. The memory of the device is
+/// not checked. Sets Study::warnings and masks, Variant::sceneKey and memory.
+/// @param only index of a single variant to plan; checks of all variants together are skipped, and no memory
+/// is set.
+/// @throws UsageError with file and line: for a scene as SceneLoader::prepare(); for parameters that a pass
+/// rejects; if all variants exceed the config's limit of memory; for settings of the scene that have no
+/// effect in any variant.
 void planVariants(Study& study, SceneLoader& loader, ViewChecks& views, const DeviceInfo& device,
                   std::optional<size_t> only = std::nullopt);
 
-/// An experiment on a device, checked, before anything is rendered: where a run and each of its parts begin.
+/// An experiment that was planned and checked on a device: the input of a run and of each of its parts.
 class PreparedExperiment {
  public:
     /// @throws UsageError as runExperiment(), Interrupted.
@@ -36,18 +36,19 @@ class PreparedExperiment {
     const RunOptions& options() const { return options_; }
     Session& session() { return *session_; }
 
-    /// What is to be recorded, as far as it is known before anything is rendered. No warnings: they grow.
+    /// Data of the manifest that is known before anything is rendered, without warnings.
     const ManifestData& manifest() const { return manifest_; }
-    /// What may make a result misleading, the session's so far among it.
+    /// All warnings so far, including those of the session.
     std::vector<std::string> warnings() const;
 
-    /// What a variant's result depends on.
+    /// All inputs that a variant's result depends on.
     VariantInputs inputsOf(const Variant& variant);
 
  private:
+    /// Sets manifest_.
     void recordInputs();
-    /// The variant of the part that the options name; none where all variants are needed.
-    std::optional<size_t> ownVariant();
+    /// The variant of the part that the options name; nullopt if all variants are needed.
+    std::optional<size_t> selectedVariant();
 
     Study study_;
     const RunOptions& options_;

@@ -18,12 +18,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Raise it when the reference's meaning changes: older caches are then left alone.
+/// Part of the hash. It must be increased whenever references change, so that older caches are not used.
 constexpr int kReferenceVersion = 2;
 
-/// One light of one half of the samples.
+/// Access to total or indirect light of one half of the samples.
 struct Half {
-    const char* name;  ///< Of the cached file.
+    const char* name;  ///< Name of the cached file.
     ReferenceLight ReferenceImages::*light;
     ImageF ReferenceLight::*half;
     std::array<SampleSums, 2> ReferenceSums::*lightSums;
@@ -53,14 +53,9 @@ bool isFinite(const ImageF& image) {
     return true;
 }
 
-constexpr size_t kDigits = 32;  ///< Of the hash of what follows it.
+constexpr size_t kDigits = 32;  ///< Length of the hash.
 
-template <typename Sums>
-auto halvesOf(Sums& sums) {
-    return std::array{&sums.final[0], &sums.final[1], &sums.indirect[0], &sums.indirect[1]};
-}
-
-/// A hash, a line of JSON, then the sums: final of both halves, indirect of both halves.
+/// Contents of a file: a hash of what follows, a line of JSON, then the sums in the order of kHalves.
 std::string contentOf(const std::string& hash, const RenderedPart& rendered) {
     const ReferenceSums& sums = rendered.sums;
     const nlohmann::json head{{"hash", hash},
@@ -70,17 +65,18 @@ std::string contentOf(const std::string& hash, const RenderedPart& rendered) {
                               {"seconds", rendered.seconds},
                               {"whole", rendered.isWhole}};
     std::string body = head.dump() + "\n";
-    for (const SampleSums* half : halvesOf(sums))
-        body.append(reinterpret_cast<const char*>(half->data.data()), half->data.size() * sizeof(double));
+    for (const Half& half : kHalves) {
+        const std::vector<double>& data = half.of(sums).data;
+        body.append(reinterpret_cast<const char*>(data.data()), data.size() * sizeof(double));
+    }
     return Hasher().add(body.data(), body.size()).hex() + body;
 }
 
-/// @throws std::exception where the file isn't as contentOf() made it.
+/// @throws std::exception if the file wasn't written by contentOf() for this reference.
 RenderedPart readPart(const fs::path& file, const std::string& hash, uint32_t width, uint32_t height) {
     const std::string text = readTextFile(file);
     const std::string_view content = text, body = content.substr(std::min(kDigits, content.size()));
-    if (Hasher().add(body.data(), body.size()).hex() != content.substr(0, kDigits))
-        throw Error("it is damaged");
+    if (Hasher().add(body.data(), body.size()).hex() != content.substr(0, kDigits)) throw Error("it is damaged");
     const size_t line = body.find('\n');
     const auto head = nlohmann::json::parse(body.substr(0, line));
     if (head.at("hash").get<std::string>() != hash || head.at("width").get<uint32_t>() != width ||
@@ -92,16 +88,16 @@ RenderedPart readPart(const fs::path& file, const std::string& hash, uint32_t wi
     const char* from = body.data() + line + 1;
     const size_t bytes = size_t(width) * height * 3 * sizeof(double);
     if (body.size() != line + 1 + 4 * bytes) throw Error("it is damaged");
-    size_t number = 0;
-    for (SampleSums* half : halvesOf(rendered.sums)) {
-        *half = SampleSums(width, height, head.at("samples").at(number++ % 2).get<uint64_t>());
-        std::memcpy(half->data.data(), from, bytes);
+    for (const Half& half : kHalves) {
+        SampleSums& sums = half.of(rendered.sums);
+        sums = SampleSums(width, height, head.at("samples").at(half.number).get<uint64_t>());
+        std::memcpy(sums.data.data(), from, bytes);
         from += bytes;
     }
     return rendered;
 }
 
-/// Reads "2-of-16"; 0 parts where it is something else.
+/// Parses "2-of-16". For other texts the number of parts is 0.
 SamplePart partFrom(std::string_view text) {
     constexpr std::string_view kOf = "-of-";
     const size_t at = text.find(kOf);
@@ -182,8 +178,7 @@ bool ReferenceCache::has(const std::string& hash) const {
     return fs::exists(folder_ / hash / "reference.json", code);
 }
 
-std::optional<ReferenceImages> ReferenceCache::load(const std::string& hash, uint32_t width,
-                                                    uint32_t height) const {
+std::optional<ReferenceImages> ReferenceCache::load(const std::string& hash, uint32_t width, uint32_t height) const {
     if (!has(hash)) return {};
     const fs::path folder = folder_ / hash;
     try {
@@ -192,22 +187,20 @@ std::optional<ReferenceImages> ReferenceCache::load(const std::string& hash, uin
         reference.cached = true;
         for (const Half& half : kHalves) {
             ImageF image = readImage(folder / (std::string(half.name) + ".exr"));
-            if (image.width != width || image.height != height || image.channels != 3 || !isFinite(image))
-                return {};
+            if (image.width != width || image.height != height || image.channels != 3 || !isFinite(image)) return {};
             half.of(reference) = std::move(image);
         }
         setMeans(reference);
-        reference.seconds =
-            nlohmann::json::parse(readTextFile(folder / "reference.json")).at("seconds").get<double>();
+        reference.seconds = nlohmann::json::parse(readTextFile(folder / "reference.json")).at("seconds").get<double>();
         return reference;
     } catch (const std::exception&) {
-        // A damaged cache costs time, not results
+        // A damaged reference is rendered again
         return {};
     }
 }
 
 void ReferenceCache::store(const ReferenceImages& reference) const {
-    // Another process may have been faster; what is damaged is replaced
+    // Another process may have stored it; a damaged one is replaced
     const ImageF& image = reference.final.mean;
     if (load(reference.hash, image.width, image.height)) return;
     const fs::path folder = folder_ / reference.hash;
@@ -236,14 +229,13 @@ bool ReferenceParts::has(const std::string& hash, const SamplePart& part) const 
     return fs::exists(file(hash, part), code);
 }
 
-void ReferenceParts::store(const std::string& hash, const SamplePart& part,
-                           const RenderedPart& rendered) const {
+void ReferenceParts::store(const std::string& hash, const SamplePart& part, const RenderedPart& rendered) const {
     writeFileAtomically(file(hash, part), contentOf(hash, rendered));
 }
 
-uint32_t ReferenceParts::division(const std::string& hash) const {
+uint32_t ReferenceParts::completeParts(const std::string& hash) const {
     std::error_code code;
-    std::map<uint32_t, uint32_t> found;  // Parts of each division.
+    std::map<uint32_t, uint32_t> found;  // Number of existing parts by the total number of parts.
     for (const auto& entry : fs::directory_iterator(folder_, code)) {
         if (entry.path().extension() != kEnding) continue;
         const std::string name = entry.path().stem().string();
@@ -256,7 +248,7 @@ uint32_t ReferenceParts::division(const std::string& hash) const {
 }
 
 RenderedPart ReferenceParts::load(const std::string& hash, uint32_t width, uint32_t height) const {
-    const uint32_t parts = division(hash);
+    const uint32_t parts = completeParts(hash);
     RenderedPart sum;
     for (uint32_t i = 0; i < parts; ++i) {
         const fs::path path = file(hash, {i, parts});

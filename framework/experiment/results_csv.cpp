@@ -20,13 +20,14 @@ void append(std::vector<std::string>& to, const std::vector<std::string>& more) 
     to.insert(to.end(), more.begin(), more.end());
 }
 
-/// A column of scores, and the metric that stands in it where it can be left out.
+/// A column of scores.
 struct ScoreColumn {
     std::string name;
-    std::string metric;
+    std::string metric;  ///< The metric, if `measure.metrics` can exclude it, else "".
 };
 
-/// A metric's column, and those of its interval's ends.
+/// Appends the columns of a metric and of the bounds of its confidence interval.
+/// @param wanted ScoreColumn::metric.
 void addColumns(std::vector<ScoreColumn>& columns, const std::string& light, const MetricInfo& metric,
                 const std::string& region, const std::string& wanted) {
     columns.push_back({light + metric.name + region, wanted});
@@ -34,8 +35,7 @@ void addColumns(std::vector<ScoreColumn>& columns, const std::string& light, con
     for (const char* end : {kLow, kHigh}) columns.push_back({light + metric.name + end + region, wanted});
 }
 
-/// Of the whole image, then of each mask: the total light's metrics in the order of their table, then the
-/// indirect light's.
+/// Columns of the whole image, then of each mask: first metrics of total light, then of indirect light.
 std::vector<ScoreColumn> scoreColumns(const MeasureSettings& measure) {
     std::vector<std::string> regions{""};
     for (const MaskSettings& mask : measure.masks) regions.push_back(maskSuffix(mask.name));
@@ -110,10 +110,10 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
         append(fields, r.sweepValues);
         if (r.ok)
             append(fields, {numberText(r.buildMs), numberText(r.frameMs.median), numberText(r.frameMs.p05),
-                            numberText(r.frameMs.p95), std::to_string(r.memoryBytes),
-                            std::to_string(r.peakBytes), std::to_string(r.rays)});
+                            numberText(r.frameMs.p95), std::to_string(r.memoryBytes), std::to_string(r.peakBytes),
+                            std::to_string(r.rays)});
         else
-            append(fields, std::vector<std::string>(7));
+            append(fields, std::vector<std::string>(kCostColumns.size()));
         append(fields, scoreFields(columns, r.scores, measure));
         text += csvLine(fields);
     }
@@ -121,17 +121,15 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
 }
 
 std::string passesCsv(const std::vector<VariantResult>& results) {
-    std::string text =
-        csvLine({"variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps",
-                 "memory_bytes", "scratch_bytes", "dispatches", "host_waits", "host_bytes"});
+    std::string text = csvLine({"variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps",
+                                "memory_bytes", "scratch_bytes", "dispatches", "host_waits", "host_bytes"});
     for (const VariantResult& r : results)
         for (const PassCost& p : r.passes)
-            text +=
-                csvLine({r.variant, p.id, nameOf(p.phase), numberText(p.milliseconds.median),
-                         numberText(p.milliseconds.p05), numberText(p.milliseconds.p95),
-                         std::to_string(p.rays), std::to_string(p.voxelSteps), std::to_string(p.memoryBytes),
-                         std::to_string(p.scratchBytes), std::to_string(p.work.dispatches),
-                         std::to_string(p.work.waits), std::to_string(p.work.hostBytes)});
+            text += csvLine({r.variant, p.id, nameOf(p.phase), numberText(p.milliseconds.median),
+                             numberText(p.milliseconds.p05), numberText(p.milliseconds.p95), std::to_string(p.rays),
+                             std::to_string(p.voxelSteps), std::to_string(p.memoryBytes),
+                             std::to_string(p.scratchBytes), std::to_string(p.work.dispatches),
+                             std::to_string(p.work.waits), std::to_string(p.work.hostBytes)});
     return text;
 }
 
@@ -139,21 +137,19 @@ std::string valuesCsv(const std::vector<VariantResult>& results) {
     std::string text = csvLine({"variant", "pass", "name", "frame", "value"});
     for (const VariantResult& r : results)
         for (const ReportedValue& v : r.values)
-            text += csvLine(
-                {r.variant, v.pass, v.name, v.frame ? std::to_string(*v.frame) : "", numberText(v.value)});
+            text += csvLine({r.variant, v.pass, v.name, v.frame ? std::to_string(*v.frame) : "", numberText(v.value)});
     return text;
 }
 
 std::string framesCsv(const std::vector<VariantResult>& results, const MeasureSettings& measure) {
     std::vector<ScoreColumn> columns = scoreColumns(measure);
     for (const std::string light : kLightPrefixes) columns.push_back({light + temporalMetrics()[0].name, ""});
-    // Where a light is switched off
+    // Only if a light is switched off
     for (const std::string light : kLightPrefixes)
         for (const char* name : {"afterglow", "frames_lit"})
             if (std::ranges::any_of(results, [&](const VariantResult& r) {
-                    return std::ranges::any_of(r.frames, [&](const FrameScores& frame) {
-                        return frame.scores.contains(light + name);
-                    });
+                    return std::ranges::any_of(
+                        r.frames, [&](const FrameScores& frame) { return frame.scores.contains(light + name); });
                 }))
                 columns.push_back({light + name, ""});
     std::vector<std::string> header{"variant", "frame"};

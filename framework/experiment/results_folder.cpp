@@ -30,11 +30,11 @@ Json jsonOf(const PartRecord& record) {
 /// @throws nlohmann::json::exception.
 PartRecord recordFrom(const Json& json) {
     const auto text = [&](const char* key) { return json.at(key).get<std::string>(); };
-    return {json.at("warnings").get<std::vector<std::string>>(), text("error"), text("device"),
-            text("tracer"), text("session")};
+    return {json.at("warnings").get<std::vector<std::string>>(), text("error"), text("device"), text("tracer"),
+            text("session")};
 }
 
-// Turns the standard library's exceptions into one line that says what to do.
+/// Replaces exceptions of the standard library by a Failure that says what to do.
 template <typename Failure = Error, typename Work>
 void orError(const fs::path& path, const Work& work) {
     try {
@@ -46,54 +46,46 @@ void orError(const fs::path& path, const Work& work) {
     }
 }
 
-/// What two texts of a map or list differ in, from the entry where they first do to that where they last do:
+/// The differing parts of two texts of maps or lists, from the first entry that differs to the last one, e.g.
 /// "bounces: 2" and "bounces: 3" of longer graphs.
 std::pair<std::string, std::string> differingParts(const std::string& a, const std::string& b) {
     const size_t shorter = std::min(a.size(), b.size());
-    size_t same =
-        size_t(std::mismatch(a.begin(), a.begin() + ptrdiff_t(shorter), b.begin()).first - a.begin());
+    size_t same = size_t(std::mismatch(a.begin(), a.begin() + ptrdiff_t(shorter), b.begin()).first - a.begin());
     const size_t entry = same == 0 ? std::string::npos : a.find_last_of("{[,", same - 1);
     same = entry == std::string::npos ? 0 : a.find_first_not_of(' ', entry + 1);
-    size_t end = 0;  // Characters from the end that are the same.
+    size_t end = 0;  // Number of equal characters at the end.
     while (end < shorter - same && a[a.size() - 1 - end] == b[b.size() - 1 - end]) ++end;
     const size_t next = a.find_first_of("}],", a.size() - end);
     end = next == std::string::npos ? 0 : a.size() - next;
     return {a.substr(same, a.size() - end - same), b.substr(same, b.size() - end - same)};
 }
 
-bool startsWith(const std::string& text, const char* prefix) {
-    return text.rfind(prefix, 0) == 0;
-}
-
 }  // namespace
 
-ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, FolderUse use,
-                             ProcessLock::IfHeld ifHeld)
+ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, FolderUse use, ProcessLock::IfHeld ifHeld)
     : path_(std::move(path)) {
     const bool isPart = use == FolderUse::Part;
     orError<UsageError>(path_, [&] {
-        if (fs::exists(path_) && !fs::is_directory(path_))
-            throw UsageError("{}: is not a folder", path_.string());
+        if (fs::exists(path_) && !fs::is_directory(path_)) throw UsageError("{}: is not a folder", path_.string());
         if (fs::exists(path_)) checkOwner(experiment);
         fs::create_directories(path_ / "images");
-        lock_.emplace(path_ / kLock, isPart ? ProcessLock::Kind::Shared : ProcessLock::Kind::Exclusive, path_,
-                      ifHeld);
-        checkOwner(experiment);  // Again: another process may have had it until now.
+        lock_.emplace(path_ / kLock, isPart ? ProcessLock::Kind::Shared : ProcessLock::Kind::Exclusive, path_, ifHeld);
+        checkOwner(experiment);  // Again, since another process may have used it before the lock.
     });
     if (isPart) return;
     const fs::path probe = ".writable";
     writeText(probe.string(), "x");
     orError(path_, [&] {
         fs::remove(path_ / probe);
-        std::vector<fs::path> left;
+        std::vector<fs::path> temporary;
         for (const fs::path& folder : {path_, path_ / kParts})
             if (fs::exists(folder))
                 for (const auto& entry : fs::directory_iterator(folder))
                     if (isTemporaryName(entry.path()) || entry.path().extension() == kLock)
-                        left.push_back(entry.path());  // A killed part's lock is nobody's.
-        for (const fs::path& file : left) fs::remove(file);
+                        temporary.push_back(entry.path());  // Locks of parts that were killed are not in use.
+        for (const fs::path& file : temporary) fs::remove(file);
         for (const auto& entry : fs::directory_iterator(path_ / "images"))
-            if (startsWith(entry.path().filename().string(), kTemporaryFolder)) fs::remove_all(entry.path());
+            if (entry.path().filename().string().starts_with(kTemporaryFolder)) fs::remove_all(entry.path());
         if (use == FolderUse::Fresh) replaced_ = removeOldRun();
     });
 }
@@ -106,13 +98,13 @@ ProcessLock ResultsFolder::lockPart(const std::string& id, ProcessLock::IfHeld i
 void ResultsFolder::claim(const ManifestData& manifest) const {
     const fs::path file = path_ / kManifest;
     if (!fs::exists(file)) writeText(kManifest, manifestJson(manifest));
-    // Again: another process may have written it at the same time
+    // Another process may have written it at the same time
     const std::string text = readTextFile(file);
     if (identityIn(text) == identityOf(manifest)) return;
     const std::string what = manifestDifference(parseManifest(text), parseManifest(manifestJson(manifest)));
     if (!what.empty())
-        throw UsageError("{}: holds parts of another experiment: {}; choose another folder with --out",
-                         path_.string(), what);
+        throw UsageError("{}: holds parts of another experiment: {}; choose another folder with --out", path_.string(),
+                         what);
 }
 
 void ResultsFolder::checkOwner(const std::string& experiment) const {
@@ -120,17 +112,15 @@ void ResultsFolder::checkOwner(const std::string& experiment) const {
     if (fs::exists(manifest)) {
         const std::string name = experimentIn(readTextFile(manifest));
         if (name != experiment)
-            throw UsageError(
-                "{}: holds the results of another experiment, '{}'; choose another folder with --out",
-                path_.string(), name);
+            throw UsageError("{}: holds the results of another experiment, '{}'; choose another folder with --out",
+                             path_.string(), name);
         return;
     }
     for (const auto& entry : fs::directory_iterator(path_))
         if (const fs::path name = entry.path().filename();
             name != "images" && name != kLock && !isTemporaryName(entry.path()))
-            throw UsageError(
-                "{}: is not empty and holds no results of Voxray; choose another folder with --out",
-                path_.string());
+            throw UsageError("{}: is not empty and holds no results of Voxray; choose another folder with --out",
+                             path_.string());
     if (fs::exists(path_ / "images") && !fs::is_empty(path_ / "images"))
         throw UsageError("{}: is not empty and holds no results of Voxray; choose another folder with --out",
                          path_.string());
@@ -152,11 +142,10 @@ size_t ResultsFolder::removeOldRun() const {
 
 void ResultsFolder::removeReferences() const {
     for (const auto& entry : fs::directory_iterator(path_ / "images"))
-        if (startsWith(entry.path().filename().string(), "reference")) fs::remove_all(entry.path());
+        if (entry.path().filename().string().starts_with("reference")) fs::remove_all(entry.path());
 }
 
-std::optional<VariantResult> ResultsFolder::finished(const std::string& variant,
-                                                     const VariantInputs& inputs) const {
+std::optional<VariantResult> ResultsFolder::finished(const std::string& variant, const VariantInputs& inputs) const {
     const fs::path file = path_ / "images" / variant / "result.json";
     std::error_code code;
     if (!fs::exists(file, code)) return {};
@@ -171,12 +160,10 @@ std::optional<VariantResult> ResultsFolder::finished(const std::string& variant,
                     "choose another folder with --out or leave out --resume",
                     path_.string(), variant, name, before, now);
             }
-    throw UsageError("{}: '{}' was run by another version of Voxray; leave out --resume", path_.string(),
-                     variant);
+    throw UsageError("{}: '{}' was run by another version of Voxray; leave out --resume", path_.string(), variant);
 }
 
-void ResultsFolder::writeImages(const std::string& name,
-                                const std::function<void(const fs::path&)>& write) const {
+void ResultsFolder::writeImages(const std::string& name, const std::function<void(const fs::path&)>& write) const {
     const fs::path folder = path_ / "images" / name;
     orError(folder, [&] { writeFolderAtomically(folder, write); });
 }
@@ -190,7 +177,7 @@ void ResultsFolder::writeTables(const std::vector<VariantResult>& rows, const Ex
     writeText("results.csv", resultsCsv(rows, sweepKeys(experiment), measure));
     writeText("passes.csv", passesCsv(rows));
 
-    // Tables that not every run has; what isn't written now may be there of a run that this one goes on with
+    // Optional tables. Those of a resumed run are removed if this run has none
     const auto writeIf = [&](bool has, const char* name, const auto& text) {
         if (has)
             writeText(name, text());
@@ -228,8 +215,8 @@ std::map<std::string, PartRecord> PartRecords::load() const {
         if (entry.path().extension() != kRecordEnding || isTemporaryName(entry.path())) continue;
         try {
             records[entry.path().stem().string()] = recordFrom(Json::parse(readTextFile(entry.path())));
-        } catch (const std::exception&) {  // Of a record there is nothing that a merge could not do without.
-            continue;
+        } catch (const std::exception&) {
+            continue;  // Records are optional.
         }
     }
     return records;

@@ -14,42 +14,41 @@
 
 namespace voxray {
 
-/// Who writes into a results folder: a whole run in place of an older one, one that goes on with it, or a
-/// part of a run, next to others in other processes.
+/// How a results folder is used: by a run that replaces an older one, by a run that resumes it, or by a part
+/// of a run, possibly while other processes do other parts.
 enum class FolderUse { Fresh, Resume, Part };
 
-/// The folder that a run writes into. Every file in it appears whole or not at all; a variant's images appear
-/// together with its result.json, by one rename.
+/// The folder that a run writes into. All files are written atomically. The images of a variant and its
+/// result.json appear at the same time, by renaming a folder.
 class ResultsFolder {
  public:
-    /// Makes the folder, locks it and checks that it can be written. What a killed run left half-written is
-    /// removed, but by parts: it may be another one's.
-    /// @throws UsageError where another process writes into it (parts don't exclude each other), or it holds
-    /// anything but results of this experiment; Error where it can't be written.
+    /// Makes the folder, locks it and checks that it can be written. Temporary files of a killed run are
+    /// removed, except with FolderUse::Part, since they may be those of another part.
+    /// @throws UsageError if another process writes into it (parts don't exclude each other), or if it
+    /// contains anything but results of this experiment; Error if it can't be written.
     ResultsFolder(std::filesystem::path path, const std::string& experiment, FolderUse use,
                   ProcessLock::IfHeld ifHeld = ProcessLock::IfHeld::Refuse);
 
     const std::filesystem::path& path() const { return path_; }
-    /// How many finished variants of an older run were removed for a fresh one.
+    /// Number of finished variants of an older run that were removed for a fresh one.
     size_t replaced() const { return replaced_; }
 
-    /// Keeps other processes from the same part while the lock lives. @throws UsageError where one has it;
-    /// to wait: Interrupted.
+    /// Prevents other processes from doing the same part while the lock exists. @throws UsageError if another
+    /// process has the lock; Interrupted while waiting for it.
     ProcessLock lockPart(const std::string& id, ProcessLock::IfHeld ifHeld) const;
 
-    /// Writes the manifest where there is none, so that all parts of a folder are of one experiment.
-    /// @throws UsageError that tells what differs from the one that is there.
+    /// Writes the manifest unless there is one, so that all parts in the folder belong to one experiment.
+    /// @throws UsageError with the first difference to the existing manifest.
     void claim(const ManifestData& manifest) const;
 
-    /// A finished variant of an older run. @throws UsageError naming what differs where it was run with other
-    /// inputs.
+    /// The result of a variant that an older run finished. @throws UsageError with the difference if it was
+    /// run with other inputs.
     std::optional<VariantResult> finished(const std::string& variant, const VariantInputs& inputs) const;
 
-    /// Writes images/<name>: `write` fills a temporary folder, which then takes the old one's place.
-    void writeImages(const std::string& name,
-                     const std::function<void(const std::filesystem::path&)>& write) const;
+    /// Writes images/<name>: `write` fills a temporary folder, which then replaces the old one.
+    void writeImages(const std::string& name, const std::function<void(const std::filesystem::path&)>& write) const;
 
-    /// The references whose images are there, in the order of their folders' names.
+    /// The references whose images exist, in the order of their folders' names.
     std::vector<ReferenceEntry> references() const;
 
     /// Removes the images of all references.
@@ -63,7 +62,7 @@ class ResultsFolder {
 
  private:
     void checkOwner(const std::string& experiment) const;
-    /// @return how many finished variants it had.
+    /// @return the number of its finished variants.
     size_t removeOldRun() const;
 
     std::filesystem::path path_;
@@ -71,26 +70,26 @@ class ResultsFolder {
     std::optional<ProcessLock> lock_;
 };
 
-/// What a part has to tell besides its result, for the merge.
+/// Information of a part, in addition to its result, for the merge.
 struct PartRecord {
     std::vector<std::string> warnings;
-    std::string error;  ///< Why it failed, "" where it did not.
+    std::string error;  ///< Why it failed; "" if it did not.
 
-    // Of a variant that failed
+    // Only for a variant that failed
     std::string device, tracer;
-    std::string session;  ///< As in VariantResult.
+    std::string session;  ///< That of VariantResult.
 };
 
-/// Records of parts in a results folder: parts/<id>.json, each whole or absent, and absent where there is
-/// nothing to tell.
+/// Stores records of parts in a results folder: parts/<id>.json, written atomically. Parts without warnings
+/// and errors have no file.
 class PartRecords {
  public:
     /// @param results the results folder.
     explicit PartRecords(const std::filesystem::path& results);
 
-    /// Replaces the record that an earlier try at this part left. @throws Error where it can't be written.
+    /// Replaces the record of an earlier attempt at this part. @throws Error if it can't be written.
     void store(const std::string& id, const PartRecord& record) const;
-    /// All records by the ids of their parts. What isn't whole, or was removed just now, is left out.
+    /// All records by the ids of their parts. Incomplete files are skipped.
     std::map<std::string, PartRecord> load() const;
 
  private:

@@ -28,7 +28,7 @@ Percentiles percentilesFrom(const Json& json) {
     return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
-/// Reads a document up to a text. Each handler tells whether to go on.
+/// Finds the text at a path of keys and stops parsing there. Handlers return whether to continue.
 class TextSearch final : public PlainJson::json_sax_t {
  public:
     explicit TextSearch(const std::vector<std::string>& path) : path_(path) {}
@@ -66,7 +66,7 @@ class TextSearch final : public PlainJson::json_sax_t {
     }
 
     const std::vector<std::string>& path_;
-    std::vector<std::string> keys_;  ///< Of all objects that it is in; "" for lists.
+    std::vector<std::string> keys_;  ///< The current key of each enclosing object; "" for lists.
     std::string found_;
 };
 
@@ -161,14 +161,13 @@ std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text)
         for (const Json& v : json.at("values")) {
             std::optional<uint32_t> frame;
             if (v.contains("frame")) frame = v.at("frame").get<uint32_t>();
-            r.values.push_back({v.at("pass").get<std::string>(), v.at("name").get<std::string>(), frame,
-                                v.at("value").get<double>()});
+            r.values.push_back(
+                {v.at("pass").get<std::string>(), v.at("name").get<std::string>(), frame, v.at("value").get<double>()});
         }
         for (const Json& frame : json.at("frames"))
             r.frames.push_back({frame.at("frame").get<uint32_t>(), scoresFrom(frame.at("scores"))});
         VariantInputs inputs;
-        for (const auto& [name, value] : json.at("inputs").items())
-            inputs.emplace_back(name, value.get<std::string>());
+        for (const auto& [name, value] : json.at("inputs").items()) inputs.emplace_back(name, value.get<std::string>());
         return {r, inputs};
     } catch (const nlohmann::json::exception& error) {
         throw Error("broken result: {}", error.what());

@@ -16,12 +16,12 @@
 namespace voxray {
 namespace {
 
-/// Whether each measured frame of a variant does what the one before it did.
-bool isAtRest(const PreparedExperiment& prepared, const Variant& variant) {
-    return prepared.experiment().measure.warmup > 0 && standsStill(variant.setup.scene);
+/// Whether all measured frames of a variant do the same work.
+bool isSteady(const PreparedExperiment& prepared, const Variant& variant) {
+    return prepared.experiment().measure.warmup > 0 && isStatic(variant.setup.scene);
 }
 
-/// One run: the state that its steps share.
+/// A run of all parts of an experiment.
 class Run {
  public:
     Run(PreparedExperiment& prepared, RunSummary& summary)
@@ -32,17 +32,17 @@ class Run {
           parts_(prepared, folder_),
           manifest_(prepared.manifest()) {}
 
-    /// All parts in order, then the report.
+    /// Runs all parts in order, then makes the report.
     void execute();
 
  private:
-    /// Makes the report of what is finished, where there is room. @throws Error that says why the run ends.
-    [[noreturn]] void giveUp(const std::string& why);
-    void takeOverFinished();
+    /// Makes the report of finished variants if possible. @throws Error with the reason.
+    [[noreturn]] void abort(const std::string& why);
+    void loadFinished();
     void renderMissing();
     void writeTables();
-    void keepTablesFresh();
-    std::string buildOf(const Variant& variant);
+    void updateTables();
+    std::string buildKey(const Variant& variant);
     std::vector<std::string> timingWarnings();
 
     PreparedExperiment& prepared_;
@@ -50,32 +50,31 @@ class Run {
     ResultsFolder folder_;
     PartRunner parts_;
     ManifestData manifest_;
-    std::chrono::steady_clock::time_point tablesDue_{};  ///< Tables between variants are not written before.
-    std::vector<std::string> timing_;                    ///< What is to say of times, once all are known.
+    std::chrono::steady_clock::time_point nextTables_{};  ///< Earliest time to write tables between variants.
+    std::vector<std::string> timing_;                     ///< Warnings of times, once all are known.
 };
 
 void Run::execute() {
     const RunOptions& options = prepared_.options();
-    if (options.resume) takeOverFinished();
+    if (options.resume) loadFinished();
     std::string failure;
     try {
         renderMissing();
-    } catch (const Error& error) {  // What can't be written.
+    } catch (const Error& error) {  // The results folder can't be written.
         failure = error.what();
     }
     for (const Variant& variant : prepared_.variants())
         if (variant.result) ++(variant.result->ok ? summary_.ok : summary_.failed);
-    if (!failure.empty()) giveUp(failure);
+    if (!failure.empty()) abort(failure);
 
-    // Close the books; after an interruption of what there is
+    // Finish the tables, also after an interruption
     if (!summary_.interrupted) manifest_.finished = utcNow();
     timing_ = timingWarnings();
     for (const std::string& text : timing_) fmt::print(stderr, "voxray: warning: {}\n", text);
     writeTables();
     if (!options.report || summary_.ok + summary_.failed == 0) return;
     if (summary_.interrupted && !options.quiet)
-        fmt::print(stderr,
-                   "voxray: stopped; making the report of what is finished (Ctrl-C again ends that, too)\n");
+        fmt::print(stderr, "voxray: stopped; making the report of what is finished (Ctrl-C again ends that, too)\n");
     try {
         makeReport(options.sourceRoot, folder_.path());
     } catch (const Error& error) {
@@ -84,7 +83,7 @@ void Run::execute() {
     summary_.interrupted = interruptRequested();
 }
 
-void Run::giveUp(const std::string& why) {
+void Run::abort(const std::string& why) {
     const std::string kept = fmt::format("{}, {} of {} variants kept", why, summary_.ok, summary_.total);
     if (summary_.ok == 0) throw Error("{}", kept);
     std::string report;
@@ -100,7 +99,7 @@ void Run::giveUp(const std::string& why) {
     throw Error("{}{}; --resume goes on", kept, report);
 }
 
-void Run::takeOverFinished() {
+void Run::loadFinished() {
     for (Variant& variant : prepared_.variants()) {
         auto result = folder_.finished(variant.name, prepared_.inputsOf(variant));
         if (!result || !parts_.hasReferenceImages(variant)) continue;
@@ -109,8 +108,7 @@ void Run::takeOverFinished() {
     }
     if (summary_.resumed == 0) parts_.dropReferences();
     if (!prepared_.options().quiet && summary_.resumed > 0)
-        fmt::print("{} of {} variants were finished already\n", summary_.resumed,
-                   prepared_.variants().size());
+        fmt::print("{} of {} variants were finished already\n", summary_.resumed, prepared_.variants().size());
 }
 
 void Run::renderMissing() {
@@ -126,7 +124,7 @@ void Run::renderMissing() {
         if (summary_.interrupted) break;
         if (variant.result) continue;
         if (parts_.runVariant(variant, progress))
-            keepTablesFresh();
+            updateTables();
         else
             summary_.interrupted = true;
         summary_.validationMessages = parts_.printValidationMessages(progress);
@@ -146,18 +144,18 @@ void Run::writeTables() {
     folder_.writeTables(rows, prepared_.experiment());
 }
 
-/// Writes the tables where that leaves them a twentieth of the run's time at most: each writing is of all
-/// that is finished, so thousands of variants would spend more time on their tables than on themselves.
-void Run::keepTablesFresh() {
-    const auto begin = std::chrono::steady_clock::now();
-    if (begin < tablesDue_) return;
+/// Writes the tables at most so often that it takes a twentieth of the run's time. Each time all finished
+/// variants are written, which would dominate the time of thousands of variants.
+void Run::updateTables() {
+    const auto start = std::chrono::steady_clock::now();
+    if (start < nextTables_) return;
     writeTables();
     const auto end = std::chrono::steady_clock::now();
-    tablesDue_ = end + 19 * (end - begin);
+    nextTables_ = end + 19 * (end - start);
 }
 
-/// What the time of a variant's build depends on; "" where its first run is timed, with what comes once.
-std::string Run::buildOf(const Variant& variant) {
+/// Everything that the time of a variant's build depends on; "" if it has one-time costs.
+std::string Run::buildKey(const Variant& variant) {
     if (prepared_.experiment().measure.buildRepeats == 0) return {};
     std::string text;
     for (const PassCost& cost : variant.result->passes)
@@ -172,22 +170,19 @@ std::string Run::buildOf(const Variant& variant) {
 std::vector<std::string> Run::timingWarnings() {
     std::vector<TimedVariant> timed;
     for (const Variant& variant : prepared_.variants())
-        if (variant.result)
-            timed.push_back({&*variant.result, buildOf(variant), isAtRest(prepared_, variant)});
+        if (variant.result) timed.push_back({&*variant.result, buildKey(variant), isSteady(prepared_, variant)});
     return timingOutliers(timed);
 }
 
-/// Whether an earlier process did a part, with the same inputs.
-bool isFinished(const Part& part, PreparedExperiment& prepared, const ResultsFolder& folder,
-                const PartRunner& parts) {
+/// Whether a part was finished earlier with the same inputs.
+bool isFinished(const Part& part, PreparedExperiment& prepared, const ResultsFolder& folder, const PartRunner& parts) {
     if (part.kind == Part::Kind::Reference) return ReferenceParts(folder.path()).has(part.hash, part.samples);
     const Variant& variant = prepared.variants()[part.variant];
     return folder.finished(variant.name, prepared.inputsOf(variant)) && parts.hasReferenceImages(variant);
 }
 
-/// Renders one part, next to others in the folder.
-void runPart(const Part& part, PreparedExperiment& prepared, const ResultsFolder& folder,
-             RunSummary& summary) {
+/// Renders one part into a folder that may have others.
+void runPart(const Part& part, PreparedExperiment& prepared, const ResultsFolder& folder, RunSummary& summary) {
     const bool isResumed = prepared.options().resume;
     const ProcessLock lock =
         folder.lockPart(part.id, isResumed ? ProcessLock::IfHeld::Wait : ProcessLock::IfHeld::Refuse);
@@ -221,7 +216,7 @@ void runPart(const Part& part, PreparedExperiment& prepared, const ResultsFolder
     const VariantResult& result = *variant.result;
     std::vector<std::string> warnings = parts.warnings();
     if (result.ok && !prepared.options().untimed)
-        for (const std::string& text : timingOutliers({{&result, "", isAtRest(prepared, variant)}})) {
+        for (const std::string& text : timingOutliers({{&result, "", isSteady(prepared, variant)}})) {
             progress.warn(text);
             warnings.push_back(text);
         }
@@ -229,7 +224,7 @@ void runPart(const Part& part, PreparedExperiment& prepared, const ResultsFolder
     if (!result.ok) throw Error("{}: {}", part.id, result.error);
 }
 
-/// Does the part that the options name.
+/// Runs the part that the options name.
 RunSummary executePart(PreparedExperiment& prepared, RunSummary summary) {
     const Part part = partNamed(prepared, prepared.options().part);
     ManifestData manifest = prepared.manifest();
@@ -239,11 +234,10 @@ RunSummary executePart(PreparedExperiment& prepared, RunSummary summary) {
         folder.claim(manifest);
         if (part.kind != Part::Kind::Merge) runPart(part, prepared, folder, summary);
     }
-    return part.kind == Part::Kind::Merge ? mergeResults({summary.out}, summary.out, prepared.options())
-                                          : summary;
+    return part.kind == Part::Kind::Merge ? mergeResults({summary.out}, summary.out, prepared.options()) : summary;
 }
 
-/// Prints what a run would do.
+/// Prints variants and their memory without running them.
 void executeDry(PreparedExperiment& prepared, RunSummary& summary) {
     Progress progress(1, prepared.options().quiet);
     for (const std::string& warning : prepared.warnings()) progress.warn(warning);
@@ -258,8 +252,8 @@ RunSummary runExperiment(Study study, const RunOptions& options) {
     const InterruptScope interruptScope;
     RunSummary summary;
     summary.total = options.part.empty() ? study.variants.size() : 0;
-    summary.out = options.out.empty() ? std::filesystem::path("results") / study.experiment.setup.general.name
-                                      : options.out;
+    summary.out =
+        options.out.empty() ? std::filesystem::path("results") / study.experiment.setup.general.name : options.out;
     try {
         PreparedExperiment prepared(std::move(study), options);
         if (options.dryRun) {

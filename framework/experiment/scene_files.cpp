@@ -29,7 +29,7 @@ std::optional<fs::path> lookUp(const fs::path& name, const std::vector<fs::path>
     return std::nullopt;
 }
 
-/// What reads a file that the config names: what is wrong with it is told at the config's line.
+/// Calls read() for a file that the config names. Errors are reported with the line of the config.
 template <typename Read>
 auto readAt(const TextLocation& where, const Read& read) {
     try {
@@ -41,55 +41,35 @@ auto readAt(const TextLocation& where, const Read& read) {
     }
 }
 
-}  // namespace
-
-std::vector<fs::path> sceneFolders(const fs::path& scenesOption, const fs::path& sourceRoot,
-                                   const fs::path& configFile) {
-    std::vector<fs::path> folders;
-    if (!scenesOption.empty()) folders.push_back(scenesOption);
-    if (const char* variable = std::getenv("VOXRAY_SCENES"); variable && *variable)
-        folders.push_back(variable);
-    if (!sourceRoot.empty()) folders.push_back((sourceRoot / ".." / "shared" / "scenes").lexically_normal());
-    if (!configFile.empty()) folders.push_back(configFile.has_parent_path() ? configFile.parent_path() : ".");
-    // Each once, in this order
-    std::vector<fs::path> once;
-    for (const fs::path& folder : folders) {
-        const auto isSame = [&](const fs::path& other) {
-            return fs::weakly_canonical(other) == fs::weakly_canonical(folder);
-        };
-        if (std::ranges::none_of(once, isSame)) once.push_back(folder);
-    }
-    return once;
-}
-
-fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& folders,
-                       const TextLocation& where) {
+/// The path of a file in the first folder that has it; absolute names are returned as they are.
+/// @throws UsageError at `where` with the folders that were searched.
+fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& folders, const TextLocation& where) {
     if (const auto path = lookUp(name, folders)) return *path;
     const bool isAbsolute = fs::path(name).is_absolute();
-    std::vector<std::string> looked;
+    std::vector<std::string> searched;
     const std::vector<std::string> builtin = builtinSceneNames();
     std::string advice;
     if (std::ranges::count(builtin, name) > 0)
         advice = fmt::format("; that scene is built in: write builtin: {}", name);
     for (const fs::path& folder : folders) {
-        if (!isAbsolute) looked.push_back(folder.string());
+        if (!isAbsolute) searched.push_back(folder.string());
         if (advice.empty()) advice = didYouMeanFile(name, folder);
     }
     if (advice.empty())
-        advice = name.starts_with("~/") ? "; '~' stands for no folder here: write the whole path"
-                 : name.find('$') != std::string::npos
-                     ? "; '$' stands for no variable here: write the whole path"
+        advice = name.starts_with("~/")                ? "; '~' stands for no folder here: write the whole path"
+                 : name.find('$') != std::string::npos ? "; '$' stands for no variable here: write the whole path"
                  : name.find('\\') != std::string::npos
                      ? "; write paths with '/'"
                      : "; name its folder with --scenes DIR or VOXRAY_SCENES, see docs/scenes.md";
     throw UsageError(where, "no file '{}'{}{}", oneLine(name, 200),
-                     looked.empty() ? "" : fmt::format(" in {}", fmt::join(looked, ", ")), advice);
+                     searched.empty() ? "" : fmt::format(" in {}", fmt::join(searched, ", ")), advice);
 }
 
+/// @throws UsageError for a built-in scene that doesn't exist or has no such parameters.
 void checkBuiltin(const SceneSource& source, const std::vector<fs::path>& folders) {
     const std::string& name = source.builtin;
     const std::vector<std::string> names = builtinSceneNames();
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
+    if (std::ranges::count(names, name) == 0) {
         std::string advice = didYouMean(name, names);
         for (const char* ending : {"", ".gltf", ".glb"})
             if (const std::string file = name + ending; lookUp(file, folders))
@@ -97,31 +77,52 @@ void checkBuiltin(const SceneSource& source, const std::vector<fs::path>& folder
         throw UsageError(source.where, "{}.builtin: no built-in scene '{}'{}", source.owner, name, advice);
     }
 
-    // Its own parameters, and in suggestions the keys that stand next to them
-    std::vector<std::string> own, all = source.otherKeys;
-    for (const ParameterDoc& doc : describeBuiltinScene(name)) own.push_back(doc.name);
-    all.insert(all.end(), own.begin(), own.end());
+    // Suggestions include keys that all scenes have
+    std::vector<std::string> parameters, all = source.otherKeys;
+    for (const ParameterDoc& doc : describeBuiltinScene(name)) parameters.push_back(doc.name);
+    all.insert(all.end(), parameters.begin(), parameters.end());
     for (const auto& [key, value] : source.builtinParameters.members)
-        if (std::find(own.begin(), own.end(), key) == own.end())
+        if (std::ranges::count(parameters, key) == 0)
             throw UsageError(value.where, "{}: {} has no parameter '{}'{}", source.owner, name, key,
                              didYouMean(key, all));
 }
 
+/// @throws UsageError if the extension of the file is not one of glTF.
 void checkFormat(const SceneSource& source) {
     const std::string ending = fs::path(source.file).extension().string();
-    for (const char* other : {".obj", ".fbx", ".blend", ".dae", ".ply", ".stl", ".usd", ".usdz", ".pbrt"})
-        if (ending == other)
+    for (const char* unsupported : {".obj", ".fbx", ".blend", ".dae", ".ply", ".stl", ".usd", ".usdz", ".pbrt"})
+        if (ending == unsupported)
             throw UsageError(source.where, "{}.file: '{}' is no glTF: export it as .glb", source.owner,
                              oneLine(source.file, 200));
 }
 
+/// @throws UsageError if the extension of the environment map is that of an LDR format, which has no
+/// radiance.
 void checkMapFormat(const SceneSettings& settings) {
     const std::string ending = fs::path(settings.environment->map).extension().string();
-    for (const char* other : {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp"})
-        if (ending == other)
-            throw UsageError(settings.environmentWhere,
-                             "scene.environment: '{}' holds no radiance: take an .exr file",
+    for (const char* ldr : {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp"})
+        if (ending == ldr)
+            throw UsageError(settings.environmentWhere, "scene.environment: '{}' holds no radiance: take an .exr file",
                              oneLine(settings.environment->map, 200));
+}
+
+}  // namespace
+
+std::vector<fs::path> sceneFolders(const fs::path& scenesOption, const fs::path& sourceRoot,
+                                   const fs::path& configFile) {
+    std::vector<fs::path> folders;
+    if (!scenesOption.empty()) folders.push_back(scenesOption);
+    if (const char* variable = std::getenv("VOXRAY_SCENES"); variable && *variable) folders.push_back(variable);
+    if (!sourceRoot.empty()) folders.push_back((sourceRoot / ".." / "shared" / "scenes").lexically_normal());
+    if (!configFile.empty()) folders.push_back(configFile.has_parent_path() ? configFile.parent_path() : ".");
+    std::vector<fs::path> unique;
+    for (const fs::path& folder : folders) {
+        const auto isSame = [&](const fs::path& other) {
+            return fs::weakly_canonical(other) == fs::weakly_canonical(folder);
+        };
+        if (std::ranges::none_of(unique, isSame)) unique.push_back(folder);
+    }
+    return unique;
 }
 
 void checkRadiance(const ImageF& map, const std::filesystem::path& path) {
@@ -136,8 +137,7 @@ void checkRadiance(const ImageF& map, const std::filesystem::path& path) {
     const size_t pixel = first / 3;
     throw Error(
         "{}: its pixel in column {} and row {}, from the upper left, is ({}, {}, {}), "
-        "and {} of its {} values are negative or not finite: radiance is neither; "
-        "repair it in an image editor{}",
+        "and {} of its {} values are negative or not finite: radiance is neither; repair it in an image editor{}",
         path.string(), pixel % map.width, pixel / map.width, map.data[3 * pixel], map.data[3 * pixel + 1],
         map.data[3 * pixel + 2], bad, map.data.size(),
         std::isinf(map.data[first]) ? "; half floats end at 65504, save a sun in 32 bits" : "");
@@ -199,7 +199,7 @@ std::string SceneLoader::key(const SceneSettings& settings) {
     hasher.addPlain(settings.options.keepFileLights).addPlain(settings.options.materials);
     if (settings.options.subdivide > 0) hasher.add("subdivide").addPlain(settings.options.subdivide);
     hasher.addPlain(settings.options.time).add(settings.cameraName);
-    // Where all goes from the compared frame on changes nothing in it but the bounds
+    // The compared frame depends on later motion only through the bounds of the scene
     hasher.addPlain(settings.options.timeStep > 0);
     hasher.add(settings.movingSpheres ? writeParams(*settings.movingSpheres).text() : "");
     hasher.add(settings.region ? writeParams(*settings.region).text() : "");
@@ -207,15 +207,10 @@ std::string SceneLoader::key(const SceneSettings& settings) {
     camera.erase("move");
     hasher.add(settings.camera ? camera.text() : "");
     for (const auto& [light, move, offAt, where] : settings.lights) {
-        hasher.addPlain(light.type)
-            .addPlain(light.intensity)
-            .addPlain(light.position)
-            .addPlain(light.direction);
+        hasher.addPlain(light.type).addPlain(light.intensity).addPlain(light.position).addPlain(light.direction);
         hasher.addPlain(light.innerConeAngle).addPlain(light.outerConeAngle);
     }
-    hasher.add(settings.environment
-                   ? fmt::format("{}", writeParams(*settings.environment).find("scale")->text())
-                   : "");
+    hasher.add(settings.environment ? fmt::format("{}", writeParams(*settings.environment).find("scale")->text()) : "");
     if (const auto map = loadMap(settings)) {
         hasher.addPlain(map->width).addPlain(map->height);
         hasher.add(map->data.data(), map->data.size() * sizeof(float));

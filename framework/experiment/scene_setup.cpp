@@ -13,38 +13,32 @@
 #include "scene/compose.h"
 #include "scene/content_hash.h"
 #include "scene/load.h"
+#include "scene/mesh_repair.h"
 #include "scene/panes.h"
 #include "scene/region_split.h"
 #include "scene/select_instances.h"
 #include "scene/subdivide.h"
-#include "scene/value_ranges.h"
 
 namespace voxray {
 namespace fs = std::filesystem;
 
 namespace {
 
-/// From this distance on, in sizes of the scene, two of the seven digits of floats are lost.
+/// At this distance from the origin, in sizes of the scene, floats lose two of their seven digits.
 constexpr float kFarAway = 100;
 
-/// Where the scene's coordinates best count from: along an axis that loses no digits, from where they do.
-glm::vec3 nearestOrigin(const Geometry& g) {
+/// The best origin of the scene's coordinates: the scene's center along axes that would lose digits, else 0.
+glm::vec3 bestOrigin(const Geometry& g) {
     const glm::vec3 center = 0.5f * (g.boundsMin + g.boundsMax);
     const float near = kFarAway * glm::length(g.boundsMax - g.boundsMin);
     return center * glm::vec3(glm::greaterThan(glm::abs(center), glm::vec3(near)));
 }
 
-/// @param origin which the camera's coordinates count from, those of the state too.
+/// @param origin of the coordinates of state and camera.
 Camera chooseCamera(const SceneSettings& settings, const SceneState& state, const glm::vec3& origin) {
     if (settings.camera) {
-        const CameraSettings& c = *settings.camera;
-        Camera camera;
-        camera.name = "camera";
-        camera.verticalFovRadians = glm::radians(c.fovDegrees);
-        camera.position = c.position - origin;
-        camera.forward = glm::normalize(c.target - c.position);
-        const glm::vec3 right = glm::normalize(glm::cross(camera.forward, glm::normalize(c.up)));
-        camera.up = glm::normalize(glm::cross(right, camera.forward));
+        Camera camera = cameraOf(*settings.camera);
+        camera.position -= origin;
         return camera;
     }
     std::vector<std::string> names;
@@ -52,8 +46,8 @@ Camera chooseCamera(const SceneSettings& settings, const SceneState& state, cons
         if (settings.cameraName.empty() || camera.name == settings.cameraName) return camera;
         names.push_back(camera.name);
     }
-    const std::vector<std::string>& others = state.scene->orthographicCameras;
-    if (std::ranges::count(others, settings.cameraName) > 0)
+    const std::vector<std::string>& orthographic = state.scene->orthographicCameras;
+    if (std::ranges::count(orthographic, settings.cameraName) > 0)
         throw UsageError(settings.cameraWhere,
                          "scene.camera: '{}' is orthographic, which Voxray does not render; "
                          "name another or give one by position and target",
@@ -63,17 +57,17 @@ Camera chooseCamera(const SceneSettings& settings, const SceneState& state, cons
             settings.where,
             "scene: it has no {}camera{}; './voxray scene {}' gives one that sees it, "
             "to write as in camera: {{position: [0, 1, 4], target: [0, 1, 0], fov_deg: 60}}",
-            others.empty() ? "" : "perspective ",
-            others.empty() ? "" : " ('" + others[0] + "' is orthographic, which Voxray does not render)",
+            orthographic.empty() ? "" : "perspective ",
+            orthographic.empty() ? "" : " ('" + orthographic[0] + "' is orthographic, which Voxray does not render)",
             settings.source.builtin.empty() ? settings.where.file : settings.source.builtin);
     }
     throw UsageError(settings.cameraWhere, "scene.camera: no camera '{}'{}", settings.cameraName,
                      didYouMean(settings.cameraName, names));
 }
 
-/// Surfaces in the region's border are in it, so far as the digits of files and floats tell.
-/// @throws UsageError for a region that holds nothing.
-void putRegion(PreparedScene& prepared, const SceneSettings& settings) {
+/// Sets the region. Surfaces on its border are included, up to the precision of files and floats.
+/// @throws UsageError for a region without surfaces.
+void setRegion(PreparedScene& prepared, const SceneSettings& settings) {
     const Geometry& g = prepared.state.geometry;
     const auto& [low, high] = *settings.region;
     const glm::vec3 rounding = 1e-6f * glm::max(glm::abs(low), glm::abs(high));
@@ -84,25 +78,25 @@ void putRegion(PreparedScene& prepared, const SceneSettings& settings) {
     prepared.state = splitAtRegion(prepared.state, region, settings.options.time);
 }
 
-/// The lights that shine in a frame and its camera, out of those of the evaluated scene.
-void chooseLightsAndCamera(PreparedScene& prepared, const SceneSettings& settings, int frame) {
+/// Sets the lights and the camera of a frame, from those of the evaluated scene and of the config.
+void setLightsAndCamera(PreparedScene& prepared, const SceneSettings& settings, int frame) {
     std::vector<Light>& lights = prepared.state.lights;
     if (!settings.options.keepFileLights) lights.clear();
     for (const ConfigLight& entry : settings.lights) {
         Light light = entry.light;
         light.position -= prepared.origin;
         if (entry.offAt > 0 && frame >= int(entry.offAt)) light.intensity = glm::vec3(0.0f);
-        const glm::vec3 way = float(frame) * entry.move;
-        if (light.type == LightType::Directional && way != glm::vec3(0.0f)) {
-            const float length = glm::length(light.direction + way);
+        const glm::vec3 offset = float(frame) * entry.move;
+        if (light.type == LightType::Directional && offset != glm::vec3(0.0f)) {
+            const float length = glm::length(light.direction + offset);
             if (!(length > 1e-6f))
                 throw Error(
                     "{}: 'move' leaves it without a direction {} frames from the compared one; "
                     "change it or measure fewer frames",
                     light.name, frame);
-            light.direction = (light.direction + way) / length;
+            light.direction = (light.direction + offset) / length;
         } else {
-            light.position += way;
+            light.position += offset;
         }
         lights.push_back(light);
     }
@@ -110,7 +104,33 @@ void chooseLightsAndCamera(PreparedScene& prepared, const SceneSettings& setting
     prepared.state.cameras = {prepared.camera};
 }
 
+/// Removes the objects named by `hide` from a scene. @throws UsageError for a name that the scene lacks.
+void hideObjects(const SceneSettings& settings, Scene& scene) {
+    if (settings.hidden.empty()) return;
+    for (const HiddenName& hidden : settings.hidden) {
+        std::set<std::string> names;
+        for (const Instance& instance : scene.instances)
+            for (std::string& name : namesOfInstance(scene, instance)) names.insert(std::move(name));
+        if (hide(scene, hidden.name) == 0)
+            throw UsageError(hidden.where, "scene.hide: the scene has no node, mesh or material '{}'{}", hidden.name,
+                             didYouMean(hidden.name, std::vector<std::string>(names.begin(), names.end())));
+    }
+    if (scene.instances.empty())
+        throw UsageError(settings.hidden.back().where, "scene.hide: nothing of the scene is left to render");
+}
+
 }  // namespace
+
+Camera cameraOf(const CameraSettings& settings) {
+    Camera camera;
+    camera.name = "camera";
+    camera.verticalFovRadians = glm::radians(settings.fovDegrees);
+    camera.position = settings.position;
+    camera.forward = glm::normalize(settings.target - settings.position);
+    const glm::vec3 right = glm::normalize(glm::cross(camera.forward, glm::normalize(settings.up)));
+    camera.up = glm::normalize(glm::cross(right, camera.forward));
+    return camera;
+}
 
 void SceneLoader::checkOverrides(const SceneSettings& settings) {
     if (settings.overrides.empty()) return;
@@ -126,37 +146,20 @@ void SceneLoader::checkOverrides(const SceneSettings& settings) {
             addNames(addition.source);
     }
     for (const MaterialOverride& entry : settings.overrides)
-        if (std::find(names.begin(), names.end(), entry.material) == names.end())
+        if (std::ranges::count(names, entry.material) == 0)
             throw UsageError(entry.where, "scene.override: the scene has no material '{}'{}", entry.material,
                              didYouMean(entry.material, names));
 }
 
-void SceneLoader::hideObjects(const SceneSettings& settings, Scene& scene) {
-    if (settings.hidden.empty()) return;
-    for (const HiddenName& hidden : settings.hidden) {
-        std::set<std::string> names;
-        for (const Instance& instance : scene.instances)
-            for (std::string& name : namesOfInstance(scene, instance)) names.insert(std::move(name));
-        if (hide(scene, hidden.name) == 0)
-            throw UsageError(hidden.where, "scene.hide: the scene has no node, mesh or material '{}'{}",
-                             hidden.name,
-                             didYouMean(hidden.name, std::vector<std::string>(names.begin(), names.end())));
-    }
-    if (scene.instances.empty())
-        throw UsageError(settings.hidden.back().where, "scene.hide: nothing of the scene is left to render");
-}
-
 std::shared_ptr<const Scene> SceneLoader::compose(const SceneSettings& settings) {
-    // What scenes bring is made Lambert where the config asks for it; what the config itself says stands
-    // above that
+    // Materials of scenes are made Lambert if the config requests it; materials in the config are not
     const auto loadInMode = [&](const SceneSource& source) {
         std::shared_ptr<const Scene> scene = load(source);
         return settings.options.materials == MaterialMode::Lambert ? withLambertMaterials(*scene) : scene;
     };
     std::shared_ptr<const Scene> scene = loadInMode(settings.source);
-    if (!settings.placement && settings.additions.empty() && settings.overrides.empty() &&
-        settings.hidden.empty() && !settings.environment && !settings.movingSpheres &&
-        settings.options.subdivide == 0)
+    if (!settings.placement && settings.additions.empty() && settings.overrides.empty() && settings.hidden.empty() &&
+        !settings.environment && !settings.movingSpheres && settings.options.subdivide == 0)
         return scene;
 
     auto composed = settings.placement ? std::make_shared<Scene>(placedScene(*scene, *settings.placement))
@@ -193,21 +196,21 @@ PreparedScene SceneLoader::prepare(const SceneSettings& settings, Origin origin)
     const Playback playback = settings.options.timeStep > 0 ? Playback::Looping : Playback::Frozen;
     std::shared_ptr<const Scene> scene = compose(settings);
     prepared.state = evaluateWithPanes(scene, settings.options.time, playback);
-    const glm::vec3 nearest = nearestOrigin(prepared.state.geometry);
+    const glm::vec3 nearest = bestOrigin(prepared.state.geometry);
     prepared.isFarAway = nearest != glm::vec3(0.0f);
     if (origin == Origin::Scene) prepared.origin = nearest;
     if (prepared.origin != glm::vec3(0.0f)) {
-        // A node over all nodes takes their translations away before any vertex is added to them
+        // A root node subtracts the origin from translations before these are added to vertices
         auto moved = std::make_shared<Scene>(placedScene(*scene, {.translate = -prepared.origin}));
         moved->contentHash = hashScene(*moved);
         prepared.state = evaluateWithPanes(std::move(moved), settings.options.time, playback);
     }
-    if (settings.region) putRegion(prepared, settings);
-    chooseLightsAndCamera(prepared, settings, 0);
+    if (settings.region) setRegion(prepared, settings);
+    setLightsAndCamera(prepared, settings, 0);
     return prepared;
 }
 
-const PreparedScene& SceneLoader::prepareOnce(const SceneSettings& settings, const std::string& key) {
+const PreparedScene& SceneLoader::prepareCached(const SceneSettings& settings, const std::string& key) {
     constexpr size_t kScenes = 16, kTriangles = 2'000'000;
     const auto known = std::ranges::find(prepared_, key, &decltype(prepared_)::value_type::first);
     if (known != prepared_.end()) {
@@ -222,19 +225,19 @@ const PreparedScene& SceneLoader::prepareOnce(const SceneSettings& settings, con
     return prepared_.emplace_front(key, prepare(settings)).second;
 }
 
-PreparedScene SceneLoader::takePrepared(const SceneSettings& settings, const std::string& key) {
-    std::list<std::pair<std::string, PreparedScene>> kept;
-    kept.swap(prepared_);
-    const auto known = std::ranges::find(kept, key, &decltype(kept)::value_type::first);
-    if (known != kept.end() && !known->second.isFarAway) return std::move(known->second);
-    kept.clear();
+PreparedScene SceneLoader::takeCached(const SceneSettings& settings, const std::string& key) {
+    std::list<std::pair<std::string, PreparedScene>> cached;
+    cached.swap(prepared_);
+    const auto known = std::ranges::find(cached, key, &decltype(cached)::value_type::first);
+    if (known != cached.end() && !known->second.isFarAway) return std::move(known->second);
+    cached.clear();
     return prepare(settings, Origin::Scene);
 }
 
 std::vector<Box> SceneLoader::goToFrame(PreparedScene& prepared, const SceneSettings& settings, int frame) {
     const SceneOptions& options = settings.options;
     std::vector<Box> changed = advance(prepared.state, options.time + frame * options.timeStep);
-    chooseLightsAndCamera(prepared, settings, frame);
+    setLightsAndCamera(prepared, settings, frame);
     return changed;
 }
 

@@ -15,74 +15,76 @@
 
 namespace voxray {
 
-/// Where coordinates count from. Floats are dense near 0 alone: a room of 2 m at 10 km has 2000 of them along
-/// an edge.
+/// The origin of coordinates. Floats are precise only near 0: a room of 2 m at a distance of 10 km has 2000
+/// different coordinates along an edge.
 enum class Origin {
     World,  ///< The world's origin.
-    Scene   ///< The scene's center, where that is far from the world's origin for the scene's size.
+    Scene   ///< The scene's center if it is far from the world's origin compared with the scene's size.
 };
 
 /// A scene as a variant renders it.
 struct PreparedScene {
-    glm::vec3 origin{0.0f};  ///< Coordinates of state and camera count from there, m.
-    bool isFarAway = false;  ///< Whether they had better count from the scene's center.
-    SceneState state;        ///< Its lights are those that shine, its only camera is `camera`.
+    glm::vec3 origin{0.0f};  ///< Origin of the coordinates of state and camera in the world, m.
+    bool isFarAway = false;  ///< Whether Origin::Scene differs from Origin::World.
+    SceneState state;        ///< With the lights of the scene and the config; its only camera is `camera`.
     Camera camera;
 };
 
-/// Loads scenes, composes what a config adds and overrides, and puts its camera, lights, environment and
-/// material mode on them. Keeps every scene it loaded, as it was loaded.
+/// Converts the settings of a camera.
+Camera cameraOf(const CameraSettings& settings);
+
+/// Loads scenes, applies additions and overrides of a config, and sets its camera, lights, environment and
+/// material mode. All loaded scenes are cached as they were loaded.
 class SceneLoader {
  public:
     explicit SceneLoader(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
 
-    /// Looks in other folders from now on, as for another config.
+    /// Sets other folders, as for another config.
     void searchIn(std::vector<std::filesystem::path> folders) { folders_ = std::move(folders); }
 
-    /// A file or a built-in scene, as it is. @throws UsageError for one that isn't there or takes other
+    /// A file or a built-in scene, unchanged. @throws UsageError for one that doesn't exist or has no such
     /// parameters, Error for a broken file.
     std::shared_ptr<const Scene> load(const SceneSource& source);
 
-    /// Hash of everything that the prepared scene depends on, file contents included.
-    /// @throws UsageError for a scene, parameter, file or overridden material that isn't there, Error for a
+    /// Hash of everything that the prepared scene depends on, including the contents of files.
+    /// @throws UsageError for a scene, parameter, file or overridden material that doesn't exist, Error for a
     /// broken file.
     std::string key(const SceneSettings& settings);
 
     /// @throws as key(), and UsageError for a camera that the scene lacks.
     PreparedScene prepare(const SceneSettings& settings, Origin origin = Origin::World);
 
-    /// As prepare(), or what that made before: the last few scenes are kept, fewer where they are large.
-    /// @param key that of `settings`. @return what stays as long as no other scene is prepared so.
-    const PreparedScene& prepareOnce(const SceneSettings& settings, const std::string& key);
-    /// As prepare() with Origin::Scene, for one who keeps it: what prepareOnce() made, where its coordinates
-    /// do. Frees all else that is kept.
-    PreparedScene takePrepared(const SceneSettings& settings, const std::string& key);
+    /// As prepare(), with a cache of the last few scenes; of fewer if they are large.
+    /// @param key that of `settings`. @return a reference that is valid until another scene is prepared here.
+    const PreparedScene& prepareCached(const SceneSettings& settings, const std::string& key);
+    /// As prepare() with Origin::Scene, or moved out of the cache of prepareCached() if both origins are the
+    /// same. Clears the cache.
+    PreparedScene takeCached(const SceneSettings& settings, const std::string& key);
 
-    /// Takes a prepared scene to a frame, counted from the compared one: animation, lights, and a camera on
-    /// an animated node. A camera's own `move` is not applied.
-    /// @return where surfaces moved, as `advance`. @throws Error for a light that is left without direction.
+    /// Updates animation, lights, and a camera on an animated node for another frame, whose index is relative
+    /// to the compared one. The config's `camera.move` is not applied.
+    /// @return boxes in which surfaces moved, as `advance`. @throws Error for a light without direction.
     static std::vector<Box> goToFrame(PreparedScene& prepared, const SceneSettings& settings, int frame);
 
-    /// What loading left out and composing changed, a line each, of all scenes.
+    /// Warnings of all scenes: what is not supported in files, and what was changed.
     std::vector<std::string> warnings() const;
 
  private:
     /// @throws UsageError for an overridden material that no scene has.
     void checkOverrides(const SceneSettings& settings);
-    /// Takes what `hide` names out of a scene. @throws UsageError for a name that nothing goes by.
-    static void hideObjects(const SceneSettings& settings, Scene& scene);
-    /// The scene with all that is added, overridden and hidden.
+    /// The scene with additions, overrides and hidden objects of the config.
     std::shared_ptr<const Scene> compose(const SceneSettings& settings);
     std::shared_ptr<const ImageF> loadMap(const SceneSettings& settings);
 
     std::vector<std::filesystem::path> folders_;
-    std::map<std::string, std::shared_ptr<const Scene>>
-        scenes_;  ///< By file or built-in scene and parameters.
-    std::map<std::pair<std::string, std::string>, std::shared_ptr<const ImageF>>
-        maps_;                              ///< By path and layer.
-    std::vector<std::string> mapWarnings_;  ///< Which layers were taken, where a map has several.
-    std::set<std::string> changes_;         ///< What composing changed.
-    std::list<std::pair<std::string, PreparedScene>> prepared_;  ///< By key, the last one first.
+    /// By file, or by built-in scene and parameters.
+    std::map<std::string, std::shared_ptr<const Scene>> scenes_;
+    /// By path and layer.
+    std::map<std::pair<std::string, std::string>, std::shared_ptr<const ImageF>> maps_;
+    std::vector<std::string> mapWarnings_;  ///< Layers that were selected in maps with several ones.
+    std::set<std::string> changes_;         ///< Warnings of compose().
+    /// By key, the most recently used one first.
+    std::list<std::pair<std::string, PreparedScene>> prepared_;
 };
 
 }  // namespace voxray

@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kTotal = kLightPrefixes[0];
 constexpr const char* kIndirect = kLightPrefixes[1];
 
-/// Calls body(end of the column's name, mask) for the whole image and for each mask that selects a pixel.
+/// Calls body(suffix of columns, mask) for the whole image and for each mask that selects a pixel.
 template <typename Body>
 void forEachRegion(const std::vector<PixelSelection>& masks, const Body& body) {
     body(std::string(), PixelMask());
@@ -23,16 +23,15 @@ void add(Scores& all, const std::string& light, const Scores& scores, const std:
     for (const auto& [metric, value] : scores) all[light + metric + region] = value;
 }
 
-/// Of all pixels and channels.
+/// Mean of all pixels and channels.
 double meanOf(const ImageF& image) {
     return std::accumulate(image.data.begin(), image.data.end(), 0.0) / double(image.data.size());
 }
 
 void addScores(Scores& all, const std::string& light, const Comparison& comparison,
                const std::vector<PixelSelection>& masks) {
-    forEachRegion(masks, [&](const std::string& region, PixelMask mask) {
-        add(all, light, score(comparison, mask), region);
-    });
+    forEachRegion(masks,
+                  [&](const std::string& region, PixelMask mask) { add(all, light, score(comparison, mask), region); });
 }
 
 }  // namespace
@@ -50,8 +49,7 @@ PreparedReference prepareReference(ReferenceImages images, std::vector<PixelSele
     r.indirectExposures = flipExposures(ref.indirect.mean);
     for (const PixelSelection& mask : reference.masks)
         r.maskFractions[mask.name] = double(mask.count) / double(ref.final.mean.pixelCount());
-    const auto addLight = [&](const std::string& prefix, const ReferenceLight& light,
-                              const FlipExposures& exposures) {
+    const auto addLight = [&](const std::string& prefix, const ReferenceLight& light, const FlipExposures& exposures) {
         const ScoreOptions options{image.exposureStops, exposures};
         const ImageF black = blackLike(light.mean), constant = constantLike(light.mean);
         addScores(r.black, prefix, {black, light.mean, options, light.halves()}, reference.masks);
@@ -67,8 +65,7 @@ PreparedReference prepareReference(ReferenceImages images, std::vector<PixelSele
 }
 
 ScoredFrame scoreFrame(const FrameImages& test, const ReferenceImages& reference,
-                       const std::vector<PixelSelection>& masks, const ReferenceRecord& pinned,
-                       float exposureStops) {
+                       const std::vector<PixelSelection>& masks, const ReferenceRecord& pinned, float exposureStops) {
     ScoredFrame scored;
     const auto addLight = [&](const std::string& light, const ImageF& image, const ReferenceLight& right,
                               const FlipExposures& exposures) {
@@ -78,17 +75,14 @@ ScoredFrame scoreFrame(const FrameImages& test, const ReferenceImages& reference
     };
     scored.flip = addLight(kTotal, test.final, reference.final, pinned.exposures);
     if (test.indirect)
-        scored.indirectFlip =
-            addLight(kIndirect, *test.indirect, reference.indirect, pinned.indirectExposures);
+        scored.indirectFlip = addLight(kIndirect, *test.indirect, reference.indirect, pinned.indirectExposures);
     return scored;
 }
 
-void scoreSeeds(const FrameImages& first, const FrameImages& second, const ReferenceImages& reference,
-                Scores& scores) {
+void scoreSeeds(const FrameImages& first, const FrameImages& second, const ReferenceImages& reference, Scores& scores) {
     add(scores, kTotal, seedScores(first.final, second.final, reference.final.halves()), "");
     if (first.indirect && second.indirect)
-        add(scores, kIndirect, seedScores(*first.indirect, *second.indirect, reference.indirect.halves()),
-            "");
+        add(scores, kIndirect, seedScores(*first.indirect, *second.indirect, reference.indirect.halves()), "");
 }
 
 void scoreAfterglow(std::span<const FrameMeans> means, uint32_t offAt, const std::string& light,
@@ -110,21 +104,19 @@ void scoreAfterglow(std::span<const FrameMeans> means, uint32_t offAt, const std
     }
 }
 
-void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReference& reference,
-                   const Scores& first, const std::function<FrameReference(uint32_t)>& referenceOf,
-                   float exposureStops, std::optional<uint32_t> lightOff, VariantResult& result) {
+void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReference& reference, const Scores& first,
+                   const std::function<FrameReference(uint32_t)>& referenceOf, float exposureStops,
+                   std::optional<uint32_t> lightOff, VariantResult& result) {
     TemporalError total, indirect;
     std::vector<FrameMeans> totalMeans, indirectMeans;
     for (const FrameImages& test : frames) {
-        // Frame 0 has its scores already
-        std::optional<FrameReference> own;
-        if (test.frame > 0 && referenceOf) own = referenceOf(test.frame);
-        const ReferenceImages& right = own ? own->images : reference.images;
-        const auto& masks = own ? own->masks : reference.masks;
+        std::optional<FrameReference> frameReference;
+        if (test.frame > 0 && referenceOf) frameReference = referenceOf(test.frame);
+        const ReferenceImages& right = frameReference ? frameReference->images : reference.images;
+        const auto& masks = frameReference ? frameReference->masks : reference.masks;
         result.frames.push_back({test.frame, first});
         if (test.frame > 0)
-            result.frames.back().scores =
-                scoreFrame(test, right, masks, reference.record, exposureStops).scores;
+            result.frames.back().scores = scoreFrame(test, right, masks, reference.record, exposureStops).scores;
         total.add(test.final, right.final.halves());
         if (test.indirect) indirect.add(*test.indirect, right.indirect.halves());
         totalMeans.push_back({meanOf(test.final), meanOf(right.final.mean)});

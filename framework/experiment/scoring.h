@@ -12,18 +12,17 @@
 
 namespace voxray {
 
-/// A reference with what every score against it needs.
+/// A reference with masks, exposures and noise floors for scores against it.
 struct PreparedReference {
     ReferenceImages images;
     std::vector<PixelSelection> masks;
     ReferenceRecord record;
 };
-/// Pins the exposures, scores the black and the constant image and finds the noise floors, on the whole image
-/// and under each mask.
+/// Computes exposures, and the scores of a black and a constant image and noise floors for all masks.
 PreparedReference prepareReference(ReferenceImages images, std::vector<PixelSelection> masks,
                                    const ImageSettings& image, const std::string& folder);
 
-/// What a variant rendered in one of its measured frames.
+/// The images of a variant in one of its measured frames.
 struct FrameImages {
     uint32_t frame = 0;
     ImageF final;
@@ -37,15 +36,14 @@ struct ScoredFrame {
     std::optional<ImageF> indirectFlip;
 };
 /// Scores both lights on the whole image and under each mask that selects a pixel.
-/// @param pinned whose exposures are taken: those of frame 0 for all frames.
+/// @param pinned has the exposures: those of frame 0 are used for all frames.
 ScoredFrame scoreFrame(const FrameImages& test, const ReferenceImages& reference,
-                       const std::vector<PixelSelection>& masks, const ReferenceRecord& pinned,
-                       float exposureStops);
+                       const std::vector<PixelSelection>& masks, const ReferenceRecord& pinned, float exposureStops);
 
-/// Scores what of the error in frame 0 is bias and what noise into `scores`, of both lights.
+/// Splits the error of frame 0 into bias and noise, for total and indirect light, and stores them in
+/// `scores`.
 /// @param first, second the frame with two seeds.
-void scoreSeeds(const FrameImages& first, const FrameImages& second, const ReferenceImages& reference,
-                Scores& scores);
+void scoreSeeds(const FrameImages& first, const FrameImages& second, const ReferenceImages& reference, Scores& scores);
 
 /// The reference of a measured frame and the pixels that masks select there.
 struct FrameReference {
@@ -53,7 +51,7 @@ struct FrameReference {
     std::vector<PixelSelection> masks;
 };
 
-/// Fraction of a light that an eye sees: Weber's fraction of brightness.
+/// Smallest relative difference of brightness that is visible: Weber's fraction.
 inline constexpr double kVisibleFraction = 0.02;
 
 /// Mean radiance of a compared frame and of its reference.
@@ -62,20 +60,21 @@ struct FrameMeans {
     double reference = 0;
 };
 
-/// Scores of a compared frame from `offAt` on: `afterglow`, by how much the frame is brighter than its
-/// reference, over what the reference lost when the light went off (below 0: darker); `frames_lit`, in how
-/// many of the compared frames so far that was over kVisibleFraction.
-/// @param light what columns begin with. @param means of `frames`, in their order, as they are compared. No
-/// score where no frame before is compared, or the reference did not lose light.
+/// Scores compared frames from `offAt` on, in which a light was switched off: `afterglow` is the excess
+/// brightness of the frame over its reference, relative to the loss of the reference when the light was
+/// switched off (below 0: too dark); `frames_lit` is the number of compared frames so far with an afterglow
+/// over kVisibleFraction. There are no scores if no frame before was compared or the reference did not become
+/// darker.
+/// @param light prefix of columns. @param means of `frames`, in the same order.
 void scoreAfterglow(std::span<const FrameMeans> means, uint32_t offAt, const std::string& light,
                     std::span<FrameScores> frames);
 
-/// Scores each compared frame into `result.frames` and the temporal error of all of them into
+/// Stores the scores of each compared frame in `result.frames` and the temporal error of all of them in
 /// `result.scores`.
-/// @param first the scores of frame 0. @param referenceOf the reference of another frame; empty: all frames
-/// share the prepared one. @param lightOff the frame in which a light is switched off, if any.
-void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReference& reference,
-                   const Scores& first, const std::function<FrameReference(uint32_t)>& referenceOf,
-                   float exposureStops, std::optional<uint32_t> lightOff, VariantResult& result);
+/// @param first the scores of frame 0. @param referenceOf returns the reference of another frame; empty: all
+/// frames share the prepared one. @param lightOff the frame in which a light is switched off, if any.
+void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReference& reference, const Scores& first,
+                   const std::function<FrameReference(uint32_t)>& referenceOf, float exposureStops,
+                   std::optional<uint32_t> lightOff, VariantResult& result);
 
 }  // namespace voxray

@@ -38,12 +38,12 @@ SceneOnDevice& Session::scene(const Setup& setup) {
         return *scene_;
     }
 
-    // The old one goes first: two may not fit. The tracer holds on to the state's address
+    // The old scene is freed first: two may not fit. The tracer keeps a pointer to the state
     scene_.reset();
     scene_.emplace();
     sceneMoved_ = false;
     try {
-        scene_->prepared = loader_.takePrepared(setup.scene, sceneKey);
+        scene_->prepared = loader_.takeCached(setup.scene, sceneKey);
         scene_->gpu = makeGpuScene(device_, stream_, scene_->prepared.state);
         scene_->tracer = makeRayTracer(setup.general.tracer, device_, compiler_, scene_->prepared.state);
         stream_.finish();
@@ -101,11 +101,11 @@ std::vector<PassMemory> Session::plan(Graph& graph, const Frame& frame, uint64_t
 
 std::string Session::referenceHashOf(const Study& study, const Setup& setup, uint32_t number) {
     if (study.reference.isNull()) return {};
-    const std::string first = referenceHash(loader_.key(setup.scene), study.reference, setup.image,
-                                            referenceSeed(setup.general.seed));
-    if (number == 0 || standsStill(setup.scene)) return first;
+    const std::string first =
+        referenceHash(loader_.key(setup.scene), study.reference, setup.image, referenceSeed(setup.general.seed));
+    if (number == 0 || isStatic(setup.scene)) return first;
 
-    // Frame 0 does not depend on where things go from there; later ones do
+    // Motion has no influence on frame 0
     Hasher hasher;
     hasher.add(first).addPlain(number).addPlain(setup.scene.options.timeStep);
     hasher.addPlain(setup.scene.camera ? setup.scene.camera->move : glm::vec3(0.0f));
@@ -119,18 +119,13 @@ const ReferenceImages& Session::reference(const Study& study, const Setup& setup
     if (reference_ && reference_->hash == hash) return *reference_;
     if (const auto failed = failedReferences_.find(hash); failed != failedReferences_.end())
         throw Error("{}", failed->second);
+    reference_.reset();
     try {
-        reference_ = stored(hash, setup);
-        if (reference_) return *reference_;
-        reference_ = makeReference(hash, study, setup, 0, progress);
+        return reference_.emplace(frameReference(study, setup, 0, progress));
     } catch (const std::exception& error) {
         if (interruptRequested()) throw Interrupted();
         throw Error("{}", failedReferences_[hash] = std::string("reference: ") + error.what());
     }
-
-    // The same bits whether they come from memory or from the cache
-    store(*reference_);
-    return *reference_;
 }
 
 bool Session::hasReference(const std::string& hash) const {
@@ -161,22 +156,15 @@ ReferenceImages Session::frameReference(const Study& study, const Setup& setup, 
                                         const std::function<void(double)>& progress) {
     const std::string hash = referenceHashOf(study, setup, number);
     if (auto known = stored(hash, setup)) return std::move(*known);
-    ReferenceImages rendered = makeReference(hash, study, setup, number, progress);
+    ReferenceImages rendered = imagesOf(renderPart(study, setup, number, {}, progress));
+    rendered.hash = hash;
     store(rendered);
     return rendered;
 }
 
-ReferenceImages Session::makeReference(const std::string& hash, const Study& study, const Setup& setup,
-                                       uint32_t number, const std::function<void(double)>& progress) {
-    ReferenceImages reference = imagesOf(renderPart(study, setup, number, {}, progress));
-    reference.hash = hash;
-    return reference;
-}
-
-RenderedPart Session::referencePart(const Study& study, const Setup& setup, uint32_t number,
-                                    SamplePart samples, const std::function<void(double)>& progress) {
-    if (const auto cached =
-            cache_.load(referenceHashOf(study, setup, number), setup.image.width, setup.image.height))
+RenderedPart Session::referencePart(const Study& study, const Setup& setup, uint32_t number, SamplePart samples,
+                                    const std::function<void(double)>& progress) {
+    if (const auto cached = cache_.load(referenceHashOf(study, setup, number), setup.image.width, setup.image.height))
         return partOf(*cached);
     return renderPart(study, setup, number, samples, progress);
 }
@@ -189,8 +177,7 @@ RenderedPart Session::renderPart(const Study& study, const Setup& setup, uint32_
     Graph graph = study.referenceGraph();
     plan(graph, frame, 0);
     graph.prepare(frame, device_, compiler_, stream_);
-    return renderReference(graph, {frame, device_, stream_, *onDevice.tracer, onDevice.gpu, {}}, number,
-                           progress);
+    return renderReference(graph, {frame, device_, stream_, *onDevice.tracer, onDevice.gpu, {}}, number, progress);
 }
 
 std::vector<std::string> Session::warnings() const {
@@ -199,7 +186,7 @@ std::vector<std::string> Session::warnings() const {
     return all;
 }
 
-bool standsStill(const SceneSettings& settings) {
+bool isStatic(const SceneSettings& settings) {
     return !changesInTime(settings) && (!settings.camera || settings.camera->move == glm::vec3(0.0f));
 }
 

@@ -22,7 +22,7 @@ struct SceneOnDevice {
     std::unique_ptr<RayTracer> tracer;
 };
 
-/// What the variants of a run share: the device, the shader compiler, scenes, references.
+/// Resources that the variants of a run share: the device, the shader compiler, scenes, references.
 class Session {
  public:
     Session(const DeviceOptions& device, const std::filesystem::path& sourceRoot,
@@ -33,75 +33,72 @@ class Session {
     ShaderCompiler& compiler() { return compiler_; }
     SceneLoader& loader() { return loader_; }
 
-    /// The backend that a variant gets. @throws Error where the device lacks what it needs.
+    /// The ray-tracing backend of a variant. @throws Error if the device lacks its features.
     std::string tracerName(const Setup& setup) const;
 
-    /// The variant's scene in the compared frame; the last one stays on the device until another is asked
-    /// for.
+    /// The variant's scene in the compared frame. It stays on the device until another scene is requested.
     SceneOnDevice& scene(const Setup& setup);
-    /// Where coordinates of the scene on the device count from, m.
+    /// Origin of the coordinates of the scene on the device, m.
     glm::vec3 origin() const { return scene_ ? scene_->prepared.origin : glm::vec3(0.0f); }
-    /// Takes the scene on the device, and a frame of it, to a frame counted from the compared one.
+    /// Updates the scene on the device and `frame` to a frame whose index is relative to the compared one.
     void goToFrame(const Setup& setup, Frame& frame, int fromCompared);
 
-    /// A frame of the scene's sequence, counted from frame 0, with the scene on the device taken to it. To
-    /// whoever begins there everything is new.
+    /// A frame of the scene's sequence by its index; the scene on the device is updated to it. Frame::changed
+    /// is not set, since it is the first frame of a graph.
     Frame enterFrame(const Setup& setup, uint32_t number, uint64_t seed);
 
-    /// Plans a graph: checks it against scene and device and sums up its memory, bytes by pass.
-    /// @param limitMb the config's limit for the graph in MiB, 0: none.
+    /// Plans a graph: checks it against scene and device. @return the memory of its passes.
+    /// @param limitMb the config's limit of memory in MiB, 0: none.
     std::vector<PassMemory> plan(Graph& graph, const Frame& frame, uint64_t limitMb);
 
-    /// A folder of parts that references are merged from where the cache hasn't them.
-    void takeParts(ReferenceParts parts) { parts_ = std::move(parts); }
-    /// The reference of a variant: from memory, from the cache on disk, from its parts, or rendered now.
-    /// A reference that failed fails again at once. @throws Error, Interrupted.
+    /// Sets the parts from which references are merged if they are not in the cache.
+    void setReferenceParts(ReferenceParts parts) { parts_ = std::move(parts); }
+    /// The reference of a variant: from memory, from the cache on disk, from its parts, or rendered now. The
+    /// error of a reference that failed is thrown again. @throws Error, Interrupted.
     const ReferenceImages& reference(const Study& study, const Setup& setup,
                                      const std::function<void(double)>& progress);
-    /// The reference of another frame of a sequence (see standsStill); likewise, not kept in memory.
+    /// The same for another frame of a sequence (see isStatic), without caching it in memory.
     ReferenceImages frameReference(const Study& study, const Setup& setup, uint32_t number,
                                    const std::function<void(double)>& progress);
-    /// Renders a part of a reference, or takes the whole out of the cache. @throws Error, Interrupted.
+    /// Renders a part of a reference, or loads the whole from the cache. @throws Error, Interrupted.
     RenderedPart referencePart(const Study& study, const Setup& setup, uint32_t number, SamplePart samples,
                                const std::function<void(double)>& progress);
-    /// Whether a reference can be had without rendering it.
+    /// Whether a reference is available without rendering it.
     bool hasReference(const std::string& hash) const;
-    /// A reference's hash, "" where the experiment has none.
+    /// Hash of a variant's reference; "" if the experiment has none.
     std::string referenceHashOf(const Study& study, const Setup& setup, uint32_t number = 0);
 
-    /// The pixels that the experiment's masks select in a frame; of the compared one Study::masks knows them.
+    /// The pixels that the experiment's masks select in a frame; Study::masks has those of frame 0.
     std::vector<PixelSelection> selectPixels(const Study& study, const Setup& setup, uint32_t number);
 
-    /// What went wrong without failing a variant, a line each.
+    /// Problems that did not fail a variant.
     std::vector<std::string> warnings() const;
 
  private:
+    /// Loads a reference from the cache or merges its parts.
     std::optional<ReferenceImages> stored(const std::string& hash, const Setup& setup);
     RenderedPart renderPart(const Study& study, const Setup& setup, uint32_t number, SamplePart samples,
                             const std::function<void(double)>& progress);
-    ReferenceImages makeReference(const std::string& hash, const Study& study, const Setup& setup,
-                                  uint32_t number, const std::function<void(double)>& progress);
     void store(const ReferenceImages& reference);
 
     Device device_;
     CommandStream stream_;
-    std::string cacheError_;  ///< Why nothing more is stored on disk, or "".
+    std::string cacheError_;  ///< Why nothing is stored on disk any more; "": no error.
     ShaderCompiler compiler_;
     SceneLoader loader_;
     ReferenceCache cache_;
     std::optional<ReferenceParts> parts_;
     std::optional<SceneOnDevice> scene_;
-    bool sceneMoved_ = false;  ///< Out of the compared frame.
+    bool sceneMoved_ = false;  ///< Whether the scene is not in the compared frame.
     std::optional<ReferenceImages> reference_;
     std::map<std::string, std::string> failedReferences_;  ///< Hash -> error.
     std::vector<std::string> warnings_;
 };
 
-/// Whether all frames of a sequence show the same: nothing moves, the camera neither. They then share one
-/// reference.
-bool standsStill(const SceneSettings& settings);
+/// Whether nothing moves or changes, including the camera, so that all frames share one reference.
+bool isStatic(const SceneSettings& settings);
 
-/// A frame of a variant on its scene; the scene must outlive it.
+/// The compared frame of a variant on its scene, which must outlive it.
 Frame frameOf(const Setup& setup, const PreparedScene& prepared, uint64_t seed);
 
 }  // namespace voxray

@@ -13,65 +13,65 @@
 
 namespace voxray {
 
-/// Ports: the image that is compared with the reference, and its indirect light.
+/// Names of output ports: the image that is compared with the reference, and its indirect light.
 inline constexpr const char* kComparedImage = "final";
 inline constexpr const char* kIndirectImage = "indirect";
-/// Ports whose sum is the compared image.
+/// Names of the ports whose sum is the compared image.
 inline constexpr const char* kPartsOfLight[] = {"direct", kIndirectImage};
 
-/// One combination of the sweep's values. Its members are filled in step by step: graph (makeStudy),
-/// memory (planVariants), reference (PreparedExperiment), result (run).
+/// One combination of the sweep's values. Its members are set step by step: the graph by makeStudy(), memory
+/// by planVariants(), the reference by PreparedExperiment, the result by the run.
 struct Variant : SweepPoint {
-    /// Makes its graph and connects the ports. @throws UsageError with file and line.
+    /// Makes the graph and connects its ports. @throws UsageError with file and line.
     Variant(SweepPoint point, const Registry& registry);
 
-    Graph graph;     ///< Only passes that the compared images depend on. A graph keeps state: one a run.
-    Value resolved;  ///< The graph with every default filled in.
-    std::vector<std::string> leftOut;  ///< Ids of the passes that were culled.
-    /// By compared image: the parameters that lower its noise (Graph::noiseParameters()).
+    Graph graph;     ///< Only passes that the compared images depend on. It has state and is run once.
+    Value resolved;  ///< Config of the graph including all default values.
+    std::vector<std::string> culledPasses;  ///< Ids.
+    /// For each compared image: the parameters that lower its noise (Graph::noiseParameters()).
     std::map<std::string, std::vector<std::string>> noiseParameters;
-    std::vector<UnusedSetting> unused;  ///< Parameters without effect: "<id>.<parameter>".
+    std::vector<UnusedSetting> unused;  ///< Parameters without effect, named "<id>.<parameter>".
 
-    // From planVariants() on
+    // Set by planVariants()
     std::string sceneKey;            ///< SceneLoader::key() of its scene.
-    std::vector<PassMemory> memory;  ///< Memory of its passes, as planned.
+    std::vector<PassMemory> memory;  ///< Planned memory of each pass.
 
-    // From PreparedExperiment on
-    std::string referenceHash;  ///< "" where the experiment has no reference.
+    // Set by PreparedExperiment
+    std::string referenceHash;  ///< "" if the experiment has no reference.
 
-    std::optional<VariantResult> result;  ///< Measured now, or read from an earlier run.
+    std::optional<VariantResult> result;  ///< Measured in this run, or read from an earlier one.
 };
 
-/// An experiment with its variants, whose graphs have passed all checks that need no scene.
+/// An experiment with all variants of its sweep, whose graphs have passed all checks that need no scene.
 struct Study {
     Experiment experiment;
     std::vector<Variant> variants;
-    Value reference;  ///< Its graph with every default filled in; null where there is none.
-    /// Ids of passes that run only in variants which --only excludes. They are not reported as unused.
+    Value reference;  ///< Graph of the reference including all default values; null if there is none.
+    /// Ids of passes that run only in variants that --only excludes. They are not reported as unused.
     std::vector<std::string> deselected;
-    const Registry* registry = nullptr;  ///< Outlives the study.
+    const Registry* registry = nullptr;  ///< Must outlive the study.
 
-    // From planVariants() on
-    std::vector<std::string> warnings;  ///< Warnings, most with file and line.
-    MaskSelections masks;               ///< Pixels that masks select, by scene and image size.
+    // Set by planVariants()
+    std::vector<std::string> warnings;  ///< Most of them with file and line.
+    MaskSelections masks;               ///< Pixels that masks select, for each scene and image size.
 
-    /// A variant's graph, wired for one more run of it.
+    /// Makes a variant's graph again, for another run of it.
     Graph graphOf(const Variant& variant) const;
-    /// The reference as a graph of one pass, for one run of it.
+    /// Makes the graph of the reference, which has a single pass, for one run of it.
     Graph referenceGraph() const;
 };
 
-/// Expands the sweep, makes the graph of every variant, and checks the reference's. Touches no device and no
-/// scene.
-/// @throws UsageError with file and line: a wrong graph; a swept pass that no image of its variants depends
-/// on, while one of another value is used; a pass that overwrites the compared image of an earlier pass
-/// without reading anything of it.
+/// Expands the sweep, makes the graphs of all variants and of the reference, and checks them. Needs no device
+/// and no scene file.
+/// @throws UsageError with file and line: for an invalid graph; for a swept pass that no image depends on,
+/// while another value of the same axis is used; for a pass that overwrites the compared image of an earlier
+/// pass without reading any of its outputs.
 Study makeStudy(Experiment experiment, const Registry& registry);
 
-/// Culled passes by id, with the number of variants that cull them.
-std::map<std::string, size_t> variantsWithout(const Study& study);
+/// Number of variants in which each pass is culled, by id.
+std::map<std::string, size_t> cullCounts(const Study& study);
 
-/// Whether any variant runs the pass of this id.
+/// Whether the pass with this id runs in any variant.
 bool runsSomewhere(const Study& study, const std::string& id);
 
 }  // namespace voxray

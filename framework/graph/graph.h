@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/value.h"
-#include "graph/pass.h"
-#include "graph/registry.h"
+#include "graph/finite_check.h"
+#include "graph/wiring.h"
 
 namespace voxray {
 
@@ -16,7 +16,7 @@ namespace voxray {
 struct PassSample {
     double milliseconds = 0;
     uint64_t rays = 0;
-    uint64_t voxelSteps = 0;  ///< Of voxel marches, counted on the device.
+    uint64_t voxelSteps = 0;  ///< Steps of voxel marches, counted on the device.
     StreamCounts work = {};   ///< Recorded by the pass, without those of the measurement.
     std::vector<PassContext::Value> reported;
 };
@@ -33,16 +33,10 @@ uint64_t estimatedBytes(const std::vector<PassMemory>& passes);
 /// An input without an entry in `inputs` takes the nearest earlier pass that writes a port of its name.
 class Graph {
  public:
-    /// Keys of a graph entry that are not parameters of the pass.
-    static const std::vector<std::string>& reservedKeys();
-
     /// Reads, wires and sorts the graph; touches no device.
     /// @throws UsageError with file and line: unknown pass or parameter, value out of range, duplicate id,
     /// missing or mistyped port, cycle.
-    Graph(const Registry& registry, const Value& passList);
-    ~Graph();
-    Graph(Graph&&) noexcept;
-    Graph& operator=(Graph&&) noexcept;
+    Graph(const Registry& registry, const Value& passList) : nodes_(wireGraph(registry, passList)) {}
 
     struct PassInfo {
         std::string id;
@@ -104,8 +98,7 @@ class Graph {
     /// the measured time). @throws Error naming the pass, also one that runs out of memory.
     /// @return a sample by pass of that phase, in the order of passes().
     std::vector<PassSample> run(Phase phase, const Frame& frame, Device& device, CommandStream& stream,
-                                RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex,
-                                bool checkFinite);
+                                RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex, bool checkFinite);
 
     /// AOVs of all resources, by the id of the pass that wrote them.
     std::vector<std::pair<std::string, std::vector<Aov>>> aovs() const;
@@ -125,8 +118,14 @@ class Graph {
 
  private:
     const Resource* find(const std::string& portName, std::type_index type) const;
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
+    /// Runs `work` of a pass. @throws Error with sizeAdvice() where a SizeError was thrown.
+    void withSizeAdvice(const GraphNode& node, const std::function<void()>& work) const;
+    void checkFiniteOutputs(const GraphNode& node, CommandStream& stream);
+
+    std::vector<GraphNode> nodes_;  ///< In execution order.
+    std::unique_ptr<FiniteCheck> finiteCheck_;
+    uint64_t memoryLimitBytes_ = 0;
+    Image black_;  ///< One texel, for inputs that nothing writes.
 };
 
 }  // namespace voxray

@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <typeindex>
 #include <utility>
 #include <vector>
@@ -40,7 +39,7 @@ struct Frame {
     uint32_t height = 0;
     uint64_t seed = 0;
     glm::uvec2 pixels() const { return {width, height}; }
-    /// Samples that a pass takes which writes their sums (ReferenceSums).
+    /// Samples per pixel of a pass that writes their sums (ReferenceSums).
     SamplePart samples;
     /// Where surfaces appeared, disappeared or moved since the build phase ran last (old and new bounds, by
     /// instance); nullopt: everything is new.
@@ -53,18 +52,15 @@ struct Frame {
 
 /// Description of an image of the frame's size and format.
 inline ImageDesc frameImageDesc(const Frame& frame) {
-    ImageDesc desc;
-    desc.format = VK_FORMAT_R32G32B32A32_SFLOAT;
-    desc.extent = {frame.width, frame.height, 1};
-    return desc;
+    return {.format = VK_FORMAT_R32G32B32A32_SFLOAT, .extent = {frame.width, frame.height, 1}};
 }
 
 /// Given to Pass::plan: describes buffers and images (MemoryPlan), before any memory is allocated.
 class PassPlan : public PortAccess, public MemoryPlan {
  public:
-    PassPlan(const PortOwner& owner, const std::vector<Resource*>& resources, const Frame& f,
-             const DeviceInfo& d, Phase p)
-        : PortAccess(resources), frame(f), device(d), phase(p), owner_(owner) {}
+    PassPlan(const PortOwner& owner, const std::vector<Resource*>& resources, const Frame& f, const DeviceInfo& d,
+             Phase p)
+        : PortAccess(owner, resources), frame(f), device(d), phase(p) {}
     const Frame& frame;
     const DeviceInfo& device;
     const Phase phase;  ///< In which the pass runs.
@@ -75,16 +71,14 @@ class PassPlan : public PortAccess, public MemoryPlan {
     void frameImage(const Out<FrameImage>& port) {
         image((*this)[port].image, owner_.nameOf(port), frameImageDesc(frame));
     }
-
- private:
-    const PortOwner& owner_;
 };
 
 /// Given to Pass::prepare: fills tables in the described buffers and images.
 class PassSetup : public PortAccess {
  public:
-    PassSetup(const std::vector<Resource*>& resources, const Frame& f, Device& d, CommandStream& s)
-        : PortAccess(resources), frame(f), device(d), stream(s) {}
+    PassSetup(const PortOwner& owner, const std::vector<Resource*>& resources, const Frame& f, Device& d,
+              CommandStream& s)
+        : PortAccess(owner, resources), frame(f), device(d), stream(s) {}
     const Frame& frame;
     Device& device;
     CommandStream& stream;
@@ -93,12 +87,12 @@ class PassSetup : public PortAccess {
 /// Given to Pass::record.
 class PassContext : public PortAccess {
  public:
-    /// @param seenVersions of the resources when the pass recorded last; null in its first run
+    /// @param seenVersions of the resources when the pass recorded last; empty in its first run
     /// @param black a texel, for inputs that nothing writes
-    PassContext(const std::vector<Resource*>& resources, const std::vector<uint64_t>* seenVersions,
-                const Frame& f, Device& d, CommandStream& s, RayTracer& t, const GpuScene& g,
-                const Image& black, uint32_t index)
-        : PortAccess(resources),
+    PassContext(const PortOwner& owner, const std::vector<Resource*>& resources,
+                const std::optional<std::vector<uint64_t>>& seenVersions, const Frame& f, Device& d, CommandStream& s,
+                RayTracer& t, const GpuScene& g, const Image& black, uint32_t index)
+        : PortAccess(owner, resources),
           frame(f),
           device(d),
           stream(s),
@@ -117,14 +111,14 @@ class PassContext : public PortAccess {
     /// Whether the pass records for the first time.
     bool isFirstRun() const { return !seenVersions_; }
     /// Whether the contents of an input changed since the pass recorded last; true in its first run, false
-    /// for an optional input that nothing writes.
+    /// for an optional input that nothing writes. @throws Error for a resource that is no input of the pass.
     bool changed(const Resource& input) const;
     bool changed(const Port& input) const {
         const Resource* resource = bound(input);
         return resource && changed(*resource);
     }
-    /// Whether those of any input changed. If not, the graph takes the outputs for unchanged: the pass should
-    /// return without writing them.
+    /// Whether the contents of any input changed. If not, this marks the outputs as unchanged: the pass
+    /// should return without writing them.
     bool inputsChanged();
     /// Tells the graph that this run leaves the outputs unchanged.
     void markOutputsUnchanged() { outputsUnchanged_ = true; }
@@ -156,7 +150,7 @@ class PassContext : public PortAccess {
     void report(std::string name, double value) { reported.push_back({std::move(name), value}); }
 
  private:
-    const std::vector<uint64_t>* seenVersions_;
+    const std::optional<std::vector<uint64_t>>& seenVersions_;
     const Image& black_;
     bool outputsUnchanged_ = false;
 };

@@ -7,7 +7,7 @@
 
 #include "graph/resource.h"
 
-/// What a pass reads and writes, as its members.
+/// Ports: what a pass reads and writes, declared as its members.
 namespace voxray {
 
 struct PortInfo {
@@ -16,7 +16,7 @@ struct PortInfo {
     bool output = false;
     bool optional = false;
     std::type_index type = typeid(void);
-    Resource* (*create)() = nullptr;  ///< Of an output.
+    Resource* (*create)() = nullptr;  ///< Makes the resource of an output.
 };
 
 class Port;
@@ -72,7 +72,7 @@ class In : public Port {
         : Port(owner, {std::move(name), std::move(help), false, false, typeid(T)}, isPresent) {}
 };
 
-/// The same, but the graph is valid without it.
+/// An input without which the graph is valid, too.
 template <typename T>
 class InOptional : public Port {
  public:
@@ -85,20 +85,21 @@ template <typename T>
 class Out : public Port {
  public:
     Out(PortOwner& owner, std::string name, std::string help, bool isPresent = true)
-        : Port(owner,
-               {std::move(name), std::move(help), true, false, typeid(T),
-                []() -> Resource* { return new T(); }},
+        : Port(owner, {std::move(name), std::move(help), true, false, typeid(T), []() -> Resource* { return new T(); }},
                isPresent) {}
 };
 
 /// Access to the resources that a pass's ports are bound to.
 class PortAccess {
  public:
-    explicit PortAccess(const std::vector<Resource*>& resources) : resources_(resources) {}
+    /// @param resources in the order of the owner's ports; null where an optional input has none.
+    PortAccess(const PortOwner& owner, const std::vector<Resource*>& resources)
+        : owner_(owner), resources_(resources) {}
 
+    /// @throws Error for a port that the pass doesn't have with its parameters.
     template <typename T>
     const T& operator[](const In<T>& port) const {
-        return static_cast<const T&>(*bound(port));
+        return static_cast<const T&>(required(port));
     }
     /// Null where nothing writes it.
     template <typename T>
@@ -107,18 +108,14 @@ class PortAccess {
     }
     template <typename T>
     T& operator[](const Out<T>& port) const {
-        return static_cast<T&>(*bound(port));
+        return static_cast<T&>(required(port));
     }
-
-    /// In the order of the ports; null where an optional input has none.
-    const std::vector<Resource*>& resources() const { return resources_; }
 
  protected:
-    Resource* bound(const Port& port) const {
-        return port.index_ < 0 ? nullptr : resources_[size_t(port.index_)];
-    }
+    Resource* bound(const Port& port) const { return port.index_ < 0 ? nullptr : resources_[size_t(port.index_)]; }
+    Resource& required(const Port& port) const;
 
- private:
+    const PortOwner& owner_;
     const std::vector<Resource*>& resources_;
 };
 

@@ -10,7 +10,7 @@
 namespace voxray {
 namespace {
 
-/// By the file that registers it. The one thing that outlives all: linking a pass is all that adds it.
+/// Passes by the file that registers them. Static, since linking a pass is all that adds it.
 std::multimap<std::string, PassRegistration::Add>& registrations() {
     static std::multimap<std::string, PassRegistration::Add> all;
     return all;
@@ -25,7 +25,14 @@ std::vector<PortInfo> declared(const PassType& type, const void* params) {
     return type.make(params)->ports();
 }
 
-std::vector<PortDoc> portsOf(const PassType& type) {
+/// Ports with each value of one parameter.
+struct PortsByValue {
+    std::string parameter;
+    std::vector<std::string> values;
+    std::vector<std::vector<PortInfo>> ports;  ///< One list per value.
+};
+
+std::vector<PortsByValue> portsByChoice(const PassType& type) {
     std::vector<PortsByValue> choices;
     for (const Parameter& parameter : *type.schema) {
         PortsByValue choice{parameter.name, parameter.type->choices(), {}};
@@ -37,22 +44,14 @@ std::vector<PortDoc> portsOf(const PassType& type) {
         }
         choices.push_back(std::move(choice));
     }
-    return describePorts(declared(type, type.defaults().get()), choices);
+    return choices;
 }
 
-PassType::Params read(const PassType& type, const Value& map, const std::string& id,
-                      const std::vector<std::string>& reserved) {
-    PassType::Params params = type.defaults();
-    readParams(*type.schema, params.get(), map, id, reserved);
-    return params;
-}
-
-}  // namespace
-
-std::vector<PortDoc> describePorts(const std::vector<PortInfo>& ofDefaults,
-                                   const std::vector<PortsByValue>& ofChoices) {
-    std::vector<PortInfo> all = ofDefaults;
-    for (const PortsByValue& choice : ofChoices)
+/// All of a pass's ports: those of its defaults, then those that values of one parameter ask for.
+std::vector<PortDoc> portsOf(const PassType& type) {
+    const std::vector<PortsByValue> choices = portsByChoice(type);
+    std::vector<PortInfo> all = declared(type, type.defaults().get());
+    for (const PortsByValue& choice : choices)
         for (const std::vector<PortInfo>& ports : choice.ports)
             for (const PortInfo& port : ports)
                 if (!contains(all, port)) all.push_back(port);
@@ -61,31 +60,31 @@ std::vector<PortDoc> describePorts(const std::vector<PortInfo>& ofDefaults,
     std::vector<PortDoc> docs;
     for (const PortInfo& port : all) {
         PortDoc& doc = docs.emplace_back(PortDoc{port, {}});
-        for (const PortsByValue& choice : ofChoices) {
+        for (const PortsByValue& choice : choices) {
             std::vector<std::string> having;
             for (size_t v = 0; v < choice.values.size(); ++v)
                 if (contains(choice.ports[v], port)) having.push_back(choice.values[v]);
             if (having.empty() || having.size() == choice.values.size()) continue;
-            doc.with += fmt::format("{}{}: {}", doc.with.empty() ? "" : ", or ", choice.parameter,
-                                    fmt::join(having, " | "));
+            doc.with +=
+                fmt::format("{}{}: {}", doc.with.empty() ? "" : ", or ", choice.parameter, fmt::join(having, " | "));
         }
     }
     return docs;
 }
 
-std::unique_ptr<Pass> PassKind::create(const Value& map, const std::string& id,
-                                       const std::vector<std::string>& reserved) const {
-    return type.make(read(type, map, id, reserved).get());
+}  // namespace
+
+const std::vector<std::string>& reservedKeys() {
+    static const std::vector<std::string> keys{"pass", "id", "inputs"};
+    return keys;
 }
 
-Value PassKind::resolve(const Value& map, const std::string& id,
-                        const std::vector<std::string>& reserved) const {
-    return writeParams(*type.schema, read(type, map, id, reserved).get());
-}
-
-std::vector<UnusedSetting> PassKind::unused(const Value& map, const std::string& id,
-                                            const std::vector<std::string>& reserved) const {
-    return unusedSettings(*type.schema, read(type, map, id, reserved).get(), map);
+ConfiguredPass PassKind::create(const Value& map, const std::string& id) const {
+    const PassType::Params params = type.defaults();
+    readParams(*type.schema, params.get(), map, id, reservedKeys());
+    Value parameters = writeParams(*type.schema, params.get());
+    std::vector<UnusedSetting> unused = unusedSettings(*type.schema, params.get(), parameters);
+    return {type.make(params.get()), std::move(parameters), std::move(unused)};
 }
 
 PassRegistration::PassRegistration(const char* file, Add add) {
@@ -101,8 +100,9 @@ size_t addRegistered(Registry& registry, std::string_view folder, const std::str
 
 void Registry::add(const char* name, const std::string& family, const char* help, bool needsDevice,
                    const PassType& type) {
-    kinds_.push_back({name, family, help, describeParams(*type.schema, type.defaults().get()), portsOf(type),
-                      needsDevice, type});
+    if (find(name)) throw Error("two passes are called '{}': give one another kName", name);
+    kinds_.push_back(
+        {name, family, help, describeParams(*type.schema, type.defaults().get()), portsOf(type), needsDevice, type});
 }
 
 void Registry::renamed(std::string oldName, std::string advice) {
@@ -119,9 +119,8 @@ std::vector<std::string> Registry::writersOf(const std::string& port) const {
     std::vector<std::string> writers;
     for (const PassKind& kind : kinds_) {
         const auto has = [&](bool output) {
-            return std::ranges::any_of(kind.ports, [&](const PortDoc& p) {
-                return p.name == port && p.output == output && !p.optional;
-            });
+            return std::ranges::any_of(
+                kind.ports, [&](const PortDoc& p) { return p.name == port && p.output == output && !p.optional; });
         };
         if (has(true) && !has(false)) writers.push_back(kind.name);
     }

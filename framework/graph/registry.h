@@ -12,10 +12,9 @@
 
 namespace voxray {
 
-/// A port that a pass has, and the values of parameters that it has it with, such as "first: rsm"; empty:
-/// always.
+/// A port of a pass, with the parameters' values that ask for it.
 struct PortDoc : PortInfo {
-    std::string with;
+    std::string with;  ///< Such as "first: rsm"; empty: the pass always has the port.
 };
 
 /// A kind of pass without its types, so that one function reads parameters of all kinds.
@@ -26,37 +25,29 @@ struct PassType {
     std::unique_ptr<Pass> (*make)(const void* params);
 };
 
-/// What the registry knows of one kind of pass.
+/// A pass made from a config.
+struct ConfiguredPass {
+    std::unique_ptr<Pass> pass;
+    Value parameters;                   ///< All of them, with defaults filled in.
+    std::vector<UnusedSetting> unused;  ///< Parameters without effect because of others.
+};
+
+/// Keys of a graph entry that are not parameters of the pass.
+const std::vector<std::string>& reservedKeys();
+
+/// Description of one kind of pass.
 struct PassKind {
     std::string name;
-    std::string family;  ///< Folder under passes/; empty of a pass from elsewhere.
+    std::string family;  ///< Folder under passes/; empty for a pass from elsewhere.
     std::string help;
     std::vector<ParameterDoc> parameters;
-    std::vector<PortDoc> ports;  ///< With any values of its parameters.
+    std::vector<PortDoc> ports;  ///< All that it has with any values of its parameters.
     bool needsDevice = true;     ///< False: it runs where there is no Vulkan, too (Device::isHost()).
     PassType type;
 
-    /// Makes a pass from its map in the config. @param reserved keys that the graph itself reads.
-    /// @throws UsageError for an unknown or invalid parameter.
-    std::unique_ptr<Pass> create(const Value& map, const std::string& id,
-                                 const std::vector<std::string>& reserved) const;
-    /// The map with every default filled in, reserved keys left out.
-    Value resolve(const Value& map, const std::string& id, const std::vector<std::string>& reserved) const;
-    /// Parameters that the map names although they have no effect there.
-    std::vector<UnusedSetting> unused(const Value& map, const std::string& id,
-                                      const std::vector<std::string>& reserved) const;
+    /// Makes a pass from its map in the config. @throws UsageError for an unknown or invalid parameter.
+    ConfiguredPass create(const Value& map, const std::string& id) const;
 };
-
-/// The ports that a pass has with each value of one parameter, in the order of its values.
-struct PortsByValue {
-    std::string parameter;
-    std::vector<std::string> values;
-    std::vector<std::vector<PortInfo>> ports;
-};
-
-/// All of a pass's ports: those of its defaults, then those that values of one parameter ask for.
-std::vector<PortDoc> describePorts(const std::vector<PortInfo>& ofDefaults,
-                                   const std::vector<PortsByValue>& ofChoices);
 
 /// Parameters of a pass that has none.
 struct NoParams {
@@ -66,7 +57,7 @@ struct NoParams {
 /// All kinds of passes, filled by registerPasses (passes/common/families.h).
 class Registry {
  public:
-    /// P: see Pass.
+    /// P: see Pass. @throws Error for a name that another pass has.
     template <typename P>
     void add(const std::string& family = "") {
         bool needsDevice = true;
@@ -76,35 +67,31 @@ class Registry {
                     return make<P>(*static_cast<const typename P::Params*>(p));
                 }));
         else
-            add(P::kName, family, P::kHelp, needsDevice,
-                typeOf<NoParams>([](const void*) { return make<P>(); }));
+            add(P::kName, family, P::kHelp, needsDevice, typeOf<NoParams>([](const void*) { return make<P>(); }));
     }
 
-    /// A name of before, and what stands in its place: renamed("gather_all", "gather with 'light: all'").
+    /// An old name, and advice for errors: renamed("gather_all", "gather with 'light: all'").
     void renamed(std::string oldName, std::string advice);
 
     const std::vector<PassKind>& kinds() const { return kinds_; }
     const PassKind* find(const std::string& name) const;
-    /// @throws UsageError at `where`: what to write in place of a name of before, or "did you mean".
+    /// @throws UsageError at `where`: the advice for an old name, or "did you mean".
     const PassKind& require(const std::string& name, const TextLocation& where) const;
 
-    /// Names of passes that write a port of this name out of others. Those that change what they read under
-    /// it need a writer themselves.
+    /// Names of passes that write a port of this name without reading one of that name.
     std::vector<std::string> writersOf(const std::string& port) const;
 
  private:
     template <typename Params>
     static PassType typeOf(std::unique_ptr<Pass> (*make)(const void*)) {
         return {&schemaOf<Params>(),
-                [] { return PassType::Params(new Params, [](void* p) { delete static_cast<Params*>(p); }); },
-                make};
+                [] { return PassType::Params(new Params, [](void* p) { delete static_cast<Params*>(p); }); }, make};
     }
     template <typename P, typename... Params>
     static std::unique_ptr<Pass> make(const Params&... params) {
         return std::make_unique<P>(params...);
     }
-    void add(const char* name, const std::string& family, const char* help, bool needsDevice,
-             const PassType& type);
+    void add(const char* name, const std::string& family, const char* help, bool needsDevice, const PassType& type);
 
     std::vector<PassKind> kinds_;
     std::map<std::string, std::string> renamed_;

@@ -35,7 +35,7 @@ struct Resource {
     /// Float images and float buffers that are checked for NaN and infinity after the producing pass ran.
     virtual std::vector<const Image*> checkedImages() const { return {}; }
     virtual std::vector<const Buffer*> checkedBuffers() const { return {}; }
-    /// What `run --aovs` writes of it, all of one size.
+    /// Images that `run --aovs` writes, all of one size.
     virtual std::vector<Aov> aovs() const { return {}; }
 };
 
@@ -47,7 +47,7 @@ inline std::optional<uint32_t> oneMoreBounce(std::optional<uint32_t> bounces) {
 /// A radiance image of the frame's size: RGBA32F, linear Rec.709, W/(m² sr).
 struct FrameImage : Resource {
     Image image;
-    /// Of indirect light: whether it includes the reflection of specular lobes. Set in plan().
+    /// Whether an image of indirect light includes the reflection of specular lobes. Set in plan().
     bool hasSpecularLobes = false;
     std::vector<const Image*> checkedImages() const override { return {&image}; }
 };

@@ -18,6 +18,12 @@ struct Source {
     size_t port;
 };
 
+std::optional<size_t> portNamed(const GraphNode& node, const std::string& name, bool isOutput) {
+    for (size_t p = 0; p < node.ports.size(); ++p)
+        if (node.ports[p].output == isOutput && node.ports[p].name == name) return p;
+    return {};
+}
+
 std::vector<std::string> idsOf(const std::vector<GraphNode>& nodes) {
     std::vector<std::string> ids;
     for (const GraphNode& node : nodes) ids.push_back(node.id);
@@ -25,14 +31,13 @@ std::vector<std::string> idsOf(const std::vector<GraphNode>& nodes) {
 }
 
 /// @throws UsageError for an unknown parameter that another pass of the graph has.
-void checkParameters(const Registry& registry, const PassKind& kind, const Value& entry,
-                     const std::string& id, const std::vector<std::string>& reservedKeys,
+void checkParameters(const Registry& registry, const PassKind& kind, const Value& entry, const std::string& id,
                      const Value& passList) {
     const auto has = [](const PassKind& k, const std::string& name) {
         return std::ranges::count(k.parameters, name, &ParameterDoc::name) > 0;
     };
     for (const auto& [key, value] : entry.members) {
-        if (has(kind, key) || std::ranges::count(reservedKeys, key) > 0) continue;
+        if (has(kind, key) || std::ranges::count(reservedKeys(), key) > 0) continue;
         for (const Value& otherEntry : passList.items) {
             const Value* name = otherEntry.find("pass");
             const PassKind* otherKind = name && name->isScalar() ? registry.find(name->scalar) : nullptr;
@@ -40,21 +45,19 @@ void checkParameters(const Registry& registry, const PassKind& kind, const Value
             std::vector<std::string> names;
             for (const ParameterDoc& doc : kind.parameters) names.push_back(doc.name);
             throw UsageError(value.where, "{}: unknown parameter '{}', which '{}' has; one of: {}", id, key,
-                             otherKind->name,
-                             names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
+                             otherKind->name, names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
         }
     }
 }
 
 /// @param passList the graph of the entry.
-GraphNode readNode(const Registry& registry, const Value& entry, const std::vector<std::string>& reservedKeys,
-                   const Value& passList) {
+GraphNode readNode(const Registry& registry, const Value& entry, const Value& passList) {
     if (!entry.isMap())
         throw UsageError(entry.where, "graph: each entry is a map with a 'pass', e.g. {{pass: gbuffer}}");
     const Value* passName = entry.find("pass");
     if (!passName) {
         std::string hint;
-        if (!entry.members.empty()) hint = didYouMean(entry.members.front().key, reservedKeys);
+        if (!entry.members.empty()) hint = didYouMean(entry.members.front().key, reservedKeys());
         throw UsageError(entry.where, "graph: entry without 'pass'{}", hint);
     }
     GraphNode node;
@@ -63,28 +66,27 @@ GraphNode readNode(const Registry& registry, const Value& entry, const std::vect
     node.id = id ? id->asString("graph.id") : kind.name;
     node.where = entry.where;
     node.kind = kind.name;
-    checkParameters(registry, kind, entry, node.id, reservedKeys, passList);
-    node.pass = kind.create(entry, node.id, reservedKeys);
+    checkParameters(registry, kind, entry, node.id, passList);
+    ConfiguredPass configured = kind.create(entry, node.id);
+    node.pass = std::move(configured.pass);
     node.ports = node.pass->ports();
-
-    // Resolved: the reserved keys as written, then all parameters.
-    node.resolved = Value::map();
-    for (const std::string& key : reservedKeys)
-        if (const Value* value = entry.find(key)) node.resolved.set(key, *value);
-    Value parameters = kind.resolve(entry, node.id, reservedKeys);
-    std::vector<UnusedSetting> unused = kind.unused(parameters, node.id, reservedKeys);
     for (const ParameterDoc& doc : kind.parameters) {
-        if (std::ranges::count(unused, doc.name, &UnusedSetting::name) > 0) continue;
-        if (doc.type == "integer" && parameters.find(doc.name)->scalar != doc.min)
+        if (std::ranges::count(configured.unused, doc.name, &UnusedSetting::name) > 0) continue;
+        if (doc.type == "integer" && configured.parameters.find(doc.name)->scalar != doc.min)
             node.sizeParameters.push_back(doc.name);
         if (doc.isLessNoise) node.noiseParameters.push_back(doc.name);
     }
-    for (UnusedSetting& parameter : unused)
+    for (UnusedSetting& parameter : configured.unused)
         if (const Value* written = entry.find(parameter.name)) {
             parameter.where = written->where;
             node.unused.push_back(std::move(parameter));
         }
-    for (auto& [key, value] : parameters.members) node.resolved.set(key, std::move(value));
+
+    // Resolved: the reserved keys as written, then all parameters.
+    node.resolved = Value::map();
+    for (const std::string& key : reservedKeys())
+        if (const Value* value = entry.find(key)) node.resolved.set(key, *value);
+    for (auto& [key, value] : configured.parameters.members) node.resolved.set(key, std::move(value));
     return node;
 }
 
@@ -101,8 +103,8 @@ Source explicitSource(const std::vector<GraphNode>& nodes, const GraphNode& read
         std::vector<std::string> outputs;
         for (const PortInfo& p : nodes[n].ports)
             if (p.output) outputs.push_back(p.name);
-        throw UsageError(reference.where, "{}.inputs.{}: '{}' writes no '{}'{}", reader.id, port.name, id,
-                         portName, didYouMean(portName, outputs));
+        throw UsageError(reference.where, "{}.inputs.{}: '{}' writes no '{}'{}", reader.id, port.name, id, portName,
+                         didYouMean(portName, outputs));
     }
     throw UsageError(reference.where, "{}.inputs.{}: no pass has the id '{}'{}", reader.id, port.name, id,
                      didYouMean(id, idsOf(nodes)));
@@ -116,12 +118,11 @@ std::optional<Source> implicitSource(const std::vector<GraphNode>& nodes, size_t
     if (port.optional) return {};
     for (size_t n = reader + 1; n < nodes.size(); ++n)
         if (outputNamed(nodes[n], port.name))
-            throw UsageError(nodes[reader].where,
-                             "{}: reads '{}', which '{}' writes only later; move '{}' up", nodes[reader].id,
-                             port.name, nodes[n].id, nodes[n].id);
+            throw UsageError(nodes[reader].where, "{}: reads '{}', which '{}' writes only later; move '{}' up",
+                             nodes[reader].id, port.name, nodes[n].id, nodes[n].id);
     const std::vector<std::string> writers = registry.writersOf(port.name);
-    throw UsageError(nodes[reader].where, "{}: missing port '{}' ({}); no pass before it writes it{}",
-                     nodes[reader].id, port.name, port.help,
+    throw UsageError(nodes[reader].where, "{}: missing port '{}' ({}); no pass before it writes it{}", nodes[reader].id,
+                     port.name, port.help,
                      writers.empty() ? "" : fmt::format("; these can: {}", fmt::join(writers, ", ")));
 }
 
@@ -141,8 +142,8 @@ void checkInputKeys(const std::vector<GraphNode>& nodes, const GraphNode& node, 
     for (const PortInfo& port : node.ports)
         if (!port.output) names.push_back(port.name);
     if (!inputs.isMap())
-        throw UsageError(inputs.where, "{}.inputs: expected a map of ports and ids{}; its ports are {}",
-                         node.id, exampleOfInputs(nodes, names, inputs), fmt::join(names, ", "));
+        throw UsageError(inputs.where, "{}.inputs: expected a map of ports and ids{}; its ports are {}", node.id,
+                         exampleOfInputs(nodes, names, inputs), fmt::join(names, ", "));
     for (const auto& [key, value] : inputs.members)
         if (std::find(names.begin(), names.end(), key) == names.end())
             throw UsageError(value.where, "{}.inputs: '{}' is not an input of {}{}", node.id, key, node.kind,
@@ -181,30 +182,30 @@ std::vector<size_t> topologicalOrder(const std::vector<GraphNode>& nodes,
 
 }  // namespace
 
-std::optional<size_t> outputNamed(const GraphNode& node, const std::string& name) {
-    for (size_t p = 0; p < node.ports.size(); ++p)
-        if (node.ports[p].output && node.ports[p].name == name) return p;
-    return {};
+std::optional<size_t> inputNamed(const GraphNode& node, const std::string& name) {
+    return portNamed(node, name, false);
 }
 
-void checkEntry(const Registry& registry, const Value& entry, const std::vector<std::string>& reservedKeys) {
-    const GraphNode node = readNode(registry, entry, reservedKeys, {});
+std::optional<size_t> outputNamed(const GraphNode& node, const std::string& name) {
+    return portNamed(node, name, true);
+}
+
+void checkEntry(const Registry& registry, const Value& entry) {
+    const GraphNode node = readNode(registry, entry, {});
     if (const Value* inputs = entry.find("inputs")) checkInputKeys({}, node, *inputs);
 }
 
-std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList,
-                                 const std::vector<std::string>& reservedKeys) {
+std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList) {
     if (!passList.isList() || passList.items.empty())
         throw UsageError(passList.where, "graph: expected a list of passes, e.g. [{{pass: gbuffer}}, ...]");
 
     // Read every pass; ids are unique.
     std::vector<GraphNode> nodes;
     for (const Value& entry : passList.items) {
-        nodes.push_back(readNode(registry, entry, reservedKeys, passList));
+        nodes.push_back(readNode(registry, entry, passList));
         for (size_t n = 0; n + 1 < nodes.size(); ++n)
             if (nodes[n].id == nodes.back().id)
-                throw UsageError(entry.where, "graph: two passes have the id '{}'; give one another 'id'",
-                                 nodes[n].id);
+                throw UsageError(entry.where, "graph: two passes have the id '{}'; give one another 'id'", nodes[n].id);
     }
 
     // A pass owns its outputs. Only the last output of a name can be read from outside the graph.
@@ -245,8 +246,8 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
     // Readers of frame passes are frame passes.
     const std::vector<size_t> order = topologicalOrder(nodes, dependencies);
     for (const size_t n : order) {
-        const bool readsFrame = std::ranges::any_of(
-            dependencies[n], [&](size_t writer) { return nodes[writer].phase == Phase::Frame; });
+        const bool readsFrame =
+            std::ranges::any_of(dependencies[n], [&](size_t writer) { return nodes[writer].phase == Phase::Frame; });
         nodes[n].phase = readsFrame ? Phase::Frame : nodes[n].pass->phase();
     }
 

@@ -7,6 +7,7 @@
 
 #include "base/value.h"
 #include "graph/pass.h"
+#include "graph/pass_memory_tracker.h"
 #include "graph/registry.h"
 
 namespace voxray {
@@ -18,8 +19,8 @@ struct GraphNode {
     std::unique_ptr<Pass> pass;
     Phase phase = Phase::Build;  ///< The pass's, or Frame if it reads what is written in each frame.
     std::vector<PortInfo> ports;
-    std::vector<Resource*> resources;  ///< By port; null for an optional input that nothing writes.
-    std::optional<std::vector<uint64_t>> seenVersions;  ///< Of `resources` after the pass recorded last.
+    std::vector<Resource*> resources;  ///< One per port; null for an optional input that nothing writes.
+    std::optional<std::vector<uint64_t>> seenVersions;  ///< Resources' versions at its last run.
     std::vector<std::unique_ptr<Resource>> outputs;     ///< Owned by this pass.
     Value resolved;                                     ///< The config's entry with defaults filled in.
     std::vector<std::string> sizeParameters;            ///< Integer parameters above their minimum.
@@ -27,19 +28,20 @@ struct GraphNode {
     std::vector<UnusedSetting> unused;                  ///< Parameters of its entry that have no effect.
     TextLocation where;
     uint64_t lightRays = 0;  ///< As planned.
+    PassMemoryTracker memory;
 };
 
-/// Index of a node's output port of that name.
+/// Index of a node's port of that name.
+std::optional<size_t> inputNamed(const GraphNode& node, const std::string& name);
 std::optional<size_t> outputNamed(const GraphNode& node, const std::string& name);
 
 /// Checks an entry of a pass list by itself: its pass, its parameters and which inputs it names.
 /// @throws UsageError with file and line.
-void checkEntry(const Registry& registry, const Value& entry, const std::vector<std::string>& reservedKeys);
+void checkEntry(const Registry& registry, const Value& entry);
 
 /// Reads a config's pass list, binds every port and sorts passes so that writers come before readers.
 /// Passes that don't depend on each other keep the list's order.
 /// @throws UsageError with file and line.
-std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList,
-                                 const std::vector<std::string>& reservedKeys);
+std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList);
 
 }  // namespace voxray

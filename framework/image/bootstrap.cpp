@@ -10,7 +10,7 @@ namespace {
 constexpr uint32_t kTileEdge = 16;
 constexpr size_t kMinTiles = 64;
 // The 25th value from either end bounds 2.5 %.
-constexpr size_t kResamples = 999, kOutside = 25;
+constexpr size_t kResamples = 999, kTail = 25;
 
 struct Tile {
     double sum = 0;
@@ -59,7 +59,7 @@ Estimate meanOverTiles(const std::vector<double>& values, uint32_t width, uint32
         resampled = drawn.sum / drawn.count;
     }
     std::sort(means.begin(), means.end());
-    mean.interval = {means[kOutside - 1], means[kResamples - kOutside]};
+    mean.interval = {means[kTail - 1], means[kResamples - kTail]};
     return mean;
 }
 

@@ -145,7 +145,7 @@ struct Filters {
 };
 
 // An image after the two pipelines.
-struct Seen {
+struct FilteredImage {
     Planes colour;      // Filtered, in Hunt-adjusted Lab
     Plane edge, point;  // Strength of edges and points
 };
@@ -164,7 +164,7 @@ Plane strength(const Plane& alongX, const Plane& alongY) {
 
 // @param linearRgb(x, y) is the linear display colour of a pixel, in [0, 1].
 template <typename LinearRgb>
-Seen look(uint32_t width, uint32_t height, const Filters& filters, const LinearRgb& linearRgb) {
+FilteredImage filterImage(uint32_t width, uint32_t height, const Filters& filters, const LinearRgb& linearRgb) {
     Planes opponent = {Plane(width, height), Plane(width, height), Plane(width, height)};
     parallelRows(height, [&](size_t y) {
         for (size_t x = 0; x < width; ++x) {
@@ -174,15 +174,15 @@ Seen look(uint32_t width, uint32_t height, const Filters& filters, const LinearR
     });
 
     // Colour: filtered by contrast sensitivity, clamped to the gamut, in a perceptually uniform space.
-    Seen seen;
-    for (size_t c = 0; c < 3; ++c) seen.colour[c] = apply(filters.sensitivities[c], opponent[c]);
+    FilteredImage result;
+    for (size_t c = 0; c < 3; ++c) result.colour[c] = apply(filters.sensitivities[c], opponent[c]);
     parallelRows(height, [&](size_t y) {
         for (size_t x = 0; x < width; ++x) {
-            const glm::dvec3 filtered(seen.colour[0].row(y)[x], seen.colour[1].row(y)[x],
-                                      seen.colour[2].row(y)[x]);
+            const glm::dvec3 filtered(result.colour[0].row(y)[x], result.colour[1].row(y)[x],
+                                      result.colour[2].row(y)[x]);
             const glm::dvec3 rgb = glm::clamp(rgbFromOpponent(filtered), 0.0, 1.0);
             const glm::dvec3 lab = huntLabFromRgb(rgb);
-            for (int c = 0; c < 3; ++c) seen.colour[size_t(c)].row(y)[x] = lab[c];
+            for (int c = 0; c < 3; ++c) result.colour[size_t(c)].row(y)[x] = lab[c];
         }
     });
 
@@ -190,29 +190,26 @@ Seen look(uint32_t width, uint32_t height, const Filters& filters, const LinearR
     Plane& grey = opponent[0];
     for (double& value : grey.data) value = (value + 16) / 116;
     const Plane blurredX = filterX(grey, filters.gauss);
-    seen.edge =
-        strength(filterY(filterX(grey, filters.edge), filters.gauss), filterY(blurredX, filters.edge));
-    seen.point =
-        strength(filterY(filterX(grey, filters.point), filters.gauss), filterY(blurredX, filters.point));
-    return seen;
+    result.edge = strength(filterY(filterX(grey, filters.edge), filters.gauss), filterY(blurredX, filters.edge));
+    result.point = strength(filterY(filterX(grey, filters.point), filters.gauss), filterY(blurredX, filters.point));
+    return result;
 }
 
 // Error of each pixel from the filtered images.
-Plane difference(const Seen& test, const Seen& reference) {
-    const double largest =
-        std::pow(hyab(huntLabFromRgb({0, 1, 0}), huntLabFromRgb({0, 0, 1})), colourExponent);
+Plane difference(const FilteredImage& test, const FilteredImage& reference) {
+    const double largest = std::pow(hyab(huntLabFromRgb({0, 1, 0}), huntLabFromRgb({0, 0, 1})), colourExponent);
     const double knee = colourKnee * largest;
     Plane out(test.edge.width, test.edge.height);
     parallelRows(out.height, [&](size_t y) {
-        const auto colourAt = [y](const Seen& seen, size_t x) {
-            return glm::dvec3(seen.colour[0].row(y)[x], seen.colour[1].row(y)[x], seen.colour[2].row(y)[x]);
+        const auto colourAt = [y](const FilteredImage& image, size_t x) {
+            return glm::dvec3(image.colour[0].row(y)[x], image.colour[1].row(y)[x], image.colour[2].row(y)[x]);
         };
         for (size_t x = 0; x < out.width; ++x) {
             // Colour difference, small ones mapped to [0, 0.95].
             const double distance = std::pow(hyab(colourAt(test, x), colourAt(reference, x)), colourExponent);
-            const double colour = distance < knee ? distance / knee * colourKneeValue
-                                                  : colourKneeValue + (distance - knee) / (largest - knee) *
-                                                                          (1 - colourKneeValue);
+            const double colour = distance < knee
+                                      ? distance / knee * colourKneeValue
+                                      : colourKneeValue + (distance - knee) / (largest - knee) * (1 - colourKneeValue);
 
             // Feature difference amplifies it.
             const double feature = std::max(std::abs(test.edge.row(y)[x] - reference.edge.row(y)[x]),
@@ -242,18 +239,17 @@ ErrorMap errorMapOf(const Plane& plane) {
 ErrorMap flipLdr(const ImageF& testDisplay, const ImageF& referenceDisplay, double pixelsPerDegree) {
     checkPair(testDisplay, referenceDisplay);
     const Filters filters(pixelsPerDegree);
-    const auto lookAt = [&](const ImageF& image) {
-        return look(image.width, image.height, filters, [&](size_t x, size_t y) {
+    const auto filter = [&](const ImageF& image) {
+        return filterImage(image.width, image.height, filters, [&](size_t x, size_t y) {
             const float* p = image.pixel(uint32_t(x), uint32_t(y));
             const glm::dvec3 display = glm::clamp(glm::dvec3(p[0], p[1], p[2]), 0.0, 1.0);
             return glm::dvec3(srgbDecode(display.x), srgbDecode(display.y), srgbDecode(display.z));
         });
     };
-    return errorMapOf(difference(lookAt(testDisplay), lookAt(referenceDisplay)));
+    return errorMapOf(difference(filter(testDisplay), filter(referenceDisplay)));
 }
 
-ErrorMap flipHdr(const ImageF& test, const ImageF& reference, const FlipExposures& exposures,
-                 double pixelsPerDegree) {
+ErrorMap flipHdr(const ImageF& test, const ImageF& reference, const FlipExposures& exposures, double pixelsPerDegree) {
     checkPair(test, reference);
     if (exposures.count < 1 || !(exposures.start <= exposures.stop) || !std::isfinite(exposures.start) ||
         !std::isfinite(std::exp2(exposures.stop)))
@@ -267,16 +263,14 @@ ErrorMap flipHdr(const ImageF& test, const ImageF& reference, const FlipExposure
     Plane largest(reference.width, reference.height);
     for (int i = 0; i < count; ++i) {
         const double scale = std::exp2(exposures.start + i * step);
-        const auto lookAt = [&](const ImageF& image) {
-            return look(image.width, image.height, filters, [&](size_t x, size_t y) {
+        const auto filter = [&](const ImageF& image) {
+            return filterImage(image.width, image.height, filters, [&](size_t x, size_t y) {
                 const float* p = image.pixel(uint32_t(x), uint32_t(y));
-                return glm::dvec3(aces(scale * double(p[0])), aces(scale * double(p[1])),
-                                  aces(scale * double(p[2])));
+                return glm::dvec3(aces(scale * double(p[0])), aces(scale * double(p[1])), aces(scale * double(p[2])));
             });
         };
-        const Plane error = difference(lookAt(test), lookAt(reference));
-        for (size_t k = 0; k < error.data.size(); ++k)
-            largest.data[k] = std::max(largest.data[k], error.data[k]);
+        const Plane error = difference(filter(test), filter(reference));
+        for (size_t k = 0; k < error.data.size(); ++k) largest.data[k] = std::max(largest.data[k], error.data[k]);
     }
     return errorMapOf(largest);
 }

@@ -58,9 +58,8 @@ std::vector<uint8_t> encodePng(const DecodedImage& image);
 /// Writes a float32 EXR (ZIP; channels R, G, B or Y) atomically. Equal images give equal files.
 /// @throws Error if the image is empty or has neither 1 nor 3 channels, or the file cannot be written.
 void writeExr(const std::filesystem::path& path, const ImageF& image);
-/// With a name for each channel: "P.X" is the channel X of the layer P.
-void writeExr(const std::filesystem::path& path, const ImageF& image,
-              const std::vector<std::string>& channelNames);
+/// The same with channels of any names: "P.X" is the channel X of the layer P.
+void writeExr(const std::filesystem::path& path, const ImageF& image, const std::vector<std::string>& channelNames);
 
 /// Writes an 8-bit PNG of encoded display values, clamped to [0, 1], atomically.
 /// @throws Error as writeExr(), and if a value is NaN.

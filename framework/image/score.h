@@ -14,7 +14,7 @@
 namespace voxray {
 
 struct ScoreOptions {
-    float exposureStops = 0;      ///< Of the previews.
+    float exposureStops = 0;      ///< Exposure of the previews.
     FlipExposures flipExposures;  ///< Fixed, so that results are comparable between runs.
 };
 

@@ -26,7 +26,7 @@ class TemporalError {
     /// @throws Error if the images differ in size from each other or from earlier frames, or aren't finite.
     void add(const ImageF& test, const ReferenceHalves& reference);
 
-    /// Of temporalMetrics(), with their intervals. Empty before the second frame.
+    /// Scores of temporalMetrics(), with their intervals. Empty before the second frame.
     Scores scores() const;
     /// temporal_nrmse of each frame after the first one, t = 1 ... T.
     std::vector<double> frameErrors() const;
@@ -35,14 +35,14 @@ class TemporalError {
     /// State of one value, against the halves a and b.
     struct Value {
         double errorA = 0, errorB = 0;  ///< e_t of the last frame.
-        double meanA = 0, meanB = 0;    ///< Of d_t.
+        double meanA = 0, meanB = 0;    ///< Means of d_t.
         double spread = 0;              ///< Sum of the products of (d_t - mean) against a and against b.
     };
     double scale() const;
 
     uint32_t width_ = 0, height_ = 0;
     std::vector<Value> values_;
-    std::vector<double> meanSquares_;  ///< Of d_t over the image, by t.
+    std::vector<double> meanSquares_;  ///< Mean of d_t² over the image, by t.
     size_t frames_ = 0;
     double referenceMeans_ = 0;  ///< Sum over frames.
 };

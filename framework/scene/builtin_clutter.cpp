@@ -1,8 +1,6 @@
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/trigonometric.hpp>
 
 #include "scene/builtin.h"
 #include "scene/shapes.h"
@@ -18,17 +16,16 @@ struct Clutter {
     uint32_t seed = 1;
     static constexpr auto schema() {
         return std::tuple{
-            field("count", &Clutter::count, "Tables, chairs and shelves in the room.", 0u, 30u),
-            field("thickness", &Clutter::thickness, "Of their boards and legs, in metres.", 0.001f, 0.1f),
-            field("seed", &Clutter::seed, "Chooses kinds, places, sizes and colours.")};
+            field("count", &Clutter::count, "Number of tables, chairs and shelves in the room.", 0u, 30u),
+            field("thickness", &Clutter::thickness, "Thickness of their boards and legs, m.", 0.001f, 0.1f),
+            field("seed", &Clutter::seed, "Seed of their kinds, positions, sizes and colours.")};
     }
 };
 
 /// Furniture of boards and legs of equal thickness round a point of the floor, rotated about +Y.
 class Furniture {
  public:
-    Furniture(SceneBuilder& builder, const glm::vec3& origin, float angleRadians, float thickness,
-              uint32_t material)
+    Furniture(SceneBuilder& builder, const glm::vec3& origin, float angleRadians, float thickness, uint32_t material)
         : builder_(builder), origin_(origin), angle_(angleRadians), t_(thickness), material_(material) {}
 
     void table(const glm::vec3& size) {
@@ -59,8 +56,7 @@ class Furniture {
  private:
     void legs(const glm::vec3& size, float height) {
         for (const float x : {-0.5f, 0.5f})
-            for (const float z : {-0.5f, 0.5f})
-                addBox({x * (size.x - t_), 0, z * (size.z - t_)}, {t_, height, t_});
+            for (const float z : {-0.5f, 0.5f}) addBox({x * (size.x - t_), 0, z * (size.z - t_)}, {t_, height, t_});
     }
 
     /// A box on `base`, in the furniture's space.
@@ -90,8 +86,7 @@ std::shared_ptr<const Scene> make(const Clutter& params) {
     UniformRandom uniform(params.seed);
     std::array<uint32_t, columns * rows> cells;
     for (uint32_t i = 0; i < cells.size(); ++i) cells[i] = i;
-    for (uint32_t i = uint32_t(cells.size()) - 1; i > 0; --i)
-        std::swap(cells[i], cells[uniform.below(i + 1)]);
+    for (uint32_t i = uint32_t(cells.size()) - 1; i > 0; --i) std::swap(cells[i], cells[uniform.below(i + 1)]);
 
     for (uint32_t i = 0; i < params.count; ++i) {
         const glm::vec2 cell(cells[i] % columns, cells[i] / columns);

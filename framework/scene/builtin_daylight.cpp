@@ -19,12 +19,12 @@ namespace {
 using Corners = SceneBuilder::Corners;
 
 /// A rectangle in the plane y = `y`, counter-clockwise seen from below.
-Corners level(float y, const glm::vec2& minXz, const glm::vec2& maxXz) {
+Corners horizontal(float y, const glm::vec2& minXz, const glm::vec2& maxXz) {
     return {{{minXz.x, y, minXz.y}, {maxXz.x, y, minXz.y}, {maxXz.x, y, maxXz.y}, {minXz.x, y, maxXz.y}}};
 }
 
 /// A rectangle in the plane z = `z`, counter-clockwise seen from +Z.
-Corners upright(float z, const glm::vec2& minXy, const glm::vec2& maxXy) {
+Corners vertical(float z, const glm::vec2& minXy, const glm::vec2& maxXy) {
     return {{{minXy.x, minXy.y, z}, {maxXy.x, minXy.y, z}, {maxXy.x, maxXy.y, z}, {minXy.x, maxXy.y, z}}};
 }
 
@@ -40,20 +40,19 @@ struct WindowRoom {
     float sunAzimuthDegrees = 25;
     static constexpr auto schema() {
         return std::tuple{
-            field("wall_thickness", &WindowRoom::wallThickness, "Of walls and roof, in metres.", 0.01f, 1.0f),
+            field("wall_thickness", &WindowRoom::wallThickness, "Thickness of walls and roof, m.", 0.01f, 1.0f),
             field("sill", &WindowRoom::sill,
-                  "How far the sill's board stands out of the wall on either side, in metres; 0: no sill.",
-                  0.0f, 0.5f),
-            field("slats", &WindowRoom::slats, "Slats of the blind in the window; 0: no blind.", 0u, 200u),
-            field("slat_width", &WindowRoom::slatWidth, "Of a slat, in metres.", 0.005f, 0.2f),
+                  "How far the sill's board juts out of the wall on either side, m; 0: no sill.", 0.0f, 0.5f),
+            field("slats", &WindowRoom::slats, "Number of slats of the blind in the window; 0: no blind.", 0u, 200u),
+            field("slat_width", &WindowRoom::slatWidth, "Width of a slat, m.", 0.005f, 0.2f),
             field("slat_tilt_deg", &WindowRoom::slatTiltDegrees,
-                  "How far the slats' outer edges hang down: 0 level, 90 closed.", -90.0f, 90.0f),
-            field("ground_distance", &WindowRoom::groundDistance,
-                  "How far the ground outside lies below the floor, in metres.", 0.0f, 20.0f),
-            field("sun_elevation_deg", &WindowRoom::sunElevationDegrees, "Of the sun above the horizon.",
-                  1.0f, 89.0f),
+                  "Tilt of the slats, outer edges down, degrees: 0 horizontal, 90 closed.", -90.0f, 90.0f),
+            field("ground_distance", &WindowRoom::groundDistance, "Depth of the ground outside below the floor, m.",
+                  0.0f, 20.0f),
+            field("sun_elevation_deg", &WindowRoom::sunElevationDegrees,
+                  "Elevation of the sun above the horizon, degrees.", 1.0f, 89.0f),
             field("sun_azimuth_deg", &WindowRoom::sunAzimuthDegrees,
-                  "Of the sun off the window's axis, towards -X.", -80.0f, 80.0f)};
+                  "Azimuth of the sun off the window's axis, towards -X, degrees.", -80.0f, 80.0f)};
     }
 };
 
@@ -74,9 +73,9 @@ std::shared_ptr<const Scene> make(const WindowRoom& params) {
 
     // Inside: the wall with the window, the others, and the window's reveal through the wall.
     b.room(min, max, {white, white, wood, white, white, SceneBuilder::none});
-    const Corners innerWindow = upright(max.z, windowMin, windowMax);
-    const Corners outerWindow = upright(outerMax.z, windowMin, windowMax);
-    b.band("wall +z", innerWindow, upright(max.z, glm::vec2(min), glm::vec2(max)), white);
+    const Corners innerWindow = vertical(max.z, windowMin, windowMax);
+    const Corners outerWindow = vertical(outerMax.z, windowMin, windowMax);
+    b.band("wall +z", innerWindow, vertical(max.z, glm::vec2(min), glm::vec2(max)), white);
     b.band("reveal", outerWindow, innerWindow, white);
     b.box("cabinet", {1.6f, 0, -1.5f}, {1.2f, 1.0f, 0.5f}, glm::radians(-20.0f), blue);
 
@@ -86,14 +85,13 @@ std::shared_ptr<const Scene> make(const WindowRoom& params) {
     b.quad("facade -x", outerMin, z, y, facade);
     b.quad("facade +x", outerMax, -y, -z, facade);
     b.quad("facade -z", outerMin, y, x, facade);
-    b.band("facade +z", upright(outerMax.z, glm::vec2(outerMin), glm::vec2(outerMax)), outerWindow, facade);
+    b.band("facade +z", vertical(outerMax.z, glm::vec2(outerMin), glm::vec2(outerMax)), outerWindow, facade);
     b.quad("roof", outerMax, -z, -x, facade);
     const glm::vec2 footMin(outerMin.x, outerMin.z), footMax(outerMax.x, outerMax.z);
     const glm::vec2 half(23);
-    b.band("ground", level(outerMin.y, footMin, footMax), level(outerMin.y, -half, half), ground);
-    b.band("ground's edge", level(outerMin.y, -half, half), level(outerMin.y - 0.5f, -half, half), ground);
-    b.quad("ground's bottom", {-half.x, outerMin.y - 0.5f, -half.y}, {2 * half.x, 0, 0}, {0, 0, 2 * half.y},
-           ground);
+    b.band("ground", horizontal(outerMin.y, footMin, footMax), horizontal(outerMin.y, -half, half), ground);
+    b.band("ground's edge", horizontal(outerMin.y, -half, half), horizontal(outerMin.y - 0.5f, -half, half), ground);
+    b.quad("ground's bottom", {-half.x, outerMin.y - 0.5f, -half.y}, {2 * half.x, 0, 0}, {0, 0, 2 * half.y}, ground);
 
     // The sill's board covers the reveal's lower side, which lies 1 cm below the board's top.
     if (params.sill > 0)
@@ -111,9 +109,9 @@ std::shared_ptr<const Scene> make(const WindowRoom& params) {
 
     const float elevation = glm::radians(params.sunElevationDegrees);
     const float azimuth = glm::radians(params.sunAzimuthDegrees);
-    b.directionalLight({std::cos(elevation) * std::sin(azimuth), -std::sin(elevation),
-                        -std::cos(elevation) * std::cos(azimuth)},
-                       glm::vec3(20.0f));
+    b.directionalLight(
+        {std::cos(elevation) * std::sin(azimuth), -std::sin(elevation), -std::cos(elevation) * std::cos(azimuth)},
+        glm::vec3(20.0f));
     b.scene().environment.radiance = {1.0f, 1.25f, 1.6f};
     b.camera({-2.2f, 1.6f, -1.7f}, {0.6f, 1.0f, 2}, 70);
     return b.finish();
@@ -126,12 +124,11 @@ struct ShellRoom {
     ShellLight light = ShellLight::Outside;
     static constexpr auto schema() {
         return std::tuple{
-            field("wall_thickness", &ShellRoom::wallThickness, "Of walls, floor slab and roof, in metres.",
-                  0.001f, 1.0f),
-            field("overhang", &ShellRoom::overhang,
-                  "How far floor slab and ceiling run on beyond the walls, in metres.", 0.1f, 20.0f),
-            field("light", &ShellRoom::light,
-                  "The sun outside (20 W/m²), or a point light inside (2 W/sr).")};
+            field("wall_thickness", &ShellRoom::wallThickness, "Thickness of walls, floor slab and roof, m.", 0.001f,
+                  1.0f),
+            field("overhang", &ShellRoom::overhang, "How far floor slab and ceiling extend beyond the walls, m.", 0.1f,
+                  20.0f),
+            field("light", &ShellRoom::light, "The sun outside (20 W/m²), or a point light inside (2 W/sr).")};
     }
 };
 
@@ -144,11 +141,11 @@ std::shared_ptr<const Scene> make(const ShellRoom& params) {
     b.room({-2, 0, -2}, {2, height, 2}, {white, white, white, white, white, white});
 
     const glm::vec2 foot(2 + t), slab = foot + params.overhang;
-    b.band("outer walls", level(height, -foot, foot), level(0, -foot, foot), white);
-    b.band("floor outside", level(0, -foot, foot), level(0, -slab, slab), white);
-    b.band("ceiling outside", level(height, -slab, slab), level(height, -foot, foot), white);
-    b.band("floor's edge", level(0, -slab, slab), level(-t, -slab, slab), white);
-    b.band("roof's edge", level(height + t, -slab, slab), level(height, -slab, slab), white);
+    b.band("outer walls", horizontal(height, -foot, foot), horizontal(0, -foot, foot), white);
+    b.band("floor outside", horizontal(0, -foot, foot), horizontal(0, -slab, slab), white);
+    b.band("ceiling outside", horizontal(height, -slab, slab), horizontal(height, -foot, foot), white);
+    b.band("floor's edge", horizontal(0, -slab, slab), horizontal(-t, -slab, slab), white);
+    b.band("roof's edge", horizontal(height + t, -slab, slab), horizontal(height, -slab, slab), white);
     const glm::vec3 x(2 * slab.x, 0, 0), z(0, 0, 2 * slab.y);
     b.quad("floor's bottom", {-slab.x, -t, -slab.y}, x, z, white);
     b.quad("roof", {-slab.x, height + t, -slab.y}, z, x, white);

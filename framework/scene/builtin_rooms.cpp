@@ -8,16 +8,14 @@ namespace voxray {
 enum class CornellLight { Area, Point, Spot, Sun };
 template <>
 struct EnumNames<CornellLight> {
-    static constexpr std::array names{
-        std::pair{CornellLight::Area, "area"}, std::pair{CornellLight::Point, "point"},
-        std::pair{CornellLight::Spot, "spot"}, std::pair{CornellLight::Sun, "sun"}};
+    static constexpr std::array names{std::pair{CornellLight::Area, "area"}, std::pair{CornellLight::Point, "point"},
+                                      std::pair{CornellLight::Spot, "spot"}, std::pair{CornellLight::Sun, "sun"}};
 };
 
 enum class ThinWallView { Lit, Dark };
 template <>
 struct EnumNames<ThinWallView> {
-    static constexpr std::array names{std::pair{ThinWallView::Lit, "lit"},
-                                      std::pair{ThinWallView::Dark, "dark"}};
+    static constexpr std::array names{std::pair{ThinWallView::Lit, "lit"}, std::pair{ThinWallView::Dark, "dark"}};
 };
 
 namespace {
@@ -27,10 +25,9 @@ struct Cornell {
     CornellLight lights = CornellLight::Area;
     bool boxes = true;
     static constexpr auto schema() {
-        return std::tuple{
-            field("lights", &Cornell::lights,
-                  "Quad below the ceiling, point or spot light there, or sun through the open front."),
-            field("boxes", &Cornell::boxes, "Whether the two boxes stand in the room.")};
+        return std::tuple{field("lights", &Cornell::lights,
+                                "Quad below the ceiling, point or spot light there, or sun through the open front."),
+                          field("boxes", &Cornell::boxes, "Whether the two boxes stand in the room.")};
     }
 };
 
@@ -70,8 +67,8 @@ struct StillLife {
     float glow = 9.0f;
     static constexpr auto schema() {
         return std::tuple{field("glow", &StillLife::glow,
-                                "Red radiance of the glowing ball, in W/(m² sr); green and blue follow.",
-                                0.0f, 1e6f)};
+                                "Red radiance of the glowing ball, W/(m² sr); green and blue are proportional.", 0.0f,
+                                1e6f)};
     }
 };
 
@@ -102,9 +99,9 @@ struct ThinWall {
     float thickness = 0.05f;
     ThinWallView view = ThinWallView::Dark;
     static constexpr auto schema() {
-        return std::tuple{field("thickness", &ThinWall::thickness,
-                                "Thickness of the wall between the rooms, in metres.", 0.001f, 1.0f),
-                          field("view", &ThinWall::view, "The room that the camera stands in.")};
+        return std::tuple{
+            field("thickness", &ThinWall::thickness, "Thickness of the wall between the rooms, m.", 0.001f, 1.0f),
+            field("view", &ThinWall::view, "The room that the camera stands in.")};
     }
 };
 
@@ -122,10 +119,7 @@ std::shared_ptr<const Scene> make(const ThinWall& params) {
 }
 
 uint32_t perfectMirror(SceneBuilder& b) {
-    Material material;
-    material.name = "mirror";
-    material.roughness = 0;
-    return b.material(material);
+    return b.material({.name = "mirror", .roughness = 0});
 }
 
 struct MirrorRoom {
@@ -133,7 +127,7 @@ struct MirrorRoom {
     uint32_t count = 5;
     static constexpr auto schema() {
         return std::tuple{
-            field("count", &MirrorRoom::count, "Spheres in the row before the mirror.", 1u, 16u)};
+            field("count", &MirrorRoom::count, "Number of spheres in the row before the mirror.", 1u, 16u)};
     }
 };
 
@@ -167,7 +161,7 @@ struct MirrorRow {
     uint32_t count = 8;
     static constexpr auto schema() {
         return std::tuple{
-            field("count", &MirrorRow::count, "Spheres over the mirror, one every 2 m.", 1u, 64u)};
+            field("count", &MirrorRow::count, "Number of spheres over the mirror, one every 2 m.", 1u, 64u)};
     }
 };
 
@@ -188,8 +182,8 @@ std::shared_ptr<const Scene> make(const MirrorRow& params) {
 }  // namespace
 
 std::vector<BuiltinScene> roomScenes() {
-    return {builtinScene<Cornell>(), builtinScene<StillLife>(), builtinScene<ThinWall>(),
-            builtinScene<MirrorRoom>(), builtinScene<MirrorRow>()};
+    return {builtinScene<Cornell>(), builtinScene<StillLife>(), builtinScene<ThinWall>(), builtinScene<MirrorRoom>(),
+            builtinScene<MirrorRow>()};
 }
 
 }  // namespace voxray

@@ -12,21 +12,19 @@ void addArray(Hasher& hash, const std::vector<T>& values) {
 }
 
 void add(Hasher& hash, const TextureRef& ref) {
-    hash.addPlain(ref.texture).addPlain(ref.texCoord).addPlain(ref.transform);
+    hash.addPlain(ref.texture, ref.texCoord, ref.transform);
 }
 
 void add(Hasher& hash, const Texture& texture) {
-    hash.add(texture.name).addPlain(texture.width).addPlain(texture.height);
+    hash.add(texture.name).addPlain(texture.width, texture.height);
     addArray(hash, texture.rgba);
-    hash.addPlain(texture.srgb).addPlain(texture.wrapU).addPlain(texture.wrapV);
-    hash.addPlain(texture.filter);
+    hash.addPlain(texture.srgb, texture.wrapU, texture.wrapV, texture.filter);
 }
 
 void add(Hasher& hash, const Material& m) {
-    hash.add(m.name).addPlain(m.baseColor).addPlain(m.metallic).addPlain(m.roughness);
-    hash.addPlain(m.specular).addPlain(m.specularColor).addPlain(m.ior).addPlain(m.emission);
-    hash.addPlain(m.transmission);
-    hash.addPlain(m.normalScale).addPlain(m.alphaMode).addPlain(m.alphaCutoff).addPlain(m.doubleSided);
+    hash.add(m.name).addPlain(m.baseColor, m.metallic, m.roughness);
+    hash.addPlain(m.specular, m.specularColor, m.ior, m.emission, m.transmission, m.normalScale, m.alphaMode,
+                  m.alphaCutoff, m.doubleSided);
     for (const TextureRef* ref :
          {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissiveTexture})
         add(hash, *ref);
@@ -48,12 +46,9 @@ void add(Hasher& hash, const Mesh& mesh) {
 }
 
 void add(Hasher& hash, const Node& node) {
-    hash.add(node.name).addPlain(node.parent).addPlain(node.translation);
-    hash.addPlain(node.rotation.x)
-        .addPlain(node.rotation.y)
-        .addPlain(node.rotation.z)
-        .addPlain(node.rotation.w);
-    hash.addPlain(node.scale).addPlain(node.matrix.has_value());
+    hash.add(node.name).addPlain(node.parent, node.translation);
+    hash.addPlain(node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w, node.scale,
+                  node.matrix.has_value());
     if (node.matrix) hash.addPlain(*node.matrix);
 }
 
@@ -63,31 +58,28 @@ void add(Hasher& hash, const Skin& skin) {
 }
 
 void add(Hasher& hash, const Instance& instance) {
-    hash.addPlain(instance.mesh).addPlain(instance.node).addPlain(instance.skin);
+    hash.addPlain(instance.mesh, instance.node, instance.skin);
 }
 
 void add(Hasher& hash, const Light& light) {
-    hash.add(light.name).addPlain(light.type).addPlain(light.intensity);
-    hash.addPlain(light.innerConeAngle).addPlain(light.outerConeAngle);
-    hash.addPlain(light.position).addPlain(light.direction).addPlain(light.node);
+    hash.add(light.name).addPlain(light.type, light.intensity);
+    hash.addPlain(light.innerConeAngle, light.outerConeAngle, light.position, light.direction, light.node);
 }
 
 void add(Hasher& hash, const Camera& camera) {
-    hash.add(camera.name).addPlain(camera.verticalFovRadians).addPlain(camera.position);
-    hash.addPlain(camera.forward).addPlain(camera.up).addPlain(camera.node);
+    hash.add(camera.name).addPlain(camera.verticalFovRadians, camera.position);
+    hash.addPlain(camera.forward, camera.up, camera.node);
 }
 
 void add(Hasher& hash, const Environment& environment) {
-    hash.addPlain(environment.radiance).addPlain(environment.map != nullptr);
+    hash.addPlain(environment.radiance, environment.map != nullptr);
     if (!environment.map) return;
-    hash.addPlain(environment.map->width)
-        .addPlain(environment.map->height)
-        .addPlain(environment.map->channels);
+    hash.addPlain(environment.map->width, environment.map->height, environment.map->channels);
     addArray(hash, environment.map->data);
 }
 
 void add(Hasher& hash, const AnimationChannel& channel) {
-    hash.addPlain(channel.node).addPlain(channel.property).addPlain(channel.interpolation);
+    hash.addPlain(channel.node, channel.property, channel.interpolation);
     addArray(hash, channel.timesSeconds);
     addArray(hash, channel.values);
 }

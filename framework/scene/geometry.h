@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/common.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <limits>
 #include <vector>
 
 #include "scene/scene.h"
@@ -17,6 +19,16 @@ constexpr float kMaxPosition = 1e9f;
 /// An axis-aligned box, m.
 struct Box {
     glm::vec3 min, max;
+    /// Without a point in it.
+    static Box empty() {
+        constexpr float kInfinity = std::numeric_limits<float>::infinity();
+        return {glm::vec3(kInfinity), glm::vec3(-kInfinity)};
+    }
+    void include(const Box& box) {
+        min = glm::min(min, box.min);
+        max = glm::max(max, box.max);
+    }
+    void include(const glm::vec3& point) { include(Box{point, point}); }
 };
 
 /// Per-vertex attributes, laid out as the shaders read them (see shaders/scene/scene_types.h). 64 bytes.
@@ -67,8 +79,7 @@ struct SceneState {
 /// Evaluates nodes and animation at `timeSeconds` and flattens all instances into one list of world-space
 /// triangles. @throws Error if a coordinate exceeds kMaxPosition, or the vertex or triangle count exceeds
 /// 2^31.
-SceneState evaluate(std::shared_ptr<const Scene> scene, double timeSeconds,
-                    Playback playback = Playback::Frozen);
+SceneState evaluate(std::shared_ptr<const Scene> scene, double timeSeconds, Playback playback = Playback::Frozen);
 
 /// The instance that a triangle belongs to.
 uint32_t instanceOf(const Geometry& geometry, uint32_t triangle);

@@ -16,8 +16,7 @@ void addMorphTargets(GltfFile& file, const tinygltf::Primitive& primitive, const
                      Mesh& mesh, const std::string& what);
 
 /// Reads all pairs JOINTS_n and WEIGHTS_n; weights are normalized to sum to 1. @throws Error
-void readSkinWeights(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& mesh,
-                     const std::string& what);
+void readSkinWeights(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& mesh, const std::string& what);
 
 /// Reads the file's skins into the scene's, once each.
 class SkinReader {
@@ -35,7 +34,7 @@ class SkinReader {
  private:
     GltfFile& file_;
     Scene& scene_;
-    std::vector<int32_t> sceneNodes_;  ///< By the file's node; -1: not in the scene.
+    std::vector<int32_t> sceneNodes_;  ///< Indexed by the file's nodes; -1: not in the scene.
     std::map<int, int32_t> skins_;
 };
 

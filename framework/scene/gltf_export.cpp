@@ -33,27 +33,21 @@ tinygltf::Value array(const Vector& v) {
 }
 
 int wrapMode(Wrap wrap) {
-    switch (wrap) {
-        case Wrap::ClampToEdge:
-            return TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
-        case Wrap::MirroredRepeat:
-            return TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT;
-        default:
-            return TINYGLTF_TEXTURE_WRAP_REPEAT;
-    }
+    return wrap == Wrap::ClampToEdge      ? TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE
+           : wrap == Wrap::MirroredRepeat ? TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT
+                                          : TINYGLTF_TEXTURE_WRAP_REPEAT;
 }
 
 /// A node whose -Z axis is `forward`.
-tinygltf::Node lookingNode(const std::string& name, const glm::vec3& position, const glm::vec3& forward,
-                           const glm::vec3& up) {
+tinygltf::Node nodeFacing(const std::string& name, const glm::vec3& position, const glm::vec3& forward,
+                          const glm::vec3& up) {
     const glm::dvec3 z = -glm::normalize(glm::dvec3(forward));
     const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(up), z));
     const glm::dquat q = glm::normalize(glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z)));
     tinygltf::Node node;
     node.name = name;
     node.translation = numbers(position);
-    for (const double component : {q.x, q.y, q.z, q.w})
-        node.rotation.push_back(std::clamp(component, -1.0, 1.0));
+    for (const double component : {q.x, q.y, q.z, q.w}) node.rotation.push_back(std::clamp(component, -1.0, 1.0));
     return node;
 }
 
@@ -72,9 +66,10 @@ GltfWriter::GltfWriter() {
     model_.defaultScene = 0;
 }
 
-void GltfWriter::useExtension(const char* name) {
+void GltfWriter::extend(tinygltf::ExtensionMap& extensions, const char* name, Object members) {
+    extensions[name] = tinygltf::Value(std::move(members));
     auto& used = model_.extensionsUsed;
-    if (std::find(used.begin(), used.end(), name) == used.end()) used.emplace_back(name);
+    if (std::ranges::count(used, name) == 0) used.emplace_back(name);
 }
 
 int GltfWriter::addView(const void* data, size_t bytes, int target) {
@@ -120,9 +115,8 @@ void GltfWriter::addTexture(const Texture& texture) {
     image.bufferView = addView(png.data(), png.size(), 0);
     model_.images.push_back(std::move(image));
     tinygltf::Sampler sampler;
-    sampler.magFilter = sampler.minFilter = texture.filter == TexelFilter::Nearest
-                                                ? TINYGLTF_TEXTURE_FILTER_NEAREST
-                                                : TINYGLTF_TEXTURE_FILTER_LINEAR;
+    sampler.magFilter = sampler.minFilter =
+        texture.filter == TexelFilter::Nearest ? TINYGLTF_TEXTURE_FILTER_NEAREST : TINYGLTF_TEXTURE_FILTER_LINEAR;
     sampler.wrapS = wrapMode(texture.wrapU);
     sampler.wrapT = wrapMode(texture.wrapV);
     model_.samplers.push_back(std::move(sampler));
@@ -146,12 +140,10 @@ Info GltfWriter::textureInfo(const TextureRef& ref) {
     const double scaleU = std::hypot(u.x, v.x);
     const double angle = scaleU > 0 ? std::atan2(-v.x, u.x) : std::atan2(u.y, v.y);
     const double scaleV = std::sin(angle) * u.y + std::cos(angle) * v.y;
-    Object transform;
-    transform["offset"] = array(glm::dvec2(u.z, v.z));
-    transform["scale"] = array(glm::dvec2(scaleU, scaleV));
-    transform["rotation"] = number(angle);
-    info.extensions["KHR_texture_transform"] = tinygltf::Value(std::move(transform));
-    useExtension("KHR_texture_transform");
+    extend(info.extensions, "KHR_texture_transform",
+           {{"offset", array(glm::dvec2(u.z, v.z))},
+            {"scale", array(glm::dvec2(scaleU, scaleV))},
+            {"rotation", number(angle)}});
     return info;
 }
 
@@ -171,33 +163,19 @@ void GltfWriter::addMaterials(const Scene& scene) {
         out.emissiveTexture = textureInfo<tinygltf::TextureInfo>(m.emissiveTexture);
         out.doubleSided = m.doubleSided;
         if (m.alphaMode == AlphaMode::Mask) out.alphaCutoff = double(m.alphaCutoff);
-        out.alphaMode = m.alphaMode == AlphaMode::Mask    ? "MASK"
-                        : m.alphaMode == AlphaMode::Blend ? "BLEND"
-                                                          : "OPAQUE";
+        out.alphaMode = m.alphaMode == AlphaMode::Mask ? "MASK" : m.alphaMode == AlphaMode::Blend ? "BLEND" : "OPAQUE";
 
         // emissiveFactor is at most 1; the strength has the rest.
-        const double strength =
-            std::max({1.0, double(m.emission.x), double(m.emission.y), double(m.emission.z)});
+        const double strength = std::max({1.0, double(m.emission.x), double(m.emission.y), double(m.emission.z)});
         out.emissiveFactor = numbers(glm::dvec3(m.emission) / strength);
-        if (strength > 1) {
-            out.extensions["KHR_materials_emissive_strength"] =
-                tinygltf::Value(Object{{"emissiveStrength", number(strength)}});
-            useExtension("KHR_materials_emissive_strength");
-        }
-        if (m.specular != 1 || m.specularColor != glm::vec3(1)) {
-            out.extensions["KHR_materials_specular"] = tinygltf::Value(Object{
-                {"specularFactor", number(m.specular)}, {"specularColorFactor", array(m.specularColor)}});
-            useExtension("KHR_materials_specular");
-        }
-        if (m.transmission > 0) {
-            out.extensions["KHR_materials_transmission"] =
-                tinygltf::Value(Object{{"transmissionFactor", number(m.transmission)}});
-            useExtension("KHR_materials_transmission");
-        }
-        if (m.ior != 1.5f) {
-            out.extensions["KHR_materials_ior"] = tinygltf::Value(Object{{"ior", number(m.ior)}});
-            useExtension("KHR_materials_ior");
-        }
+        if (strength > 1)
+            extend(out.extensions, "KHR_materials_emissive_strength", {{"emissiveStrength", number(strength)}});
+        if (m.specular != 1 || m.specularColor != glm::vec3(1))
+            extend(out.extensions, "KHR_materials_specular",
+                   {{"specularFactor", number(m.specular)}, {"specularColorFactor", array(m.specularColor)}});
+        if (m.transmission > 0)
+            extend(out.extensions, "KHR_materials_transmission", {{"transmissionFactor", number(m.transmission)}});
+        if (m.ior != 1.5f) extend(out.extensions, "KHR_materials_ior", {{"ior", number(m.ior)}});
         model_.materials.push_back(std::move(out));
     }
 }
@@ -231,14 +209,10 @@ void GltfWriter::addInstance(const Geometry& geometry, const InstanceRange& rang
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = int(mesh.material);
     primitive.attributes["POSITION"] = addAccessor(positions, TINYGLTF_TYPE_VEC3, floats, vertexData);
-    glm::vec3 low = positions[0];
-    glm::vec3 high = positions[0];
-    for (const glm::vec3& p : positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    model_.accessors.back().minValues = numbers(low);
-    model_.accessors.back().maxValues = numbers(high);
+    Box bounds = Box::empty();
+    for (const glm::vec3& p : positions) bounds.include(p);
+    model_.accessors.back().minValues = numbers(bounds.min);
+    model_.accessors.back().maxValues = numbers(bounds.max);
     primitive.attributes["NORMAL"] = addAccessor(normals, TINYGLTF_TYPE_VEC3, floats, vertexData);
     if (!mesh.tangents.empty())
         primitive.attributes["TANGENT"] = addAccessor(tangents, TINYGLTF_TYPE_VEC4, floats, vertexData);
@@ -285,7 +259,7 @@ void GltfWriter::addLight(const Light& light) {
             break;
     }
     model_.lights.push_back(std::move(out));
-    tinygltf::Node node = lookingNode(light.name, light.position, light.direction, anyUp(light.direction));
+    tinygltf::Node node = nodeFacing(light.name, light.position, light.direction, anyUp(light.direction));
     setLight(node, int(model_.lights.size() - 1));
     addNode(std::move(node));
 }
@@ -299,7 +273,7 @@ void GltfWriter::addCamera(const Camera& camera) {
     out.perspective.znear = 1e-3;
     out.perspective.zfar = 1e5;
     model_.cameras.push_back(std::move(out));
-    tinygltf::Node node = lookingNode(camera.name, camera.position, camera.forward, camera.up);
+    tinygltf::Node node = nodeFacing(camera.name, camera.position, camera.forward, camera.up);
     node.camera = int(model_.cameras.size() - 1);
     addNode(std::move(node));
 }
@@ -310,8 +284,7 @@ std::string GltfWriter::glb() {
                     model_.buffers[0].data.size() >> 20);
     std::ostringstream out;
     tinygltf::TinyGLTF writer;
-    if (!writer.WriteGltfSceneToStream(&model_, out, false, true))
-        throw Error("the scene can't be written as .glb");
+    if (!writer.WriteGltfSceneToStream(&model_, out, false, true)) throw Error("the scene can't be written as .glb");
     return std::move(out).str();
 }
 

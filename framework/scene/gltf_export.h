@@ -32,7 +32,8 @@ class GltfWriter {
     void addTexture(const Texture& texture);
     template <typename Info>
     Info textureInfo(const TextureRef& ref);
-    void useExtension(const char* name);
+    /// Adds an extension, and its name to those that the file uses.
+    void extend(tinygltf::ExtensionMap& extensions, const char* name, tinygltf::Value::Object members);
 
     tinygltf::Model model_;
 };

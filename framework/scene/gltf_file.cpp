@@ -17,7 +17,7 @@ namespace {
 using nlohmann::json;
 
 /// Removes the strides of buffer views: the parser accepts only multiples of 4 up to 252.
-std::vector<size_t> takeStrides(json& root) {
+std::vector<size_t> removeStrides(json& root) {
     std::vector<size_t> strides;
     for (size_t i = 0; i < objects(root, "bufferViews").size(); ++i) {
         json& view = root["bufferViews"][i];
@@ -28,7 +28,7 @@ std::vector<size_t> takeStrides(json& root) {
 }
 
 /// Removes the indices of primitives, by mesh: the parser refuses sparse ones without a buffer view.
-std::vector<int> takeIndices(json& root) {
+std::vector<int> removeIndices(json& root) {
     std::vector<int> indices;
     for (size_t m = 0; m < objects(root, "meshes").size(); ++m)
         for (size_t p = 0; p < objects(root["meshes"][m], "primitives").size(); ++p) {
@@ -44,8 +44,8 @@ std::vector<int> takeIndices(json& root) {
 
 /// Parses the JSON without buffers and images, which are read separately.
 tinygltf::Model parsed(json root) {
-    const std::vector<size_t> strides = takeStrides(root);
-    const std::vector<int> indices = takeIndices(root);
+    const std::vector<size_t> strides = removeStrides(root);
+    const std::vector<int> indices = removeIndices(root);
     root.erase("buffers");
     root.erase("images");
     const std::string text = root.dump();
@@ -82,9 +82,7 @@ void GltfFile::parse(const std::vector<uint8_t>& bytes, const std::filesystem::p
     GltfBuffers buffers = readBuffers(container, folder);
     images_ = readImages(container.root, buffers, folder);
     for (const std::string& line : repairGltf(container.root)) warn("{}", line);
-    const ReserveMemory counted = [this](uint64_t count, uint64_t bytesEach) {
-        countMemory(count, bytesEach);
-    };
+    const ReserveMemory counted = [this](uint64_t count, uint64_t bytesEach) { countMemory(count, bytesEach); };
     expandMeshopt(container.root, buffers, counted);
     expandDraco(container.root, buffers, counted);
 
@@ -103,8 +101,7 @@ void GltfFile::reserve(uint64_t count, uint64_t bytesEach) {
 void GltfFile::countMemory(uint64_t count, uint64_t bytesEach) {
     const uint64_t limit = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE)) / 2;
     if (count > (limit - std::min(limit, reservedBytes_)) / bytesEach)
-        throw Error("it needs more than {} MiB, half of this machine's memory; use a smaller scene",
-                    limit >> 20);
+        throw Error("it needs more than {} MiB, half of this machine's memory; use a smaller scene", limit >> 20);
     reservedBytes_ += count * bytesEach;
 }
 

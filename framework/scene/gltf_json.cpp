@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/error.h"
+#include "base/one_line.h"
 
 namespace voxray {
 namespace {
@@ -69,20 +70,6 @@ void checkDepth(std::string_view text) {
     }
 }
 
-/// Length of the UTF-8 sequence at the beginning of a text; 0 if invalid (RFC 3629).
-size_t utf8Length(std::string_view text) {
-    const auto byte = [&](size_t i) { return i < text.size() ? uint8_t(text[i]) : uint8_t(0); };
-    const uint8_t first = byte(0);
-    if (first < 0x80) return 1;
-    const size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-    if (first < 0xc2 || first > 0xf4) return 0;
-    for (size_t i = 1; i < length; ++i)
-        if ((byte(i) & 0xc0) != 0x80) return 0;
-    const bool overlong = (first == 0xe0 && byte(1) < 0xa0) || (first == 0xf0 && byte(1) < 0x90);
-    const bool outside = (first == 0xed && byte(1) > 0x9f) || (first == 0xf4 && byte(1) > 0x8f);
-    return overlong || outside ? 0 : length;
-}
-
 /// Replaces invalid UTF-8, which old exporters leave in names, by U+FFFD.
 std::string withValidUtf8(std::string_view text) {
     std::string out;
@@ -111,11 +98,9 @@ json parse(std::string_view text) {
     // Some exporters pad with zeros.
     while (text.ends_with('\0')) text.remove_suffix(1);
     if (text.empty()) throw Error("it is empty");
-    const std::string_view first =
-        text.substr(std::min(text.find_first_not_of("\xEF\xBB\xBF \t\r\n"), text.size()));
+    const std::string_view first = text.substr(std::min(text.find_first_not_of("\xEF\xBB\xBF \t\r\n"), text.size()));
     if (!first.starts_with('{') && !first.starts_with('['))
-        throw Error(
-            "it is no glTF: it begins neither with 'glTF', as .glb files do, nor with '{{', as JSON does");
+        throw Error("it is no glTF: it begins neither with 'glTF', as .glb files do, nor with '{{', as JSON does");
     checkDepth(text);
     try {
         json root = json::parse(withValidUtf8(text));

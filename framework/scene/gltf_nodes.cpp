@@ -1,8 +1,6 @@
 #include "scene/gltf_nodes.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/trigonometric.hpp>
 
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_values.h"
@@ -32,19 +30,17 @@ Node readNode(GltfFile& file, int index, int32_t parent) {
     node.parent = parent;
     const std::string what = fmt::format("node {} '{}'", index, node.name);
     if (!source.matrix.empty()) {
-        if (source.matrix.size() != 16)
-            file.fail("{}: its matrix has {} numbers", what, source.matrix.size());
+        if (source.matrix.size() != 16) file.fail("{}: its matrix has {} numbers", what, source.matrix.size());
         glm::mat4 m;
         for (int i = 0; i < 16; ++i)
-            m[i / 4][i % 4] =
-                checkedFloat(file, source.matrix[size_t(i)], -maxNumber, maxNumber, what + ": matrix");
+            m[i / 4][i % 4] = checkedFloat(file, source.matrix[size_t(i)], -maxNumber, maxNumber, what + ": matrix");
         node.matrix = m;
         return node;
     }
     glm::vec4 rotation(0, 0, 0, 1);
-    readVector(file, source.translation, node.translation, -maxNumber, maxNumber, what + ": translation");
-    readVector(file, source.scale, node.scale, -maxNumber, maxNumber, what + ": scale");
-    readVector(file, source.rotation, rotation, -1.01, 1.01, what + ": rotation");
+    readVector(file, source.translation, node.translation, -maxNumber, maxNumber, what + ": translation", checkedFloat);
+    readVector(file, source.scale, node.scale, -maxNumber, maxNumber, what + ": scale", checkedFloat);
+    readVector(file, source.rotation, rotation, -1.01, 1.01, what + ": rotation", checkedFloat);
     const float length = glm::length(rotation);
     if (!(length > 0)) file.fail("{}: its rotation is zero", what);
     rotation /= length;
@@ -79,8 +75,7 @@ void readCamera(GltfFile& file, const tinygltf::Node& node, int32_t nodeIndex, S
         return;
     }
     const double fov = source.perspective.yfov;
-    if (!(fov > 0 && fov < 3.1415))
-        file.fail("camera '{}': yfov is {} radians; expected 0 to 3.14", camera.name, fov);
+    if (!(fov > 0 && fov < 3.1415)) file.fail("camera '{}': yfov is {} radians; expected 0 to 3.14", camera.name, fov);
     camera.verticalFovRadians = float(fov);
     scene.cameras.push_back(std::move(camera));
 }
@@ -102,16 +97,14 @@ void readLight(GltfFile& file, const tinygltf::Node& node, int32_t nodeIndex, Sc
         light.type = LightType::Directional;
     else
         file.fail("{}: type '{}' is not one of glTF's", what, source.type);
-    const float intensity = limited(file, source.intensity, 0, maxNumber, what + ": intensity");
-    readLimited(file, source.color, light.intensity, 0, maxNumber, what + ": color");
+    const float intensity = clampedFloat(file, source.intensity, 0, maxNumber, what + ": intensity");
+    readVector(file, source.color, light.intensity, 0, maxNumber, what + ": color", clampedFloat);
     for (int i = 0; i < 3; ++i)
         light.intensity[i] =
-            limited(file, double(light.intensity[i]) * intensity, 0, maxNumber, what + ": intensity");
+            clampedFloat(file, double(light.intensity[i]) * intensity, 0, maxNumber, what + ": intensity");
     if (light.type == LightType::Spot) {
-        light.outerConeAngle =
-            limited(file, source.spot.outerConeAngle, 0, 1.5708, what + ": outerConeAngle");
-        light.innerConeAngle =
-            limited(file, source.spot.innerConeAngle, 0, 1.5708, what + ": innerConeAngle");
+        light.outerConeAngle = clampedFloat(file, source.spot.outerConeAngle, 0, 1.5708, what + ": outerConeAngle");
+        light.innerConeAngle = clampedFloat(file, source.spot.innerConeAngle, 0, 1.5708, what + ": innerConeAngle");
         if (light.innerConeAngle > light.outerConeAngle) {
             file.warn("{}: innerConeAngle is wider than outerConeAngle; both are taken as the latter", what);
             light.innerConeAngle = light.outerConeAngle;
@@ -148,13 +141,10 @@ std::vector<int> readNodes(GltfFile& file, Scene& scene) {
     return fileNodes;
 }
 
-std::vector<int32_t> readInstanceNodes(GltfFile& file, const tinygltf::Node& source, int32_t node,
-                                       Scene& scene) {
-    const tinygltf::Value* attributes =
-        extensionMember(source.extensions, "EXT_mesh_gpu_instancing", "attributes");
+std::vector<int32_t> readInstanceNodes(GltfFile& file, const tinygltf::Node& source, int32_t node, Scene& scene) {
+    const tinygltf::Value* attributes = extensionMember(source.extensions, "EXT_mesh_gpu_instancing", "attributes");
     if (attributes == nullptr) return {node};
-    const std::string what =
-        fmt::format("node '{}': EXT_mesh_gpu_instancing", scene.nodes[size_t(node)].name);
+    const std::string what = fmt::format("node '{}': EXT_mesh_gpu_instancing", scene.nodes[size_t(node)].name);
     const AccessorValues translations = instanceAttribute(file, *attributes, "TRANSLATION", 3);
     const AccessorValues rotations = instanceAttribute(file, *attributes, "ROTATION", 4);
     const AccessorValues scales = instanceAttribute(file, *attributes, "SCALE", 3);

@@ -1,35 +1,38 @@
 #pragma once
 
-#include <cmath>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <string>
 #include <vector>
 
 #include "scene/gltf_file.h"
-#include "scene/value_ranges.h"
 
 namespace voxray {
-
-/// Converts a double to a finite float in [min, max]. @throws Error naming it
-inline float checkedFloat(const GltfFile& file, double value, double min, double max,
-                          const std::string& what) {
-    if (!(value >= min && value <= max)) file.fail("{} is {}; expected {} to {}", what, value, min, max);
-    return float(value);
-}
 
 /// Upper bound of numbers, far below float's maximum, so that products are finite.
 constexpr double maxNumber = 1e30;
 
-/// Reads an array of the vector's length; an empty one keeps the default. @throws Error
+/// Converts a double to a finite float in [min, max]. @throws Error naming it
+inline float checkedFloat(GltfFile& file, double value, double min, double max, const std::string& what) {
+    if (!(value >= min && value <= max)) file.fail("{} is {}; expected {} to {}", what, value, min, max);
+    return float(value);
+}
+
+/// Clamps a value of the file to [min, max], with a warning that names it. NaN becomes `min`.
+inline float clampedFloat(GltfFile& file, double value, double min, double max, const std::string& what) {
+    if (value >= min && value <= max) return float(value);
+    const double nearest = value > max ? max : min;
+    file.warn("{} is {}, not from {} to {}; taken as {}", what, value, min, max, nearest);
+    return float(nearest);
+}
+
+/// Reads an array of the vector's length with `convert`, checkedFloat() or clampedFloat(), for each number;
+/// an empty one keeps the default. @throws Error for another length
 template <typename Vector>
-void readVector(const GltfFile& file, const std::vector<double>& values, Vector& out, double min, double max,
-                const std::string& what) {
+void readVector(GltfFile& file, const std::vector<double>& values, Vector& out, double min, double max,
+                const std::string& what, decltype(clampedFloat) convert) {
     if (values.empty()) return;
     if (values.size() != size_t(Vector::length()))
         file.fail("{} has {} numbers; expected {}", what, values.size(), int(Vector::length()));
-    for (int i = 0; i < int(Vector::length()); ++i)
-        out[i] = checkedFloat(file, values[size_t(i)], min, max, what);
+    for (int i = 0; i < int(Vector::length()); ++i) out[i] = convert(file, values[size_t(i)], min, max, what);
 }
 
 /// A member of an extension's object, or nullptr.
@@ -48,7 +51,7 @@ inline void readExtension(GltfFile& file, const std::string& owner, const tinygl
     if (value == nullptr) return;
     const std::string what = owner + ": " + extension + "." + member;
     if (!value->IsNumber()) file.fail("{} is not a number", what);
-    out = limited(file, value->GetNumberAsDouble(), min, max, what);
+    out = clampedFloat(file, value->GetNumberAsDouble(), min, max, what);
 }
 
 /// Reads a vector likewise. @throws Error
@@ -64,7 +67,7 @@ void readExtensionVector(GltfFile& file, const std::string& owner, const tinyglt
         numbers.push_back(value->Get(int(i)).GetNumberAsDouble());
     }
     if (numbers.empty()) file.fail("{} is not an array of numbers", what);
-    readLimited(file, numbers, out, min, max, what);
+    readVector(file, numbers, out, min, max, what, clampedFloat);
 }
 
 }  // namespace voxray

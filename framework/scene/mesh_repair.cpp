@@ -1,6 +1,7 @@
 #include "scene/mesh_repair.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 namespace voxray {
@@ -51,23 +52,23 @@ void gatherVertices(Mesh& mesh, const std::vector<uint32_t>& source) {
 }
 
 /// A triangle's tangent, the direction of growing u, times twice its area; zero for degenerate uv.
-struct Frame {
+struct TriangleTangent {
     glm::dvec3 tangent{0.0};
     bool mirrored = false;
 };
-Frame frameOf(const Mesh& mesh, const std::vector<glm::vec2>& uv, const glm::uvec3& t) {
+TriangleTangent tangentOf(const Mesh& mesh, const std::vector<glm::vec2>& uv, const glm::uvec3& t) {
     const glm::dvec3 e1 = glm::dvec3(mesh.positions[t.y]) - glm::dvec3(mesh.positions[t.x]);
     const glm::dvec3 e2 = glm::dvec3(mesh.positions[t.z]) - glm::dvec3(mesh.positions[t.x]);
     const glm::dvec2 d1 = glm::dvec2(uv[t.y]) - glm::dvec2(uv[t.x]);
     const glm::dvec2 d2 = glm::dvec2(uv[t.z]) - glm::dvec2(uv[t.x]);
     const double determinant = d1.x * d2.y - d2.x * d1.y;
-    Frame frame;
-    frame.mirrored = determinant < 0;
-    if (determinant == 0 || !std::isfinite(determinant)) return frame;
-    const double sign = frame.mirrored ? -1 : 1;
+    TriangleTangent result;
+    result.mirrored = determinant < 0;
+    if (determinant == 0 || !std::isfinite(determinant)) return result;
+    const double sign = result.mirrored ? -1 : 1;
     const double area = glm::length(glm::cross(e1, e2));
-    frame.tangent = area * glm::dvec3(directionOr(sign * (d2.y * e1 - d1.y * e2), glm::vec3(0)));
-    return frame;
+    result.tangent = area * glm::dvec3(directionOr(sign * (d2.y * e1 - d1.y * e2), glm::vec3(0)));
+    return result;
 }
 
 }  // namespace
@@ -136,11 +137,10 @@ void makeTangents(Mesh& mesh, uint32_t texCoordSet) {
 
     // Copy vertices of mirrored triangles that unmirrored ones use, too.
     std::vector<uint8_t> uses(mesh.positions.size());
-    std::vector<Frame> frames(mesh.triangles.size());
+    std::vector<TriangleTangent> tangents(mesh.triangles.size());
     for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-        frames[i] = frameOf(mesh, uv, mesh.triangles[i]);
-        for (int corner = 0; corner < 3; ++corner)
-            uses[mesh.triangles[i][corner]] |= frames[i].mirrored ? 2 : 1;
+        tangents[i] = tangentOf(mesh, uv, mesh.triangles[i]);
+        for (int corner = 0; corner < 3; ++corner) uses[mesh.triangles[i][corner]] |= tangents[i].mirrored ? 2 : 1;
     }
     std::vector<uint32_t> source(mesh.positions.size());
     std::vector<uint32_t> copies(mesh.positions.size());
@@ -155,14 +155,13 @@ void makeTangents(Mesh& mesh, uint32_t texCoordSet) {
     }
     gatherVertices(mesh, source);
     for (size_t i = 0; i < mesh.triangles.size(); ++i)
-        if (frames[i].mirrored)
-            for (int corner = 0; corner < 3; ++corner)
-                mesh.triangles[i][corner] = copies[mesh.triangles[i][corner]];
+        if (tangents[i].mirrored)
+            for (int corner = 0; corner < 3; ++corner) mesh.triangles[i][corner] = copies[mesh.triangles[i][corner]];
 
     // Sum triangles' tangents at vertices, and orthogonalize them to the normals.
     std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0));
     for (size_t i = 0; i < mesh.triangles.size(); ++i)
-        for (int corner = 0; corner < 3; ++corner) sums[mesh.triangles[i][corner]] += frames[i].tangent;
+        for (int corner = 0; corner < 3; ++corner) sums[mesh.triangles[i][corner]] += tangents[i].tangent;
     mesh.tangents.resize(mesh.positions.size());
     for (size_t i = 0; i < sums.size(); ++i) {
         const glm::dvec3 n(mesh.normals[i]);
@@ -180,6 +179,17 @@ bool normalizeTangents(Mesh& mesh) {
         t = glm::vec4(direction, t.w < 0 ? -1.0f : 1.0f);
     }
     return true;
+}
+
+size_t limitColors(Mesh& mesh, const Material& material) {
+    const glm::vec4 most = 1.0f / glm::max(material.baseColor, glm::vec4(1e-30f));
+    size_t count = 0;
+    for (glm::vec4& color : mesh.colors) {
+        const glm::vec4 within = glm::clamp(color, glm::vec4(0.0f), most);
+        count += within != color;
+        color = within;
+    }
+    return count;
 }
 
 }  // namespace voxray

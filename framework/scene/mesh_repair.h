@@ -25,4 +25,8 @@ void makeTangents(Mesh& mesh, uint32_t texCoordSet);
 /// @return false if any is zero or not finite
 bool normalizeTangents(Mesh& mesh);
 
+/// Clamps vertex colours so that the base colour, factor times vertex colour, is 0 to 1. @return number of
+/// vertices changed
+size_t limitColors(Mesh& mesh, const Material& material);
+
 }  // namespace voxray

@@ -8,12 +8,8 @@ void addMovingSpheres(Scene& scene, const MovingSpheres& spheres) {
     if (spheres.count == 0) return;
 
     // One shared mesh of 1280 triangles.
-    Material material;
-    material.name = "moving sphere";
-    material.baseColor = glm::vec4(spheres.albedo, 1.0f);
-    material.metallic = 0;
-    material.specular = 0;
-    scene.materials.push_back(material);
+    scene.materials.push_back(
+        {.name = "moving sphere", .baseColor = glm::vec4(spheres.albedo, 1.0f), .metallic = 0, .specular = 0});
     const uint32_t mesh = uint32_t(scene.meshes.size());
     scene.meshes.push_back(sphereMesh("moving sphere", glm::vec3(0.0f), spheres.radius, 3,
                                       uint32_t(scene.materials.size() - 1), false, true));
@@ -25,17 +21,15 @@ void addMovingSpheres(Scene& scene, const MovingSpheres& spheres) {
     const glm::vec3 half = 0.5f * glm::vec3(n - 1, layers - 1, n - 1);
     for (uint32_t i = 0; i < spheres.count; ++i) {
         const glm::vec3 cell(i % n, i / (n * n), i / n % n);
-        Node node;
-        node.name = "moving sphere " + std::to_string(i);
-        node.translation = spheres.center + spheres.spacing * (cell - half);
-        const glm::vec4 center(node.translation, 0), swing(spheres.swing, 0);
+        const glm::vec3 position = spheres.center + spheres.spacing * (cell - half);
+        const glm::vec4 center(position, 0), swing(spheres.swing, 0);
         scene.animation.push_back({uint32_t(scene.nodes.size()),
                                    AnimatedProperty::Translation,
                                    Interpolation::Linear,
                                    {0, 0.25f * spheres.period, 0.75f * spheres.period, spheres.period},
                                    {center, center + swing, center - swing, center}});
         scene.instances.push_back({mesh, int32_t(scene.nodes.size())});
-        scene.nodes.push_back(std::move(node));
+        scene.nodes.push_back({.name = fmt::format("moving sphere {}", i), .translation = position});
     }
 }
 

@@ -18,19 +18,17 @@ struct MovingSpheres {
     static constexpr auto schema() {
         return std::tuple{
             field("count", &MovingSpheres::count, "Number of spheres; 0: none.", 0u, 4096u),
-            field("radius", &MovingSpheres::radius, "In metres.", 0.001f, 1000.0f),
-            field("center", &MovingSpheres::center, "Center of the lattice at time 0, metres.",
-                  glm::vec3(-1e6f), glm::vec3(1e6f))
+            field("radius", &MovingSpheres::radius, "Radius of the spheres, m.", 0.001f, 1000.0f),
+            field("center", &MovingSpheres::center, "Center of the lattice at time 0, m.", glm::vec3(-1e6f),
+                  glm::vec3(1e6f))
                 .asVector(),
-            field("spacing", &MovingSpheres::spacing, "Between the centers of neighbours, metres.", 0.0f,
-                  1e4f),
+            field("spacing", &MovingSpheres::spacing, "Distance between adjacent centers, m.", 0.0f, 1e4f),
             field("swing", &MovingSpheres::swing,
-                  "How far each moves from its place, to this side and then as far to the other, metres.",
-                  glm::vec3(-1e4f), glm::vec3(1e4f))
+                  "Vector that each moves from its center; then as far in the opposite direction, m.", glm::vec3(-1e4f),
+                  glm::vec3(1e4f))
                 .asVector(),
-            field("period", &MovingSpheres::period, "Seconds of a whole swing, to both sides and back.",
-                  0.001f, 1e6f),
-            field("albedo", &MovingSpheres::albedo, "Of all spheres.", glm::vec3(0.0f), glm::vec3(1.0f))};
+            field("period", &MovingSpheres::period, "Duration of a whole oscillation, s.", 0.001f, 1e6f),
+            field("albedo", &MovingSpheres::albedo, "Albedo of all spheres.", glm::vec3(0.0f), glm::vec3(1.0f))};
     }
 };
 

@@ -1,32 +1,31 @@
 #include "scene/region_split.h"
 
 #include <algorithm>
-#include <array>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "scene/append_vertex.h"
 #include "scene/content_hash.h"
 
 namespace voxray {
 namespace {
 
-/// A vertex of a part of a triangle: barycentric coordinates and world position.
+/// A vertex of a piece of a triangle: barycentric coordinates and world position.
 struct Corner {
     glm::dvec3 weights, world;
 };
 using Polygon = std::vector<Corner>;
 
 /// Clips a convex polygon at the plane `coordinate` across an axis, whose inside is on the side of `sign`.
-/// Points in the plane are inside. @return the parts inside and outside.
+/// Points in the plane are inside. @return the polygons inside and outside.
 std::pair<Polygon, Polygon> cut(const Polygon& polygon, int axis, double coordinate, double sign) {
     Polygon inside, outside;
-    bool reachesIn = false, reachesOut = false;
+    bool isAnyInside = false, isAnyOutside = false;
     for (size_t i = 0; i < polygon.size(); ++i) {
         const Corner &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
         const double a = sign * (from.world[axis] - coordinate), b = sign * (to.world[axis] - coordinate);
-        reachesIn = reachesIn || a > 0;
-        reachesOut = reachesOut || a < 0;
+        isAnyInside = isAnyInside || a > 0;
+        isAnyOutside = isAnyOutside || a < 0;
         if (a >= 0) inside.push_back(from);
         if (a <= 0) outside.push_back(from);
         if ((a < 0 && b > 0) || (a > 0 && b < 0)) {
@@ -37,8 +36,8 @@ std::pair<Polygon, Polygon> cut(const Polygon& polygon, int axis, double coordin
             outside.push_back(crossing);
         }
     }
-    if (!reachesOut) return {polygon, {}};
-    if (!reachesIn) return {{}, polygon};
+    if (!isAnyOutside) return {polygon, {}};
+    if (!isAnyInside) return {{}, polygon};
     return {inside, outside};
 }
 
@@ -47,8 +46,7 @@ std::vector<Polygon> splitAtBox(const Polygon& triangle, const Box& box) {
     std::vector<Polygon> polygons;
     Polygon remaining = triangle;
     for (int axis = 0; axis < 3; ++axis)
-        for (const auto& [coordinate, sign] :
-             {std::pair(box.min[axis], 1.0), std::pair(box.max[axis], -1.0)}) {
+        for (const auto& [coordinate, sign] : {std::pair(box.min[axis], 1.0), std::pair(box.max[axis], -1.0)}) {
             auto [inside, outside] = cut(remaining, axis, double(coordinate), sign);
             polygons.push_back(std::move(outside));
             remaining = std::move(inside);
@@ -58,30 +56,10 @@ std::vector<Polygon> splitAtBox(const Polygon& triangle, const Box& box) {
     return polygons;
 }
 
-template <typename T>
-T interpolated(const std::vector<T>& list, const glm::uvec3& t, const glm::vec3& w) {
-    return list[t.x] * w.x + list[t.y] * w.y + list[t.z] * w.z;
-}
-
-glm::vec3 normalizedOrZero(const glm::vec3& v) {
-    const float length = glm::length(v);
-    return length > 0 ? v / length : v;
-}
-
+/// Adds a vertex of triangle `t` with barycentric weights `w`.
 uint32_t addVertex(Mesh& mesh, const glm::uvec3& t, const glm::vec3& w) {
-    const auto add = [&](auto& list) {
-        if (!list.empty()) list.push_back(interpolated(list, t, w));
-    };
-    add(mesh.positions);
-    add(mesh.normals);
-    if (!mesh.normals.empty()) mesh.normals.back() = normalizedOrZero(mesh.normals.back());
-    add(mesh.tangents);
-    if (!mesh.tangents.empty())
-        mesh.tangents.back() = glm::vec4(normalizedOrZero(mesh.tangents.back()), mesh.tangents[t.x].w);
-    add(mesh.texCoords0);
-    add(mesh.texCoords1);
-    add(mesh.colors);
-    return uint32_t(mesh.positions.size() - 1);
+    return appendVertex(mesh, t.x,
+                        [&](const auto& list) { return list[t.x] * w.x + list[t.y] * w.y + list[t.z] * w.z; });
 }
 
 /// @param world positions of the mesh's vertices. @return whether anything was cut.
@@ -96,8 +74,7 @@ bool split(Mesh& mesh, const glm::vec3* world, const Box& box) {
         const glm::vec3 high = glm::max(world[t.x], glm::max(world[t.y], world[t.z]));
         const bool isInside =
             glm::all(glm::greaterThanEqual(low, box.min)) && glm::all(glm::lessThanEqual(high, box.max));
-        const bool isOutside =
-            glm::any(glm::lessThan(high, box.min)) || glm::any(glm::greaterThan(low, box.max));
+        const bool isOutside = glm::any(glm::lessThan(high, box.min)) || glm::any(glm::greaterThan(low, box.max));
         const std::vector<Polygon> polygons =
             isInside || isOutside ? std::vector<Polygon>() : splitAtBox(triangle, box);
         if (polygons.size() < 2) {
@@ -109,13 +86,9 @@ bool split(Mesh& mesh, const glm::vec3* world, const Box& box) {
             std::vector<uint32_t> corners;
             for (const Corner& corner : polygon) {
                 const glm::dvec3& w = corner.weights;
-                corners.push_back(w.x == 1   ? t.x
-                                  : w.y == 1 ? t.y
-                                  : w.z == 1 ? t.z
-                                             : addVertex(mesh, t, glm::vec3(w)));
+                corners.push_back(w.x == 1 ? t.x : w.y == 1 ? t.y : w.z == 1 ? t.z : addVertex(mesh, t, glm::vec3(w)));
             }
-            for (size_t i = 2; i < corners.size(); ++i)
-                triangles.emplace_back(corners[0], corners[i - 1], corners[i]);
+            for (size_t i = 2; i < corners.size(); ++i) triangles.emplace_back(corners[0], corners[i - 1], corners[i]);
         }
     }
     mesh.triangles = std::move(triangles);

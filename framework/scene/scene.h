@@ -27,8 +27,8 @@ struct Texture {
     std::string name;
     uint32_t width = 0;
     uint32_t height = 0;
-    std::vector<uint8_t> rgba;  ///< 4 bytes per texel, row 0 at the top.
-    bool srgb = false;          ///< RGB is sRGB-encoded (base colour, emission).
+    std::vector<uint8_t> rgba{};  ///< 4 bytes per texel, row 0 at the top.
+    bool srgb = false;            ///< RGB is sRGB-encoded (base colour, emission).
     Wrap wrapU = Wrap::Repeat;
     Wrap wrapV = Wrap::Repeat;
     TexelFilter filter = TexelFilter::Linear;  ///< Within a level: bilinear or nearest.
@@ -56,10 +56,10 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
     bool doubleSided = false;  ///< Emits on both sides. All materials reflect and occlude on both.
-    TextureRef baseColorTexture;
-    TextureRef metallicRoughnessTexture;  ///< G roughness, B metallic.
-    TextureRef normalTexture;
-    TextureRef emissiveTexture;
+    TextureRef baseColorTexture{};
+    TextureRef metallicRoughnessTexture{};  ///< G roughness, B metallic.
+    TextureRef normalTexture{};
+    TextureRef emissiveTexture{};
 };
 
 /// Four joints and weights per vertex.
@@ -89,7 +89,7 @@ struct Node {
     glm::vec3 translation{0.0f};
     glm::quat rotation{1, 0, 0, 0};
     glm::vec3 scale{1.0f};
-    std::optional<glm::mat4> matrix;
+    std::optional<glm::mat4> matrix{};
 };
 
 /// A skin: joint i transforms vertices by its node's world matrix * inverseBindMatrices[i].
@@ -116,7 +116,7 @@ struct Light {
     float innerConeAngle = 0.0f;  ///< Radians from the axis, spot only.
     float outerConeAngle = 0.7853982f;
     glm::vec3 position{0.0f};
-    glm::vec3 direction{0, 0, -1};  ///< Of propagation, unit length.
+    glm::vec3 direction{0, 0, -1};  ///< Direction of propagation, unit length.
     int32_t node = -1;
 };
 
@@ -132,7 +132,7 @@ struct Camera {
 
 /// Radiance from infinity.
 struct Environment {
-    glm::vec3 radiance{0.0f};  ///< Multiplies the map; the radiance itself without a map. W/(m² sr).
+    glm::vec3 radiance{0.0f};           ///< Multiplies the map; the radiance itself without a map. W/(m² sr).
     std::shared_ptr<const ImageF> map;  ///< Equirectangular, 3 channels, row 0 at +Y; u = 0.5 looks along -Z,
                                         ///< u grows towards +X.
 };
@@ -162,8 +162,8 @@ struct Scene {
     std::vector<std::string> orthographicCameras;  ///< Names of ignored ones.
     Environment environment;
     std::vector<AnimationChannel> animation;  ///< All of the file's animations, played together.
-    std::vector<std::string> warnings;        ///< Of the loader, one line each.
-    std::string contentHash;                  ///< Of everything above; part of cache keys.
+    std::vector<std::string> warnings;        ///< Warnings of the loader, one line each.
+    std::string contentHash;                  ///< Hash of everything above (hashScene()).
 };
 
 }  // namespace voxray

@@ -32,13 +32,8 @@ SceneBuilder::SceneBuilder(std::string name) : scene_(std::make_shared<Scene>())
 }
 
 uint32_t SceneBuilder::lambert(const std::string& name, const glm::vec3& albedo, const glm::vec3& emission) {
-    Material m;
-    m.name = name;
-    m.baseColor = glm::vec4(albedo, 1.0f);
-    m.metallic = 0;
-    m.specular = 0;
-    m.emission = emission;
-    return material(m);
+    return material(
+        {.name = name, .baseColor = glm::vec4(albedo, 1.0f), .metallic = 0, .specular = 0, .emission = emission});
 }
 
 uint32_t SceneBuilder::material(Material material) {
@@ -64,8 +59,7 @@ void SceneBuilder::quad(const std::string& name, const glm::vec3& corner, const 
     place(mesh(std::move(m)));
 }
 
-void SceneBuilder::band(const std::string& name, const Corners& inner, const Corners& outer,
-                        uint32_t material) {
+void SceneBuilder::band(const std::string& name, const Corners& inner, const Corners& outer, uint32_t material) {
     Mesh m;
     m.name = name;
     m.material = material;
@@ -77,8 +71,8 @@ void SceneBuilder::band(const std::string& name, const Corners& inner, const Cor
     place(mesh(std::move(m)));
 }
 
-void SceneBuilder::box(const std::string& name, const glm::vec3& base, const glm::vec3& size,
-                       float angleRadians, uint32_t material) {
+void SceneBuilder::box(const std::string& name, const glm::vec3& base, const glm::vec3& size, float angleRadians,
+                       uint32_t material) {
     const float c = std::cos(angleRadians);
     const float s = std::sin(angleRadians);
     const glm::vec3 x = glm::vec3(c, 0, -s) * size.x;
@@ -98,8 +92,7 @@ void SceneBuilder::box(const std::string& name, const glm::vec3& base, const glm
     place(mesh(std::move(m)));
 }
 
-void SceneBuilder::room(const glm::vec3& min, const glm::vec3& max,
-                        const std::array<uint32_t, 6>& materials) {
+void SceneBuilder::room(const glm::vec3& min, const glm::vec3& max, const std::array<uint32_t, 6>& materials) {
     const glm::vec3 x(max.x - min.x, 0, 0);
     const glm::vec3 y(0, max.y - min.y, 0);
     const glm::vec3 z(0, 0, max.z - min.z);
@@ -117,43 +110,34 @@ void SceneBuilder::room(const glm::vec3& min, const glm::vec3& max,
 
 void SceneBuilder::camera(const glm::vec3& position, const glm::vec3& target, float verticalFovDegrees,
                           const glm::vec3& up) {
-    Camera c;
-    c.name = "camera";
-    c.verticalFovRadians = glm::radians(verticalFovDegrees);
-    c.position = position;
-    c.forward = glm::normalize(target - position);
-    c.up = glm::normalize(up - glm::dot(up, c.forward) * c.forward);
-    scene_->cameras.push_back(c);
+    const glm::vec3 forward = glm::normalize(target - position);
+    scene_->cameras.push_back({.name = "camera",
+                               .verticalFovRadians = glm::radians(verticalFovDegrees),
+                               .position = position,
+                               .forward = forward,
+                               .up = glm::normalize(up - glm::dot(up, forward) * forward)});
 }
 
 void SceneBuilder::pointLight(const glm::vec3& position, const glm::vec3& intensity) {
-    Light light;
-    light.name = "point light";
-    light.intensity = intensity;
-    light.position = position;
-    scene_->lights.push_back(light);
+    scene_->lights.push_back({.name = "point light", .intensity = intensity, .position = position});
 }
 
 void SceneBuilder::spotLight(const glm::vec3& position, const glm::vec3& direction, float innerDegrees,
                              float outerDegrees, const glm::vec3& intensity) {
-    Light light;
-    light.name = "spot light";
-    light.type = LightType::Spot;
-    light.intensity = intensity;
-    light.innerConeAngle = glm::radians(innerDegrees);
-    light.outerConeAngle = glm::radians(outerDegrees);
-    light.position = position;
-    light.direction = glm::normalize(direction);
-    scene_->lights.push_back(light);
+    scene_->lights.push_back({.name = "spot light",
+                              .type = LightType::Spot,
+                              .intensity = intensity,
+                              .innerConeAngle = glm::radians(innerDegrees),
+                              .outerConeAngle = glm::radians(outerDegrees),
+                              .position = position,
+                              .direction = glm::normalize(direction)});
 }
 
 void SceneBuilder::directionalLight(const glm::vec3& direction, const glm::vec3& irradiance) {
-    Light light;
-    light.name = "sun";
-    light.type = LightType::Directional;
-    light.intensity = irradiance;
-    light.direction = glm::normalize(direction);
-    scene_->lights.push_back(light);
+    scene_->lights.push_back({.name = "sun",
+                              .type = LightType::Directional,
+                              .intensity = irradiance,
+                              .direction = glm::normalize(direction)});
 }
 
 std::shared_ptr<const Scene> SceneBuilder::finish() {
@@ -208,10 +192,8 @@ Mesh sphereMesh(const std::string& name, const glm::vec3& center, float radius, 
     }
     for (const glm::uvec3& t : triangles) {
         const uint32_t first = uint32_t(mesh.positions.size());
-        const glm::vec3 normal =
-            glm::normalize(glm::cross(points[t.y] - points[t.x], points[t.z] - points[t.x]));
-        for (const uint32_t corner : {t.x, t.y, t.z})
-            mesh.positions.push_back(center + radius * points[corner]);
+        const glm::vec3 normal = glm::normalize(glm::cross(points[t.y] - points[t.x], points[t.z] - points[t.x]));
+        for (const uint32_t corner : {t.x, t.y, t.z}) mesh.positions.push_back(center + radius * points[corner]);
         mesh.normals.insert(mesh.normals.end(), 3, normal);
         mesh.triangles.push_back({first, first + 1, first + 2});
     }

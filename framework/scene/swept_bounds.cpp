@@ -4,21 +4,14 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
-#include <limits>
 #include <optional>
 
 namespace voxray {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-Box including(const Box& box, const glm::vec3& point) {
-    return {glm::min(box.min, point), glm::max(box.max, point)};
-}
-
 Box hullOf(const std::vector<glm::vec3>& points) {
-    Box hull{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
-    for (const glm::vec3& point : points) hull = including(hull, point);
+    Box hull = Box::empty();
+    for (const glm::vec3& point : points) hull.include(point);
     return hull;
 }
 
@@ -78,8 +71,8 @@ Box swept(const Box& box, const Scene& scene, uint32_t index) {
     if (const auto& matrix = scene.nodes[index].matrix)
         return transformed(box, glm::mat3(*matrix), glm::vec3((*matrix)[3]));
     const NodeRange range = rangeOf(scene, index);
-    Box out = hullOf({box.min * range.scale.min, box.min * range.scale.max, box.max * range.scale.min,
-                      box.max * range.scale.max});
+    Box out = hullOf(
+        {box.min * range.scale.min, box.min * range.scale.max, box.max * range.scale.min, box.max * range.scale.max});
     if (range.rotation) {
         out = transformed(out, glm::mat3_cast(*range.rotation), glm::vec3(0.0f));
     } else {
@@ -103,14 +96,14 @@ bool nodeMoves(const Scene& scene, int32_t node) {
 
 /// Bounds of each joint's vertices, in its node's space.
 std::vector<Box> jointHulls(const Mesh& mesh, const Skin& skin) {
-    std::vector<Box> hulls(skin.joints.size(), {glm::vec3(kInfinity), glm::vec3(-kInfinity)});
+    std::vector<Box> hulls(skin.joints.size(), Box::empty());
     for (const SkinWeights& set : mesh.skinWeights)
         for (size_t v = 0; v < mesh.positions.size(); ++v)
             for (int i = 0; i < 4; ++i) {
                 if (!(set.weights[v][i] > 0)) continue;
                 const uint32_t joint = set.joints[v][i];
                 const glm::vec4 p = skin.inverseBindMatrices[joint] * glm::vec4(mesh.positions[v], 1.0f);
-                hulls[joint] = including(hulls[joint], glm::vec3(p));
+                hulls[joint].include(glm::vec3(p));
             }
     return hulls;
 }
@@ -120,13 +113,12 @@ std::vector<Box> jointHulls(const Mesh& mesh, const Skin& skin) {
 bool movesInTime(const Scene& scene, const Instance& instance) {
     if (instance.skin < 0) return nodeMoves(scene, instance.node);
     const std::vector<uint32_t>& joints = scene.skins[size_t(instance.skin)].joints;
-    return std::any_of(joints.begin(), joints.end(),
-                       [&](uint32_t joint) { return nodeMoves(scene, int32_t(joint)); });
+    return std::any_of(joints.begin(), joints.end(), [&](uint32_t joint) { return nodeMoves(scene, int32_t(joint)); });
 }
 
 Box sweptBounds(const Scene& scene, const Instance& instance) {
     const Mesh& mesh = scene.meshes[instance.mesh];
-    Box box{glm::vec3(kInfinity), glm::vec3(-kInfinity)};
+    Box box = Box::empty();
     if (instance.skin < 0) {
         box = sweptToWorld(hullOf(mesh.positions), scene, instance.node);
     } else {
@@ -135,8 +127,7 @@ Box sweptBounds(const Scene& scene, const Instance& instance) {
         const std::vector<Box> hulls = jointHulls(mesh, skin);
         for (size_t i = 0; i < hulls.size(); ++i) {
             if (hulls[i].min.x > hulls[i].max.x) continue;
-            const Box swept = sweptToWorld(hulls[i], scene, int32_t(skin.joints[i]));
-            box = including(including(box, swept.min), swept.max);
+            box.include(sweptToWorld(hulls[i], scene, int32_t(skin.joints[i])));
         }
     }
 

@@ -12,24 +12,24 @@
 
 namespace voxray {
 
+/// vkDestroyAccelerationStructureKHR, which is a function of an extension.
+void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR structure,
+                                  const VkAllocationCallbacks* allocator);
+
 /// A Vulkan acceleration structure with its memory. Move-only.
 class AccelerationStructure {
  public:
     AccelerationStructure() = default;
-    AccelerationStructure(Device& device, const char* name, VkAccelerationStructureTypeKHR type,
-                          uint64_t bytes);
-    ~AccelerationStructure();
-    AccelerationStructure(AccelerationStructure&& other) noexcept;
-    AccelerationStructure& operator=(AccelerationStructure&& other) noexcept;
+    AccelerationStructure(Device& device, const char* name, VkAccelerationStructureTypeKHR type, uint64_t bytes);
 
     VkAccelerationStructureKHR handle() const { return handle_; }
-    VkDeviceAddress address() const;
+    VkDeviceAddress address() const { return address_; }
     uint64_t bytes() const { return buffer_.bytes(); }
 
  private:
-    Device* device_ = nullptr;
     Buffer buffer_;
-    VkAccelerationStructureKHR handle_ = VK_NULL_HANDLE;
+    UniqueHandle<VkAccelerationStructureKHR, destroyAccelerationStructure> handle_;
+    VkDeviceAddress address_ = 0;
 };
 
 /// Acceleration structures of a scene: chunks of opaque and of alpha-masked triangles, each a bottom-level
@@ -40,10 +40,10 @@ struct SceneStructure {
     Buffer chunkFirst;   ///< First triangle, in tracing order, of each chunk.
     Buffer triangleIds;  ///< Triangles of the scene, in tracing order.
     Buffer corners;      ///< Vertices of the triangles, in tracing order.
-    Buffer positions;    ///< Of the vertices.
+    Buffer positions;    ///< Positions of the vertices.
     uint32_t opaqueCount = 0;
 
-    uint64_t bytes() const;  ///< Of all structures.
+    uint64_t bytes() const;  ///< Memory of all structures.
 };
 
 /// Maximum number of triangles in a bottom-level structure.
@@ -55,7 +55,7 @@ SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const 
 
 /// Rebuilds the chunks of moving triangles and the top-level structure in place and waits. After
 /// `sortMoving`.
-void updateSceneStructure(Device& device, CommandStream& stream, const SceneState& state,
-                          const TracingOrder& order, SceneStructure& scene);
+void updateSceneStructure(Device& device, CommandStream& stream, const SceneState& state, const TracingOrder& order,
+                          SceneStructure& scene);
 
 }  // namespace voxray

@@ -17,14 +17,14 @@ struct EmbreeBvh {
     /// Opaque or alpha-masked triangles. Embree's primitive i is the scene's triangle ids[i].
     struct TriangleGroup {
         std::vector<uint32_t> ids;
-        std::vector<uint32_t> vertexOffsets;  ///< By primitive: scene's vertex index less Embree's; empty: 0.
+        std::vector<uint32_t> vertexOffsets;  ///< Scene's vertex index less Embree's, per primitive; empty: 0.
         const SceneState* state = nullptr;
     };
 
     struct Bvh {
         RTCScene scene = nullptr;
         TriangleGroup opaque, masked;          ///< Embree's geometries 0 and 1.
-        std::vector<InstanceRange> instances;  ///< With the vertices of these alone; empty: all.
+        std::vector<InstanceRange> instances;  ///< Instances whose vertices it has; empty: all.
         bool idsAreIdentity = false;           ///< Embree's primitives are the scene's triangles.
 
         uint32_t triangleOf(const RTCHit& hit) const {

@@ -18,7 +18,7 @@ namespace {
 /// Embree's bound on coordinates (FLT_LARGE): Debian's build aborts on rays beyond it.
 constexpr float kLargest = 1.8e18f;
 constexpr size_t kStreamGrain = 4096;
-/// Rays of an incoherent stream that are traced together (intersectEach).
+/// Rays of an incoherent stream that are traced together (intersectBlock).
 constexpr size_t kBlock = 64;
 /// Rays per packet: the width of AVX2. With AVX-512, 16 are 8 % faster.
 constexpr uint32_t kPacket = EmbreeScene::kPacketRays;
@@ -51,7 +51,7 @@ bool isActive(const Ray& ray) {
     return ray.tMax >= ray.tMin;
 }
 
-/// With stores as wide as Embree's loads, for store forwarding.
+/// Converts a ray with stores as wide as Embree's loads, for store forwarding.
 void toEmbree(const Ray& ray, RTCRay& out) {
     const Float4 origin = load(ray.origin);
     const Int4 direction = reinterpret_cast<Int4>(load(ray.direction)) & Int4{-1, -1, -1, 0};  // Time 0.
@@ -72,7 +72,7 @@ struct Packet {
         RTCRay8& out = query.ray;
         for (uint32_t k = 0; k < kPacket; ++k) {
             const Ray ray = k < rays.size() ? rays[k] : Ray{{}, 0.0f, {0.0f, 0.0f, 1.0f}, -1.0f};
-            active[k] = ray.tMax >= ray.tMin ? -1 : 0;
+            active[k] = isActive(ray) ? -1 : 0;
             out.org_x[k] = ray.origin.x;
             out.org_y[k] = ray.origin.y;
             out.org_z[k] = ray.origin.z;
@@ -89,32 +89,8 @@ struct Packet {
 }  // namespace
 
 struct EmbreeScene::Impl : EmbreeBvh {
-    Hit intersect(const Ray& ray, EmbreeQuery& embree) const {
-        Hit hit{ray.tMax, Hit::kMiss, 0.0f, 0.0f};
-        if (!(ray.tMax >= ray.tMin)) return hit;
-        RTCRayHit query;
-        toEmbree(ray, query.ray);
-        for (const Bvh* bvh : {&staticBvh, &dynamicBvh}) {
-            if (!bvh->scene) break;
-            query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-            embree.intersect(bvh->scene, query);
-            if (query.hit.geomID != RTC_INVALID_GEOMETRY_ID)
-                hit = {query.ray.tfar, bvh->triangleOf(query.hit), query.hit.u, query.hit.v};
-        }
-        return hit;
-    }
-
-    bool isOccluded(const Ray& ray, EmbreeQuery& embree) const {
-        if (!(ray.tMax >= ray.tMin)) return false;
-        RTCRay query;
-        toEmbree(ray, query);
-        embree.occluded(staticBvh.scene, query);
-        if (dynamicBvh.scene && query.tfar >= 0.0f) embree.occluded(dynamicBvh.scene, query);
-        return query.tfar < 0.0f;
-    }
-
     /// Up to kBlock incoherent rays. Doing each step for all rays before the next is faster than ray by ray.
-    void intersectEach(std::span<const Ray> rays, std::span<Hit> hits, EmbreeQuery& embree) const {
+    void intersectBlock(std::span<const Ray> rays, std::span<Hit> hits, EmbreeQuery& embree) const {
         std::array<RTCRayHit, kBlock> queries;
         for (size_t i = 0; i < rays.size(); ++i) {
             toEmbree(rays[i], queries[i].ray);
@@ -133,20 +109,18 @@ struct EmbreeScene::Impl : EmbreeBvh {
         }
     }
 
-    void isEachOccluded(std::span<const Ray> rays, std::span<uint32_t> results, EmbreeQuery& embree) const {
+    void occludedBlock(std::span<const Ray> rays, std::span<uint32_t> results, EmbreeQuery& embree) const {
         std::array<RTCRay, kBlock> queries;
         for (size_t i = 0; i < rays.size(); ++i) toEmbree(rays[i], queries[i]);
         for (size_t i = 0; i < rays.size(); ++i)
             if (isActive(rays[i])) embree.occluded(staticBvh.scene, queries[i]);
         if (dynamicBvh.scene)
             for (size_t i = 0; i < rays.size(); ++i)
-                if (isActive(rays[i]) && queries[i].tfar >= 0.0f)
-                    embree.occluded(dynamicBvh.scene, queries[i]);
-        for (size_t i = 0; i < rays.size(); ++i)
-            results[i] = isActive(rays[i]) && queries[i].tfar < 0.0f ? 1u : 0u;
+                if (isActive(rays[i]) && queries[i].tfar >= 0.0f) embree.occluded(dynamicBvh.scene, queries[i]);
+        for (size_t i = 0; i < rays.size(); ++i) results[i] = isActive(rays[i]) && queries[i].tfar < 0.0f ? 1u : 0u;
     }
 
-    void intersect(std::span<const Ray> rays, std::span<Hit> hits, EmbreeQuery& embree) const {
+    void intersectPacket(std::span<const Ray> rays, std::span<Hit> hits, EmbreeQuery& embree) const {
         Packet packet(rays);
         RTCRayHit8& query = packet.query;
         for (size_t k = 0; k < rays.size(); ++k) hits[k] = {rays[k].tMax, Hit::kMiss, 0.0f, 0.0f};
@@ -164,7 +138,7 @@ struct EmbreeScene::Impl : EmbreeBvh {
         }
     }
 
-    void areOccluded(std::span<const Ray> rays, std::span<uint32_t> results, EmbreeQuery& embree) const {
+    void occludedPacket(std::span<const Ray> rays, std::span<uint32_t> results, EmbreeQuery& embree) const {
         Packet packet(rays);
         RTCRay8& query = packet.query.ray;
         embree.occluded(packet.active, staticBvh.scene, query);
@@ -173,8 +147,7 @@ struct EmbreeScene::Impl : EmbreeBvh {
                 if (query.tfar[k] < 0.0f) packet.active[k] = 0;
             embree.occluded(packet.active, dynamicBvh.scene, query);
         }
-        for (size_t k = 0; k < rays.size(); ++k)
-            results[k] = rays[k].tMax >= rays[k].tMin && query.tfar[k] < 0.0f ? 1u : 0u;
+        for (size_t k = 0; k < rays.size(); ++k) results[k] = isActive(rays[k]) && query.tfar[k] < 0.0f ? 1u : 0u;
     }
 
     /// Checks all rays of a stream and calls trace(first, count, embree) for packets of kSize, in parallel.
@@ -225,47 +198,49 @@ EmbreeScene& EmbreeScene::operator=(EmbreeScene&&) noexcept = default;
 
 Hit EmbreeScene::closestHit(const Ray& ray) const {
     EmbreeQuery embree(Coherence::Incoherent);
-    return impl_->intersect(ray, embree);
+    Hit hit;
+    impl_->intersectBlock({&ray, 1}, {&hit, 1}, embree);
+    return hit;
 }
 
 bool EmbreeScene::occluded(const Ray& ray) const {
     EmbreeQuery embree(Coherence::Incoherent);
-    return impl_->isOccluded(ray, embree);
+    uint32_t isOccluded = 0;
+    impl_->occludedBlock({&ray, 1}, {&isOccluded, 1}, embree);
+    return isOccluded == 1;
 }
 
 void EmbreeScene::closestHitPacket(std::span<const Ray> rays, std::span<Hit> hits) const {
     EmbreeQuery embree(Coherence::Coherent);
-    impl_->intersect(rays, hits, embree);
+    impl_->intersectPacket(rays, hits, embree);
 }
 
 void EmbreeScene::occludedPacket(std::span<const Ray> rays, std::span<uint32_t> results) const {
     EmbreeQuery embree(Coherence::Coherent);
-    impl_->areOccluded(rays, results, embree);
+    impl_->occludedPacket(rays, results, embree);
 }
 
 void EmbreeScene::closestHit(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence) const {
     if (hits.size() < rays.size()) throw Error("{} rays but room for {} hits", rays.size(), hits.size());
     if (coherence == Coherence::Coherent)
         impl_->forEachPacket<kPacket>(rays, [&](size_t first, size_t count, EmbreeQuery& embree) {
-            impl_->intersect(rays.subspan(first, count), hits.subspan(first, count), embree);
+            impl_->intersectPacket(rays.subspan(first, count), hits.subspan(first, count), embree);
         });
     else
         impl_->forEachPacket<kBlock>(rays, [&](size_t first, size_t count, EmbreeQuery& embree) {
-            impl_->intersectEach(rays.subspan(first, count), hits.subspan(first, count), embree);
+            impl_->intersectBlock(rays.subspan(first, count), hits.subspan(first, count), embree);
         });
 }
 
-void EmbreeScene::occluded(std::span<const Ray> rays, std::span<uint32_t> results,
-                           Coherence coherence) const {
-    if (results.size() < rays.size())
-        throw Error("{} rays but room for {} results", rays.size(), results.size());
+void EmbreeScene::occluded(std::span<const Ray> rays, std::span<uint32_t> results, Coherence coherence) const {
+    if (results.size() < rays.size()) throw Error("{} rays but room for {} results", rays.size(), results.size());
     if (coherence == Coherence::Coherent)
         impl_->forEachPacket<kPacket>(rays, [&](size_t first, size_t count, EmbreeQuery& embree) {
-            impl_->areOccluded(rays.subspan(first, count), results.subspan(first, count), embree);
+            impl_->occludedPacket(rays.subspan(first, count), results.subspan(first, count), embree);
         });
     else
         impl_->forEachPacket<kBlock>(rays, [&](size_t first, size_t count, EmbreeQuery& embree) {
-            impl_->isEachOccluded(rays.subspan(first, count), results.subspan(first, count), embree);
+            impl_->occludedBlock(rays.subspan(first, count), results.subspan(first, count), embree);
         });
 }
 

@@ -7,7 +7,7 @@
 
 namespace voxray {
 
-/// Streams on the CPU: in place if buffers are mapped, else through staged copies.
+/// Traces streams on the CPU: in place if buffers are mapped, else through staged copies.
 class EmbreeTracer final : public RayTracer {
  public:
     explicit EmbreeTracer(const SceneState& state) : scene_(state) {}

@@ -34,13 +34,7 @@ glm::vec3 emissionAt(const SceneState& state, uint32_t triangle, float u, float 
     const Material& m = materialOf(state, triangle);
     if (m.alphaMode == AlphaMode::Mask && isCutAway(state, triangle, u, v)) return glm::vec3(0.0f);
     if (m.emissiveTexture.texture < 0) return m.emission;
-    const Geometry& g = state.geometry;
-    const glm::uvec3 corners = g.triangles[triangle];
-    const glm::vec4 texCoords =
-        interpolate(g.attributes[corners.x].texCoords, g.attributes[corners.y].texCoords,
-                    g.attributes[corners.z].texCoords, u, v);
-    const Texture& texture = state.scene->textures[size_t(m.emissiveTexture.texture)];
-    return m.emission * glm::vec3(sampleTexture(texture, textureCoordinates(m.emissiveTexture, texCoords)));
+    return m.emission * glm::vec3(sampleTexture(state, m.emissiveTexture, triangle, u, v));
 }
 
 }  // namespace
@@ -54,9 +48,8 @@ bool canEmit(const SceneState& state, uint32_t triangle) {
 glm::vec3 meanEmission(const SceneState& state, uint32_t triangle) {
     if (!canEmit(state, triangle)) return glm::vec3(0.0f);
     const Material& m = materialOf(state, triangle);
-    const bool isUniform =
-        m.alphaMode != AlphaMode::Mask ||
-        (m.baseColorTexture.texture < 0 && alphaRange(state, triangle).lowest >= alphaThreshold(m));
+    const bool isUniform = m.alphaMode != AlphaMode::Mask ||
+                           (m.baseColorTexture.texture < 0 && alphaRange(state, triangle).lowest >= alphaThreshold(m));
     if (isUniform && m.emissiveTexture.texture < 0) return m.emission;
     glm::vec3 sum(0.0f);
     for (uint32_t i = 0; i < kEdgePoints * kEdgePoints; ++i) {

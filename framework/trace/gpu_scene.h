@@ -34,11 +34,8 @@ struct GpuScene {
     std::vector<Image> images;
     std::vector<Sampler> samplers;
 
-    /// Bindings of shaders/scene, followed by `more`.
-    std::vector<Binding> bindings(std::vector<Binding> more = {}) const;
-    std::vector<Binding> bindings(std::initializer_list<Binding> more) const {
-        return bindings(std::vector<Binding>(more));
-    }
+    /// Bindings of shaders/scene.
+    std::vector<Binding> bindings() const;
 };
 
 /// Bytes that makeGpuScene allocates, without the environment.

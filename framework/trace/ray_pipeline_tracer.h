@@ -4,11 +4,10 @@
 
 namespace voxray {
 
-/// Streams by ray-tracing pipelines (VK_KHR_ray_tracing_pipeline).
+/// Traces streams by ray-tracing pipelines (VK_KHR_ray_tracing_pipeline).
 class RayPipelineTracer final : public GpuTracer {
  public:
-    RayPipelineTracer(Device& device, ShaderCompiler& compiler, const SceneState& state,
-                      uint32_t trianglesPerChunk);
+    RayPipelineTracer(Device& device, ShaderCompiler& compiler, const SceneState& state, uint32_t trianglesPerChunk);
     std::string_view name() const override { return "ray_pipeline"; }
 
  private:

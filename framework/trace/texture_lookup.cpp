@@ -1,23 +1,24 @@
 #include "trace/texture_lookup.h"
 
+#include <array>
+
+#include "base/srgb.h"
+
 namespace voxray {
 
 namespace {
 
-std::array<float, 256> makeSrgbTable() {
+/// Linear values of the 256 sRGB codes.
+const std::array<float, 256> kSrgbToLinear = [] {
     std::array<float, 256> table{};
-    for (int code = 0; code < 256; ++code) {
-        const double s = code / 255.0;
-        table[size_t(code)] = float(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
-    }
+    for (size_t code = 0; code < 256; ++code) table[code] = float(srgbDecode(double(code) / 255.0));
     return table;
-}
+}();
 
 glm::vec4 texel(const Texture& texture, int32_t x, int32_t y) {
     const uint8_t* code = &texture.rgba[(size_t(y) * texture.width + size_t(x)) * 4];
     constexpr float kScale = 1.0f / 255.0f;
-    if (texture.srgb)
-        return {kSrgbToLinear[code[0]], kSrgbToLinear[code[1]], kSrgbToLinear[code[2]], code[3] * kScale};
+    if (texture.srgb) return {kSrgbToLinear[code[0]], kSrgbToLinear[code[1]], kSrgbToLinear[code[2]], code[3] * kScale};
     return glm::vec4(code[0], code[1], code[2], code[3]) * kScale;
 }
 
@@ -36,8 +37,6 @@ float reduceCoordinate(float x, Wrap wrap) {
 }
 
 }  // namespace
-
-const std::array<float, 256> kSrgbToLinear = makeSrgbTable();
 
 int32_t wrapTexel(int32_t x, int32_t size, Wrap wrap) {
     switch (wrap) {
@@ -83,6 +82,14 @@ glm::vec4 sampleTexture(const Texture& texture, glm::vec2 uv) {
     return row(y.first) * (1.0f - y.weight) + row(y.second) * y.weight;
 }
 
+glm::vec4 sampleTexture(const SceneState& state, const TextureRef& ref, uint32_t triangle, float u, float v) {
+    const Geometry& g = state.geometry;
+    const glm::uvec3 corners = g.triangles[triangle];
+    const glm::vec4 texCoords = interpolate(g.attributes[corners.x].texCoords, g.attributes[corners.y].texCoords,
+                                            g.attributes[corners.z].texCoords, u, v);
+    return sampleTexture(state.scene->textures[size_t(ref.texture)], textureCoordinates(ref, texCoords));
+}
+
 float alphaThreshold(const Material& material) {
     return material.alphaCutoff * (1.0f - 0x1p-20f);
 }
@@ -91,16 +98,11 @@ bool isCutAway(const SceneState& state, uint32_t triangle, float u, float v) {
     const Geometry& geometry = state.geometry;
     const Material& material = state.scene->materials[geometry.triangleMaterials[triangle]];
     const glm::uvec3 corners = geometry.triangles[triangle];
-    const VertexAttributes& a = geometry.attributes[corners.x];
-    const VertexAttributes& b = geometry.attributes[corners.y];
-    const VertexAttributes& c = geometry.attributes[corners.z];
-    float alpha = material.baseColor.a * interpolate(a.color.a, b.color.a, c.color.a, u, v);
-    if (material.baseColorTexture.texture >= 0) {
-        const glm::vec4 texCoords = interpolate(a.texCoords, b.texCoords, c.texCoords, u, v);
-        alpha *= sampleTexture(state.scene->textures[size_t(material.baseColorTexture.texture)],
-                               textureCoordinates(material.baseColorTexture, texCoords))
-                     .a;
-    }
+    float alpha = material.baseColor.a * interpolate(geometry.attributes[corners.x].color.a,
+                                                     geometry.attributes[corners.y].color.a,
+                                                     geometry.attributes[corners.z].color.a, u, v);
+    if (material.baseColorTexture.texture >= 0)
+        alpha *= sampleTexture(state, material.baseColorTexture, triangle, u, v).a;
     return alpha < alphaThreshold(material);
 }
 

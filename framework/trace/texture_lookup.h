@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -9,11 +8,8 @@
 
 #include "scene/geometry.h"
 
-/// Texture lookups on the CPU: level 0, sRGB decoded before filtering (CONVENTIONS 10).
+/// Texture lookups on the CPU: level 0, sRGB decoded before filtering.
 namespace voxray {
-
-/// Linear values of the 256 sRGB codes (IEC 61966-2-1).
-extern const std::array<float, 256> kSrgbToLinear;
 
 /// A texel's integer coordinate after wrapping; any `x` that fits in 32 bits, `size` >= 1.
 int32_t wrapTexel(int32_t x, int32_t size, Wrap wrap);
@@ -35,6 +31,9 @@ template <typename T>
 T interpolate(const T& a, const T& b, const T& c, float u, float v) {
     return a * (1.0f - u - v) + b * u + c * v;
 }
+
+/// A material's texture at a point of a triangle.
+glm::vec4 sampleTexture(const SceneState& state, const TextureRef& ref, uint32_t triangle, float u, float v);
 
 /// The material's alpha cutoff, less the rounding error of the product of factor, texture and vertex colour:
 /// an alpha equal to the cutoff is opaque.

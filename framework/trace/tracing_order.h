@@ -12,10 +12,10 @@ namespace voxray {
 /// Order of a scene's triangles in the GPU tracers: opaque static, opaque moving, masked static, masked
 /// moving ones, each in spatially compact chunks. Within a chunk triangles have the order of the leaves of a
 /// tree by object median splits along the longest axis: software Vulkan builds its BVH by halving the list as
-/// it is, so that this order determines its quality (17 times the speed on the Stanford dragon). GPUs sort
-/// for themselves.
+/// it is, so that this order determines its quality (17 times the speed on the Stanford dragon). GPU drivers
+/// sort on their own.
 struct TracingOrder {
-    std::vector<uint32_t> triangles;   ///< Of the scene.
+    std::vector<uint32_t> triangles;   ///< Triangles of the scene.
     std::vector<uint32_t> chunkFirst;  ///< Indices into `triangles`; empty for an empty scene.
     uint32_t opaqueCount = 0;
     uint32_t maxChunk = 0;  ///< Maximum number of triangles in a chunk.

@@ -11,8 +11,7 @@
 namespace voxray {
 namespace {
 
-constexpr VkMemoryPropertyFlags kHost =
-    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
 bool sharesMemory(const Device& device) {
     return device.properties().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU ||
@@ -37,31 +36,16 @@ std::optional<uint32_t> findType(const Device& device, uint32_t allowed, VkMemor
 
 }  // namespace
 
-uint64_t maxBufferBytes(const Device& device) {
-    auto limits = structure<VkPhysicalDeviceMaintenance4Properties>(
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES);
-    auto properties =
-        structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &limits);
-    vkGetPhysicalDeviceProperties2(device.physical(), &properties);
-    return limits.maxBufferSize;
-}
-
 bool isMapped(const Device& device, MemoryKind kind) {
     return kind != MemoryKind::Device || sharesMemory(device);
 }
 
 DeviceMemory allocateMemory(Device& device, const std::string& name, const VkMemoryRequirements& requirements,
                             MemoryKind kind, bool addressable) {
-    // The driver's limit on one allocation.
-    auto limits = structure<VkPhysicalDeviceMaintenance3Properties>(
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES);
-    auto properties =
-        structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &limits);
-    vkGetPhysicalDeviceProperties2(device.physical(), &properties);
-    if (requirements.size > limits.maxMemoryAllocationSize)
+    const uint64_t limit = device.limits().allocationBytes;
+    if (requirements.size > limit)
         throw SizeError("'{}' needs {:.1f} MiB; device '{}' allows {:.1f} MiB in one allocation", name,
-                        double(requirements.size) / kMiB, device.info().name,
-                        double(limits.maxMemoryAllocationSize) / kMiB);
+                        double(requirements.size) / kMiB, device.info().name, double(limit) / kMiB);
 
     // Memory type: mapped if the host needs or shares it, cached for reading back.
     const VkMemoryPropertyFlags needed = isMapped(device, kind) ? kHost : 0;
@@ -77,8 +61,8 @@ DeviceMemory allocateMemory(Device& device, const std::string& name, const VkMem
     if (const auto memory = pool.acquire(requirements.size, *type, addressable)) return *memory;
     auto flags = structure<VkMemoryAllocateFlagsInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO);
     flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
-    auto allocate = structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                                    addressable ? &flags : nullptr);
+    auto allocate =
+        structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, addressable ? &flags : nullptr);
     allocate.allocationSize = requirements.size;
     allocate.memoryTypeIndex = *type;
     DeviceMemory memory{VK_NULL_HANDLE, requirements.size, *type, addressable};

@@ -9,9 +9,6 @@
 /// Device memory, one allocation per resource. Internal to the vulkan layer.
 namespace voxray {
 
-/// Maximum size of a buffer.
-uint64_t maxBufferBytes(const Device& device);
-
 /// Whether memory of this kind is mapped for the host.
 bool isMapped(const Device& device, MemoryKind kind);
 

@@ -1,18 +1,15 @@
 #include "vulkan/commands.h"
 
-#include <algorithm>
-
 #include "base/error.h"
 #include "base/interrupt.h"
 #include "vulkan/allocate.h"
-#include "vulkan/commands_impl.h"
 #include "vulkan/structure.h"
 
 namespace voxray {
 namespace {
 
 constexpr uint32_t kTimestampsPerPool = 256;
-constexpr uint64_t kSmallBytes = 8 << 10;  ///< Of a persistent staging buffer, for counters and parameters.
+constexpr uint64_t kSmallBytes = 8 << 10;  ///< Size of a persistent staging buffer.
 
 void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 dstStage, VkAccessFlags2 dstAccess) {
     auto barrier = structure<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
@@ -28,140 +25,111 @@ void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 dstStage, VkA
 
 }  // namespace
 
-void fullBarrier(VkCommandBuffer commands) {
-    memoryBarrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-                  VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
-}
-
-CommandStream::Impl::Impl(Device& d)
-    : device(d), smallUploads(d, "small uploads", kSmallBytes, MemoryKind::Upload) {
-    if (device.isHost()) return;
-    if (!isMapped(device, MemoryKind::Device))
-        smallReads = Buffer(device, "small reads", kSmallBytes, MemoryKind::Readback);
-    pushDescriptors = device.function<PFN_vkCmdPushDescriptorSetKHR>("vkCmdPushDescriptorSetKHR");
-    if (device.hasDebugLabels()) {
-        beginLabel = device.function<PFN_vkCmdBeginDebugUtilsLabelEXT>("vkCmdBeginDebugUtilsLabelEXT");
-        endLabel = device.function<PFN_vkCmdEndDebugUtilsLabelEXT>("vkCmdEndDebugUtilsLabelEXT");
+CommandStream::CommandStream(Device& device)
+    : device_(device), smallUploads_(device, "small uploads", kSmallBytes, MemoryKind::Upload) {
+    if (device_.isHost()) return;
+    if (!isMapped(device_, MemoryKind::Device))
+        smallReads_ = Buffer(device_, "small reads", kSmallBytes, MemoryKind::Readback);
+    pushDescriptors_ = device_.function<PFN_vkCmdPushDescriptorSetKHR>("vkCmdPushDescriptorSetKHR");
+    if (device_.hasDebugLabels()) {
+        beginLabel_ = device_.function<PFN_vkCmdBeginDebugUtilsLabelEXT>("vkCmdBeginDebugUtilsLabelEXT");
+        endLabel_ = device_.function<PFN_vkCmdEndDebugUtilsLabelEXT>("vkCmdEndDebugUtilsLabelEXT");
     }
     auto poolInfo = structure<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
-    poolInfo.queueFamilyIndex = device.queueFamily();
-    check(vkCreateCommandPool(device.handle(), &poolInfo, nullptr, &pool), "vkCreateCommandPool");
+    poolInfo.queueFamilyIndex = device_.queueFamily();
+    check(vkCreateCommandPool(device_.handle(), &poolInfo, nullptr, pool_.receive(device_.handle())),
+          "vkCreateCommandPool");
     auto allocate = structure<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
-    allocate.commandPool = pool;
+    allocate.commandPool = pool_;
     allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocate.commandBufferCount = 1;
-    check(vkAllocateCommandBuffers(device.handle(), &allocate, &commands), "vkAllocateCommandBuffers");
+    check(vkAllocateCommandBuffers(device_.handle(), &allocate, &commands_), "vkAllocateCommandBuffers");
     auto fenceInfo = structure<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
-    check(vkCreateFence(device.handle(), &fenceInfo, nullptr, &fence), "vkCreateFence");
+    check(vkCreateFence(device_.handle(), &fenceInfo, nullptr, fence_.receive(device_.handle())), "vkCreateFence");
 }
 
-CommandStream::Impl::~Impl() {
-    if (device.isHost()) return;
-    for (VkQueryPool queries : queryPools) vkDestroyQueryPool(device.handle(), queries, nullptr);
-    vkDestroyFence(device.handle(), fence, nullptr);
-    vkDestroyCommandPool(device.handle(), pool, nullptr);
-}
-
-VkCommandBuffer CommandStream::Impl::beginRecording() {
-    if (device.isHost()) throw Error("{}", whyNoDevice({}));
-    if (recording) return commands;
+VkCommandBuffer CommandStream::beginRecording() {
+    if (device_.isHost()) throw Error("{}", whyNoDevice({}));
+    if (isRecording_) return commands_;
     auto begin = structure<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    check(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
-    recording = true;
+    check(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
+    isRecording_ = true;
 
     // Reopen labels that were open at the last finish().
-    for (const std::string& name : labels) {
+    for (const std::string& name : labels_) {
         VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, nullptr, name.c_str(), {}};
-        beginLabel(commands, &label);
+        beginLabel_(commands_, &label);
     }
-    return commands;
+    return commands_;
 }
 
-VkCommandBuffer CommandStream::Impl::recordAfterBarrier() {
+VkCommandBuffer CommandStream::recordAfterBarrier() {
     beginRecording();
-    fullBarrier(commands);
-    return commands;
-}
-
-void CommandStream::Impl::finish() {
-    if (interruptRequested()) throw Interrupted();
-    if (!recording) return;
-    for (size_t i = 0; i < labels.size(); ++i) endLabel(commands);
-    memoryBarrier(commands, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
-    recording = false;
-    check(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
-    auto submit = structure<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
-    submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &commands;
-    check(vkQueueSubmit(device.queue(), 1, &submit, fence), "vkQueueSubmit");
-    ++counts.waits;
-    check(vkWaitForFences(device.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
-    check(vkResetFences(device.handle(), 1, &fence), "vkResetFences");
-    check(vkResetCommandPool(device.handle(), pool, 0), "vkResetCommandPool");
-    staging.clear();
-    stagingBytes = smallUploadBytes = 0;
-}
-
-void CommandStream::Impl::discard() {
-    if (!device.isHost()) check(vkResetCommandPool(device.handle(), pool, 0), "vkResetCommandPool");
-    recording = false;
-    labels.clear();
-    staging.clear();
-    stagingBytes = smallUploadBytes = 0;
-    timestamps = 0;
-}
-
-CommandStream::CommandStream(Device& device) : impl_(std::make_unique<Impl>(device)) {}
-CommandStream::~CommandStream() = default;
-
-Device& CommandStream::device() {
-    return impl_->device;
+    memoryBarrier(commands_, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                  VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT);
+    return commands_;
 }
 
 void CommandStream::finish() {
-    impl_->finish();
-}
-
-const StreamCounts& CommandStream::counts() const {
-    return impl_->counts;
+    if (interruptRequested()) throw Interrupted();
+    if (!isRecording_) return;
+    for (size_t i = 0; i < labels_.size(); ++i) endLabel_(commands_);
+    memoryBarrier(commands_, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+    isRecording_ = false;
+    check(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
+    auto submit = structure<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commands_;
+    check(vkQueueSubmit(device_.queue(), 1, &submit, fence_), "vkQueueSubmit");
+    ++counts_.waits;
+    const VkFence fence = fence_;
+    check(vkWaitForFences(device_.handle(), 1, &fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
+    check(vkResetFences(device_.handle(), 1, &fence), "vkResetFences");
+    check(vkResetCommandPool(device_.handle(), pool_, 0), "vkResetCommandPool");
+    staging_.clear();
+    stagingBytes_ = smallUploadBytes_ = 0;
 }
 
 void CommandStream::discard() {
-    impl_->discard();
+    if (!device_.isHost()) check(vkResetCommandPool(device_.handle(), pool_, 0), "vkResetCommandPool");
+    isRecording_ = false;
+    labels_.clear();
+    staging_.clear();
+    stagingBytes_ = smallUploadBytes_ = 0;
+    timestamps_ = 0;
 }
 
-void CommandStream::dispatch(const Program& program, const Invocations& invocations,
-                             const Bindings& bindings) {
+void CommandStream::dispatch(const Program& program, const Invocations& invocations, const Bindings& bindings) {
     const glm::uvec3 groups = invocations.groups(program.localSize());
     if (groups.x == 0 || groups.y == 0 || groups.z == 0) return;
-    const uint32_t* limit = impl_->device.properties().limits.maxComputeWorkGroupCount;
+    const uint32_t* limit = device_.properties().limits.maxComputeWorkGroupCount;
     if (groups.x > limit[0] || groups.y > limit[1] || groups.z > limit[2])
-        throw Error("{}: {}x{}x{} work groups; device '{}' allows {}x{}x{} in one dispatch", program.name(),
-                    groups.x, groups.y, groups.z, impl_->device.info().name, limit[0], limit[1], limit[2]);
-    const VkCommandBuffer commands = impl_->recordAfterBarrier();
-    impl_->bind(commands, program, bindings.all());
+        throw Error("{}: {}x{}x{} work groups; device '{}' allows {}x{}x{} in one dispatch", program.name(), groups.x,
+                    groups.y, groups.z, device_.info().name, limit[0], limit[1], limit[2]);
+    const VkCommandBuffer commands = recordAfterBarrier();
+    bind(commands, program, bindings.all());
     vkCmdDispatch(commands, groups.x, groups.y, groups.z);
-    ++impl_->counts.dispatches;
+    ++counts_.dispatches;
 }
 
 void CommandStream::record(const std::function<void(VkCommandBuffer)>& commands) {
-    commands(impl_->recordAfterBarrier());
-    ++impl_->counts.dispatches;
+    commands(recordAfterBarrier());
+    ++counts_.dispatches;
 }
 
 void CommandStream::record(const Program& program, const Bindings& bindings,
                            const std::function<void(VkCommandBuffer)>& commands) {
-    const VkCommandBuffer buffer = impl_->recordAfterBarrier();
-    impl_->bind(buffer, program, bindings.all());
+    const VkCommandBuffer buffer = recordAfterBarrier();
+    bind(buffer, program, bindings.all());
     commands(buffer);
-    ++impl_->counts.dispatches;
+    ++counts_.dispatches;
 }
 
 void CommandStream::draw(const Program& program, const RasterTargets& targets, uint32_t vertexCount,
                          const Bindings& bindings, uint32_t instanceCount) {
-    const VkCommandBuffer commands = impl_->recordAfterBarrier();
-    impl_->bind(commands, program, bindings.all());
+    const VkCommandBuffer commands = recordAfterBarrier();
+    bind(commands, program, bindings.all());
 
     // Attachments: cleared or loaded, always stored.
     const auto attach = [&](const Image& image) {
@@ -202,70 +170,64 @@ void CommandStream::draw(const Program& program, const RasterTargets& targets, u
     vkCmdSetScissor(commands, 0, 1, &area);
     vkCmdDraw(commands, vertexCount, instanceCount, 0, 0);
     vkCmdEndRendering(commands);
-    ++impl_->counts.dispatches;
+    ++counts_.dispatches;
 }
 
 void CommandStream::beginLabel(const std::string& name) {
-    if (!impl_->beginLabel) return;
-    const VkCommandBuffer commands = impl_->beginRecording();
-    impl_->labels.push_back(name);
+    if (!beginLabel_) return;
+    const VkCommandBuffer commands = beginRecording();
+    labels_.push_back(name);
     VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, nullptr, name.c_str(), {}};
-    impl_->beginLabel(commands, &label);
+    beginLabel_(commands, &label);
 }
 
 void CommandStream::endLabel() {
-    if (!impl_->beginLabel) return;
-    if (impl_->labels.empty()) throw Error("endLabel() without beginLabel()");
-    impl_->endLabel(impl_->beginRecording());
-    impl_->labels.pop_back();
+    if (!beginLabel_) return;
+    if (labels_.empty()) throw Error("endLabel() without beginLabel()");
+    endLabel_(beginRecording());
+    labels_.pop_back();
 }
 
 uint32_t CommandStream::timestamp() {
-    const uint32_t index = impl_->timestamps++;
-    if (impl_->device.isHost()) {
-        impl_->hostTimestamps.resize(index);
-        impl_->hostTimestamps.push_back(std::chrono::steady_clock::now());
+    const uint32_t index = timestamps_++;
+    if (device_.isHost()) {
+        hostTimestamps_.resize(index);
+        hostTimestamps_.push_back(std::chrono::steady_clock::now());
         return index;
     }
-    const uint32_t pool = index / kTimestampsPerPool, slot = index % kTimestampsPerPool;
-    if (pool == impl_->queryPools.size()) {
+    const uint32_t pool = index / kTimestampsPerPool, query = index % kTimestampsPerPool;
+    if (pool == queryPools_.size()) {
         auto create = structure<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
         create.queryType = VK_QUERY_TYPE_TIMESTAMP;
         create.queryCount = kTimestampsPerPool;
-        VkQueryPool queries = VK_NULL_HANDLE;
-        check(vkCreateQueryPool(impl_->device.handle(), &create, nullptr, &queries), "vkCreateQueryPool");
-        impl_->queryPools.push_back(queries);
+        check(
+            vkCreateQueryPool(device_.handle(), &create, nullptr, queryPools_.emplace_back().receive(device_.handle())),
+            "vkCreateQueryPool");
     }
-    const VkCommandBuffer commands = impl_->recordAfterBarrier();
-    if (slot == 0) vkCmdResetQueryPool(commands, impl_->queryPools[pool], 0, kTimestampsPerPool);
-    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, impl_->queryPools[pool], slot);
+    const VkCommandBuffer commands = recordAfterBarrier();
+    if (query == 0) vkCmdResetQueryPool(commands, queryPools_[pool], 0, kTimestampsPerPool);
+    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queryPools_[pool], query);
     return index;
 }
 
 double CommandStream::millisecondsBetween(uint32_t first, uint32_t second) const {
     for (const uint32_t index : {first, second})
-        if (index >= impl_->timestamps) throw Error("there is no time stamp {}", index);
-    if (impl_->device.isHost())
-        return std::chrono::duration<double, std::milli>(impl_->hostTimestamps[second] -
-                                                         impl_->hostTimestamps[first])
-            .count();
+        if (index >= timestamps_) throw Error("there is no time stamp {}", index);
+    if (device_.isHost())
+        return std::chrono::duration<double, std::milli>(hostTimestamps_[second] - hostTimestamps_[first]).count();
     const auto ticks = [&](uint32_t index) {
         uint64_t value = 0;
-        const VkResult result = vkGetQueryPoolResults(
-            impl_->device.handle(), impl_->queryPools[index / kTimestampsPerPool], index % kTimestampsPerPool,
-            1, sizeof value, &value, sizeof value, VK_QUERY_RESULT_64_BIT);
+        const VkResult result =
+            vkGetQueryPoolResults(device_.handle(), queryPools_[index / kTimestampsPerPool], index % kTimestampsPerPool,
+                                  1, sizeof value, &value, sizeof value, VK_QUERY_RESULT_64_BIT);
         check(result, "reading a time stamp (is the stream finished?)");
         return value;
     };
     // Counters may wrap at fewer than 64 bits.
-    const uint32_t bits = impl_->device.timestampBits();
+    const uint32_t bits = device_.timestampBits();
     const uint64_t mask = bits >= 64 ? ~0ull : (1ull << bits) - 1;
     const uint64_t difference = (ticks(second) - ticks(first)) & mask;
-    return double(difference) * double(impl_->device.properties().limits.timestampPeriod) * 1e-6;
-}
-
-void CommandStream::resetTimestamps() {
-    impl_->timestamps = 0;
+    return double(difference) * double(device_.properties().limits.timestampPeriod) * 1e-6;
 }
 
 }  // namespace voxray

@@ -2,23 +2,22 @@
 
 #include <vulkan/vulkan.h>
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <functional>
 #include <glm/vec3.hpp>
-#include <initializer_list>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "vulkan/binding.h"
 #include "vulkan/device.h"
 #include "vulkan/memory.h"
 #include "vulkan/program.h"
+#include "vulkan/unique_handle.h"
 
 namespace voxray {
 
@@ -38,7 +37,7 @@ struct RasterTargets {
 struct StreamCounts {
     uint64_t dispatches = 0;  ///< Compute, raster and ray calls and builds of acceleration structures.
     uint64_t waits = 0;       ///< Submissions that the host waited for.
-    uint64_t hostBytes = 0;   ///< Of upload() and read().
+    uint64_t hostBytes = 0;   ///< Bytes copied by upload() and read().
 
     StreamCounts operator-(const StreamCounts& earlier) const {
         return {dispatches - earlier.dispatches, waits - earlier.waits, hostBytes - earlier.hostBytes};
@@ -52,24 +51,22 @@ struct StreamCounts {
 class CommandStream {
  public:
     explicit CommandStream(Device& device);
-    ~CommandStream();
     CommandStream(const CommandStream&) = delete;
     CommandStream& operator=(const CommandStream&) = delete;
 
-    Device& device();
+    Device& device() { return device_; }
 
     /// Dispatches a compute program; nothing for 0 invocations.
     /// @throws Error naming program and member for a push constant that is missing or has another type or
     /// size, and for a binding that the program doesn't declare.
     void dispatch(const Program& program, const Invocations& invocations, const Bindings& bindings);
     /// Draws `vertexCount` vertices, `instanceCount` times.
-    void draw(const Program& program, const RasterTargets& targets, uint32_t vertexCount,
-              const Bindings& bindings, uint32_t instanceCount = 1);
+    void draw(const Program& program, const RasterTargets& targets, uint32_t vertexCount, const Bindings& bindings,
+              uint32_t instanceCount = 1);
 
     void fill(const Buffer& buffer, uint32_t word);           ///< The whole buffer.
     void clear(const Image& image, VkClearColorValue value);  ///< All levels.
-    void copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset = 0,
-              uint64_t toOffset = 0);
+    void copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset = 0, uint64_t toOffset = 0);
     void copy(const Image& from, const Buffer& to, uint32_t level = 0);  ///< One level, tightly packed.
     void copy(const Buffer& from, const Image& to, uint32_t level = 0);
     /// Generates mip levels by linear blits: a box filter where extents are even. 2D and 3D.
@@ -90,8 +87,7 @@ class CommandStream {
     /// Records Vulkan commands (of acceleration structures) between barriers.
     void record(const std::function<void(VkCommandBuffer)>& commands);
     /// The same with a program and its bindings bound first (vkCmdTraceRaysKHR).
-    void record(const Program& program, const Bindings& bindings,
-                const std::function<void(VkCommandBuffer)>& commands);
+    void record(const Program& program, const Bindings& bindings, const std::function<void(VkCommandBuffer)>& commands);
 
     /// Labels the following commands in captures, until the matching end.
     void beginLabel(const std::string& name);
@@ -102,7 +98,7 @@ class CommandStream {
     uint32_t timestamp();
     /// Milliseconds between two timestamps, after finish(), including host work of the Embree backend.
     double millisecondsBetween(uint32_t first, uint32_t second) const;
-    void resetTimestamps();
+    void resetTimestamps() { timestamps_ = 0; }
 
     /// Submits recorded commands and waits.
     void finish();
@@ -112,10 +108,10 @@ class CommandStream {
     void discard();
 
     /// Since the stream was created. Dispatches without work groups do not count.
-    const StreamCounts& counts() const;
+    const StreamCounts& counts() const { return counts_; }
 
     /// Bytes of staging buffers that finish() will free.
-    uint64_t stagingBytes() const;
+    uint64_t stagingBytes() const { return stagingBytes_; }
 
     /// Calls finish(), then returns the bytes of a buffer (staged if it isn't mapped).
     std::vector<std::byte> read(const Buffer& buffer, uint64_t bytes, uint64_t offset = 0);
@@ -128,8 +124,39 @@ class CommandStream {
     }
 
  private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
+    /// The command buffer in recording state.
+    VkCommandBuffer beginRecording();
+    /// The same, after a full barrier.
+    VkCommandBuffer recordAfterBarrier();
+    /// Binds a program, its descriptors and its push constants (bind.cpp).
+    /// @throws Error naming program and binding if one is missing, unknown or of the wrong kind.
+    void bind(VkCommandBuffer commands, const Program& program, std::span<const Binding> bindings);
+    /// Data in a staging buffer.
+    struct Staged {
+        const Buffer* buffer;
+        uint64_t offset;
+    };
+    /// Copies data into a staging buffer that lives until finish().
+    Staged stage(std::span<const std::byte> data);
+
+    Device& device_;
+    UniqueHandle<VkCommandPool, vkDestroyCommandPool> pool_;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    UniqueHandle<VkFence, vkDestroyFence> fence_;
+    bool isRecording_ = false;
+    std::vector<std::string> labels_;  ///< Open ones, outermost first.
+    Buffer smallUploads_;              ///< Persistent staging buffer of small uploads.
+    Buffer smallReads_;                ///< Persistent staging buffer of small reads from unmapped memory.
+    uint64_t smallUploadBytes_ = 0;    ///< Pending in smallUploads_.
+    std::vector<Buffer> staging_;
+    uint64_t stagingBytes_ = 0;
+    StreamCounts counts_;
+    std::vector<UniqueHandle<VkQueryPool, vkDestroyQueryPool>> queryPools_;
+    uint32_t timestamps_ = 0;
+    std::vector<std::chrono::steady_clock::time_point> hostTimestamps_;  ///< Without Vulkan.
+    PFN_vkCmdPushDescriptorSetKHR pushDescriptors_ = nullptr;
+    PFN_vkCmdBeginDebugUtilsLabelEXT beginLabel_ = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT endLabel_ = nullptr;
 };
 
 }  // namespace voxray

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <glm/common.hpp>
 #include <utility>
 
@@ -12,43 +11,16 @@ namespace voxray {
 uint32_t texelBytes(VkFormat format) {
     switch (format) {
         case VK_FORMAT_R8_UNORM:
-        case VK_FORMAT_R8_SNORM:
-        case VK_FORMAT_R8_UINT:
-        case VK_FORMAT_R8_SINT:
             return 1;
-        case VK_FORMAT_R8G8_UNORM:
-        case VK_FORMAT_R8G8_UINT:
-        case VK_FORMAT_R16_UNORM:
-        case VK_FORMAT_R16_UINT:
-        case VK_FORMAT_R16_SFLOAT:
-        case VK_FORMAT_D16_UNORM:
-            return 2;
         case VK_FORMAT_R8G8B8A8_UNORM:
-        case VK_FORMAT_R8G8B8A8_SNORM:
         case VK_FORMAT_R8G8B8A8_SRGB:
-        case VK_FORMAT_R8G8B8A8_UINT:
-        case VK_FORMAT_R16G16_UNORM:
-        case VK_FORMAT_R16G16_SNORM:
-        case VK_FORMAT_R16G16_UINT:
-        case VK_FORMAT_R16G16_SFLOAT:
-        case VK_FORMAT_A2B10G10R10_UNORM_PACK32:
-        case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
-        case VK_FORMAT_E5B9G9R9_UFLOAT_PACK32:
         case VK_FORMAT_R32_UINT:
-        case VK_FORMAT_R32_SINT:
         case VK_FORMAT_R32_SFLOAT:
         case VK_FORMAT_D32_SFLOAT:
             return 4;
-        case VK_FORMAT_R16G16B16A16_UNORM:
-        case VK_FORMAT_R16G16B16A16_SNORM:
-        case VK_FORMAT_R16G16B16A16_UINT:
         case VK_FORMAT_R16G16B16A16_SFLOAT:
-        case VK_FORMAT_R32G32_UINT:
-        case VK_FORMAT_R32G32_SFLOAT:
-        case VK_FORMAT_R64_UINT:
             return 8;
         case VK_FORMAT_R32G32B32A32_UINT:
-        case VK_FORMAT_R32G32B32A32_SINT:
         case VK_FORMAT_R32G32B32A32_SFLOAT:
             return 16;
         default:
@@ -57,8 +29,7 @@ uint32_t texelBytes(VkFormat format) {
 }
 
 VkImageAspectFlags aspectOf(VkFormat format) {
-    const bool depth = format == VK_FORMAT_D16_UNORM || format == VK_FORMAT_D32_SFLOAT;
-    return depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+    return format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
 uint64_t imageBytes(const ImageDesc& desc) {
@@ -87,21 +58,20 @@ VkImageCreateInfo describe(const ImageDesc& desc) {
 
 void checkSupported(const Device& device, const std::string& name, const VkImageCreateInfo& create) {
     VkImageFormatProperties offered{};
-    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
-        device.physical(), create.format, create.imageType, create.tiling, create.usage, 0, &offered);
+    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(device.physical(), create.format, create.imageType,
+                                                                     create.tiling, create.usage, 0, &offered);
     if (result != VK_SUCCESS)
         throw Error("device '{}' can't make image '{}': format {} with usage {:#x}", device.info().name, name,
                     int(create.format), create.usage);
     const VkExtent3D &wanted = create.extent, &largest = offered.maxExtent;
     if (wanted.width > largest.width || wanted.height > largest.height || wanted.depth > largest.depth ||
         create.mipLevels > offered.maxMipLevels)
-        throw SizeError("image '{}' of {}x{}x{} texels and {} levels is over device '{}''s {}x{}x{} and {}",
-                        name, wanted.width, wanted.height, wanted.depth, create.mipLevels, device.info().name,
-                        largest.width, largest.height, largest.depth, offered.maxMipLevels);
+        throw SizeError("image '{}' of {}x{}x{} texels and {} levels is over device '{}''s {}x{}x{} and {}", name,
+                        wanted.width, wanted.height, wanted.depth, create.mipLevels, device.info().name, largest.width,
+                        largest.height, largest.depth, offered.maxMipLevels);
 }
 
-VkImageView makeView(const Device& device, VkImage image, const ImageDesc& desc, uint32_t level,
-                     uint32_t levels) {
+VkImageView makeView(const Device& device, VkImage image, const ImageDesc& desc, uint32_t level, uint32_t levels) {
     auto create = structure<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
     create.image = image;
     create.viewType = desc.extent.z > 1 ? VK_IMAGE_VIEW_TYPE_3D : VK_IMAGE_VIEW_TYPE_2D;

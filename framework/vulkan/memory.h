@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "vulkan/device.h"
+#include "vulkan/unique_handle.h"
 
 namespace voxray {
 
@@ -24,7 +25,7 @@ enum class MemoryKind {
 /// A driver allocation, of a buffer or an image.
 struct DeviceMemory {
     VkDeviceMemory handle = VK_NULL_HANDLE;
-    uint64_t bytes = 0;  ///< With the driver's padding.
+    uint64_t bytes = 0;  ///< Including the driver's padding.
     uint32_t type = 0;   ///< Index of the memory type.
     bool addressable = false;
 };
@@ -96,7 +97,7 @@ class Image {
     explicit operator bool() const { return device_ != nullptr; }
     const std::string& name() const { return name_; }
     const ImageDesc& desc() const { return desc_; }
-    uint64_t bytes() const { return memory_.bytes; }  ///< With the driver's padding.
+    uint64_t bytes() const { return memory_.bytes; }  ///< Including the driver's padding.
     VkImage handle() const { return handle_; }
     VkImageView view() const { return view_; }
     VkImageView levelView(uint32_t level) const;  ///< One mip level, for storage access.
@@ -121,14 +122,10 @@ class Sampler {
  public:
     Sampler() = default;
     Sampler(Device& device, Filter filter, VkSamplerAddressMode wrapU, VkSamplerAddressMode wrapV);
-    ~Sampler();
-    Sampler(Sampler&& other) noexcept;
-    Sampler& operator=(Sampler&& other) noexcept;
     VkSampler handle() const { return handle_; }
 
  private:
-    Device* device_ = nullptr;
-    VkSampler handle_ = VK_NULL_HANDLE;
+    UniqueHandle<VkSampler, vkDestroySampler> handle_;
 };
 
 /// Array of sampled images under one binding (`uniform sampler2D textures[]`), of at least one entry. The
@@ -140,18 +137,13 @@ class TextureArray {
         const Sampler* sampler;
     };
     TextureArray() = default;
-    /// @throws Error for no entry or more than Device::maxTextures().
+    /// @throws Error for no entry or more than Device::Limits::textures.
     TextureArray(Device& device, std::span<const Entry> entries);
-    ~TextureArray();
-    TextureArray(TextureArray&& other) noexcept;
-    TextureArray& operator=(TextureArray&& other) noexcept;
 
     VkDescriptorSet set() const { return set_; }
-    VkDescriptorSetLayout layout() const { return device_->textureSetLayout(); }
 
  private:
-    Device* device_ = nullptr;
-    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    UniqueHandle<VkDescriptorPool, vkDestroyDescriptorPool> pool_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 

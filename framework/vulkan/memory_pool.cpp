@@ -5,7 +5,6 @@
 namespace voxray {
 
 std::optional<DeviceMemory> MemoryPool::acquire(uint64_t bytes, uint32_t type, bool addressable) {
-    const std::lock_guard lock(mutex_);
     const auto fits = [&](const DeviceMemory& memory) {
         return memory.bytes == bytes && memory.type == type && memory.addressable == addressable;
     };
@@ -18,20 +17,13 @@ std::optional<DeviceMemory> MemoryPool::acquire(uint64_t bytes, uint32_t type, b
 }
 
 void MemoryPool::recycle(const DeviceMemory& memory) {
-    const std::lock_guard lock(mutex_);
     allocations_.push_back(memory);
     bytes_ += memory.bytes;
     while (bytes_ > maxBytes_) freeOldest();
 }
 
 void MemoryPool::freeAll() {
-    const std::lock_guard lock(mutex_);
     while (!allocations_.empty()) freeOldest();
-}
-
-uint64_t MemoryPool::bytes() const {
-    const std::lock_guard lock(mutex_);
-    return bytes_;
 }
 
 void MemoryPool::freeOldest() {

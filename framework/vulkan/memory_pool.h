@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <deque>
-#include <mutex>
 #include <optional>
 
 #include "vulkan/memory.h"
@@ -29,14 +28,13 @@ class MemoryPool {
     /// Returns all memory to the driver.
     void freeAll();
 
-    uint64_t bytes() const;
+    uint64_t bytes() const { return bytes_; }
 
  private:
     void freeOldest();
 
     VkDevice device_;
     uint64_t maxBytes_;
-    mutable std::mutex mutex_;
     std::deque<DeviceMemory> allocations_;  ///< Oldest first.
     uint64_t bytes_ = 0;
 };

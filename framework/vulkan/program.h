@@ -14,6 +14,7 @@
 
 #include "vulkan/device.h"
 #include "vulkan/memory.h"
+#include "vulkan/unique_handle.h"
 
 namespace voxray {
 
@@ -37,7 +38,7 @@ struct ShaderPushMember {
     std::string name;
     uint32_t offset = 0;  ///< Bytes from the block's start.
     uint32_t bytes = 0;
-    NumberKind kind = NumberKind::Integer;  ///< Of a vector or matrix: of its components.
+    NumberKind kind = NumberKind::Integer;  ///< For a vector or matrix: kind of its components.
     bool operator==(const ShaderPushMember&) const = default;
 };
 
@@ -53,7 +54,7 @@ struct ShaderModule {
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
     std::vector<uint32_t> spirv;
     std::vector<ShaderBinding> bindings;
-    uint32_t pushConstantBytes = 0;  ///< Of the block, padded to its largest scalar as in C++.
+    uint32_t pushConstantBytes = 0;  ///< Size of the block, padded to its largest scalar as in C++.
     std::vector<ShaderPushMember> pushMembers;
     std::vector<ShaderConstant> constants;
     glm::uvec3 localSize{1, 1, 1};  ///< Invocations of a compute shader's work group.
@@ -81,11 +82,6 @@ class ShaderCompiler {
 /// A pipeline with its layout and reflected bindings. Move-only.
 class Program {
  public:
-    Program() = default;
-    ~Program();
-    Program(Program&& other) noexcept;
-    Program& operator=(Program&& other) noexcept;
-
     explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
     VkPipeline pipeline() const { return pipeline_; }
     VkPipelineLayout layout() const { return layout_; }
@@ -99,11 +95,10 @@ class Program {
 
  private:
     friend class ProgramBuilder;  // program.cpp
-    Device* device_ = nullptr;
     std::string name_;
-    VkPipeline pipeline_ = VK_NULL_HANDLE;
-    VkPipelineLayout layout_ = VK_NULL_HANDLE;
-    VkDescriptorSetLayout pushSetLayout_ = VK_NULL_HANDLE;
+    UniqueHandle<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout> pushSetLayout_;
+    UniqueHandle<VkPipelineLayout, vkDestroyPipelineLayout> layout_;
+    UniqueHandle<VkPipeline, vkDestroyPipeline> pipeline_;
     VkPipelineBindPoint bindPoint_ = VK_PIPELINE_BIND_POINT_COMPUTE;
     VkShaderStageFlags stages_ = 0;
     std::vector<ShaderBinding> bindings_;
@@ -116,8 +111,7 @@ class Program {
 using SpecializationConstants = std::map<std::string, uint32_t>;
 
 /// @throws Error if the shader uses an unsupported feature or kind of binding.
-Program makeComputeProgram(Device& device, const ShaderModule& module,
-                           const SpecializationConstants& constants = {});
+Program makeComputeProgram(Device& device, const ShaderModule& module, const SpecializationConstants& constants = {});
 
 /// Fixed state of a raster pipeline. Vertices are pulled from storage buffers: there are no vertex inputs.
 /// Viewport and scissor are dynamic; no blending.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "vulkan/program.h"
@@ -13,17 +14,18 @@ namespace voxray {
 class ProgramBuilder {
  public:
     /// @throws Error if stages disagree on a binding, a constant is unknown, or limits are exceeded.
-    ProgramBuilder(Device& device, std::span<const ShaderModule> modules,
-                   const SpecializationConstants& constants, VkPipelineBindPoint bindPoint);
-    ~ProgramBuilder();
+    ProgramBuilder(Device& device, std::span<const ShaderModule> modules, const SpecializationConstants& constants,
+                   VkPipelineBindPoint bindPoint);
     ProgramBuilder(const ProgramBuilder&) = delete;
     ProgramBuilder& operator=(const ProgramBuilder&) = delete;
 
     std::span<const VkPipelineShaderStageCreateInfo> stages() const { return stages_; }
     VkPipelineLayout layout() const { return program_.layout_; }
 
+    /// Where a vkCreate function writes the pipeline.
+    VkPipeline* receivePipeline() { return program_.pipeline_.receive(device_.handle()); }
     /// The program with its pipeline.
-    Program finish(VkPipeline pipeline);
+    Program finish() { return std::move(program_); }
 
  private:
     /// Assigns a binding number to each name: stages and files share names, not numbers.
@@ -37,7 +39,7 @@ class ProgramBuilder {
 
     Device& device_;
     Program program_;
-    std::vector<VkShaderModule> modules_;
+    std::vector<UniqueHandle<VkShaderModule, vkDestroyShaderModule>> modules_;
     std::vector<VkSpecializationMapEntry> entries_;
     std::vector<uint32_t> values_;
     VkSpecializationInfo specialization_{};

@@ -144,7 +144,8 @@ std::string cacheKey(const std::string& file, const ShaderSources& sources, cons
 /// A cache file is the hash of the SPIR-V, 32 digits, then the SPIR-V. Empty if it is missing or corrupt.
 std::vector<uint32_t> readCached(const std::filesystem::path& path) {
     constexpr size_t kDigits = 32;
-    if (!std::filesystem::is_regular_file(path)) return {};
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return {};
     const std::vector<uint8_t> content = readFile(path);
     if (content.size() <= kDigits || (content.size() - kDigits) % 4 != 0) return {};
     const uint8_t* words = content.data() + kDigits;
@@ -182,8 +183,7 @@ ShaderModule ShaderCompiler::compile(const std::string& file, const Defines& def
 
     const bool cached = !cacheFolder_.empty();
     const std::filesystem::path path =
-        cached ? cacheFolder_ / "spirv" / (cacheKey(file, sources, defines) + ".spv")
-               : std::filesystem::path();
+        cached ? cacheFolder_ / "spirv" / (cacheKey(file, sources, defines) + ".spv") : std::filesystem::path();
     if (cached) module.spirv = readCached(path);
     if (module.spirv.empty()) {
         module.spirv = compileGlsl(file, stage, sources, defines);

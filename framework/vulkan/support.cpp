@@ -28,45 +28,30 @@ const std::array kFeatures{
     VOXRAY_FEATURE(core.features, vertexPipelineStoresAndAtomics, true),
     VOXRAY_FEATURE(core.features, shaderStorageImageWriteWithoutFormat, true),
     VOXRAY_FEATURE(core.features, geometryShader, false),
-    VOXRAY_FEATURE(core.features, shaderStorageImageReadWithoutFormat, false),
-    VOXRAY_FEATURE(core.features, shaderInt16, false),
-    VOXRAY_FEATURE(v11, storageBuffer16BitAccess, false),
     VOXRAY_FEATURE(v12, bufferDeviceAddress, true),
     VOXRAY_FEATURE(v12, scalarBlockLayout, true),
     VOXRAY_FEATURE(v12, runtimeDescriptorArray, true),
     VOXRAY_FEATURE(v12, shaderSampledImageArrayNonUniformIndexing, true),
     VOXRAY_FEATURE(v12, descriptorBindingPartiallyBound, true),
     VOXRAY_FEATURE(v12, descriptorBindingVariableDescriptorCount, true),
-    VOXRAY_FEATURE(v12, descriptorIndexing, false),
     VOXRAY_FEATURE(v12, shaderBufferInt64Atomics, false),
-    VOXRAY_FEATURE(v12, shaderSharedInt64Atomics, false),
-    VOXRAY_FEATURE(v12, storageBuffer8BitAccess, false),
-    VOXRAY_FEATURE(v12, shaderInt8, false),
-    VOXRAY_FEATURE(v12, shaderFloat16, false),
     VOXRAY_FEATURE(v13, dynamicRendering, true),
     VOXRAY_FEATURE(v13, synchronization2, true),
     VOXRAY_FEATURE(v13, maintenance4, true),
     VOXRAY_FEATURE(v13, shaderDemoteToHelperInvocation, true),
     VOXRAY_FEATURE(v13, shaderTerminateInvocation, true),
-    VOXRAY_FEATURE(v13, subgroupSizeControl, false),
-    VOXRAY_FEATURE(v13, computeFullSubgroups, false),
     VOXRAY_FEATURE(accelerationStructure, accelerationStructure, false),
     VOXRAY_FEATURE(rayQuery, rayQuery, false),
     VOXRAY_FEATURE(rayPipeline, rayTracingPipeline, false),
-    VOXRAY_FEATURE(atomicFloat, shaderBufferFloat32Atomics, false),
-    VOXRAY_FEATURE(atomicFloat, shaderBufferFloat32AtomicAdd, false),
-    VOXRAY_FEATURE(atomicFloat, shaderSharedFloat32Atomics, false),
-    VOXRAY_FEATURE(atomicFloat, shaderSharedFloat32AtomicAdd, false),
 };
 
 #undef VOXRAY_FEATURE
 
 constexpr const char* kRequiredExtension = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
 
-const std::array kOptionalExtensions{
-    VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
-    VK_KHR_RAY_QUERY_EXTENSION_NAME, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME,
-    VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME};
+const std::array kRayTracingExtensions{VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                       VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME, VK_KHR_RAY_QUERY_EXTENSION_NAME,
+                                       VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME};
 
 bool contains(const std::vector<std::string>& list, const char* name) {
     return std::ranges::find(list, name) != list.end();
@@ -82,22 +67,19 @@ std::vector<std::string> extensionsOf(VkPhysicalDevice physical) {
     return names;
 }
 
-/// Extensions to enable: those that are supported together with their dependencies.
+/// Extensions to enable: the required one, and those of ray tracing with acceleration structures alone.
 std::vector<std::string> chooseExtensions(const std::vector<std::string>& available) {
     std::vector<std::string> chosen;
     if (contains(available, kRequiredExtension)) chosen.emplace_back(kRequiredExtension);
-    const bool structures = contains(available, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME) &&
-                            contains(available, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME);
-    for (const char* name : kOptionalExtensions) {
-        const bool rayTracing = std::string_view(name) != VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME;
-        if (contains(available, name) && (structures || !rayTracing)) chosen.emplace_back(name);
-    }
+    const bool hasStructures = contains(available, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME) &&
+                               contains(available, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME);
+    for (const char* name : kRayTracingExtensions)
+        if (hasStructures && contains(available, name)) chosen.emplace_back(name);
     return chosen;
 }
 
 /// Enables the wanted features that `available` has, and names the required ones that it lacks.
-std::unique_ptr<FeatureChain> chooseFeatures(FeatureChain& available,
-                                             const std::vector<std::string>& extensions,
+std::unique_ptr<FeatureChain> chooseFeatures(FeatureChain& available, const std::vector<std::string>& extensions,
                                              std::vector<std::string>& missing) {
     auto enabled = std::make_unique<FeatureChain>();
     for (const WantedFeature& feature : kFeatures) {
@@ -141,10 +123,8 @@ uint32_t filteredVolumeSide(VkPhysicalDevice physical) {
 DeviceSupport inspect(VkPhysicalDevice physical) {
     DeviceSupport support;
     support.physical = physical;
-    auto driver =
-        structure<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES);
-    auto properties =
-        structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver);
+    auto driver = structure<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES);
+    auto properties = structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver);
     vkGetPhysicalDeviceProperties2(physical, &properties);
     DeviceInfo& info = support.info;
     info.name = properties.properties.deviceName;
@@ -172,7 +152,6 @@ DeviceSupport inspect(VkPhysicalDevice physical) {
     info.geometryShader = enabled.core.features.geometryShader;
     info.shaderInt64Atomics = enabled.v12.shaderBufferInt64Atomics;
     info.filteredVolumeSide = filteredVolumeSide(physical);
-    info.floatAtomics = enabled.atomicFloat.shaderBufferFloat32AtomicAdd;
     return support;
 }
 
@@ -204,7 +183,6 @@ void FeatureChain::link(const std::vector<std::string>& extensions) {
     append(VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, accelerationStructure);
     append(VK_KHR_RAY_QUERY_EXTENSION_NAME, rayQuery);
     append(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME, rayPipeline);
-    append(VK_EXT_SHADER_ATOMIC_FLOAT_EXTENSION_NAME, atomicFloat);
     *tail = nullptr;
 }
 
@@ -234,8 +212,7 @@ std::vector<DeviceInfo> listDevices() {
     } catch (const Error&) {
         return infos;  // No Vulkan at all: the list is empty, as documented.
     }
-    for (DeviceSupport& support : inspectDevices(instance->handle()))
-        infos.push_back(std::move(support.info));
+    for (DeviceSupport& support : inspectDevices(instance->handle())) infos.push_back(std::move(support.info));
     return infos;
 }
 

@@ -2,7 +2,7 @@
 #include <glm/common.hpp>
 
 #include "base/error.h"
-#include "vulkan/commands_impl.h"
+#include "vulkan/commands.h"
 
 namespace voxray {
 namespace {
@@ -44,8 +44,8 @@ std::byte* mappedBytes(const Buffer& buffer) {
 
 void checkRange(const Buffer& buffer, uint64_t offset, uint64_t bytes) {
     if (offset > buffer.bytes() || bytes > buffer.bytes() - offset)
-        throw Error("buffer '{}' holds {} bytes; {} at {} are out of range", buffer.name(), buffer.bytes(),
-                    bytes, offset);
+        throw Error("buffer '{}' holds {} bytes; {} at {} are out of range", buffer.name(), buffer.bytes(), bytes,
+                    offset);
 }
 
 VkOffset3D corner(glm::uvec3 size) {
@@ -54,105 +54,98 @@ VkOffset3D corner(glm::uvec3 size) {
 
 }  // namespace
 
-CommandStream::Impl::Staged CommandStream::Impl::stage(std::span<const std::byte> data) {
-    // Small data goes into the persistent buffer: an allocation takes a GPU's driver longer than most passes.
-    if (const uint64_t room = smallUploads.bytes() - smallUploadBytes; data.size() <= room) {
-        const Staged staged{&smallUploads, smallUploadBytes};
-        std::memcpy(static_cast<std::byte*>(smallUploads.mapped()) + staged.offset, data.data(), data.size());
-        const uint64_t aligned =
-            (data.size() + kStagingAlignment - 1) / kStagingAlignment * kStagingAlignment;
-        smallUploadBytes += std::min(aligned, room);
+CommandStream::Staged CommandStream::stage(std::span<const std::byte> data) {
+    // Small data goes into the persistent buffer: on a GPU, an allocation takes longer than most passes.
+    if (const uint64_t room = smallUploads_.bytes() - smallUploadBytes_; data.size() <= room) {
+        const Staged staged{&smallUploads_, smallUploadBytes_};
+        std::memcpy(static_cast<std::byte*>(smallUploads_.mapped()) + staged.offset, data.data(), data.size());
+        const uint64_t aligned = (data.size() + kStagingAlignment - 1) / kStagingAlignment * kStagingAlignment;
+        smallUploadBytes_ += std::min(aligned, room);
         return staged;
     }
-    if (stagingBytes > 0 && stagingBytes + data.size() > kStagingBytes) finish();
-    stagingBytes += data.size();
-    const Buffer& buffer = staging.emplace_back(device, "staging", data.size(), MemoryKind::Upload);
+    if (stagingBytes_ > 0 && stagingBytes_ + data.size() > kStagingBytes) finish();
+    stagingBytes_ += data.size();
+    const Buffer& buffer = staging_.emplace_back(device_, "staging", data.size(), MemoryKind::Upload);
     std::memcpy(buffer.mapped(), data.data(), data.size());
     return {&buffer, 0};
 }
 
-uint64_t CommandStream::stagingBytes() const {
-    return impl_->stagingBytes;
-}
-
 void CommandStream::fill(const Buffer& buffer, uint32_t word) {
-    vkCmdFillBuffer(impl_->recordAfterBarrier(), buffer.handle(), 0, VK_WHOLE_SIZE, word);
+    if (!buffer) throw Error("a buffer to fill is empty");
+    vkCmdFillBuffer(recordAfterBarrier(), buffer.handle(), 0, VK_WHOLE_SIZE, word);
 }
 
 void CommandStream::clear(const Image& image, VkClearColorValue value) {
+    if (!image) throw Error("an image to clear is empty");
     const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, image.desc().mipLevels, 0, 1};
-    vkCmdClearColorImage(impl_->recordAfterBarrier(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, &value, 1,
-                         &range);
+    vkCmdClearColorImage(recordAfterBarrier(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, &value, 1, &range);
 }
 
-void CommandStream::copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset,
-                         uint64_t toOffset) {
+void CommandStream::copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset, uint64_t toOffset) {
     checkRange(from, fromOffset, bytes);
     checkRange(to, toOffset, bytes);
     if (bytes == 0) return;
-    if (impl_->device.isHost()) {
+    if (device_.isHost()) {
         std::memmove(mappedBytes(to) + toOffset, mappedBytes(from) + fromOffset, bytes);
         return;
     }
     const VkBufferCopy region{fromOffset, toOffset, bytes};
-    vkCmdCopyBuffer(impl_->recordAfterBarrier(), from.handle(), to.handle(), 1, &region);
+    vkCmdCopyBuffer(recordAfterBarrier(), from.handle(), to.handle(), 1, &region);
 }
 
 void CommandStream::copy(const Image& from, const Buffer& to, uint32_t level) {
     const VkBufferImageCopy region = wholeLevel(from, level);
     checkRange(to, 0, levelBytes(from.desc(), level));
-    if (impl_->device.isHost()) {
+    if (device_.isHost()) {
         std::memcpy(to.mapped(), hostTexels(from, level), levelBytes(from.desc(), level));
         return;
     }
-    vkCmdCopyImageToBuffer(impl_->recordAfterBarrier(), from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle(),
-                           1, &region);
+    vkCmdCopyImageToBuffer(recordAfterBarrier(), from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1, &region);
 }
 
 void CommandStream::copy(const Buffer& from, const Image& to, uint32_t level) {
     const VkBufferImageCopy region = wholeLevel(to, level);
     checkRange(from, 0, levelBytes(to.desc(), level));
-    if (impl_->device.isHost()) {
+    if (device_.isHost()) {
         std::memcpy(hostTexels(to, level), from.mapped(), levelBytes(to.desc(), level));
         return;
     }
-    vkCmdCopyBufferToImage(impl_->recordAfterBarrier(), from.handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL,
-                           1, &region);
+    vkCmdCopyBufferToImage(recordAfterBarrier(), from.handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
 }
 
 void CommandStream::makeMipLevels(const Image& image) {
     const ImageDesc& desc = image.desc();
     VkFormatProperties properties;
-    vkGetPhysicalDeviceFormatProperties(impl_->device.physical(), desc.format, &properties);
+    vkGetPhysicalDeviceFormatProperties(device_.physical(), desc.format, &properties);
     constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT |
                                              VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
     if ((properties.optimalTilingFeatures & kNeeded) != kNeeded)
-        throw Error("image '{}': device '{}' has no linear blits of format {}", image.name(),
-                    impl_->device.info().name, int(desc.format));
+        throw Error("image '{}': device '{}' has no linear blits of format {}", image.name(), device_.info().name,
+                    int(desc.format));
     for (uint32_t level = 1; level < desc.mipLevels; ++level) {
         VkImageBlit region{};
         region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level - 1, 0, 1};
         region.srcOffsets[1] = corner(levelExtent(desc, level - 1));
         region.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1};
         region.dstOffsets[1] = corner(levelExtent(desc, level));
-        vkCmdBlitImage(impl_->recordAfterBarrier(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, image.handle(),
+        vkCmdBlitImage(recordAfterBarrier(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, image.handle(),
                        VK_IMAGE_LAYOUT_GENERAL, 1, &region, VK_FILTER_LINEAR);
     }
 }
 
 void CommandStream::upload(const Buffer& to, std::span<const std::byte> data, uint64_t toOffset) {
     checkRange(to, toOffset, data.size());
-    impl_->counts.hostBytes += data.size();
-    if (impl_->device.isHost()) {
+    counts_.hostBytes += data.size();
+    if (device_.isHost()) {
         std::ranges::copy(data, mappedBytes(to) + toOffset);
         return;
     }
     while (!data.empty()) {
-        const std::span part = data.first(std::min<size_t>(data.size(), kStagingBytes));
-        const Impl::Staged staged = impl_->stage(part);
-        copy(*staged.buffer, to, part.size(), staged.offset, toOffset);
-        toOffset += part.size();
-        data = data.subspan(part.size());
+        const std::span chunk = data.first(std::min<size_t>(data.size(), kStagingBytes));
+        const Staged staged = stage(chunk);
+        copy(*staged.buffer, to, chunk.size(), staged.offset, toOffset);
+        toOffset += chunk.size();
+        data = data.subspan(chunk.size());
     }
 }
 
@@ -161,8 +154,8 @@ void CommandStream::upload(const Image& to, std::span<const std::byte> data, uin
     const uint64_t bytes = levelBytes(to.desc(), level);
     if (data.size() != bytes)
         throw Error("image '{}', level {}: {} bytes given, {} needed", to.name(), level, data.size(), bytes);
-    impl_->counts.hostBytes += bytes;
-    if (impl_->device.isHost()) {
+    counts_.hostBytes += bytes;
+    if (device_.isHost()) {
         std::ranges::copy(data, hostTexels(to, level));
         return;
     }
@@ -175,13 +168,13 @@ void CommandStream::upload(const Image& to, std::span<const std::byte> data, uin
     const uint32_t perCopy = uint32_t(std::clamp<uint64_t>(kStagingBytes / sliceBytes, 1, slices));
     for (uint32_t first = 0; first < slices; first += perCopy) {
         const uint32_t count = std::min(perCopy, slices - first);
-        const Impl::Staged staged = impl_->stage(data.subspan(first * sliceBytes, count * sliceBytes));
+        const Staged staged = stage(data.subspan(first * sliceBytes, count * sliceBytes));
         VkBufferImageCopy region = levelCopy;
         region.bufferOffset = staged.offset;
         (isVolume ? region.imageOffset.z : region.imageOffset.y) = int32_t(first);
         (isVolume ? region.imageExtent.depth : region.imageExtent.height) = count;
-        vkCmdCopyBufferToImage(impl_->recordAfterBarrier(), staged.buffer->handle(), to.handle(),
-                               VK_IMAGE_LAYOUT_GENERAL, 1, &region);
+        vkCmdCopyBufferToImage(recordAfterBarrier(), staged.buffer->handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1,
+                               &region);
     }
 }
 
@@ -189,7 +182,7 @@ std::vector<std::byte> CommandStream::read(const Buffer& buffer, uint64_t bytes,
     checkRange(buffer, offset, bytes);
     std::vector<std::byte> out(bytes);
     if (bytes == 0) return out;
-    impl_->counts.hostBytes += bytes;
+    counts_.hostBytes += bytes;
     if (buffer.mapped()) {
         finish();
         std::memcpy(out.data(), static_cast<const std::byte*>(buffer.mapped()) + offset, bytes);
@@ -197,14 +190,14 @@ std::vector<std::byte> CommandStream::read(const Buffer& buffer, uint64_t bytes,
     }
     // The first copy joins the submission of earlier commands: one wait, not two.
     Buffer largeReads;
-    if (bytes > impl_->smallReads.bytes())
-        largeReads = Buffer(impl_->device, "staging", std::min(bytes, kStagingBytes), MemoryKind::Readback);
-    const Buffer& staging = largeReads ? largeReads : impl_->smallReads;
+    if (bytes > smallReads_.bytes())
+        largeReads = Buffer(device_, "staging", std::min(bytes, kStagingBytes), MemoryKind::Readback);
+    const Buffer& staging = largeReads ? largeReads : smallReads_;
     for (uint64_t done = 0; done < bytes; done += staging.bytes()) {
-        const uint64_t part = std::min(staging.bytes(), bytes - done);
-        copy(buffer, staging, part, offset + done, 0);
+        const uint64_t count = std::min(staging.bytes(), bytes - done);
+        copy(buffer, staging, count, offset + done, 0);
         finish();
-        std::memcpy(out.data() + done, staging.mapped(), part);
+        std::memcpy(out.data() + done, staging.mapped(), count);
     }
     return out;
 }

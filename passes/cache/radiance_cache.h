@@ -7,19 +7,18 @@
 
 namespace voxray {
 
-/// Irradiance of surfaces, by cells of a world-space grid that are the larger the farther they are from the
-/// camera, and by normal. Cells lie in a hash table. Sums are 64-bit fixed point: the same bits in any order.
-/// Which slot a cell has may depend on the order; what it holds does not, while every cell finds a slot. GLSL
-/// access: passes/cache/radiance_cache.glsl. Source: Binder et al. 2019 (path space filtering by
-/// hashing); NVIDIA's SHaRC.
+/// Irradiance of surfaces in the cells of a world-space grid, which grow with the distance from the camera,
+/// and by normal. Cells are stored in a hash table. Sums are 64-bit fixed point, so they do not depend on the
+/// order of threads; a cell's slot may, but its values do not as long as every cell finds a slot. GLSL
+/// access: passes/cache/radiance_cache.glsl. Source: Binder et al. 2019 (path space filtering by hashing);
+/// NVIDIA's SHaRC.
 struct RadianceCache : Resource {
-    gpu::RadianceCacheGrid grid{};
-    Buffer gridBuffer;  ///< The same, on the device.
-    Buffer keys;        ///< uint64_t a slot, 0: empty.
+    Buffer gridBuffer;  ///< gpu::RadianceCacheGrid
+    Buffer keys;        ///< uint64_t a slot; 0: empty.
     Buffer sums;        ///< 4 uint64_t a slot: irradiance of all samples, and their number.
 
     static constexpr uint64_t kKeyBytes = sizeof(uint64_t), kSumBytes = 4 * sizeof(uint64_t);
-    /// What a shader binds that includes radiance_cache.glsl.
+    /// For shaders that include radiance_cache.glsl.
     std::vector<Binding> bindings() const {
         return {ifUsed({"radianceCacheGrid", gridBuffer}), ifUsed({"radianceCacheKeys", keys}),
                 ifUsed({"radianceCacheSums", sums})};

@@ -6,21 +6,21 @@
 
 VOXRAY_SHARED_BEGIN
 
-// Cells are cubes of an octree's levels: those of level l have the edge `edge` / 2^l. Which level a point
-// takes follows from its distance to `camera`.
+// Cells are the cubes of an octree: on level l their edge is `edge` / 2^l. The level at a position follows
+// from its distance to `camera`.
 struct RadianceCacheGrid {
-    vec3 origin;               // m: corner of a cube round the scene.
+    vec3 origin;               // m: corner of a cube around the scene.
     float edge;                // m: of that cube.
     vec3 camera;               // m
-    float cellSize;            // Largest edge of a cell, over its distance from the camera.
-    uint capacity;             // Slots of the table; a power of two.
-    uint normalBins;           // Of normals, along each edge of each face of a cube.
-    float unitsPerIrradiance;  // Of sums, for 1 W/m².
+    float cellSize;            // Maximum edge of a cell over its distance from the camera.
+    uint capacity;             // Slots of the hash table; a power of two.
+    uint normalBins;           // Bins of normals along each edge of a cube map's face.
+    float unitsPerIrradiance;  // Fixed-point units of 1 W/m².
 };
 
-#define RADIANCE_CACHE_LEVELS 17u           // 0 to 16: coordinates of cells take 17 bits.
-#define RADIANCE_CACHE_PROBES 16u           // Slots in which a key may lie.
-#define RADIANCE_CACHE_SAMPLE_UNITS 65536u  // Of the number of samples.
+#define RADIANCE_CACHE_LEVELS 17u           // Levels 0 to 16: coordinates of cells have 17 bits.
+#define RADIANCE_CACHE_PROBES 16u           // Slots that are probed for a key.
+#define RADIANCE_CACHE_SAMPLE_UNITS 65536u  // Fixed-point units of one sample.
 
 VOXRAY_SHARED_END
 

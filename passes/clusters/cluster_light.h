@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <initializer_list>
 #include <vector>
 
 #include "graph/pass.h"
@@ -11,32 +10,23 @@
 
 namespace voxray {
 
-/// Radiosity (W/m²) of cluster components and patches, the targets of ClusterVisibility. 32 bits each: off by
-/// 1/255 of the largest channel at most (passes/surfels/radiosity.glsl). Reflected light only: what emissive
-/// surfaces send themselves is not in it.
+/// Radiosity (W/m²) of cluster components and patches, the targets of ClusterVisibility. It is packed into 32
+/// bits with an error of at most 1/255 of the largest channel (passes/surfels/radiosity.glsl). It contains
+/// reflected light only, not the emission of surfaces.
 struct ClusterLight : Resource {
-    Buffer components;    ///< 6 a component: one for each face.
-    LargeBuffer patches;  ///< 1 a patch.
-    LargeBuffer direct;   ///< Irradiance (W/m²) straight from the lights, packed likewise: 1 a patch.
+    Buffer components;    ///< 6 for each component: one for each face.
+    LargeBuffer patches;  ///< 1 for each patch.
+    LargeBuffer direct;   ///< Direct irradiance (W/m²) of each patch, packed likewise.
 
-    /// Size of a buffer of `count` packed values.
+    /// Size of a buffer of `count` packed values, at least one.
     static uint64_t bytes(uint64_t count) { return std::max<uint64_t>(count, 1) * sizeof(uint32_t); }
 };
 
-/// What passes/clusters/gather_patch.glsl reads.
-std::vector<Binding> gatherBindings(const ClusterVisibility& visibility, const ClusterLight& light);
-
-/// Irradiance of all patches: the mean radiosity that their rays met.
-class ClusterGather {
- public:
-    explicit ClusterGather(ProgramOwner& owner) : gather_(owner, "gather_patches.comp") {}
-
-    /// @param irradiance 1 value a patch, W/m², packed as in ClusterLight.
-    void gather(CommandStream& stream, const ClusterVisibility& visibility, const ClusterLight& light,
-                const LargeBuffer& irradiance) const;
-
- private:
-    Kernel gather_;
-};
+/// The bindings of passes/clusters/gather_patch.glsl.
+inline std::vector<Binding> gatherBindings(const ClusterVisibility& visibility, const ClusterLight& light) {
+    return {{"visibilityLists", visibility.chunkAddresses},
+            {"componentRadiosity", light.components},
+            {"PatchRadiosityRef", light.patches.ref()}};
+}
 
 }  // namespace voxray

@@ -8,22 +8,16 @@ VOXRAY_SHARED_BEGIN
 
 #define NO_CLUSTER 0xffffffffu
 
-// Adjacent surface voxels of like normals.
+// Adjacent surface voxels of similar normals.
 struct VoxelCluster {
-    vec3 position;  // Mean of its voxels' centers, m.
-    uint firstMember;
-    vec3 normal;  // Unit: the mean normal of its voxels.
-    uint memberCount;
-    vec3 seedNormal;  // Unit: the normal of each of its voxels is within the angle limit of this one.
-    vec3 albedo;      // Mean diffuse reflectance, weighted by area.
-    uvec3 minVoxel;   // Bounding box, both included.
-    uvec3 maxVoxel;
+    vec3 seedNormal;   // Unit: the normals of all its voxels are within the angle limit of it.
+    uint memberCount;  // Number of its voxels.
 };
 
-// A cluster's center while voxels are assigned, as in k-means.
+// The center of a cluster while voxels are assigned to it, as in k-means.
 struct ClusterSeed {
     vec3 center;       // In voxels.
-    uint memberCount;  // 0: it has lost all its voxels and gets no more.
+    uint memberCount;  // 0: it has lost all voxels and is not used any more.
     vec3 normal;       // Unit.
 };
 

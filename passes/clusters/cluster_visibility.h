@@ -8,22 +8,23 @@
 
 namespace voxray {
 
-/// The visibility list of each patch: the component faces, and the patches near by, that its rays hit, with
-/// the number of rays for each. Rays are cosine-distributed, so their fraction is a form factor. GLSL:
-/// passes/clusters/visibility_list.glsl and gather_patch.glsl.
+/// The visibility list of each patch: the targets that its rays hit, with the number of rays for each.
+/// Targets are patches close by and, farther away, faces of cluster components. Rays are cosine-distributed,
+/// so the fraction of rays is a form factor. GLSL: passes/clusters/visibility_list.glsl and
+/// gather_patch.glsl.
 struct ClusterVisibility : Resource {
     std::string indexedBy() const override { return "voxels"; }
 
-    /// The lists of consecutive patches.
+    /// The lists of a range of patches.
     struct Chunk {
-        Buffer offsets;  ///< By patch: its first entry; then the end of the last list.
-        Buffer entries;  ///< `layout.entryBits` each, sorted by target; gpu::entryTarget(), entryRays().
+        Buffer offsets;  ///< First entry of each patch; then the end of the last list.
+        Buffer entries;  ///< `layout.entryBits` bits each, sorted by target; gpu::entryTarget(), entryRays().
     };
     std::vector<Chunk> chunks;
-    Buffer chunkAddresses;               ///< By chunk: those of `offsets` and `entries`.
+    Buffer chunkAddresses;               ///< Device addresses of `offsets` and `entries` of each chunk.
     gpu::VisibilityListLayout layout{};  ///< raysPerPatch, rayBits, patchesPerChunk are set in plan().
     bool listsPatches = false;           ///< Whether targets may be patches. Set in plan().
-    uint64_t entryCount = 0;             ///< Of all lists.
+    uint64_t entryCount = 0;             ///< Sum over all lists.
     uint32_t patchCount = 0;
 
     uint64_t bytes() const {

@@ -1,12 +1,12 @@
-// Irradiance of a patch: the mean radiosity that its cosine-distributed rays met (Cosin and Patow 2022, section 4.4; the paper computes
-// form factors of points, here rays are counted).
+// Irradiance of a patch: the mean radiosity of what its cosine-distributed rays hit (Cosin and Patow 2022, section 4.4;
+// the paper evaluates form factors between points, here rays are counted).
 #ifndef VOXRAY_GATHER_PATCH_GLSL
 #define VOXRAY_GATHER_PATCH_GLSL
 
 #include "passes/clusters/visibility_list.glsl"
 #include "passes/surfels/radiosity.glsl"
 
-layout(scalar) readonly buffer ComponentRadiosity { uint data[]; } componentRadiosity;  // By component and face.
+layout(scalar) readonly buffer ComponentRadiosity { uint data[]; } componentRadiosity;  // Per component face.
 layout(scalar) readonly buffer PatchRadiosityRef { LargeUints patchRadiosity; };
 
 // W/m²

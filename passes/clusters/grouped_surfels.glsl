@@ -7,7 +7,7 @@
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer GroupedSurfels { GroupedSurfel data[]; };
 layout(scalar) readonly buffer GroupedSurfelsRef { GroupedSurfels groupedSurfels; };
 
-// A point in the space before a surfel, m.
+// The point in front of a surfel at which visibility rays to other surfels begin and end, m.
 vec3 pointAbove(GroupedSurfel s) { return s.position + s.height * s.normal; }
 
 #endif

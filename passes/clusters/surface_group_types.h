@@ -12,27 +12,27 @@ VOXRAY_SHARED_BEGIN
 // A surfel with the surface group that it belongs to.
 struct GroupedSurfel {
     vec3 position;  // m, as Surfel's.
-    uint index;     // Among the surfels of all chunks.
+    uint index;     // In the surfels of all chunks.
     vec3 normal;    // Unit length, on the lit side.
-    uint id;        // As Surfel's: the same in every run.
+    uint id;        // That of Surfel: the same in every run.
     vec3 reflectance;
     uint voxel;
-    uint group;       // Until list_groups.comp has run, among those of its voxel.
-    float height;     // m above the surface, where visibility rays begin: half a voxel, or half the gap.
-    uint isOccluded;  // 1: another surface lies within a voxel's width before it.
+    uint group;       // Before list_groups.comp: the index within its voxel.
+    float height;     // m, of the origin of visibility rays above the surface: half a voxel, or half the gap.
+    uint isOccluded;  // 1: another surface lies in front of it, closer than a voxel's width.
 };
 
-// Surfels of a voxel that look into the same space: open space, or a gap narrower than a voxel. It has a
-// patch at each of the voxel's six faces at which its projected area is not 0.
+// The surfels of a voxel that see each other, e.g. those on one face of a thin wall. It has a patch at each
+// of the voxel's six faces towards which its projected area is not 0.
 struct SurfaceGroup {
-    vec3 pointAbove;  // m, in the space before it: above its first surfel, by that one's height.
+    vec3 pointAbove;  // m: pointAbove() of its first surfel.
     uint voxel;
     uint firstSurfel;
     uint surfelCount;
-    uint isOccluded;  // 1: in a gap. It sends and receives light, but does not count in the voxel's
-                      // irradiance.
+    uint isOccluded;  // 1: in a gap narrower than a voxel. It sends and receives light, but the voxel's
+                      // irradiance does not include it.
     uint faces;       // A bit for each face +x -x +y -y +z -z at which it has a patch.
-    uint firstPatch;  // Its other patches follow, by face.
+    uint firstPatch;  // Index of its first patch; the others follow in the order of faces.
 };
 
 // The connected surface groups of a cluster.

@@ -1,4 +1,5 @@
-// Iterates over a patch's visibility list: for (VisibilityListIterator it = visibilityListOf(lists, patch); nextEntry(lists, it);).
+// Iterates over a patch's visibility list:
+// for (VisibilityListIterator it = visibilityListOf(lists, patch); nextEntry(lists, it);).
 #ifndef VOXRAY_VISIBILITY_LIST_GLSL
 #define VOXRAY_VISIBILITY_LIST_GLSL
 
@@ -6,28 +7,28 @@
 #include "shaders/compute/large_buffer.glsl"
 
 struct VisibilityListChunk {
-    LargeUints offsets;  // By patch: its first entry; then the end of the last list.
+    LargeUints offsets;  // First entry of each patch; then the end of the last list.
     LargeUints entries;
 };
 layout(scalar) readonly buffer VisibilityListChunks { VisibilityListChunk data[]; } visibilityLists;
 
-// Reads each word once: on software Vulkan the cost of a list is its reads.
+// Reads each word once: on software Vulkan reads are most of the cost.
 struct VisibilityListIterator {
     uint entry;  // For entryTarget() and entryRays().
     uint remaining;
     LargeUints entries;
-    uint word;        // Index of the word read last,
-    uint unread;      // the bits of it that are still to come,
-    uint unreadBits;  // and their number.
+    uint word;        // Index of the current word.
+    uint unread;      // Its bits that have not been decoded yet.
+    uint unreadBits;  // Their number.
 };
 
 uint shiftRight(uint word, uint bits) { return bits < 32u ? word >> bits : 0u; }
 
 VisibilityListIterator visibilityListOf(VisibilityListLayout lists, uint patchNumber) {
     VisibilityListChunk chunk = visibilityLists.data[patchNumber / lists.patchesPerChunk];
-    const uint i = patchNumber % lists.patchesPerChunk, begin = chunk.offsets.data[i], bit = begin * lists.entryBits;
+    const uint i = patchNumber % lists.patchesPerChunk, first = chunk.offsets.data[i], bit = first * lists.entryBits;
     VisibilityListIterator it;
-    it.remaining = chunk.offsets.data[i + 1u] - begin;
+    it.remaining = chunk.offsets.data[i + 1u] - first;
     it.entries = chunk.entries;
     it.word = bit / 32u;
     it.unreadBits = 32u - bit % 32u;

@@ -1,7 +1,5 @@
-// Visibility lists of patches, shared by C++ and GLSL. An entry is a target and the number of rays that hit
-// it.
-//
-// Targets: 6 * component + face, then from 6 * components on patches.
+// Visibility lists of patches, shared by C++ and GLSL. An entry has a target and the number of rays that hit
+// it. Indices of targets: 6 * component + face for component faces, then 6 * components + patch for patches.
 #ifndef VOXRAY_SHARED_VISIBILITY_LIST_TYPES_H
 #define VOXRAY_SHARED_VISIBILITY_LIST_TYPES_H
 
@@ -18,15 +16,15 @@ VOXRAY_SHARED_BEGIN
 #define NO_TARGET 0xffffffffu
 #define MAX_RAYS_PER_PATCH 1024u
 
-// Lists are stored in chunks of patches, entries bit-packed end to end: bits 0 to entryBits - 1 of a chunk's
-// words are its first entry.
+// Lists are stored in chunks of patches. The entries of a chunk are bit-packed without padding: bits 0 to
+// entryBits - 1 of its words are the first entry.
 //
 //     entryBits - 1       rayBits - 1           0
 //     | target            | number of rays - 1 |
 struct VisibilityListLayout {
     uint raysPerPatch;
     uint patchesPerChunk;
-    uint firstPatchTarget;  // Targets below are component faces.
+    uint firstPatchTarget;  // Smaller targets are component faces.
     uint rayBits;
     uint entryBits;  // 1 to 32.
 };

@@ -10,11 +10,10 @@ namespace voxray {
 struct VoxelClusters : Resource {
     std::string indexedBy() const override { return "voxels"; }
 
-    uint32_t count = 0;     ///< Clusters; known once the pass has run.
+    uint32_t count = 0;     ///< Number of clusters; known once the pass has run.
     Buffer clusters;        ///< gpu::VoxelCluster each, in the order of their seeds.
-    Buffer clusterOfVoxel;  ///< By voxel: its cluster, or NO_CLUSTER.
-    Buffer memberVoxels;    ///< Voxels by cluster, ascending within each.
-    Buffer coordinates;     ///< By voxel: three uints.
+    Buffer clusterOfVoxel;  ///< Cluster of each voxel, or NO_CLUSTER.
+    Buffer coordinates;     ///< Per voxel: three uints.
 };
 
 }  // namespace voxray

@@ -1,4 +1,4 @@
-// Results of visibility rays from the points around voxels (passes/clusters/voxel_point_rays.h).
+// Rays from the points around voxels and their occlusion (passes/clusters/voxel_point_rays.h).
 #ifndef VOXRAY_VOXEL_POINT_RAYS_GLSL
 #define VOXRAY_VOXEL_POINT_RAYS_GLSL
 
@@ -7,7 +7,7 @@
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 readonly buffer Occluded { uint data[]; } occluded;
 
-// Inactive rays (tMax < 0) are not occluded either, but don't count.
+// Whether any of the rays is active and unoccluded. The tracer reports inactive rays (tMax < 0) as unoccluded.
 bool anyUnoccluded(uint first, uint count) {
     for (uint i = first; i < first + count; ++i)
         if (rays.data[i].tMax >= 0.0 && occluded.data[i] == 0u) return true;

@@ -7,7 +7,7 @@
 
 namespace voxray {
 
-/// Visibility rays from a fixed set of points around each voxel, traced in batches of voxels. GLSL:
+/// Traces visibility rays from a fixed set of points around each voxel, in batches of voxels. GLSL:
 /// passes/clusters/voxel_points.glsl and voxel_point_rays.glsl.
 class VoxelPointRays {
  public:
@@ -19,7 +19,7 @@ class VoxelPointRays {
     explicit VoxelPointRays(uint32_t pointsPerVoxel) : pointsPerVoxel_(pointsPerVoxel) {}
 
     void plan(PassPlan& plan);
-    /// @param generate fills rays(), by voxel and point. @param use reads rays() and occluded().
+    /// @param generate fills rays(), ordered by voxel and point. @param use reads rays() and occluded().
     void trace(PassContext& context, uint32_t voxels, const std::function<void(const Batch&)>& generate,
                const std::function<void(const Batch&)>& use) const;
 

@@ -1,4 +1,4 @@
-// Sample points around voxels, in the directions of the centers of their 12 edges and 6 faces (Cosin and Patow 2022, section 4.4).
+// Sample points around voxels, in the directions of their 12 edges and 6 faces (Cosin and Patow 2022, section 4.4).
 #ifndef VOXRAY_VOXEL_POINTS_GLSL
 #define VOXRAY_VOXEL_POINTS_GLSL
 
@@ -7,12 +7,14 @@
 #define EDGE_POINTS 12u
 #define EDGE_AND_FACE_POINTS 18u
 
-layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;  // By voxel.
+layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;  // Per voxel.
 
 // m
-vec3 voxelCenter(VoxelGrid grid, uint voxel) { return grid.origin + grid.voxelSize * (vec3(coordinates.data[voxel]) + 0.5); }
+vec3 voxelCenter(VoxelGrid grid, uint voxel) {
+    return grid.origin + grid.voxelSize * (vec3(coordinates.data[voxel]) + 0.5);
+}
 
-// Unit length. 0 to 11: edges, four along each axis. 12 to 17: faces.
+// Unit length. Points 0 to 11 lie beyond edges, four along each axis; points 12 to 17 beyond faces.
 vec3 pointDirection(uint i) {
     vec3 direction = vec3(0.0);
     if (i >= EDGE_POINTS) {

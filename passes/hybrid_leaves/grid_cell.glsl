@@ -9,13 +9,13 @@
 // Means over the cell's surfaces by area, and the slab that encloses them.
 struct GridCell {
     vec3 normal;          // Unit length, of front-side shading normals: the slab's.
-    float distance_;      // Of the mean point from the cell's center along the normal, in cells: the slab's middle plane.
+    float distance_;  // Of the mean point from the cell's center along the normal, in cells: the slab's middle plane.
     vec3 albedo;          // Diffuse reflectance.
     float halfThickness;  // Maximum distance of surfaces from that plane, in cells.
 };
 
-// Words: normal; albedo in 11, 11 and 10 bits; distance in the low 24 bits and half thickness in the high 8, so that atomicMax()
-// finds the largest.
+// Words: normal; albedo in 11, 11 and 10 bits; distance in the low 24 bits and half thickness in the high 8, so that
+// atomicMax() finds the largest.
 const float CELL_DIAGONALS = 1.75;  // Range of distances, in cells: at least a diagonal.
 const uint DISTANCE_UNITS = 0xffffffu;
 
@@ -57,8 +57,8 @@ struct ExtendedCell {
     float roughness;
 };
 
-// Words: emission over the scene's largest, with a shared exponent; F0 in 11, 11 and 10 bits; roughness in 16, F90 in 15,
-// emitsBothSides in 1.
+// Words: emission over the scene's largest, with a shared exponent; F0 in 11, 11 and 10 bits; roughness in 16, F90 in
+// 15, emitsBothSides in 1.
 void storeExtendedCell(uint cellIndex, ExtendedCell c) {
     const uint word = cellIndex * hybridLeaves.shape.cellWords + GRID_CELL_WORDS;
     const uvec3 f0 = uvec3(round(clamp(c.f0, 0.0, 1.0) * vec3(2047.0, 2047.0, 1023.0)));

@@ -1,6 +1,6 @@
-// Leaves of a hybrid octree (Seok 2021, section 3.1; docs/hybrid-leaves.md): each surface voxel is a leaf with a list of its
-// triangles or, where these are many, a grid of finer voxels, its cells. Leaves have the indices of surface voxels (voxelNumber()
-// of shaders/voxels/voxels.glsl).
+// Leaves of a hybrid octree (Seok 2021, section 3.1; docs/hybrid-leaves.md): each surface voxel is a leaf with a list
+// of its triangles or, where these are many, a grid of finer voxels, its cells. Leaves have the indices of surface
+// voxels (voxelNumber() of shaders/voxels/voxels.glsl).
 #ifndef VOXRAY_HYBRID_LEAVES_GLSL
 #define VOXRAY_HYBRID_LEAVES_GLSL
 

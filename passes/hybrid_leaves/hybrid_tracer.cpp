@@ -11,9 +11,8 @@ constexpr uint32_t kRaysPerLaunch = 1u << 26;
 
 }  // namespace
 
-HybridTracer::HybridTracer(ProgramOwner& owner, HybridTraversal walk)
-    : march_(owner,
-             walk == HybridTraversal::Hierarchical ? VoxelTraversal::Bricks : VoxelTraversal::SvoVoxels),
+HybridTracer::HybridTracer(ProgramOwner& owner, HybridTraversal traversal)
+    : march_(owner, traversal == HybridTraversal::Hierarchical ? VoxelTraversal::Bricks : VoxelTraversal::SvoVoxels),
       closestHit_(owner, "hybrid_tracer.comp", march_.defines()),
       occluded_(owner, "hybrid_tracer.comp", march_.defines()) {}
 
@@ -34,34 +33,20 @@ void HybridTracer::begin(CommandStream& stream, const GpuScene& scene, const Sur
     maxWidth_ = maxWidth;
 }
 
-void HybridTracer::closestHitWithStarts(CommandStream& stream, const Buffer& rays, const Buffer& starts,
-                                        const Buffer& hits, uint32_t count) {
-    if (rays.bytes() < count * sizeof(Ray) || starts.bytes() < count * sizeof(gpu::RayStart) ||
-        hits.bytes() < count * sizeof(Hit))
-        throw Error("hybrid tracer: buffers of {} rays are too small", count);
-    dispatch(stream, closestHit_, rays.address(), starts.address(), hits.address(), count);
-}
-
-void HybridTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
-                         uint32_t count, Coherence) {
+void HybridTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
+                         Coherence) {
     if (starts_ && starts_->bytes() < count * sizeof(gpu::RayStart))
         throw Error("hybrid tracer: a buffer of the starts of {} rays is too small", count);
-    dispatch(stream, query == Query::Occluded ? occluded_ : closestHit_, rays.address(),
-             starts_ ? starts_->address() : 0, results.address(), count);
-}
-
-void HybridTracer::dispatch(CommandStream& stream, const Program& program, VkDeviceAddress rays,
-                            VkDeviceAddress starts, VkDeviceAddress results, uint32_t count) {
     for (uint32_t first = 0; first < count;) {
         const uint32_t end = first + std::min(kRaysPerLaunch, count - first);
-        stream.dispatch(program, end - first,
+        stream.dispatch(query == Query::Occluded ? occluded_ : closestHit_, end - first,
                         {*scene_,
                          march_,
                          *leaves_,
                          {"hybridTestCounts", testCounts_},
-                         {"rays", rays},
-                         {"starts", starts},
-                         {"hits", results},
+                         {"rays", rays.address()},
+                         {"starts", starts_ ? starts_->address() : 0},
+                         {"results", results.address()},
                          {"grid", grid_},
                          {"maxWidth", maxWidth_},
                          {"firstRay", first},

@@ -24,7 +24,7 @@ struct EnumNames<HybridTraversal> {
 /// passes/hybrid_leaves/hybrid_types.h. A pass calls plan() from its own.
 class HybridTracer final : public RayTracer {
  public:
-    HybridTracer(ProgramOwner& owner, HybridTraversal walk);
+    HybridTracer(ProgramOwner& owner, HybridTraversal traversal);
 
     /// Describes bricks, for HybridTraversal::Hierarchical; begin() builds the octree for the other. @throws
     /// Error as VoxelMarch::plan().
@@ -33,14 +33,10 @@ class HybridTracer final : public RayTracer {
     /// Sets voxels and leaves, and resets counts: before the first rays and after either has changed. All
     /// arguments must outlive the rays. Waits for the device where it builds the octree. @param maxWidth m:
     /// rays end where they are wider (HIT_IS_WIDE).
-    void begin(CommandStream& stream, const GpuScene& scene, const SurfaceVoxels& voxels,
-               const HybridLeaves& leaves, float maxWidth = std::numeric_limits<float>::infinity());
-    /// closestHit() for rays that start on surfaces or widen. @param starts gpu::RayStart for each ray
-    /// (passes/hybrid_leaves/hybrid_types.h).
-    void closestHitWithStarts(CommandStream& stream, const Buffer& rays, const Buffer& starts,
-                              const Buffer& hits, uint32_t count);
-    /// A gpu::RayStart for each ray of occluded() and closestHit(). @param starts must outlive them; null:
-    /// rays without surface and width.
+    void begin(CommandStream& stream, const GpuScene& scene, const SurfaceVoxels& voxels, const HybridLeaves& leaves,
+               float maxWidth = std::numeric_limits<float>::infinity());
+    /// For rays that start on surfaces or widen. @param starts a gpu::RayStart (hybrid_types.h) for each ray
+    /// of the following calls, which it must outlive; null: rays without surface and width.
     void setStarts(const Buffer* starts) { starts_ = starts; }
     /// Of bricks or octree.
     size_t memoryBytes() const override { return march_.memoryBytes(); }
@@ -53,8 +49,6 @@ class HybridTracer final : public RayTracer {
     void updateStructure(CommandStream&) override {}
     void trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
                Coherence coherence) override;
-    void dispatch(CommandStream& stream, const Program& program, VkDeviceAddress rays, VkDeviceAddress starts,
-                  VkDeviceAddress results, uint32_t count);
 
     VoxelMarch march_;
     Kernel closestHit_, occluded_;

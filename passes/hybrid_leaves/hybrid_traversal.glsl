@@ -1,9 +1,9 @@
-// Traversal of a hybrid octree's leaves (Seok 2021, chapter 4; docs/hybrid-leaves.md): the closest triangle of a list or cell of
-// a grid. The including shader is compiled with VoxelMarch::defines(), which select the walk from leaf to leaf, and gets the
-// bindings of VoxelMarch, HybridLeaves and the scene. Triangles in leaves are the second exception to the rule that passes trace
-// whole streams (docs/writing-a-pass.md).
-#ifndef VOXRAY_HYBRID_WALK_GLSL
-#define VOXRAY_HYBRID_WALK_GLSL
+// Traversal of a hybrid octree's leaves (Seok 2021, chapter 4; docs/hybrid-leaves.md): the closest triangle of a list
+// or cell of a grid. The including shader is compiled with VoxelMarch::defines(), which select the traversal from leaf
+// to leaf, and gets the bindings of VoxelMarch, HybridLeaves and the scene. Triangles in leaves are the second
+// exception to the rule that passes trace whole streams (docs/writing-a-pass.md).
+#ifndef VOXRAY_HYBRID_TRAVERSAL_GLSL
+#define VOXRAY_HYBRID_TRAVERSAL_GLSL
 
 #include "passes/hybrid_leaves/grid_cell.glsl"
 #include "passes/hybrid_leaves/leaf_box.glsl"
@@ -18,10 +18,10 @@ LeafSegment leafSegment(vec3 origin, vec3 direction, float tBegin, float tEnd) {
     return LeafSegment(origin + 0.5 * (tBegin + tEnd) * direction, 0.5 * (tEnd - tBegin) * direction);
 }
 
-// Intersects a ray with the triangles of a leaf's list whose boxes its segment [tBegin, tEnd] in the leaf hits. Hits beyond the
-// leaf count, too: the closest of all is kept.
-void intersectList(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float tBegin, float tEnd, ivec3 voxel, uint leaf,
-                   inout Hit closest) {
+// Intersects a ray with the triangles of a leaf's list whose boxes its segment [tBegin, tEnd] in the leaf hits. Hits
+// beyond the leaf count as well: `closest` is the closest of all.
+void intersectList(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float tBegin, float tEnd, ivec3 voxel,
+                   uint leaf, inout Hit closest) {
     const uint first = firstItem(leaf), items = LIST_ITEMS(hybridLeaves.shape.capacity);
     const bool hasGroups = leaf != first;
     LeafLists lists = hybridLeaves.primitives;  // Loop-invariant load, which compilers do not hoist.
@@ -53,18 +53,19 @@ void intersectList(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float t
     }
 }
 
-// The closest cell of a leaf's grid on the segment [tBegin, tEnd] of a ray (Amanatides and Woo 1987; Seok 2021, figure 15). A ray
-// hits a cell where it passes through the slab that encloses the cell's surfaces: at the slab's middle plane, or as close to it
-// as the ray comes within the cell. So flat surfaces are hit at their own depth, none is missed, and rays past an edge continue.
-// Cells of the surface that the ray starts from are skipped. The grid's level is the coarsest whose cells are not wider than the
-// ray at the grid; the finest for narrower rays.
-void intersectGrid(VoxelGrid g, vec3 origin, vec3 direction, float tBegin, float tEnd, ivec3 voxel, uint grid, RayStart start,
-                   inout Hit closest) {
+// The closest cell of a leaf's grid on the segment [tBegin, tEnd] of a ray (Amanatides and Woo 1987; Seok 2021, figure
+// 15). A ray hits a cell where it passes through the slab that encloses the cell's surfaces: at the slab's middle
+// plane, or as close to it as the ray comes within the cell. So flat surfaces are hit at their own depth, none is
+// missed, and rays past an edge continue. Cells of the surface that the ray starts from are skipped. The grid's level
+// is the coarsest whose cells are not wider than the ray at the grid; the finest for narrower rays.
+void intersectGrid(VoxelGrid g, vec3 origin, vec3 direction, float tBegin, float tEnd, ivec3 voxel, uint grid,
+                   RayStart start, inout Hit closest) {
     // Loop-invariant loads, which compilers do not hoist
     LargeUints bits = hybridLeaves.gridBits, ranks = hybridLeaves.gridRanks, cells = hybridLeaves.cells;
     const uint cellWords = hybridLeaves.shape.cellWords;
 
-    const float finest = g.voxelSize / float(hybridLeaves.shape.gridResolution), rayWidth = abs(start.width + start.spread * tBegin);
+    const float finest = g.voxelSize / float(hybridLeaves.shape.gridResolution),
+                rayWidth = abs(start.width + start.spread * tBegin);
     const uint levelIndex = min(uint(log2(max(rayWidth / finest, 1.0))), hybridLeaves.shape.gridLevels - 1u);
     const GridLevel level = gridLevel(grid, levelIndex);
     const int edge = int(level.edge);
@@ -76,7 +77,8 @@ void intersectGrid(VoxelGrid g, vec3 origin, vec3 direction, float tBegin, float
 
     // Up to this height above the plane of the start surface, cells may contain it; marching is off by units of a voxel
     const float startCellWidth = cellWidth * (1.0 + VOXEL_MARGIN) + g.voxelSize * 4.0 / float(MARCH_UNITS);
-    const float heightPerT = dot(start.normal, direction), startHeight = dot(abs(start.normal), vec3(1.0)) * startCellWidth;
+    const float heightPerT = dot(start.normal, direction),
+                startHeight = dot(abs(start.normal), vec3(1.0)) * startCellWidth;
     ivec3 cell = clamp(ivec3(floor(originInGrid + tBegin * directionInGrid)), ivec3(0), ivec3(edge - 1));
     float tEntry = tBegin;
     for (int i = 0; i < 3 * edge && tEntry <= min(tEnd, closest.t); ++i) {
@@ -105,38 +107,39 @@ void intersectGrid(VoxelGrid g, vec3 origin, vec3 direction, float tBegin, float
     }
 }
 
-// The closest surface on a ray from `origin` (m) between tMin and tMax, which may be infinite; t is in units of `direction`.
-// Hit::triangle encodes what was hit (passes/hybrid_leaves/hybrid_types.h); where it is NO_HIT, Hit::t is tMax. `start`:
-// RayStart(vec3(0.0), 0.0, 0.0) for a ray without surface and width. HIT_IS_WIDE where the ray is wider than `maxWidth` (m)
-// before any hit: a cone continues from there (section 4: "when the cone is large").
+// The closest surface on a ray from `origin` (m) between tMin and tMax, which may be infinite; t is in units of
+// `direction`. Hit::triangle encodes what was hit (passes/hybrid_leaves/hybrid_types.h); where it is NO_HIT, Hit::t is
+// tMax. `start`: RayStart(vec3(0.0), 0.0, 0.0) for a ray without surface and width. HIT_IS_WIDE where the ray is wider
+// than `maxWidth` (m) before any hit: a cone continues from there (section 4: "when the cone is large").
 Hit hybridClosestHit(VoxelGrid g, vec3 origin, vec3 direction, float tMin, float tMax, RayStart start, float maxWidth) {
     Hit closest = Hit(tMax, NO_HIT, 0.0, 0.0);
     float tFirst = tMin, tLast = tMax;
     VoxelSegment s;
     if (!segmentOfRay(g, origin, direction, tFirst, tLast, s)) return closest;
     const float rounding = MARCH_TIE * (tLast - tFirst);
-    beginWalk(g, s);
+    initTraversal(g, s);
     ivec3 flippedVoxel = firstVoxel(s);
     const uint bound = voxelsBetween(s);
     for (uint i = 0u; i <= bound; ++i) {
-        if (!walkOn(g, s, flippedVoxel)) break;
+        if (!advanceToOccupied(g, s, flippedVoxel)) break;
         const ivec3 voxel = flippedVoxel ^ s.flip;
-        const vec3 entries = mix(partsTo(s, unitsTo(s, flippedVoxel)), vec3(0.0), equal(s.run, vec3(0.0)));
+        const vec3 entries =
+            mix(planeParameters(s, unitsToPlanes(s, flippedVoxel)), vec3(0.0), equal(s.run, vec3(0.0)));
         const float tEntry = tFirst + clamp(max(entries.x, max(entries.y, entries.z)), 0.0, 1.0) * (tLast - tFirst);
         if (closest.t < tEntry - rounding) break;
         if (start.width + start.spread * tEntry > maxWidth) {
             closest = Hit(tEntry, HIT_IS_WIDE, 0.0, 0.0);
             break;
         }
-        const vec3 exits = partsTo(s, unitsTo(s, flippedVoxel + 1));
+        const vec3 exits = planeParameters(s, unitsToPlanes(s, flippedVoxel + 1));
         const float tExit = tFirst + min(min(exits.x, min(exits.y, exits.z)), 1.0) * (tLast - tFirst);
         const uint leaf = hybridLeaves.words.data[voxelNumber(g, voxel)];
         if (isGridLeaf(leaf))
             intersectGrid(g, origin, direction, tEntry, tExit, voxel, leaf & ~LEAF_IS_GRID, start, closest);
         else if (!isEmptyLeaf(leaf))
             intersectList(g, origin, direction, tMin, tEntry - rounding, tExit + rounding, voxel, leaf, closest);
-        // A hit within the leaf is the closest: a closer surface would be in this leaf or an earlier one. A hit beyond may be
-        // behind others
+        // A hit within the leaf is the closest: a closer surface would be in this leaf or an earlier one. A hit beyond
+        // may be behind others
         if (closest.triangle != NO_HIT && closest.t <= tExit - rounding) break;
         if (!leaveVoxel(s, flippedVoxel)) break;
     }

@@ -1,4 +1,5 @@
-// The bounds of a triangle within its leaf, in steps of 1 / LEAF_BOX_STEPS of the leaf's edge, rounded outwards, in one word.
+// The bounds of a triangle within its leaf, in steps of 1 / LEAF_BOX_STEPS of the leaf's edge, rounded outwards, in one
+// word.
 #ifndef VOXRAY_LEAF_BOX_GLSL
 #define VOXRAY_LEAF_BOX_GLSL
 
@@ -26,7 +27,8 @@ struct LeafSegment {
 
 // Segment-box test by separating axes (Ericson 2004, section 5.3.3); the box is enlarged by LEAF_BOX_MARGIN.
 bool intersectsLeafBox(LeafSegment s, uint box) {
-    const ivec3 first = ivec3(uvec3(box, box >> 5, box >> 10) & 31u), last = ivec3(uvec3(box >> 15, box >> 20, box >> 25) & 31u);
+    const ivec3 first = ivec3(uvec3(box, box >> 5, box >> 10) & 31u),
+                last = ivec3(uvec3(box >> 15, box >> 20, box >> 25) & 31u);
     const vec3 halfSize = vec3(last - first) + (1.0 + 2.0 * float(LEAF_BOX_STEPS) * LEAF_BOX_MARGIN);
     const vec3 toBox = vec3(first + last + 1) - s.center, extent = abs(s.halfExtent);
     const vec3 crossed = s.halfExtent.yzx * toBox.zxy - s.halfExtent.zxy * toBox.yzx;

@@ -6,9 +6,10 @@
 #include "shaders/scene/scene.glsl"
 #include "shaders/trace/ray_types.h"
 
-// Intersects a triangle between tMin and the closest hit so far; of two at the same distance the one of lower index counts. Edges
-// are tested by Plücker coordinates: the product of the ray's and an edge's changes only its sign with the edge's direction, so
-// that rounding leaves no gap between neighbors (Platis and Theoharis 2003). `isMasked`: whether the alpha mask is looked up.
+// Intersects a triangle between tMin and the closest hit so far; of two at the same distance the one of lower index
+// counts. Edges are tested by Plücker coordinates: the product of the ray's and an edge's changes only its sign with
+// the edge's direction, so that rounding leaves no gap between neighbors (Platis and Theoharis 2003). `isMasked`:
+// whether the alpha mask is looked up.
 void intersectTriangle(vec3 origin, vec3 direction, float tMin, uint triangle, bool isMasked, inout Hit closest) {
     TriangleCorners corners = hybridLeaves.corners;
     precise const vec3 a = corners.data[3u * triangle] - origin, b = corners.data[3u * triangle + 1u] - origin,
@@ -28,7 +29,8 @@ void intersectTriangle(vec3 origin, vec3 direction, float tMin, uint triangle, b
     if (!(t >= tMin && isCloser)) return;
 
     const vec2 barycentrics = vec2(u, v_) / sum;
-    if (isMasked && alphaCut(sceneMaterials.data[triangleMaterial(triangle)], surfacePoint(triangle, barycentrics))) return;
+    if (isMasked && alphaCut(sceneMaterials.data[triangleMaterial(triangle)], surfacePoint(triangle, barycentrics)))
+        return;
     closest = Hit(t, triangle, barycentrics.x, barycentrics.y);
 }
 

@@ -30,7 +30,7 @@ struct Bsdf {
     float alpha = 1.0f;         ///< Roughness squared.
     glm::vec3 f0{0.0f};         ///< Specular reflectance at normal incidence, metal and dielectric mixed.
     float f90 = 0.0f;           ///< The same at grazing incidence.
-    float dielectricF0 = 0.0f;  ///< Largest component of the dielectric part: taken from diffuse light.
+    float dielectricF0 = 0.0f;  ///< Maximum component of the dielectric layer's f0, which attenuates diffuse light.
     float dielectricF90 = 0.0f;
 
     /// From a material's parameters, with textures multiplied in. `specular` and `specularColor` are those of
@@ -97,8 +97,7 @@ struct Bsdf {
     }
 
  private:
-    BsdfValue evaluateLayers(const glm::vec3& out, const glm::vec3& in, const glm::vec3& n,
-                             float cosIn) const;
+    BsdfValue evaluateLayers(const glm::vec3& out, const glm::vec3& in, const glm::vec3& n, float cosIn) const;
     BsdfSample sampleLayers(const glm::vec3& out, const Frame& frame, glm::vec2 u, float uLobe) const;
 };
 

@@ -18,6 +18,13 @@ uint32_t sampleCdf(const float* cdf, uint32_t count, float u, float& offset) {
     return i;
 }
 
+/// A texel of a map that repeats horizontally and is clamped vertically; x at least -width.
+glm::vec3 texelAt(const ImageF& map, int64_t x, int64_t y) {
+    const float* p =
+        map.pixel(uint32_t((x + map.width) % map.width), uint32_t(std::clamp<int64_t>(y, 0, int64_t(map.height) - 1)));
+    return {p[0], p[1], p[2]};
+}
+
 }  // namespace
 
 EnvironmentLight::EnvironmentLight(const Environment& environment) : environment_(&environment) {
@@ -31,9 +38,7 @@ EnvironmentLight::EnvironmentLight(const Environment& environment) : environment
     // Mean luminance of each texel's bilinear patch: positive where its radiance is
     std::vector<double> weights(size_t(width_) * height_);
     const auto brightness = [&](int64_t x, int64_t y) {
-        const float* p = map.pixel(uint32_t((x + width_) % width_),
-                                   uint32_t(std::clamp<int64_t>(y, 0, int64_t(height_) - 1)));
-        return double(luminance(environment.radiance * glm::vec3(p[0], p[1], p[2])));
+        return double(luminance(environment.radiance * texelAt(map, x, y)));
     };
     for (int64_t y = 0; y < height_; ++y)
         for (int64_t x = 0; x < width_; ++x) {
@@ -86,21 +91,15 @@ glm::vec3 EnvironmentLight::radiance(const glm::vec3& direction) const {
     const glm::vec2 p = texelCoordinates(direction) - 0.5f;
     const float floorX = std::floor(p.x), floorY = std::floor(p.y);
     const float fx = p.x - floorX, fy = p.y - floorY;
-    const auto texel = [&](int64_t x, int64_t y) {
-        const float* t = map.pixel(uint32_t((x + width_) % width_),
-                                   uint32_t(std::clamp<int64_t>(y, 0, int64_t(height_) - 1)));
-        return glm::vec3(t[0], t[1], t[2]);
-    };
     const auto x = int64_t(floorX), y = int64_t(floorY);
-    const glm::vec3 top = texel(x, y) * (1.0f - fx) + texel(x + 1, y) * fx;
-    const glm::vec3 bottom = texel(x, y + 1) * (1.0f - fx) + texel(x + 1, y + 1) * fx;
+    const glm::vec3 top = texelAt(map, x, y) * (1.0f - fx) + texelAt(map, x + 1, y) * fx;
+    const glm::vec3 bottom = texelAt(map, x, y + 1) * (1.0f - fx) + texelAt(map, x + 1, y + 1) * fx;
     return environment_->radiance * (top * (1.0f - fy) + bottom * fy);
 }
 
 float EnvironmentLight::texelPdf(uint32_t x, uint32_t y, float sinTheta) const {
     const float* cdf = &columnCdfs_[size_t(y) * (width_ + 1)];
-    const float density =
-        (cdf[x + 1] - cdf[x]) * float(width_) * (rowCdf_[y + 1] - rowCdf_[y]) * float(height_);
+    const float density = (cdf[x + 1] - cdf[x]) * float(width_) * (rowCdf_[y + 1] - rowCdf_[y]) * float(height_);
     return sinTheta > 0.0f ? density / (2.0f * kPi * kPi * sinTheta) : 0.0f;
 }
 

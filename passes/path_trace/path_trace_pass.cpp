@@ -25,13 +25,11 @@ void upload(CommandStream& stream, const ImageF& source, const Image& target) {
 
 template <>
 struct EnumNames<PathLight> {
-    static constexpr std::array names{std::pair{PathLight::All, "all"},
-                                      std::pair{PathLight::Indirect, "indirect"}};
+    static constexpr std::array names{std::pair{PathLight::All, "all"}, std::pair{PathLight::Indirect, "indirect"}};
 };
 
 /// The reference path tracer (path_tracer.h) as a pass: with many samples the reference of all methods, with
-/// few the baseline of charts. It shares no shader and no ray stream with the methods that it is compared
-/// with.
+/// few a baseline. It shares no shader and no ray stream with the methods that it is compared with.
 class PathTracePass final : public Pass {
  public:
     static constexpr const char* kName = "path_trace";
@@ -39,9 +37,8 @@ class PathTracePass final : public Pass {
     static constexpr const char* kHelp =
         "Computes light by path tracing on the CPU with Embree. "
         "It uses next-event estimation, multiple importance sampling and Owen-scrambled Sobol points. "
-        "Unbiased for the bounces that it is given; noisy by: spp. "
-        "Writes total and indirect light, each also as two independent halves, "
-        "and irradiance at the g-buffer's texels for filter_irradiance.";
+        "Unbiased for its number of bounces; noisy by: spp. Writes total and indirect light, "
+        "each also as two independent halves, and irradiance at the G-buffer's texels for filter_irradiance.";
     struct Params {
         uint32_t spp = 64;
         uint32_t bounces = 8;
@@ -49,13 +46,12 @@ class PathTracePass final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("spp", &Params::spp, "Samples a pixel.", 1u, 1u << 20).lessNoise(),
-                field(
-                    "bounces", &Params::bounces,
-                    "Scattering events after direct light at the first hit; 0 is emission and direct light.",
-                    0u, 1024u),
+                field("bounces", &Params::bounces,
+                      "Scattering events after direct light at the first hit; 0 is emission and direct light.", 0u,
+                      1024u),
                 field("light", &Params::light,
-                      "indirect: nothing is spent on emission and direct light at the first hit; "
-                      "another pass writes 'final'.")};
+                      "all: all light. "
+                      "indirect: no emission and direct light at the first hit; another pass writes 'final'.")};
         }
     };
 
@@ -66,43 +62,36 @@ class PathTracePass final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    using PixelsOf = const ImageF& (*)(const PathTraceResult&);
-    /// An output and its pixels.
     struct RenderedImage {
         Out<FrameImage> port;
-        PathLight light;  ///< Light that the image has; also rendered where paths compute that light only.
-        bool isHalf;
-        PixelsOf pixels;
+        PathLight light;
+        int half = -1;  ///< 0 or 1: of one half of the samples.
 
-        RenderedImage(PortOwner& owner, const char* portName, const char* help, PathLight imageLight,
-                      bool half, PixelsOf pixelsOf)
-            : port(owner, portName, help), light(imageLight), isHalf(half), pixels(pixelsOf) {}
+        const ImageF& pixels(const PathTraceResult& result) const {
+            const bool isTotal = light == PathLight::All;
+            if (half < 0) return isTotal ? result.total : result.indirect;
+            return (isTotal ? result.totalHalves : result.indirectHalves)[size_t(half)];
+        }
     };
     /// Only indirect images with `light: indirect`; no halves of a single sample.
     bool isRendered(const RenderedImage& image) const {
         return (image.light == PathLight::Indirect || params_.light == PathLight::All) &&
-               (!image.isHalf || params_.spp > 1);
+               (image.half < 0 || params_.spp > 1);
     }
 
     const Params params_;
-    InOptional<GBuffer> gbuffer_{*this, "gbuffer", "whose texels 'noisy_irradiance' is for; else pixels"};
+    InOptional<GBuffer> gbuffer_{*this, "gbuffer", "whose texels 'noisy_irradiance' has; without it pixels"};
     /// The first is 'final'.
     const RenderedImage images_[6] = {
-        {*this, "final", "radiance towards the camera", PathLight::All, false,
-         [](const PathTraceResult& r) -> const ImageF& { return r.total; }},
-        {*this, "indirect", "the part of it that was scattered more than once", PathLight::Indirect, false,
-         [](const PathTraceResult& r) -> const ImageF& { return r.indirect; }},
-        {*this, "final_a", "'final' of one half of the samples", PathLight::All, true,
-         [](const PathTraceResult& r) -> const ImageF& { return r.totalHalves[0]; }},
-        {*this, "final_b", "'final' of the other half, independent of the first", PathLight::All, true,
-         [](const PathTraceResult& r) -> const ImageF& { return r.totalHalves[1]; }},
-        {*this, "indirect_a", "'indirect' of one half of the samples", PathLight::Indirect, true,
-         [](const PathTraceResult& r) -> const ImageF& { return r.indirectHalves[0]; }},
-        {*this, "indirect_b", "'indirect' of the other half", PathLight::Indirect, true,
-         [](const PathTraceResult& r) -> const ImageF& { return r.indirectHalves[1]; }}};
+        {{*this, "final", "radiance towards the camera"}, PathLight::All},
+        {{*this, "indirect", "its fraction that was scattered more than once"}, PathLight::Indirect},
+        {{*this, "final_a", "'final' of one half of the samples"}, PathLight::All, 0},
+        {{*this, "final_b", "'final' of the other half, independent of the first"}, PathLight::All, 1},
+        {{*this, "indirect_a", "'indirect' of one half of the samples"}, PathLight::Indirect, 0},
+        {{*this, "indirect_b", "'indirect' of the other half"}, PathLight::Indirect, 1}};
     Out<NoisyIrradiance> noisy_{*this, "noisy_irradiance",
                                 "irradiance of indirect light, before the first hit reflects it"};
-    Out<ReferenceSums> sums_{*this, "sums", "sums over its samples by half, of which references are made"};
+    Out<ReferenceSums> sums_{*this, "sums", "sums over the samples of each half, for references"};
     PathTraceOptions options_;
     std::unique_ptr<EmbreeScene> embree_;
 };
@@ -118,12 +107,11 @@ void PathTracePass::plan(PassPlan& plan) {
                 .samples = plan.frame.samples,
                 .keepSums = plan[sums_].isRead && params_.light == PathLight::All && params_.spp > 1};
     for (const RenderedImage& image : images_) {
-        plan[image.port].lightBounces = params_.bounces;
-        plan[image.port].hasSpecularLobes = true;
+        FrameImage& frame = plan[image.port];
+        frame.lightBounces = params_.bounces;
+        frame.hasSpecularLobes = true;
+        if (frame.isRead && isRendered(image)) plan.frameImage(image.port);
     }
-    for (const RenderedImage& image : images_)
-        if (FrameImage& frame = plan[image.port]; frame.isRead && isRendered(image))
-            plan.frameImage(image.port);
     if (NoisyIrradiance& noisy = plan[noisy_]; noisy.isRead) {
         const uint32_t texels = plan[gbuffer_] ? plan[gbuffer_]->samples : 1;
         options_.irradianceTexels = texels;

@@ -19,7 +19,7 @@ AliasTable::AliasTable(std::span<const double> weights) {
         (relative[i] < 1.0 ? small : large).push_back(i);
     }
 
-    // Fill each small entry's bin with a part of a large entry
+    // Fill the rest of each small entry's bin from a large entry
     while (!small.empty() && !large.empty()) {
         const uint32_t s = small.back(), l = large.back();
         small.pop_back();

@@ -12,8 +12,8 @@
 // Merges a color, clamped to [0, 1], into a word.
 void writePacked(LargeUints words, uint index, vec3 color) {
 #if PACKED_WRITE == PACKED_MOVING_AVERAGE
-    // Listing 4.3: compare and swap the mean; the number of colors, in alpha, stops at 255. The loop ends: each failed attempt is
-    // another invocation's success.
+    // Listing 4.3: compare and swap the mean; the number of colors, in alpha, stops at 255. The loop ends: each failed
+    // attempt is another invocation's success.
     uint expected = 0u;
     uint desired = packUnorm4x8(vec4(color, 1.0 / 255.0));
     for (;;) {

@@ -9,5 +9,7 @@ layout(push_constant) uniform Push { uint count; } push;
 
 void main() {
     const uint i = linearIndex();
-    if (i < push.count && surfels.data[i].voxel != 0xffffffffu) atomicAdd(counts.data[surfels.data[i].voxel], 1u);
+    if (i >= push.count) return;
+    const uint voxel = surfels.data[i].voxel;
+    if (voxel != 0xffffffffu) atomicAdd(counts.data[voxel], 1u);
 }

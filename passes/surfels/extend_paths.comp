@@ -1,22 +1,22 @@
-// Moves the end of each path to the hit of its ray, on the side that the ray came from. Russian roulette by albedo ends paths early;
-// survivors' reflectance and area make up for those. New ends are appended in any order; nothing that follows depends on it.
+// Extends each path to the hit of its ray. Russian roulette by albedo ends paths early; survivors' throughput and area
+// are divided by the probability to survive. New vertices are appended in any order, on which nothing depends.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/path_ray.glsl"
 #include "passes/surfels/surfel_at_hit.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer Ends { Surfel data[]; } ends;
+layout(scalar) readonly buffer Vertices { Surfel data[]; } vertices;
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
-layout(scalar) writeonly buffer NextEnds { Surfel data[]; } nextEnds;
+layout(scalar) writeonly buffer NextVertices { Surfel data[]; } nextVertices;
 layout(scalar) writeonly buffer NextRays { Ray data[]; } nextRays;
 buffer NextCount { uint value; } nextCount;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint count;
     uint seed;
-    uint geometric;  // 1: ends keep the geometric normal, for they are written to voxels.
+    uint geometric;  // 1: vertices have the geometric normal, else the shading normal.
 } push;
 
 void main() {
@@ -28,21 +28,21 @@ void main() {
     float offset;
     if (ray.tMax < ray.tMin || !surfelAtHit(hits.data[i], ray.origin, s, faceNormal, offset)) return;
 
-    // Does the path survive?
-    const Surfel from = ends.data[i];
+    // Russian roulette
+    const Surfel previous = vertices.data[i];
     const vec3 albedo = s.reflectance;
-    const float survive = max(albedo.r, max(albedo.g, albedo.b));
-    if (sobol2(from.id, push.seed).x >= survive) return;
-    s.reflectance = from.reflectance * albedo / survive;
-    s.area = from.area / survive;
+    const float survival = survivalProbability(albedo);
+    if (sobol2(previous.id, push.seed).x >= survival) return;
+    s.reflectance = previous.reflectance * albedo / survival;
+    s.area = previous.area / survival;
 
-    // Its end, and its next ray.
+    // The new vertex and its ray
     if (push.geometric != 0u) s.normal = faceNormal;
     s.voxel = voxelNumber(push.grid, voxelAt(push.grid, s.position));
     s.position += offset * faceNormal;
-    s.id = from.id;
-    s.parent = from.parent;
-    const uint number = atomicAdd(nextCount.value, 1u);
-    nextEnds.data[number] = s;
-    nextRays.data[number] = pathRay(s, faceNormal, push.seed + 0x51u);
+    s.id = previous.id;
+    s.parent = previous.parent;
+    const uint next = atomicAdd(nextCount.value, 1u);
+    nextVertices.data[next] = s;
+    nextRays.data[next] = pathRay(s, faceNormal, push.seed + 0x51u);
 }

@@ -1,4 +1,4 @@
-// One shadow ray from each surfel towards a source of light, with the irradiance that arrives if nothing is in the way.
+// A shadow ray from each surfel to a sample of a light, with its unoccluded irradiance.
 #include "shaders/lights/lights.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
@@ -7,12 +7,12 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
-layout(scalar) writeonly buffer Carried { vec4 data[]; } carried;
+layout(scalar) writeonly buffer Contributions { vec4 data[]; } contributions;  // W/m²
 layout(push_constant, scalar) uniform Push {
     uint count;
     uint kind;
-    uint light;
-    uint samples;
+    uint light;    // Of punctual lights, else the index of the sample.
+    uint samples;  // Of the source by each surfel.
     uint emitterCount;
     uint seed;
 } push;
@@ -21,13 +21,9 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
-    const LightSample l = sampleSource(push.kind, push.light, push.samples, push.emitterCount, s.position, s.normal, s.id, push.seed);
+    const LightSample l = sampleSource(push.kind, push.light, push.samples, push.emitterCount, s.position, s.normal,
+                                       s.id, push.seed);
     const vec3 irradiance = l.irradiance * max(dot(s.normal, l.direction), 0.0);
-    Ray ray;
-    ray.origin = s.position;
-    ray.direction = l.direction;
-    ray.tMin = 0.0;
-    ray.tMax = any(greaterThan(irradiance, vec3(0.0))) ? l.reach : -1.0;
-    rays.data[i] = ray;
-    carried.data[i] = vec4(irradiance, 0.0);
+    rays.data[i] = Ray(s.position, 0.0, l.direction, any(greaterThan(irradiance, vec3(0.0))) ? l.reach : -1.0);
+    contributions.data[i] = vec4(irradiance, 0.0);
 }

@@ -1,10 +1,10 @@
-// A path begins at each surfel: its first ray, and nothing reflected so far.
+// A path of one vertex for each surfel, of throughput 1, with its first ray.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/path_ray.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(scalar) writeonly buffer Ends { Surfel data[]; } ends;
+layout(scalar) writeonly buffer Vertices { Surfel data[]; } vertices;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(push_constant) uniform Push {
     uint count;
@@ -17,6 +17,6 @@ void main() {
     Surfel s = surfels.data[i];
     s.reflectance = vec3(1.0);
     s.parent = i;
-    ends.data[i] = s;
+    vertices.data[i] = s;
     rays.data[i] = pathRay(s, s.normal, push.seed);
 }

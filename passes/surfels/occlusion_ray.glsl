@@ -1,13 +1,10 @@
-// Whether open space lies before a side of a surface, as far as a voxel: an open side, else a covered one.
-#ifndef VOXRAY_OPEN_SPACE_GLSL
-#define VOXRAY_OPEN_SPACE_GLSL
+// The ray that tells whether a surface is occluded: whether another one lies less than a voxel before it.
+#ifndef VOXRAY_OCCLUSION_RAY_GLSL
+#define VOXRAY_OCCLUSION_RAY_GLSL
 
-#include "shaders/scene/sampling.glsl"
 #include "shaders/trace/ray_types.h"
 
-// `position`: off the surface, where rays may begin. The ray whose occlusion tells it. normal: geometric, unit length, on that side; voxelSize in m.
-Ray occlusionRay(vec3 position, vec3 normal, float voxelSize) {
-    return Ray(position, 0.0, normal, voxelSize);
-}
+// `position`: off the surface, where rays may begin. `normal`: geometric, unit length. `voxelSize`: m.
+Ray occlusionRay(vec3 position, vec3 normal, float voxelSize) { return Ray(position, 0.0, normal, voxelSize); }
 
 #endif

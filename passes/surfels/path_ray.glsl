@@ -1,4 +1,4 @@
-// The ray with which a path of light goes on from a surfel.
+// The next ray of a path from a surfel.
 #ifndef VOXRAY_PATH_RAY_GLSL
 #define VOXRAY_PATH_RAY_GLSL
 
@@ -6,8 +6,8 @@
 #include "passes/surfels/surfel_types.h"
 #include "shaders/trace/ray_types.h"
 
-// Distributed by cosine about the surfel's normal; none where that leads below the surface, whose geometric normal (unit, on the
-// surfel's side) may be another one.
+// Cosine-distributed about the surfel's normal; inactive where the direction is below the surface. `geometricNormal`:
+// unit length, on the surfel's side.
 Ray pathRay(Surfel s, vec3 geometricNormal, uint seed) {
     const vec3 direction = cosineDirection(sobol2(s.id, seed), s.normal);
     if (dot(direction, geometricNormal) <= 0.0) return kNoRay;

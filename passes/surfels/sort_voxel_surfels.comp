@@ -1,5 +1,4 @@
-// Orders each voxel's surfels by id, so that sums over them come out alike in every run, and tells each surfel its
-// slot.
+// Sorts each voxel's surfels by id, so that sums over them are the same in every run, and inverts the permutation.
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/sorted_surfels.h"
@@ -18,12 +17,12 @@ void main() {
     if (voxel >= push.voxels) return;
     const uint begin = begins.data[voxel], end = ends.data[voxel];
     lists.data[voxel] = uvec2(begin, end);
-    // By insertion: lists are short.
+    // Insertion sort: lists are short
     for (uint i = begin; i < end; ++i) {
         const SortedSurfel s = sorted.data[i];
         uint to = i;
         for (; to > begin && sorted.data[to - 1u].id > s.id; --to) sorted.data[to] = sorted.data[to - 1u];
         sorted.data[to] = s;
     }
-    for (uint i = begin; i < end; ++i) sortedIndices.data[sorted.data[i].number] = i;
+    for (uint i = begin; i < end; ++i) sortedIndices.data[sorted.data[i].index] = i;
 }

@@ -4,12 +4,12 @@
 
 #include "passes/surfels/sorted_surfels.h"
 
-// gpu::SortedSurfel, in two vectors each: software Vulkan takes as long for a vector as for a number.
+// Two vectors for each SortedSurfel: software Vulkan takes as long for a vector as for a scalar.
 layout(buffer_reference, scalar, buffer_reference_align = 16) buffer SortedSurfelWords { uvec4 data[]; };
 
-SortedSurfel sortedSurfel(SortedSurfelWords words, uint slot) {
-    const uvec4 place = words.data[2u * slot], side = words.data[2u * slot + 1u];
-    return SortedSurfel(uintBitsToFloat(place.xyz), place.w, uintBitsToFloat(side.xyz), side.w);
+SortedSurfel sortedSurfel(SortedSurfelWords words, uint i) {
+    const uvec4 first = words.data[2u * i], second = words.data[2u * i + 1u];
+    return SortedSurfel(uintBitsToFloat(first.xyz), first.w, uintBitsToFloat(second.xyz), second.w);
 }
 
 #endif

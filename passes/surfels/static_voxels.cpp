@@ -11,14 +11,14 @@
 namespace voxray {
 
 uint32_t countStaticVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
-    std::vector<bool> still(geometry.triangles.size(), true);
-    for (const InstanceRange& run : movingInstanceRanges(geometry))
-        std::fill_n(still.begin() + run.firstTriangle, run.triangleCount, false);
+    std::vector<bool> isStatic(geometry.triangles.size(), true);
+    for (const InstanceRange& range : movingInstanceRanges(geometry))
+        std::fill_n(isStatic.begin() + range.firstTriangle, range.triangleCount, false);
 
     VoxelBits bits(grid.resolution);
     parallelRanges(geometry.triangles.size(), 1024, [&](size_t begin, size_t end) {
         for (size_t t = begin; t < end; ++t) {
-            if (!still[t] || !isInRegion(geometry, uint32_t(t))) continue;
+            if (!isStatic[t] || !isInRegion(geometry, uint32_t(t))) continue;
             visitVoxels(bits.size(), cornersInVoxels(geometry, grid, uint32_t(t)),
                         [&](glm::ivec3 voxel) { bits.mark(voxel); });
         }

@@ -7,10 +7,10 @@
 
 namespace voxray {
 
-/// Voxels of the grid that what stays passes through, counted on the host: the same at all times, 0 where all
-/// moves. A voxel counts where a triangle passes through its column along the axis that the triangle faces
-/// most, within the triangle's plane's depth there: all that exact voxelization finds, and about a hundredth
-/// more (alpha masks are taken for opaque). Takes a bit for each voxel of the grid.
+/// Counts on the host the voxels of a grid that static surfaces pass through: the same at all times, 0 where
+/// all surfaces move. Triangles are voxelized conservatively along their dominant axis, with alpha masks
+/// taken for opaque: all voxels that exact voxelization finds, and about 1 % more. Takes a bit per voxel of
+/// the grid.
 uint32_t countStaticVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid);
 
 }  // namespace voxray

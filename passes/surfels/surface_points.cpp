@@ -13,41 +13,41 @@ double areaOf(const Geometry& g, uint32_t triangle) {
     return 0.5 * glm::length(glm::cross(p1 - p0, p2 - p0));
 }
 
-/// Calls visit(triangle) for all of the region that stay, then visit(triangle) for all that move.
-template <typename Still, typename Moving>
-void visitTriangles(const Geometry& g, const Still& visitStill, const Moving& visitMoving) {
-    const std::vector<InstanceRange> runs = movingInstanceRanges(g);
+/// Calls visitStatic(triangle) for the region's static triangles, then visitMoving(triangle) for moving ones.
+template <typename Static, typename Moving>
+void visitTriangles(const Geometry& g, const Static& visitStatic, const Moving& visitMoving) {
+    const std::vector<InstanceRange> movingRanges = movingInstanceRanges(g);
     uint32_t next = 0;
-    for (const InstanceRange& run : runs) {
-        for (; next < run.firstTriangle; ++next)
-            if (isInRegion(g, next)) visitStill(next);
-        next += run.triangleCount;
+    for (const InstanceRange& range : movingRanges) {
+        for (; next < range.firstTriangle; ++next)
+            if (isInRegion(g, next)) visitStatic(next);
+        next += range.triangleCount;
     }
     for (; next < g.triangles.size(); ++next)
-        if (isInRegion(g, next)) visitStill(next);
-    for (const InstanceRange& run : runs)
-        for (uint32_t i = 0; i < run.triangleCount; ++i) visitMoving(run.firstTriangle + i);
+        if (isInRegion(g, next)) visitStatic(next);
+    for (const InstanceRange& range : movingRanges)
+        for (uint32_t i = 0; i < range.triangleCount; ++i) visitMoving(range.firstTriangle + i);
 }
 
 }  // namespace
 
 SurfaceAreas surfaceAreas(const Geometry& g) {
-    SurfaceAreas area;
+    SurfaceAreas areas;
     visitTriangles(
-        g, [&](uint32_t t) { area.still += areaOf(g, t); }, [&](uint32_t t) { area.moving += areaOf(g, t); });
-    return area;
+        g, [&](uint32_t t) { areas.ofStatic += areaOf(g, t); }, [&](uint32_t t) { areas.ofMoving += areaOf(g, t); });
+    return areas;
 }
 
-std::vector<uint32_t> spreadPoints(const Geometry& g, const PointDensity& density, uint64_t most) {
+std::vector<uint32_t> distributePoints(const Geometry& g, const PointDensity& density) {
     std::vector<uint32_t> triangles;
-    double end = 0;
-    const auto spread = [&](uint32_t triangle) {
-        end += areaOf(g, triangle);
-        while (triangles.size() < most &&
-               (double(triangles.size()) + 0.5) / density.points * density.area <= end)
+    if (density.area <= 0) return triangles;
+    double cumulativeArea = 0;
+    const auto distribute = [&](uint32_t triangle) {
+        cumulativeArea += areaOf(g, triangle);
+        while ((double(triangles.size()) + 0.5) / density.points * density.area <= cumulativeArea)
             triangles.push_back(triangle);
     };
-    visitTriangles(g, spread, spread);
+    visitTriangles(g, distribute, distribute);
     return triangles;
 }
 

@@ -7,21 +7,21 @@
 
 namespace voxray {
 
-/// Areas of surfaces, m².
+/// Areas of the surfaces in the region, m².
 struct SurfaceAreas {
-    double still = 0;   ///< Of triangles that stay where they are.
-    double moving = 0;  ///< Of those that move.
+    double ofStatic = 0;
+    double ofMoving = 0;
 };
 SurfaceAreas surfaceAreas(const Geometry& geometry);
 
-/// How densely points are spread: so many, not necessarily a whole number, on so much area, m².
+/// Points per area: `points` need not be a whole number; `area` in m².
 struct PointDensity {
     double points = 0;
     double area = 0;
 };
 
-/// The triangle of each point where points are spread evenly over the surfaces' area, triangle by triangle:
-/// first over those that stay, so that what moves changes none of their points. @param most points at most.
-std::vector<uint32_t> spreadPoints(const Geometry& geometry, const PointDensity& density, uint64_t most);
+/// Distributes points evenly over the area of the surfaces in the region. @return the triangle of each point:
+/// first those of static surfaces, so that their points don't depend on what moves.
+std::vector<uint32_t> distributePoints(const Geometry& geometry, const PointDensity& density);
 
 }  // namespace voxray

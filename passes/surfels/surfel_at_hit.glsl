@@ -6,18 +6,18 @@
 #include "passes/surfels/surfel_types.h"
 #include "shaders/trace/ray_types.h"
 
-// The surfel at the hit of a ray that came from `from`, on that side: with the shading normal, reflectance of diffuse light, no voxel,
-// area 1; id and parent are the caller's to set. False where the ray hit nothing or a triangle without area: then it receives nothing.
-// `faceNormal`: the geometric normal, on the same side. `offset`: m; once the surfel has been looked up, it is to be moved so far along
-// it, where rays may begin.
-bool surfelAtHit(Hit hit, vec3 from, out Surfel s, out vec3 faceNormal, out float offset) {
+// The surfel at the hit of a ray from `origin`, on the side that the ray came from: shading normal, diffuse albedo,
+// area 1, no voxel; the caller sets id and parent. False where the ray hit nothing or a triangle without area.
+// `faceNormal`: unit geometric normal on the same side. `offset`: m; the position is on the surface, and rays may begin
+// that far along the face normal.
+bool surfelAtHit(Hit hit, vec3 origin, out Surfel s, out vec3 faceNormal, out float offset) {
     s = Surfel(vec3(0.0), 0xffffffffu, vec3(0.0), 0u, vec3(0.0), 0u, 1.0);
     faceNormal = vec3(0.0);
     offset = 0.0;
     if (hit.triangle == NO_HIT) return false;
     const SurfacePoint p = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
     if (dot(p.geometricNormal, p.geometricNormal) == 0.0) return false;
-    faceNormal = dot(p.geometricNormal, from - p.position) >= 0.0 ? p.geometricNormal : -p.geometricNormal;
+    faceNormal = dot(p.geometricNormal, origin - p.position) >= 0.0 ? p.geometricNormal : -p.geometricNormal;
     const GpuMaterial m = sceneMaterials.data[p.material];
     const vec3 normal = shadingNormal(m, p, 0.0);
     s.position = p.position;

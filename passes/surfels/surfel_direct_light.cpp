@@ -3,30 +3,29 @@
 namespace voxray {
 
 SurfelDirectLight::SurfelDirectLight(ProgramOwner& owner)
-    : aim_(owner, "generate_shadow_rays.comp"),
-      add_(owner, "accumulate_direct_light.comp"),
+    : generateRays_(owner, "generate_shadow_rays.comp"),
+      accumulate_(owner, "accumulate_direct_light.comp"),
       paneTransmittance_(owner) {}
 
-void SurfelDirectLight::plan(PassPlan& plan, uint32_t batch) {
-    plan.buffer(rays_, "shadow rays", uint64_t(batch) * sizeof(Ray));
-    plan.buffer(carried_, "shadow ray irradiance", uint64_t(batch) * 4 * sizeof(float));
-    plan.buffer(occluded_, "shadow ray results", uint64_t(batch) * sizeof(uint32_t));
-    paneTransmittance_.plan(plan, batch);
+void SurfelDirectLight::plan(PassPlan& plan, uint32_t maxSurfels) {
+    plan.buffer(rays_, "shadow rays", uint64_t(maxSurfels) * sizeof(Ray));
+    plan.buffer(contributions_, "shadow ray irradiance", uint64_t(maxSurfels) * 4 * sizeof(float));
+    plan.buffer(occluded_, "shadow ray results", uint64_t(maxSurfels) * sizeof(uint32_t));
+    paneTransmittance_.plan(plan, maxSurfels);
 }
 
-void SurfelDirectLight::measure(PassContext& context, const std::vector<LightSource>& sources,
-                                const Buffer& surfels, uint32_t count, uint32_t samples, uint32_t seed,
-                                const Buffer& direct) const {
+void SurfelDirectLight::measure(PassContext& context, const std::vector<LightSource>& sources, const Buffer& surfels,
+                                uint32_t count, uint32_t samples, uint32_t seed, const Buffer& direct) const {
     CommandStream& stream = context.stream;
     stream.fill(direct, 0);
     for (const LightSource& source : sources) {
         const bool punctual = source.kind == LightSource::Punctual;
         for (uint32_t s = 0; s < (punctual ? 1 : samples); ++s) {
-            context.dispatch(aim_, count,
+            context.dispatch(generateRays_, count,
                              {context.scene,
                               {"surfels", surfels},
                               {"rays", rays_},
-                              {"carried", carried_},
+                              {"contributions", contributions_},
                               {"count", count},
                               {"kind", source.kind},
                               {"light", punctual ? source.light : s},
@@ -34,10 +33,10 @@ void SurfelDirectLight::measure(PassContext& context, const std::vector<LightSou
                               {"emitterCount", context.scene.emitterCount},
                               {"seed", seed + source.kind}});
             context.tracer.occluded(stream, rays_, occluded_, count);
-            paneTransmittance_.apply(context, rays_, carried_, 4, count);
+            paneTransmittance_.apply(context, rays_, contributions_, 4, count);
             context.dispatch(
-                add_, count,
-                {{"carried", carried_}, {"occluded", occluded_}, {"direct", direct}, {"count", count}});
+                accumulate_, count,
+                {{"contributions", contributions_}, {"occluded", occluded_}, {"direct", direct}, {"count", count}});
         }
     }
 }

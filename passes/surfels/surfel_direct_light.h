@@ -13,15 +13,15 @@ class SurfelDirectLight {
  public:
     explicit SurfelDirectLight(ProgramOwner& owner);
 
-    /// @param batch surfels in one call of measure(), at most.
-    void plan(PassPlan& plan, uint32_t batch);
-    /// Writes the irradiance, W/m², of the first `count` surfels to `direct`, 4 floats each.
-    void measure(PassContext& context, const std::vector<LightSource>& sources, const Buffer& surfels,
-                 uint32_t count, uint32_t samples, uint32_t seed, const Buffer& direct) const;
+    /// @param maxSurfels in one call of measure().
+    void plan(PassPlan& plan, uint32_t maxSurfels);
+    /// Writes the irradiance of `count` surfels to `direct`, W/m², 4 floats each.
+    void measure(PassContext& context, const std::vector<LightSource>& sources, const Buffer& surfels, uint32_t count,
+                 uint32_t samples, uint32_t seed, const Buffer& direct) const;
 
  private:
-    Kernel aim_, add_;
-    Buffer rays_, carried_, occluded_;
+    Kernel generateRays_, accumulate_;
+    Buffer rays_, contributions_, occluded_;
     PaneTransmittance paneTransmittance_;
 };
 

@@ -11,8 +11,8 @@ void SurfelInjection::plan(PassPlan& plan, const std::string& pass, const WriteP
                            const SurfaceVoxels& voxels) {
     VoxelAccumulator::plan(plan, pass, params);
     write_.define(VoxelAccumulator::defines(params.write));
-    directSums_.emplace(owner_, params);
-    indirectSums_.emplace(owner_, params);
+    direct_.emplace(owner_, params);
+    indirect_.emplace(owner_, params);
     plan.estimate(voxels.estimatedCount * VoxelIrradiance::bytes(1));
 }
 
@@ -21,34 +21,36 @@ void SurfelInjection::begin(PassContext& context, const PathScene& scene, VoxelI
     irradiance.allocate(context.device, voxels.voxelCount);
     context.stream.fill(irradiance.area, 0);
     const float typicalIrradiance = meanIrradiance(scene.sources, context.frame.scene->geometry);
-    directSums_->begin(context.device, context.stream, voxels, typicalIrradiance);
-    indirectSums_->begin(context.device, context.stream, voxels, typicalIrradiance);
+    direct_->begin(context.device, context.stream, voxels, typicalIrradiance);
+    indirect_->begin(context.device, context.stream, voxels, typicalIrradiance);
 }
 
 void SurfelInjection::writeDirect(PassContext& context, const Buffer& surfels, uint32_t count,
                                   const Buffer& irradiance) const {
-    write(context, *directSums_, surfels, count, irradiance);
+    write(context, *direct_, surfels, count, irradiance);
 }
 
 void SurfelInjection::writeIndirect(PassContext& context, const Buffer& surfels, uint32_t count,
                                     const Buffer& irradiance) const {
-    write(context, *indirectSums_, surfels, count, irradiance);
+    write(context, *indirect_, surfels, count, irradiance);
 }
 
-void SurfelInjection::write(PassContext& context, const VoxelAccumulator& sums, const Buffer& surfels,
+void SurfelInjection::write(PassContext& context, const VoxelAccumulator& accumulator, const Buffer& surfels,
                             uint32_t count, const Buffer& irradiance) const {
-    context.dispatch(
-        write_, count,
-        {sums, {"surfels", surfels}, {"irradiance", irradiance}, {"count", count}, {"scale", sums.scale()}});
+    context.dispatch(write_, count,
+                     {accumulator,
+                      {"surfels", surfels},
+                      {"irradiance", irradiance},
+                      {"count", count},
+                      {"scale", accumulator.scale()}});
 }
 
-void SurfelInjection::finish(PassContext& context, const SurfaceVoxels& voxels,
-                             const VoxelIrradiance& irradiance) {
-    directSums_->resolve(context.stream, voxels, irradiance.direct, irradiance.area);
-    indirectSums_->resolve(context.stream, voxels, irradiance.indirect, irradiance.area);
+void SurfelInjection::finish(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance) {
+    direct_->resolve(context.stream, voxels, irradiance.direct, irradiance.area);
+    indirect_->resolve(context.stream, voxels, irradiance.indirect, irradiance.area);
     context.stream.finish();
-    directSums_->end();
-    indirectSums_->end();
+    direct_->end();
+    indirect_->end();
 }
 
 void SurfelInjection::fillUnknown(PassContext& context, const SurfaceVoxels& voxels,

@@ -6,16 +6,17 @@
 
 namespace voxray {
 
-/// Lists the surfels of each voxel.
+/// Sorts surfels by voxel (counting sort), and within a voxel by id.
 class SurfelSort {
  public:
     explicit SurfelSort(ProgramOwner& owner);
 
-    /// Fills the lists. Waits for the device. @param voxels that hold the surfels.
-    void run(CommandStream& stream, const Surfels& surfels, uint32_t voxels, SurfelsByVoxel& lists) const;
+    /// Fills all of `result` but SurfelsByVoxel::packed. Waits for the device. @param voxels number of
+    /// surface voxels.
+    void run(CommandStream& stream, const Surfels& surfels, uint32_t voxels, SurfelsByVoxel& result) const;
 
  private:
-    Kernel count_, sort_, order_;
+    Kernel count_, scatter_, sortVoxel_;
     PrefixSum prefixSum_;
 };
 

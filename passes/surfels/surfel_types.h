@@ -8,15 +8,13 @@ VOXRAY_SHARED_BEGIN
 
 // A point on one side of a surface.
 struct Surfel {
-    vec3 position;     // m; so far off its surface that rays may begin there (SurfacePoint::offset).
-    uint voxel;        // Number of its voxel, or NO_VOXEL.
-    vec3 normal;       // Unit length, on the lit side; geometric, at hits the shading normal.
-    uint id;           // Picks its random numbers; unique among surfels that are handled together.
-    vec3 reflectance;  // Diffuse albedo; of a path's vertex times those before it, over the chance to get
-                       // here.
-    uint parent;       // Index of the gather ray, of the path, or of the vertex before.
-    float area;  // Of surface that it stands for, 1 where surfels are spread evenly over all surfaces; 0:
-                 // covered (place_surfels).
+    vec3 position;     // m; off the surface, where rays may begin (SurfacePoint::offset).
+    uint voxel;        // Index of its surface voxel, or NO_VOXEL.
+    vec3 normal;       // Unit length, on the surfel's side; geometric, or the shading normal at a ray's hit.
+    uint id;           // Seed of its random numbers; unique among surfels of a dispatch.
+    vec3 reflectance;  // Diffuse albedo; of a path vertex the throughput of the path, its albedo included.
+    uint parent;       // Index of the gather ray, the path or the previous vertex.
+    float area;        // Surface that it stands for; 1: as one of place_surfels; 0: it is occluded.
 };
 
 VOXRAY_SHARED_END

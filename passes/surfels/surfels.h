@@ -7,23 +7,24 @@
 
 namespace voxray {
 
-/// Points on the sides of surfaces that open space lies before, spread evenly over their area: where the
-/// irradiance of voxels is measured. Each stands for the same area. Covered sides may be among them, with
-/// area 0: no voxel's irradiance is theirs.
+/// Surfels (Pfister et al. 2000): points distributed evenly over the area of all surfaces, on both of their
+/// sides, where irradiance is measured. All stand for the same area, except for occluded ones, which have
+/// another surface within a voxel before them: they stand for none, and are left out of the irradiance of
+/// voxels.
 struct Surfels : Resource {
     std::string indexedBy() const override { return "voxels"; }
 
     struct Chunk {
         Buffer surfels;  ///< gpu::Surfel each.
         uint32_t count = 0;
+        uint32_t firstIndex = 0;  ///< Number of surfels in the chunks before.
     };
-    /// Surfels of a chunk, at most.
     static constexpr uint32_t kMaxChunkSurfels = 1u << 18;
     std::vector<Chunk> chunks;
     uint64_t count = 0;               ///< Of all chunks.
-    uint64_t pointCount = 0;          ///< Points that were spread: each has a surfel on either side, at most.
-    double estimatedCount = 0;        ///< About as many surfels, for estimates of memory. Set in plan().
-    bool hasOccludedSurfels = false;  ///< Whether covered sides have surfels. Set in plan().
+    uint64_t pointCount = 0;          ///< Of points; each has at most one surfel on either side.
+    double estimatedCount = 0;        ///< Of surfels, for estimates of memory. Set in plan().
+    bool hasOccludedSurfels = false;  ///< Set in plan().
 };
 
 }  // namespace voxray

@@ -1,31 +1,33 @@
 #pragma once
 
+#include <limits>
+
 #include "graph/pass.h"
 #include "passes/common/compute/large_buffer.h"
 #include "passes/surfels/sorted_surfels.h"
 
 namespace voxray {
 
-/// The surfels that lie in each voxel. Surfels without a voxel are left out.
+/// Surfels sorted by voxel, without those that have no voxel.
 struct SurfelsByVoxel : Resource {
     std::string indexedBy() const override { return "voxels"; }
 
-    bool hasOccludedSurfels = false;  ///< Whether covered sides have surfels. Set in plan().
+    static constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+
+    bool hasOccludedSurfels = false;  ///< Set in plan().
     uint32_t sortedCount = 0;
-    Buffer lists;        ///< By voxel: its first slot, and the one after its last; two uint32_t.
-    LargeBuffer sorted;  ///< gpu::SortedSurfel in each slot; within a voxel by rising id.
-    LargeBuffer packed;  ///< What lookups read of them (passes/surfels/packed_surfel.glsl): 8 bytes a slot.
-    LargeBuffer sortedIndices;  ///< Slot of each surfel by its number, or SurfelLinks::kNone; uint32_t.
+    Buffer lists;               ///< By voxel: range [begin, end) of `sorted`; two uint32_t.
+    LargeBuffer sorted;         ///< gpu::SortedSurfel each; within a voxel by ascending id.
+    LargeBuffer packed;         ///< PackedSurfels (packed_surfel.glsl) in the same order; 8 bytes each.
+    LargeBuffer sortedIndices;  ///< By surfel of Surfels: its index in `sorted`, or kNone; uint32_t.
 };
 
-/// Light that arrives at surfels, in the slots of SurfelsByVoxel.
+/// Light that arrives at surfels, in the order of SurfelsByVoxel::sorted.
 struct SurfelIrradiance : Resource {
     std::string indexedBy() const override { return "surfels_by_voxel"; }
 
-    LargeBuffer
-        lit;  ///< Surfel and its indirect irradiance, W/m² (LitSurfels, packed_surfel.glsl): 12 bytes.
-    /// Of a surfel's irradiance, roughly, before smooth_surfels. Set in plan().
-    float relativeVariance = 0;
+    LargeBuffer lit;             ///< LitSurfels (packed_surfel.glsl): indirect irradiance, W/m²; 12 bytes each.
+    float relativeVariance = 0;  ///< Of a surfel's irradiance before smooth_surfels, roughly. Set in plan().
 };
 
 }  // namespace voxray

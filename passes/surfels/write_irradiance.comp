@@ -1,11 +1,11 @@
-// Leaves the irradiance of surfels in their voxels, each by the area that it stands for where the way of merging knows weights.
+// Writes the irradiance of surfels to their voxels, averages weighted by area.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/surfel_types.h"
 #include "shaders/voxels/voxel_accumulator.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(scalar) readonly buffer Irradiance { vec4 data[]; } irradiance;
+layout(scalar) readonly buffer Irradiance { vec4 data[]; } irradiance;  // W/m²
 layout(push_constant) uniform Push {
     uint count;
     float scale;

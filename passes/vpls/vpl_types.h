@@ -6,13 +6,12 @@
 
 VOXRAY_SHARED_BEGIN
 
-// A surface point that stands for the light that the surface reflects there: radiant intensity flux * cos /
-// pi, W/sr.
+// A surface point that emits the light that the surface reflects there: radiant intensity flux * cos / pi,
+// W/sr.
 struct Vpl {
-    vec3 position;    // m, offset off the surface: rays may begin here (SurfacePoint::offset).
-    vec3 normal;      // Unit shading normal, from which the cosine is measured.
-    vec3 faceNormal;  // Unit normal of the triangle, on the same side. No light is sent below it.
-    vec3 flux;        // Reflected, W.
+    vec3 position;  // m; off the surface, where rays may begin (SurfacePoint::offset).
+    vec3 normal;    // Unit normal of the triangle, or of the voxel, on the lit side.
+    vec3 flux;      // Reflected, W.
 };
 
 VOXRAY_SHARED_END

@@ -7,16 +7,15 @@
 
 namespace voxray {
 
-/// Virtual point lights (Keller 1997) for all of the scene's indirect light, up to a number of bounces. GLSL:
-/// passes/vpls/vpls.glsl.
+/// Virtual point lights (Keller 1997) for the scene's indirect light of up to `bounces` bounces: the vertices
+/// of light paths. Vertex b of path p has the index p * bounces + b. Members but the last are known from
+/// plan() on. GLSL: passes/vpls/vpls.glsl.
 struct Vpls : Resource {
-    uint32_t paths = 0;     ///< Light paths whose vertices they are. After select_vpls: the number of lights
-                            ///< that it keeps at most, each a path of its own. Known from plan() on.
-    float areaPerPath = 0;  ///< Surface area for each light of a bounce, m²; known from plan() on.
-    uint32_t bounces = 0;   ///< Maximum vertices of a path; known from plan() on.
-    LargeBuffer points;     ///< gpu::Vpl each; flux is 0 for the vertices that a path did not reach.
-    Buffer activeIndices;  ///< Indices of the points with flux, ascending. Vertex b of path p has the index p
-                           ///< * bounces + b.
+    uint32_t paths = 0;        ///< After select_vpls: the most lights that it selects, each a path by itself.
+    uint32_t bounces = 0;      ///< Maximum vertices of a path.
+    float areaPerPath = 0;     ///< Surface area over the number of lights of a bounce, m².
+    LargeBuffer points;        ///< gpu::Vpl each; flux is 0 for vertices that a path did not reach.
+    Buffer activeIndices;      ///< Indices of the points with flux, ascending.
     uint32_t activeCount = 0;  ///< Of `activeIndices`; known once sample_vpls has recorded.
 
     std::vector<const Buffer*> checkedBuffers() const override { return {&points}; }

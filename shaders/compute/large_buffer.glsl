@@ -1,8 +1,7 @@
-// Arrays that outgrow what devices bind at once: a block that holds nothing but the address is bound in their place
+// Arrays that may exceed maxStorageBufferRange: a block that holds only their address is bound in their place
 // (passes/common/compute/large_buffer.h).
 #ifndef VOXRAY_LARGE_BUFFER_GLSL
 #define VOXRAY_LARGE_BUFFER_GLSL
-
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LargeFloats { float data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer LargeUints { uint data[]; };

@@ -1,4 +1,4 @@
-// Statistics of the rays that irradiance was gathered with, shared by C++ and GLSL.
+// Statistics of gather rays for the irradiance filter, shared by C++ and GLSL.
 #ifndef VOXRAY_SHARED_RAY_MOMENTS_H
 #define VOXRAY_SHARED_RAY_MOMENTS_H
 
@@ -6,8 +6,8 @@
 
 VOXRAY_SHARED_BEGIN
 
-// Sums over the rays of a block of texels. L: luminance of what a ray brings, π times its radiance, W/m²; r:
-// distance of its hit, m (1/r is 0 for a miss).
+// Sums over the rays of a block of texels. L: π times the luminance of a ray's radiance, W/m²; r: distance of
+// its hit, m (1/r is 0 for a miss).
 struct RayMoments {
     float rays;                   // Sum of 1
     float luminance;              // L

@@ -7,16 +7,16 @@
 
 VOXRAY_SHARED_BEGIN
 
-// Square. `right`, `up` and `forward` are of unit length and at right angles.
+// A square view. `right`, `up` and `forward` are orthonormal.
 struct LightView {
-    vec3 origin;       // The light, or the center of the disc that parallel light starts from.
-    float halfExtent;  // Of the view: m for parallel light, else at a distance of 1 m.
+    vec3 origin;       // The light's position, m; of parallel light the center of its near plane.
+    float halfExtent;  // m; of perspective views at a distance of 1 m.
     vec3 right;
-    float nearest;  // m, along `forward`, as `farthest`.
+    float nearest;  // Near plane, m along `forward`.
     vec3 up;
-    float farthest;
+    float farthest;  // Far plane, m along `forward`.
     vec3 forward;
-    uint parallel;
+    uint parallel;  // 1: orthographic; 0: perspective.
 };
 
 VOXRAY_SHARED_END

@@ -6,16 +6,16 @@
 
 VOXRAY_SHARED_BEGIN
 
-// A view of a punctual light of the scene.
+// A view of a punctual light.
 struct RsmView {
     LightView view;
-    uint light;
+    uint light;     // Index in the scene.
     uint cubeFace;  // In the order +x -x +y -y +z -z; 6: the view is not one of a cube's.
 };
 
-// The point that a texel sees.
+// The visible point of a texel.
 struct RsmTexel {
-    uint triangle;  // NO_HIT: none.
+    uint triangle;  // NO_HIT: no surface.
     vec2 barycentrics;
     uint unused;
 };

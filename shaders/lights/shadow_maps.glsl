@@ -6,26 +6,27 @@
 #include "shaders/lights/light_view.glsl"
 
 struct ShadowLight {
-    uint light;  // Of the scene's.
+    uint light;  // Index in the scene.
     uint firstView;
-    uint views;  // 6: a cube's sides.
+    uint views;  // 6: the faces of a cube map.
 };
 layout(scalar) readonly buffer ShadowLights {
-    uint resolution;  // Texels a side.
+    uint resolution;  // Texels along an edge of a view.
     uint count;
     ShadowLight data[];
 } shadowLights;
 layout(scalar) readonly buffer ShadowViews { LightView data[]; } shadowViews;
-// By view and texel: depth relative to the view's farthest.
+// By view and texel: depth over LightView::farthest.
 layout(scalar) readonly buffer ShadowDepthsRef { LargeFloats shadowDepths; };
 
-// Whether a light sees a surface's point, by the texel that it falls into. @param normal of the side that faces the light.
+// Shadow test of a surface point, by the texel that it projects to. @param normal on the side that faces the light.
 bool passesShadowTest(ShadowLight l, vec3 position, vec3 normal) {
     const uint resolution = shadowLights.resolution;
-    const uint at = l.firstView + (l.views == 6u ? cubeFace(position - shadowViews.data[l.firstView].origin) : 0u);
-    const LightView view = shadowViews.data[at];
-    const ivec2 texel = clamp(ivec2(floor(inTexels(view, resolution, position))), ivec2(0), ivec2(resolution) - 1);
-    const float depth = shadowDepths.data[(at * resolution + uint(texel.y)) * resolution + uint(texel.x)];
+    const uint index = l.firstView + (l.views == 6u ? cubeFace(position - shadowViews.data[l.firstView].origin) : 0u);
+    const LightView view = shadowViews.data[index];
+    const ivec2 texel =
+        clamp(ivec2(floor(texelCoordinates(view, resolution, position))), ivec2(0), ivec2(resolution) - 1);
+    const float depth = shadowDepths.data[(index * resolution + uint(texel.y)) * resolution + uint(texel.x)];
     return texelPassesShadowTest(view, resolution, texel, depth, position, normal);
 }
 

@@ -1,7 +1,8 @@
-// The octree of bricks as published (Arnebäck 2017, section 3.1.1): bricks of 3x3x3 values of 8 bits a channel stand at a node's
-// corners, the centers of its edges and faces, and its own, so that a brick alone can be interpolated in.
+// The octree of bricks as published (Arnebäck 2017, section 3.1.1). A brick holds 3x3x3 values, 8 bits a channel, at
+// its node's corners and at the centers of its edges, of its faces and of itself. So interpolation needs one brick
+// only.
 //
-//        a --- b --- c --- d --- e       Two nodes. c, h and m stand in both bricks, and must be equal there.
+//        a --- b --- c --- d --- e       Two nodes. c, h and m are stored in both bricks, with the same values.
 //        |     |     |     |     |
 //        f --- g --- h --- i --- j
 //        |     |     |     |     |
@@ -9,17 +10,16 @@
 #ifndef VOXRAY_BRICK_OCTREE_GLSL
 #define VOXRAY_BRICK_OCTREE_GLSL
 
-
 #include "shaders/octree/brick_octree_types.h"
 #include "shaders/octree/octree_cells.glsl"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BrickNodes { BrickNode data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer Bricks { uint data[]; };
 
-// Where a value of a brick stands; `at`: 0 to 2 along each axis.
-uint brickIndex(uint brick, ivec3 at) { return brick * BRICK_VALUES + uint((at.z * 3 + at.y) * 3 + at.x); }
+// Index of a brick's value; `texel`: 0 to 2 along each axis.
+uint brickIndex(uint brick, ivec3 texel) { return brick * BRICK_VALUES + uint((texel.z * 3 + texel.y) * 3 + texel.x); }
 
-// A node by its number among those of its level, and back.
+// From a node's index in its level to its index in the pool, and back.
 uint levelNode(LevelNodes level, uint i) {
     return i < level.staticCount ? level.staticFirst + i : level.dynamicFirst + i - level.staticCount;
 }
@@ -29,21 +29,22 @@ uint indexInLevel(LevelNodes level, uint node) {
 }
 uint nodesOf(LevelNodes level) { return level.staticCount + level.dynamicCount; }
 
-// The node `levels` below the root, by descent; NO_BRICK_NODE where there is none. `cell`: its place on its level.
+// The node at `depth` (root: 0) with the coordinates `cell` in its level, by descent; NO_BRICK_NODE where there is
+// none.
 #define NO_BRICK_NODE 0xffffffffu
-uint findNode(BrickNodes nodes, ivec3 cell, uint levels) {
+uint findNode(BrickNodes nodes, ivec3 cell, uint depth) {
     uint node = 0u;
-    for (uint below = levels; below > 0u; --below) {
+    for (uint remaining = depth; remaining > 0u; --remaining) {
         const uint first = nodes.data[node].firstChild;
         if (first == NO_CHILDREN) return NO_BRICK_NODE;
-        node = first + octantOf(cell >> (below - 1u));
+        node = first + octantOf(cell >> (remaining - 1u));
     }
     return node;
 }
 
 // The brick of that node; NO_BRICK where there is none.
-uint findBrick(BrickNodes nodes, ivec3 cell, uint levels) {
-    const uint node = findNode(nodes, cell, levels);
+uint findBrick(BrickNodes nodes, ivec3 cell, uint depth) {
+    const uint node = findNode(nodes, cell, depth);
     return node == NO_BRICK_NODE ? NO_BRICK : nodes.data[node].brick;
 }
 

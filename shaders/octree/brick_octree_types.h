@@ -5,26 +5,25 @@
 
 #include "shaders/shared/types.h"
 
-#define NO_CHILDREN 0u  // Number 0 is the root: nobody's child or neighbour.
+#define NO_CHILDREN 0u  // Index 0 is the root, which is no node's child or neighbor.
 #define NO_NEIGHBOR 0u
 #define NO_BRICK 0xffffffffu
 #define BRICK_VALUES 27u
-#define STATIC_LEAF 0x40000000u  // A bit of `cell`: a leaf that surfaces pass through which stay.
+#define STATIC_LEAF 0x40000000u  // Bit of BrickNode::cell: a leaf that holds static surfaces.
 
 VOXRAY_SHARED_BEGIN
 
 // Arnebäck 2017, listing 2, in its order: 11 words.
 struct BrickNode {
-    uint firstChild;  // Of eight, octants x + 2 y + 4 z.
+    uint firstChild;  // Index of the first of eight, in octant order x + 2 y + 4 z.
     uint brick;
-    uint neighbor[6];  // Of the same level: +x +y +z -x -y -z.
-    uint color;        // Of a leaf: mean of its fragments as RGBA8, their number in alpha; 0 without any, ...
-    uint normal;       // ... likewise. Both are 0 where materials are kept by surface voxel.
-    uint cell;         // Its place on its level, 10 bits an axis; the thesis has its center.
+    uint neighbor[6];  // In the same level: +x +y +z -x -y -z.
+    uint color;        // Of a leaf: mean over its fragments as RGBA8, their number in alpha; 0 without fragments.
+    uint normal;       // Likewise. Both are 0 where surface voxels hold the materials.
+    uint cell;         // Coordinates in its level, 10 bits each; the thesis stores its center.
 };
 
-// The nodes of a level: in the static section of the node pool, and in the dynamic one, which stands behind
-// all of it.
+// The nodes of a level in the static section of the node pool, and in the dynamic section behind it.
 struct LevelNodes {
     uint staticFirst;
     uint staticCount;

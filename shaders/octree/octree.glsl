@@ -1,37 +1,34 @@
-// Access to the structure of a sparse voxel octree (docs/svo.md): which voxels there are on each level, without any values. Nodes
-// are numbered from 1 on, breadth first, root first: the children of a node follow each other, and so do those of neighbours in the
-// numbering. Whoever stores values has an array by number. A node above level 0 is a word: the mask of its children in 8 bits and
-// the number of the first of them in 24. So 0 is a node without anything, and number 0 is none.
+// The structure of a sparse voxel octree (docs/svo.md): the nonempty voxels of each level, without values. Values are
+// arrays indexed by node. Nodes are indexed from 1, breadth first from the root, so that the children of a node are
+// consecutive. The word of a node above level 0 holds the mask of its children in the low 8 bits and the index of the
+// first child in the upper 24. A word of 0 is an empty voxel; index 0 is NO_NODE.
 //
-// A node may also stand for all below it, where whoever stores values found them to be uniform (passes/cones/filter_voxels/svo_collapse.h):
-// then its word has no mask and its own number. An octree as it is built has none of these.
+// A uniform node replaces its descendants (passes/cones/filter_voxels/svo_collapse.h): its word has an empty mask and
+// its own index. OctreeBuilder makes none.
 //
-// From one level on up the words also stand in a table, by voxel: a full grid for each level with a border of one voxel, up to
-// one level above the root.
+// A table holds the words of levels from tableLevel up as well, by voxel: for each of these levels, and for one level
+// above the root, a full grid with a border of one voxel.
 //
-// A leaf leads to its surface voxel by its coordinates, a list of its own (Octree::leafVoxels; unpackCell()), and voxelNumber() of
-// shaders/voxels/voxels.glsl; a voxel leads to its leaf by octreeLeaf().
-//
-// The arrays stand behind addresses, since they outgrow what devices bind.
+// The voxel of a leaf is in Octree::leafVoxels, packed by packCell().
 #ifndef VOXRAY_OCTREE_GLSL
 #define VOXRAY_OCTREE_GLSL
-
 
 #include "shaders/octree/octree_cells.glsl"
 #include "shaders/octree/octree_types.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer OctreeWords { uint data[]; };
 
+// Arrays by address: they may exceed maxStorageBufferRange.
 layout(scalar) readonly buffer Octree {
     OctreeWords table;
-    OctreeWords nodes;  // By number, those above level 0.
+    OctreeWords nodes;  // Words of the nodes above level 0.
     OctreeShape shape;
 } octree;
 
 uint octreeMask(uint word) { return word & 0xffu; }
 bool isUniform(uint word) { return word != 0u && octreeMask(word) == 0u; }
 
-// Number of a child, NO_NODE where it is empty; of a uniform node, itself.
+// Index of a child; NO_NODE where it is empty. The child of a uniform node is the node itself.
 uint octreeChild(uint word, uint octant) {
     const uint mask = octreeMask(word), bit = 1u << octant, first = word >> 8;
     if (mask == 0u) return first;
@@ -41,18 +38,19 @@ uint octreeChild(uint word, uint octant) {
 // Voxels of a level along each axis.
 ivec3 octreeSize(uint level) { return ivec3((octree.shape.resolution + ((1u << level) - 1u)) >> level); }
 
-// Whether a voxel is in a level or an adjacent one.
+// Whether a voxel is in a level's grid or in the border of one voxel around it.
 bool inOctreeBorder(ivec3 voxel, uint level) {
     return all(greaterThanEqual(voxel, ivec3(-1))) && all(lessThanEqual(voxel, octreeSize(level)));
 }
 
-// Where the word of a voxel stands in the table, for a level from the table's on up; the voxel may be in the border.
+// Index in the table of the word of a voxel, which may be in the border. `level`: tableLevel or above.
 uint octreeTableEntry(ivec3 voxel, uint level) {
-    const uvec3 size = uvec3(octreeSize(level) + 2), at = uvec3(voxel + 1);
-    return octree.shape.tableFirst[level - octree.shape.tableLevel] + (at.z * size.y + at.y) * size.x + at.x;
+    const uvec3 size = uvec3(octreeSize(level) + 2), cell = uvec3(voxel + 1);
+    return octree.shape.tableFirst[level - octree.shape.tableLevel] + (cell.z * size.y + cell.y) * size.x + cell.x;
 }
 
-// The word of a voxel of a level above 0, in the level or its border: 0 where it is empty; of a coarser node where that is uniform.
+// The word of a voxel of a level above 0, which may be in the border: 0 where it is empty; that of a uniform ancestor,
+// if there is one.
 uint octreeWord(ivec3 voxel, uint level) {
     const uint top = max(level, octree.shape.tableLevel);
     uint word = octree.table.data[octreeTableEntry(voxel >> (top - level), top)];
@@ -60,13 +58,14 @@ uint octreeWord(ivec3 voxel, uint level) {
     return word;
 }
 
-// The numbers of the eight voxels from `corner` on, by octant; whether there is any node. This is where the time of a sample goes:
-// what the eight have in common is worked out once, and where the table's level allows there is no descent.
+// Nodes of the 2x2x2 voxels from `corner` on, by octant; false where all are empty. The inner loop of cone tracing: all
+// eight share one computation of table rows, and there is no descent for levels whose parents are in the table.
 bool octreeNodes(ivec3 corner, uint level, out uint node[8]) {
     const uint top = max(level + 1u, octree.shape.tableLevel), up = top - level;
     const ivec3 size = octreeSize(top) + 2, low = (corner >> up) + 1, high = ((corner + 1) >> up) + 1;
     const uint first = octree.shape.tableFirst[top - octree.shape.tableLevel];
-    const uvec2 x = uvec2(low.x, high.x), y = size.x * uvec2(low.y, high.y), z = first + size.x * size.y * uvec2(low.z, high.z);
+    const uvec2 x = uvec2(low.x, high.x), y = size.x * uvec2(low.y, high.y),
+                z = first + size.x * size.y * uvec2(low.z, high.z);
     for (uint cell = 0u; cell < 8u; ++cell)
         node[cell] = octree.table.data[x[cell & 1u] + y[cell >> 1 & 1u] + z[cell >> 2]];
     uint found = 0u;
@@ -78,14 +77,6 @@ bool octreeNodes(ivec3 corner, uint level, out uint node[8]) {
         found |= node[cell];
     }
     return found != 0u;
-}
-
-// The leaf of a voxel of the grid, counted from 0 on; NO_LEAF where the voxel is empty or not in the grid.
-#define NO_LEAF 0xffffffffu
-uint octreeLeaf(ivec3 voxel) {
-    if (any(lessThan(voxel, ivec3(0))) || any(greaterThanEqual(voxel, ivec3(octree.shape.resolution)))) return NO_LEAF;
-    const uint node = octreeChild(octreeWord(voxel >> 1, 1u), octantOf(voxel));
-    return node == NO_NODE ? NO_LEAF : node - octree.shape.firstLeaf;
 }
 
 #endif

@@ -1,4 +1,4 @@
-// A voxel of an octree's level in a word: 10 bits for each coordinate.
+// Coordinates of an octree's voxels packed in a word, 10 bits each; octants.
 #ifndef VOXRAY_OCTREE_CELLS_GLSL
 #define VOXRAY_OCTREE_CELLS_GLSL
 

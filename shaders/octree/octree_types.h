@@ -6,20 +6,20 @@
 #include "shaders/shared/types.h"
 
 #define OCTREE_MAX_LEVELS 11u       // 1024 voxels along an axis.
-#define OCTREE_MAX_NODES 0xffffffu  // Numbers have 24 bits.
+#define OCTREE_MAX_NODES 0xffffffu  // Indices have 24 bits.
 #define NO_NODE 0u
 
 VOXRAY_SHARED_BEGIN
 
-// A node is a voxel of a level that is not empty. Level 0 has the voxels of the grid, its nodes are the
-// leaves; the root is the one node of the last level.
+// A node is a nonempty voxel of a level. The leaves are the nodes of level 0, the voxels of the grid; the
+// root is that of the last level.
 struct OctreeShape {
     uvec3 resolution;  // Voxels of the grid.
     uint levels;
-    uint nodeCount;                           // Of all levels and NO_NODE: one more than the largest number.
-    uint firstLeaf;                           // Number of the first leaf; leaves come last.
-    uint tableLevel;                          // From this level on up, nodes are found by a table.
-    uint tableFirst[OCTREE_MAX_LEVELS + 1u];  // Where the table of level tableLevel + i begins.
+    uint nodeCount;                           // Of all levels, including NO_NODE.
+    uint firstLeaf;                           // Index of the first leaf; leaves come last.
+    uint tableLevel;                          // Finest level of the table.
+    uint tableFirst[OCTREE_MAX_LEVELS + 1u];  // Index in the table of the first entry of level tableLevel + i.
 };
 
 VOXRAY_SHARED_END

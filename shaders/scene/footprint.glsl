@@ -1,12 +1,12 @@
-// Mip levels from the area that a texture lookup stands for.
+// Mip levels of texture lookups from footprints.
 #ifndef VOXRAY_FOOTPRINT_GLSL
 #define VOXRAY_FOOTPRINT_GLSL
 
 #include "shaders/scene/scene.glsl"
 
-// The mip level at which one texel covers `area` (m²) of the surface; 0 where texels are larger than that. The level is that
-// of a square of the same area, whatever the patch's shape: at grazing angles it lies between the sharp level of the patch's
-// width and the blurred one of its length.
+// The mip level whose texels have the area of the footprint, `area` m² on the surface; 0 where even texels of level 0
+// are larger. The filter is isotropic: at grazing angles the level is between that of the footprint's width and that of
+// its length.
 float footprintLevel(GpuTextureRef ref, SurfacePoint s, float area) {
     if (ref.texture == NO_TEXTURE) return 0.0;
     const float density = (ref.texCoord == 0u ? s.uvDensity.x : s.uvDensity.y) *

@@ -1,4 +1,4 @@
-// Rays that a specular lobe sends out.
+// Sampling of specular lobes.
 #ifndef VOXRAY_LOBE_RAY_GLSL
 #define VOXRAY_LOBE_RAY_GLSL
 
@@ -7,21 +7,22 @@
 
 struct LobeRay {
     vec3 direction;    // Unit length.
-    vec3 weight;       // Radiance reflected over radiance that arrives along the ray; 0 where it is lost below the surface.
-    float solidAngle;  // Of the cone about it that stands for it among `rays` of its kind; 0 of a mirror.
+    vec3
+        weight;  // BRDF times cosine over the density: reflected over incident radiance; 0 for a ray below the surface.
+    float solidAngle;  // Of the ray's footprint, sr; 0 for a mirror.
 };
 
-// Towards `out_`, on a surface with shading normal `n` (not leaning away from it) and geometric normal `side`. Half vectors are
-// drawn from the visible ones, so that the weight is Fresnel's term times the masking of the ray alone. What a ray stands for is one
-// over the density at the lobe's peak (Křivánek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling"): in its tails
-// cones would be so wide that the surface itself blocks them. The cone is half as wide, for its direction wanders through all of that,
-// and the full width would blur twice.
-LobeRay lobeRay(Specular s, vec3 n, vec3 side, vec3 out_, vec2 u, uint rays) {
+// One of `rays` samples of the lobe towards `out_`, on a surface with shading normal `n` (facing out_) and geometric
+// normal `ng`, by visible half vectors: the weight is Fresnel's term times the masking of the incident direction. The
+// footprint is 1 / (rays * density) with the density at the lobe's peak (Křivánek and Colbert 2008, "Real-time Shading
+// with Filtered Importance Sampling"): in the tails cones would be so wide that the surface itself occludes them. A
+// quarter of it, half the width, is taken: samples are distributed over the lobe, and the full width would blur twice.
+LobeRay lobeRay(Specular s, vec3 n, vec3 ng, vec3 out_, vec2 u, uint rays) {
     LobeRay ray = LobeRay(n, vec3(0.0), 0.0);
     const float cosOut = min(dot(n, out_), 1.0);
     if (isMirror(s)) {
         ray.direction = reflect(-out_, n);
-        if (dot(ray.direction, side) > 0.0) ray.weight = specularFresnel(s, schlickWeight(cosOut));
+        if (dot(ray.direction, ng) > 0.0) ray.weight = specularFresnel(s, schlickWeight(cosOut));
         return ray;
     }
     const float alpha = specularAlpha(s);
@@ -32,10 +33,11 @@ LobeRay lobeRay(Specular s, vec3 n, vec3 side, vec3 out_, vec2 u, uint rays) {
     const float cosHalf = dot(local, half_);
     const vec3 in_ = 2.0 * cosHalf * half_ - local;
     ray.direction = normalize(in_.x * tangent + in_.y * bitangent + in_.z * n);
-    if (in_.z <= 0.0 || dot(ray.direction, side) <= 0.0) return ray;
+    if (in_.z <= 0.0 || dot(ray.direction, ng) <= 0.0) return ray;
 
     const float rootOut = smithRoot(local.z, alpha), rootIn = smithRoot(in_.z, alpha);
-    ray.weight = specularFresnel(s, schlickWeight(cosHalf)) * in_.z * (local.z + rootOut) / (in_.z * rootOut + local.z * rootIn);
+    ray.weight =
+        specularFresnel(s, schlickWeight(cosHalf)) * in_.z * (local.z + rootOut) / (in_.z * rootOut + local.z * rootIn);
     const float peakDensity = 0.5 / (PI * alpha * alpha * (local.z + rootOut));
     ray.solidAngle = 0.25 / (float(rays) * peakDensity);
     return ray;

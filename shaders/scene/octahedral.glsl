@@ -1,4 +1,4 @@
-// Unit vectors in 32 bits: on the octahedron, its lower half folded outwards (Cigolle et al. 2014).
+// Unit vectors in 32 bits by octahedral mapping (Cigolle et al. 2014).
 #ifndef VOXRAY_OCTAHEDRAL_GLSL
 #define VOXRAY_OCTAHEDRAL_GLSL
 

@@ -95,7 +95,7 @@ vec2 trianglePoint(vec2 u) {
 
 float luminance(vec3 rgb) { return dot(rgb, vec3(0.2126, 0.7152, 0.0722)); }
 
-// The chance that a path goes on from where so much of the light is reflected (Russian roulette).
+// Probability that a path continues (Russian roulette): the largest channel of the reflectance.
 float survivalProbability(vec3 reflectance) { return min(max(reflectance.r, max(reflectance.g, reflectance.b)), 1.0); }
 
 #endif

@@ -2,14 +2,15 @@
 #ifndef VOXRAY_SCENE_GLSL
 #define VOXRAY_SCENE_GLSL
 
-
 #include "shaders/scene/scene_types.h"
 #include "shaders/scene/surface_offset.glsl"
 #include "shaders/scene/texel_filter.glsl"
 
-// By address, for millions of triangles outgrow what devices bind at once (128 MiB on software Vulkan).
+// Arrays by address: they may exceed maxStorageBufferRange (128 MiB on software Vulkan).
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer VertexPositions { vec3 data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer VertexAttributes { GpuVertexAttributes data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer VertexAttributes {
+    GpuVertexAttributes data[];
+};
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleVertices { uvec3 data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer TriangleMaterials { uint data[]; };
 layout(scalar) readonly buffer SceneGeometry {  // GpuSceneGeometry in trace/gpu_scene.cpp.
@@ -26,14 +27,14 @@ layout(set = 1) uniform sampler2D sceneTextures[];
 
 uvec3 triangleVertices(uint triangle) { return sceneGeometry.triangles.data[triangle]; }
 
-// Into sceneMaterials.
+// Index into sceneMaterials.
 uint triangleMaterial(uint triangle) { return sceneGeometry.materials.data[triangle]; }
 
 vec3 vertexPosition(uint vertex) { return sceneGeometry.positions.data[vertex]; }
 
 GpuVertexAttributes vertexAttributes(uint vertex) { return sceneGeometry.attributes.data[vertex]; }
 
-// A point on a triangle with everything that its material is looked up by.
+// A point on a triangle with interpolated vertex attributes.
 struct SurfacePoint {
     vec3 position;
     vec3 geometricNormal;  // Unit length, on the triangle's front side; zero for a degenerate triangle.
@@ -41,13 +42,13 @@ struct SurfacePoint {
     vec4 tangent;
     vec4 texCoords;        // uv0, uv1
     vec4 color;
-    vec2 uvDensity;        // Area of the triangle in uv0 and in uv1 over its own, 1/m²; 0 for a degenerate one.
+    vec2 uvDensity;        // The triangle's area in uv0 and in uv1 over its area, 1/m²; 0 for a degenerate triangle.
     uint material;
-    float offset;          // m, along the geometric normal: there rays begin that leave the surface.
+    float offset;          // Of the origins of rays that leave the surface, m along the geometric normal.
 };
 
-// A point of a triangle with the corners p0, p1, p2, of barycentrics w. Rounding takes none out of the triangle's bounds: all points of
-// a sheet in a border between voxels are in the same ones.
+// The point with the barycentric weights w, clamped to the triangle's bounds: all points of a triangle in the plane
+// between two voxels are then in the same voxel, whatever rounding does.
 vec3 interpolate(vec3 w, vec3 p0, vec3 p1, vec3 p2) {
     return clamp(w.x * p0 + w.y * p1 + w.z * p2, min(p0, min(p1, p2)), max(p0, max(p1, p2)));
 }
@@ -81,8 +82,9 @@ vec2 textureUv(GpuTextureRef ref, vec4 texCoords) {
     return vec2(dot(ref.rowU, uv), dot(ref.rowV, uv));
 }
 
-// Outside of a clamped texture its edge texels are seen; those of coarse levels are means that reach inside. So the level falls to 0
-// where a footprint of 2^level texels lies wholly outside.
+// Mip level for a texture with clamped addressing. Lookups outside of it return its edge texels, which in coarse levels
+// are means over the texture's inside. So the level decreases with the distance from the texture, to 0 where a
+// footprint of 2^level texels is outside.
 float clampedLevel(GpuTextureRef ref, vec2 uv, float level) {
     const vec2 size = vec2(textureSize(sceneTextures[nonuniformEXT(ref.texture)], 0));
     const vec2 outside = max(abs(uv - 0.5) - 0.5, 0.0) * size * vec2(ref.wrapU == WRAP_CLAMP, ref.wrapV == WRAP_CLAMP);
@@ -94,47 +96,51 @@ float clampedLevel(GpuTextureRef ref, vec2 uv, float level) {
 vec4 lookup(GpuTextureRef ref, vec4 texCoords, float level) {
     if (ref.texture == NO_TEXTURE) return vec4(1.0);
     const vec2 uv = textureUv(ref, texCoords);
-    return textureLod(sceneTextures[nonuniformEXT(ref.texture)], uv, level > 0.0 ? clampedLevel(ref, uv, level) : level);
+    return textureLod(sceneTextures[nonuniformEXT(ref.texture)], uv,
+                      level > 0.0 ? clampedLevel(ref, uv, level) : level);
 }
 
 vec4 baseColor(GpuMaterial m, SurfacePoint s, float level) {
     return m.baseColor * s.color * lookup(m.baseColorTexture, s.texCoords, level);
 }
 
+// Alpha at level 0, filtered in full precision.
 float textureAlpha(GpuTextureRef ref, vec4 texCoords) {
     if (ref.texture == NO_TEXTURE) return 1.0;
     const vec2 uv = textureUv(ref, texCoords);
     const ivec2 size = textureSize(sceneTextures[nonuniformEXT(ref.texture)], 0);
     const Texels x = filteredTexels(uv.x, size.x, ref.wrapU, ref.filter_);
     const Texels y = filteredTexels(uv.y, size.y, ref.wrapV, ref.filter_);
-    const ivec4 at[2] = ivec4[2](ivec4(x.first, y.first, x.second, y.first), ivec4(x.first, y.second, x.second, y.second));
+    const ivec2 texelRows = ivec2(y.first, y.second);
     vec2 rows;
     for (int row = 0; row < 2; ++row)
-        rows[row] = mix(texelFetch(sceneTextures[nonuniformEXT(ref.texture)], at[row].xy, 0).a,
-                        texelFetch(sceneTextures[nonuniformEXT(ref.texture)], at[row].zw, 0).a, x.weight);
+        rows[row] =
+            mix(texelFetch(sceneTextures[nonuniformEXT(ref.texture)], ivec2(x.first, texelRows[row]), 0).a,
+                texelFetch(sceneTextures[nonuniformEXT(ref.texture)], ivec2(x.second, texelRows[row]), 0).a, x.weight);
     return mix(rows.x, rows.y, y.weight);
 }
 
-// Whether the material's alpha mask cuts a point of a triangle away: nothing is there, and nothing shines from there.
+// Whether the material's alpha mask removes a point of a triangle.
 bool alphaCut(GpuMaterial m, SurfacePoint s) {
     return m.alphaMode == ALPHA_MASK &&
            m.baseColor.a * s.color.a * textureAlpha(m.baseColorTexture, s.texCoords) < m.alphaThreshold;
 }
 
-// Fraction of the light that the surface reflects diffusely: base colour less what the metal takes.
+// Diffuse reflectance; a metal has none.
 vec3 diffuseAlbedo(GpuMaterial m, SurfacePoint s, float level) {
     const float metallic = m.metallic * lookup(m.metallicRoughnessTexture, s.texCoords, level).b;
     return baseColor(m, s, level).rgb * (1.0 - metallic);
 }
 
-// Radiance that a point of a surface emits. The point was met; of one that was picked ask emittedRadiance().
+// Emitted radiance at a ray's hit, which the alpha mask doesn't remove.
 vec3 emission(GpuMaterial m, SurfacePoint s, float level) {
     return m.emission * lookup(m.emissiveTexture, s.texCoords, level).rgb;
 }
 
+// Emitted radiance at a sampled point, which the alpha mask may remove.
 vec3 emittedRadiance(GpuMaterial m, SurfacePoint s) { return alphaCut(m, s) ? vec3(0.0) : emission(m, s, 0.0); }
 
-// The normal that the normal map gives, on the side of the interpolated normal.
+// The interpolated normal, perturbed by the normal map.
 vec3 shadingNormal(GpuMaterial m, SurfacePoint s, float level) {
     if (m.normalTexture.texture == NO_TEXTURE) return s.normal;
     vec3 t = lookup(m.normalTexture, s.texCoords, level).xyz * 2.0 - 1.0;
@@ -147,14 +153,14 @@ vec3 shadingNormal(GpuMaterial m, SurfacePoint s, float level) {
     return dot(n, n) > 0.0 ? normalize(n) : s.normal;
 }
 
-// Radiant intensity of a spot light towards a direction away from it, relative to its axis
+// Radiant intensity of a spot light over that along its axis. `cosAngle`: of the direction's angle to the axis
 // (KHR_lights_punctual).
 float spotFalloff(GpuLight light, float cosAngle) {
     const float t = clamp((cosAngle - light.cosOuter) / max(0.001, light.cosInner - light.cosOuter), 0.0, 1.0);
     return t * t;
 }
 
-// Radiance that arrives from infinitely far against a direction. Row 0 of the map is at +Y, its center at -Z.
+// Radiance of the environment in a direction. Row 0 of the map is at +Y, its center at -Z.
 vec3 environmentRadiance(vec3 direction) {
     const float pi = 3.14159265358979;
     const vec2 uv = vec2(0.5 + atan(direction.x, -direction.z) / (2.0 * pi), acos(clamp(direction.y, -1.0, 1.0)) / pi);

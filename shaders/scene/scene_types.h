@@ -40,17 +40,17 @@ struct GpuLight {
     uint type;       // LIGHT_POINT, LIGHT_SPOT, LIGHT_DIRECTIONAL
     vec3 position;
     float cosInner;
-    vec3 direction;  // The way the light travels.
+    vec3 direction;  // Of propagation, unit length.
     float cosOuter;
 };
 
-// A triangle that emits somewhere. `cumulativePower` runs from 0 to 1 over the list, so that a binary search
-// picks emitters in proportion to their power.
+// An emissive triangle. `cumulativePower` increases from 0 to 1 over the list, so that a binary search picks
+// emitters in proportion to their power.
 struct GpuEmitter {
     uint triangle;
     float area;             // m²
     float probability;      // Of being picked.
-    float cumulativePower;  // Of this and all earlier emitters, as a fraction.
+    float cumulativePower;  // Of this and all previous emitters, over the power of all.
 };
 
 struct GpuVertexAttributes {
@@ -69,8 +69,7 @@ VOXRAY_SHARED_END
 #define WRAP_MIRROR 2u
 #define FILTER_LINEAR 0u
 #define FILTER_NEAREST 1u
-// Of a coordinate: some 70 roundings of a float, which are made on the way from corners to a point and from
-// a point to a hit.
+// Relative error of a hit's coordinates: some 70 roundings from the vertices to the ray's origin and its hit.
 #define COORDINATE_ERROR 4e-6f
 #define ALPHA_OPAQUE 0u
 #define ALPHA_MASK 1u

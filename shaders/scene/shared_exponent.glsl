@@ -1,5 +1,5 @@
-// Three numbers of 0 or more in a word: 9 bits each and a common exponent of 5 bits about 2^0, as VK_FORMAT_E5B9G9R9_UFLOAT_PACK32 has
-// them. Up to 65408; the largest is kept to 1/512 of it.
+// RGB in a word as VK_FORMAT_E5B9G9R9_UFLOAT_PACK32: mantissas of 9 bits with a shared exponent of 5 bits. Channels
+// from 0 to 65408; the relative error of the largest is at most 1/512.
 #ifndef VOXRAY_SHARED_EXPONENT_GLSL
 #define VOXRAY_SHARED_EXPONENT_GLSL
 

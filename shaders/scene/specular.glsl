@@ -1,18 +1,18 @@
-// The specular lobe that lies over a Lambert one: GGX with height-correlated Smith masking, weighed by Schlick's Fresnel term, as glTF 2.0
-// defines it (appendix B, KHR_materials_specular, KHR_materials_ior). The same as the reference's, passes/path_trace/bsdf.h.
+// Specular lobe over a Lambert lobe: GGX with height-correlated Smith masking and Schlick's Fresnel term, as in glTF
+// 2.0 (appendix B, KHR_materials_specular, KHR_materials_ior). The same model as the reference's,
+// passes/path_trace/bsdf.h.
 #ifndef VOXRAY_SPECULAR_GLSL
 #define VOXRAY_SPECULAR_GLSL
 
-// What a surface reflects besides its diffuse albedo.
 struct Specular {
     vec3 f0;              // Reflectance at normal incidence, metal and dielectric mixed.
-    float f90;            // The same at grazing incidence; 0 where there is no lobe.
+    float f90;            // The same at grazing incidence; 0: no specular lobe.
     float roughness;      // 0 to 1, perceptual: its square is GGX's alpha.
-    float dielectricF0;   // Largest channel of the dielectric part: what the diffuse lobe below loses.
+    float dielectricF0;   // Largest channel of the dielectric layer's reflectance, which attenuates the diffuse lobe.
     float dielectricF90;
 };
 
-// Below this alpha a surface is a perfect mirror.
+// Surfaces of a lower alpha are perfect mirrors.
 #define MIRROR_ALPHA 1e-3
 
 bool hasSpecular(Specular s) { return s.f90 > 0.0; }
@@ -27,38 +27,38 @@ Specular makeSpecular(vec3 baseColor, float metallic, float roughness, float spe
                     max(dielectric.r, max(dielectric.g, dielectric.b)), specular);
 }
 
-// As the g-buffer keeps it in two texels.
+// The two texels of the G-buffer.
 vec4 specularTexel(Specular s) { return vec4(s.f0, s.roughness); }
 vec4 fresnelTexel(Specular s) { return vec4(s.f90, s.dielectricF0, s.dielectricF90, 0.0); }
 Specular specularOf(vec4 specular, vec4 fresnel) {
     return Specular(specular.rgb, fresnel.r, specular.a, fresnel.g, fresnel.b);
 }
 
-// Schlick's weight of grazing reflectance at an angle to the half vector.
+// Weight of F90 in Schlick's approximation.
 float schlickWeight(float cosHalf) {
     const float m = clamp(1.0 - cosHalf, 0.0, 1.0);
     return m * m * m * m * m;
 }
 vec3 specularFresnel(Specular s, float weight) { return mix(s.f0, vec3(s.f90), weight); }
-// What the dielectric layer lets through to the diffuse lobe.
+// Transmittance of the dielectric layer over the diffuse lobe.
 float diffuseFraction(Specular s, float weight) { return 1.0 - mix(s.dielectricF0, s.dielectricF90, weight); }
 
-// sqrt(alpha² + (1 - alpha²) cos²): what Smith's masking terms are made of.
+// sqrt(alpha² + (1 - alpha²) cos²), the root in Smith's masking terms.
 float smithRoot(float cosine, float alpha) {
     const float a2 = alpha * alpha;
     return sqrt(a2 + (1.0 - a2) * cosine * cosine);
 }
 
-// Distribution times masking over 4 cosIn cosOut: the lobe's value without its Fresnel term. `sin2Half`: 1 - cos² of the half
-// vector to the normal, without its rounding error.
+// D G / (4 cosIn cosOut): the lobe without its Fresnel term. `sin2Half`: squared sine between half vector and normal,
+// which near the peak is more accurate than 1 - cos².
 float ggx(float cosIn, float cosOut, float sin2Half, float alpha) {
-    const float a2 = alpha * alpha, spread = (1.0 - sin2Half) * a2 + sin2Half;
-    return a2 / (3.14159265358979 * spread * spread) * 0.5 /
+    const float a2 = alpha * alpha, denominator = (1.0 - sin2Half) * a2 + sin2Half;
+    return a2 / (3.14159265358979 * denominator * denominator) * 0.5 /
            (cosIn * smithRoot(cosOut, alpha) + cosOut * smithRoot(cosIn, alpha));
 }
 
-// Half vector drawn from those visible from `out_` (+z the normal). Dupuy and Benyoub 2023, "Sampling Visible GGX Normals with
-// Spherical Caps".
+// Samples the half vectors visible from `out_`; the normal is +z. Dupuy and Benyoub 2023, "Sampling Visible GGX Normals
+// with Spherical Caps".
 vec3 visibleNormal(vec3 out_, float alpha, vec2 u) {
     const vec3 stretched = normalize(vec3(out_.xy * alpha, out_.z));
     const float phi = 2.0 * 3.14159265358979 * u.x, z = (1.0 - u.y) * (1.0 + stretched.z) - stretched.z;
@@ -67,23 +67,23 @@ vec3 visibleNormal(vec3 out_, float alpha, vec2 u) {
     return normalize(vec3(h.xy * alpha, max(h.z, 1e-7)));
 }
 
-// The shading normal for a surface seen from `out_`: one that leans away has no specular lobe, and is bent back.
+// Shading normal bent towards `out_` where it faces away from it: the specular lobe would be undefined.
 vec3 specularNormal(vec3 normal, vec3 out_) {
     const float minCosine = 1e-3, cosOut = dot(normal, out_);
     return cosOut < minCosine ? normalize(normal + out_ * (minCosine - cosOut)) : normal;
 }
 
-// What a surface reflects of light from unit `direction` towards `out_`, over irradiance: its diffuse lobe under its specular
-// one. A mirror's is none that a shadow ray could find.
+// BRDF of both lobes for light from `direction`, 1/sr; without a perfect mirror's lobe, which no shadow ray hits.
 vec3 reflectance(vec3 diffuseAlbedo_, Specular s, vec3 n, vec3 out_, vec3 direction) {
     const vec3 diffuse = diffuseAlbedo_ / 3.14159265358979;
     if (!hasSpecular(s)) return diffuse;
     const vec3 half_ = normalize(out_ + direction);
     const float weight = schlickWeight(dot(out_, half_));
-    const vec3 below = diffuseFraction(s, weight) * diffuse;
-    if (isMirror(s)) return below;
-    const vec3 across = cross(n, half_);
-    return below + specularFresnel(s, weight) * ggx(dot(n, direction), max(dot(n, out_), 1e-5), dot(across, across), specularAlpha(s));
+    const vec3 transmitted = diffuseFraction(s, weight) * diffuse;
+    if (isMirror(s)) return transmitted;
+    const vec3 sine = cross(n, half_);
+    return transmitted + specularFresnel(s, weight) *
+                             ggx(dot(n, direction), max(dot(n, out_), 1e-5), dot(sine, sine), specularAlpha(s));
 }
 
 #endif

@@ -1,5 +1,5 @@
-// Texels that a texture's filter mixes at level 0, with full weights as the CPU's lookup has them (trace/texture_lookup.cpp), since
-// samplers round theirs: where an alpha mask cuts must be the same for all.
+// Bilinear texture filter at level 0 with weights in full precision, as in trace/texture_lookup.cpp: samplers round
+// weights, and alpha masks must be the same for all tracers.
 #ifndef VOXRAY_TEXEL_FILTER_GLSL
 #define VOXRAY_TEXEL_FILTER_GLSL
 
@@ -12,7 +12,7 @@ struct Texels {
     float weight;
 };
 
-// Moves a coordinate into a range in which no precision is lost.
+// Reduces a coordinate to the texture's period, so that no precision is lost; 0 for one that isn't finite.
 float reduceCoordinate(float x, uint wrap) {
     if (!(abs(x) <= 3.4e38)) return 0.0;
     if (wrap == WRAP_REPEAT) return x - floor(x);

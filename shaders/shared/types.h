@@ -1,6 +1,5 @@
-// Scalar types under the same names in C++ and GLSL. GLSL blocks use scalar layout, as C++ structs of
-// 4-byte members do, so that one definition serves both; tests/gpu/shared_structs_test.cpp checks the
-// offsets.
+// GLSL's type names for C++, so that headers can share structs. GLSL blocks use scalar layout, which is that
+// of C++ structs with 4-byte members; tests/gpu/shared_structs_test.cpp checks the offsets.
 #ifndef VOXRAY_SHARED_TYPES_H
 #define VOXRAY_SHARED_TYPES_H
 

@@ -1,4 +1,3 @@
-
 #include "shaders/trace/trace.glsl"
 
 layout(location = 0) rayPayloadInEXT Hit payload;

@@ -1,4 +1,3 @@
-
 #include "shaders/trace/ray_types.h"
 
 layout(location = 0) rayPayloadInEXT Hit payload;

@@ -1,9 +1,7 @@
-
-// Traces a stream with ray queries: one invocation a ray.
+// Traces a stream with ray queries, one invocation per ray.
 #include "shaders/trace/trace.glsl"
 
 layout(local_size_x = 64) in;
-layout(constant_id = 0) const bool kOccluded = false;
 uniform accelerationStructureEXT structure;
 
 Hit trace(Ray ray) {
@@ -13,7 +11,7 @@ Hit trace(Ray ray) {
     const uint flags = kOccluded ? gl_RayFlagsTerminateOnFirstHitEXT : gl_RayFlagsNoneEXT;
     rayQueryInitializeEXT(query, structure, flags, 0xff, ray.origin, ray.tMin, ray.direction, ray.tMax);
 
-    // Only masked triangles are candidates; opaque ones are committed by the query itself.
+    // Only masked triangles are candidates; the query itself commits opaque ones
     while (rayQueryProceedEXT(query)) {
         const uint instance = uint(rayQueryGetIntersectionInstanceCustomIndexEXT(query, false));
         const uint primitive = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
@@ -30,10 +28,5 @@ Hit trace(Ray ray) {
 void main() {
     const uint i = call.firstRay + gl_GlobalInvocationID.x;
     if (i >= call.endRay) return;
-    const Hit hit = trace(RayStream(call.rays).data[i]);
-    if (kOccluded) {
-        WordStream(call.results).data[i] = hit.triangle == NO_HIT ? 0u : 1u;
-    } else {
-        HitStream(call.results).data[i] = hit;
-    }
+    storeResult(call.results, i, trace(RayStream(call.rays).data[i]));
 }

@@ -1,4 +1,4 @@
-// Rays and hits of the stream interface, as trace/ray.h has them in C++.
+// Rays and hits of streams, as trace/ray.h has them in C++.
 #ifndef VOXRAY_SHARED_RAY_TYPES_H
 #define VOXRAY_SHARED_RAY_TYPES_H
 
@@ -9,13 +9,13 @@ struct Ray {
     vec3 origin;
     float tMin;
     vec3 direction;
-    float tMax;  // Below tMin: inactive, a miss.
+    float tMax;  // Below tMin: the ray is inactive, a miss.
 };
 const Ray kNoRay = Ray(vec3(0.0), 0.0, vec3(0.0, 0.0, 1.0), -1.0);
 
 struct Hit {
     float t;
-    uint triangle;  // NO_HIT: the ray met nothing.
+    uint triangle;  // NO_HIT: a miss.
     float u;
     float v;
 };

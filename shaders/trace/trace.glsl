@@ -1,54 +1,40 @@
-// What the GPU ray tracers share: the stream's rays, the numbers of triangles, the alpha mask.
+// Shared by the GPU ray tracers: push constants, hits, alpha masks.
 #ifndef VOXRAY_TRACE_GLSL
 #define VOXRAY_TRACE_GLSL
 
 #include "shaders/scene/texel_filter.glsl"
-#include "shaders/trace/ray_types.h"
+#include "shaders/trace/ray_streams.glsl"
 #include "shaders/trace/trace_types.h"
 
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer RayStream { Ray data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer HitStream { Hit data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer WordStream { uint data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Words { uint data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Corners { uvec3 data[]; };
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Positions { vec3 data[]; };
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer MaskedTriangles {
-    MaskedTriangle data[];
-};
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer AlphaMaterials {
-    AlphaMaterial data[];
-};
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer MaskedTriangles { MaskedTriangle data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer AlphaMaterials { AlphaMaterial data[]; };
 
-// One launch over a part of a stream. Buffers are given by address: a stream may be larger than a device binds.
+// One launch over a range of a stream. Buffers are given by address. Masked triangles come last in tracing order.
 layout(push_constant, scalar) uniform Push {
     uint64_t rays;             // Ray each.
     uint64_t results;          // Hit each (closest hit), or uint each (occluded).
-    uint64_t chunkFirst;       // uint each instance: the first of its triangles in tracing order.
-    uint64_t triangleIds;      // uint each triangle in tracing order: its number in the scene.
-    uint64_t corners;          // 3 uints each triangle in tracing order: its vertices.
-    uint64_t positions;        // 3 floats each vertex.
-    uint64_t maskedTriangles;  // MaskedTriangle each; they come last in tracing order.
+    uint64_t chunkFirst;       // uint per instance: index of its first triangle in tracing order.
+    uint64_t triangleIds;      // uint per triangle in tracing order: its index in the scene.
+    uint64_t corners;          // 3 uints per triangle in tracing order: its vertices.
+    uint64_t positions;        // 3 floats per vertex.
+    uint64_t maskedTriangles;  // MaskedTriangle each.
     uint64_t alphaMaterials;   // AlphaMaterial each.
-    uint64_t alphaTexels;      // 8-bit alphas, four to a uint.
+    uint64_t alphaTexels;      // 8-bit alphas, four per uint.
     uint firstRay;
     uint endRay;
     uint opaqueCount;  // Triangles before the masked ones.
 } call;
 
-// Whether a ray is active and finite; other rays miss.
-bool isTraceable(Ray ray) {
-    const bool finite = all(lessThanEqual(abs(ray.origin), vec3(MAX_COORDINATE))) &&
-                        all(lessThanEqual(abs(ray.direction), vec3(MAX_COORDINATE)));
-    return finite && any(notEqual(ray.direction, vec3(0.0))) && ray.tMin >= 0.0 && ray.tMax >= ray.tMin;
-}
-
-// Place in tracing order of an instance's triangle.
+// Index in tracing order of an instance's triangle.
 uint tracingIndex(uint instance, uint primitive) {
     return Words(call.chunkFirst).data[instance] + primitive;
 }
 
-// The hit that a backend found, with its distance taken again from the triangle's plane: backends measure from the
-// scene's origin, which loses a hit's digits close to the ray's origin.
+// The hit that a backend found, with its distance recomputed from the triangle's plane relative to the ray's origin:
+// backends compute it from world-space coordinates, which cancels digits of short distances.
 Hit makeHit(vec3 origin, vec3 direction, float t, uint instance, uint primitive, vec2 barycentrics) {
     const uint index = tracingIndex(instance, primitive);
     const uvec3 corner = Corners(call.corners).data[index];
@@ -71,11 +57,12 @@ float alphaLookup(AlphaMaterial material, vec2 uv) {
     const Texels x = filteredTexels(uv.x, int(material.width), material.wrapU, material.filter_);
     const Texels y = filteredTexels(uv.y, int(material.height), material.wrapV, material.filter_);
     const float top = mix(alphaTexel(material, x.first, y.first), alphaTexel(material, x.second, y.first), x.weight);
-    const float bottom = mix(alphaTexel(material, x.first, y.second), alphaTexel(material, x.second, y.second), x.weight);
+    const float bottom =
+        mix(alphaTexel(material, x.first, y.second), alphaTexel(material, x.second, y.second), x.weight);
     return mix(top, bottom, y.weight);
 }
 
-// Whether a hit on a masked triangle is cut away.
+// Whether the alpha mask removes a hit on a masked triangle.
 bool isCutAway(uint instance, uint primitive, vec2 barycentrics) {
     const uint index = tracingIndex(instance, primitive) - call.opaqueCount;
     const MaskedTriangle triangle = MaskedTriangles(call.maskedTriangles).data[index];

@@ -1,4 +1,4 @@
-// What the GPU ray tracers' shaders read, shared by C++ (trace/gpu_tracer.cpp) and GLSL (shaders/trace/).
+// Alpha masks for the GPU ray tracers, shared by C++ (trace/gpu_tracer.cpp) and GLSL (shaders/trace/).
 #ifndef VOXRAY_TRACE_TYPES_H
 #define VOXRAY_TRACE_TYPES_H
 
@@ -6,9 +6,8 @@
 
 VOXRAY_SHARED_BEGIN
 
-// What decides whether a hit on an alpha-masked triangle counts.
 struct MaskedTriangle {
-    vec2 uv[3];      // The base-colour texture's coordinates at the vertices, transformed.
+    vec2 uv[3];      // Transformed coordinates of the base-colour texture, by vertex.
     float alpha[3];  // Vertex alpha times the material's factor.
     uint material;   // Index into the alpha materials.
 };
@@ -26,6 +25,5 @@ struct AlphaMaterial {
 VOXRAY_SHARED_END
 
 #define NO_ALPHA_TEXTURE 0xffffffffu
-#define MAX_COORDINATE 1.8e18  // As Embree has it: a ray beyond it is a miss.
 
 #endif

@@ -1,15 +1,16 @@
-// Which texel a gather ray starts from, and which sample of the frame's one low-discrepancy sequence it takes.
+// The texel that a gather ray starts from, and its sample of the frame's low-discrepancy sequence.
 //
-// Blocks take consecutive runs of the sequence in Morton order (Ahmed and Wonka 2020), and a block's texels consecutive
-// parts of its run. Aligned runs of an Owen-scrambled Sobol sequence are stratified, so the rays of a texel, of a block and
-// of any larger square of blocks are all well spread, and neighbours complement each other.
+// Blocks of texels in Morton order use consecutive ranges of the sequence (Ahmed and Wonka 2020), and the texels of a
+// block consecutive ranges of the block's. Aligned ranges of an Owen-scrambled Sobol sequence are stratified, so that
+// the rays of a texel, of a block and of any larger square of blocks are well distributed.
 #ifndef VOXRAY_GATHER_LAYOUT_GLSL
 #define VOXRAY_GATHER_LAYOUT_GLSL
 
 #include "shaders/scene/sampling.glsl"
 #include "shaders/view/gather_types.h"
 
-uint spreadBits(uint x) {
+// Moves the low 16 bits to the even bits, and back.
+uint expandBits(uint x) {
     x &= 0xffffu;
     x = (x | (x << 8)) & 0x00ff00ffu;
     x = (x | (x << 4)) & 0x0f0f0f0fu;
@@ -17,7 +18,7 @@ uint spreadBits(uint x) {
     return (x | (x << 1)) & 0x55555555u;
 }
 
-uint gatherBits(uint x) {
+uint compactBits(uint x) {
     x &= 0x55555555u;
     x = (x | (x >> 1)) & 0x33333333u;
     x = (x | (x >> 2)) & 0x0f0f0f0fu;
@@ -25,32 +26,33 @@ uint gatherBits(uint x) {
     return (x | (x >> 8)) & 0xffffu;
 }
 
-uint morton(uvec2 p) { return spreadBits(p.x) | (spreadBits(p.y) << 1); }
-uvec2 mortonInverse(uint code) { return uvec2(gatherBits(code), gatherBits(code >> 1)); }
+uint morton(uvec2 p) { return expandBits(p.x) | (expandBits(p.y) << 1); }
+uvec2 mortonInverse(uint code) { return uvec2(compactBits(code), compactBits(code >> 1)); }
 
-// Texel in the block, in Morton order, that ray j starts from. Where a block has fewer rays than texels, a ray stands for a run of
-// them and starts from a random one: were the choice alike in all blocks, the filter, whose steps are powers of two, would show
-// stripes.
+// Index in the block, in Morton order, of the texel that ray j starts from. Where a block has fewer rays than texels, a
+// ray represents a range of texels and starts from a random one of them: the same one in all blocks would alias with
+// the filter, whose strides are powers of two.
 uint rayTexel(GatherLayout g, uvec2 block, uint j) {
     const uint count = g.blockSize * g.blockSize;
     const uint first = j * count / g.raysPerBlock;
     if (g.raysPerBlock >= count) return first;
-    const uint run = (j + 1u) * count / g.raysPerBlock - first;
-    return first + hashCombine(g.seed ^ 0x5bd1e995u, morton(block) * g.raysPerBlock + j) % run;
+    const uint texels = (j + 1u) * count / g.raysPerBlock - first;
+    return first + hashCombine(g.seed ^ 0x5bd1e995u, morton(block) * g.raysPerBlock + j) % texels;
 }
 
-// First ray of a block at or after which rays start from texel t, where rays are no fewer than texels: ceil(t * rays / count).
+// The first ray of a block that starts from texel t or a later one: ceil(t * rays / count). Where a block has as many
+// rays as texels or more.
 uint firstRay(GatherLayout g, uint t) {
     const uint count = g.blockSize * g.blockSize;
     return (t * g.raysPerBlock + count - 1u) / count;
 }
 
-// The ray in whose run texel t lies, where rays are fewer than texels.
+// The ray that represents texel t, where a block has fewer rays than texels.
 uint nearestRay(GatherLayout g, uint t) { return ((t + 1u) * g.raysPerBlock - 1u) / (g.blockSize * g.blockSize); }
 
 uvec2 texelOf(GatherLayout g, uvec2 block, uint t) { return block * g.blockSize + mortonInverse(t); }
 
-// Direction of ray j: a point of the unit square, to be mapped to the hemisphere.
+// Sample of ray j in the unit square, to be mapped to the hemisphere.
 vec2 raySample(GatherLayout g, uvec2 block, uint j) { return sobol2(morton(block) * g.raysPerBlock + j, g.seed); }
 
 #endif

@@ -1,10 +1,8 @@
-// Light that voxels hold by face, direct and indirect together, for lookups by many rays: the mean of the voxel itself, without
-// interpolation.
+// Irradiance of voxels by face, for lookups at many hits (host: passes/common/voxels/face_irradiance.h).
 #ifndef VOXRAY_FACE_IRRADIANCE_GLSL
 #define VOXRAY_FACE_IRRADIANCE_GLSL
 
-
-// By voxel and face: as faceLight() of face_lookup.glsl.
+// By voxel and face: irradiance and area, as faceLight() returns them.
 layout(buffer_reference, scalar, buffer_reference_align = 16) readonly buffer FaceIrradiance { vec4 data[]; };
 layout(scalar) readonly buffer FaceIrradianceRef { FaceIrradiance faceIrradiance; };
 

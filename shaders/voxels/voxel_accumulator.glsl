@@ -1,8 +1,6 @@
-// Irradiance samples into voxels, merged by face. Host: passes/common/voxels/voxel_accumulator.h,
-// which defines WRITE.
+// Irradiance samples merged by voxel face (host: passes/common/voxels/voxel_accumulator.h, which defines WRITE).
 #ifndef VOXRAY_VOXEL_ACCUMULATOR_GLSL
 #define VOXRAY_VOXEL_ACCUMULATOR_GLSL
-
 
 #include "shaders/voxels/face.glsl"
 
@@ -14,18 +12,18 @@
 #if WRITE == WRITE_AVERAGE
 #define WEIGHT_UNITS 16777216.0
 #define LARGEST_SAMPLE 1099511627776.0  // 2^40 units: 2^16 times the typical irradiance.
-layout(scalar) buffer VoxelSums { uint64_t data[]; } voxelSums;        // 3 a face
-layout(scalar) buffer VoxelWeights { uint64_t data[]; } voxelWeights;  // 1 a face
+layout(scalar) buffer VoxelSums { uint64_t data[]; } voxelSums;        // 3 per face
+layout(scalar) buffer VoxelWeights { uint64_t data[]; } voxelWeights;  // 1 per face
 #elif WRITE == WRITE_MAX
-layout(scalar) buffer VoxelSums { uint data[]; } voxelSums;        // 3 a face, bits of floats
-layout(scalar) buffer VoxelWeights { uint data[]; } voxelWeights;  // 1 where a sample fell
+layout(scalar) buffer VoxelSums { uint data[]; } voxelSums;        // 3 per face, bits of floats
+layout(scalar) buffer VoxelWeights { uint data[]; } voxelWeights;  // 1 for faces with samples
 #elif WRITE == WRITE_MOVING_AVERAGE
 layout(scalar) coherent buffer VoxelSums { uint data[]; } voxelSums;  // RGBA8, count in A
 #else
-layout(scalar) buffer VoxelSums { vec4 data[]; } voxelSums;  // By face; in w 1 where a sample fell
+layout(scalar) buffer VoxelSums { vec4 data[]; } voxelSums;  // By face; w: 1 for faces with samples
 #endif
 
-// Below this part of a sample, the ways that have no weights leave it out.
+// Modes without weights ignore samples of lower weights.
 #define MIN_WEIGHT 0.0625
 
 // Merges a sample into face voxel * 6 + direction (+x -x +y -y +z -z). `irradiance` in W/m², not negative;
@@ -37,12 +35,12 @@ void writeFace(uint face, vec3 irradiance, float weight, float scale) {
         if (units[c] >= 0.5) atomicAdd(voxelSums.data[face * 3u + c], uint64_t(units[c] + 0.5));
     atomicAdd(voxelWeights.data[face], uint64_t(min(weight * WEIGHT_UNITS, LARGEST_SAMPLE) + 0.5));
 #elif WRITE == WRITE_MAX
-    // Floats that are not negative are ordered as their bits are.
+    // Nonnegative floats have the order of their bits
     if (weight < MIN_WEIGHT) return;
     for (uint c = 0u; c < 3u; ++c) atomicMax(voxelSums.data[face * 3u + c], floatBitsToUint(irradiance[c]));
     voxelWeights.data[face] = 1u;
 #elif WRITE == WRITE_MOVING_AVERAGE
-    // Magalhães 2020, listing 4.3: read, average, swap unless another thread came between.
+    // Magalhães 2020, listing 4.3: read, average, compare and swap
     if (weight < MIN_WEIGHT) return;
     const vec3 color = clamp(irradiance * scale, 0.0, 1.0);
     uint expected = 0u;
@@ -56,13 +54,12 @@ void writeFace(uint face, vec3 irradiance, float weight, float scale) {
         desired = packUnorm4x8(vec4((mean.rgb * count + color) / (count + 1.0), (count + 1.0) / 255.0));
     }
 #else
-    // The last one stays.
     if (weight >= MIN_WEIGHT) voxelSums.data[face] = vec4(irradiance, 1.0);
 #endif
 }
 
-// The irradiance of a surface with unit normal `normal`: a sample of the three faces that it turns to, weighted by the squares of
-// the normal's components, as its area is.
+// Writes a sample of a surface's irradiance to the three faces that the surface faces, weighted by the squared
+// components of its normal.
 void writeIrradiance(uint voxel, vec3 normal, vec3 irradiance, float weight, float scale) {
     for (uint axis = 0u; axis < 3u; ++axis) {
         const float faceWeight = weight * normal[axis] * normal[axis];
@@ -70,7 +67,7 @@ void writeIrradiance(uint voxel, vec3 normal, vec3 irradiance, float weight, flo
     }
 }
 
-// The merged irradiance of a face, W/m², and in w whether any sample fell on it.
+// The merged irradiance of a face, W/m²; w: 1 if it has samples.
 vec4 mergedIrradiance(uint face, float scale) {
 #if WRITE == WRITE_AVERAGE
     const float weight = float(voxelWeights.data[face]) / WEIGHT_UNITS;

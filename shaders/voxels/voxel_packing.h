@@ -1,7 +1,7 @@
-// What surface voxels hold, packed: shared by C++ and GLSL. Precision: docs/voxels.md.
+// Packing of surface voxels' data, shared by C++ and GLSL. Precision: docs/voxels.md.
 //
-// A word of packed data is NaN or infinite as a float where a value in it was, and nowhere else: so buffers
-// of packed data are checked for such values as buffers of floats are.
+// As a float, a packed word is NaN or infinite if and only if a value in it was: buffers of packed data are
+// checked like buffers of floats.
 #ifndef VOXRAY_VOXEL_PACKING_H
 #define VOXRAY_VOXEL_PACKING_H
 
@@ -38,8 +38,8 @@ VOXRAY_SHARED_FUNCTION bool isFinite(float x) {
     return (floatBitsToUint(x) & 0x7f800000u) != 0x7f800000u;
 }
 
-// Two numbers of 16 bits in a word. The upper one lies where floats have their exponent: below 0xff00 the
-// word is a finite float.
+// Two 16-bit numbers in a word. The upper one has the bits of a float's exponent: up to 0xfeff the word is a
+// finite float.
 #define NOT_FINITE 0xffffu
 VOXRAY_SHARED_FUNCTION uint packPair(uint lower, uint upper) {
     if (lower == NOT_FINITE) upper = NOT_FINITE;
@@ -52,7 +52,7 @@ VOXRAY_SHARED_FUNCTION uint upperOf(uint word) {
     return (word >> 15) & 0xffffu;
 }
 
-// A number from 0 to 1 in steps of 2^-16, roughly; from -1 to 1 in steps of 2^-15, in which 0 is exact.
+// From 0 to 1 in steps of about 2^-16; from -1 to 1 in steps of about 2^-15, with 0 exact.
 VOXRAY_SHARED_FUNCTION uint packUnorm(float x) {
     return isFinite(x) ? uint(clamp(x, 0.0f, 1.0f) * 65278.0f + 0.5f) : NOT_FINITE;
 }
@@ -66,9 +66,9 @@ VOXRAY_SHARED_FUNCTION float unpackSnorm(uint x) {
     return (float(x) - 32639.0f) / 32639.0f;
 }
 
-// An area in units of a voxel's face: a float without sign, with 5 bits of exponent and 11 of mantissa, from
-// 2^-20 to 1919. The factor of 2^-106 moves that range to the smallest normal floats, so that of their
-// exponent 5 bits are left.
+// An area in units of a voxel's face, from 2^-20 to 1919: an unsigned float with 5 bits of exponent and 11 of
+// mantissa. The factor of 2^-106 moves that range to the smallest normal floats, whose exponents have 5
+// significant bits.
 VOXRAY_SHARED_FUNCTION uint packArea(float area) {
     if (!isFinite(area)) return NOT_FINITE;
     if (area < 9.5367431640625e-7f) return 0u;
@@ -78,17 +78,15 @@ VOXRAY_SHARED_FUNCTION float unpackArea(uint x) {
     return uintBitsToFloat(x << 12) * 8.112963841460668e31f;
 }
 
-// Red, green and blue that are not negative, as 13 bits each, with the exponent of the largest in common: 8
-// bits, where a float has them. 15 bits do not fit into the word with the exponent: x, and y. Values below
-// 2^-114 are lost.
+// Nonnegative RGB with mantissas of 13 bits and a shared exponent of 8 bits at the position of a float's
+// exponent: 32 bits in x, the remaining 15 in y. Values below 2^-114 become 0.
 VOXRAY_SHARED_FUNCTION uvec2 packRgb(vec3 rgb) {
     const float largest = max(rgb.x, max(rgb.y, rgb.z));
     if (!isFinite(rgb.x) || !isFinite(rgb.y) || !isFinite(rgb.z)) return uvec2(0x7f800000u, 0u);
     if (largest < 4.8148248609680896e-35f) return uvec2(0u, 0u);
     const uint exponent = (floatBitsToUint(largest) + 0x400u) >> 23;  // After rounding.
     if (exponent == 255u) return uvec2(0x7f800000u, 0u);
-    const float unitsPerValue =
-        uintBitsToFloat((266u - exponent) << 23);  // The largest becomes 2^12 to 2^13.
+    const float unitsPerValue = uintBitsToFloat((266u - exponent) << 23);  // The largest becomes 2^12 to 2^13.
     const uint r = uint(max(rgb.x, 0.0f) * unitsPerValue + 0.5f);
     const uint g = uint(max(rgb.y, 0.0f) * unitsPerValue + 0.5f);
     const uint b = uint(max(rgb.z, 0.0f) * unitsPerValue + 0.5f);
@@ -103,8 +101,7 @@ VOXRAY_SHARED_FUNCTION vec3 unpackRgb(uvec2 packed) {
     return vec3(float(r), float(g), float(b)) * uintBitsToFloat((exponent - 12u) << 23);
 }
 
-// The flux of the faces +a and -a of a voxel: what packRgb() gives for each, and the rest of both in a word
-// of its own.
+// The flux of a voxel's faces +a and -a: x of packRgb() for each, and y of both in a shared word.
 VOXRAY_SHARED_FUNCTION uvec3 packFlux(vec3 positive, vec3 negative) {
     const uvec2 p = packRgb(positive), n = packRgb(negative);
     return uvec3(p.x, n.x, p.y | (n.y << 15));
@@ -130,14 +127,14 @@ VOXRAY_SHARED_FUNCTION PackedVoxelMaterial packMaterial(VoxelMaterial m) {
 }
 VOXRAY_SHARED_FUNCTION VoxelMaterial unpackMaterial(PackedVoxelMaterial p) {
     VoxelMaterial m;
-    m.albedo = vec3(unpackUnorm(lowerOf(p.words[0])), unpackUnorm(upperOf(p.words[0])),
-                    unpackUnorm(lowerOf(p.words[1])));
-    m.normal = vec3(unpackSnorm(upperOf(p.words[1])), unpackSnorm(lowerOf(p.words[2])),
-                    unpackSnorm(upperOf(p.words[2])));
-    m.unoccludedPositive = vec3(unpackArea(lowerOf(p.words[3])), unpackArea(lowerOf(p.words[4])),
-                                unpackArea(lowerOf(p.words[5])));
-    m.unoccludedNegative = vec3(unpackArea(upperOf(p.words[3])), unpackArea(upperOf(p.words[4])),
-                                unpackArea(upperOf(p.words[5])));
+    m.albedo =
+        vec3(unpackUnorm(lowerOf(p.words[0])), unpackUnorm(upperOf(p.words[0])), unpackUnorm(lowerOf(p.words[1])));
+    m.normal =
+        vec3(unpackSnorm(upperOf(p.words[1])), unpackSnorm(lowerOf(p.words[2])), unpackSnorm(upperOf(p.words[2])));
+    m.unoccludedPositive =
+        vec3(unpackArea(lowerOf(p.words[3])), unpackArea(lowerOf(p.words[4])), unpackArea(lowerOf(p.words[5])));
+    m.unoccludedNegative =
+        vec3(unpackArea(upperOf(p.words[3])), unpackArea(upperOf(p.words[4])), unpackArea(upperOf(p.words[5])));
     m.area = unpackArea(lowerOf(p.words[6]));
     m.emission = unpackRgb(uvec2(p.words[7], upperOf(p.words[6])));
     m.opacity = float(p.words[8] & 0xffu) / 16.0f;

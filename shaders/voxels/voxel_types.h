@@ -7,36 +7,33 @@
 
 VOXRAY_SHARED_BEGIN
 
-// A box of cubic voxels. Voxel (x, y, z) spans origin + voxelSize * [x, x+1] and so on. Rows along x are
-// padded to whole 32-bit words, so that one word holds the occupancy of 32 neighbours. Of each axis at most
-// `side` voxels are held, from `first` on; each has its slot at its coordinates modulo `side`, so that what
-// stays held stays in place when `first` moves.
+// A grid of cubic voxels, or a window of it. Voxel (x, y, z) spans origin + voxelSize * [x, x+1] and so on. A
+// word of occupancy holds 32 voxels along x; rows are padded to whole words. The window has at most
+// `windowSize` voxels along each axis, from `first` on. Addressing is toroidal: voxels are stored at their
+// wrapped coordinates, modulo `windowSize`, so that they stay where they are when the window moves.
 struct VoxelGrid {
     vec3 origin;      // m
     float voxelSize;  // m
     uvec3 resolution;
-    uint wordsPerRow;  // ceil(min(resolution.x, side) / 32)
-    uint directions;   // 6: a voxel's light is read by the face that a surface turns to; 1: all faces share
-                       // one value.
-    uint windowSize;   // A power of two; no less than the resolution where all is held, as everywhere but in
-                       // windows.
-    ivec3 first;       // 0 along axes that are held whole.
+    uint wordsPerRow;  // ceil(min(resolution.x, windowSize) / 32)
+    uint directions;   // 6: light is stored by face; 1: all faces share one value.
+    uint windowSize;   // A power of two; of the resolution or more without a window.
+    ivec3 first;       // 0 along axes that the window covers.
 };
 
-// What a surface voxel holds of the surfaces in it; packed: voxel_packing.h. Averages are weighted by area.
+// Means over the surfaces in a voxel, weighted by area. Packed: voxel_packing.h.
 struct VoxelMaterial {
-    vec3 albedo;    // Diffuse reflectance.
-    float opacity;  // Fraction of 4x4 sub-samples that surfaces meet, along the axis where it is largest.
-    vec3 normal;  // Mean of the front-side shading normals, not normalised: a length below 1 tells of spread.
-    float area;   // Surface area in units of a voxel's face.
+    vec3 albedo;     // Diffuse reflectance.
+    float opacity;   // Fraction of 4x4 sub-samples that surfaces cover, along the axis where it is largest.
+    vec3 normal;     // Of front-side shading normals, not normalized: shorter the more they differ.
+    float area;      // Surface area in units of a voxel's face.
     vec3 emission;   // W/(m² sr)
-    float metallic;  // 0 to 1; what it takes is already off the albedo.
-    // The part of the area that open space lies in front of, by face: area * (normal component)², times the
-    // fraction of visible sides. A surface has two sides, so a bare sheet counts at both faces across an
-    // axis.
+    float metallic;  // 0 to 1. The albedo includes its effect.
+    // Unoccluded area by face: area * (normal component)² * fraction of visible sides. A surface has two
+    // sides, so that an open sheet counts at both faces across an axis.
     vec3 unoccludedPositive;  // At the faces +x, +y, +z.
     vec3 unoccludedNegative;  // At the faces -x, -y, -z.
-    float roughness;          // 0 to 1, as glTF's: perceptual.
+    float roughness;          // 0 to 1, perceptual, as in glTF.
 };
 
 VOXRAY_SHARED_END

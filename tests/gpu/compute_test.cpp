@@ -38,8 +38,7 @@ TEST_F(Compute, PrefixSumsOfValuesAndOfSetBits) {
     const PrefixSum ofValues(programs_, PrefixSum::Of::Values), ofBits(programs_, PrefixSum::Of::SetBits);
     programs_.compile();
     for (const uint32_t count : kCounts) {
-        const std::vector<uint32_t> values = randomNumbers(count, 2000, count),
-                                    words = randomNumbers(count, 0, count);
+        const std::vector<uint32_t> values = randomNumbers(count, 2000, count), words = randomNumbers(count, 0, count);
         std::vector<uint32_t> sums(count), bits(count);
         std::exclusive_scan(values.begin(), values.end(), sums.begin(), 0u);
         uint32_t set = 0;

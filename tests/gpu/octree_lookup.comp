@@ -7,6 +7,13 @@ layout(scalar) readonly buffer Queries { ivec3 voxel[]; } queries;
 layout(scalar) writeonly buffer Answers { uvec2 data[]; } answers;
 layout(push_constant) uniform Push { uint count; } push;
 
+// Index of a voxel's leaf among the leaves; 0xffffffff where the voxel is empty or outside the grid.
+uint octreeLeaf(ivec3 voxel) {
+    if (any(lessThan(voxel, ivec3(0))) || any(greaterThanEqual(voxel, ivec3(octree.shape.resolution)))) return 0xffffffffu;
+    const uint node = octreeChild(octreeWord(voxel >> 1, 1u), octantOf(voxel));
+    return node == NO_NODE ? 0xffffffffu : node - octree.shape.firstLeaf;
+}
+
 void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;

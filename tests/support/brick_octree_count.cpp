@@ -13,8 +13,7 @@ namespace {
 
 /// Samples of a pixel, in sixteenths of its width from its center.
 constexpr std::array<glm::ivec2, 1> kCenter{{{0, 0}}};
-constexpr std::array<glm::ivec2, 8> kEight{
-    {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}}};
+constexpr std::array<glm::ivec2, 8> kEight{{{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}}};
 
 /// Visits the voxels of a triangle's fragments, inside of the grid or not.
 template <typename Visit>
@@ -42,9 +41,8 @@ void visitFragments(const std::array<glm::dvec3, 3>& corners, glm::ivec3 resolut
     for (int y = first[v]; y <= last[v]; ++y)
         for (int x = first[u]; x <= last[u]; ++x) {
             const glm::dvec2 center(x + 0.5, y + 0.5);
-            if (std::ranges::none_of(samples, [&](glm::ivec2 s) {
-                    return isCovered(center.x + s.x / 16.0, center.y + s.y / 16.0);
-                }))
+            if (std::ranges::none_of(
+                    samples, [&](glm::ivec2 s) { return isCovered(center.x + s.x / 16.0, center.y + s.y / 16.0); }))
                 continue;
             const double depth =
                 corners[0][w] -
@@ -70,6 +68,34 @@ VoxelBits voxelsOf(const Geometry& geometry, const gpu::VoxelGrid& grid, const V
     return bits;
 }
 
+/// Calls visit(voxel) for all marked voxels.
+template <typename Visit>
+void forEach(const VoxelBits& bits, const Visit& visit) {
+    for (glm::ivec3 v(0); v.z < int(bits.size().z); ++v.z)
+        for (v.y = 0; v.y < int(bits.size().y); ++v.y)
+            for (v.x = 0; v.x < int(bits.size().x); ++v.x)
+                if (bits[v]) visit(v);
+}
+
+/// The voxels of the next coarser level with a marked one in them.
+VoxelBits coarser(const VoxelBits& bits) {
+    VoxelBits result((bits.size() + 1u) / 2u);
+    forEach(bits, [&](glm::ivec3 v) { result.mark(v / 2); });
+    return result;
+}
+
+/// The marked voxels and their 26 neighbors in the box.
+VoxelBits withNeighbors(const VoxelBits& bits) {
+    VoxelBits result(bits.size());
+    forEach(bits, [&](glm::ivec3 v) {
+        for (int i = 0; i < 27; ++i) {
+            const glm::ivec3 neighbor = v + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1;
+            if (result.isInside(neighbor)) result.mark(neighbor);
+        }
+    });
+    return result;
+}
+
 std::span<const glm::ivec2> samplePoints(uint32_t samples) {
     return samples == 1 ? std::span<const glm::ivec2>(kCenter) : kEight;
 }
@@ -91,10 +117,10 @@ uint64_t BrickOctreeCount::bricks() const {
 BrickOctreeCount countBrickOctree(VoxelBits voxels, bool neighbors) {
     BrickOctreeCount count;
     while (true) {
-        const uint32_t bricks = (neighbors ? voxels.withNeighbors() : voxels).count();
+        const uint32_t bricks = (neighbors ? withNeighbors(voxels) : voxels).count();
         count.levels.push_back({voxels.count(), bricks, 0});
         if (voxels.size() == glm::uvec3(1)) break;
-        voxels = voxels.coarser();
+        voxels = coarser(voxels);
     }
     for (size_t level = 0; level + 1 < count.levels.size(); ++level)
         count.levels[level].nodes = 8 * count.levels[level + 1].bricks;

@@ -57,21 +57,34 @@ struct Watch final : Pass {
     InOptional<Number> absent_{*this, "absent", "nothing"};
 };
 
+/// Asks whether its own output changed.
+struct AskForOutput final : Pass {
+    static constexpr const char* kName = "ask_for_output";
+    static constexpr const char* kHelp = "Asks for what is no input.";
+    void plan(PassPlan&) override {}
+    void record(PassContext& context) override { context.changed(context[number_]); }
+    Out<Number> number_{*this, "number", "a number"};
+};
+
 class GraphChanges : public testing::Test {
  protected:
     GraphChanges() {
         registry_.add<Write>();
         registry_.add<Double>();
         registry_.add<Watch>();
-        graph_ = std::make_unique<Graph>(
-            registry_, parseYaml("[{pass: write}, {pass: double}, {pass: watch}]", "g.yaml"));
+        registry_.add<AskForOutput>();
         frame_.scene = &state_;
+        make("[{pass: write}, {pass: double}, {pass: watch}]");
+    }
+    void make(const std::string& graph) {
+        graph_ = std::make_unique<Graph>(registry_, parseYaml(graph, "g.yaml"));
         graph_->plan(frame_, device_.info(), device_.memoryLimitBytes());
         graph_->prepare(frame_, device_, compiler_, stream_);
     }
+    void runBuild() { samples_ = graph_->run(Phase::Build, frame_, device_, stream_, *tracer_, scene_, 0, false); }
     /// What Watch reports of a run, as "first run number twice absent".
     std::string run() {
-        samples_ = graph_->run(Phase::Build, frame_, device_, stream_, *tracer_, scene_, 0, false);
+        runBuild();
         std::string text;
         for (const PassContext::Value& value : samples_.at(2).reported) text += value.value != 0 ? '1' : '0';
         return text;
@@ -106,6 +119,12 @@ TEST_F(GraphChanges, WhoSeesNoneLeavesItsOutputs) {
     run();
     EXPECT_EQ(samples_.at(1).reported.at(0).value, 2);
     EXPECT_EQ(graph_->resource<Number>("twice")->value, 6u);
+}
+
+TEST_F(GraphChanges, AreToldOfInputsAlone) {
+    make("[{pass: ask_for_output}]");
+    EXPECT_THROW(runBuild(), Error);
+    EXPECT_THROW(registry_.add<Write>(), Error);  // A name belongs to one pass.
 }
 
 }  // namespace

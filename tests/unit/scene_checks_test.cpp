@@ -17,8 +17,7 @@ TEST(EnvironmentMap, NamesThePixelThatIsNoRadiance) {
         map.data[3 * (1 * 4 + 2) + 1] = value;
         return errorOf([&] { checkRadiance(map, "sky.exr"); });
     };
-    EXPECT_CONTAINS(refusal(-1),
-                    "sky.exr: its pixel in column 2 and row 1, from the upper left, is (1, -1, 1)");
+    EXPECT_CONTAINS(refusal(-1), "sky.exr: its pixel in column 2 and row 1, from the upper left, is (1, -1, 1)");
     EXPECT_CONTAINS(refusal(std::numeric_limits<float>::infinity()), "half floats end at 65504");
     EXPECT_CONTAINS(refusal(std::numeric_limits<float>::quiet_NaN()), "1 of its 24 values");
     EXPECT_NO_THROW(checkRadiance(ImageF(4, 2, 3, 0.0f), "sky.exr"));

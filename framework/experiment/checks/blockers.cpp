@@ -14,19 +14,19 @@
 namespace voxray {
 namespace {
 
-/// Surfaces that are looked through on the way to a light, at most.
-constexpr int kSurfaces = 64;
+/// Limit of surfaces between a point and a light.
+constexpr int kMaxSurfaces = 64;
 
-/// The instance that all surfaces on a way belong to, if they do.
-std::optional<uint32_t> onlyBlocker(Ray way, const SceneState& state, const EmbreeScene& tracer) {
+/// The instance to which all surfaces on a ray belong; nullopt if there are several instances or none.
+std::optional<uint32_t> soleOccluder(Ray ray, const SceneState& state, const EmbreeScene& tracer) {
     std::optional<uint32_t> only;
-    for (int i = 0; i < kSurfaces; ++i) {
-        const Hit hit = tracer.closestHit(way);
+    for (int i = 0; i < kMaxSurfaces; ++i) {
+        const Hit hit = tracer.closestHit(ray);
         if (hit.triangle == Hit::kMiss) return only;
         const uint32_t instance = instanceOf(state.geometry, hit.triangle);
         if (only.value_or(instance) != instance) return {};
         only = instance;
-        way.tMin = hit.t * (1 + 1e-5f);
+        ray.tMin = hit.t * (1 + 1e-5f);
     }
     return {};
 }
@@ -35,7 +35,7 @@ bool isGlass(const Material& material) {
     return material.alphaMode == AlphaMode::Blend || material.transmission > 0;
 }
 
-/// Whether all of the scene lies within an instance's box, but for a hundredth.
+/// Whether an instance's bounding box contains the scene, up to a hundredth of its size.
 bool encloses(const Geometry& g, const InstanceRange& range) {
     glm::vec3 low = g.positions[range.firstVertex], high = low;
     for (uint32_t i = range.firstVertex; i < range.firstVertex + range.vertexCount; ++i) {
@@ -47,7 +47,7 @@ bool encloses(const Geometry& g, const InstanceRange& range) {
            glm::all(glm::greaterThanEqual(high, g.boundsMax - spare));
 }
 
-/// A name to take the object out by: of its node, its mesh or its material.
+/// A name of the object for `scene.hide`: that of its node, its mesh or its material.
 std::string nameOf(const Scene& scene, const Instance& instance) {
     const Mesh& mesh = scene.meshes[instance.mesh];
     const std::string node = instance.node < 0 ? "" : scene.nodes[size_t(instance.node)].name;
@@ -56,20 +56,17 @@ std::string nameOf(const Scene& scene, const Instance& instance) {
 
 }  // namespace
 
-std::string blockerAdvice(std::span<const Ray> ways, const SceneState& state, const EmbreeScene& tracer) {
+std::string occluderAdvice(std::span<const Ray> rays, const SceneState& state, const EmbreeScene& tracer) {
     const Scene& scene = *state.scene;
     std::vector<size_t> blocked(scene.instances.size());
-    for (const Ray& way : ways)
-        if (way.tMax > way.tMin)
-            if (const auto instance = onlyBlocker(way, state, tracer)) ++blocked[*instance];
+    for (const Ray& ray : rays)
+        if (ray.tMax > ray.tMin)
+            if (const auto instance = soleOccluder(ray, state, tracer)) ++blocked[*instance];
 
-    // Glass counts for more than a dome, a dome for more than a wall.
+    // Glass has the highest rank, then enclosing objects
     const auto rank = [&](uint32_t i) {
         const bool glass = isGlass(scene.materials[scene.meshes[scene.instances[i].mesh].material]);
-        return std::pair(glass                                                   ? 2
-                         : encloses(state.geometry, state.geometry.instances[i]) ? 1
-                                                                                 : 0,
-                         blocked[i]);
+        return std::pair(glass ? 2 : encloses(state.geometry, state.geometry.instances[i]) ? 1 : 0, blocked[i]);
     };
     std::optional<uint32_t> worst;
     for (uint32_t i = 0; i < blocked.size(); ++i)
@@ -77,15 +74,14 @@ std::string blockerAdvice(std::span<const Ray> ways, const SceneState& state, co
     if (!worst) return "";
     const Instance& instance = scene.instances[*worst];
     const std::string name = nameOf(scene, instance);
-    const auto goesByIt = [&](const Instance& other) {
+    const auto hasName = [&](const Instance& other) {
         return std::ranges::count(namesOfInstance(scene, other), name) > 0;
     };
-    if (name.empty() || std::ranges::all_of(scene.instances, goesByIt)) return "";
+    if (name.empty() || std::ranges::all_of(scene.instances, hasName)) return "";
     const Material& material = scene.materials[scene.meshes[instance.mesh].material];
-    return fmt::format(
-        "'{}' is in its way{}: 'scene.hide: [\"{}\"]' takes it out of the scene", name,
-        isGlass(material) ? fmt::format(", of the glass '{}', which is opaque here", material.name) : "",
-        name);
+    return fmt::format("'{}' is in its way{}: 'scene.hide: [\"{}\"]' takes it out of the scene", name,
+                       isGlass(material) ? fmt::format(", of the glass '{}', which is opaque here", material.name) : "",
+                       name);
 }
 
 }  // namespace voxray

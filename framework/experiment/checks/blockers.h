@@ -8,11 +8,11 @@
 
 namespace voxray {
 
-/// What to say of light that does not arrive: which object is in its way, and how to take it out. That is the
-/// one without which most of the light would come, first of all one of a glass that is opaque here, then one
-/// that encloses the scene, as a dome with a sky painted on it.
-/// @param ways from points that are to be lit to the light; inactive ones (tMax < tMin) are left out
-/// @return "" where nothing is in the way alone
-std::string blockerAdvice(std::span<const Ray> ways, const SceneState& state, const EmbreeScene& tracer);
+/// Advice on light that does not arrive: which object occludes it, and how to remove the object. It is the
+/// object that is the only occluder of most rays, with a preference for glass, which is opaque here, then for
+/// objects that enclose the scene, as a sky dome.
+/// @param rays from points that should be lit to the light; inactive ones (tMax < tMin) are skipped.
+/// @return "" if no object is the only occluder of a ray.
+std::string occluderAdvice(std::span<const Ray> rays, const SceneState& state, const EmbreeScene& tracer);
 
 }  // namespace voxray

@@ -4,8 +4,8 @@
 #include "experiment/checks/view.h"
 #include "experiment/study.h"
 
-/// What is looked at before anything is rendered, for it may make a result misleading. A config may ask for
-/// each of these: they warn. What can't be meant is refused by throwing UsageError.
+/// Checks that are done before anything is rendered. They warn of settings that may make a result misleading
+/// but may be intended. Settings that can't be intended throw UsageError.
 namespace voxray {
 
 class LightRays;
@@ -15,61 +15,61 @@ struct PlannedVariant {
     const Study& study;
     const Variant& variant;
     const PreparedScene& scene;
-    bool isNewScene;  ///< The variant before has another one: time to say what holds for the scene.
+    bool isNewScene;  ///< Whether the previous variant has another scene; then the scene itself is checked.
     SceneLoader& loader;
     LightRays& lightRays;
-    double metal;            ///< ViewCheck::metal
-    const Graph* reference;  ///< Planned on the same scene; nullptr: there is none.
+    double metallicFraction;  ///< ViewCheck::metallicFraction
+    const Graph* reference;   ///< Planned on the same scene; nullptr: no reference.
 };
 
-/// Looks at one thing and adds what there is to say of it.
+/// A check, which appends its diagnostics to `found`.
 template <typename What>
 using Check = void (*)(const What& what, Diagnostics& found);
 
 // Lights (lights.cpp)
-void sunsThatAreShutOut(const View&, Diagnostics&);
-void lightsThatLightNothing(const View&, Diagnostics&);
+void occludedSuns(const View&, Diagnostics&);
+void ineffectiveLights(const View&, Diagnostics&);
 void spotAngleInRadians(const View&, Diagnostics&);
 // The camera (camera.cpp)
 void cameraAngleInRadians(const View&, Diagnostics&);
 void cameraSeesLittle(const View&, Diagnostics&);
 void cameraSeesNoLight(const View&, Diagnostics&);
 // Its exposure (exposure.cpp), the region of the voxels (region.cpp)
-void exposureOfAllWhiteOrBlack(const View&, Diagnostics&);
+void extremeExposure(const View&, Diagnostics&);
 void sceneMuchLargerThanView(const View&, Diagnostics&);
 
-/// Of what the camera sees, once for all variants that share it.
+/// Checks of the camera's view, done once for all variants that share it.
 inline constexpr Check<View> kViewChecks[] = {
-    sunsThatAreShutOut, lightsThatLightNothing, cameraAngleInRadians,      sceneMuchLargerThanView,
-    spotAngleInRadians, cameraSeesLittle,       exposureOfAllWhiteOrBlack, cameraSeesNoLight};
+    occludedSuns,       ineffectiveLights, cameraAngleInRadians, sceneMuchLargerThanView,
+    spotAngleInRadians, cameraSeesLittle,  extremeExposure,      cameraSeesNoLight};
 
 // The scene (scene.cpp)
 void checkAddedSceneUnits(const PlannedVariant&, Diagnostics&);
-/// A scene in centimetres is 100 times too large among metres. A flat one, such as a ground, may have any
-/// size.
-/// @param prepared of `scene`; `loader` has loaded it.
-Diagnostics checkAddedSceneUnits(const SceneSettings& scene, const PreparedScene& prepared,
-                                 SceneLoader& loader);
-void lightsThatAreNotThere(const PlannedVariant&, Diagnostics&);
-void spheresThatStandStill(const PlannedVariant&, Diagnostics&);
+/// Warns of added scenes of another unit: one in centimetres is 100 times too large. A flat scene, such as a
+/// ground plane, may have any size.
+/// @param prepared that of `scene`, which `loader` has loaded.
+Diagnostics checkAddedSceneUnits(const SceneSettings& scene, const PreparedScene& prepared, SceneLoader& loader);
+void keepFileLightsWithoutLights(const PlannedVariant&, Diagnostics&);
+void staticMovingSpheres(const PlannedVariant&, Diagnostics&);
 // Time and memory (cost.cpp)
-void lightRaysThatTakeLong(const PlannedVariant&, Diagnostics&);
+void slowLightRays(const PlannedVariant&, Diagnostics&);
 // What is compared (comparison.cpp)
 void shortHistory(const PlannedVariant&, Diagnostics&);
 void missingLight(const PlannedVariant&, Diagnostics&);
-void otherBounces(const PlannedVariant&, Diagnostics&);
+void differentBounces(const PlannedVariant&, Diagnostics&);
 void missingLobes(const PlannedVariant&, Diagnostics&);
 
-/// Of each variant.
-inline constexpr Check<PlannedVariant> kVariantChecks[] = {
-    checkAddedSceneUnits, lightsThatAreNotThere, spheresThatStandStill, lightRaysThatTakeLong,
-    shortHistory,         missingLight,          otherBounces,          missingLobes};
+/// Checks of each variant.
+inline constexpr Check<PlannedVariant> kVariantChecks[] = {checkAddedSceneUnits, keepFileLightsWithoutLights,
+                                                           staticMovingSpheres,  slowLightRays,
+                                                           shortHistory,         missingLight,
+                                                           differentBounces,     missingLobes};
 
-void unequalHalves(const Study&, Diagnostics&);       // comparison.cpp
-void overTheMemoryLimit(const Study&, Diagnostics&);  // cost.cpp
-void passesThatNeverRun(const Study&, Diagnostics&);  // graph.cpp
+void unequalHalves(const Study&, Diagnostics&);        // comparison.cpp
+void exceededMemoryLimit(const Study&, Diagnostics&);  // cost.cpp
+void unusedPasses(const Study&, Diagnostics&);         // graph.cpp
 
-/// Of all variants together.
-inline constexpr Check<Study> kStudyChecks[] = {unequalHalves, overTheMemoryLimit, passesThatNeverRun};
+/// Checks of all variants together.
+inline constexpr Check<Study> kStudyChecks[] = {unequalHalves, exceededMemoryLimit, unusedPasses};
 
 }  // namespace voxray

@@ -9,7 +9,7 @@
 namespace voxray {
 namespace {
 
-/// Where light begins in a variant: its first pass with a parameter `bounces`, with its place in the config.
+/// The first pass of a variant with a parameter `bounces`, and the location of the parameter in the config.
 struct Bounces {
     std::string id;
     TextLocation where;
@@ -21,15 +21,14 @@ std::optional<Bounces> bouncesOf(const Variant& variant) {
             for (const Value& entry : variant.setup.graph.items)
                 if (passId(entry) == passId(pass)) {
                     const Value* written = entry.find("bounces");
-                    return Bounces{passId(pass), written ? written->where : entry.where,
-                                   bounces->asInteger("bounces")};
+                    return Bounces{passId(pass), written ? written->where : entry.where, bounces->asInteger("bounces")};
                 }
     return std::nullopt;
 }
 
 }  // namespace
 
-/// Passes that go on from frame to frame, where frame 0 alone is compared and too few frames lead up to it.
+/// Warns of temporal passes with too few warm-up frames if only frame 0 is compared.
 void shortHistory(const PlannedVariant& v, Diagnostics& found) {
     const MeasureSettings& measure = v.study.experiment.measure;
     if (measure.compareEvery > 0) return;
@@ -37,67 +36,66 @@ void shortHistory(const PlannedVariant& v, Diagnostics& found) {
         if (pass.warmupFrames > measure.warmup)
             found.push_back(
                 {pass.where,
-                 fmt::format("{}: it goes on from frame to frame, and {} of the {} frames "
-                             "that it looks back on come before the one that is compared:",
+                 fmt::format("{}: it goes on from frame to frame, "
+                             "and {} of the {} frames that it looks back on come before the one that is compared:",
                              pass.id, measure.warmup, pass.warmupFrames),
                  fmt::format("write measure: {{warmup: {}}}, or compare a sequence with 'compare_every'",
                              pass.warmupFrames)});
 }
 
-/// An image that lacks a part of the light that the reference has.
+/// Warns of an image without direct or indirect light, which the reference has.
 void missingLight(const PlannedVariant& v, Diagnostics& found) {
     if (!v.reference) return;
     for (const Graph::Input& input : v.variant.graph.unboundInputs(kComparedImage))
         if (std::ranges::count(kPartsOfLight, input.port) > 0)
             found.push_back(
                 {input.where,
-                 fmt::format("{0}: no pass before it writes '{1}', so that '{2}' lacks {1} light, "
-                             "which the reference has",
+                 fmt::format("{0}: "
+                             "no pass before it writes '{1}', so that '{2}' lacks {1} light, which the reference has",
                              input.id, input.port, kComparedImage),
                  fmt::format("these can: {}", fmt::join(v.study.registry->writersOf(input.port), ", "))});
 }
 
-/// Light that bounces more or fewer times than the reference's, which shows as a difference that no other
-/// parameter lowers; unless the sweep varies it.
-void otherBounces(const PlannedVariant& v, Diagnostics& found) {
+/// Warns of another number of bounces than the reference has, which is an error that no other parameter
+/// reduces; unless the sweep varies it.
+void differentBounces(const PlannedVariant& v, Diagnostics& found) {
     if (!v.reference) return;
-    const auto* own = v.variant.graph.resource<FrameImage>(kIndirectImage);
-    const auto* right = v.reference->resource<FrameImage>(kIndirectImage);
+    const auto* test = v.variant.graph.resource<FrameImage>(kIndirectImage);
+    const auto* expected = v.reference->resource<FrameImage>(kIndirectImage);
     const auto variesBounces = [](const auto& axis) { return axis.key.ends_with(".bounces"); };
     if (std::ranges::any_of(v.study.experiment.sweep.members, variesBounces)) return;
-    if (!own || !right || !own->lightBounces || !right->lightBounces ||
-        *own->lightBounces == *right->lightBounces)
+    if (!test || !expected || !test->lightBounces || !expected->lightBounces ||
+        *test->lightBounces == *expected->lightBounces)
         return;
-    const int64_t has = *own->lightBounces, wanted = *right->lightBounces;
+    const int64_t has = *test->lightBounces, wanted = *expected->lightBounces;
     std::string advice = fmt::format("write 'bounces: {}' in the reference", has);
 
-    // What comes after the first pass adds bounces of its own
+    // Later passes may add bounces
     const std::optional<Bounces> first = bouncesOf(v.variant);
     if (first && has >= first->value && first->value + wanted - has >= 0)
-        advice = fmt::format("write 'bounces: {}' in '{}', or {}", first->value + wanted - has, first->id,
-                             advice.substr(6));
+        advice =
+            fmt::format("write 'bounces: {}' in '{}', or {}", first->value + wanted - has, first->id, advice.substr(6));
     found.push_back({first ? first->where : v.study.experiment.reference.where,
                      fmt::format("indirect light has {} bounces, the reference's {}:", has, wanted), advice});
 }
 
-/// Much of the view is metal, whose light the reference has and the variant lacks.
+/// Warns of a variant without specular lobes if much of the view is metal.
 void missingLobes(const PlannedVariant& v, Diagnostics& found) {
-    constexpr double kMuch = 0.1;  // A few knobs of metal are no reason to leave a scene's gloss out.
-    if (!v.reference || v.metal < kMuch) return;
-    const auto* own = v.variant.graph.resource<FrameImage>(kIndirectImage);
-    const auto* right = v.reference->resource<FrameImage>(kIndirectImage);
-    if (!own || !right || own->hasSpecularLobes || !right->hasSpecularLobes) return;
+    constexpr double kMinMetallicFraction = 0.1;
+    if (!v.reference || v.metallicFraction < kMinMetallicFraction) return;
+    const auto* test = v.variant.graph.resource<FrameImage>(kIndirectImage);
+    const auto* expected = v.reference->resource<FrameImage>(kIndirectImage);
+    if (!test || !expected || test->hasSpecularLobes || !expected->hasSpecularLobes) return;
     found.push_back(
         {v.variant.setup.scene.where,
-         fmt::format(
-             "scene: {:.0f} % of the surfaces in view are metal, which reflects by specular lobes alone: "
-             "the reference has what they reflect of indirect light, and this variant lacks it",
-             100 * v.metal),
+         fmt::format("scene: {:.0f} % of the surfaces in view are metal, which reflects by specular lobes alone: "
+                     "the reference has what they reflect of indirect light, and this variant lacks it",
+                     100 * v.metallicFraction),
          "write 'materials: "
          "lambert' for a scene without lobes, or take gather_mirror, or gather_cones with 'specular'"});
 }
 
-/// A reference whose halves have different numbers of samples.
+/// Warns of a reference whose halves have different numbers of samples.
 void unequalHalves(const Study& study, Diagnostics& found) {
     const Value* spp = study.experiment.reference.find("spp");
     if (!spp) return;

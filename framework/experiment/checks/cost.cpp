@@ -17,8 +17,8 @@
 namespace voxray {
 namespace {
 
-constexpr size_t kLights = 16;                ///< Fewer are not many.
-constexpr uint64_t kMaxUnasked = 20'000'000;  ///< Rays that no machine takes long for.
+constexpr size_t kMinLights = 16;          ///< With fewer lights nothing is checked.
+constexpr uint64_t kMinRays = 20'000'000;  ///< With fewer rays nothing is checked.
 constexpr double kLongSeconds = 10;
 constexpr uint32_t kTimedRays = 1u << 16;
 
@@ -26,11 +26,11 @@ std::string duration(double seconds) {
     return seconds < 100 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60);
 }
 
-/// A variant and the memory that it takes.
+/// The memory of a variant.
 struct MemoryNeed {
     std::string variant;
     uint64_t bytes;
-    std::string largest;  ///< Id of the pass that takes most.
+    std::string largest;  ///< Id of the pass with most memory.
 };
 
 MemoryNeed memoryNeedOf(const Variant& variant) {
@@ -40,44 +40,45 @@ MemoryNeed memoryNeedOf(const Variant& variant) {
     return {variant.name, peakBytes(variant.memory), passes[size_t(largest - variant.memory.begin())].id};
 }
 
-/// Settings that the number of triangles grows with.
+/// Ways to reduce the number of triangles.
 std::vector<std::string> fewerTriangles(const SceneSettings& settings) {
-    std::vector<std::string> ways;
-    if (settings.options.subdivide > 0) ways.emplace_back("lower scene.subdivide");
-    if (!settings.additions.empty()) ways.emplace_back("place fewer copies in scene.add");
+    std::vector<std::string> remedies;
+    if (settings.options.subdivide > 0) remedies.emplace_back("lower scene.subdivide");
+    if (!settings.additions.empty()) remedies.emplace_back("place fewer copies in scene.add");
     if (settings.movingSpheres && settings.movingSpheres->count > 0)
-        ways.emplace_back("lower scene.moving_spheres.count");
+        remedies.emplace_back("lower scene.moving_spheres.count");
     if (settings.source.builtin.empty())
-        ways.emplace_back("simplify its meshes");
+        remedies.emplace_back("simplify its meshes");
     else
         for (const ParameterDoc& doc : describeBuiltinScene(settings.source.builtin))
-            if (doc.type == "integer") ways.push_back("lower scene." + doc.name);
-    return ways;
+            if (doc.type == "integer") remedies.push_back("lower scene." + doc.name);
+    return remedies;
 }
 
+/// Ways to reduce the size of textures.
 std::vector<std::string> smallerTextures(const SceneSettings& settings, const Scene& scene) {
     const auto texels = [](const Texture& texture) { return uint64_t(texture.width) * texture.height; };
     const Texture& largest = *std::ranges::max_element(scene.textures, {}, texels);
-    std::vector<std::string> ways;
-    if (!settings.additions.empty()) ways.emplace_back("place fewer copies in scene.add");
-    ways.push_back(fmt::format("make its textures smaller; the largest is '{}' of {} x {}", largest.name,
-                               largest.width, largest.height));
-    return ways;
+    std::vector<std::string> remedies;
+    if (!settings.additions.empty()) remedies.emplace_back("place fewer copies in scene.add");
+    remedies.push_back(fmt::format("make its textures smaller; the largest is '{}' of {} x {}", largest.name,
+                                   largest.width, largest.height));
+    return remedies;
 }
 
 }  // namespace
 
 double LightRays::perSecond() {
     if (perSecond_) return *perSecond_;
-    // From surfaces all over the scene to one light after the other.
+    // Rays from vertices all over the scene to all lights in turn
     const Geometry& g = state_.geometry;
     std::vector<Ray> rays(kTimedRays);
     for (uint32_t i = 0; i < kTimedRays; ++i) {
         const glm::vec3 from = g.positions[g.triangles[uint64_t(i) * g.triangles.size() / kTimedRays].x];
         const Light& light = state_.lights[i % state_.lights.size()];
         const bool isFar = light.type == LightType::Directional;
-        const glm::vec3 way = isFar ? -light.direction : light.position - from;
-        rays[i] = {from, 1e-3f, way, isFar ? std::numeric_limits<float>::infinity() : 1.0f};
+        const glm::vec3 toLight = isFar ? -light.direction : light.position - from;
+        rays[i] = {from, 1e-3f, toLight, isFar ? std::numeric_limits<float>::infinity() : 1.0f};
     }
     const EmbreeScene tracer(state_, ExpectedRays::Few);
     std::vector<uint32_t> occluded(kTimedRays);
@@ -89,32 +90,31 @@ double LightRays::perSecond() {
 }
 
 void LightRays::check(std::span<const Graph::PassInfo> passes, Diagnostics& found) {
-    if (state_.lights.size() < kLights || state_.geometry.triangles.empty()) return;
+    if (state_.lights.size() < kMinLights || state_.geometry.triangles.empty()) return;
     for (const Graph::PassInfo& pass : passes) {
-        if (pass.lightRays < kMaxUnasked) continue;
+        if (pass.lightRays < kMinRays) continue;
         const double seconds = double(pass.lightRays) / perSecond();
         if (seconds < kLongSeconds) continue;
         found.push_back(
             {pass.where,
              fmt::format(
-                 "{}: {} lights take {:.0f} million rays, "
-                 "about {} on this machine's CPU each time that it runs: it takes as long for each light",
+                 "{}: {} lights take {:.0f} million rays, about {} on this machine's CPU each time that it runs: "
+                 "it takes as long for each light",
                  pass.id, state_.lights.size(), double(pass.lightRays) / 1e6, duration(seconds)),
-             "lower the size of the image or its own parameters, "
-             "or leave lights out with 'keep_file_lights: false'"});
+             "lower the size of the image or its own parameters, or leave lights out with 'keep_file_lights: false'"});
     }
 }
 
-void lightRaysThatTakeLong(const PlannedVariant& v, Diagnostics& found) {
+void slowLightRays(const PlannedVariant& v, Diagnostics& found) {
     v.lightRays.check(v.variant.graph.passes(), found);
 }
 
-/// Some variants over the config's own limit of memory. @throws UsageError where all are.
-void overTheMemoryLimit(const Study& study, Diagnostics& found) {
+/// Warns of variants that exceed the config's limit of memory. @throws UsageError if all do.
+void exceededMemoryLimit(const Study& study, Diagnostics& found) {
     const uint64_t limitMb = study.experiment.measure.memoryLimitMb;
     std::vector<MemoryNeed> needs;
     for (const Variant& variant : study.variants) {
-        if (variant.memory.empty()) return;  // Not all are planned.
+        if (variant.memory.empty()) return;  // Only one variant was planned.
         needs.push_back(memoryNeedOf(variant));
     }
     const auto isOver = [&](const MemoryNeed& need) { return limitMb > 0 && need.bytes > limitMb << 20; };
@@ -123,8 +123,7 @@ void overTheMemoryLimit(const Study& study, Diagnostics& found) {
     std::ranges::stable_sort(needs, {}, &MemoryNeed::bytes);
     const auto& [variant, bytes, largest] = *std::ranges::find_if(needs, isOver);
     const Diagnostic finding{locationOf(study.experiment.config, "measure.memory_limit_mb"),
-                             fmt::format("measure.memory_limit_mb: "
-                                         "{} MiB are too few for {} of {} variants: "
+                             fmt::format("measure.memory_limit_mb: {} MiB are too few for {} of {} variants: "
                                          "{} takes at least {:.1f} MiB, the largest part of it by '{}'",
                                          limitMb, over, needs.size(), variant, double(bytes) / kMiB, largest),
                              ""};
@@ -136,18 +135,17 @@ std::string sceneSizeAdvice(const SceneSettings& settings, const SceneState& sta
     const Scene& scene = *state.scene;
     const uint64_t textures = gpuTextureBytes(scene), triangles = gpuSceneBytes(state) - textures;
     const uint64_t map = gpuEnvironmentBytes(scene.environment);
-    std::vector<std::string> ways;
+    std::vector<std::string> remedies;
     if (map > std::max(textures, triangles))
-        ways = {"take a smaller map for scene.environment"};
+        remedies = {"take a smaller map for scene.environment"};
     else if (textures > triangles)
-        ways = smallerTextures(settings, scene);
+        remedies = smallerTextures(settings, scene);
     else
-        ways = fewerTriangles(settings);
-    ways.emplace_back("take another --device");
-    return fmt::format(
-        "its {} triangles take {:.1f} MiB, its {} textures {:.1f} MiB, its environment {:.1f} MiB: {}",
-        state.geometry.triangles.size(), double(triangles) / kMiB, scene.textures.size(),
-        double(textures) / kMiB, double(map) / kMiB, fmt::join(ways, ", or "));
+        remedies = fewerTriangles(settings);
+    remedies.emplace_back("take another --device");
+    return fmt::format("its {} triangles take {:.1f} MiB, its {} textures {:.1f} MiB, its environment {:.1f} MiB: {}",
+                       state.geometry.triangles.size(), double(triangles) / kMiB, scene.textures.size(),
+                       double(textures) / kMiB, double(map) / kMiB, fmt::join(remedies, ", or "));
 }
 
 }  // namespace voxray

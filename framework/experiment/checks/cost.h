@@ -11,26 +11,26 @@
 
 namespace voxray {
 
-/// Foretells how long rays to many lights take, by how fast a few are on this machine's CPU.
+/// Estimates the time of rays to many lights from the speed of a few rays on this machine's CPU.
 class LightRays {
  public:
     /// @param state must outlive this object.
     explicit LightRays(const SceneState& state) : state_(state) {}
 
-    /// Passes, planned, of which one run traces rays to lights for longer than ten seconds, since there are
-    /// so many lights.
+    /// Warns of planned passes that trace rays to lights for longer than ten seconds in each run, because
+    /// there are many lights.
     void check(std::span<const Graph::PassInfo> passes, Diagnostics& found);
 
  private:
+    /// Rays in a second, measured once.
     double perSecond();
 
     const SceneState& state_;
     std::optional<double> perSecond_;
 };
 
-/// What to change where a scene itself takes too much of the device's memory: what it takes for triangles,
-/// for textures and for its environment map, and which settings of the config or parts of its file the
-/// largest of these grows with.
+/// Advice on a scene that does not fit into the device's memory: the sizes of its triangles, textures and
+/// environment map, and how to reduce the largest of these.
 std::string sceneSizeAdvice(const SceneSettings& settings, const SceneState& state);
 
 }  // namespace voxray

@@ -7,12 +7,11 @@
 
 namespace voxray {
 
-/// What may make a result misleading, and what to do about it.
+/// A reason why a result may be misleading, and what to do about it.
 struct Diagnostic {
     TextLocation where;
     std::string text;
-    std::string
-        advice;  ///< Stands behind the text and a semicolon, or behind the text's own colon; may be empty.
+    std::string advice;  ///< Follows the text and a semicolon, or a colon in the text; may be empty.
 
     /// One line: "config.yaml:12: text; advice".
     std::string str() const {

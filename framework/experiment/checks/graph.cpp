@@ -14,13 +14,12 @@ namespace voxray {
 namespace {
 
 void checkPassName(const Value& pass, const Registry& registry) {
-    for (const Value& item : pass.items) checkPassName(item, registry);  // A chain.
+    for (const Value& item : pass.items) checkPassName(item, registry);  // The passes of a chain.
     const Value* name = pass.isMap() ? pass.find("pass") : &pass;
     if (name && name->isScalar()) registry.require(name->scalar, name->where);
 }
 
-/// `inject: {rays_per_light: [4096]}` names values of the whole pass; what was meant is one of its
-/// parameters.
+/// Rejects `inject: {rays_per_light: [4096]}`: it has values of the pass, not of its parameter.
 void checkNestedAxis(const Value& entry, const std::string& id, const Value& axis, const Registry& registry) {
     const auto isPass = [&](const Value& v) { return !v.isScalar() || registry.find(v.scalar); };
     const Value* pass = entry.find("pass");
@@ -32,8 +31,8 @@ void checkNestedAxis(const Value& entry, const std::string& id, const Value& axi
                                  values.text());
 }
 
-/// @param source what `inputs` of a pass says for a port: "id" or "id.port".
-/// @throws UsageError where no variant has a pass of that id, or none that writes it.
+/// @param source the value of a port in `inputs` of a pass: "id" or "id.port".
+/// @throws UsageError if no variant has a pass with that id and output.
 void checkSource(const std::string& reader, const std::string& port, const Value& source,
                  const std::vector<Variant>& variants, const Registry& registry) {
     const std::string what = fmt::format("{}.inputs.{}", reader, port);
@@ -57,16 +56,16 @@ void checkSource(const std::string& reader, const std::string& port, const Value
                          didYouMean(output, std::vector(outputs.begin(), outputs.end())));
 }
 
-/// The name of the pass that has the id where a value stands in place of a pass: a chain's last.
+/// The name of the last pass of a chain, or of a single pass.
 std::string lastPass(const Value& value) {
     const Value& last = value.isList() ? value.items.back() : value;
     return last.isMap() ? last.find("pass")->scalar : last.scalar;
 }
 
-/// Passes that run in no variant.
-std::set<std::string> idlePasses(const Study& study) {
+/// Ids of passes that run in no variant.
+std::set<std::string> unusedPassIds(const Study& study) {
     std::set<std::string> idle;
-    for (const auto& [id, count] : variantsWithout(study))
+    for (const auto& [id, count] : cullCounts(study))
         if (!runsSomewhere(study, id)) idle.insert(id);
     return idle;
 }
@@ -80,8 +79,7 @@ void checkPassNames(const Experiment& experiment, const Registry& registry) {
             if (passId(entry) == path) {
                 checkNestedAxis(entry, path, values, registry);
                 for (const Value& value : sweepValues(values)) {
-                    if (value.isScalar() &&
-                        value.scalar.find_first_not_of("0123456789.") == std::string::npos)
+                    if (value.isScalar() && value.scalar.find_first_not_of("0123456789.") == std::string::npos)
                         throw UsageError(value.where,
                                          "sweep.{0}: '{1}' is no pass: "
                                          "to vary a parameter of '{0}', write {0}.PARAMETER: {2}",
@@ -91,11 +89,10 @@ void checkPassNames(const Experiment& experiment, const Registry& registry) {
             }
 }
 
-void checkOwnValues(const Experiment& experiment, const std::vector<Variant>& variants,
-                    const Registry& registry) {
+void checkOwnValues(const Experiment& experiment, const std::vector<Variant>& variants, const Registry& registry) {
     for (const Value& entry : experiment.setup.graph.items) {
         if (!entry.find("pass")) continue;
-        checkEntry(registry, entry, Graph::reservedKeys());
+        checkEntry(registry, entry);
         if (const Value* inputs = entry.find("inputs"))
             for (const auto& [port, source] : inputs->members)
                 checkSource(passId(entry), port, source, variants, registry);
@@ -109,7 +106,7 @@ void checkSwaps(const Study& study) {
         if (std::ranges::none_of(study.experiment.setup.graph.items, isOfAxis)) continue;
         const auto isRun = [&](const std::string& label) {
             return std::ranges::any_of(study.variants, [&](const Variant& variant) {
-                return variant.values[a] == label && std::ranges::count(variant.leftOut, axes[a].key) == 0;
+                return variant.values[a] == label && std::ranges::count(variant.culledPasses, axes[a].key) == 0;
             });
         };
         const std::vector<std::string> labels = sweepLabels(axes[a].value);
@@ -133,42 +130,41 @@ void checkLightsGoOff(const SceneSettings& scene, const MeasureSettings& measure
     for (size_t i = 0; i < scene.lights.size(); ++i)
         if (const ConfigLight& light = scene.lights[i]; light.offAt >= measure.frames)
             throw UsageError(light.where,
-                             "scene.lights[{}].off_at: {} is after the last frame, {}, "
-                             "so that it always shines: lower it, or raise measure.frames",
+                             "scene.lights[{}].off_at: {} is after the last frame, {}, so that it always shines: "
+                             "lower it, or raise measure.frames",
                              i, light.offAt, measure.frames - 1);
 }
 
 std::string overwrittenPass(const Study& study) {
-    const std::set<std::string> idle = idlePasses(study);
+    const std::set<std::string> idle = unusedPassIds(study);
     if (idle.empty()) return {};
     for (const Variant& variant : study.variants)
         for (const Value& entry : variant.setup.graph.items) {
             const std::string id = passId(entry);
-            if (!idle.contains(id) || std::ranges::count(variant.leftOut, id) == 0) continue;
+            if (!idle.contains(id) || std::ranges::count(variant.culledPasses, id) == 0) continue;
             const PassKind& kind = study.registry->require(entry.find("pass")->scalar, entry.where);
-            const auto isImage = [](const PortDoc& port) {
-                return port.output && port.name == kComparedImage;
-            };
+            const auto isImage = [](const PortDoc& port) { return port.output && port.name == kComparedImage; };
             if (std::ranges::any_of(kind.ports, isImage)) return id;
         }
     return {};
 }
 
 std::string whyNeverRun(const Study& study, const std::string& id) {
-    const auto lacks = [&](const Variant& v) { return std::ranges::count(v.leftOut, id) > 0; };
-    const auto variant = std::ranges::find_if(study.variants, lacks);
+    const auto isCulled = [&](const Variant& v) { return std::ranges::count(v.culledPasses, id) > 0; };
+    const auto variant = std::ranges::find_if(study.variants, isCulled);
     return Graph(*study.registry, variant->setup.graph).whyCulled(id);
 }
 
 void checkIsNotOverwritten(const Study& study) {
     const std::string id = overwrittenPass(study);
-    if (!id.empty() && idlePasses(study).size() > 1) throw UsageError("{}", whyNeverRun(study, id));
+    if (!id.empty() && unusedPassIds(study).size() > 1) throw UsageError("{}", whyNeverRun(study, id));
 }
 
-/// First one whose image is written over, for passes before it mostly are left out for that.
-void passesThatNeverRun(const Study& study, Diagnostics& found) {
+/// Warns of passes that run in no variant. A pass whose image is overwritten comes first, since it is often
+/// the reason why others are unused.
+void unusedPasses(const Study& study, Diagnostics& found) {
     std::vector<std::string> ids;
-    for (const std::string& id : idlePasses(study))
+    for (const std::string& id : unusedPassIds(study))
         if (std::ranges::count(study.deselected, id) == 0) ids.push_back(id);
     const std::string first = overwrittenPass(study);
     std::ranges::stable_partition(ids, [&](const std::string& id) { return id == first; });

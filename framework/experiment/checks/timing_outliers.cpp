@@ -7,8 +7,8 @@ namespace voxray {
 namespace {
 
 constexpr double kMinMs = 5;
-constexpr double kBuildRatio = 1.2;  ///< Of the slowest equal build to the fastest one.
-constexpr double kFrameRatio = 1.5;  ///< Of a variant's 95th percentile to its 5th.
+constexpr double kMaxBuildRatio = 1.2;  ///< Slowest to fastest of equal builds.
+constexpr double kMaxFrameRatio = 1.5;  ///< 95th to 5th percentile of a variant's frames.
 constexpr const char* kAdvice = "run it again on an idle machine";
 
 /// The fastest and the slowest of equal builds.
@@ -27,34 +27,33 @@ double frameRatio(const TimedVariant& variant) {
 
 std::vector<std::string> timingOutliers(const std::vector<TimedVariant>& variants) {
     std::vector<std::string> warnings;
-    std::map<std::string, Builds> equal;  // By what they depend on.
+    std::map<std::string, Builds> equal;  // By TimedVariant::build.
     for (const TimedVariant& variant : variants) {
-        const VariantResult* own = variant.result;
-        if (!own->ok || variant.build.empty() || own->buildMs < kMinMs) continue;
-        Builds& builds = equal.try_emplace(variant.build, Builds{own, own}).first->second;
-        if (own->buildMs < builds.fastest->buildMs) builds.fastest = own;
-        if (own->buildMs > builds.slowest->buildMs) builds.slowest = own;
+        const VariantResult* result = variant.result;
+        if (!result->ok || variant.build.empty() || result->buildMs < kMinMs) continue;
+        Builds& builds = equal.try_emplace(variant.build, Builds{result, result}).first->second;
+        if (result->buildMs < builds.fastest->buildMs) builds.fastest = result;
+        if (result->buildMs > builds.slowest->buildMs) builds.slowest = result;
     }
     const auto worst = std::ranges::max_element(equal, {}, [](const auto& e) { return e.second.ratio(); });
-    if (worst != equal.end() && worst->second.ratio() > kBuildRatio) {
+    if (worst != equal.end() && worst->second.ratio() > kMaxBuildRatio) {
         const auto& [fastest, slowest] = worst->second;
-        warnings.push_back(fmt::format(
-            "times were disturbed: the same build took {:.1f} ms in '{}' and {:.1f} ms in '{}': {}",
-            fastest->buildMs, fastest->variant, slowest->buildMs, slowest->variant, kAdvice));
+        warnings.push_back(
+            fmt::format("times were disturbed: the same build took {:.1f} ms in '{}' and {:.1f} ms in '{}': {}",
+                        fastest->buildMs, fastest->variant, slowest->buildMs, slowest->variant, kAdvice));
     }
 
     std::vector<TimedVariant> uneven;
     std::ranges::copy_if(variants, std::back_inserter(uneven), [](const TimedVariant& variant) {
-        return variant.result->ok && variant.isAtRest && variant.result->frameMs.p05 >= kMinMs &&
-               frameRatio(variant) > kFrameRatio;
+        return variant.result->ok && variant.isSteady && variant.result->frameMs.p05 >= kMinMs &&
+               frameRatio(variant) > kMaxFrameRatio;
     });
     if (uneven.empty()) return warnings;
     const VariantResult& most = *std::ranges::max_element(uneven, {}, frameRatio)->result;
     warnings.push_back(fmt::format(
-        "times were disturbed: frames of '{}' took {:.1f} to {:.1f} ms (5th to 95th percentile){}: {}",
-        most.variant, most.frameMs.p05, most.frameMs.p95,
-        uneven.size() > 1 ? fmt::format(", and those of {} more differ as much", uneven.size() - 1) : "",
-        kAdvice));
+        "times were disturbed: frames of '{}' took {:.1f} to {:.1f} ms (5th to 95th percentile){}: {}", most.variant,
+        most.frameMs.p05, most.frameMs.p95,
+        uneven.size() > 1 ? fmt::format(", and those of {} more differ as much", uneven.size() - 1) : "", kAdvice));
     return warnings;
 }
 

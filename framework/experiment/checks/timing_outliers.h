@@ -7,17 +7,16 @@
 
 namespace voxray {
 
-/// A variant's times, and what tells which of them are alike.
+/// The times of a variant, and which of them should be equal.
 struct TimedVariant {
     const VariantResult* result = nullptr;
-    std::string build;     ///< What its build passes depend on; "": its build is not compared.
-    bool isAtRest = true;  ///< Whether each of its frames does the same.
+    std::string build;     ///< Everything its build passes depend on; "": its build is not compared.
+    bool isSteady = true;  ///< Whether all its frames do the same work.
 };
 
-/// What to say of times that do not agree with each other: equal builds of several variants that differ by
-/// more than a fifth, and frames of a variant at rest whose 95th percentile is over 1.5 times their 5th.
-/// Something else took the machine's time then. Times below 5 ms are left out: they differ by when the
-/// system lets a thread run.
+/// Warns of times that were disturbed by other processes: equal builds of several variants that differ by
+/// more than a fifth, and steady frames of a variant whose 95th percentile is over 1.5 times their 5th. Times
+/// below 5 ms are skipped, since they depend on the scheduling of threads.
 std::vector<std::string> timingOutliers(const std::vector<TimedVariant>& variants);
 
 }  // namespace voxray

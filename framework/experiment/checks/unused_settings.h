@@ -8,19 +8,19 @@
 
 namespace voxray {
 
-/// Refuses parameters that are written without effect. One that has an effect in some variants stays: a
-/// sweep over the choice that it belongs to leaves it unused in the others.
-/// @throws UsageError at the parameter's own place.
+/// Rejects parameters in the config that have no effect in any variant. With a sweep a parameter may be
+/// unused in some of the variants.
+/// @throws UsageError at the parameter's location.
 void refuseUnusedParameters(const Study& study);
 
-/// Finds settings of motion and time that have no effect in any variant: where nothing is animated, or there
-/// is but one frame. A sweep over scenes may leave them so in some.
+/// Finds settings of motion and time that have no effect in any variant, because nothing is animated or there
+/// is only one frame.
 class UnusedMotion {
  public:
     explicit UnusedMotion(const MeasureSettings& measure) : measure_(measure) {}
 
-    /// Takes note of what one variant asks for. `scene` is what it renders.
-    void look(const Variant& variant, const Scene& scene);
+    /// Adds the settings of a variant, which renders `scene`.
+    void add(const Variant& variant, const Scene& scene);
 
     /// @throws UsageError with file and line for the first setting that has no effect in any variant.
     void refuse() const;
@@ -33,7 +33,7 @@ class UnusedMotion {
     };
 
     const MeasureSettings& measure_;
-    std::map<std::string, Use> uses_;  ///< By path.
+    std::map<std::string, Use> uses_;  ///< By path of the setting.
 };
 
 }  // namespace voxray

@@ -15,19 +15,18 @@
 namespace voxray {
 namespace {
 
-/// Of the image that is looked at: its longer side in pixels, paths a pixel, bounces.
-struct Look {
-    uint32_t size, spp, bounces;
+/// Quality of a preview.
+struct Quality {
+    uint32_t size, spp, bounces;  ///< Longer side in pixels, paths per pixel, bounces.
 };
-/// A glance finds light within milliseconds where there is much. A view that even the last look finds black
-/// shows only noise at best.
-constexpr Look kLooks[] = {{32, 4, 4}, {64, 8, 16}, {64, 64, 16}};
+/// A preview of low quality finds light within milliseconds in most views. Black ones are repeated.
+constexpr Quality kQualities[] = {{32, 4, 4}, {64, 8, 16}, {64, 64, 16}};
 
 struct Size {
     uint32_t width, height;
 };
 
-/// The image's shape, `longer` pixels along its longer side.
+/// The size of an image with the same aspect ratio and `longer` pixels along its longer side.
 Size shrunk(const ImageSettings& image, uint32_t longer) {
     const uint32_t longest = std::max(image.width, image.height);
     const auto scaled = [&](uint32_t side) { return std::max(1u, side * longer / longest); };
@@ -40,38 +39,37 @@ float metallicAt(const SceneState& state, const Hit& hit) {
     const TextureRef& ref = material.metallicRoughnessTexture;
     if (ref.texture < 0 || material.metallic == 0) return material.metallic;
     const glm::uvec3 corners = g.triangles[hit.triangle];
-    const glm::vec4 at = interpolate(g.attributes[corners.x].texCoords, g.attributes[corners.y].texCoords,
-                                     g.attributes[corners.z].texCoords, hit.u, hit.v);
+    const glm::vec4 texCoords = interpolate(g.attributes[corners.x].texCoords, g.attributes[corners.y].texCoords,
+                                            g.attributes[corners.z].texCoords, hit.u, hit.v);
     const Texture& texture = state.scene->textures[size_t(ref.texture)];
-    return material.metallic * sampleTexture(texture, textureCoordinates(ref, at)).b;
+    return material.metallic * sampleTexture(texture, textureCoordinates(ref, texCoords)).b;
 }
 
-/// Finds what the rays of a small image meet.
-void lookThrough(View& view, const Camera& camera, Size size) {
+/// Traces the camera rays of a small image.
+void traceView(View& view, const Camera& camera, Size size) {
     const Geometry& g = view.state().geometry;
     const CameraRays rays = cameraRays(camera, size.width, size.height);
     size_t backs = 0;
-    double metal = 0;
+    double metallic = 0;
     for (uint32_t y = 0; y < size.height; ++y)
         for (uint32_t x = 0; x < size.width; ++x) {
             const glm::vec3 direction =
                 rays.direction((float(x) + 0.5f) / float(size.width), (float(y) + 0.5f) / float(size.height));
-            const Hit hit =
-                view.tracer.closestHit({rays.origin, 0, direction, std::numeric_limits<float>::infinity()});
+            const Hit hit = view.tracer.closestHit({rays.origin, 0, direction, std::numeric_limits<float>::infinity()});
             if (hit.triangle == Hit::kMiss) continue;
-            metal += double(metallicAt(view.state(), hit));
-            backs += showsBack(g, hit.triangle, direction) ? 1 : 0;
-            view.points.push_back({pointTowards(g, hit.triangle, hit.u, hit.v, direction),
-                                   normalTowards(g, hit.triangle, direction)});
+            metallic += double(metallicAt(view.state(), hit));
+            backs += isBackFacing(g, hit.triangle, direction) ? 1 : 0;
+            view.points.push_back(
+                {pointTowards(g, hit.triangle, hit.u, hit.v, direction), normalTowards(g, hit.triangle, direction)});
         }
-    const size_t seen = view.points.size();
-    view.filled = double(seen) / (double(size.width) * size.height);
-    view.metal = metal / double(std::max<size_t>(seen, 1));
-    view.showsBacks = 2 * backs > seen;
-    view.isEmpty = view.filled < kMinSeen;
+    const size_t count = view.points.size();
+    view.surfaceFraction = double(count) / (double(size.width) * size.height);
+    view.metallicFraction = metallic / double(std::max<size_t>(count, 1));
+    view.showsBacks = 2 * backs > count;
+    view.isEmpty = view.surfaceFraction < kMinSurfaceFraction;
 }
 
-/// What nothing shines in; without textures.
+/// A copy of the scene without lights and textures.
 SceneState unlit(const SceneState& state) {
     auto scene = std::make_shared<Scene>();
     scene->materials = state.scene->materials;
@@ -86,13 +84,12 @@ SceneState unlit(const SceneState& state) {
     return dark;
 }
 
-/// All that a view depends on, but for places in the config.
+/// Key of everything that a view depends on, except locations in the config.
 std::string keyOf(const Setup& setup, const std::string& sceneKey) {
     const ImageSettings& image = setup.image;
-    std::string key = fmt::format("{} {:.6f} {} {}", sceneKey, double(image.width) / image.height,
-                                  image.exposureStops, isVoxelized(setup));
-    for (const ConfigLight& light : setup.scene.lights)
-        key += light.move == glm::vec3(0.0f) ? " rests" : " moves";
+    std::string key = fmt::format("{} {:.6f} {} {}", sceneKey, double(image.width) / image.height, image.exposureStops,
+                                  isVoxelized(setup));
+    for (const ConfigLight& light : setup.scene.lights) key += light.move == glm::vec3(0.0f) ? " rests" : " moves";
     return key;
 }
 
@@ -102,15 +99,15 @@ bool isBlack(const ImageF& image) {
     return std::ranges::all_of(image.data, [](float value) { return value == 0; });
 }
 
-double View::lit() const {
-    return state().scene->environment.radiance != glm::vec3(0.0f) ? 1 : filled;
+double View::contentFraction() const {
+    return state().scene->environment.radiance != glm::vec3(0.0f) ? 1 : surfaceFraction;
 }
 
 std::string bracketed(const glm::vec3& v) {
     return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v.x, v.y, v.z);
 }
 
-TextLocation cameraPlace(const SceneSettings& scene) {
+TextLocation cameraLocation(const SceneSettings& scene) {
     return scene.cameraWhere.file.empty() ? scene.where : scene.cameraWhere;
 }
 
@@ -123,42 +120,43 @@ ViewCheck checkView(const Setup& setup, const PreparedScene& prepared, const Pre
     const SceneState& state = prepared.state;
     const Camera& camera = prepared.camera;
     if (!isInView(state.geometry, camera, setup.image.width, setup.image.height))
-        throw UsageError(cameraPlace(setup.scene), "scene.camera: no surface lies in its view; {}",
+        throw UsageError(cameraLocation(setup.scene), "scene.camera: no surface lies in its view; {}",
                          cameraAdvice(setup.scene));
     if (!preview) return {};
 
     const EmbreeScene tracer(state, ExpectedRays::Few);
     View view{setup, prepared, tracer, {}, {}};
-    lookThrough(view, camera, shrunk(setup.image, std::end(kLooks)[-1].size));
-    const auto look = [&](const SceneState& lit, const Look& how) {
-        const Size size = shrunk(setup.image, how.size);
-        return preview(lit, tracer, camera, size.width, size.height, how.spp, how.bounces);
+    traceView(view, camera, shrunk(setup.image, std::end(kQualities)[-1].size));
+    const auto render = [&](const SceneState& lit, const Quality& quality) {
+        const Size size = shrunk(setup.image, quality.size);
+        return preview(lit, tracer, camera, size.width, size.height, quality.spp, quality.bounces);
     };
-    std::optional<SceneState> alone;  // One copy of the geometry for all lights.
-    view.isFound = [&](const Light& light) {
-        if (view.isEmpty) return true;  // By whoever turns the camera to it.
-        if (!alone) alone = unlit(state);
-        alone->lights = {light};
-        return std::ranges::any_of(kLooks, [&](const Look& how) { return !isBlack(look(*alone, how)); });
+    std::optional<SceneState> singleLight;  // One copy of the geometry for all lights.
+    view.reachesView = [&](const Light& light) {
+        if (view.isEmpty) return true;  // Only the camera is reported.
+        if (!singleLight) singleLight = unlit(state);
+        singleLight->lights = {light};
+        return std::ranges::any_of(kQualities,
+                                   [&](const Quality& quality) { return !isBlack(render(*singleLight, quality)); });
     };
-    // Few paths may miss what is bright
+    // Few paths may miss small lights
     if (!view.isEmpty)
-        for (const Look& how : kLooks)
-            if (view.image = look(state, how); !isDarkAt(setup.image.exposureStops, view.image, view.lit()))
+        for (const Quality& quality : kQualities)
+            if (view.image = render(state, quality);
+                !isDarkAt(setup.image.exposureStops, view.image, view.contentFraction()))
                 break;
-    ViewCheck checked{{}, view.metal};
+    ViewCheck checked{{}, view.metallicFraction};
     for (const Check<View> check : kViewChecks) check(view, checked.found);
     return checked;
 }
 
-const ViewCheck& ViewChecks::of(const Setup& setup, const std::string& sceneKey,
-                                const PreparedScene& prepared) {
-    // What is said holds for one config alone, since it names its lines
-    const std::string anywhere = keyOf(setup, sceneKey), here = setup.scene.where.file + " " + anywhere;
-    for (const std::string& key : {anywhere, here})
+const ViewCheck& ViewChecks::of(const Setup& setup, const std::string& sceneKey, const PreparedScene& prepared) {
+    // Diagnostics have locations in a config and are not valid for other configs
+    const std::string viewKey = keyOf(setup, sceneKey), configKey = setup.scene.where.file + " " + viewKey;
+    for (const std::string& key : {viewKey, configKey})
         if (const auto known = known_.find(key); known != known_.end()) return known->second;
     ViewCheck checked = checkView(setup, prepared, preview_);
-    return known_.emplace(checked.found.empty() ? anywhere : here, std::move(checked)).first->second;
+    return known_.emplace(checked.found.empty() ? viewKey : configKey, std::move(checked)).first->second;
 }
 
 }  // namespace voxray

@@ -14,55 +14,54 @@
 
 namespace voxray {
 
-/// A radiance that previews show well, W/(m² sr).
-inline constexpr double kWellSeen = 0.2;
+/// A radiance of medium brightness in previews, W/(m² sr).
+inline constexpr double kPreviewRadiance = 0.2;
 
-/// Path traces a small image of what a camera sees, on the host: `spp` paths a pixel, of up to `bounces`
-/// bounces. 3 channels, W/(m² sr).
+/// Path traces a small image on the host, `spp` paths per pixel. 3 channels, W/(m² sr).
 using Preview = std::function<ImageF(const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
                                      uint32_t width, uint32_t height, uint32_t spp, uint32_t bounces)>;
 
-/// A point off a surface that the camera sees, with the unit normal of the side that it sees.
-struct SeenPoint {
+/// A point on a visible surface, offset from it, with the unit normal of the visible side.
+struct VisiblePoint {
     glm::vec3 position, normal;
 };
 
-/// Where surfaces fill less of the view there is hardly an image to compare.
-inline constexpr double kMinSeen = 0.01;
+/// If surfaces cover a smaller fraction of the view, there is hardly an image to compare.
+inline constexpr double kMinSurfaceFraction = 0.01;
 
-/// What a look through a variant's camera shows before anything is rendered there.
+/// What a variant's camera sees, by a few rays and a path-traced preview.
 struct View {
     const Setup& setup;
     const PreparedScene& prepared;  ///< In the compared frame.
-    const EmbreeScene& tracer;      ///< Of its state.
-    /// Whether a light alone lights anything that is seen, be it by reflections.
-    std::function<bool(const Light&)> isFound;
-    std::vector<SeenPoint> points;  ///< Of the image, evenly.
-    double filled = 0;              ///< Part of it that shows surfaces.
-    double metal = 0;               ///< Part of these that is metal.
-    bool showsBacks = false;        ///< Mostly, of surfaces.
-    bool isEmpty = false;           ///< Surfaces fill less than kMinSeen of it.
-    ImageF image = {};              ///< Path traced, 3 channels, W/(m² sr); none where the view is empty.
+    const EmbreeScene& tracer;      ///< Built from `prepared.state`.
+    /// Whether a light on its own lights any visible surface, directly or by reflections.
+    std::function<bool(const Light&)> reachesView;
+    std::vector<VisiblePoint> points;  ///< Evenly distributed over the image.
+    double surfaceFraction = 0;        ///< Fraction of the image that shows surfaces.
+    double metallicFraction = 0;       ///< Fraction of these surfaces that is metal.
+    bool showsBacks = false;           ///< Whether most of these surfaces show their back sides.
+    bool isEmpty = false;              ///< Whether surfaceFraction is below kMinSurfaceFraction.
+    ImageF image = {};                 ///< Path traced, 3 channels, W/(m² sr); none if the view is empty.
 
     const SceneState& state() const { return prepared.state; }
     const SceneSettings& scene() const { return setup.scene; }
-    /// The part of the image that shows surfaces or a sky, above 0.
-    double lit() const;
+    /// The fraction of the image that shows surfaces or a sky, above 0.
+    double contentFraction() const;
 };
 
-/// What kViewChecks found of a view.
+/// The result of kViewChecks for a view.
 struct ViewCheck {
     Diagnostics found;
-    double metal = 0;  ///< View::metal
+    double metallicFraction = 0;  ///< View::metallicFraction
 };
 
-/// Looks at a scene through a variant's camera and does kViewChecks: a small path-traced image of few
-/// samples, and while that is black of more.
-/// @param preview empty: nothing is looked at but whether a surface lies in view.
-/// @throws UsageError where none does, and as kViewChecks.
+/// Does kViewChecks for a variant's camera. A small image is path traced with few samples and, if it is
+/// black, with more.
+/// @param preview empty: the only check is whether a surface is in view.
+/// @throws UsageError if none is in view, and as kViewChecks.
 ViewCheck checkView(const Setup& setup, const PreparedScene& prepared, const Preview& preview);
 
-/// Checks each view once: other variants, profiles and configs show the same ones.
+/// Checks each view once, since several variants, profiles and configs may have the same one.
 class ViewChecks {
  public:
     explicit ViewChecks(Preview preview) : preview_(std::move(preview)) {}
@@ -71,25 +70,24 @@ class ViewChecks {
 
  private:
     Preview preview_;
-    std::map<std::string, ViewCheck> known_;  ///< By all that a view depends on.
+    std::map<std::string, ViewCheck> known_;  ///< By everything that a view depends on.
 };
 
 /// Whether a pass of the graph voxelizes the scene.
 bool isVoxelized(const Setup& setup);
 
-/// Whether previews show what a camera sees black at an exposure: on average it is less than half a step of
-/// their 8 bits.
-/// @param view 3 channels, W/(m² sr). @param filled the part of it that shows surfaces or a sky, above 0.
-bool isDarkAt(float exposureStops, const ImageF& view, double filled);
+/// Whether a view is black in previews at an exposure: its mean is less than half a step of their 8 bits.
+/// @param view 3 channels, W/(m² sr). @param contentFraction of the view, above 0.
+bool isDarkAt(float exposureStops, const ImageF& view, double contentFraction);
 
 bool isBlack(const ImageF& image);
 
 /// "[1, 2.5, 3]".
 std::string bracketed(const glm::vec3& v);
 
-TextLocation cameraPlace(const SceneSettings& scene);
+TextLocation cameraLocation(const SceneSettings& scene);
 
-/// What gives a camera that sees the scene; a file is found from its config's folder, so by way of that.
+/// Advice on how to get a camera that sees the scene. For a scene file it names the config.
 std::string cameraAdvice(const SceneSettings& scene);
 
 }  // namespace voxray

@@ -1,6 +1,7 @@
-// Makes a vertex of each hit, on the side that the ray came from, and sends the path's next ray. Russian roulette by albedo ends paths;
-// what follows a vertex counts for those that ended there. With `samplesToEnd` paths also end in cells that had as many samples in the
-// previous frame, whose table is bound then. Vertices are appended in any order; nothing depends on it.
+// Appends a vertex to each path where its ray hit a surface, and generates the path's next ray. Russian roulette by
+// albedo ends paths; the reflectance of vertices is divided by the probability of survival. With `samplesToEnd` paths
+// also end in cells that had this many samples in the previous frame, whose table is bound instead. Results do not
+// depend on the order of vertices.
 #include "passes/cache/update_radiance_cache/path_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cache/radiance_cache.glsl"
@@ -12,7 +13,7 @@ layout(constant_id = 0) const uint samplesToEnd = 0u;
 
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
-readonly buffer Origins { uint data[]; } origins;  // Vertex that a ray starts from; not of rays from the camera.
+readonly buffer Origins { uint data[]; } origins;  // Vertex that a ray starts from; unused for camera rays.
 layout(scalar) writeonly buffer NextRays { Ray data[]; } nextRays;
 writeonly buffer NextOrigins { uint data[]; } nextOrigins;
 layout(scalar) buffer Surfels { Surfel data[]; } surfels;
@@ -20,12 +21,11 @@ layout(scalar) buffer Vertices { PathVertex data[]; } vertices;
 buffer VertexCount { uint value; } vertexCount;
 layout(push_constant, scalar) uniform Push {
     uint rayCount;
-    uint firstVertex;  // Of those that are made now.
-    uint firstPath;    // Of rays from the camera.
-    uint paths;        // Of the update.
+    uint firstVertex;  // Vertices of earlier dispatches.
+    uint firstPath;    // Path of camera ray 0.
+    uint paths;        // Paths of the update.
     uint seed;
-    uint fromCamera;  // 1 or 0.
-    uint isWritten;   // 1: these vertices leave their light in cells.
+    uint fromCamera;  // 1: camera rays.
 } push;
 
 void main() {
@@ -39,7 +39,7 @@ void main() {
     if (ray.tMax < ray.tMin || !surfelAtHit(hit, ray.origin, s, faceNormal, offset)) return;
     const vec3 albedo = s.reflectance;
 
-    // A cell that is read instead: not where the camera looks, and no nearer than points in one cell are to each other.
+    // End the path in the cell, unless the camera sees it or the ray is too short for the cell's resolution
     const bool fromCamera = push.fromCamera != 0u;
     const RadianceCacheGrid g = radianceCacheGrid.data;
     const uint64_t key = radianceCacheKey(g, s.position, faceNormal);
@@ -54,7 +54,7 @@ void main() {
         }
     }
 
-    // The vertex, linked to the one before it.
+    // Append the vertex, and link it to the previous one
     const uint v = atomicAdd(vertexCount.value, 1u);
     s.position += offset * faceNormal;
     s.parent = fromCamera ? NO_VERTEX : origins.data[i];
@@ -63,9 +63,9 @@ void main() {
     surfels.data[v] = s;
     if (!fromCamera) vertices.data[s.parent].next = v;
 
-    // The first one's ray always goes on: its hit stands for those of gather rays.
+    // Paths never end at their first vertex, so that second vertices are distributed as hits of gather rays are
     PathVertex vertex;
-    vertex.key = push.isWritten != 0u ? unpackUint2x32(key) : uvec2(0u);
+    vertex.key = unpackUint2x32(key);
     vertex.next = NO_VERTEX;
     vertex.fromCache = vec3(0.0);
     vertex.survival = fromCamera ? 1.0 : survivalProbability(albedo);

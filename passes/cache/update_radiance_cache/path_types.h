@@ -6,12 +6,12 @@
 
 VOXRAY_SHARED_BEGIN
 
-// What a path keeps of a vertex besides its surfel.
+// A path vertex; its position and reflectance are in the surfel of the same index.
 struct PathVertex {
-    uvec2 key;       // Of the cell that it lies in; 0 where it leaves nothing.
-    uint next;       // The vertex that its ray hit, or NO_VERTEX.
-    float survival;  // Probability that a ray goes on from it.
-    vec3 fromCache;  // Irradiance by its ray, where that ended in the cache, W/m².
+    uvec2 key;       // Key of its cell.
+    uint next;       // Next vertex of the path, or NO_VERTEX.
+    float survival;  // Probability that the path continues (Russian roulette).
+    vec3 fromCache;  // Irradiance from the cell that ended the path, W/m².
 };
 
 #define NO_VERTEX 0xffffffffu

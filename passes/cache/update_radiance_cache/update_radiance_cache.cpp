@@ -14,8 +14,9 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kMaxVertices = 1u << 19;  // Of a batch of paths: 74 MiB.
-constexpr uint32_t kWrittenVertices = 4;     // Of a path: what it sees, and what rays that go on see.
+constexpr uint32_t kMaxBatchVertices = 1u << 19;  // Bounds the memory of a batch of paths to 74 MiB.
+/// Vertices of a path that write to the cache: the one that the camera sees, and three after it.
+constexpr uint32_t kWrittenVertices = 4;
 
 // As in write_cells.comp.
 struct CellCounts {
@@ -31,16 +32,16 @@ struct EnumNames<CacheUpdate> {
                                       std::pair{CacheUpdate::EachFrame, "each_frame"}};
 };
 
-/// Paths from the camera whose vertices leave the irradiance that they receive in a radiance cache. Source:
+/// Paths from the camera whose vertices write the irradiance that they receive to a radiance cache. Source:
 /// NVIDIA's SHaRC; Binder et al. 2019, "Massively parallel path space filtering".
 class UpdateRadianceCache final : public Pass {
  public:
     static constexpr const char* kName = "update_radiance_cache";
     static constexpr const char* kHelp =
         "Fills a hashed radiance cache by paths traced from the camera. "
-        "Shadow rays measure direct light at each vertex. The first four vertices of a path leave "
-        "in hashed cells the irradiance that the rest of it brings. Unbiased in the mean of a cell. "
-        "Leaves without cells: what no path meets, and what finds the table full. "
+        "Shadow rays measure direct light at each vertex. "
+        "The first four vertices of a path write the irradiance that they receive to hashed cells. "
+        "Unbiased in the mean of a cell. There are no cells where no path arrives, and where the hash table is full. "
         "Biased by: the size of cells; with history_frames, light that changed since; samples_to_end. "
         "Noisy by: rays_per_image, the more so the smaller cells are. Source: NVIDIA's SHaRC.";
     struct Params {
@@ -56,47 +57,41 @@ class UpdateRadianceCache final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("update", &Params::update,
-                      "once: the cache is built before the frames, from where the camera is then. "
+                      "once: the cache is filled before the frames, by paths from the camera's initial position. "
                       "each_frame: "
-                      "it is made again in each frame, or goes on where history_frames is more than 1."),
-                field("rays_per_image", &Params::raysPerImage, "Paths from the camera in an update.", 1u,
-                      1u << 24)
+                      "it is filled again in each frame, with history_frames above 1 on top of earlier samples."),
+                field("rays_per_image", &Params::raysPerImage, "Paths from the camera in an update.", 1u, 1u << 24)
                     .lessNoise(),
-                field("bounces", &Params::bounces,
-                      "Bounces of light; Russian roulette by albedo ends paths early.", 0u, 32u),
+                field("bounces", &Params::bounces, "Bounces of light; Russian roulette by albedo ends paths early.", 0u,
+                      32u),
                 field("light_samples", &Params::lightSamples,
-                      "Shadow rays at each vertex to the emissive surfaces, and to the environment.", 1u,
-                      64u),
+                      "Shadow rays at each vertex to the emissive surfaces, and to the environment.", 1u, 64u),
                 field("cell_size", &Params::cellSize,
-                      "Largest edge of a cell over its distance from the camera; "
+                      "Maximum edge of a cell over its distance from the camera; "
                       "edges are the scene's size over powers of two.",
                       0.0005f, 4.0f),
                 field("normal_bins", &Params::normalBins,
-                      "Normals are told apart by the face of a cube that they pass, "
-                      "and on each face by this many bins along each edge.",
+                      "Bins of normals along each edge of a cube map's face, 6 n² bins in all; "
+                      "normals in a cell are of one bin.",
                       {1, 2, 3, 4, 5, 6}),
                 field("capacity", &Params::capacity, "Slots of the hash table, 40 bytes each.",
                       powersOfTwo(1u << 6, 1u << 22)),
                 field("history_frames", &Params::historyFrames,
-                      "Each frame keeps all but one part in this many of the samples so far, "
-                      "so that cells hold the samples of about this many frames; "
-                      "light that changes lags behind as long. 1: nothing is kept.",
+                      "Frames of the exponential moving average in cells; changes of light lag by about as many. "
+                      "1: the samples of this frame only.",
                       1u, 1024u)
                     .onlyWith(oneOf(&Params::update, {CacheUpdate::EachFrame})),
                 field("samples_to_end", &Params::samplesToEnd,
-                      "A path ends at its second vertex or a later one "
-                      "where the cell there had this many samples in the previous frame, "
-                      "and takes its light. Biased: light of all bounces, "
-                      "with the errors of cells and a lag of their own. 0: no path ends so.",
+                      "Samples that a cell needs in the previous frame for paths to end there, "
+                      "at their second vertex or later, with the cell's light. Biased: "
+                      "light of all bounces, with the errors and the lag of cells. 0: no path ends in the cache.",
                       0u, 65536u)
                     .onlyWith(noneOf(&Params::historyFrames, {1u}))};
         }
     };
 
     explicit UpdateRadianceCache(const Params& params) : params_(params) {}
-    Phase phase() const override {
-        return params_.update == CacheUpdate::EachFrame ? Phase::Frame : Phase::Build;
-    }
+    Phase phase() const override { return params_.update == CacheUpdate::EachFrame ? Phase::Frame : Phase::Build; }
     uint32_t warmupFrames() const override { return params_.historyFrames - 1; }
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
@@ -104,15 +99,14 @@ class UpdateRadianceCache final : public Pass {
  private:
     bool usesHistory() const { return params_.update == CacheUpdate::EachFrame && params_.historyFrames > 1; }
     bool endsInCache() const { return usesHistory() && params_.samplesToEnd > 0; }
-    /// Vertices of a path, at most: those that are written, and the bounces that the last of them still
-    /// needs.
+    /// The vertices that write, and the bounces of light that the last of them receives.
     uint32_t maxPathVertices() const { return kWrittenVertices + params_.bounces; }
-    uint32_t batchPaths() const { return std::min(params_.raysPerImage, kMaxVertices / maxPathVertices()); }
+    uint32_t batchPaths() const { return std::min(params_.raysPerImage, kMaxBatchVertices / maxPathVertices()); }
     gpu::RadianceCacheGrid makeGrid(const Frame& frame) const;
-    /// Empties the table, or hands on what is kept of the previous frame.
-    void begin(PassContext& context, RadianceCache& cache);
-    /// Traces paths [first, first + count) of an update and leaves their light in the cache. @return
-    /// vertices.
+    /// Empties the table, or fills it with the previous frame's cells, decayed.
+    void initCells(PassContext& context, RadianceCache& cache);
+    /// Traces paths [first, first + count) of an update and writes their light to the cache. @return the
+    /// number of vertices.
     uint32_t tracePaths(PassContext& context, const RadianceCache& cache, uint32_t first, uint32_t count,
                         uint32_t seed);
 
@@ -125,9 +119,9 @@ class UpdateRadianceCache final : public Pass {
     Kernel extendPaths_{*this, "extend_paths.comp"};
     Kernel writeCells_{*this, "write_cells.comp"};
     Kernel decayCells_{*this, "decay_cells.comp"};
-    std::array<Buffer, 2> rays_, origins_;  ///< Of a path's step, and of the next one.
+    std::array<Buffer, 2> rays_, origins_;  ///< Read and written in turn by the steps of paths.
     Buffer hits_, surfels_, vertices_, direct_, vertexCount_, cellCounts_;
-    Buffer oldKeys_, oldSums_;  ///< Of the previous frame, with history_frames.
+    Buffer oldKeys_, oldSums_;  ///< The previous frame's table, where history is used.
     bool hasHistory_ = false;
 };
 
@@ -136,11 +130,10 @@ void UpdateRadianceCache::plan(PassPlan& plan) {
         throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", kName,
                     plan.device.name);
     sources_ = requireLightSources(*plan.frame.scene, kName);
-    unitsPerIrradiance_ =
-        std::ldexp(1.0f, 28) / std::max(meanIrradiance(sources_, plan.frame.scene->geometry), 1e-30f);
+    unitsPerIrradiance_ = std::ldexp(1.0f, 28) / std::max(meanIrradiance(sources_, plan.frame.scene->geometry), 1e-30f);
 
     RadianceCache& cache = plan[cache_];
-    if (!endsInCache()) cache.lightBounces = params_.bounces;  // Else light of all bounces.
+    if (!endsInCache()) cache.lightBounces = params_.bounces;  // Otherwise all bounces
     plan.buffer(cache.gridBuffer, "grid of the radiance cache", sizeof(gpu::RadianceCacheGrid));
     plan.buffer(cache.keys, "keys of the radiance cache", params_.capacity * RadianceCache::kKeyBytes);
     plan.buffer(cache.sums, "sums of the radiance cache", params_.capacity * RadianceCache::kSumBytes);
@@ -164,23 +157,21 @@ void UpdateRadianceCache::plan(PassPlan& plan) {
 
 void UpdateRadianceCache::record(PassContext& context) {
     RadianceCache& cache = context[cache_];
-    begin(context, cache);
+    initCells(context, cache);
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
     double vertices = 0;
     for (uint32_t first = 0; first < params_.raysPerImage; first += batchPaths())
-        vertices +=
-            tracePaths(context, cache, first, std::min(batchPaths(), params_.raysPerImage - first), seed);
+        vertices += tracePaths(context, cache, first, std::min(batchPaths(), params_.raysPerImage - first), seed);
     const CellCounts counts = context.stream.readAs<CellCounts>(cellCounts_, 1)[0];
     context.report("cells", counts.cells);
     context.report("occupancy", double(counts.cells) / params_.capacity);
     context.report("vertices per path", vertices / params_.raysPerImage);
     context.report("samples lost", counts.lost);
-    context.report("hash collisions per cell",
-                   counts.cells > 0 ? double(counts.collisions) / counts.cells : 0);
+    context.report("hash collisions per cell", counts.cells > 0 ? double(counts.collisions) / counts.cells : 0);
 }
 
-// A cube round the scene's region, whose halves, quarters and so on are no round fractions of it: surfaces of
-// a model often lie at those.
+// A cube around the scene whose octree planes avoid round fractions of its extent, where models often have
+// surfaces.
 gpu::RadianceCacheGrid UpdateRadianceCache::makeGrid(const Frame& frame) const {
     const auto [low, high] = frame.scene->geometry.region;
     const glm::vec3 size = high - low;
@@ -189,10 +180,9 @@ gpu::RadianceCacheGrid UpdateRadianceCache::makeGrid(const Frame& frame) const {
             params_.capacity,        params_.normalBins, unitsPerIrradiance_};
 }
 
-void UpdateRadianceCache::begin(PassContext& context, RadianceCache& cache) {
+void UpdateRadianceCache::initCells(PassContext& context, RadianceCache& cache) {
     CommandStream& stream = context.stream;
-    cache.grid = makeGrid(context.frame);
-    stream.upload(cache.gridBuffer, std::vector{cache.grid});
+    stream.upload(cache.gridBuffer, std::vector{makeGrid(context.frame)});
     if (usesHistory()) {
         if (!hasHistory_) stream.fill(cache.keys, 0);
         std::swap(cache.keys, oldKeys_);
@@ -214,7 +204,7 @@ void UpdateRadianceCache::begin(PassContext& context, RadianceCache& cache) {
 uint32_t UpdateRadianceCache::tracePaths(PassContext& context, const RadianceCache& cache, uint32_t first,
                                          uint32_t count, uint32_t seed) {
     CommandStream& stream = context.stream;
-    // Trace the paths, all of them a step at a time.
+    // Extend all paths by one vertex in each step
     stream.fill(vertexCount_, 0);
     imageRays_.record(context, rays_[0], first, count, seed);
     uint32_t vertices = 0, written = 0, rays = count;
@@ -239,15 +229,14 @@ uint32_t UpdateRadianceCache::tracePaths(PassContext& context, const RadianceCac
                           {"firstPath", first},
                           {"paths", params_.raysPerImage},
                           {"seed", seed + 0x51u},
-                          {"fromCamera", step == 0},
-                          {"isWritten", step < kWrittenVertices}});
+                          {"fromCamera", step == 0}});
         const uint32_t now = stream.readAs<uint32_t>(vertexCount_, 1)[0];
         rays = now - vertices;
         vertices = now;
         if (step < kWrittenVertices) written = now;
     }
 
-    // Direct light at all vertices, then what each receives from those that follow it.
+    // Measure direct light at all vertices, then sum light along paths
     if (vertices > 0) {
         light_.measure(context, sources_, surfels_, vertices, params_.lightSamples, seed + 0xa3u, direct_);
         context.dispatch(writeCells_, written,

@@ -1,5 +1,5 @@
-// The irradiance of each vertex, of `bounces` bounces: its direct light, and what the vertices that follow it reflect to it, or the
-// cell in which its path ended. It goes into the vertex's own cell.
+// Adds the irradiance of each vertex to its cell: direct light, light that the next `bounces` vertices of its path
+// reflect to it, and light of the cell in which the path ended.
 #include "passes/cache/update_radiance_cache/path_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cache/radiance_cache.glsl"
@@ -12,7 +12,7 @@ layout(scalar) readonly buffer Direct { vec4 data[]; } direct;
 buffer CellCounts {
     uint cells;
     uint lost;        // Samples whose cell found no slot.
-    uint collisions;  // Slots that cells found taken by others.
+    uint collisions;  // Slots with other keys that insertions probed.
 } cellCounts;
 layout(push_constant) uniform Push {
     uint count;
@@ -23,7 +23,7 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
 
-    // Up the path.
+    // Sum light along the path
     vec3 irradiance = direct.data[i].rgb + vertices.data[i].fromCache, throughput = vec3(1.0);
     uint v = i;
     for (uint bounce = 0u; bounce < push.bounces; ++bounce) {

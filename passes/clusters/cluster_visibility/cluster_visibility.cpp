@@ -20,23 +20,24 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kChunkRays = 1u << 20;        // Bounds the rays of a chunk to 32 MiB.
-constexpr uint32_t kRounds = 4;                  // As in find_hit_groups.comp.
-constexpr uint32_t kMaxGroups = (1u << 28) - 1;  // As packed_hit.glsl holds them.
+constexpr uint32_t kChunkRays = 1u << 20;        // Limits the rays of a chunk to 32 MiB.
+constexpr uint32_t kMaxCandidates = 4;           // Surfels that are tested for each hit, one in each round.
+constexpr uint32_t kMaxGroups = (1u << 28) - 1;  // Limit of packed_hit.glsl.
 
-/// As in find_hit_groups.comp.
+/// The surfel that is tested for a hit, and the groups of those that turned out to be occluded from it. As in
+/// find_hit_groups.comp.
 struct Candidate {
     uint32_t surfel;
-    uint32_t rejectedGroups[kRounds];
+    uint32_t rejectedGroups[kMaxCandidates];
 };
 
-/// Mean lengths, for estimates of memory. Rays of a patch often hit the same cluster: lists without patches
+/// Mean numbers for estimates of memory. Rays of a patch often hit the same cluster: lists without patches
 /// were measured to grow with the square root of the number of rays (docs/papers/cosin2022.md).
 constexpr double kPatchesPerVoxel = 6, kEntriesPerRootOfRays = 4;
 
 }  // namespace
 
-/// What rays are traced through.
+/// What rays are traced through: the scene, voxels exactly, or voxels on a Bresenham line as in the paper.
 enum class RayTraversal { Exact, Voxels, Bresenham };
 template <>
 struct EnumNames<RayTraversal> {
@@ -45,7 +46,7 @@ struct EnumNames<RayTraversal> {
                                       std::pair{RayTraversal::Bresenham, "bresenham"}};
 };
 
-/// The axis of the cosine distribution of rays.
+/// The axis of the cosine distribution of rays: the surfel's normal or the axis of the patch's face.
 enum class HemisphereAxis { Surface, Face };
 template <>
 struct EnumNames<HemisphereAxis> {
@@ -53,19 +54,20 @@ struct EnumNames<HemisphereAxis> {
                                       std::pair{HemisphereAxis::Face, "face"}};
 };
 
-/// Visibility lists of all patches by cosine-distributed rays, once for a scene; light is gathered from these
-/// lists. Where surfaces move, only rays that the change may affect are traced again.
-/// Source: Cosin and Patow 2022, section 4.3.
+/// Builds the visibility list of each patch from cosine-distributed rays, once for a scene. Light is gathered
+/// along these lists whenever it changes. Where surfaces move, only rays that the change may affect are
+/// traced again. Source: Cosin and Patow 2022, section 4.3.
 class FindClusterVisibility final : public Pass {
  public:
     static constexpr const char* kName = "cluster_visibility";
     static constexpr const char* kHelp =
-        "Measures form factors from each patch of surfels to voxel clusters. "
-        "Sends cosine-distributed rays from the surfels of each patch (a face of a surface group, "
-        "find_patches). Lists the cluster components that they hit, with the number of rays for each: "
-        "a form factor. What is near is listed by its voxels. Biased by: cluster size; "
-        "through voxels also by voxel size (surfaces are as thick as their voxels). Noisy by: rays. "
-        "Source: Cosin and Patow 2022, section 4.3.";
+        "Measures form factors from each patch to voxel clusters. "
+        "Traces cosine-distributed rays from the surfels of each patch (find_patches: "
+        "a surface group as seen from one of its voxel's six faces). "
+        "Lists the cluster components that they hit, with the number of rays for each, which is a form factor. "
+        "Surfaces within near_distance are listed as patches instead of clusters. "
+        "Biased by: cluster size; through voxels also by voxel size (surfaces are as thick as their voxels). "
+        "Noisy by: rays. Source: Cosin and Patow 2022, section 4.3.";
     struct Params {
         uint32_t rays = 128;
         float nearDistance = 4;
@@ -73,18 +75,17 @@ class FindClusterVisibility final : public Pass {
         HemisphereAxis hemisphere = HemisphereAxis::Surface;
         static constexpr auto schema() {
             return std::tuple{
-                field("rays", &Params::rays, "From each patch.", 1u, MAX_RAYS_PER_PATCH).lessNoise(),
+                field("rays", &Params::rays, "Rays from each patch.", 1u, MAX_RAYS_PER_PATCH).lessNoise(),
                 field("near_distance", &Params::nearDistance,
-                      "What is nearer than this many voxels is seen by its voxels, "
-                      "and what is farther by its clusters. 0: all by clusters. "
-                      "10000: all by voxels, for comparison.",
+                      "Distance in voxels below which lists have patches, and beyond which they have clusters. "
+                      "0: clusters only. 10000: patches only, for comparison.",
                       0.0f, 10000.0f),
                 field("visibility", &Params::visibility,
-                      "exact: rays go through the scene. voxels: through voxels, all that they meet. "
-                      "bresenham: the paper's walk through voxels, which passes some by."),
+                      "exact: rays are traced through the scene. voxels: through every voxel on their way. "
+                      "bresenham: through the voxels of a Bresenham line, which misses some (the paper's)."),
                 field("hemisphere", &Params::hemisphere,
-                      "surface: rays leave by the cosine about the surfels' normal. "
-                      "face: about the face's own axis (the paper's).")};
+                      "Axis of the rays' cosine distribution. surface: the surfel's normal. "
+                      "face: the axis of the patch's face (the paper's).")};
         }
     };
 
@@ -97,30 +98,29 @@ class FindClusterVisibility final : public Pass {
  private:
     bool listsPatches() const { return params_.nearDistance > 0; }
     bool isExact() const { return params_.visibility == RayTraversal::Exact; }
-    /// The lists of `count` patches from `first` on.
+    /// Builds the lists of `count` patches from `first` on.
     void buildChunk(PassContext& context, uint32_t first, uint32_t count);
-    /// Bindings of patch_samples.glsl, without `rayCount` and `round`.
+    /// The bindings of patch_samples.glsl except `rayCount` and `round`.
     std::vector<Binding> rayBindings(PassContext& context, uint32_t firstPatch) const;
-    /// Finds the hits of `count` rays; hits of the previous build that are still valid are reused. @return
-    /// rays traced.
+    /// Finds the hits of `count` rays through the scene; hits of the previous build that are still valid are
+    /// reused. @return the number of rays traced.
     uint32_t traceRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
                        const Buffer& packedHits);
-    void marchRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
-                   const Buffer& packedHits);
-    /// Lists the rays that have to be traced. @return how many.
-    uint32_t listRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
-                      const Buffer& packedHits);
+    /// The same through voxels.
+    void marchRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count, const Buffer& packedHits);
+    /// Lists the rays that have to be traced. @return their number.
+    uint32_t listRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count, const Buffer& packedHits);
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
-    In<VoxelClusters> clusters_{*this, "clusters", "where voxels are"};
+    In<VoxelClusters> clusters_{*this, "clusters", "coordinates of voxels"};
     In<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels"};
     Out<ClusterVisibility> visibility_{*this, "cluster_visibility", "visibility lists of patches"};
     std::optional<VoxelMarch> march_;  ///< For rays through voxels.
     PrefixSum prefixSum_{*this, PrefixSum::Of::Values};
-    std::optional<Compaction> compaction_;       ///< Where surfaces move.
+    std::optional<Compaction> compaction_;       ///< For scenes with moving surfaces.
     std::optional<RayUpdateCache> updateCache_;  ///< Likewise.
-    uint64_t tracedRays_ = 0;                    ///< Since record() began.
+    uint64_t tracedRays_ = 0;                    ///< In the current call of record().
     Kernel listPatchFaces_{*this, "list_patch_faces.comp"};
     Kernel marchRays_{*this, "march_voxels.comp"};
     Kernel listAllRays_{*this, "passes/clusters/iota.comp"};
@@ -151,9 +151,8 @@ void FindClusterVisibility::plan(PassPlan& plan) {
         plan.scratchBuffer(packedHits_, "packed hits", rays * sizeof(uint32_t));
     }
     const double raysPerPatch = params_.rays, cachedHits = reusesHits ? raysPerPatch : 0;
-    const double entries = listsPatches()
-                               ? raysPerPatch
-                               : std::min(raysPerPatch, kEntriesPerRootOfRays * std::sqrt(raysPerPatch));
+    const double entries =
+        listsPatches() ? raysPerPatch : std::min(raysPerPatch, kEntriesPerRootOfRays * std::sqrt(raysPerPatch));
     plan.estimate(voxels.estimatedCount * kPatchesPerVoxel * (entries + cachedHits) * sizeof(uint32_t));
     marchRays_.compileIf(!isExact());
     for (Kernel* kernel : {&listAllRays_, &generateRays_, &findHitGroups_}) kernel->compileIf(isExact());
@@ -198,14 +197,13 @@ void FindClusterVisibility::record(PassContext& context) {
     CommandStream& stream = context.stream;
     if (march_) march_->begin(stream, voxels);
     if (updateCache_ && changed && !context.isFirstRun() && patches.previousGroups)
-        updateCache_->begin(stream, voxels, context[clusters_], patches, *changed);
+        updateCache_->startUpdate(stream, voxels, context[clusters_], patches, *changed);
     else if (updateCache_)
         updateCache_->clear();
     const uint32_t count = patches.patchCount, perChunk = visibility.layout.patchesPerChunk;
     patchFaces_ = Buffer(context.device, "faces of patches", std::max(count, 1u) * sizeof(uint32_t));
-    context.dispatch(
-        listPatchFaces_, patches.groupCount,
-        {{"groups", patches.groups}, {"patchFaces", patchFaces_}, {"groupCount", patches.groupCount}});
+    context.dispatch(listPatchFaces_, patches.groupCount,
+                     {{"groups", patches.groups}, {"patchFaces", patchFaces_}, {"groupCount", patches.groupCount}});
     stream.fill(missed_, 0);
     tracedRays_ = 0;
     for (uint32_t first = 0; first < count; first += perChunk)
@@ -224,14 +222,13 @@ void FindClusterVisibility::record(PassContext& context) {
     const double rays = double(count) * params_.rays;
     const std::vector<uint32_t> missed = stream.readAs<uint32_t>(missed_, 2);
     const auto percent = [&](uint32_t lost) { return count > 0 ? 100 * lost / rays : 0; };
+    // Keys of values.csv. A "hit without surfel" is HIT_NO_GROUP
     context.report("patches", count);
-    context.report("clusters and voxels seen by a patch",
-                   count > 0 ? double(visibility.entryCount) / count : 0);
-    context.report("rays that met nothing, %", percent(missed[0]));
+    context.report("visibility list entries of a patch", count > 0 ? double(visibility.entryCount) / count : 0);
+    context.report("rays without a hit, %", percent(missed[0]));
     context.report("hits without surfel, % of rays", percent(missed[1]));
     context.report("bytes of the lists", double(visibility.bytes()));
-    if (updateCache_)
-        context.report("rays traced, % of all", count > 0 ? 100 * double(tracedRays_) / rays : 0);
+    if (updateCache_) context.report("rays traced, % of all", count > 0 ? 100 * double(tracedRays_) / rays : 0);
 }
 
 std::vector<Binding> FindClusterVisibility::rayBindings(PassContext& context, uint32_t firstPatch) const {
@@ -247,36 +244,32 @@ std::vector<Binding> FindClusterVisibility::rayBindings(PassContext& context, ui
             {"aboutFaceAxis", params_.hemisphere == HemisphereAxis::Face}};
 }
 
-uint32_t FindClusterVisibility::listRays(PassContext& context, const std::vector<Binding>& rays,
-                                         uint32_t count, const Buffer& packedHits) {
+uint32_t FindClusterVisibility::listRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
+                                         const Buffer& packedHits) {
     CommandStream& stream = context.stream;
     if (!updateCache_ || !updateCache_->isActive()) {
         stream.dispatch(listAllRays_, count, {{"values", listedRays_}, {"count", count}});
         return count;
     }
     stream.fill(flags_, 0);
-    updateCache_->reuse(stream,
-                        {context.scene,
-                         rays,
-                         {"packedHits", packedHits},
-                         {"flags", flags_},
-                         {"rayCount", count},
-                         {"round", 0u}},
-                        count);
+    updateCache_->reuse(
+        stream,
+        {context.scene, rays, {"packedHits", packedHits}, {"flags", flags_}, {"rayCount", count}, {"round", 0u}},
+        count);
     return compaction_->run(stream, flags_, listedRays_, (count + 31) / 32);
 }
 
-uint32_t FindClusterVisibility::traceRays(PassContext& context, const std::vector<Binding>& rays,
-                                          uint32_t count, const Buffer& packedHits) {
+uint32_t FindClusterVisibility::traceRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
+                                          const Buffer& packedHits) {
     const VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
     const uint32_t listed = listRays(context, rays, count, packedHits);
     if (listed == 0) return 0;
-    const Bindings listedRays{
-        context.scene, rays, {"listedRays", listedRays_}, {"rays", rays_}, {"rayCount", listed}};
+    const Bindings listedRays{context.scene, rays, {"listedRays", listedRays_}, {"rays", rays_}, {"rayCount", listed}};
     context.dispatch(generateRays_, listed, {listedRays.all(), {"round", 0u}});
     context.tracer.closestHit(stream, rays_, hits_, listed);
-    for (uint32_t round = 0; round <= kRounds; ++round) {
+    // The last round only evaluates the visibility of the last candidates
+    for (uint32_t round = 0; round <= kMaxCandidates; ++round) {
         context.dispatch(findHitGroups_, listed,
                          {listedRays.all(),
                           context[voxels_],
@@ -288,7 +281,7 @@ uint32_t FindClusterVisibility::traceRays(PassContext& context, const std::vecto
                           {"occluded", occluded_},
                           {"packedHits", packedHits},
                           {"round", round}});
-        if (round < kRounds) context.tracer.occluded(stream, visibilityRays_, occluded_, listed);
+        if (round < kMaxCandidates) context.tracer.occluded(stream, visibilityRays_, occluded_, listed);
     }
     return listed;
 }
@@ -297,7 +290,7 @@ void FindClusterVisibility::marchRays(PassContext& context, const std::vector<Bi
                                       const Buffer& packedHits) {
     const VoxelPatches& patches = context[patches_];
     std::vector<Binding> march = march_->bindings();
-    for (Binding& binding : march) binding.optional = true;  // BRESENHAM does not use all.
+    for (Binding& binding : march) binding.optional = true;  // BRESENHAM does not use all of them.
     context.dispatch(marchRays_, count,
                      {march,
                       rays,
@@ -334,11 +327,9 @@ void FindClusterVisibility::buildChunk(PassContext& context, uint32_t first, uin
     chunk.offsets = Buffer(context.device, "offsets of visibility lists", (count + 1) * sizeof(uint32_t));
     const uint32_t entries = prefixSum_.run(stream, entryCounts_, chunk.offsets, count + 1);
     const uint64_t words = (uint64_t(entries) * visibility.layout.entryBits + 31) / 32;
-    chunk.entries =
-        Buffer(context.device, "visibility lists", std::max<uint64_t>(words, 1) * sizeof(uint32_t));
+    chunk.entries = Buffer(context.device, "visibility lists", std::max<uint64_t>(words, 1) * sizeof(uint32_t));
     stream.fill(chunk.entries, 0);
-    context.dispatch(packLists_, count,
-                     {lists.all(), {"offsets", chunk.offsets}, {"entries", chunk.entries}});
+    context.dispatch(packLists_, count, {lists.all(), {"offsets", chunk.offsets}, {"entries", chunk.entries}});
     stream.finish();
     visibility.chunks.push_back(std::move(chunk));
     visibility.entryCount += entries;

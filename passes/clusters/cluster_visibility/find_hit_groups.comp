@@ -1,18 +1,20 @@
-// Which surface group a ray hit: that of the nearest surfel that is visible from a point in front of the hit. Each round proposes the
-// nearest surfel of a group not yet rejected and a visibility ray to it; the next round accepts the group or rejects it.
+// Finds the surface group that a ray hit: that of the nearest surfel that is visible from a point in front of the hit.
+// Each round selects the nearest surfel among groups not yet rejected and generates a visibility ray to it; the next
+// round accepts or rejects its group.
 #include "passes/clusters/cluster_visibility/patch_samples.glsl"
 #include "shaders/scene/scene.glsl"
 #include "passes/surfels/surfel_bias.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
-#define ROUNDS 4u
+#define MAX_CANDIDATES 4u
 #define NO_SURFEL 0xffffffffu
-const float FAR = 0.5;  // 0.7 voxels on one plane, or half a voxel and a plane 20 degrees off.
+// Threshold for NearestSurfel::distance_: 0.7 voxels in one plane, or half a voxel and 20 degrees between normals.
+const float FAR = 0.5;
 
 struct Candidate {
     uint surfel;
-    uint rejectedGroups[ROUNDS];  // By round.
+    uint rejectedGroups[MAX_CANDIDATES];  // Per round.
 };
 
 readonly buffer ListedRays { uint data[]; } listedRays;
@@ -20,7 +22,7 @@ layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(scalar) buffer Candidates { Candidate data[]; } candidates;
 layout(scalar) writeonly buffer VisibilityRays { Ray data[]; } visibilityRays;  // From the hit to the candidate.
-readonly buffer Occluded { uint data[]; } occluded;                            // By the rays of the last round.
+readonly buffer Occluded { uint data[]; } occluded;                            // Results of the previous round's rays.
 readonly buffer FirstGroup { uint data[]; } firstGroup;
 writeonly buffer PackedHits { uint data[]; } packedHits;
 
@@ -46,14 +48,15 @@ void searchVoxel(ivec3 voxel, vec3 position, vec3 normal, Candidate candidate, i
             const GroupedSurfel s = groupedSurfels.data[i];
             if (dot(s.normal, normal) <= 0.0) continue;
             const vec3 offset = s.position - position;
-            const float d =
-                dot(offset, offset) / (push.grid.voxelSize * push.grid.voxelSize) + surfelBias(position, normal, s.position, s.normal);
-            if (d < nearest.distance_ || (d == nearest.distance_ && s.id < nearest.id)) nearest = NearestSurfel(d, i, s.id);
+            const float d = dot(offset, offset) / (push.grid.voxelSize * push.grid.voxelSize) +
+                            surfelBias(position, normal, s.position, s.normal);
+            if (d < nearest.distance_ || (d == nearest.distance_ && s.id < nearest.id))
+                nearest = NearestSurfel(d, i, s.id);
         }
     }
 }
 
-// Searches the hit's voxel, and the 26 around it where the nearest surfel there is FAR.
+// Searches the hit's voxel and, if the nearest surfel there is FAR, the 26 adjacent ones.
 uint nearestSurfel(vec3 position, vec3 normal, Candidate candidate) {
     const ivec3 voxel = voxelAt(push.grid, position);
     NearestSurfel nearest = NearestSurfel(1.0e30, NO_SURFEL, NO_SURFEL);
@@ -64,16 +67,16 @@ uint nearestSurfel(vec3 position, vec3 normal, Candidate candidate) {
     return nearest.surfel;
 }
 
-// A hit at a surfel: its group, and one of the faces at which surfel and group have area, with probability proportional to the surfel's.
+// Packs the surfel's group and one of the faces at which both have area, sampled by the surfel's projected area.
 uint packSurfelHit(uint ray, GroupedSurfel s, float distance_) {
     const VoxelMaterial m = voxelMaterial(s.group);
     const vec3 groupArea = mix(m.unoccludedPositive, m.unoccludedNegative, lessThan(s.normal, vec3(0.0)));
     const vec3 area = mix(vec3(0.0), s.normal * s.normal, greaterThan(groupArea, vec3(0.0)));
     const float sum = area.x + area.y + area.z;
-    if (sum == 0.0) return packHitAt(s.group, NO_FACE, distance_);
+    if (sum == 0.0) return packHitAtDistance(s.group, NO_FACE, distance_);
     const float threshold = sampleHitFace(ray) * sum;
     const uint axis = threshold < area.x ? 0u : threshold < area.x + area.y || area.z == 0.0 ? 1u : 2u;
-    return packHitAt(s.group, faceOf(s.normal, axis), distance_);
+    return packHitAtDistance(s.group, faceOf(s.normal, axis), distance_);
 }
 
 void main() {
@@ -102,15 +105,16 @@ void main() {
     const vec3 direction = rays.data[i].direction;
     const SurfacePoint p = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
     const vec3 normal = dot(p.geometricNormal, direction) > 0.0 ? -p.geometricNormal : p.geometricNormal;
-    candidate.surfel = push.round < ROUNDS ? nearestSurfel(p.position, normal, candidate) : NO_SURFEL;
+    candidate.surfel = push.round < MAX_CANDIDATES ? nearestSurfel(p.position, normal, candidate) : NO_SURFEL;
     if (candidate.surfel == NO_SURFEL) {
         packedHits.data[ray] = HIT_NO_GROUP;
         return;
     }
     candidates.data[i] = candidate;
-    // From a point on the ray, which is unoccluded up to its hit.
+    // The origin lies on the ray, which is unoccluded up to its hit
     const GroupedSurfel s = groupedSurfels.data[candidate.surfel];
     const vec3 origin = p.position - min(0.5 * hit.t, s.height) * direction;
     const vec3 toSurfel = pointAbove(s) - origin;
-    visibilityRays.data[i] = dot(toSurfel, toSurfel) > 0.0 ? Ray(origin, 0.0, normalize(toSurfel), length(toSurfel)) : kNoRay;
+    if (dot(toSurfel, toSurfel) > 0.0)
+        visibilityRays.data[i] = Ray(origin, 0.0, normalize(toSurfel), length(toSurfel));
 }

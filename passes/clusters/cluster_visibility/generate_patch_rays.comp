@@ -1,4 +1,4 @@
-// The listed rays from patches.
+// Generates the listed rays from patches.
 #include "passes/clusters/cluster_visibility/patch_ray.glsl"
 layout(local_size_x = 64) in;
 

@@ -1,5 +1,5 @@
-// The target of each ray's hit: a face of a cluster component or, closer than nearDistance, the patch itself. NO_TARGET where the hit
-// group sends no light: it has no patch at the face, or its voxel is in no cluster.
+// Writes the target of each ray: a face of a cluster component or, closer than nearDistance, a patch. NO_TARGET if the
+// hit group sends no light, since it has no patch at the face or its voxel is in no cluster.
 #include "passes/clusters/cluster_visibility/packed_hit.glsl"
 #include "passes/clusters/visibility_list_types.h"
 #include "passes/clusters/group_patches.glsl"
@@ -10,7 +10,7 @@ readonly buffer PackedHits { uint data[]; } packedHits;
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer ComponentOfGroup { uint data[]; } componentOfGroup;
 layout(scalar) writeonly buffer Targets { uint data[]; } targets;
-buffer Missed { uint counts[2]; } missed;  // Rays with HIT_NOTHING, with HIT_NO_GROUP.
+buffer Missed { uint counts[2]; } missed;  // Numbers of rays with HIT_NOTHING and with HIT_NO_GROUP.
 layout(push_constant, scalar) uniform Push {
     VisibilityListLayout lists;
     uint rays;
@@ -19,7 +19,8 @@ layout(push_constant, scalar) uniform Push {
 uint targetOf(uint packedHit) {
     const uint group = hitGroup(packedHit), face = hitFace(packedHit), component = componentOfGroup.data[group];
     if (component == NO_COMPONENT || face == NO_FACE || !hasPatch(groups.data[group], face)) return NO_TARGET;
-    return isNear(packedHit) ? push.lists.firstPatchTarget + patchIndex(groups.data[group], face) : 6u * component + face;
+    return isNear(packedHit) ? push.lists.firstPatchTarget + patchIndex(groups.data[group], face)
+                             : 6u * component + face;
 }
 
 void main() {

@@ -1,4 +1,4 @@
-// By patch: its surface group and face.
+// Writes the surface group and the face of each patch.
 #include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

@@ -1,6 +1,6 @@
-// Rays from patches through voxels; of the surface groups in a voxel they hit one by its visible area. BRESENHAM: the voxels of a 3D
-// Bresenham line, one a step along the longest axis, which misses voxels that the ray only cuts a corner of (Cosin and Patow 2022,
-// section 4.3).
+// Marches rays from patches through voxels. In a voxel a ray hits one of the surface groups, sampled by visible area.
+// BRESENHAM: visits the voxels of a 3D Bresenham line, one for each step along the longest axis, which misses voxels of
+// which the ray only cuts a corner (Cosin and Patow 2022, section 4.3).
 #include "passes/clusters/cluster_visibility/patch_samples.glsl"
 #include "passes/clusters/visible_face.glsl"
 #include "shaders/voxel_march/voxel_march.glsl"
@@ -9,32 +9,34 @@ layout(local_size_x = 64) in;
 readonly buffer FirstGroup { uint data[]; } firstGroup;
 writeonly buffer PackedHits { uint data[]; } packedHits;
 
-// Where a ray begins: above the surfel, off the plane through its voxel's center and along its normal. Off an axis-aligned plane half a
-// voxel leaves its layer of voxels; a slanted plane touches voxels that reach further, which isOwnSurface() skips.
+// Origin of a ray: above the surfel, at a height over the plane through its voxel's center perpendicular to its normal.
+// The height is half a voxel for an axis-aligned plane, which is above its layer of voxels. A slanted plane intersects
+// voxels that extend higher; isOwnSurface() skips these.
 vec3 marchOrigin(GroupedSurfel s, ivec3 voxel) {
     const vec3 size = abs(s.normal), center = push.grid.origin + push.grid.voxelSize * (vec3(voxel) + 0.5);
     const float height = dot(size, vec3(1.0)) - 0.5 * max(size.x, max(size.y, size.z)) + VOXEL_MARGIN;
     return s.position + (height * push.grid.voxelSize - dot(s.position - center, s.normal)) * s.normal;
 }
 
-// A ray on its way.
+// The state of a ray during the march.
 struct MarchingRay {
-    vec3 normal;  // Of the surfel that it began at.
+    vec3 normal;  // Normal of the surfel at its origin.
     vec3 direction;
     ivec3 startVoxel;
-    bool isInLayer;  // All voxels so far were occupied.
+    bool isInLayer;  // All voxels visited so far were occupied.
 };
 
-// Whether a group is part of the surface that the ray began on, whose back it must not hit: the voxel's center, `offset` voxels from the
-// start, lies in the layer that the surface's plane touches; the group is flat, within 45 degrees of that plane and faces away.
+// Whether a group belongs to the surface at the ray's origin, whose back the ray must not hit: the voxel, `offset`
+// voxels from the start, lies in the layer that the surface's plane intersects, and the group is flat, within 45
+// degrees of that plane and faces away from the ray.
 bool isOwnSurface(MarchingRay ray, ivec3 offset, VoxelMaterial m) {
     if (abs(dot(vec3(offset), ray.normal)) > dot(abs(ray.normal), vec3(1.0))) return false;
     const float cosine = dot(m.normal, ray.normal);
     return isFlat(m) && cosine * cosine > 0.5 * dot(m.normal, m.normal) && cosine * dot(m.normal, ray.direction) > 0.0;
 }
 
-// Area of a group that the ray sees, by axis. A ray that begins in a corner starts among the voxels of the other wall, in front of it:
-// as long as it has not left them it sees no group from behind.
+// Area of a group that is visible to the ray, by axis. The origin of a ray in a corner of a room lies in the voxels of
+// the other wall, in front of its surface: groups that face away are skipped until the ray has left these voxels.
 vec3 visibleAreas(uint group, MarchingRay ray, ivec3 voxel) {
     if (groups.data[group].isOccluded == 1u) return vec3(0.0);
     const VoxelMaterial m = voxelMaterial(group);
@@ -42,7 +44,7 @@ vec3 visibleAreas(uint group, MarchingRay ray, ivec3 voxel) {
     return isOwnSurface(ray, voxel - ray.startVoxel, m) ? vec3(0.0) : projectedFaceAreas(m, ray.direction);
 }
 
-// Picks one of the groups in a voxel, with probability proportional to its visible area. False where none is visible: the ray passes.
+// Samples one of the groups in a voxel by visible area. False if none is visible, so that the ray continues.
 bool hitVoxel(uint rayNumber, MarchingRay ray, ivec3 voxel, float distance_, out uint packedHit) {
     const uint number = voxelNumber(push.grid, voxel);
     float sum = 0.0;
@@ -56,7 +58,7 @@ bool hitVoxel(uint rayNumber, MarchingRay ray, ivec3 voxel, float distance_, out
         const vec3 areas = visibleAreas(group, ray, voxel);
         const float area = dot(areas, vec3(1.0));
         if (area == 0.0) continue;
-        packedHit = packHitAt(group, pickFace(m, ray.direction, areas, remaining / area), distance_);
+        packedHit = packHitAtDistance(group, pickFace(m, ray.direction, areas, remaining / area), distance_);
         if (remaining < area) break;
         remaining -= area;
     }
@@ -82,9 +84,10 @@ uint marchRay(uint rayNumber) {
     return HIT_NOTHING;
 }
 #else
-// Distance to where a ray leaves a voxel that it is in, plus a margin, m.
+// Distance at which a ray leaves the voxel, plus a margin, m.
 float exitDistance(ivec3 voxel, vec3 origin, vec3 direction) {
-    const vec3 start = gridCoordinates(push.grid, origin), far = mix(vec3(voxel), vec3(voxel) + 1.0, greaterThan(direction, vec3(0.0)));
+    const vec3 start = gridCoordinates(push.grid, origin);
+    const vec3 far = mix(vec3(voxel), vec3(voxel) + 1.0, greaterThan(direction, vec3(0.0)));
     const vec3 distances = mix((far - start) / direction, vec3(1.0e30), lessThan(abs(direction), vec3(1e-9)));
     return (min(distances.x, min(distances.y, distances.z)) + VOXEL_MARGIN) * push.grid.voxelSize;
 }

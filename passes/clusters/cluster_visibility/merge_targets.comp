@@ -1,16 +1,17 @@
-// Sorts the targets of each patch's rays (heapsort) and merges equal ones to entries of its visibility list.
+// Sorts the targets of each patch's rays (heapsort) and merges equal ones into entries of its visibility list.
 #include "passes/clusters/visibility_list_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) buffer Targets { uint data[]; } targets;  // raysPerPatch a patch. Becomes its entries, in the first places.
-layout(scalar) writeonly buffer EntryCounts { uint data[]; } entryCounts;  // By patch, then 0 for the prefix sum.
+// Input: raysPerPatch targets for each patch. Output: the first elements of each patch are its entries.
+layout(scalar) buffer Targets { uint data[]; } targets;
+layout(scalar) writeonly buffer EntryCounts { uint data[]; } entryCounts;  // Per patch, then 0 for the prefix sum.
 layout(push_constant, scalar) uniform Push {
     VisibilityListLayout lists;
     uint patches;
 } push;
 
-// Restores a max-heap of `count` targets whose element `node` may be too small.
+// Restores the order of a max-heap of `count` targets in which element `node` may be too small.
 void siftDown(uint first, uint node, uint count) {
     const uint moved = targets.data[first + node];
     for (uint child = 2u * node + 1u; child < count; child = 2u * node + 1u) {

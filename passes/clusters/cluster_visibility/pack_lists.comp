@@ -1,11 +1,11 @@
-// Packs the visibility lists of patches end to end, entryBits an entry.
+// Packs the visibility lists of patches without padding, entryBits bits for each entry.
 #include "passes/clusters/visibility_list_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer Targets { uint data[]; } targets;  // As merge_targets.comp leaves them.
+layout(scalar) readonly buffer Targets { uint data[]; } targets;  // Output of merge_targets.comp.
 layout(scalar) readonly buffer Offsets { uint data[]; } offsets;
-layout(scalar) buffer Entries { uint data[]; } entries;  // 0 before.
+layout(scalar) buffer Entries { uint data[]; } entries;  // Must be 0 before.
 layout(push_constant, scalar) uniform Push {
     VisibilityListLayout lists;
     uint patches;
@@ -14,9 +14,9 @@ layout(push_constant, scalar) uniform Push {
 void main() {
     const uint number = linearIndex();
     if (number >= push.patches) return;
-    const uint begin = offsets.data[number], end = offsets.data[number + 1u];
-    for (uint i = begin; i < end; ++i) {
-        const uint entry = targets.data[number * push.lists.raysPerPatch + i - begin];
+    const uint first = offsets.data[number], end = offsets.data[number + 1u];
+    for (uint i = first; i < end; ++i) {
+        const uint entry = targets.data[number * push.lists.raysPerPatch + i - first];
         const uint bit = i * push.lists.entryBits, word = bit / 32u, shift = bit % 32u;
         // A word may hold entries of two patches
         atomicOr(entries.data[word], entry << shift);

@@ -5,6 +5,6 @@
 Ray patchRay(uint ray) {
     const GroupedSurfel s = sampleSurfel(ray);
     const vec3 direction = sampleDirection(ray, s);
-    // A hemisphere about the face's axis reaches below a slanted surface.
+    // A hemisphere about the face's axis contains directions below a slanted surface
     return dot(direction, s.normal) > 0.0 ? Ray(s.position, 0.0, direction, 1.0e30) : kNoRay;
 }

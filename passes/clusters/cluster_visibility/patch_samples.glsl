@@ -1,5 +1,5 @@
-// Origins and directions of rays from patches. Rays are numbered from the chunk's first patch on, raysPerPatch for each. Materials of
-// shaders/voxels/voxels.glsl are those of surface groups.
+// Origins and directions of rays from patches. Each patch of a chunk has raysPerPatch consecutive rays. The materials
+// bound to shaders/voxels/voxels.glsl are those of surface groups.
 #include "passes/clusters/cluster_visibility/packed_hit.glsl"
 #include "passes/clusters/grouped_surfels.glsl"
 #include "passes/clusters/visibility_list_types.h"
@@ -9,40 +9,42 @@
 #include "shaders/voxels/face.glsl"
 #include "shaders/voxels/voxels.glsl"
 
-layout(scalar) readonly buffer PatchFaces { uint data[]; } patchFaces;  // By patch: 6 * group + face.
+layout(scalar) readonly buffer PatchFaces { uint data[]; } patchFaces;  // 6 * group + face of each patch.
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     VisibilityListLayout lists;
-    uint firstPatch;     // Of the chunk.
-    uint rayCount;       // Of all of the chunk's patches, or of those listed.
+    uint firstPatch;     // First patch of the chunk.
+    uint rayCount;       // Number of rays in the chunk or in the list.
     uint seed;
-    float nearDistance;  // Voxels: nearer targets are patches, farther ones component faces.
+    float nearDistance;  // Voxels. Targets closer than that are patches, others are component faces.
     uint aboutFaceAxis;  // 1: hemispheres about the face's axis. 0: about the surfel's normal.
-    uint round;          // Of find_hit_groups.comp.
+    uint round;          // Used by find_hit_groups.comp.
 } push;
 
 uint rayGroup(uint ray) { return patchFaces.data[push.firstPatch + ray / push.lists.raysPerPatch] / 6u; }
 uint rayFace(uint ray) { return patchFaces.data[push.firstPatch + ray / push.lists.raysPerPatch] % 6u; }
 
-// Of a patch's sequences 0 (direction), 1 (origin) and 2 (face of the hit). By a surfel's id, since groups are renumbered in updates.
+// Seed of a patch's sequence 0 (direction), 1 (origin) or 2 (face of the hit). It depends on a surfel's id instead of
+// the group's index, which changes in updates.
 uint raySeed(uint ray, uint sequence) {
     const uint surfelId = groupedSurfels.data[groups.data[rayGroup(ray)].firstSurfel].id;
     return hashCombine(hashCombine(hashCombine(push.seed, sequence), surfelId), rayFace(ray));
 }
 
-// The part of a surfel's area that counts at a face: squared cosine, 0 for faces that it looks away from.
+// Projected area of a surfel at a face, as a fraction of its area: squared cosine, 0 for faces behind it.
 float areaAtFace(GroupedSurfel s, uint face) {
     const float cosine = s.normal[face >> 1];
     return (face & 1u) == (cosine < 0.0 ? 1u : 0u) ? cosine * cosine : 0.0;
 }
 
-// The surfel that a ray begins at: one of its group's, with probability proportional to areaAtFace().
+// The surfel at the origin of a ray: one of the group's, with probability proportional to areaAtFace().
 GroupedSurfel sampleSurfel(uint ray) {
     const uint face = rayFace(ray);
     const SurfaceGroup group = groups.data[rayGroup(ray)];
     float totalArea = 0.0;
-    for (uint i = 0u; i < group.surfelCount; ++i) totalArea += areaAtFace(groupedSurfels.data[group.firstSurfel + i], face);
+    for (uint i = 0u; i < group.surfelCount; ++i)
+        totalArea += areaAtFace(groupedSurfels.data[group.firstSurfel + i], face);
     float remaining = totalArea * sobol2(ray % push.lists.raysPerPatch, raySeed(ray, 1u)).x;
     uint sampled = group.firstSurfel;
     for (uint i = 0u; i < group.surfelCount; ++i) {
@@ -61,8 +63,10 @@ vec3 sampleDirection(uint ray, GroupedSurfel s) {
     return cosineDirection(sobol2(ray % push.lists.raysPerPatch, raySeed(ray, 0u)), axis);
 }
 
-// In [0, 1), to pick one of the faces of what the ray hit.
+// Random number in [0, 1) that selects one of the faces at the ray's hit.
 float sampleHitFace(uint ray) { return toUnit(hashCombine(raySeed(ray, 2u), ray % push.lists.raysPerPatch)); }
 
-// `distance_` in voxels.
-uint packHitAt(uint group, uint face, float distance_) { return packHit(group, face, distance_ < push.nearDistance); }
+// @param distance_ in voxels.
+uint packHitAtDistance(uint group, uint face, float distance_) {
+    return packHit(group, face, distance_ < push.nearDistance);
+}

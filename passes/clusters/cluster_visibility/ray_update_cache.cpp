@@ -8,12 +8,13 @@
 namespace voxray {
 namespace {
 
-/// Voxels. A ray's group lies in the voxel that it hit or next to it, and depends on what lies next to that.
+/// Distance in voxels up to which a change may affect a hit: the group of a hit lies in the voxel of the hit
+/// or an adjacent one, and the choice of the group depends on the voxels adjacent to that.
 constexpr uint32_t kHitReach = 2;
 
-/// `changed`, m, with a margin, behind their common bounding box.
+/// The common bounding box of `changed` (m), followed by these boxes, all enlarged by a margin.
 std::vector<Box> boxesWithBounds(const std::vector<Box>& changed, float voxelSize) {
-    const glm::vec3 margin(voxelSize / 64);  // For rounding.
+    const glm::vec3 margin(voxelSize / 64);  // For rounding errors.
     std::vector<Box> boxes(1, changed.at(0));
     for (const Box& box : changed) {
         boxes[0] = {glm::min(boxes[0].min, box.min), glm::max(boxes[0].max, box.max)};
@@ -31,11 +32,11 @@ RayUpdateCache::RayUpdateCache(ProgramOwner& owner)
       reuseHits_(owner, "reuse_hits.comp"),
       regions_(owner) {}
 
-void RayUpdateCache::begin(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
-                           const VoxelPatches& patches, const std::vector<Box>& changed) {
+void RayUpdateCache::startUpdate(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
+                                 const VoxelPatches& patches, const std::vector<Box>& changed) {
     Device& device = stream.device();
-    const Buffer nearChange = regions_.bits(
-        stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, kHitReach)), voxels);
+    const Buffer changedNeighbourhood =
+        regions_.bits(stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, kHitReach)), voxels);
     newGroups_ = Buffer(device, "new numbers of groups", uintBytes(groupCount_));
     previousFirstPatches_ = Buffer(device, "previous first patches of groups", uintBytes(patches.groupCount));
     stream.fill(newGroups_, NO_GROUP);
@@ -43,7 +44,7 @@ void RayUpdateCache::begin(CommandStream& stream, const SurfaceVoxels& voxels, c
                     {{"groups", patches.groups},
                      {"previousGroups", patches.previousGroups},
                      {"coordinates", clusters.coordinates},
-                     {"nearChange", nearChange},
+                     {"changedNeighbourhood", changedNeighbourhood},
                      {"firstPatches", firstPatches_},
                      {"newGroups", newGroups_},
                      {"previousFirstPatches", previousFirstPatches_},
@@ -84,9 +85,8 @@ void RayUpdateCache::store(CommandStream& stream, const VoxelPatches& patches) {
     previousHitAddresses_ = {}, newGroups_ = {}, previousFirstPatches_ = {}, boxes_ = {}, firstPatches_ = {};
     groupCount_ = patches.groupCount;
     firstPatches_ = Buffer(stream.device(), "first patches of groups", uintBytes(groupCount_));
-    stream.dispatch(
-        storeFirstPatches_, groupCount_,
-        {{"groups", patches.groups}, {"firstPatches", firstPatches_}, {"groupCount", groupCount_}});
+    stream.dispatch(storeFirstPatches_, groupCount_,
+                    {{"groups", patches.groups}, {"firstPatches", firstPatches_}, {"groupCount", groupCount_}});
     stream.finish();
 }
 

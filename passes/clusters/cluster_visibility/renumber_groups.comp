@@ -1,4 +1,5 @@
-// For an update: the new numbers of surface groups whose voxels have not changed, and the first patch that each had before.
+// For an update: maps surface groups of unchanged voxels from their previous index to the new one, and stores the first
+// patch that each had in the previous build.
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -7,10 +8,11 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer PreviousGroups { uint data[]; } previousGroups;
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
-readonly buffer NearChange { uint words[]; } nearChange;     // A bit a voxel: so close to a change that hits there may have changed.
-readonly buffer FirstPatches { uint data[]; } firstPatches;  // By previous group.
-writeonly buffer NewGroups { uint data[]; } newGroups;       // By previous group; NO_GROUP before.
-writeonly buffer PreviousFirstPatches { uint data[]; } previousFirstPatches;  // By group; NO_GROUP: its patches are new.
+// A bit for each voxel in which hits may have changed.
+readonly buffer ChangedNeighbourhood { uint words[]; } changedNeighbourhood;
+readonly buffer FirstPatches { uint data[]; } firstPatches;  // Per previous group.
+writeonly buffer NewGroups { uint data[]; } newGroups;       // Per previous group. Must be NO_GROUP before.
+writeonly buffer PreviousFirstPatches { uint data[]; } previousFirstPatches;  // Per group; NO_GROUP: it is new.
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint groupCount;
@@ -22,6 +24,6 @@ void main() {
     const uint previous = previousGroups.data[i];
     previousFirstPatches.data[i] = previous == NO_GROUP ? NO_GROUP : firstPatches.data[previous];
     const ivec3 voxel = ivec3(coordinates.data[groups.data[i].voxel]);
-    const bool isNearChange = (nearChange.words[voxelWord(push.grid, voxel)] & voxelBit(push.grid, voxel)) != 0u;
-    if (previous != NO_GROUP && !isNearChange) newGroups.data[previous] = i;
+    const uint changed = changedNeighbourhood.words[voxelWord(push.grid, voxel)] & voxelBit(push.grid, voxel);
+    if (previous != NO_GROUP && changed == 0u) newGroups.data[previous] = i;
 }

@@ -1,5 +1,5 @@
-// Hits of the build before that still hold. Flags the other rays to be traced again: those from changed voxels, those that hit something
-// in one, and those that pass a changed box on their way.
+// Copies hits of the previous build that are still valid. Flags the other rays, which are traced again: those that
+// start in a changed voxel, that hit a surface close to one, or that intersect a changed box before their hit.
 #include "passes/clusters/cluster_visibility/patch_ray.glsl"
 #include "shaders/compute/large_buffer.glsl"
 layout(local_size_x = 64) in;
@@ -8,21 +8,23 @@ struct Box {
     vec3 low;
     vec3 high;
 };
-layout(scalar) readonly buffer Boxes { Box data[]; } boxes;  // The first one holds all others.
-layout(scalar) readonly buffer PreviousHits { LargeUints data[]; } previousHits;  // By chunk; with the previous numbers of groups.
+layout(scalar) readonly buffer Boxes { Box data[]; } boxes;  // The first one contains all others.
+// Packed hits of each chunk, with previous indices of groups.
+layout(scalar) readonly buffer PreviousHits { LargeUints data[]; } previousHits;
 readonly buffer NewGroups { uint data[]; } newGroups;
 readonly buffer PreviousFirstPatches { uint data[]; } previousFirstPatches;
 writeonly buffer PackedHits { uint data[]; } packedHits;
-buffer Flags { uint words[]; } flags;  // 0 before.
+buffer Flags { uint words[]; } flags;  // Must be 0 before.
 
 uint previousHit(uint ray) {
-    const uint patchNumber = push.firstPatch + ray / push.lists.raysPerPatch, group = patchFaces.data[patchNumber] / 6u;
+    const uint patchNumber = push.firstPatch + ray / push.lists.raysPerPatch;
+    const uint group = patchFaces.data[patchNumber] / 6u;
     if (previousFirstPatches.data[group] == NO_GROUP) return HIT_UNKNOWN;
     const uint previous = previousFirstPatches.data[group] + patchNumber - groups.data[group].firstPatch;
     const uint packedHit =
         previousHits.data[previous / push.lists.patchesPerChunk]
             .data[previous % push.lists.patchesPerChunk * push.lists.raysPerPatch + ray % push.lists.raysPerPatch];
-    // Where a surface without a group lies is unknown
+    // The position of a hit without a group is not stored
     if (!hitsGroup(packedHit)) return packedHit == HIT_NO_GROUP ? HIT_UNKNOWN : packedHit;
     const uint newGroup = newGroups.data[hitGroup(packedHit)];
     return newGroup == NO_GROUP ? HIT_UNKNOWN : withGroup(packedHit, newGroup);
@@ -35,8 +37,8 @@ bool intersects(Ray ray, Box box) {
     return max(max(near.x, near.y), max(near.z, 0.0)) <= min(min(far.x, far.y), min(far.z, ray.tMax));
 }
 
-// Whether a ray passes a changed box before its hit, which lies within two voxels along each axis of the hit group's surfels.
-bool passesChange(uint ray, uint packedHit) {
+// Whether a ray intersects a changed box before its hit, which is within two voxels of the hit group's surfels.
+bool hitsChange(uint ray, uint packedHit) {
     Ray r = patchRay(ray);
     if (hitsGroup(packedHit)) {
         const vec3 toGroup = groupedSurfels.data[groups.data[hitGroup(packedHit)].firstSurfel].position - r.origin;
@@ -52,7 +54,7 @@ void main() {
     const uint ray = linearIndex();
     if (ray >= push.rayCount) return;
     uint packedHit = previousHit(ray);
-    if (packedHit != HIT_UNKNOWN && passesChange(ray, packedHit)) packedHit = HIT_UNKNOWN;
+    if (packedHit != HIT_UNKNOWN && hitsChange(ray, packedHit)) packedHit = HIT_UNKNOWN;
     packedHits.data[ray] = packedHit;
     if (packedHit == HIT_UNKNOWN) atomicOr(flags.words[ray / 32u], 1u << (ray % 32u));
 }

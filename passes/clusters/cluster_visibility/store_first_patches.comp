@@ -1,4 +1,4 @@
-// By surface group: its first patch, stored for the next update, in which patches are renumbered.
+// Stores the first patch of each surface group for the next update, in which patches get new indices.
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

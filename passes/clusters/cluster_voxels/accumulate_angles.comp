@@ -1,5 +1,5 @@
-// Fragment callback: adds the angles between a fragment's normal and the axes to its voxel's sums (Cosin and Patow 2022, figure 7). A
-// fragment is the part of a triangle in a voxel. Sums are in whole numbers, so their order doesn't matter.
+// Fragment callback: adds the angles between a fragment's normal and the axes to its voxel's sums (Cosin and Patow
+// 2022, figure 7). A fragment is the part of a triangle in a voxel. Integer sums do not depend on the order.
 #include "passes/clusters/cluster_voxels/fragment_angles.glsl"
 #include "passes/common/triangle_voxelizer/exact.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -8,7 +8,7 @@ void processFragment(TriangleFragment f) {
     const uint voxel = voxelNumber(voxelizer.grid, f.voxel);
     if (voxel == NO_VOXEL) return;
     ClippedFragment c;
-    // A triangle that only touches the voxel has no fragment there, but rounding may give it some area
+    // A triangle that only touches the voxel has no fragment in it, but rounding may result in a small area
     if (!clipFragment(f, c) || c.area < kMargin) return;
     const vec3 angles = acos(clamp(surfacePoint(f.triangle, c.center).normal, -1.0, 1.0));
     const uvec3 units = uvec3(round(angles * voxelizer.fixedPointScale));

@@ -1,4 +1,4 @@
-// Adds each voxel's position and normal to the sums of its cluster.
+// Adds the position and the normal of each voxel to the sums of its cluster.
 #include "passes/clusters/cluster_voxels/cluster_sums.glsl"
 layout(local_size_x = 64) in;
 

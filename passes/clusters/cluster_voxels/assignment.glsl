@@ -1,4 +1,5 @@
-// By voxel: its cluster, numbered with empty ones: a seed, or seedCount + voxel for a cluster that a voxel began; or NO_CLUSTER.
+// Cluster of each voxel: the number of a seed, seedCount + voxel for a cluster whose seed is a voxel that was
+// unassigned, or NO_CLUSTER.
 #include "passes/clusters/cluster_voxels/neighbourhood.glsl"
 
 layout(scalar) buffer Assignment { uint data[]; } assignment;

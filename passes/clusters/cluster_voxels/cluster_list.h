@@ -3,25 +3,21 @@
 #include "passes/clusters/cluster_voxels/slic_clustering.h"
 #include "passes/common/compute/compaction.h"
 #include "passes/common/compute/histogram.h"
-#include "passes/common/compute/radix_sort.h"
 
 namespace voxray {
 
-/// Drops empty clusters, sorts voxels by cluster, and averages over each cluster.
+/// Removes empty clusters and assigns consecutive indices to the others.
 class ClusterList {
  public:
     explicit ClusterList(ProgramOwner& owner);
 
-    /// Fills `clusters`, whose `coordinates` are there. Waits for the device.
-    void build(CommandStream& stream, const SurfaceVoxels& voxels, const SlicClustering::Result& slic,
-               VoxelClusters& clusters);
+    /// Sets all members of `clusters` except `coordinates`. Waits for the device.
+    void build(CommandStream& stream, uint32_t voxelCount, const SlicClustering::Result& slic, VoxelClusters& clusters);
 
  private:
     Histogram histogram_;
-    PrefixSum prefixSum_;
     Compaction compaction_;
-    RadixSort sort_;
-    Kernel flagNonempty_, initClusters_, renumberAssignment_, averageClusters_;
+    Kernel flagNonempty_, initClusters_, renumberAssignment_;
 };
 
 }  // namespace voxray

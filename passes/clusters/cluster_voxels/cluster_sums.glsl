@@ -1,4 +1,4 @@
-// Sums over a cluster's voxels in whole numbers, so that their order doesn't matter: positions (3), normals (3), count.
+// Sums over the voxels of each cluster: positions (3), normals (3), count. Integer sums do not depend on the order.
 #include "shaders/compute/linear_index.glsl"
 
 #define SUMS 7u

@@ -8,18 +8,17 @@
 
 namespace voxray {
 
-/// Groups adjacent surface voxels of like normals into clusters, as SLIC groups pixels into superpixels.
+/// Groups adjacent surface voxels of similar normals into clusters, as SLIC groups pixels into superpixels.
 /// Source: Cosin and Patow 2022, section 4.2; Achanta et al. 2012 (SLIC).
 class ClusterVoxels final : public Pass {
  public:
     static constexpr const char* kName = "cluster_voxels";
     static constexpr const char* kHelp =
         "Groups surface voxels into clusters by position and normal. "
-        "Clusters stand for their voxels where light is gathered (cluster_visibility, inject_clusters, "
-        "gather_clusters). "
-        "Seeds in a uniform grid take the voxels around them of like normals and move to their mean, "
-        "repeatedly. Biased by: the size of clusters, over which light is averaged. "
-        "No noise: the same clusters in each run. "
+        "Light is gathered from clusters instead of their voxels (cluster_visibility, inject_clusters, "
+        "gather_clusters). Repeatedly, voxels are assigned to seeds of similar normals, "
+        "which begin in a uniform grid and move to the mean of their voxels. "
+        "Biased by: the size of clusters, over which light is averaged. No noise: the same clusters in each run. "
         "Source: Cosin and Patow 2022, section 4.2; Achanta et al. 2012 (SLIC).";
     using Params = ClusterParams;
 
@@ -48,26 +47,26 @@ void ClusterVoxels::record(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
     VoxelClusters& clusters = context[clusters_];
     CommandStream& stream = context.stream;
-    clusters.clusters = {}, clusters.clusterOfVoxel = {}, clusters.memberVoxels = {},
-    clusters.coordinates = {};
-    clusters.coordinates =
-        Buffer(context.device, "coordinates of voxels", voxels.voxelCount * sizeof(glm::uvec3));
+    clusters.clusters = {}, clusters.clusterOfVoxel = {}, clusters.coordinates = {};
+    clusters.coordinates = Buffer(context.device, "coordinates of voxels", voxels.voxelCount * sizeof(glm::uvec3));
     const uint32_t words = uint32_t(voxels.words());
-    context.dispatch(listVoxels_, words,
-                     {voxels, {"voxelCoordinates", clusters.coordinates}, {"words", words}});
+    context.dispatch(listVoxels_, words, {voxels, {"voxelCoordinates", clusters.coordinates}, {"words", words}});
     FragmentAngles::Sums fragments;
     if (fragments_) fragments = fragments_->measure(context, voxels);
     const SlicClustering::Result slic = clustering_.run(stream, voxels, clusters.coordinates, fragments);
-    list_.build(stream, voxels, slic, clusters);
+    list_.build(stream, voxels.voxelCount, slic, clusters);
     context.report("clusters", clusters.count);
     context.report("clusters, % of voxels", 100.0 * clusters.count / voxels.voxelCount);
     context.report("voxels no seed reached, %", 100.0 * slic.unassigned / voxels.voxelCount);
     if (params_.normals == ClusterNormals::Area) return;
-    const SlicClustering::OpenSpaceCounts& open = slic.openSpace;
-    context.report("voxels whose surfaces disagree, %", 100.0 * open.disagreeing / voxels.voxelCount);
-    context.report("voxels whose open ways tie, %", 100.0 * open.tied / voxels.voxelCount);
-    context.report("voxels that fragments decide otherwise, %", 100.0 * open.decided / voxels.voxelCount);
-    context.report("voxels with another normal than by area, %", 100.0 * open.changed / voxels.voxelCount);
+    const SlicClustering::NormalCounts& counts = slic.normalCounts;
+    const auto reportPercent = [&](const char* name, uint32_t count) {
+        context.report(name, 100.0 * count / voxels.voxelCount);
+    };
+    reportPercent("voxels whose surfaces disagree, %", counts.disagreeing);
+    reportPercent("voxels with a tie of unoccupied directions, %", counts.tied);
+    reportPercent("voxels that fragments decide otherwise, %", counts.decided);
+    reportPercent("voxels with another normal than by area, %", counts.changed);
 }
 
 VOXRAY_REGISTER_PASS(ClusterVoxels);

@@ -1,4 +1,4 @@
-// Each voxel's cluster after the last iteration; counts voxels without one.
+// Writes the cluster of each voxel after the last iteration, and counts voxels without one.
 #include "passes/clusters/cluster_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

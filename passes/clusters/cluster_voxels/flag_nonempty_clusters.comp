@@ -1,4 +1,4 @@
-// A bit for each cluster number, set if the cluster has voxels.
+// Sets a bit for each cluster that has voxels.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

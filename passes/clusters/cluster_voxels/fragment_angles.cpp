@@ -8,12 +8,12 @@
 namespace voxray {
 namespace {
 
-constexpr float kMaxUnitsPerRadian = 65536;
+constexpr float kMaxAngleScale = 65536;
 
-/// Such that a sum of an angle up to pi for each triangle fits into 32 bits.
-float unitsFor(size_t triangles) {
+/// The fixed-point scale with which a sum of angles up to pi, one for each triangle, fits into 32 bits.
+float angleScale(size_t triangles) {
     const float limit = 0x1p31f / (std::numbers::pi_v<float> * float(std::max<size_t>(triangles, 1)));
-    return std::min(limit, kMaxUnitsPerRadian);
+    return std::min(limit, kMaxAngleScale);
 }
 
 }  // namespace
@@ -25,12 +25,12 @@ FragmentAngles::FragmentAngles(ProgramOwner& owner)
 FragmentAngles::Sums FragmentAngles::measure(PassContext& context, const SurfaceVoxels& voxels) {
     const Geometry& geometry = context.frame.scene->geometry;
     Sums sums{Buffer(context.device, "angles of fragments", uintBytes(4 * uint64_t(voxels.voxelCount))),
-              unitsFor(geometry.triangles.size())};
+              angleScale(geometry.triangles.size())};
     context.stream.fill(sums.angles, 0);
     const VoxelRegion region(voxels.grid);
     voxelizer_->select(context, voxels.grid, region, region.triangles(geometry));
     voxelizer_->run(context, *accumulate_, voxels.grid, voxels.bindings({{"fragmentAngles", sums.angles}}),
-                    sums.unitsPerRadian);
+                    sums.fixedPointScale);
     context.stream.finish();
     voxelizer_->release();
     return sums;

@@ -7,13 +7,13 @@
 
 namespace voxray {
 
-/// Sums of the angles between the axes and the normals of a voxel's fragments: all that deciding ties needs
-/// of the paper's lists of fragments. Source: Cosin and Patow 2022, section 4.2, figure 7.
+/// Sums the angles between the axes and the normals of each voxel's fragments (parts of triangles). They
+/// replace the paper's lists of fragments. Source: Cosin and Patow 2022, section 4.2 and figure 7.
 class FragmentAngles {
  public:
     struct Sums {
-        Buffer angles;  ///< By voxel: sums of angles to +x, +y and +z, and the number of fragments.
-        float unitsPerRadian = 0;
+        Buffer angles;              ///< Per voxel: sums of angles to +x, +y and +z, and the number of fragments.
+        float fixedPointScale = 0;  ///< Units of these sums in a radian.
     };
 
     explicit FragmentAngles(ProgramOwner& owner);

@@ -1,11 +1,10 @@
-// Clusters that have voxels: their members, and the normal that these were compared with.
+// Writes the seed's normal and the number of voxels of each nonempty cluster, and assigns consecutive indices to them.
 #include "passes/clusters/cluster_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer Numbers { uint data[]; } numbers;  // By cluster: its number among all, with empty ones.
-readonly buffer MemberCounts { uint data[]; } memberCounts;  // By that number, as `firstMembers` and `newNumbers`.
-readonly buffer FirstMembers { uint data[]; } firstMembers;
+readonly buffer Numbers { uint data[]; } numbers;  // Per nonempty cluster: its number among all clusters.
+readonly buffer MemberCounts { uint data[]; } memberCounts;  // Per cluster, as `newNumbers`.
 writeonly buffer NewNumbers { uint data[]; } newNumbers;
 layout(scalar) readonly buffer Seeds { ClusterSeed data[]; } seeds;
 layout(scalar) readonly buffer Normals { vec3 data[]; } normals;
@@ -20,8 +19,7 @@ void main() {
     if (i >= push.clusterCount) return;
     const uint number = numbers.data[i];
     newNumbers.data[number] = i;
-    clusters.data[i].firstMember = firstMembers.data[number];
-    clusters.data[i].memberCount = memberCounts.data[number];
-    clusters.data[i].seedNormal =
+    const vec3 seedNormal =
         number < push.seedCount ? seeds.data[number].normal : normals.data[number - push.seedCount];
+    clusters.data[i] = VoxelCluster(seedNormal, memberCounts.data[number]);
 }

@@ -1,4 +1,4 @@
-// Seeds in a uniform grid: each takes position and normal of the surface voxel nearest to the center of its cell.
+// Initializes seeds in a uniform grid: each gets position and normal of the surface voxel nearest to its cell's center.
 #include "passes/clusters/cluster_voxels/neighbourhood.glsl"
 layout(local_size_x = 64) in;
 

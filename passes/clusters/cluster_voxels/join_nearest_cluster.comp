@@ -1,12 +1,11 @@
-// Unassigned voxels join the cluster of the nearest assigned voxel, whatever their normals (Cosin and Patow 2022, figure 9).
+// Assigns unassigned voxels to the cluster of the nearest assigned voxel (Cosin and Patow 2022, figure 9).
 #include "passes/clusters/cluster_voxels/assignment.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
 layout(scalar) writeonly buffer NewAssignment { uint data[]; } newAssignment;
 
-// Searches shells of growing boxes around the voxel. As a shell's corners are farther than its faces, the search ends only with the shell
-// whose faces are farther than the nearest voxel found.
+// Searches shells of growing boxes until the faces of a shell are farther than the nearest voxel found.
 uint nearestCluster(ivec3 center) {
     const int maxShell = int(max(push.grid.resolution.x, max(push.grid.resolution.y, push.grid.resolution.z)));
     uint nearest = NO_CLUSTER;
@@ -21,7 +20,7 @@ uint nearestCluster(ivec3 center) {
                     if (distance2 > minDistance2) continue;
                     const uint voxel = voxelNumber(push.grid, center + ivec3(x, y, z));
                     if (voxel == NO_VOXEL || assignment.data[voxel] == NO_CLUSTER) continue;
-                    // Of equally near voxels the one of the lowest cluster.
+                    // Among equally near voxels, use the one with the lowest cluster
                     if (distance2 == minDistance2 && assignment.data[voxel] >= nearest) continue;
                     minDistance2 = distance2;
                     nearest = assignment.data[voxel];

@@ -1,4 +1,4 @@
-// Unassigned voxels join the nearest seed that this round selected; counts those that are left.
+// Assigns unassigned voxels to the nearest seed that was selected in this round, and counts those without one.
 #include "passes/clusters/cluster_voxels/assignment.glsl"
 layout(local_size_x = 64) in;
 

@@ -1,28 +1,28 @@
-// The occupied voxels of a box, and a voxel's distance from a cluster.
+// Iterates over the occupied voxels in a box, and computes the distance of a voxel from a cluster.
 #include "passes/clusters/cluster_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
 
-layout(scalar) readonly buffer Normals { vec3 data[]; } normals;  // By voxel number, unit.
+layout(scalar) readonly buffer Normals { vec3 data[]; } normals;  // Per voxel, unit length.
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
-    uint count;       // Of seeds or voxels: one a thread.
-    float reach;      // Voxels: how far from a cluster's center its voxels may lie along each axis.
-    float minCosine;  // Of the largest angle between a cluster's normal and those of its voxels.
-    uint takesFirst;  // 1: the first cluster that reaches a voxel has it. 0: the nearest.
+    uint count;       // Seeds or voxels: one for each thread.
+    float reach;      // Voxels: largest distance of voxels from their cluster's center along each axis.
+    float minCosine;  // Cosine of the largest angle between a cluster's normal and those of its voxels.
+    uint takesFirst;  // 1: ClusterAssignment::First. 0: ClusterAssignment::Nearest.
     uint seedCount;
 } push;
 
 // Iterates over the occupied voxels of a box by the words of the occupancy bits, which hold 32 voxels along x:
 // for (BoxIterator it = voxelsInBox(first, last); nextVoxel(it);).
 struct BoxIterator {
-    ivec3 first, last;  // Of the box, both included.
-    ivec3 nextWord;     // Its index in the row, and the row.
-    uint wordIndex;     // Of the current word,
-    uint word;          // the word,
-    uint remaining;     // and its bits in the box that are still to come.
-    ivec3 voxel;
-    uint number;
+    ivec3 first, last;  // Corners of the box, inclusive.
+    ivec3 nextWord;     // Index of the next word in its row, and the row.
+    uint wordIndex;     // Index of the current word.
+    uint word;          // The current word.
+    uint remaining;     // Its bits in the box that have not been visited yet.
+    ivec3 voxel;        // Coordinates of the current voxel.
+    uint number;        // Its number.
 };
 
 BoxIterator voxelsInBox(ivec3 first, ivec3 last) {
@@ -39,8 +39,8 @@ bool nextVoxel(inout BoxIterator it) {
     while (it.remaining == 0u) {
         if (it.nextWord.z > it.last.z) return false;
         const int low = max(it.first.x - 32 * it.nextWord.x, 0), high = min(it.last.x - 32 * it.nextWord.x, 31);
-        it.wordIndex =
-            uint(it.nextWord.z * int(push.grid.resolution.y) + it.nextWord.y) * push.grid.wordsPerRow + uint(it.nextWord.x);
+        const uint row = uint(it.nextWord.z * int(push.grid.resolution.y) + it.nextWord.y);
+        it.wordIndex = row * push.grid.wordsPerRow + uint(it.nextWord.x);
         it.word = voxelOccupancy.words[it.wordIndex];
         it.remaining = it.word & (0xffffffffu << low) & (0xffffffffu >> (31 - high));
         it.voxel = ivec3(32 * it.nextWord.x, it.nextWord.yz);
@@ -54,14 +54,14 @@ bool nextVoxel(inout BoxIterator it) {
     return true;
 }
 
-// The box of voxels whose centers are within reach of a point (in voxels).
+// The box of voxels whose centers are within reach of a point along each axis, in voxels.
 void boxWithinReach(vec3 center, out ivec3 first, out ivec3 last) {
     first = max(ivec3(ceil(center - 0.5 - push.reach)), ivec3(0));
     last = min(ivec3(floor(center - 0.5 + push.reach)), ivec3(push.grid.resolution) - 1);
 }
 
-// SLIC's distance, squared (Achanta et al. 2012, equation 3) with normals for colors: positions in units of the reach, normals in units
-// of the chord of the angle limit. 0 to 4 within both.
+// Squared SLIC distance (Achanta et al. 2012, equation 3) with normals instead of colors: positions in units of the
+// reach, normals in units of the chord of the angle limit. 0 to 4 within both.
 float clusterDistance(vec3 center, ivec3 voxel, float cosine) {
     const vec3 offset = (vec3(voxel) + 0.5 - center) / push.reach;
     return dot(offset, offset) + (1.0 - cosine) / (1.0 - push.minCosine);

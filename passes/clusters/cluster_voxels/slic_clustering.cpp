@@ -9,8 +9,8 @@
 namespace voxray {
 namespace {
 
-constexpr uint64_t kSumBytes = 7 * sizeof(uint64_t);  // Of a seed (cluster_sums.glsl).
-constexpr uint32_t kMaxRounds = 256;                  // Expected are about ten (Luby 1986).
+constexpr uint64_t kSumBytes = 7 * sizeof(uint64_t);  // For each seed (cluster_sums.glsl).
+constexpr uint32_t kMaxRounds = 256;                  // About ten are expected (Luby 1986).
 
 Defines normalDefines(const ClusterParams& params) {
     Defines defines;
@@ -38,26 +38,24 @@ SlicClustering::SlicClustering(ProgramOwner& owner, const ClusterParams& params)
       joinNearestCluster_(owner, "join_nearest_cluster.comp") {}
 
 glm::uvec3 SlicClustering::seedCells(const gpu::VoxelGrid& grid, uint32_t voxelCount) const {
-    // Seeds stand in a grid of cells of w³ voxels; a cube has `initial` cells. A flat surface has w² voxels
-    // in each; with `first` a cluster takes all within reach, (2w)².
+    // Each seed has a cell of w³ voxels; a cube has `initial` cells. A flat surface has w² voxels in a cell;
+    // with `first` a cluster gets all voxels within reach, (2w)²
     const double longest = std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z});
     double width = longest / std::cbrt(double(std::max(params_.initial, 1u)));
     if (params_.initial == 0) {
         width = std::sqrt(double(voxelCount) / params_.target);
         if (params_.assign == ClusterAssignment::First) width /= 2;
     }
-    return glm::max(glm::uvec3(glm::round(glm::dvec3(grid.resolution) / std::max(width, 1.0))),
-                    glm::uvec3(1));
+    return glm::max(glm::uvec3(glm::round(glm::dvec3(grid.resolution) / std::max(width, 1.0))), glm::uvec3(1));
 }
 
-void SlicClustering::findNormals(CommandStream& stream, const SurfaceVoxels& voxels,
-                                 const Buffer& coordinates, const FragmentAngles::Sums& fragments,
-                                 Result& result) const {
+void SlicClustering::findNormals(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates,
+                                 const FragmentAngles::Sums& fragments, Result& result) const {
     const uint32_t count = voxels.voxelCount;
     result.normals = Buffer(stream.device(), "voxel normals", count * sizeof(glm::vec3));
     Buffer counts;
     if (params_.normals == ClusterNormals::OpenSpace) {
-        counts = Buffer(stream.device(), "voxels by choice of normal", sizeof(OpenSpaceCounts));
+        counts = Buffer(stream.device(), "voxels by choice of normal", sizeof(NormalCounts));
         stream.fill(counts, 0);
     }
     stream.dispatch(findNormals_, count,
@@ -67,13 +65,12 @@ void SlicClustering::findNormals(CommandStream& stream, const SurfaceVoxels& vox
                      ifUsed({"fragmentAngles", fragments.angles}),
                      {"normals", result.normals},
                      {"count", count},
-                     {"unitsPerRadian", fragments.unitsPerRadian}});
-    if (counts) result.openSpace = stream.readAs<OpenSpaceCounts>(counts, 1)[0];
+                     {"fixedPointScale", fragments.fixedPointScale}});
+    if (counts) result.normalCounts = stream.readAs<NormalCounts>(counts, 1)[0];
 }
 
 SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceVoxels& voxels,
-                                           const Buffer& coordinates,
-                                           const FragmentAngles::Sums& fragments) const {
+                                           const Buffer& coordinates, const FragmentAngles::Sums& fragments) const {
     Device& device = stream.device();
     const uint32_t count = voxels.voxelCount;
     const glm::uvec3 cells = seedCells(voxels.grid, count);
@@ -85,7 +82,7 @@ SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceV
 
     const glm::vec3 widths = glm::vec3(voxels.grid.resolution) / glm::vec3(cells);
     const float reach = params_.reach * std::max({widths.x, widths.y, widths.z});
-    // What neighbourhood.glsl reads
+    // The bindings of neighbourhood.glsl
     const auto neighbourhood = [&](uint32_t threads) {
         return Bindings{voxels,
                         ifUsed({"normals", result.normals}),
@@ -102,7 +99,7 @@ SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceV
     stream.dispatch(initSeeds_, result.seedCount,
                     {neighbourhood(result.seedCount), {"seeds", result.seeds}, {"cells", cellResolution}});
 
-    // Algorithm 1
+    // Cosin and Patow 2022, algorithm 1
     const Buffer bestSeed(device, "best seeds of voxels", count * sizeof(uint64_t));
     const Buffer sums(device, "sums of clusters", result.seedCount * kSumBytes);
     for (uint32_t i = 0; i < params_.iterations; ++i) {
@@ -122,25 +119,24 @@ SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceV
         stream.finish();
     }
 
+    // Store the assignment, and count voxels without a cluster
     const Buffer unassigned(device, "voxels without a cluster", sizeof(uint32_t));
     result.assignment = Buffer(device, "clusters of voxels", count * sizeof(uint32_t));
     stream.fill(unassigned, 0);
-    stream.dispatch(extractAssignment_, count,
-                    {{"bestSeed", bestSeed},
-                     {"assignment", result.assignment},
-                     {"unassigned", unassigned},
-                     {"count", count}});
+    stream.dispatch(
+        extractAssignment_, count,
+        {{"bestSeed", bestSeed}, {"assignment", result.assignment}, {"unassigned", unassigned}, {"count", count}});
     result.unassigned = stream.readAs<uint32_t>(unassigned, 1)[0];
 
+    // These voxels join the nearest cluster or form new ones
     const Buffer scratch(device, "new clusters of voxels", count * sizeof(uint32_t));
-    const Bindings assignment{
-        neighbourhood(count), {"coordinates", coordinates}, {"assignment", result.assignment}};
+    const Bindings assignment{neighbourhood(count), {"coordinates", coordinates}, {"assignment", result.assignment}};
     uint32_t remaining = result.unassigned;
     if (params_.unassigned == UnassignedVoxels::Nearest && remaining > 0 && remaining < count) {
         stream.dispatch(joinNearestCluster_, count, {assignment.all(), {"newAssignment", scratch}});
         stream.copy(scratch, result.assignment, count * sizeof(uint32_t));
     }
-    if (params_.unassigned == UnassignedVoxels::Own) {
+    if (params_.unassigned == UnassignedVoxels::NewClusters) {
         for (uint32_t round = 0; remaining > 0; ++round) {
             if (round == kMaxRounds)
                 throw Error("cluster_voxels: {} voxels found no cluster in {} rounds", remaining, round);

@@ -11,7 +11,10 @@
 
 namespace voxray {
 
-/// Which of the clusters that reach a voxel gets it.
+/// How a voxel within reach of several clusters is assigned to one of them.
+/// First: to the first one in a random order whose normal is within the angle limit, else to the first one
+/// (Cosin and Patow 2022, equation 1; there the order is that of threads).
+/// Nearest: to the nearest one by position and normal within the angle limit (Achanta et al. 2012).
 enum class ClusterAssignment { First, Nearest };
 template <>
 struct EnumNames<ClusterAssignment> {
@@ -19,16 +22,18 @@ struct EnumNames<ClusterAssignment> {
                                       std::pair{ClusterAssignment::Nearest, "nearest"}};
 };
 
-/// What becomes of voxels that no cluster took.
-enum class UnassignedVoxels { Own, Nearest, Leave };
+/// How voxels that were assigned to no cluster are handled: they form new clusters, join the nearest cluster
+/// (Cosin and Patow 2022, figure 9), or stay without one.
+enum class UnassignedVoxels { NewClusters, Nearest, Leave };
 template <>
 struct EnumNames<UnassignedVoxels> {
-    static constexpr std::array names{std::pair{UnassignedVoxels::Own, "own"},
+    static constexpr std::array names{std::pair{UnassignedVoxels::NewClusters, "own"},
                                       std::pair{UnassignedVoxels::Nearest, "nearest"},
                                       std::pair{UnassignedVoxels::Leave, "leave"}};
 };
 
-/// Where a voxel's normal comes from.
+/// How the normal of a voxel is determined: by the area at its faces or, where its surfaces disagree, the
+/// axis direction with the fewest occupied voxels in front (Cosin and Patow 2022, section 4.2 and figure 7).
 enum class ClusterNormals { Area, OpenSpace };
 template <>
 struct EnumNames<ClusterNormals> {
@@ -36,7 +41,8 @@ struct EnumNames<ClusterNormals> {
                                       std::pair{ClusterNormals::OpenSpace, "open_space"}};
 };
 
-/// What decides between equally open directions.
+/// How OpenSpace decides between directions with as few occupied voxels: by the normal by area or by the
+/// normals of triangle fragments (Cosin and Patow 2022, figure 7).
 enum class OpenSpaceTies { Surfaces, Fragments };
 template <>
 struct EnumNames<OpenSpaceTies> {
@@ -52,86 +58,81 @@ struct ClusterParams {
     float reach = 2;
     float maxAngle = 35;
     ClusterAssignment assign = ClusterAssignment::Nearest;
-    UnassignedVoxels unassigned = UnassignedVoxels::Own;
+    UnassignedVoxels unassigned = UnassignedVoxels::NewClusters;
     ClusterNormals normals = ClusterNormals::Area;
     OpenSpaceTies ties = OpenSpaceTies::Surfaces;
-    bool usesFragments() const {
-        return normals == ClusterNormals::OpenSpace && ties == OpenSpaceTies::Fragments;
-    }
+    bool usesFragments() const { return normals == ClusterNormals::OpenSpace && ties == OpenSpaceTies::Fragments; }
     static constexpr auto schema() {
         return std::tuple{
             field("initial", &ClusterParams::initial,
-                  "Seeds in a cube as wide as the grid's longest axis, about, "
-                  "as the paper counts its clusters before the first iteration; "
-                  "those outside of the grid are left out, and most others have no voxel. "
-                  "0: as many as `target` asks for.",
+                  "Approximate number of seeds in a cube as wide as the grid's longest axis, as in the paper; "
+                  "those outside of the grid are left out, and most others have no voxel. 0: `target` is used.",
                   0u, 1u << 24),
             field("target", &ClusterParams::target,
-                  "Approximate number of clusters, if surfaces are flat: "
-                  "one is sqrt(voxels / target) voxels wide. Thin and curved surfaces take more.",
+                  "Approximate number of clusters on flat surfaces: a cluster is sqrt(voxels / target) voxels wide. "
+                  "Thin and curved surfaces have more.",
                   1u, 1u << 22)
                 .onlyWith(oneOf(&ClusterParams::initial, {0u})),
             field("iterations", &ClusterParams::iterations,
-                  "Times that voxels are assigned; in between, clusters move to the mean of their voxels.",
-                  1u, 100u),
+                  "How often voxels are assigned; in between, clusters move to the mean of their voxels.", 1u, 100u),
             field("reach", &ClusterParams::reach,
-                  "How far from a cluster's center its voxels may lie along each axis, "
-                  "in widths of a seed's cell. 1: SLIC's, so that neighbours' boxes overlap. "
-                  "More: fewer voxels stay without a cluster, and `first` makes fewer, larger clusters.",
+                  "Largest distance of voxels from their cluster's center along each axis, "
+                  "in widths of a seed's cell. 1: that of SLIC. "
+                  "With more, fewer voxels stay without a cluster, and `first` makes fewer, larger clusters.",
                   0.5f, 8.0f),
             field("max_angle", &ClusterParams::maxAngle,
-                  "Largest angle between a cluster's normal and its voxels', degrees; "
-                  "with `first` of voxels that a cluster within it reaches.",
+                  "Largest angle between a cluster's normal and those of its voxels, degrees; "
+                  "`first` exceeds it for voxels that no cluster within it reaches.",
                   1.0f, 89.0f),
             field("assign", &ClusterParams::assign,
-                  "nearest: a voxel goes to the cluster that is nearest by place and normal. "
+                  "nearest: a voxel is assigned to the nearest cluster by position and normal. "
                   "first: to the first within the angle limit in a random order of clusters, "
-                  "else to the first that reaches it, as in the paper, where the order is that of threads."),
+                  "else to the first that reaches it (as in the paper, where the order is that of threads)."),
             field("unassigned", &ClusterParams::unassigned,
-                  "Voxels that no cluster took. own: they form clusters of their own. "
-                  "nearest: they join the nearest, whatever its normal. "
-                  "leave: they belong to none, block light and send none."),
+                  "Voxels that are assigned to no cluster. own: they form new clusters. "
+                  "nearest: they join the nearest cluster whatever its normal. "
+                  "leave: they have no cluster, block light and send none."),
             field("normals", &ClusterParams::normals,
-                  "Of a voxel. area: by the unoccluded area at its faces. "
+                  "Normal of a voxel. area: by the unoccluded area at its faces. "
                   "open_space: where its surfaces disagree, "
                   "the axis direction in which fewest of 3x3 voxels are occupied (the paper's)."),
             field("ties", &ClusterParams::ties,
-                  "Between directions in which as few voxels are occupied. "
+                  "Choice between directions with as few occupied voxels. "
                   "surfaces: the nearest to the normal by area. fragments: "
-                  "the one to which the normals of the triangles in the voxel have the smallest sum "
-                  "of angles, each counted once whatever its area (the paper's).")
+                  "the one to which the normals of the triangles in the voxel have the smallest sum of angles, "
+                  "whatever their areas (the paper's).")
                 .onlyWith(oneOf(&ClusterParams::normals, {ClusterNormals::OpenSpace}))};
     }
 };
 
-/// SLIC (Achanta et al. 2012) with normals for colors: algorithm 1 of Cosin and Patow 2022, then clusters for
-/// the voxels that it leaves unassigned.
+/// Clusters voxels by SLIC superpixels (Achanta et al. 2012) with normals instead of colors: algorithm 1 of
+/// Cosin and Patow 2022, section 4.2. Then voxels that it leaves unassigned may form or join clusters.
 class SlicClustering {
  public:
     SlicClustering(ProgramOwner& owner, const ClusterParams& params);
 
-    /// What ClusterNormals::OpenSpace does, in voxels.
-    struct OpenSpaceCounts {
-        uint32_t disagreeing;  ///< Surfaces disagree.
-        uint32_t tied;         ///< Of these, equally open in several directions.
-        uint32_t decided;      ///< Of these, another direction by fragments than by surfaces.
-        uint32_t changed;      ///< Of all, another normal than by area.
+    /// Numbers of voxels by the choice of their normal, with ClusterNormals::OpenSpace (voxel_normals.comp).
+    struct NormalCounts {
+        uint32_t disagreeing;  ///< Surfaces in the voxel disagree.
+        uint32_t tied;         ///< Subset of these: several directions have as few occupied voxels.
+        uint32_t decided;      ///< Subset of these: fragments choose another direction than surfaces.
+        uint32_t changed;      ///< Voxels whose normal differs from the one by area.
     };
 
     struct Result {
         uint32_t seedCount = 0;
-        uint32_t unassigned = 0;  ///< Voxels that algorithm 1 left without a cluster.
-        Buffer assignment;        ///< By voxel: its cluster with empty ones counted (assignment.glsl).
-        Buffer normals;           ///< By voxel: unit, 3 floats.
-        OpenSpaceCounts openSpace{};
-        Buffer seeds;  ///< gpu::ClusterSeed each, as voxels were last compared with them.
+        uint32_t unassigned = 0;  ///< Number of voxels that the last iteration left without a cluster.
+        Buffer assignment;        ///< Cluster of each voxel; empty ones have numbers, too (assignment.glsl).
+        Buffer normals;           ///< Per voxel: unit length, 3 floats.
+        NormalCounts normalCounts{};
+        Buffer seeds;  ///< gpu::ClusterSeed each, as in the last iteration.
     };
-    /// @param coordinates by voxel. @param fragments if usesFragments(). Waits for the device.
+    /// @param coordinates of voxels. @param fragments if usesFragments(). Waits for the device.
     Result run(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates,
                const FragmentAngles::Sums& fragments) const;
 
  private:
-    /// Fills `normals` and `openSpace` of the result.
+    /// Fills `normals` and `normalCounts` of the result.
     void findNormals(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates,
                      const FragmentAngles::Sums& fragments, Result& result) const;
     /// Resolution of the uniform grid of seeds.

@@ -1,4 +1,4 @@
-// Moves seeds to the mean position and normal of their voxels (Cosin and Patow 2022, algorithm 1, line 13).
+// Moves each seed to the mean position and normal of its voxels (Cosin and Patow 2022, algorithm 1, line 13).
 #include "passes/clusters/cluster_voxels/cluster_sums.glsl"
 #include "passes/clusters/cluster_types.h"
 layout(local_size_x = 64) in;

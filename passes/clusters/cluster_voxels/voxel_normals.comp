@@ -1,5 +1,5 @@
-// Normal of each surface voxel, by the unoccluded area at its faces. OPEN_SPACE: where its surfaces disagree, by the free voxels around
-// it (Cosin and Patow 2022, section 4.2, figure 7).
+// Computes the normal of each surface voxel from the unoccluded area at its faces. OPEN_SPACE: where its surfaces
+// disagree, from the empty voxels around it (Cosin and Patow 2022, section 4.2 and figure 7).
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/face.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -11,30 +11,32 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
 layout(scalar) writeonly buffer Normals { vec3 data[]; } normals;
 layout(scalar) buffer Counts {
-    uint disagreeing;  // Voxels whose surfaces disagree.
-    uint tied;         // Of these, those that are equally open along several directions.
-    uint decided;      // Of these, those for which fragments choose another direction than surfaces do.
-    uint changed;      // Voxels whose normal is not the one by area.
+    uint disagreeing;  // As SlicClustering::NormalCounts.
+    uint tied;
+    uint decided;
+    uint changed;
 } counts;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint count;
-    float unitsPerRadian;  // Of fragments' angles.
+    float fixedPointScale;  // Units of fragmentAngles in a radian.
 } push;
 
-// A plane of area A and unit normal n has areas A n² at the faces before it: their roots are along n. Where both sides of a sheet have the
-// same area, the front-side normals decide; where these cancel each other, too, the largest face.
+// A plane of area A and unit normal n has area A n² at each face in front of it, so the square roots of the areas are
+// parallel to n. If the areas of opposite faces are equal, as for both sides of a sheet, the mean front-side normal is
+// used; if that is 0, too, the largest face.
 vec3 normalOfArea(VoxelMaterial m) {
     const vec3 difference = m.unoccludedPositive - m.unoccludedNegative;
     const vec3 sum = m.unoccludedPositive + m.unoccludedNegative;
-    if (dot(abs(difference), vec3(1.0)) > 0.01 * dot(sum, vec3(1.0))) return normalize(sign(difference) * sqrt(abs(difference)));
+    if (dot(abs(difference), vec3(1.0)) > 0.01 * dot(sum, vec3(1.0)))
+        return normalize(sign(difference) * sqrt(abs(difference)));
     if (dot(m.normal, m.normal) > 1e-4) return normalize(m.normal);
     return faceNormal(sum.x >= sum.y && sum.x >= sum.z ? 0u : sum.y >= sum.z ? 2u : 4u);
 }
 
 #ifdef OPEN_SPACE
-// Of the 3 x 3 voxels before a face.
-uint occupiedBefore(ivec3 voxel, uint face) {
+// Number of occupied voxels among the 3 x 3 in front of a face.
+uint occupiedInFront(ivec3 voxel, uint face) {
     const int axis = int(face >> 1);
     uint occupied = 0u;
     for (int i = 0; i < 9; ++i) {
@@ -46,40 +48,41 @@ uint occupiedBefore(ivec3 voxel, uint face) {
     return occupied;
 }
 
-// A bit for each face that has the fewest occupied voxels before it.
-uint mostOpenFaces(ivec3 voxel) {
-    uint open = 0u, fewest = 10u;
+// A bit for each face that has the fewest occupied voxels in front of it.
+uint leastOccupiedFaces(ivec3 voxel) {
+    uint faces = 0u, fewest = 10u;
     for (uint face = 0u; face < 6u; ++face) {
-        const uint occupied = occupiedBefore(voxel, face);
+        const uint occupied = occupiedInFront(voxel, face);
         if (occupied > fewest) continue;
-        open = occupied < fewest ? 1u << face : open | 1u << face;
+        faces = occupied < fewest ? 1u << face : faces | 1u << face;
         fewest = occupied;
     }
-    return open;
+    return faces;
 }
 
-// The one of several faces that is nearest to a normal.
+// The face, of a set, that is nearest to a normal.
 uint nearestFace(uint faces, vec3 normal) {
     uint best = uint(findLSB(faces));
     for (uint face = best + 1u; face < 6u; ++face)
-        if ((faces >> face & 1u) != 0u && dot(faceNormal(face), normal) > dot(faceNormal(best), normal) + 1e-4) best = face;
+        if ((faces >> face & 1u) != 0u && dot(faceNormal(face), normal) > dot(faceNormal(best), normal) + 1e-4)
+            best = face;
     return best;
 }
 
 #ifdef FRAGMENTS
-// Sum of the angles between a face's normal and those of a voxel's fragments, in units of push.unitsPerRadian.
+// Sum of the angles between a face's normal and those of a voxel's fragments, in units of 1 / push.fixedPointScale rad.
 float angleTo(uint voxel, uint face) {
     const float positive = float(fragmentAngles.data[ANGLE_SUMS * voxel + (face >> 1)]);
-    const float pi = 3.14159265358979 * push.unitsPerRadian * float(fragmentAngles.data[ANGLE_SUMS * voxel + 3u]);
+    const float pi = 3.14159265358979 * push.fixedPointScale * float(fragmentAngles.data[ANGLE_SUMS * voxel + 3u]);
     return (face & 1u) == 0u ? positive : pi - positive;
 }
 
-// Of several faces those with the least angle to the fragments, within a thousandth of a radian a fragment.
-uint facesOfFragments(uint voxel, uint faces) {
+// The faces, of a set, with the smallest mean angle to the fragments, up to a thousandth of a radian.
+uint facesNearestToFragments(uint voxel, uint faces) {
     float least = 1.0e30;
     for (uint face = 0u; face < 6u; ++face)
         if ((faces >> face & 1u) != 0u) least = min(least, angleTo(voxel, face));
-    const float tolerance = 1.0e-3 * push.unitsPerRadian * float(fragmentAngles.data[ANGLE_SUMS * voxel + 3u]);
+    const float tolerance = 1.0e-3 * push.fixedPointScale * float(fragmentAngles.data[ANGLE_SUMS * voxel + 3u]);
     uint nearest = 0u;
     for (uint face = 0u; face < 6u; ++face)
         if ((faces >> face & 1u) != 0u && angleTo(voxel, face) <= least + tolerance) nearest |= 1u << face;
@@ -88,13 +91,13 @@ uint facesOfFragments(uint voxel, uint faces) {
 #endif
 
 vec3 normalOfOpenSpace(uint voxel, vec3 areaNormal) {
-    uint open = mostOpenFaces(ivec3(coordinates.data[voxel]));
-    if (bitCount(open) > 1) atomicAdd(counts.tied, 1u);
-    const uint faceByArea = nearestFace(open, areaNormal);
+    uint faces = leastOccupiedFaces(ivec3(coordinates.data[voxel]));
+    if (bitCount(faces) > 1) atomicAdd(counts.tied, 1u);
+    const uint faceByArea = nearestFace(faces, areaNormal);
 #ifdef FRAGMENTS
-    open = facesOfFragments(voxel, open);
+    faces = facesNearestToFragments(voxel, faces);
 #endif
-    const uint face = nearestFace(open, areaNormal);
+    const uint face = nearestFace(faces, areaNormal);
     if (face != faceByArea) atomicAdd(counts.decided, 1u);
     return faceNormal(face);
 }
@@ -106,7 +109,7 @@ void main() {
     const VoxelMaterial m = voxelMaterial(voxel);
     vec3 normal = normalOfArea(m);
 #ifdef OPEN_SPACE
-    // The normals of the surfaces disagree: their mean is short.
+    // The mean normal is short if the normals of the surfaces disagree
     if (dot(m.normal, m.normal) < 0.98) {
         const vec3 openNormal = normalOfOpenSpace(voxel, normal);
         atomicAdd(counts.disagreeing, 1u);

@@ -1,4 +1,4 @@
-// The component of each surface group, and keys to sort groups by component: those without one come last.
+// Writes the component of each surface group, and sort keys by which groups without a component come last.
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

@@ -1,8 +1,8 @@
-// Material of each surface group: its mean normal and reflectance, and its share of the voxel's area at each face, by its surfels. Where
-// it has area at a face it has a patch.
+// Averages the material of each surface group over its surfels: its mean normal and reflectance, and its fraction of
+// the voxel's area at each face. A group has a patch at each face at which it has area.
 //
-// Unoccluded groups share the voxel's unoccluded area. Occluded ones exist only if each sample point has surfels on both sides; a surfel
-// then stands for the same part of the whole area.
+// The voxel's unoccluded area is divided among unoccluded groups. Occluded groups exist only if each sample point has a
+// surfel on either side of its surface; then each surfel has the same fraction of the voxel's whole area.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -11,17 +11,17 @@ layout(local_size_x = 64) in;
 layout(scalar) buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer FirstGroup { uint data[]; } firstGroup;
 layout(scalar) readonly buffer GroupMaterialsRef { VoxelMaterials groupMaterials; };
-writeonly buffer PatchCounts { uint data[]; } patchCounts;  // By group.
+writeonly buffer PatchCounts { uint data[]; } patchCounts;  // Per group.
 layout(push_constant) uniform Push { uint voxels; } push;
 
-// Projected area of a surfel at the faces before it.
+// Adds the projected area of a surfel at the three faces that its normal points to.
 void addArea(vec3 normal, inout vec3 positive, inout vec3 negative) {
     const vec3 area = normal * normal;
     positive += mix(area, vec3(0.0), lessThan(normal, vec3(0.0)));
     negative += mix(vec3(0.0), area, lessThan(normal, vec3(0.0)));
 }
 
-vec3 shareOf(vec3 groupSum, vec3 voxelSum, vec3 area) {
+vec3 fractionOf(vec3 groupSum, vec3 voxelSum, vec3 area) {
     return mix(area * groupSum / voxelSum, vec3(0.0), equal(groupSum, vec3(0.0)));
 }
 
@@ -52,8 +52,8 @@ void main() {
             m.unoccludedPositive = whole.area / points * positive;
             m.unoccludedNegative = whole.area / points * negative;
         } else {
-            m.unoccludedPositive = shareOf(positive, voxelPositive, whole.unoccludedPositive);
-            m.unoccludedNegative = shareOf(negative, voxelNegative, whole.unoccludedNegative);
+            m.unoccludedPositive = fractionOf(positive, voxelPositive, whole.unoccludedPositive);
+            m.unoccludedNegative = fractionOf(negative, voxelNegative, whole.unoccludedNegative);
         }
         m.area = dot(m.unoccludedPositive + m.unoccludedNegative, vec3(1.0));
         const PackedVoxelMaterial packed = packMaterial(m);

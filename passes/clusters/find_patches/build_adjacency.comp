@@ -1,5 +1,5 @@
-// Candidates for adjacent surface groups: two groups in neighbouring voxels (of 26) that both have area towards the same axis
-// direction. Rays test later whether something lies between them. Without LIST they are counted, with it stored.
+// Counts the candidates for neighbours of each surface group: groups in the 26 adjacent voxels that have area at a
+// common face. LIST: stores them. Rays test their visibility later.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -12,9 +12,9 @@ layout(scalar) readonly buffer GroupMaterialsRef { VoxelMaterials groupMaterials
 #ifdef LIST
 readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
 layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
-layout(scalar) readonly buffer NeighbourOfRef { LargeUints neighbourOf; };  // By entry of `neighbours`: the group that it is a neighbour of.
+layout(scalar) readonly buffer NeighbourOfRef { LargeUints neighbourOf; };  // The group of each entry of `neighbours`.
 #else
-writeonly buffer Counts { uint data[]; } counts;  // By group, then 0 for the prefix sum.
+writeonly buffer Counts { uint data[]; } counts;  // Per group, then 0 for the prefix sum.
 #endif
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;

@@ -25,7 +25,7 @@ void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters
     const Buffer labels(device, "labels of surface groups", uintBytes(groups));
     const Buffer changed(device, "labels that changed", uintBytes(1));
     stream.dispatch(iota_, groups, {{"values", labels}, {"count", groups}});
-    for (bool isDone = false; !isDone;) {
+    for (bool isConverged = false; !isConverged;) {
         stream.fill(changed, 0);
         stream.dispatch(propagateLabels_, groups,
                         {{"groups", patches.groups},
@@ -35,7 +35,7 @@ void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters
                          {"labels", labels},
                          {"changed", changed},
                          {"groupCount", groups}});
-        isDone = stream.readAs<uint32_t>(changed, 1)[0] == 0;
+        isConverged = stream.readAs<uint32_t>(changed, 1)[0] == 0;
     }
     const Buffer flags(device, "flags of roots", uintBytes(words));
     const Buffer roots(device, "list of roots", uintBytes(groups));
@@ -48,16 +48,15 @@ void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters
                      {"groupCount", groups}});
     patches.componentCount = compaction_.run(stream, flags, roots, words);
     stream.fill(componentOfRoot, NO_COMPONENT);
-    stream.dispatch(
-        numberComponents_, patches.componentCount,
-        {{"roots", roots}, {"componentOfRoot", componentOfRoot}, {"components", patches.componentCount}});
+    stream.dispatch(numberComponents_, patches.componentCount,
+                    {{"roots", roots}, {"componentOfRoot", componentOfRoot}, {"components", patches.componentCount}});
 
     // Sort the groups by component. The sort is stable: groups of a component stay ascending
     Buffer keys(device, "components of groups", uintBytes(groups));
     patches.componentOfGroup = Buffer(device, "components of groups", uintBytes(groups));
     patches.memberGroups = Buffer(device, "groups by component", uintBytes(groups));
-    patches.components = Buffer(device, "components of clusters",
-                                std::max(patches.componentCount, 1u) * sizeof(gpu::ClusterComponent));
+    patches.components =
+        Buffer(device, "components of clusters", std::max(patches.componentCount, 1u) * sizeof(gpu::ClusterComponent));
     stream.dispatch(assignComponents_, groups,
                     {{"labels", labels},
                      {"componentOfRoot", componentOfRoot},
@@ -66,8 +65,7 @@ void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters
                      {"memberGroups", patches.memberGroups},
                      {"groupCount", groups},
                      {"components", patches.componentCount}});
-    radixSort_.record(stream, keys, patches.memberGroups, groups,
-                      uint32_t(std::bit_width(patches.componentCount)));
+    radixSort_.record(stream, keys, patches.memberGroups, groups, uint32_t(std::bit_width(patches.componentCount)));
     const Buffer memberCounts(device, "group counts of components", uintBytes(patches.componentCount));
     const Buffer firstMembers(device, "first groups of components", uintBytes(patches.componentCount));
     histogram_.record(stream, patches.componentOfGroup, memberCounts, groups, patches.componentCount);

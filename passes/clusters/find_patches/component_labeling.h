@@ -8,12 +8,12 @@
 
 namespace voxray {
 
-/// Components of clusters: the connected surface groups of their voxels, by label propagation.
+/// Finds the components of each cluster, its connected surface groups, by label propagation.
 class ComponentLabeling {
  public:
     explicit ComponentLabeling(ProgramOwner& owner);
 
-    /// Fills the components of `patches`, whose groups and neighbours are there. Waits for the device.
+    /// Fills the components of `patches`, whose groups and neighbours are given. Waits for the device.
     void run(CommandStream& stream, const VoxelClusters& clusters, VoxelPatches& patches);
 
  private:

@@ -15,10 +15,10 @@
 
 namespace voxray {
 
-/// Groups the surfels of each voxel that see each other (surface groups), and splits clusters into connected
-/// components of these groups, so that light does not leak through walls thinner than a voxel. A patch is
-/// what a surface group shows towards one of the six axis directions. Not in Cosin and Patow 2022;
-/// docs/clusters.md.
+/// Splits the surfels of each voxel into surface groups, which see each other, and clusters into connected
+/// components of these groups, so that light does not leak through walls thinner than a voxel. A patch is the
+/// projection of a surface group onto one of its voxel's six faces. An extension of Cosin and Patow 2022, who
+/// have one surface in each voxel: docs/clusters.md, "How it works".
 class FindPatches final : public Pass {
  public:
     static constexpr const char* kName = "find_patches";
@@ -26,20 +26,20 @@ class FindPatches final : public Pass {
         "Splits voxels' surfels and clusters at walls thinner than a voxel. "
         "Surfels of a voxel that see each other form a surface group; "
         "clusters are split into connected components of these groups. "
-        "So both sides of a wall thinner than a voxel have their own light (cluster_visibility, "
-        "inject_clusters, gather_clusters). With place_surfels' 'sides: "
-        "all' gaps narrower than a voxel have groups, too, which send and receive light. "
-        "Biased by: voxel size (occluders lower than half a voxel split nothing). "
+        "So both sides of a wall thinner than a voxel have their own light (cluster_visibility, inject_clusters, "
+        "gather_clusters). With place_surfels' 'sides: all' gaps narrower than a voxel have groups, too, "
+        "which send and receive light. Biased by: voxel size (occluders lower than half a voxel split nothing). "
         "Noisy by: points_per_voxel (a surface without a point is in no group). Source: docs/clusters.md.";
 
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
 
  private:
-    /// The group of each surfel among those of its voxel.
+    /// Finds the group of each surfel within its voxel.
     void groupSurfels(PassContext& context, SurfelsByVoxel& lists);
+    /// Numbers the groups of all voxels and their patches.
     void listGroups(PassContext& context, const SurfelsByVoxel& lists);
-    /// Adjacent groups that are not occluded from each other.
+    /// Lists the groups in adjacent voxels that each group sees.
     void findNeighbours(PassContext& context);
 
     bool isUpdate() const { return updateCache_ && updateCache_->isActive(); }
@@ -52,10 +52,11 @@ class FindPatches final : public Pass {
     PrefixSum prefixSum_{*this, PrefixSum::Of::Values};
     SurfelGrouping grouping_{*this};
     ComponentLabeling labeling_{*this};
-    std::optional<GroupUpdateCache> updateCache_;  ///< Where surfaces move.
-    Kernel initKnownSurfels_{*this, "init_surfels.comp", {{"UPDATE", "1"}}};
-    Kernel generateNewNeighbourRays_{*this, "generate_neighbour_rays.comp", {{"UPDATE", "1"}}};
-    Kernel reuseNeighbours_{*this, "remove_occluded_neighbours.comp", {{"UPDATE", "1"}}};
+    std::optional<GroupUpdateCache> updateCache_;  ///< For scenes with moving surfaces.
+    // The same shaders for updates, in which results of the previous build are reused
+    Kernel updateSurfels_{*this, "init_surfels.comp", {{"UPDATE", "1"}}};
+    Kernel updateNeighbourRays_{*this, "generate_neighbour_rays.comp", {{"UPDATE", "1"}}};
+    Kernel updateNeighbours_{*this, "remove_occluded_neighbours.comp", {{"UPDATE", "1"}}};
     Kernel initSurfels_{*this, "init_surfels.comp"};
     Kernel sortSurfels_{*this, "sort_surfels.comp"};
     Kernel listGroups_{*this, "list_groups.comp"};
@@ -71,8 +72,7 @@ class FindPatches final : public Pass {
 void FindPatches::plan(PassPlan& plan) {
     batch_.plan(plan, plan[surfels_].hasOccludedSurfels);
     const bool surfacesMove = !movingInstanceRanges(plan.frame.scene->geometry).empty();
-    for (Kernel* kernel : {&initKnownSurfels_, &generateNewNeighbourRays_, &reuseNeighbours_})
-        kernel->compileIf(surfacesMove);
+    for (Kernel* kernel : {&updateSurfels_, &updateNeighbourRays_, &updateNeighbours_}) kernel->compileIf(surfacesMove);
     if (surfacesMove) updateCache_.emplace(*this);
 }
 
@@ -82,12 +82,11 @@ void FindPatches::record(PassContext& context) {
     const std::optional<std::vector<Box>>& changed = context.frame.changed;
     if (!voxels.unoccludedAreaOnly)
         throw Error(
-            "{}: surfels without open space before them have no side; "
-            "leave voxelize's 'visibility_rays' above 0",
+            "{}: surfels without open space before them have no side; leave voxelize's 'visibility_rays' above 0",
             kName);
     VoxelPatches& patches = context[patches_];
     if (updateCache_ && changed && !context.isFirstRun())
-        updateCache_->begin(context.stream, voxels, patches, *changed);
+        updateCache_->startUpdate(context.stream, voxels, patches, *changed);
     patches.clear();
     SurfelsByVoxel lists;
     sort_.run(context.stream, context[surfels_], voxels.voxelCount, lists);
@@ -97,14 +96,15 @@ void FindPatches::record(PassContext& context) {
     findNeighbours(context);
     labeling_.run(context.stream, context[clusters_], patches);
     if (updateCache_) {
-        updateCache_->end();
+        updateCache_->finishUpdate();
         updateCache_->storeVoxels(context.stream, voxels);
     }
-    context.report("sides of voxels", patches.groupCount);
-    context.report("sides for each voxel", double(patches.groupCount) / voxels.voxelCount);
+    // In values.csv a "side" is a surface group and a "part of a cluster" is a component
+    context.report("surface groups", patches.groupCount);
+    context.report("surface groups of a voxel", double(patches.groupCount) / voxels.voxelCount);
     context.report("patches for each voxel", double(patches.patchCount) / voxels.voxelCount);
-    context.report("parts of clusters", patches.componentCount);
-    context.report("bytes of sides", double(patches.bytes()));
+    context.report("cluster components", patches.componentCount);
+    context.report("bytes of surface groups", double(patches.bytes()));
 }
 
 void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& lists) {
@@ -112,14 +112,14 @@ void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& lists) {
     VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
     patches.surfelCount = lists.sortedCount;
-    patches.surfels = LargeBuffer(context.device, "surfels by group",
-                                  std::max(lists.sortedCount, 1u) * sizeof(gpu::GroupedSurfel));
-    std::vector<Binding> stored;
-    if (isUpdate()) stored = updateCache_->surfelBindings(context[clusters_]);
+    patches.surfels =
+        LargeBuffer(context.device, "surfels by group", std::max(lists.sortedCount, 1u) * sizeof(gpu::GroupedSurfel));
+    std::vector<Binding> storedGroups;
+    if (isUpdate()) storedGroups = updateCache_->surfelBindings(context[clusters_]);
     uint32_t firstIndex = 0;
     for (const Surfels::Chunk& chunk : context[surfels_].chunks) {
-        context.dispatch(isUpdate() ? initKnownSurfels_ : initSurfels_, chunk.count,
-                         {stored,
+        context.dispatch(isUpdate() ? updateSurfels_ : initSurfels_, chunk.count,
+                         {storedGroups,
                           {"surfels", chunk.surfels},
                           {"SortedIndicesRef", lists.sortedIndices.ref()},
                           {"GroupedSurfelsRef", patches.surfels.ref()},
@@ -168,9 +168,8 @@ void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& lists) 
                       {"GroupedSurfelsRef", patches.surfels.ref()},
                       {"voxels", count}});
     patches.patchCount = prefixSum_.run(stream, patchCounts, patchCounts, patches.groupCount);
-    context.dispatch(
-        numberPatches_, patches.groupCount,
-        {{"firstPatches", patchCounts}, {"groups", patches.groups}, {"groupCount", patches.groupCount}});
+    context.dispatch(numberPatches_, patches.groupCount,
+                     {{"firstPatches", patchCounts}, {"groups", patches.groups}, {"groupCount", patches.groupCount}});
     if (isUpdate()) updateCache_->findPrevious(stream, voxels, context[clusters_], patches);
     stream.finish();
 }
@@ -186,11 +185,9 @@ void FindPatches::findNeighbours(PassContext& context) {
                              {"firstGroup", patches.firstGroup},
                              {"GroupMaterialsRef", patches.materials.ref()},
                              {"groupCount", groups}};
-    patches.firstNeighbour =
-        Buffer(context.device, "first neighbours of surface groups", uintBytes(groups + 1));
+    patches.firstNeighbour = Buffer(context.device, "first neighbours of surface groups", uintBytes(groups + 1));
     context.dispatch(countNeighbours_, groups + 1, {adjacency.all(), {"counts", patches.firstNeighbour}});
-    const uint32_t neighbours =
-        prefixSum_.run(stream, patches.firstNeighbour, patches.firstNeighbour, groups + 1);
+    const uint32_t neighbours = prefixSum_.run(stream, patches.firstNeighbour, patches.firstNeighbour, groups + 1);
     patches.neighbours = LargeBuffer(context.device, "neighbours of surface groups", uintBytes(neighbours));
     const LargeBuffer neighbourOf(context.device, "groups by neighbour", uintBytes(neighbours));
     context.dispatch(listNeighbours_, groups + 1,
@@ -204,7 +201,7 @@ void FindPatches::findNeighbours(PassContext& context) {
         previous = updateCache_->previousNeighbourBindings(patches);
     }
     RayBatch::inBatches(neighbours, [&](uint32_t first, uint32_t count) {
-        context.dispatch(isUpdate() ? generateNewNeighbourRays_ : generateNeighbourRays_, count,
+        context.dispatch(isUpdate() ? updateNeighbourRays_ : generateNeighbourRays_, count,
                          {reused,
                           {"groups", patches.groups},
                           {"NeighboursRef", patches.neighbours.ref()},
@@ -213,7 +210,7 @@ void FindPatches::findNeighbours(PassContext& context) {
                           {"first", first},
                           {"count", count}});
         context.tracer.occluded(stream, batch_.rays, batch_.occluded, count);
-        context.dispatch(isUpdate() ? reuseNeighbours_ : removeOccludedNeighbours_, count,
+        context.dispatch(isUpdate() ? updateNeighbours_ : removeOccludedNeighbours_, count,
                          {previous,
                           {"occluded", batch_.occluded},
                           {"NeighboursRef", patches.neighbours.ref()},

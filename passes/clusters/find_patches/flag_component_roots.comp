@@ -1,4 +1,4 @@
-// A bit for each root of a component: a group that kept its own label and whose voxel has a cluster.
+// Sets a bit for the root of each component: a group whose label is its own index and whose voxel has a cluster.
 #include "passes/clusters/cluster_types.h"
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/linear_index.glsl"

@@ -1,4 +1,4 @@
-// Rays from occluded surfels without a group across the gap before them.
+// Generates rays from occluded surfels without a group across the gap in front of them.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/occlusion_ray.glsl"
@@ -15,5 +15,6 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const GroupedSurfel s = groupedSurfels.data[push.first + i];
-    rays.data[i] = s.isOccluded == 1u && s.group == NO_GROUP ? occlusionRay(s.position, s.normal, push.voxelSize) : kNoRay;
+    rays.data[i] =
+        s.isOccluded == 1u && s.group == NO_GROUP ? occlusionRay(s.position, s.normal, push.voxelSize) : kNoRay;
 }

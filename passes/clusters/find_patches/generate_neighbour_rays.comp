@@ -1,4 +1,4 @@
-// Rays between the spaces before adjacent surface groups. UPDATE: not where the last build's result holds.
+// Generates visibility rays between adjacent surface groups. UPDATE: none where the previous result is reused.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -29,5 +29,7 @@ void main() {
 #endif
     const vec3 origin = groups.data[group].pointAbove;
     const vec3 toNeighbour = groups.data[neighbours.data[push.first + i]].pointAbove - origin;
-    rays.data[i] = dot(toNeighbour, toNeighbour) > 0.0 ? Ray(origin, 0.0, normalize(toNeighbour), length(toNeighbour)) : kNoRay;
+    rays.data[i] = dot(toNeighbour, toNeighbour) > 0.0
+                       ? Ray(origin, 0.0, normalize(toNeighbour), length(toNeighbour))
+                       : kNoRay;
 }

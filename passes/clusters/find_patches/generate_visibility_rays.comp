@@ -1,15 +1,15 @@
-// Rays from above each surfel without a group to above the seed of its voxel's new group.
+// Generates visibility rays from each surfel without a group to the seed of its voxel's new group.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
-readonly buffer Seeds { uint data[]; } seeds;  // By voxel: a surfel.
+readonly buffer Seeds { uint data[]; } seeds;  // Surfel of each voxel.
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(push_constant) uniform Push {
     uint first;
     uint count;
-    uint groupsOccluded;  // 1: occluded surfels are grouped. 0: unoccluded ones.
+    uint groupsOccluded;  // 1: only occluded surfels are grouped. 0: only unoccluded ones.
 } push;
 
 void main() {

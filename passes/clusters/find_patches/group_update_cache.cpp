@@ -14,14 +14,13 @@ GroupUpdateCache::GroupUpdateCache(ProgramOwner& owner)
       findPreviousGroups_(owner, "find_previous_groups.comp"),
       regions_(owner) {}
 
-void GroupUpdateCache::begin(CommandStream& stream, const SurfaceVoxels& voxels, VoxelPatches& patches,
-                             const std::vector<Box>& changed) {
+void GroupUpdateCache::startUpdate(CommandStream& stream, const SurfaceVoxels& voxels, VoxelPatches& patches,
+                                   const std::vector<Box>& changed) {
     const auto changedBits = [&](uint32_t margin) {
-        return regions_.bits(stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, margin)),
-                             voxels);
+        return regions_.bits(stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, margin)), voxels);
     };
     changed_ = changedBits(0);
-    nearChange_ = changedBits(1);
+    changedNeighbourhood_ = changedBits(1);
     firstGroup_ = std::move(patches.firstGroup);
     firstNeighbour_ = std::move(patches.firstNeighbour);
     neighbours_ = std::move(patches.neighbours);
@@ -29,22 +28,19 @@ void GroupUpdateCache::begin(CommandStream& stream, const SurfaceVoxels& voxels,
 }
 
 std::vector<Binding> GroupUpdateCache::surfelBindings(const VoxelClusters& clusters) const {
-    return {{"coordinates", clusters.coordinates},
-            {"changed", changed_},
-            {"StoredGroupsRef", storedGroups_.ref()}};
+    return {{"coordinates", clusters.coordinates}, {"changed", changed_}, {"StoredGroupsRef", storedGroups_.ref()}};
 }
 
-void GroupUpdateCache::findPrevious(CommandStream& stream, const SurfaceVoxels& voxels,
-                                    const VoxelClusters& clusters, VoxelPatches& patches) {
+void GroupUpdateCache::findPrevious(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
+                                    VoxelPatches& patches) {
     patches.previousGroups = Buffer(stream.device(), "previous groups", uintBytes(patches.groupCount));
-    reusedGroup_ =
-        Buffer(stream.device(), "groups whose neighbours are reused", uintBytes(patches.groupCount));
+    reusedGroup_ = Buffer(stream.device(), "groups whose neighbours are reused", uintBytes(patches.groupCount));
     stream.dispatch(findPreviousGroups_, patches.groupCount,
                     {{"groups", patches.groups},
                      {"firstGroup", patches.firstGroup},
                      {"coordinates", clusters.coordinates},
                      {"changed", changed_},
-                     {"nearChange", nearChange_},
+                     {"changedNeighbourhood", changedNeighbourhood_},
                      {"previousOccupancy", occupancy_},
                      {"previousRank", rank_},
                      {"previousFirstGroup", firstGroup_},
@@ -65,8 +61,8 @@ std::vector<Binding> GroupUpdateCache::previousNeighbourBindings(const VoxelPatc
             {"PreviousNeighboursRef", neighbours_.ref()}};
 }
 
-void GroupUpdateCache::end() {
-    changed_ = {}, nearChange_ = {}, reusedGroup_ = {}, firstGroup_ = {}, firstNeighbour_ = {},
+void GroupUpdateCache::finishUpdate() {
+    changed_ = {}, changedNeighbourhood_ = {}, reusedGroup_ = {}, firstGroup_ = {}, firstNeighbour_ = {},
     neighbours_ = {};
     isActive_ = false;
 }

@@ -10,24 +10,24 @@
 
 namespace voxray {
 
-/// Surface groups of the last build, for updates of a scene in which surfaces move: groups of unchanged
-/// voxels are reused, and so is the occlusion between neighbours where nothing near them has changed.
+/// Stores the surface groups of a build for the next update of a scene with moving surfaces: groups of
+/// unchanged voxels are reused, and so is the occlusion between neighbours where no adjacent voxel has
+/// changed.
 ///
-///     begin()                        before an update, while the last build's groups are there
-///     surfelBindings()               the group that each surfel was in (init_surfels.comp)
+///     startUpdate()                  before an update, with the previous build's groups
+///     surfelBindings()               the previous group of each surfel (init_surfels.comp)
 ///     findPrevious()                 once groups are numbered
-///     neighbourRayBindings()         which groups need no rays to neighbours (generate_neighbour_rays.comp)
+///     neighbourRayBindings()         groups without rays to neighbours (generate_neighbour_rays.comp)
 ///     previousNeighbourBindings()    their neighbours (remove_occluded_neighbours.comp)
-///     end()
+///     finishUpdate()
 ///     store...()                     in each build
 class GroupUpdateCache {
  public:
     explicit GroupUpdateCache(ProgramOwner& owner);
 
-    /// Moves buffers out of `patches`. @param changed where surfaces have changed, m. Waits for the
-    /// device.
-    void begin(CommandStream& stream, const SurfaceVoxels& voxels, VoxelPatches& patches,
-               const std::vector<Box>& changed);
+    /// Moves buffers out of `patches`. @param changed boxes with changed surfaces, m. Waits for the device.
+    void startUpdate(CommandStream& stream, const SurfaceVoxels& voxels, VoxelPatches& patches,
+                     const std::vector<Box>& changed);
     bool isActive() const { return isActive_; }
     std::vector<Binding> surfelBindings(const VoxelClusters& clusters) const;
     /// Fills VoxelPatches::previousGroups.
@@ -35,22 +35,22 @@ class GroupUpdateCache {
                       VoxelPatches& patches);
     std::vector<Binding> neighbourRayBindings() const;
     std::vector<Binding> previousNeighbourBindings(const VoxelPatches& patches) const;
-    /// Frees what begin() took. The stream has finished.
-    void end();
+    /// Frees what startUpdate() moved. The stream must have finished.
+    void finishUpdate();
 
-    /// Call before groups are numbered. @param idCount of surfels: ids are below. The stream has finished.
+    /// Call before groups are numbered, after the stream has finished. @param idCount upper bound of ids.
     void storeSurfels(CommandStream& stream, const VoxelPatches& patches, uint64_t idCount);
     void storeVoxels(CommandStream& stream, const SurfaceVoxels& voxels);
 
  private:
     Kernel storeSurfelGroups_, findPreviousGroups_;
     RegionMerge regions_;
-    Buffer occupancy_, rank_;             ///< Of the last build.
-    LargeBuffer storedGroups_;            ///< gpu::StoredGroup by surfel id.
-    Buffer changed_, nearChange_;         ///< For an update: a bit a voxel.
-    Buffer reusedGroup_;                  ///< By group: its previous number where its neighbours are reused.
-    Buffer firstGroup_, firstNeighbour_;  ///< Of the last build.
-    LargeBuffer neighbours_;
+    Buffer occupancy_, rank_;                ///< From the previous build.
+    LargeBuffer storedGroups_;               ///< gpu::StoredGroup of each surfel id.
+    Buffer changed_, changedNeighbourhood_;  ///< During an update: a bit for each voxel.
+    Buffer reusedGroup_;                     ///< Per group, see find_previous_groups.comp.
+    Buffer firstGroup_, firstNeighbour_;     ///< From the previous build.
+    LargeBuffer neighbours_;                 ///< Likewise.
     bool isActive_ = false;
 };
 

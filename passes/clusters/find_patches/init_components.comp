@@ -1,4 +1,4 @@
-// The members of each component.
+// Stores the range of member groups of each component.
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

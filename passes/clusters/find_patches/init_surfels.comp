@@ -1,4 +1,4 @@
-// Surfels of a chunk, by voxel, without a group. UPDATE: where voxels have not changed, in the group that they were in.
+// Writes the surfels of a chunk, sorted by voxel, without a group. UPDATE: those of unchanged voxels keep their group.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "passes/clusters/find_patches/stored_group.h"
 #include "shaders/compute/large_buffer.glsl"
@@ -11,13 +11,13 @@ layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
 layout(scalar) readonly buffer SortedIndicesRef { LargeUints sortedIndices; };
 #ifdef UPDATE
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
-readonly buffer Changed { uint words[]; } changed;  // A bit a voxel.
+readonly buffer Changed { uint words[]; } changed;  // A bit for each voxel.
 layout(scalar) readonly buffer StoredGroupsRef { StoredGroups storedGroups; };
 #endif
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint count;
-    uint firstIndex;  // Of the chunk's surfels among all.
+    uint firstIndex;  // Index of the chunk's first surfel in the surfels of all chunks.
 } push;
 
 StoredGroup initialGroup(Surfel s) {
@@ -32,9 +32,9 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
-    const uint index = push.firstIndex + i, slot = sortedIndices.data[index];
-    if (slot == NO_GROUP) return;
+    const uint index = push.firstIndex + i, sorted = sortedIndices.data[index];
+    if (sorted == NO_GROUP) return;
     const StoredGroup initial = initialGroup(s);
-    groupedSurfels.data[slot] = GroupedSurfel(s.position, index, s.normal, s.id, s.reflectance, s.voxel, initial.group, initial.height,
-                                              s.area == 0.0 ? 1u : 0u);
+    groupedSurfels.data[sorted] = GroupedSurfel(s.position, index, s.normal, s.id, s.reflectance, s.voxel,
+                                                initial.group, initial.height, s.area == 0.0 ? 1u : 0u);
 }

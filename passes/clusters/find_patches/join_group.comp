@@ -1,15 +1,15 @@
-// Surfels from which the seed of their voxel's new group is visible join that group.
+// Assigns surfels that see the seed of their voxel's new group to that group.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer Occluded { uint data[]; } occluded;  // Of rays to the seeds.
+readonly buffer Occluded { uint data[]; } occluded;  // Results of the rays to the seeds.
 layout(push_constant) uniform Push {
     uint first;
     uint count;
     uint round;
     uint isLast;          // 1: all remaining surfels join.
-    uint groupsOccluded;  // 1: occluded surfels are grouped. 0: unoccluded ones.
+    uint groupsOccluded;  // 1: only occluded surfels are grouped. 0: only unoccluded ones.
 } push;
 
 void main() {

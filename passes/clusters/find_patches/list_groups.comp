@@ -1,10 +1,10 @@
-// Lists the surface groups of each voxel and indexes their surfels.
+// Lists the surface groups of each voxel and stores the sorted index of each of their surfels.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer Lists { uvec2 data[]; } lists;  // By voxel: its first surfel, and the end.
+readonly buffer Lists { uvec2 data[]; } lists;  // First and end surfel of each voxel.
 readonly buffer FirstGroup { uint data[]; } firstGroup;
 layout(scalar) readonly buffer SurfelIndexRef { LargeUints surfelIndex; };
 layout(scalar) writeonly buffer Groups { SurfaceGroup data[]; } groups;

@@ -1,4 +1,4 @@
-// Height of visibility rays above occluded surfels: half of the gap before them.
+// Sets the height of visibility rays above occluded surfels to half of the gap in front of them.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"

@@ -1,4 +1,4 @@
-// Numbers components in the order of their roots.
+// Assigns indices to components in the order of their roots.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

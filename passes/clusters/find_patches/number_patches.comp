@@ -1,4 +1,4 @@
-// By surface group: the number of its first patch.
+// Stores the index of each surface group's first patch.
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

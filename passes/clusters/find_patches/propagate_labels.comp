@@ -1,5 +1,6 @@
-// Connected components by label propagation: each group takes the least label among its neighbours in the same cluster, until none
-// changes. The order of threads doesn't matter: in the end a component's label is its least group.
+// One iteration of label propagation, which finds connected components: each group takes the least label of its
+// neighbours in the same cluster. The result does not depend on the order of threads: labels converge to the least
+// index of the groups of a component.
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"

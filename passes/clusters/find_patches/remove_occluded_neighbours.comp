@@ -1,5 +1,5 @@
-// Removes neighbours that are occluded from each other. UPDATE: reuses the last build's result where it holds; there the group has as many
-// neighbours as before, in the same order.
+// Removes neighbours that are occluded from each other. UPDATE: copies the previous result for groups with unchanged
+// neighbourhoods, which have the same neighbours in the same order.
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"

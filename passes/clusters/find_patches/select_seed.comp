@@ -1,22 +1,23 @@
-// The first surfel without a group of each voxel becomes the seed of a new group.
+// Makes the first surfel of each voxel that has no group the seed of a new group.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer Lists { uvec2 data[]; } lists;  // By voxel: its first surfel, and the end.
-writeonly buffer Seeds { uint data[]; } seeds;  // By voxel: a surfel.
-buffer Remaining { uint count; } remaining;     // Voxels with a new seed.
+readonly buffer Lists { uvec2 data[]; } lists;  // First and end surfel of each voxel.
+writeonly buffer Seeds { uint data[]; } seeds;  // Surfel of each voxel.
+buffer Remaining { uint count; } remaining;     // Number of voxels with a new seed.
 layout(push_constant) uniform Push {
     uint voxels;
     uint round;
-    uint groupsOccluded;  // 1: occluded surfels are grouped. 0: unoccluded ones.
+    uint groupsOccluded;  // 1: only occluded surfels are grouped. 0: only unoccluded ones.
 } push;
 
 void main() {
     const uint voxel = linearIndex();
     if (voxel >= push.voxels) return;
     for (uint i = lists.data[voxel].x; i < lists.data[voxel].y; ++i) {
-        if (groupedSurfels.data[i].group != NO_GROUP || groupedSurfels.data[i].isOccluded != push.groupsOccluded) continue;
+        const GroupedSurfel s = groupedSurfels.data[i];
+        if (s.group != NO_GROUP || s.isOccluded != push.groupsOccluded) continue;
         groupedSurfels.data[i].group = push.round;
         seeds.data[voxel] = i;
         atomicAdd(remaining.count, 1u);

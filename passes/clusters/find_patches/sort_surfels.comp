@@ -3,8 +3,8 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer Lists { uvec2 data[]; } lists;  // By voxel: its first surfel, and the end.
-writeonly buffer Counts { uint data[]; } counts;  // By voxel, then 0 for the prefix sum.
+readonly buffer Lists { uvec2 data[]; } lists;    // First and end surfel of each voxel.
+writeonly buffer Counts { uint data[]; } counts;  // Per voxel, then 0 for the prefix sum.
 layout(push_constant) uniform Push { uint voxels; } push;
 
 void main() {
@@ -12,17 +12,17 @@ void main() {
     if (voxel > push.voxels) return;
     uint groups = 0u;
     if (voxel < push.voxels) {
-        const uint begin = lists.data[voxel].x, end = lists.data[voxel].y;
-        // Insertion sort, which is stable: within a group surfels stay sorted by id.
-        for (uint i = begin; i < end; ++i) {
+        const uint first = lists.data[voxel].x, end = lists.data[voxel].y;
+        // Insertion sort is stable: within a group surfels stay sorted by id
+        for (uint i = first; i < end; ++i) {
             const GroupedSurfel s = groupedSurfels.data[i];
             uint target = i;
-            for (; target > begin && groupedSurfels.data[target - 1u].group > s.group; --target)
+            for (; target > first && groupedSurfels.data[target - 1u].group > s.group; --target)
                 groupedSurfels.data[target] = groupedSurfels.data[target - 1u];
             groupedSurfels.data[target] = s;
         }
-        for (uint i = begin; i < end; ++i)
-            if (i == begin || groupedSurfels.data[i].group != groupedSurfels.data[i - 1u].group) ++groups;
+        for (uint i = first; i < end; ++i)
+            if (i == first || groupedSurfels.data[i].group != groupedSurfels.data[i - 1u].group) ++groups;
     }
     counts.data[voxel] = groups;
 }

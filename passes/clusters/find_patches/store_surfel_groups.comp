@@ -1,4 +1,4 @@
-// Stores the group of each surfel by its id, for the next update.
+// Stores the group of each surfel for the next update, indexed by the surfel's id.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "passes/clusters/find_patches/stored_group.h"
 #include "shaders/compute/linear_index.glsl"

@@ -1,5 +1,4 @@
-// The group of a surfel, stored by its id for the next update. Shared by C++ (group_update_cache.cpp) and
-// GLSL.
+// The group of a surfel, stored for the next update. Shared by C++ (group_update_cache.cpp) and GLSL.
 #ifndef VOXRAY_STORED_GROUP_H
 #define VOXRAY_STORED_GROUP_H
 
@@ -8,8 +7,8 @@
 VOXRAY_SHARED_BEGIN
 
 struct StoredGroup {
-    uint group;    // Among those of its voxel, in the order in which they were found.
-    float height;  // As GroupedSurfel's.
+    uint group;    // Index within its voxel, in the order in which groups were found.
+    float height;  // That of GroupedSurfel.
 };
 
 VOXRAY_SHARED_END

@@ -6,7 +6,7 @@
 namespace voxray {
 namespace {
 
-/// Of a voxel, unoccluded and occluded each; the last one takes all remaining surfels.
+/// Limit of unoccluded and of occluded groups in a voxel. All remaining surfels join the last one.
 constexpr uint32_t kMaxGroupsPerVoxel = 8;
 
 }  // namespace
@@ -24,8 +24,8 @@ SurfelGrouping::SurfelGrouping(ProgramOwner& owner)
       generateVisibilityRays_(owner, "generate_visibility_rays.comp"),
       joinGroup_(owner, "join_group.comp") {}
 
-void SurfelGrouping::run(PassContext& context, const RayBatch& batch, const SurfaceVoxels& voxels,
-                         bool hasOccluded, const SurfelsByVoxel& lists, const VoxelPatches& patches) const {
+void SurfelGrouping::run(PassContext& context, const RayBatch& batch, const SurfaceVoxels& voxels, bool hasOccluded,
+                         const SurfelsByVoxel& lists, const VoxelPatches& patches) const {
     groupByVisibility(context, batch, voxels.voxelCount, lists, patches, false);
     if (!hasOccluded) return;
     measureGaps(context, batch, voxels.grid.voxelSize, patches);
@@ -42,17 +42,14 @@ void SurfelGrouping::measureGaps(PassContext& context, const RayBatch& batch, fl
                           {"count", count},
                           {"voxelSize", voxelSize}});
         context.tracer.closestHit(context.stream, batch.rays, batch.hits, count);
-        context.dispatch(measureGapHeight_, count,
-                         {{"hits", batch.hits},
-                          {"GroupedSurfelsRef", patches.surfels.ref()},
-                          {"first", first},
-                          {"count", count}});
+        context.dispatch(
+            measureGapHeight_, count,
+            {{"hits", batch.hits}, {"GroupedSurfelsRef", patches.surfels.ref()}, {"first", first}, {"count", count}});
     });
 }
 
 void SurfelGrouping::groupByVisibility(PassContext& context, const RayBatch& batch, uint32_t voxels,
-                                       const SurfelsByVoxel& lists, const VoxelPatches& patches,
-                                       bool occluded) const {
+                                       const SurfelsByVoxel& lists, const VoxelPatches& patches, bool occluded) const {
     CommandStream& stream = context.stream;
     const Buffer seeds(context.device, "seeds of surface groups", uintBytes(voxels));
     const Buffer remaining(context.device, "voxels with surfels without a group", uintBytes(1));

@@ -9,13 +9,13 @@
 
 namespace voxray {
 
-/// Rays that are traced at once, and their results.
+/// Buffers for a batch of rays and its results.
 struct RayBatch {
     static constexpr uint32_t kRays = 1u << 20;
     Buffer rays, occluded;
-    Buffer hits;  ///< If planned.
+    Buffer hits;  ///< Only if plan() got `needsHits`.
 
-    /// Plans them as scratch.
+    /// Plans the buffers as scratch.
     void plan(MemoryPlan& plan, bool needsHits);
 
     /// Calls f(first, count) for each batch of `count` rays.
@@ -26,23 +26,22 @@ struct RayBatch {
 };
 
 /// Groups the surfels of each voxel that see each other. In each round the first surfel without a group
-/// becomes the seed of a new one, and those that see the seed join it. Rays connect
-/// points above the surfels: by half a voxel, or by half the gap before an occluded one.
+/// becomes the seed of a new group, and the surfels that see the seed join it. Visibility rays connect points
+/// at a height above the surfels: half a voxel, or half the gap in front of occluded surfels.
 class SurfelGrouping {
  public:
     explicit SurfelGrouping(ProgramOwner& owner);
 
-    /// Groups surfels of `patches` without a group: first unoccluded ones, then occluded ones.
-    /// @param hasOccluded whether there are any. @param lists each voxel's surfels in `patches`.
+    /// Groups the surfels of `patches` that have no group yet: first unoccluded ones, then occluded ones.
+    /// @param hasOccluded whether there are occluded surfels. @param lists the surfels of each voxel.
     void run(PassContext& context, const RayBatch& batch, const SurfaceVoxels& voxels, bool hasOccluded,
              const SurfelsByVoxel& lists, const VoxelPatches& patches) const;
 
  private:
-    void measureGaps(PassContext& context, const RayBatch& batch, float voxelSize,
-                     const VoxelPatches& patches) const;
-    /// Groups unoccluded surfels, or occluded ones.
-    void groupByVisibility(PassContext& context, const RayBatch& batch, uint32_t voxels,
-                           const SurfelsByVoxel& lists, const VoxelPatches& patches, bool occluded) const;
+    void measureGaps(PassContext& context, const RayBatch& batch, float voxelSize, const VoxelPatches& patches) const;
+    /// Groups only occluded or only unoccluded surfels.
+    void groupByVisibility(PassContext& context, const RayBatch& batch, uint32_t voxels, const SurfelsByVoxel& lists,
+                           const VoxelPatches& patches, bool occluded) const;
 
     Kernel generateGapRays_, measureGapHeight_, selectSeed_, generateVisibilityRays_, joinGroup_;
 };

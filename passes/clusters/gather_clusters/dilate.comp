@@ -1,4 +1,4 @@
-// Dilates the listed groups by their neighbours, which one pass of the filter reads.
+// Dilates the list of groups by their neighbours, which an iteration of the filter reads.
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -6,12 +6,12 @@ layout(local_size_x = 64) in;
 
 readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
 layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
-buffer IsListed { uint data[]; } isListed;  // By group.
+buffer IsListed { uint data[]; } isListed;  // Per group.
 buffer ListedGroups { uint data[]; } listedGroups;
 buffer Count { uint value; } count;
 layout(push_constant) uniform Push {
-    uint first;  // Of the groups that the last step added to the list.
-    uint groupCount;
+    uint first;  // Index in the list of the first group that the previous step added.
+    uint groupCount;  // Number of groups that it added.
 } push;
 
 void main() {

@@ -1,5 +1,5 @@
-// Filters irradiance of patches by binomial weights over the same face of neighbouring surface groups (Cosin and Patow 2022, section
-// 4.4; the paper's filter also crosses walls). LIT_ALONE: unlit patches don't count.
+// Filters the irradiance of patches by binomial weights over the same face of neighbouring surface groups (Cosin and
+// Patow 2022, section 4.4; the paper's filter also crosses walls). LIT_ONLY: unlit patches are excluded.
 #include "passes/clusters/gather_clusters/listed_groups.glsl"
 #include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/large_buffer.glsl"
@@ -8,14 +8,14 @@ layout(local_size_x = 64) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PatchValues { vec3 data[]; };
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;  // By voxel.
+layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;  // Per voxel.
 readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
 layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
 layout(scalar) readonly buffer GatheredRef { PatchValues gathered; };
 layout(scalar) readonly buffer FilteredRef { PatchValues filtered; };
 layout(push_constant) uniform Push { uint count; } push;
 
-// 1 2 1 along each axis.
+// Weights are 1 2 1 along each axis.
 float binomialWeight(vec3 offset) {
     const vec3 weight = 2.0 - abs(offset);
     return weight.x * weight.y * weight.z;
@@ -26,7 +26,7 @@ void addPatches(SurfaceGroup group, float weight, inout vec4 sums[6]) {
     for (uint face = 0u; face < 6u; ++face) {
         if (!hasPatch(group, face)) continue;
         const vec3 irradiance = gathered.data[patchNumber++];
-#ifdef LIT_ALONE
+#ifdef LIT_ONLY
         if (all(equal(irradiance, vec3(0.0)))) continue;
 #endif
         sums[face] += weight * vec4(irradiance, 1.0);
@@ -49,5 +49,6 @@ void main() {
     }
     uint patchNumber = group.firstPatch;
     for (uint face = 0u; face < 6u; ++face)
-        if (hasPatch(group, face)) filtered.data[patchNumber++] = sums[face].w > 0.0 ? sums[face].rgb / sums[face].w : vec3(0.0);
+        if (hasPatch(group, face))
+            filtered.data[patchNumber++] = sums[face].w > 0.0 ? sums[face].rgb / sums[face].w : vec3(0.0);
 }

@@ -11,26 +11,24 @@
 
 namespace voxray {
 
-/// Which patches the filter averages.
+/// The patches that the filter averages: all, or those that receive light.
 enum class FilterOver { All, Lit };
 template <>
 struct EnumNames<FilterOver> {
     static constexpr std::array names{std::pair{FilterOver::All, "all"}, std::pair{FilterOver::Lit, "lit"}};
 };
 
-/// Indirect irradiance of voxels' faces, gathered from the visibility lists of their patches and filtered
-/// over neighbours. Source: Cosin and Patow 2022, section 4.4.
+/// Gathers indirect irradiance along the visibility lists of patches, filters it over neighbours and averages
+/// it for the faces of voxels. Source: Cosin and Patow 2022, section 4.4.
 class GatherClusters final : public Pass {
  public:
     static constexpr const char* kName = "gather_clusters";
     static constexpr const char* kHelp =
-        "Gathers each patch's irradiance from the voxel clusters that it sees. "
-        "It sums the light of inject_clusters over the lists of cluster_visibility, "
-        "then is filtered over neighbours that look into the same space. "
-        "The result is irradiance of voxels, with the direct light of inject_clusters: "
-        "gather_irradiance or gather_rays show it. "
-        "Biased by: voxel and cluster size, the filter (light creeps round edges). "
-        "Noisy by: the lists' rays. Source: Cosin and Patow 2022, section 4.4.";
+        "Gathers each patch's irradiance from the voxel clusters that it sees. It sums the light "
+        "of inject_clusters over the lists of cluster_visibility and filters it over neighbours that see each other. "
+        "The result is irradiance of voxels, with the direct light of inject_clusters, "
+        "for gather_irradiance or gather_rays. Biased by: voxel and cluster size, "
+        "the filter (light leaks round edges). Noisy by: the lists' rays. Source: Cosin and Patow 2022, section 4.4.";
     struct Params {
         GatherUpdate update = GatherUpdate::All;
         uint32_t reach = 4;
@@ -40,33 +38,32 @@ class GatherClusters final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("update", &Params::update,
-                      "all: every voxel, whenever light or voxels have changed. "
-                      "seen: voxels around what the camera sees, when they come into view; "
-                      "they keep their light until light or voxels change. "
-                      "For gather_irradiance, which reads no others. "
+                      "Voxels whose light is gathered. all: every voxel, whenever light or voxels have changed. "
+                      "seen: voxels around what the camera sees, "
+                      "once when they come into view and again when light or voxels change; "
+                      "for gather_irradiance, which reads no others. "
                       "seen_points: likewise, but voxels of which the camera sees one of 12 points, "
-                      "2 voxels from their centers (the paper's test); "
-                      "lookups leave other voxels out of their mean."),
+                      "2 voxels from their centers (the paper's test); lookups exclude other voxels."),
                 field("reach", &Params::reach,
-                      "How many voxels along each axis count as around what the camera sees. "
-                      "It must be as far as the lookup that follows reads: "
-                      "4 times gather_irradiance's 'radius', where little surface is near, "
-                      "and one more with 'lookup: seven_tap'. A lookup that reads farther is refused.",
+                      "Distance in voxels along each axis of voxels that count as around what the camera sees. "
+                      "It must cover the lookup that follows: "
+                      "4 times gather_irradiance's 'radius' where there are few surfaces, and one more with 'lookup: "
+                      "seven_tap'. A lookup that reads farther is refused.",
                       1u, 64u)
                     .onlyWith(oneOf(&Params::update, {GatherUpdate::Seen})),
                 field("filter_passes", &Params::filterPasses,
-                      "Times that patches are averaged with those at the same faces "
-                      "of neighbouring surface groups. The paper: 2, of size 5.",
+                      "How often patches are averaged with those at the same faces of neighbouring surface groups. "
+                      "The paper: 2, of size 5.",
                       0u, 8u),
                 field("filter_size", &Params::filterSize,
-                      "Voxels along each edge of the filter's cube, "
-                      "with binomial weights (about a Gaussian). "
-                      "Occluded neighbours and faces without surfaces don't count.",
+                      "Voxels along each edge of the filter's cube, with binomial weights (about a Gaussian). "
+                      "Occluded neighbours and faces without surfaces are excluded.",
                       std::vector{3u, 5u})
                     .onlyWith(noneOf(&Params::filterPasses, {0u})),
                 field("filter_over", &Params::filterOver,
-                      "all: every face in the cube. lit: those that any light reaches, as in the paper; "
-                      "light then spreads into what is dark and none of it is lost for that, so it grows.")
+                      "Faces that are averaged. all: every face in the cube. "
+                      "lit: those that receive light (the paper's); "
+                      "light then spreads to unlit faces without a loss elsewhere, so its total grows.")
                     .onlyWith(noneOf(&Params::filterPasses, {0u}))};
         }
     };
@@ -81,10 +78,10 @@ class GatherClusters final : public Pass {
  private:
     bool isLazy() const { return params_.update != GatherUpdate::All; }
     bool readsGBuffer() const { return params_.update == GatherUpdate::Seen; }
-    /// Binomial weights of 5 voxels are those of 3, twice.
+    /// Iterations of a filter of 3 voxels: a binomial filter of 5 voxels is one of 3, applied twice.
     uint32_t filterSteps() const { return params_.filterPasses * (params_.filterSize / 2); }
     Defines defines() const;
-    /// Gathers, filters and stores the light of `voxels`.
+    /// Gathers, filters and stores the irradiance of `voxels`.
     void gather(PassContext& context, const VisibleVoxels::NewVoxels& voxels);
 
     const Params params_;
@@ -92,11 +89,10 @@ class GatherClusters final : public Pass {
     In<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels"};
     In<VoxelClusters> clusters_{*this, "clusters", "clusters of surface voxels"};
     In<ClusterVisibility> visibility_{*this, "cluster_visibility", "visibility lists of patches"};
-    In<ClusterLight> light_{*this, "cluster_light", "what clusters send"};
+    In<ClusterLight> light_{*this, "cluster_light", "radiosity of cluster components and patches"};
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees", readsGBuffer()};
-    Out<VoxelIrradiance> irradiance_{*this, "irradiance",
-                                     "direct light, and indirect light that was gathered"};
-    std::optional<VisibleVoxels> visible_;  ///< If lazy.
+    Out<VoxelIrradiance> irradiance_{*this, "irradiance", "direct light and gathered indirect light"};
+    std::optional<VisibleVoxels> visible_;  ///< If isLazy().
     Kernel gatherGroups_{*this, "gather_groups.comp", defines()};
     Kernel filterIrradiance_{*this, "filter_irradiance.comp", defines()};
     Kernel storeIrradiance_{*this, "store_irradiance.comp", defines()};
@@ -105,7 +101,7 @@ class GatherClusters final : public Pass {
 
 Defines GatherClusters::defines() const {
     Defines defines = isLazy() ? Defines{{"LISTED", "1"}} : Defines{};
-    if (params_.filterOver == FilterOver::Lit) defines.emplace("LIT_ALONE", "1");
+    if (params_.filterOver == FilterOver::Lit) defines.emplace("LIT_ONLY", "1");
     return defines;
 }
 
@@ -196,7 +192,7 @@ void GatherClusters::gather(PassContext& context, const VisibleVoxels::NewVoxels
                       {"pairs", pairs},
                       {"voxelFaceArea", voxelSize * voxelSize}});
     stream.finish();
-    if (isLazy()) return;  // Buffers stay for what comes into view next.
+    if (isLazy()) return;  // The buffers are reused for voxels that come into view later.
     gathered_ = {};
     filtered_ = {};
 }

@@ -1,4 +1,4 @@
-// Irradiance of the patches of surface groups, from their visibility lists.
+// Gathers the irradiance of the patches of surface groups along their visibility lists.
 #include "passes/clusters/gather_clusters/listed_groups.glsl"
 #include "passes/clusters/gather_patch.glsl"
 #include "passes/clusters/group_patches.glsl"

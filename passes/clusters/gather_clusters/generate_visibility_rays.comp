@@ -1,11 +1,12 @@
-// Rays to the camera from the points around each voxel of a batch that was not requested before, if they project into the image.
+// Generates rays to the camera from the points around each voxel of a batch. Rays are inactive if the voxel was
+// requested before or if the point is outside of the image.
 #include "passes/clusters/gather_clusters/visible_points.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 
-// `p`: relative to the camera.
+// @param p relative to the camera.
 bool isInImage(vec3 p) {
     const float depth = dot(p, push.forward);
     return depth > 0.0 && abs(dot(p, push.right)) <= depth * dot(push.right, push.right) &&

@@ -6,7 +6,7 @@ layout(local_size_x = 64) in;
 readonly buffer NewVoxels { uint data[]; } newVoxels;
 readonly buffer FirstGroup { uint data[]; } firstGroup;
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-writeonly buffer IsListed { uint data[]; } isListed;  // By group.
+writeonly buffer IsListed { uint data[]; } isListed;  // Per group.
 writeonly buffer ListedGroups { uint data[]; } listedGroups;
 buffer Count { uint value; } count;
 layout(push_constant) uniform Push { uint voxels; } push;

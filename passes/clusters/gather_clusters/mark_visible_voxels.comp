@@ -1,4 +1,4 @@
-// Requests the voxels around each texel of the G-buffer, and lists those that were not requested before.
+// Marks the voxels around each texel of the G-buffer as requested, and lists those that were not requested before.
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -6,13 +6,13 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #define NEIGHBOURHOOD_REQUESTED 2u
 
 uniform sampler2D position;
-buffer RequestedVoxels { uint data[]; } requestedVoxels;  // By voxel: the bits above.
+buffer RequestedVoxels { uint data[]; } requestedVoxels;  // Per voxel: the bits above.
 writeonly buffer NewVoxels { uint data[]; } newVoxels;
 buffer Count { uint value; } count;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uvec2 texels;
-    int reach;  // Voxels along each axis.
+    int reach;  // Distance of requested voxels along each axis, voxels.
 } push;
 
 void main() {

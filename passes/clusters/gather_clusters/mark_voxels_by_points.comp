@@ -1,4 +1,5 @@
-// Requests and lists the voxels of a batch of which the camera sees a point. Voxels requested before have no rays.
+// Marks and lists the voxels of a batch of which the camera sees a point. Rays of voxels that were requested before are
+// inactive.
 #include "passes/clusters/gather_clusters/visible_points.glsl"
 #include "passes/clusters/voxel_point_rays.glsl"
 layout(local_size_x = 64) in;

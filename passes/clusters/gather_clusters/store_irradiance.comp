@@ -1,5 +1,5 @@
-// Flux and unoccluded area of voxels' faces: sums over the patches of their unoccluded surface groups, whose materials are bound. By
-// pairs: the two faces across an axis of a voxel.
+// Stores flux and unoccluded area of voxels' faces: sums over the patches of their unoccluded surface groups, whose
+// materials are bound. A thread processes a pair of opposite faces of a voxel.
 #include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/radiosity.glsl"

@@ -12,47 +12,44 @@
 
 namespace voxray {
 
-/// Which voxels light is gathered for.
+/// The voxels for which light is gathered: all, or those in view by G-buffer or by sample points.
 enum class GatherUpdate { All, Seen, SeenPoints };
 template <>
 struct EnumNames<GatherUpdate> {
-    static constexpr std::array names{std::pair{GatherUpdate::All, "all"},
-                                      std::pair{GatherUpdate::Seen, "seen"},
+    static constexpr std::array names{std::pair{GatherUpdate::All, "all"}, std::pair{GatherUpdate::Seen, "seen"},
                                       std::pair{GatherUpdate::SeenPoints, "seen_points"}};
 };
 
-/// Voxels that come into the camera's view: those that lookups of irradiance read at what the camera sees, or
-/// VisiblePoints (Cosin and Patow 2022, section 4.4). Each is found once.
+/// Finds voxels that come into the camera's view, each once: those that lookups of irradiance read around
+/// visible surfaces or, with GatherUpdate::SeenPoints, those found by VisiblePoints.
 class VisibleVoxels {
  public:
     VisibleVoxels(ProgramOwner& owner, GatherUpdate update);
 
     struct NewVoxels {
         uint32_t voxelCount = 0;
-        /// How many of groups() are within 0, 1 ... steps to neighbours from these voxels.
+        /// Number of elements of groups() that are at most 0, 1 ... steps to neighbours from these voxels.
         std::vector<uint32_t> groupCounts;
     };
 
     void plan(PassPlan& plan);
-    /// Forgets what was seen. Makes the buffers.
+    /// Allocates the buffers. No voxel counts as found any more.
     void reset(PassContext& context, const SurfaceVoxels& voxels, const VoxelPatches& patches);
-    /// @param gbuffer, @param reach what the camera sees, and voxels along each axis that lookups read around
-    /// it; unused by the test of points. @param steps to neighbours. Waits for the device.
+    /// @param gbuffer visible surfaces. @param reach distance in voxels along each axis that lookups around
+    /// them read; both are unused with SeenPoints. @param steps of dilation. Waits for the device.
     NewVoxels find(PassContext& context, const GBuffer* gbuffer, const SurfaceVoxels& voxels,
-                   const VoxelClusters& clusters, const VoxelPatches& patches, uint32_t reach,
-                   uint32_t steps) const;
+                   const VoxelClusters& clusters, const VoxelPatches& patches, uint32_t reach, uint32_t steps) const;
 
-    /// Voxels, and unoccluded groups of them and their neighbours, that find() found last.
+    /// Result of the last find(): new voxels, and their unoccluded groups with neighbours.
     const Buffer& voxels() const { return newVoxels_; }
     const Buffer& groups() const { return listedGroups_; }
 
  private:
-    void markLookups(PassContext& context, const GBuffer& gbuffer, const SurfaceVoxels& voxels,
-                     uint32_t reach) const;
+    void markLookups(PassContext& context, const GBuffer& gbuffer, const SurfaceVoxels& voxels, uint32_t reach) const;
 
-    std::optional<VisiblePoints> points_;  ///< For the test of points.
+    std::optional<VisiblePoints> points_;  ///< For GatherUpdate::SeenPoints.
     Kernel markVoxels_, listGroups_, dilate_;
-    Buffer requestedVoxels_;  ///< By voxel: bits as in mark_visible_voxels.comp.
+    Buffer requestedVoxels_;  ///< Per voxel: bits as in mark_visible_voxels.comp.
     Buffer newVoxels_, listedGroups_, isListed_, count_;
 };
 

@@ -1,5 +1,5 @@
-// Adds the unshadowed irradiance of a punctual light to the surfels of a batch's lit voxels: those of which the light sees a point, unless
-// a surface in the adjacent voxel towards the light is in the way (Cosin and Patow 2022, figure 10).
+// Adds the unshadowed irradiance of a punctual light to the surfels of lit voxels: those of which the light sees a
+// point, unless a surface in the adjacent voxel towards the light occludes it (Cosin and Patow 2022, figure 10).
 #include "passes/clusters/inject_clusters/lit_points.glsl"
 #include "passes/clusters/grouped_surfels.glsl"
 #include "passes/clusters/voxel_point_rays.glsl"
@@ -10,19 +10,19 @@ readonly buffer FirstGroup { uint data[]; } firstGroup;
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(scalar) readonly buffer SurfelIrradianceRef { SurfelValues surfelIrradiance; };
 
-// Whether each of two groups lies before the other, by their first surfels.
+// Whether each of two groups is in front of the other, tested with their first surfels.
 bool faceEachOther(SurfaceGroup a, SurfaceGroup b) {
     const GroupedSurfel p = groupedSurfels.data[a.firstSurfel], q = groupedSurfels.data[b.firstSurfel];
     return dot(p.normal, b.pointAbove - p.position) > 0.0 && dot(q.normal, a.pointAbove - q.position) > 0.0;
 }
 
-// Whether light from `direction` would come through the back of a group in `voxel` that faces this one. A group that faces the light,
-// such as the rest of the same plane, does not block it.
-bool isBlockedBy(uint voxel, SurfaceGroup group, vec3 direction) {
+// Whether light from `direction` is occluded by the back of a group in `voxel` that faces the given group. A group that
+// faces the light, such as the continuation of the same plane, does not occlude it.
+bool isOccludedBy(uint voxel, SurfaceGroup group, vec3 direction) {
     if (voxel == NO_VOXEL) return false;
-    for (uint blocker = firstGroup.data[voxel]; blocker < firstGroup.data[voxel + 1u]; ++blocker)
-        if (groups.data[blocker].isOccluded == 0u && dot(voxelMaterial(blocker).normal, direction) < 0.0 &&
-            faceEachOther(group, groups.data[blocker]))
+    for (uint occluder = firstGroup.data[voxel]; occluder < firstGroup.data[voxel + 1u]; ++occluder)
+        if (groups.data[occluder].isOccluded == 0u && dot(voxelMaterial(occluder).normal, direction) < 0.0 &&
+            faceEachOther(group, groups.data[occluder]))
             return true;
     return false;
 }
@@ -38,7 +38,7 @@ void main() {
     for (uint number = firstGroup.data[voxel]; number < firstGroup.data[voxel + 1u]; ++number) {
         const SurfaceGroup group = groups.data[number];
         // No point around the voxel lies in its gaps
-        if (group.isOccluded == 1u || isBlockedBy(towardsLight, group, direction)) continue;
+        if (group.isOccluded == 1u || isOccludedBy(towardsLight, group, direction)) continue;
         for (uint k = group.firstSurfel; k < group.firstSurfel + group.surfelCount; ++k) {
             const GroupedSurfel surfel = groupedSurfels.data[k];
             const LightSample l = samplePunctual(light, surfel.position);

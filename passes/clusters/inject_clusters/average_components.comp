@@ -1,7 +1,7 @@
-// Radiosity of component faces: the mean over their patches, weighted by area (Cosin and Patow 2022, section 4.4: irradiance is pulled up
-// to clusters). Groups, whose materials are bound, are summed in their order: the same in each run.
-//
-// The ratio of two small samples could outshine a scene, so patches smaller than SMALL_FACE_AREA get the mean.
+// Averages the radiosity of component faces over their patches, weighted by area (Cosin and Patow 2022, section 4.4:
+// irradiance is pulled up to clusters). The materials bound are those of groups. The order of summation is the same in
+// each run. Patches smaller than SMALL_FACE_AREA, whose radiosity is a ratio of two small samples and may be much too
+// bright, get the mean.
 #include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/radiosity.glsl"

@@ -1,4 +1,4 @@
-// Direct irradiance of each patch: the mean over the surfels of its group, weighted by their projected area at its face.
+// Averages the direct irradiance of each patch over its group's surfels, weighted by their projected area at its face.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/large_buffer.glsl"
@@ -26,5 +26,6 @@ void main() {
     }
     for (uint face = 0u; face < 6u; ++face)
         if (hasPatch(group, face))
-            patchDirect.data[patchIndex(group, face)] = packRadiosity(sums[face].w > 0.0 ? sums[face].rgb / sums[face].w : vec3(0.0));
+            patchDirect.data[patchIndex(group, face)] =
+                packRadiosity(sums[face].w > 0.0 ? sums[face].rgb / sums[face].w : vec3(0.0));
 }

@@ -7,8 +7,8 @@
 VOXRAY_SHARED_BEGIN
 
 struct ComponentFace {
-    float area;       // Of its patches, in faces of a voxel.
-    uint patchCount;  // Of the component at this face.
+    float area;       // Sum over its patches, in units of a voxel's face.
+    uint patchCount;  // Number of the component's patches at this face.
 };
 
 VOXRAY_SHARED_END

@@ -1,4 +1,4 @@
-// Areas of component faces, and a bit for each with area: these send light.
+// Sums the area of each component face, and sets a bit if it has area and sends light.
 #include "passes/clusters/inject_clusters/component_face_types.h"
 #include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -9,7 +9,7 @@ layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(scalar) readonly buffer Components { ClusterComponent data[]; } components;
 layout(scalar) readonly buffer MemberGroups { uint data[]; } memberGroups;
 layout(scalar) writeonly buffer ComponentFaces { ComponentFace data[]; } componentFaces;
-buffer Flags { uint words[]; } flags;  // Zero before.
+buffer Flags { uint words[]; } flags;  // Must be 0 before.
 layout(push_constant) uniform Push { uint componentCount; } push;
 
 void main() {

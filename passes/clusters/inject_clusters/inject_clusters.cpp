@@ -24,7 +24,7 @@ constexpr uint64_t kIrradianceBytes = 4 * sizeof(float);
 
 }  // namespace
 
-/// Where direct light comes from.
+/// The source of direct light: what an injection left in voxels, or shadow rays.
 enum class ClusterDirect { Injected, ShadowRays };
 template <>
 struct EnumNames<ClusterDirect> {
@@ -32,27 +32,25 @@ struct EnumNames<ClusterDirect> {
                                       std::pair{ClusterDirect::ShadowRays, "shadow_rays"}};
 };
 
-/// By what surfaces are lit.
+/// The shadow test of direct light: a shadow ray from each surfel, or rays from points around each voxel.
 enum class LitTest { Surfels, Points };
 template <>
 struct EnumNames<LitTest> {
-    static constexpr std::array names{std::pair{LitTest::Surfels, "surfels"},
-                                      std::pair{LitTest::Points, "points"}};
+    static constexpr std::array names{std::pair{LitTest::Surfels, "surfels"}, std::pair{LitTest::Points, "points"}};
 };
 
-/// Radiosity of patches and cluster components from direct or injected light, with bounces along the
-/// visibility lists. Source: Cosin and Patow 2022, section 4.4.
+/// Computes the radiosity of patches and cluster components from direct or injected light, with bounces along
+/// the visibility lists. Source: Cosin and Patow 2022, section 4.4.
 class InjectClusters final : public Pass {
  public:
     static constexpr const char* kName = "inject_clusters";
     static constexpr const char* kHelp =
         "Averages the reflected light of voxels, or of their surfels, over their clusters. "
-        "Any pass may have injected the voxels' light. "
-        "The mean is what each component of a cluster sends from each of its six faces. "
+        "Any injection may have left the voxels' light. "
+        "The mean is sent by each component of a cluster (find_patches) from its six faces. "
         "Further bounces follow the visibility lists of cluster_visibility. "
-        "Biased by: the size of clusters, over which light is averaged; "
-        "injected light by that of voxels, too, which may hold both sides of a wall. "
-        "Noisy by: bounce_patches. Source: Cosin and Patow 2022, section 4.4.";
+        "Biased by: the size of clusters, over which light is averaged; injected light also by that of voxels, "
+        "which may contain both sides of a wall. Noisy by: bounce_patches. Source: Cosin and Patow 2022, section 4.4.";
     struct Params {
         uint32_t bounces = 0;
         uint32_t bouncePatches = 0;
@@ -62,28 +60,25 @@ class InjectClusters final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("bounces", &Params::bounces,
-                      "Bounces between clusters, "
-                      "after those of the injection and before the one of gather_clusters.",
+                      "Bounces between clusters, after those of the injection and before the one of gather_clusters.",
                       0u, 64u),
                 field("bounce_patches", &Params::bouncePatches,
-                      "How many patches of each component face are sampled in a bounce, "
-                      "by area and anew in each bounce. 0: all, one by one.",
+                      "Number of patches of each component face that are sampled by area, anew in each bounce. "
+                      "0: every patch has its own bounce.",
                       0u, 64u)
                     .lessNoise()
                     .onlyWith(noneOf(&Params::bounces, {0u})),
                 field("direct", &Params::direct,
-                      "injected: the light that an injection left in the voxels. "
-                      "shadow_rays: direct light of the surfels (place_surfels) by rays to the lights, "
-                      "without an injection."),
+                      "Source of direct light. injected: what an injection left in the voxels. "
+                      "shadow_rays: rays from the surfels (place_surfels) to the lights, without an injection."),
                 field("lit_test", &Params::litTest,
-                      "surfels: by a shadow ray from each surfel. "
-                      "points: all surfels of a voxel are lit if a light sees one of 18 points 1.5 voxels "
-                      "from its center and no surface in the adjacent voxel towards the light looks away "
-                      "from it (the paper's); for punctual lights.")
+                      "Shadow test. surfels: a shadow ray from each surfel. points: "
+                      "all surfels of a voxel are lit if a light sees one of 18 points 1.5 voxels from its center "
+                      "and no surface in the adjacent voxel towards the light faces away from it (the paper's); "
+                      "for punctual lights.")
                     .onlyWith(oneOf(&Params::direct, {ClusterDirect::ShadowRays})),
                 field("light_samples", &Params::lightSamples,
-                      "Shadow rays from each surfel to the emissive surfaces, and to the environment.", 1u,
-                      256u)
+                      "Shadow rays from each surfel to the emissive surfaces, and to the environment.", 1u, 256u)
                     .onlyWith(oneOf(&Params::direct, {ClusterDirect::ShadowRays}))};
         }
     };
@@ -103,37 +98,35 @@ class InjectClusters final : public Pass {
     bool isInjected() const { return params_.direct == ClusterDirect::Injected; }
     bool testsPoints() const { return !isInjected() && params_.litTest == LitTest::Points; }
     bool bouncesComponents() const { return params_.bounces > 0 && params_.bouncePatches > 0; }
-    /// Direct irradiance of each patch, and initialIrradiance_, from injected light.
+    /// Computes direct irradiance of each patch and initialIrradiance_ from injected light.
     void readInjected(PassContext& context, const ClusterLight& light);
-    /// The same by the lit test.
+    /// The same by shadow rays.
     void measure(PassContext& context, const ClusterLight& light);
-    /// Irradiance of surfels by their shadow rays.
+    /// Computes irradiance of surfels by a shadow ray from each surfel.
     void traceSurfels(PassContext& context, const LargeBuffer& surfelIrradiance);
-    /// Radiosity by initialIrradiance_, and by bouncedIrradiance_ if `hasBounced`.
+    /// Computes radiosity from initialIrradiance_ and, if `hasBounced`, bouncedIrradiance_.
     void reflect(PassContext& context, bool hasBounced);
-    /// All bounces: of each patch, or between component faces.
+    /// Compute all bounces, of each patch or between component faces.
     void bouncePatches(PassContext& context, ClusterLight& light);
     void bounceComponents(PassContext& context, ClusterLight& light);
-    /// Areas of component faces, and a list of those with area. @return how many.
-    uint32_t listSendingFaces(PassContext& context, const Buffer& componentFaces,
-                              const Buffer& sendingFaces) const;
-    /// Radiosity of patches after bounces between component faces.
+    /// Computes areas of component faces and lists those with area. @return their number.
+    uint32_t listSendingFaces(PassContext& context, const Buffer& componentFaces, const Buffer& sendingFaces) const;
+    /// Computes radiosity of patches after bounces between component faces.
     void scatter(PassContext& context, const ClusterLight& light, const Buffer& bouncedRadiosity) const;
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
-    In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at voxels' surfaces",
-                                    isInjected()};
+    In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at voxels' surfaces", isInjected()};
     In<Surfels> surfels_{*this, "surfels", "points where irradiance is measured", !isInjected()};
-    In<VoxelClusters> clusters_{*this, "clusters", "where voxels are", params_.litTest == LitTest::Points};
+    In<VoxelClusters> clusters_{*this, "clusters", "coordinates of voxels", params_.litTest == LitTest::Points};
     In<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels"};
     In<ClusterVisibility> visibility_{*this, "cluster_visibility", "visibility lists of patches"};
-    Out<ClusterLight> light_{*this, "cluster_light", "what clusters send"};
+    Out<ClusterLight> light_{*this, "cluster_light", "radiosity of cluster components and patches"};
     std::vector<LightSource> sources_;
     std::optional<SurfelDirectLight> surfelLight_;  ///< For `lit_test: surfels`.
     std::optional<LitPoints> litPoints_;            ///< For `lit_test: points`.
-    ClusterGather gather_{*this};
-    std::optional<Compaction> compaction_;  ///< For bounces between components.
+    std::optional<Compaction> compaction_;          ///< For bounces between components.
+    Kernel gatherPatches_{*this, "gather_patches.comp"};
     Kernel readInjected_{*this, "read_injected.comp"};
     Kernel reorderIrradiance_{*this, "reorder_irradiance.comp"};
     Kernel averageSurfels_{*this, "average_surfels.comp"};
@@ -143,13 +136,14 @@ class InjectClusters final : public Pass {
     Kernel bounceComponents_{*this, "bounce_components.comp"};
     Kernel scatterRadiosity_{*this, "scatter_radiosity.comp"};
     LargeBuffer initialIrradiance_, bouncedIrradiance_;
-    Buffer chunkIrradiance_;  ///< Scratch: direct, of a chunk of surfels.
+    Buffer chunkIrradiance_;  ///< Scratch: direct irradiance of a chunk of surfels.
 };
 
 void InjectClusters::plan(PassPlan& plan) {
     readInjected_.compileIf(isInjected());
     reorderIrradiance_.compileIf(!isInjected() && !testsPoints());
     averageSurfels_.compileIf(!isInjected());
+    gatherPatches_.compileIf(params_.bounces > 0 && !bouncesComponents());
     for (Kernel* kernel : {&flagSendingFaces_, &bounceComponents_, &scatterRadiosity_})
         kernel->compileIf(bouncesComponents());
 
@@ -176,7 +170,7 @@ void InjectClusters::plan(PassPlan& plan) {
 }
 
 void InjectClusters::record(PassContext& context) {
-    // Shadow rays are traced in each run: lights may have changed, which are no input
+    // Shadow rays are traced in each run: lights are not an input but may have changed
     if (isInjected() && !context.inputsChanged()) return;
     const VoxelPatches& patches = context[patches_];
     ClusterLight& light = context[light_];
@@ -202,9 +196,14 @@ void InjectClusters::record(PassContext& context) {
 
 void InjectClusters::bouncePatches(PassContext& context, ClusterLight& light) {
     if (params_.bounces == 0) return;
+    const ClusterVisibility& visibility = context[visibility_];
     ensureSize(bouncedIrradiance_, context.device, "bounced irradiance of patches", light.patches.bytes());
     for (uint32_t i = 0; i < params_.bounces; ++i) {
-        gather_.gather(context.stream, context[visibility_], light, bouncedIrradiance_);
+        context.dispatch(gatherPatches_, visibility.patchCount,
+                         {gatherBindings(visibility, light),
+                          {"IrradianceRef", bouncedIrradiance_.ref()},
+                          {"lists", visibility.layout},
+                          {"patches", visibility.patchCount}});
         reflect(context, true);
         context.stream.finish();
     }
@@ -218,10 +217,7 @@ uint32_t InjectClusters::listSendingFaces(PassContext& context, const Buffer& co
     const Buffer flags(context.device, "flags of sending faces", std::max(words, 1u) * sizeof(uint32_t));
     context.stream.fill(flags, 0);
     context.dispatch(flagSendingFaces_, patches.componentCount,
-                     {{"VoxelMaterialsRef", patches.materials.ref()},
-                      {"groups", patches.groups},
-                      {"components", patches.components},
-                      {"memberGroups", patches.memberGroups},
+                     {patches.componentBindings(),
                       {"componentFaces", componentFaces},
                       {"flags", flags},
                       {"componentCount", patches.componentCount}});
@@ -245,10 +241,7 @@ void InjectClusters::bounceComponents(PassContext& context, ClusterLight& light)
     for (uint32_t i = 0; i < params_.bounces; ++i) {
         context.dispatch(bounceComponents_, count,
                          {gatherBindings(visibility, light),
-                          {"VoxelMaterialsRef", patches.materials.ref()},
-                          {"groups", patches.groups},
-                          {"components", patches.components},
-                          {"memberGroups", patches.memberGroups},
+                          patches.componentBindings(),
                           {"componentFaces", componentFaces},
                           {"sendingFaces", sendingFaces},
                           {"initialRadiosity", initialRadiosity},
@@ -265,14 +258,10 @@ void InjectClusters::bounceComponents(PassContext& context, ClusterLight& light)
     stream.finish();
 }
 
-void InjectClusters::scatter(PassContext& context, const ClusterLight& light,
-                             const Buffer& bouncedRadiosity) const {
+void InjectClusters::scatter(PassContext& context, const ClusterLight& light, const Buffer& bouncedRadiosity) const {
     const VoxelPatches& patches = context[patches_];
     context.dispatch(scatterRadiosity_, patches.componentCount,
-                     {{"VoxelMaterialsRef", patches.materials.ref()},
-                      {"groups", patches.groups},
-                      {"components", patches.components},
-                      {"memberGroups", patches.memberGroups},
+                     {patches.componentBindings(),
                       {"componentRadiosity", light.components},
                       {"bouncedRadiosity", bouncedRadiosity},
                       {"InitialIrradianceRef", initialIrradiance_.ref()},
@@ -302,8 +291,7 @@ void InjectClusters::measure(PassContext& context, const ClusterLight& light) {
                                        std::max(patches.surfelCount, 1u) * sizeof(glm::vec3));
     if (testsPoints()) {
         stream.fill(surfelIrradiance, 0);
-        litPoints_->measure(context, sources_, context[voxels_], context[clusters_], patches,
-                            surfelIrradiance);
+        litPoints_->measure(context, sources_, context[voxels_], context[clusters_], patches, surfelIrradiance);
     } else {
         traceSurfels(context, surfelIrradiance);
     }
@@ -337,20 +325,16 @@ void InjectClusters::traceSurfels(PassContext& context, const LargeBuffer& surfe
 void InjectClusters::reflect(PassContext& context, bool hasBounced) {
     const VoxelPatches& patches = context[patches_];
     const ClusterLight& light = context[light_];
-    context.dispatch(
-        reflectPatches_, patches.groupCount,
-        {{"VoxelMaterialsRef", patches.materials.ref()},
-         {"groups", patches.groups},
-         {"InitialIrradianceRef", initialIrradiance_.ref()},
-         {"BouncedIrradianceRef", hasBounced ? bouncedIrradiance_.ref() : initialIrradiance_.ref()},
-         {"RadiosityRef", light.patches.ref()},
-         {"groupCount", patches.groupCount},
-         {"hasBounced", hasBounced}});
-    context.dispatch(averageComponents_, patches.componentCount,
+    context.dispatch(reflectPatches_, patches.groupCount,
                      {{"VoxelMaterialsRef", patches.materials.ref()},
                       {"groups", patches.groups},
-                      {"components", patches.components},
-                      {"memberGroups", patches.memberGroups},
+                      {"InitialIrradianceRef", initialIrradiance_.ref()},
+                      {"BouncedIrradianceRef", hasBounced ? bouncedIrradiance_.ref() : initialIrradiance_.ref()},
+                      {"RadiosityRef", light.patches.ref()},
+                      {"groupCount", patches.groupCount},
+                      {"hasBounced", hasBounced}});
+    context.dispatch(averageComponents_, patches.componentCount,
+                     {patches.componentBindings(),
                       {"RadiosityRef", light.patches.ref()},
                       {"componentRadiosity", light.components},
                       {"count", patches.componentCount}});

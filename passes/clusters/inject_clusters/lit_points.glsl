@@ -1,4 +1,4 @@
-// 18 points around voxels that a light may see, 1.5 voxels from their centers (Cosin and Patow 2022, section 4.4).
+// Points for the test whether a light sees a voxel: 18 points, 1.5 voxels from its center (Cosin and Patow 2022, 4.4).
 #include "passes/clusters/voxel_points.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/lights/lights.glsl"

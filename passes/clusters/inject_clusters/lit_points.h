@@ -8,18 +8,17 @@
 
 namespace voxray {
 
-/// The paper's lit test: all of a voxel's surfels are lit by a punctual light, without shadows, if the light
-/// sees one of 18 points around the voxel. Source: Cosin and Patow 2022, section 4.4 and figure 10;
-/// docs/clusters.md has our choices where the text leaves one.
+/// The paper's shadow test: a punctual light lights all surfels of a voxel, without shadows, if it sees one
+/// of 18 points around the voxel. Source: Cosin and Patow 2022, section 4.4 and figure 10; docs/clusters.md
+/// has our choices where the text leaves one.
 class LitPoints {
  public:
     explicit LitPoints(ProgramOwner& owner);
 
     void plan(PassPlan& plan) { rays_.plan(plan); }
-    /// Adds to the irradiance, W/m², of VoxelPatches::surfels, 3 floats each. @param sources punctual lights.
+    /// Adds irradiance, W/m², to that of VoxelPatches::surfels, 3 floats each. @param sources punctual.
     void measure(PassContext& context, const std::vector<LightSource>& sources, const SurfaceVoxels& voxels,
-                 const VoxelClusters& clusters, const VoxelPatches& patches,
-                 const LargeBuffer& surfelIrradiance) const;
+                 const VoxelClusters& clusters, const VoxelPatches& patches, const LargeBuffer& surfelIrradiance) const;
 
  private:
     static constexpr uint32_t kPoints = 18;  ///< As in lit_points.glsl.

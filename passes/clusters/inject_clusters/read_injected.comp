@@ -1,5 +1,5 @@
-// Irradiance of each patch: that injected into its voxel, 0 where the area is 0. Where a face's area is below SMALL_FACE_AREA, its flux
-// over that: the ratio of two small samples could outshine a scene.
+// Reads the irradiance of each patch that was injected into its voxel: flux over area, 0 where the area is 0. Areas are
+// clamped to SMALL_FACE_AREA: the ratio of two small samples may be much too bright.
 #include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/radiosity.glsl"

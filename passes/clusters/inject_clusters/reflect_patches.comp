@@ -1,4 +1,4 @@
-// Radiosity of each patch: reflectance of its surface group (whose materials are bound) times irradiance.
+// Computes the radiosity of each patch: reflectance of its surface group (whose materials are bound) times irradiance.
 #include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/radiosity.glsl"
@@ -6,8 +6,8 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-layout(scalar) readonly buffer InitialIrradianceRef { LargeUints initialIrradiance; };  // Before the first bounce, W/m², packed.
-layout(scalar) readonly buffer BouncedIrradianceRef { LargeUints bouncedIrradiance; };  // By bounces, likewise.
+layout(scalar) readonly buffer InitialIrradianceRef { LargeUints initialIrradiance; };  // W/m², packed.
+layout(scalar) readonly buffer BouncedIrradianceRef { LargeUints bouncedIrradiance; };  // From bounces, likewise.
 layout(scalar) readonly buffer RadiosityRef { LargeUints radiosity; };
 layout(push_constant) uniform Push {
     uint groupCount;

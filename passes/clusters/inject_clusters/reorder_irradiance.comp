@@ -1,4 +1,4 @@
-// Moves the irradiance of a chunk's surfels to their places in VoxelPatches::surfels.
+// Copies the irradiance of a chunk's surfels into the order of VoxelPatches::surfels.
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -10,7 +10,7 @@ layout(scalar) readonly buffer SurfelIndexRef { LargeUints surfelIndex; };
 layout(scalar) readonly buffer SurfelIrradianceRef { SurfelValues surfelIrradiance; };
 layout(push_constant) uniform Push {
     uint count;
-    uint firstIndex;  // Of the chunk's surfels among all.
+    uint firstIndex;  // Index of the chunk's first surfel in the surfels of all chunks.
 } push;
 
 void main() {

@@ -1,5 +1,5 @@
-// Radiosity of patches after bounces between components: what each reflects of its initial irradiance, plus its component face's bounced
-// radiosity. Small patches have that of their component face.
+// Computes the radiosity of patches after bounces between components: the reflected initial irradiance of the patch
+// plus the bounced radiosity of its component face. Small patches get the radiosity of their component face.
 #include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -10,9 +10,9 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(scalar) readonly buffer Components { ClusterComponent data[]; } components;
 layout(scalar) readonly buffer MemberGroups { uint data[]; } memberGroups;
-layout(scalar) readonly buffer ComponentRadiosity { uint data[]; } componentRadiosity;  // By component and face, packed.
-layout(scalar) readonly buffer BouncedRadiosity { uint data[]; } bouncedRadiosity;      // What bounces added to it.
-layout(scalar) readonly buffer InitialIrradianceRef { LargeUints initialIrradiance; };   // Before the first bounce, W/m², packed.
+layout(scalar) readonly buffer ComponentRadiosity { uint data[]; } componentRadiosity;  // Packed, per component face.
+layout(scalar) readonly buffer BouncedRadiosity { uint data[]; } bouncedRadiosity;      // Sum of all bounces.
+layout(scalar) readonly buffer InitialIrradianceRef { LargeUints initialIrradiance; };  // W/m², packed.
 layout(scalar) readonly buffer RadiosityRef { LargeUints radiosity; };
 layout(push_constant) uniform Push { uint componentCount; } push;
 
@@ -27,10 +27,11 @@ void main() {
         for (uint face = 0u; face < 6u; ++face) {
             if (!hasPatch(group, face)) continue;
             const uint patchNumber = patchIndex(group, face), target = 6u * i + face;
-            radiosity.data[patchNumber] = unoccluded(m, face) < SMALL_FACE_AREA
-                                              ? componentRadiosity.data[target]
-                                              : packRadiosity(m.albedo * unpackRadiosity(initialIrradiance.data[patchNumber]) +
-                                                              unpackRadiosity(bouncedRadiosity.data[target]));
+            const vec3 reflected = m.albedo * unpackRadiosity(initialIrradiance.data[patchNumber]);
+            radiosity.data[patchNumber] =
+                unoccluded(m, face) < SMALL_FACE_AREA
+                    ? componentRadiosity.data[target]
+                    : packRadiosity(reflected + unpackRadiosity(bouncedRadiosity.data[target]));
         }
     }
 }

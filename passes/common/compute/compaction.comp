@@ -1,16 +1,16 @@
-// The indices of the bits that are set, in ascending order.
+// Lists the indices of set bits in ascending order.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
 readonly buffer Flags { uint words[]; } flags;
-readonly buffer Before { uint set[]; } before;  // Bits set in the words before.
+readonly buffer Before { uint bits[]; } before;  // Set bits in the words before.
 writeonly buffer Indices { uint data[]; } indices;
 layout(push_constant) uniform Push { uint words; } push;
 
 void main() {
     const uint word = linearIndex();
     if (word >= push.words) return;
-    uint at = before.set[word];
+    uint item = before.bits[word];
     for (uint bits = flags.words[word]; bits != 0u; bits &= bits - 1u)
-        indices.data[at++] = 32u * word + uint(findLSB(bits));
+        indices.data[item++] = 32u * word + uint(findLSB(bits));
 }

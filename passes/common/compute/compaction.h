@@ -4,16 +4,23 @@
 
 namespace voxray {
 
-/// Lists the items of an array that are flagged, on the device.
+/// Stream compaction: lists the flagged items of an array, on the device.
 class Compaction {
  public:
-    explicit Compaction(ProgramOwner& owner);
+    explicit Compaction(ProgramOwner& owner)
+        : prefixSum_(owner, PrefixSum::Of::SetBits), list_(owner, "compaction.comp") {}
 
-    /// Writes the indices of the flagged items, in ascending order, to the first words of `indices`.
-    /// @param flags a bit an item: of item i, bit i % 32 of word i / 32; bits after the last item are 0.
-    /// @param indices a uint for each flagged item, or more.
+    /// Writes the indices of the flagged items, in ascending order.
+    /// @param flags a bit per item: that of item i is bit i % 32 of word i / 32; bits beyond the last item
+    /// are 0. @param indices a uint for each flagged item, or more.
     /// @param words of `flags`. @return the number of flagged items; waits for the device.
-    uint32_t run(CommandStream& stream, const Buffer& flags, const Buffer& indices, uint32_t words) const;
+    uint32_t run(CommandStream& stream, const Buffer& flags, const Buffer& indices, uint32_t words) const {
+        const Buffer before(stream.device(), "flagged items before", uint64_t(words) * sizeof(uint32_t));
+        const uint32_t count = prefixSum_.run(stream, flags, before, words);
+        stream.dispatch(list_, words, {{"flags", flags}, {"before", before}, {"indices", indices}, {"words", words}});
+        stream.finish();
+        return count;
+    }
 
  private:
     PrefixSum prefixSum_;

@@ -1,4 +1,4 @@
-// How often each value occurs.
+// Counts how often each value occurs.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

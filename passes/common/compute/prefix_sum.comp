@@ -1,5 +1,6 @@
 // Exclusive prefix sum in three dispatches: sums of blocks of 1024 values (SUM_BLOCKS), their scan by one work group
-// (SCAN_BLOCKS), and the scan within each block (SCAN_VALUES). With SET_BITS a value is the number of bits set in a word.
+// (SCAN_BLOCKS), and the scan within each block (SCAN_VALUES). With SET_BITS a value is the number of bits set in a
+// word.
 layout(local_size_x = 256) in;
 
 readonly buffer Source { uint values[]; } source;
@@ -12,15 +13,15 @@ layout(push_constant) uniform Push {
 
 shared uint partial[256];
 
-// Inclusive scan of one value a thread over the work group (Hillis and Steele).
+// Inclusive scan over the work group, one value per thread (Hillis and Steele 1986).
 uint scanGroup(uint value) {
     const uint i = gl_LocalInvocationID.x;
     partial[i] = value;
     barrier();
     for (uint step_ = 1u; step_ < 256u; step_ <<= 1) {
-        const uint other = i >= step_ ? partial[i - step_] : 0u;
+        const uint previous = i >= step_ ? partial[i - step_] : 0u;
         barrier();
-        partial[i] += other;
+        partial[i] += previous;
         barrier();
     }
     return partial[i];
@@ -38,7 +39,7 @@ uint valueAt(uint i) {
 void main() {
     const uint i = gl_LocalInvocationID.x;
 #ifdef SCAN_BLOCKS
-    // One work group walks over all block sums, 256 at a time.
+    // One work group scans all block sums, 256 at a time
     uint carried = 0u;
     for (uint first = 0u; first < push.blocks; first += 256u) {
         const uint block = first + i;
@@ -53,13 +54,13 @@ void main() {
     const uint block = gl_WorkGroupID.y * 32768u + gl_WorkGroupID.x;
     const uint first = block * 1024u + i * 4u;
     const uvec4 values = uvec4(valueAt(first), valueAt(first + 1u), valueAt(first + 2u), valueAt(first + 3u));
-    const uint own = values.x + values.y + values.z + values.w;
-    const uint inclusive = scanGroup(own);
+    const uint sum = values.x + values.y + values.z + values.w;
+    const uint inclusive = scanGroup(sum);
     if (block >= push.blocks) return;
 #ifdef SUM_BLOCKS
     if (i == 255u) blockSums.sums[block] = inclusive;
 #else
-    uint running = blockSums.sums[block] + inclusive - own;
+    uint running = blockSums.sums[block] + inclusive - sum;
     for (uint k = 0u; k < 4u; ++k) {
         if (first + k < push.count) result.before[first + k] = running;
         running += values[k];

@@ -26,8 +26,8 @@ uint64_t PrefixSum::scratchBytes(uint32_t count) {
     return (uint64_t(scanBlocksOf(count)) + 1) * sizeof(uint32_t);
 }
 
-void PrefixSum::record(CommandStream& stream, const Buffer& source, const Buffer& before,
-                       const Buffer& blockSums, uint32_t count) const {
+void PrefixSum::record(CommandStream& stream, const Buffer& source, const Buffer& before, const Buffer& blockSums,
+                       uint32_t count) const {
     const uint32_t blocks = scanBlocksOf(count);
     const Bindings bindings{ifUsed({"source", source}),
                             ifUsed({"result", before}),
@@ -40,8 +40,7 @@ void PrefixSum::record(CommandStream& stream, const Buffer& source, const Buffer
     stream.dispatch(scanValues_, threads, bindings);
 }
 
-uint32_t PrefixSum::run(CommandStream& stream, const Buffer& source, const Buffer& before,
-                        uint32_t count) const {
+uint32_t PrefixSum::run(CommandStream& stream, const Buffer& source, const Buffer& before, uint32_t count) const {
     const Buffer sums(stream.device(), "prefix sum blocks", scratchBytes(count));
     record(stream, source, before, sums, count);
     uint32_t sum = 0;

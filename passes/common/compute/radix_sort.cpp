@@ -22,21 +22,16 @@ RadixSort::RadixSort(ProgramOwner& owner)
       count_(owner, "radix_sort.comp", {{"COUNT_DIGITS", "1"}}),
       scatter_(owner, "radix_sort.comp", {{"SCATTER", "1"}}) {}
 
-void RadixSort::record(CommandStream& stream, Buffer& keys, Buffer& values, uint32_t count,
-                       uint32_t keyBits) {
+void RadixSort::record(CommandStream& stream, Buffer& keys, Buffer& values, uint32_t count, uint32_t keyBits) {
     if (count == 0) return;
     const uint32_t blocks = sortBlocksOf(count), counts = blocks * kDigits;
     if (blocks > kMaxBlocks)
-        throw Error("a radix sort takes at most {} pairs; these are {}", uint64_t(kMaxBlocks) * kBlockPairs,
-                    count);
+        throw Error("a radix sort takes at most {} pairs; these are {}", uint64_t(kMaxBlocks) * kBlockPairs, count);
     Device& device = stream.device();
-    const auto require = [&](Buffer& buffer, const char* name, uint64_t bytes) {
-        if (!buffer || buffer.bytes() != bytes) buffer = Buffer(device, name, bytes);
-    };
-    require(otherKeys_, "radix sort keys", keys.bytes());
-    require(otherValues_, "radix sort values", values.bytes());
-    require(counts_, "radix sort counts", uint64_t(counts) * sizeof(uint32_t));
-    require(blockSums_, "radix sort sums", PrefixSum::scratchBytes(counts));
+    ensureSize(sortedKeys_, device, "radix sort keys", keys.bytes());
+    ensureSize(sortedValues_, device, "radix sort values", values.bytes());
+    ensureSize(counts_, device, "radix sort counts", uint64_t(counts) * sizeof(uint32_t));
+    ensureSize(blockSums_, device, "radix sort sums", PrefixSum::scratchBytes(counts));
 
     for (uint32_t shift = 0; shift < keyBits; shift += kDigitBits) {
         const Bindings digit{
@@ -45,9 +40,9 @@ void RadixSort::record(CommandStream& stream, Buffer& keys, Buffer& values, uint
         prefixSum_.record(stream, counts_, counts_, blockSums_, counts);
         stream.dispatch(
             scatter_, blocks * kSortThreads,
-            {digit.all(), {"values", values}, {"sortedKeys", otherKeys_}, {"sortedValues", otherValues_}});
-        std::swap(keys, otherKeys_);
-        std::swap(values, otherValues_);
+            {digit.all(), {"values", values}, {"sortedKeys", sortedKeys_}, {"sortedValues", sortedValues_}});
+        std::swap(keys, sortedKeys_);
+        std::swap(values, sortedValues_);
     }
 }
 

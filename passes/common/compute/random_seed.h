@@ -6,7 +6,7 @@
 
 namespace voxray {
 
-/// Seed of the random numbers of one of several that a pass draws apart: of a frame, or of a source of light.
+/// Seed of one of a pass's independent random sequences, `number`: one per frame, or per light source.
 /// Derived from the config's seed alone.
 inline uint32_t randomSeed(const Frame& frame, uint32_t number = 0) {
     return uint32_t(frame.seed * 0x9e3779b9u) + number * 0x85ebca6bu;

@@ -5,7 +5,7 @@
 
 namespace voxray {
 
-/// Bytes of so many uints in a shader: at least one's, for no buffer is empty.
+/// Bytes of so many uints, at least one: no buffer is empty.
 inline uint64_t uintBytes(uint64_t count) {
     return std::max<uint64_t>(count, 1) * sizeof(uint32_t);
 }

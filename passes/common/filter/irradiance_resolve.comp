@@ -1,4 +1,4 @@
-// Radiance that each pixel reflects: albedo / pi times irradiance, averaged over its sub-pixels.
+// Reflected radiance of each pixel: albedo / pi times irradiance, averaged over its texels.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D irradiance;

@@ -5,23 +5,21 @@
 
 namespace voxray {
 
-/// Irradiance that a gather estimates from few rays for each texel of the G-buffer: what filter_irradiance
-/// reads.
+/// Irradiance estimated from few rays for each texel of the G-buffer: the input of filter_irradiance.
 ///
-/// A producer fills in `irradiance`; all else is optional. With `moments` the filter knows how noisy a ray is
-/// and how fast irradiance can change along a surface; without them it goes by geometry and by the number of
-/// rays alone.
+/// A gather writes `irradiance`; the rest is optional. From `moments` the filter derives the variance of rays
+/// and bounds of irradiance gradients; without them it uses geometry and numbers of rays alone.
 struct NoisyIrradiance : Resource {
-    /// RGBA32F, of the G-buffer's extent (gbufferExtent). rgb: irradiance about the shading normal, W/m²: the
-    /// mean of what the texel's rays bring, which is π times its radiance for a ray distributed by cosine.
-    /// a: the number of these rays; where it is 0, rgb is 0.
+    /// RGBA32F, of the G-buffer's extent (gbufferExtent). rgb: irradiance for the shading normal, W/m²: the
+    /// mean over the texel's rays, each π times its radiance if rays are distributed by cosine. a: number of
+    /// these rays; where it is 0, rgb is 0.
     Image irradiance;
     /// Every aligned square of `spacing` x `spacing` texels that shows a surface has a ray; 1: every texel
     /// has one. Known from plan() on.
     uint32_t spacing = 1;
 
-    /// Texels along the edge of the blocks that `moments` are summed over, 0 without. Known from plan() on.
-    /// The filter adds up 3 x 3 blocks: some 16 rays in each are enough.
+    /// Texels along the edge of a block of `moments`; 0: none. Known from plan() on. The filter adds up 3 x 3
+    /// blocks: some 16 rays in each are enough.
     uint32_t blockSize = 0;
     /// gpu::RayMoments of each block, row by row: blocks().x * blocks().y.
     Buffer moments;

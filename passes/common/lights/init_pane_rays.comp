@@ -1,4 +1,4 @@
-// Rays as they look for panes: up to their ends.
+// Copies rays to search for panes along them. AT_HITS: they end at their hits.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;

@@ -7,42 +7,43 @@
 
 namespace voxray {
 
-/// What shines in a scene: one punctual light, all emissive triangles together, or the environment.
+/// A light source: one punctual light, all emissive triangles together, or the environment.
 struct LightSource {
-    enum Kind : uint32_t { Punctual = 0, Emitters = 1, Environment = 2 };  // As shaders have them.
+    enum Kind : uint32_t { Punctual = 0, Emitters = 1, Environment = 2 };  // As in shaders/lights/lights.glsl.
     Kind kind;
     uint32_t light;  ///< Index of a punctual light.
-    float power;     ///< W, about: of the brightest colour channel, no less but for textures.
+    float power;     ///< Estimate for the brightest channel, W; an upper bound for untextured emitters.
 };
 
-/// All sources of light whose power is not 0. A directional light and the environment shine on the disc that
-/// the bounding sphere covers.
+/// All light sources of nonzero power. The power of directional lights and of the environment is that through
+/// the disc of the bounding sphere.
 std::vector<LightSource> lightSources(const SceneState& state);
 
-/// The same. @throws Error naming the pass where there is none.
+/// The same. @throws Error naming the pass if there is none.
 std::vector<LightSource> requireLightSources(const SceneState& state, const std::string& pass);
 
-/// Area of one side of a triangle, by its vertices, m².
+/// One-sided area of a triangle, given by its vertices, m².
 float triangleArea(const Geometry& geometry, glm::uvec3 triangle);
 
-/// Area of one side of all surfaces in the region, m².
+/// One-sided area of all surfaces in the region, m².
 double surfaceArea(const Geometry& geometry);
 
-/// W, about, as LightSource::power.
+/// Sum of LightSource::power, W.
 double totalPower(const std::vector<LightSource>& sources);
 
-/// Irradiance of the scene's surfaces, W/m², if each caught its part by area of all power: a scale for sums.
+/// Total power over surface area, W/m²: the scale of fixed-point sums.
 float meanIrradiance(const std::vector<LightSource>& sources, const Geometry& geometry);
 
-/// The power of two below the scene's mean irradiance, 1 without light: a unit of radiance, W/(m² sr), that
-/// is in the center of the range of half floats.
+/// The power of two below the scene's mean irradiance; 1 without light. As the unit of radiance, W/(m² sr),
+/// it centers values in the range of half floats.
 float radianceUnit(const SceneState& state);
 
-/// The sphere round the scene's region, a little larger, on which parallel light and the environment shine.
+/// The sphere around the scene's region, slightly enlarged, which parallel light and the environment
+/// illuminate.
 struct BoundingSphere {
     glm::vec3 center;
     float radius;  ///< m
-    float reach;   ///< m: as far from the center there are surfaces.
+    float reach;   ///< Maximum distance of surfaces from the center, m.
 };
 BoundingSphere boundingSphere(const Geometry& geometry);
 

@@ -1,11 +1,13 @@
 #include "passes/common/lights/shadow_map.h"
 
+#include "base/error.h"
+
 namespace voxray {
 namespace {
 
 constexpr VkFormat kShadowMapFormat = VK_FORMAT_D32_SFLOAT;
 
-/// As shaders/lights/shadow_maps.glsl has it.
+/// As in shaders/lights/shadow_maps.glsl.
 struct ShadowLight {
     uint32_t light;
     uint32_t firstView;
@@ -16,8 +18,8 @@ ImageDesc mapDesc(uint32_t resolution) {
     ImageDesc desc;
     desc.format = kShadowMapFormat;
     desc.extent = {resolution, resolution, 1};
-    desc.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    desc.usage =
+        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     return desc;
 }
 
@@ -51,17 +53,20 @@ void ShadowMap::draw(PassContext& context, const gpu::LightView& view) const {
     RasterTargets targets;
     targets.depth = &image_;
     targets.extent = image_.desc().extent;
-    context.stream.draw(rasterize_, targets, context.scene.triangleCount * 3,
-                        {context.scene, {"view", view}});
+    context.stream.draw(rasterize_, targets, context.scene.triangleCount * 3, {context.scene, {"view", view}});
 }
 
 void ShadowMaps::plan(PassPlan& plan, const std::vector<LightSource>& sources, uint32_t resolution) {
     resolution_ = resolution;
     const uint32_t views = viewCount(*plan.frame.scene, sources);
+    if (views * texelBytes(resolution) / sizeof(float) > UINT32_MAX)
+        throw Error(
+            "shadow maps of {0} views with {1}x{1} texels each can't be numbered in 32 bits; "
+            "lower 'shadow_resolution'",
+            views, resolution);
     map_.plan(plan, resolution);
     plan.buffer(texels_, "a shadow map's texels", texelBytes(resolution));
-    plan.buffer(lights_, "lights with shadow maps",
-                2 * sizeof(uint32_t) + sources.size() * sizeof(ShadowLight));
+    plan.buffer(lights_, "lights with shadow maps", 2 * sizeof(uint32_t) + sources.size() * sizeof(ShadowLight));
     plan.buffer(views_, "lights' views", views * sizeof(gpu::LightView));
     plan.buffer(depths_, "shadow maps", views * texelBytes(resolution));
 }
@@ -72,9 +77,9 @@ void ShadowMaps::draw(PassContext& context, const std::vector<LightSource>& sour
     std::vector<uint32_t> header{resolution_, uint32_t(sources.size())};
     std::vector<gpu::LightView> views;
     for (const LightSource& source : sources) {
-        const auto own = lightViews(state.lights[source.light], state.geometry);
-        header.insert(header.end(), {source.light, uint32_t(views.size()), uint32_t(own.size())});
-        views.insert(views.end(), own.begin(), own.end());
+        const auto added = lightViews(state.lights[source.light], state.geometry);
+        header.insert(header.end(), {source.light, uint32_t(views.size()), uint32_t(added.size())});
+        views.insert(views.end(), added.begin(), added.end());
     }
     stream.upload(lights_, header);
     stream.upload(views_, views);

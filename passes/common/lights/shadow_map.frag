@@ -1,4 +1,4 @@
-// Depth along the view's axis, linear, so that its precision is the same everywhere.
+// Linear depth along the view's axis, with uniform precision.
 #include "shaders/scene/scene.glsl"
 
 layout(location = 0) in vec2 barycentrics;

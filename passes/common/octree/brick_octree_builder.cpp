@@ -12,10 +12,10 @@ namespace {
 using gpu::BrickNode;
 using gpu::LevelNodes;
 static_assert(sizeof(BrickNode) == kBrickNodeBytes);
-constexpr uint32_t kLongestAxis = 1024;  // A node's place takes 10 bits an axis.
+constexpr uint32_t kLongestAxis = 1024;  // Coordinates of nodes have 10 bits.
 
-/// Room for so many nodes; those that are there stay. Where surfaces move there is an eighth to spare, so
-/// that they do not outgrow the pool in each frame.
+/// Reallocates the pool for so many nodes if it is too small, and copies the present ones. Where surfaces
+/// move an eighth is added, so that the pool isn't reallocated in each frame.
 void grow(CommandStream& stream, BrickOctree& octree, uint64_t nodes) {
     if (octree.nodes && octree.nodes.bytes() >= nodes * kBrickNodeBytes) return;
     if (octree.moves) nodes += nodes / 8;
@@ -41,8 +41,8 @@ void BrickOctreeBuilder::build(CommandStream& stream, BrickOctree& octree, const
                                uint32_t fragments) const {
     const glm::uvec3 size = octree.grid.resolution;
     if (std::max({size.x, size.y, size.z}) > kLongestAxis)
-        throw Error("an octree of bricks takes at most {} voxels along an axis; the grid has {}x{}x{}",
-                    kLongestAxis, size.x, size.y, size.z);
+        throw Error("an octree of bricks takes at most {} voxels along an axis; the grid has {}x{}x{}", kLongestAxis,
+                    size.x, size.y, size.z);
     octree.levels.assign(gridLevels(size), LevelNodes{});
     octree.levels.back().staticCount = 1;
     octree.nodeCount = octree.brickCount = 0;
@@ -68,15 +68,13 @@ void BrickOctreeBuilder::rebuildDynamic(CommandStream& stream, BrickOctree& octr
     addNodes(stream, octree, Section::Dynamic, cells, fragments);
 }
 
-void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Section section,
-                                  const LargeBuffer& cells, uint32_t fragments) const {
+void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Section section, const LargeBuffer& cells,
+                                  uint32_t fragments) const {
     const uint32_t top = uint32_t(octree.levels.size()) - 1;
     for (uint32_t level = top + 1; level-- > 0;) {
         const LevelNodes nodes = octree.levels[level];
-        const uint32_t count = nodesOf(nodes), belowRoot = top - level;
-        const auto scratch = [&](const char* name) {
-            return Buffer(stream.device(), name, count * sizeof(uint32_t));
-        };
+        const uint32_t count = nodesOf(nodes), depth = top - level;
+        const auto scratch = [&](const char* name) { return Buffer(stream.device(), name, count * sizeof(uint32_t)); };
         const Buffer visited = scratch("visited nodes"), flags = scratch("flagged nodes"),
                      before = scratch("flags before");
         stream.fill(visited, 0);
@@ -89,11 +87,10 @@ void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Se
                          {"nodes", nodes},
                          {"resolution", levelResolution(octree.grid.resolution, level)},
                          {"level", level},
-                         {"belowRoot", belowRoot},
+                         {"depth", depth},
                          {"fragments", fragments},
                          {"neighbors", neighbors_}});
-        stream.dispatch(link_, count,
-                        {{"OctreeNodesRef", octree.nodes.ref()}, {"nodes", nodes}, {"belowRoot", belowRoot}});
+        stream.dispatch(link_, count, {{"OctreeNodesRef", octree.nodes.ref()}, {"nodes", nodes}, {"depth", depth}});
         const uint32_t flagged = prefixSum_.run(stream, flags, before, count);
         const uint32_t firstChild = level == 0 ? NO_CHILDREN : octree.nodeCount;
         if (level > 0) {

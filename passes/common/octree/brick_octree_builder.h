@@ -5,22 +5,20 @@
 
 namespace voxray {
 
-/// Builds the octree of Arnebäck 2017 on the device, from the root down (section 3.2.2, after Crassin and
-/// Green 2012): flag the nodes of a level that fragments fall into, and the 26 round each; link neighbours;
-/// subdivide. A node's number depends on the voxels of the fragments alone, not on their order.
+/// Builds the octree of Arnebäck 2017 on the device, top-down (section 3.2.2, after Crassin and Green 2012):
+/// in each level flag the nodes that hold fragments, and their 26 neighbors; link neighbors; subdivide. A
+/// node's index depends on the voxels of the fragments alone, not on their order.
 class BrickOctreeBuilder {
  public:
-    /// @param neighbors whether the 26 are made to exist.
+    /// @param neighbors whether the 26 neighbors get bricks as well.
     BrickOctreeBuilder(ProgramOwner& owner, bool neighbors);
 
-    /// Builds the static section in place of all that was there. Waits for the device once a level.
-    /// @param cells a uint for each fragment: its voxel, 10 bits an axis. More than one may be in a voxel.
-    /// The pool grows level by level.
-    void build(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells,
-               uint32_t fragments) const;
-    /// Builds the dynamic section in place of the one that was there. Likewise.
-    void rebuildDynamic(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells,
-                        uint32_t fragments) const;
+    /// Replaces the whole octree by a static section. Waits for the device once per level.
+    /// @param cells a uint for each fragment: the coordinates of its voxel, 10 bits each. Voxels may have
+    /// several fragments.
+    void build(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells, uint32_t fragments) const;
+    /// Replaces the dynamic section. Parameters as in build().
+    void rebuildDynamic(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells, uint32_t fragments) const;
 
  private:
     enum class Section { Static, Dynamic };

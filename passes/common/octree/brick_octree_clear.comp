@@ -1,5 +1,5 @@
-// Forgets the dynamic section (Arnebäck 2017, section 3.2.2, "Dynamic Geometry"): no node of the static one points there any more, and
-// leaves without surfaces that stay are empty.
+// Removes the dynamic section (Arnebäck 2017, section 3.2.2, "Dynamic Geometry"): clears pointers to it from static
+// nodes, and the materials of leaves without static surfaces.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/brick_octree.glsl"
 layout(local_size_x = 64) in;
@@ -16,8 +16,8 @@ void main() {
     BrickNode n = nodes.data[node];
     if (n.firstChild >= push.staticNodes) n.firstChild = NO_CHILDREN;
     if (n.brick >= push.staticBricks) n.brick = NO_BRICK;
-    for (uint side = 0u; side < 6u; ++side)
-        if (n.neighbor[side] >= push.staticNodes) n.neighbor[side] = NO_NEIGHBOR;
+    for (uint face = 0u; face < 6u; ++face)
+        if (n.neighbor[face] >= push.staticNodes) n.neighbor[face] = NO_NEIGHBOR;
     if ((n.cell & STATIC_LEAF) == 0u) n.color = n.normal = 0u;
     nodes.data[node] = n;
 }

@@ -1,5 +1,6 @@
-// Pass "Subdivision" (Arnebäck 2017, section 3.2.2): a brick for each flagged node and, above the leaves, eight children. Numbers are
-// counts of flags before it, where the thesis has atomic counters: the same voxels give the same pool.
+// Pass "Subdivision" (Arnebäck 2017, section 3.2.2): allocates a brick for each flagged node and, above the leaves,
+// eight children. Indices come from a prefix sum over the flags, in place of the thesis's atomic counters, so that the
+// pool is deterministic.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/brick_octree.glsl"
 layout(local_size_x = 64) in;

@@ -19,7 +19,7 @@ uint64_t tableWords(glm::uvec3 resolution, uint32_t level) {
     return size.x * size.y * size.z;
 }
 
-/// Where the table of each level from the table's on up begins, and its end.
+/// The first index of each level of the table, and the end of the last.
 std::vector<uint64_t> tableOffsets(const OctreeSize& size) {
     std::vector<uint64_t> offsets{0};
     for (uint32_t level = size.tableLevel(); level <= size.levels(); ++level)
@@ -70,7 +70,7 @@ Octree allocateOctree(CommandStream& stream, const OctreeSize& size) {
     std::copy(offsets.begin(), offsets.end() - 1, header.shape.tableFirst);
     stream.upload(octree.header, std::as_bytes(std::span(&header, 1)));
 
-    // Number 0 is no node; the root is octant 0 of the table's last level.
+    // Index 0 is no node; the root is the child in octant 0 of the level above it
     const uint32_t none = 0, aboveRoot = 1u << 8 | 1u;
     const auto write = [&](const Buffer& target, uint32_t word, uint64_t index) {
         stream.upload(target, std::as_bytes(std::span(&word, 1)), index * sizeof(word));

@@ -23,7 +23,7 @@ Octree OctreeBuilder::build(CommandStream& stream, const SurfaceVoxels& voxels) 
     const std::vector<Buffer> flags = flag(stream, voxels, size);
     Octree octree = allocateOctree(stream, size);
 
-    // From the root down: which children there are, then their numbers and voxels.
+    // Top-down: masks of children, then their indices and voxels
     const std::vector<uint32_t> first = size.first();
     Buffer cells(device, "octree root", sizeof(uint32_t));
     stream.fill(cells, 0);
@@ -58,9 +58,8 @@ Octree OctreeBuilder::build(CommandStream& stream, const SurfaceVoxels& voxels) 
     return octree;
 }
 
-std::vector<Buffer> OctreeBuilder::flag(CommandStream& stream, const SurfaceVoxels& voxels,
-                                        OctreeSize& size) const {
-    // A bit for each voxel of each level above the leaves, from the bits below.
+std::vector<Buffer> OctreeBuilder::flag(CommandStream& stream, const SurfaceVoxels& voxels, OctreeSize& size) const {
+    // Bottom-up, each level from the next finer one
     const uint32_t levels = gridLevels(size.resolution);
     const Buffer counts(stream.device(), "octree node counts", levels * sizeof(uint32_t));
     stream.fill(counts, 0);

@@ -1,5 +1,5 @@
-// Numbers the children of a level's nodes: they follow each other in the order of the masks' bits. Writes the nodes' words, in the
-// table too, and the voxels of the children.
+// Assigns indices to the children of a level's nodes, in the order of the masks' bits. Writes the nodes' words, also to
+// the table, and the coordinates of the children.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/octree.glsl"
 layout(local_size_x = 64) in;

@@ -1,4 +1,5 @@
-// The masks of the children of a level's nodes, from the flags of the finer level.
+// Computes the masks of children of a level's nodes from the flags of the next finer level. One invocation per word of
+// four masks.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/octree_cells.glsl"
 layout(local_size_x = 64) in;
@@ -11,7 +12,7 @@ layout(push_constant, scalar) uniform Push {
     uint count;  // Nodes of the level.
 } push;
 
-bool flagged(uvec3 cell) {
+bool isFlagged(uvec3 cell) {
     if (any(greaterThanEqual(cell, push.finerSize))) return false;
     const uint word = (cell.z * push.finerSize.y + cell.y) * ((push.finerSize.x + 31u) / 32u) + cell.x / 32u;
     return (flags.words[word] >> (cell.x & 31u) & 1u) != 0u;
@@ -24,7 +25,7 @@ void main() {
     for (uint i = 0u; i < min(4u, push.count - 4u * word); ++i) {
         const ivec3 first = 2 * unpackCell(cells.data[4u * word + i]);
         for (uint octant = 0u; octant < 8u; ++octant)
-            if (flagged(uvec3(first) + (uvec3(octant, octant >> 1, octant >> 2) & 1u))) mask |= 1u << (8u * i + octant);
+            if (isFlagged(uvec3(first + octantOffset(octant)))) mask |= 1u << (8u * i + octant);
     }
     masks.words[word] = mask;
 }

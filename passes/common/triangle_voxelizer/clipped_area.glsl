@@ -6,12 +6,14 @@
 
 // Integrals of 1, x and y over the area below the segment from a to b, where y is from 0 to 1 at both.
 vec3 trapezoid(vec2 a, vec2 b) {
-    const vec3 sums = vec3(3.0 * (a.y + b.y), a.x * (2.0 * a.y + b.y) + b.x * (a.y + 2.0 * b.y), a.y * a.y + a.y * b.y + b.y * b.y);
+    const vec3 sums =
+        vec3(3.0 * (a.y + b.y), a.x * (2.0 * a.y + b.y) + b.x * (a.y + 2.0 * b.y), a.y * a.y + a.y * b.y + b.y * b.y);
     return (b.x - a.x) / 6.0 * sums;
 }
 
-// The same integrals over the part of the unit square below a segment, signed by the segment's direction along x. Their sum over a
-// closed polygon is that over the polygon clipped to the square, with no special case for edges that cross the square's border.
+// The same integrals over the part of the unit square below a segment, signed by the segment's direction along x. Their
+// sum over a closed polygon is that over the polygon clipped to the square, with no special case for edges that cross
+// the square's border.
 vec3 squareBelow(vec2 a, vec2 b) {
     const float x0 = clamp(a.x, 0.0, 1.0), x1 = clamp(b.x, 0.0, 1.0);
     if (x0 == x1) return vec3(0.0);
@@ -26,8 +28,8 @@ vec3 squareBelow(vec2 a, vec2 b) {
     return trapezoid(vec2(from.x, y0), first) + trapezoid(first, second) + trapezoid(second, vec2(to.x, y1));
 }
 
-// Area (voxel faces) of a triangle clipped to a voxel, and its centroid over x and y. A voxel owns its lower face, so that a triangle
-// between two voxels counts once. If nothing is left, `center` is that of the voxel's column.
+// Area (voxel faces) of a triangle clipped to a voxel, and its centroid over x and y. A voxel owns its lower face, so
+// that a triangle between two voxels counts once. If nothing is left, `center` is that of the voxel's column.
 float clippedArea(GridTriangle t, ivec3 voxel, out vec2 center) {
     const vec3 corner = vec3(voxel);
     if (all(greaterThanEqual(t.lower, corner)) && all(lessThan(t.upper, corner + 1.0))) {
@@ -35,7 +37,8 @@ float clippedArea(GridTriangle t, ivec3 voxel, out vec2 center) {
         return t.area;
     }
 
-    // The outline of the triangle between the voxel's lower and upper face: its clipped edges, and segments along the faces that close it.
+    // The outline of the triangle between the voxel's lower and upper face: its clipped edges, and segments along the
+    // faces that close it.
     vec3 sums = vec3(0.0);
     vec4 exits = vec4(0.0), entries = vec4(0.0);  // Of the edges, over the lower face (xy) and the upper one (zw).
     vec3 a = t.p2 - corner;
@@ -49,7 +52,8 @@ float clippedArea(GridTriangle t, ivec3 voxel, out vec2 center) {
         if (insideA.y && !insideB.y) exits.zw = upper;
         if (insideB.y && !insideA.y) entries.zw = upper;
         if ((insideA.x || insideB.x) && (insideA.y || insideB.y))
-            sums += squareBelow(!insideA.x ? lower : !insideA.y ? upper : a.xy, !insideB.x ? lower : !insideB.y ? upper : b.xy);
+            sums += squareBelow(!insideA.x ? lower : !insideA.y ? upper : a.xy,
+                                !insideB.x ? lower : !insideB.y ? upper : b.xy);
         a = b;
     }
     sums += squareBelow(exits.xy, entries.xy) + squareBelow(exits.zw, entries.zw);

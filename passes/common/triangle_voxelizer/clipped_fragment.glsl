@@ -8,8 +8,8 @@
 //      +--:'---:----:----:--+      belongs to the clipped fragment
 //      _.-'
 //
-// The clipped fragment is the part of the triangle in the voxel. Fragments of a surface neither overlap nor leave gaps, and a
-// sub-sample's line hits one of them.
+// The clipped fragment is the part of the triangle in the voxel. Fragments of a surface neither overlap nor leave gaps,
+// and a sub-sample's line hits one of them.
 //
 // Callbacks query what they need, by rising cost: f.voxel, passesAlphaMask(), clipFragment(), subSamplesByAxis().
 #ifndef VOXRAY_CLIPPED_FRAGMENT_GLSL
@@ -19,14 +19,14 @@
 
 struct TriangleFragment {
     uint triangle;
-    ivec3 voxel;  // In grid coordinates; may lie outside the window that the grid holds.
+    ivec3 voxel;  // In grid coordinates; may be outside the grid's window.
     GridTriangle permutedTriangle;
     ivec3 permutedVoxel;
 };
 
 struct ClippedFragment {
     float area;          // In units of a voxel's face; 0 where the triangle only touches the voxel.
-    vec2 center;         // Centroid, as barycentric coordinates; of a fragment without area a point of the triangle near the voxel.
+    vec2 center;         // Barycentric coordinates of the centroid; without area, of a point close to the voxel.
     uint axis;           // Dominant axis of the triangle.
     uint subSamples;     // Sub-samples of the face across `axis`, without those that an alpha mask removes.
     vec2 texCoordWidth;  // log2 of a voxel's width in texture coordinates 0 and 1.
@@ -46,8 +46,8 @@ bool isAlphaMasked(TriangleFragment f) {
     return sceneMaterials.data[triangleMaterial(f.triangle)].alphaMode == ALPHA_MASK;
 }
 
-// The sub-samples that pass the alpha mask. A fragment without sub-samples is tested at the triangle's point nearest to the center of
-// the column: the result is CENTER or 0.
+// The sub-samples that pass the alpha mask. A fragment without sub-samples is tested at the triangle's point nearest to
+// the center of the column: the result is CENTER or 0.
 uint opaqueSubSamples(TriangleFragment f, uint subSamples) {
     const GpuMaterial m = sceneMaterials.data[triangleMaterial(f.triangle)];
     return opaqueSubSamples(f.permutedTriangle, m, f.permutedVoxel, subSamples == 0u ? CENTER : subSamples);
@@ -58,8 +58,8 @@ bool passesAlphaMask(TriangleFragment f) {
     return !isAlphaMasked(f) || opaqueSubSamples(f, dominantAxisSubSamples(f.permutedTriangle, f.permutedVoxel)) != 0u;
 }
 
-// Measures the fragment; false where the alpha mask removes it. Otherwise the mask scales the area by the fraction of sub-samples that
-// pass.
+// Measures the fragment; false where the alpha mask removes it. Otherwise the mask scales the area by the fraction of
+// sub-samples that pass.
 bool clipFragment(TriangleFragment f, out ClippedFragment c) {
     const GridTriangle t = f.permutedTriangle;
     const bool masked = isAlphaMasked(f);

@@ -30,14 +30,13 @@ class DominantAxisVoxelizer final : public RasterVoxelizer {
         Defines methodDefines = defines;
         methodDefines.emplace(samples_ > 0 ? "SAMPLED_AXIS" : "DOMINANT_AXIS", "1");
         const std::vector<std::string> files{"passes/common/triangle_voxelizer/dominant_axis.vert",
-                                             "passes/common/triangle_voxelizer/dominant_axis.geom",
-                                             shader + ".frag"};
+                                             "passes/common/triangle_voxelizer/dominant_axis.geom", shader + ".frag"};
         return std::make_unique<RasterPipeline>(owner, files, RasterState{}, methodDefines);
     }
 
     void run(PassContext& context, const Program& program, const gpu::VoxelGrid& grid,
              std::span<const Binding> bindings, float fixedPointScale) const override {
-        // One square image has room for the columns along any axis.
+        // One square image that holds the columns along any axis.
         const uint32_t side = std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z});
         RasterTargets targets;
         targets.extent = {side, side, 1};

@@ -1,5 +1,5 @@
-// Projects each triangle along its dominant axis and draws its bounding box, grown by more than half a pixel: all pixels that the
-// triangle touches have their centers inside. The fragment shader discards the box's other pixels.
+// Projects each triangle along its dominant axis and draws its bounding box, grown by more than half a pixel: all
+// pixels that the triangle touches have their centers inside. The fragment shader discards the box's other pixels.
 #include "passes/common/triangle_voxelizer/grid_triangle.glsl"
 #include "passes/common/triangle_voxelizer/voxelizer_push.glsl"
 layout(triangles) in;
@@ -12,7 +12,8 @@ layout(location = 1) flat out uint axis;
 void main() {
     const uvec3 v = triangleVertices(triangles[0]);
     const vec3 p0 = gridVertex(voxelizer.grid, v.x);
-    const uint dominant = dominantAxis(cross(gridVertex(voxelizer.grid, v.y) - p0, gridVertex(voxelizer.grid, v.z) - p0));
+    const uint dominant =
+        dominantAxis(cross(gridVertex(voxelizer.grid, v.y) - p0, gridVertex(voxelizer.grid, v.z) - p0));
     const GridTriangle t = gridTriangle(voxelizer.grid, triangles[0], dominant);
     if (t.area == 0.0) return;
     // Half a pixel and the error of the rasterizer's fixed-point coordinates.

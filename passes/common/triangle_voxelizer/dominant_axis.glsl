@@ -1,5 +1,5 @@
-// A pixel is a column of voxels that the triangle touches. It yields all voxels that the triangle's plane passes through there. Entry
-// point of fragment shaders that define processFragment().
+// A pixel is a column of voxels that the triangle touches. It yields all voxels that the triangle's plane passes
+// through there. Entry point of fragment shaders that define processFragment().
 #include "passes/common/triangle_voxelizer/clipped_fragment.glsl"
 #include "passes/common/triangle_voxelizer/voxelizer_push.glsl"
 

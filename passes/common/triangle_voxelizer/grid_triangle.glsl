@@ -1,5 +1,5 @@
-// A triangle in grid coordinates and the voxels that it overlaps: separating axes as a plane and three projections, after Schwarz and
-// Seidel 2010, section 4.
+// A triangle in grid coordinates and the voxels that it overlaps: separating axes as a plane and three projections,
+// after Schwarz and Seidel 2010, section 4.
 #ifndef VOXRAY_GRID_TRIANGLE_GLSL
 #define VOXRAY_GRID_TRIANGLE_GLSL
 
@@ -9,7 +9,8 @@
 // Voxels are closed boxes, enlarged by this on each side: grid coordinates up to 1024 are exact to 2^-14.
 const float kMargin = 1.0 / 4096.0;
 
-// Coordinates are in voxels and permuted: z runs along the triangle's dominant axis, x and y along the next two axes in cyclic order.
+// Coordinates are in voxels and permuted: z runs along the triangle's dominant axis, x and y along the next two axes in
+// cyclic order.
 struct GridTriangle {
     uint index;
     uint axis;
@@ -106,21 +107,13 @@ bool overlapsVoxel(GridTriangle t, ivec3 voxel, float margin) {
            overlapsSquare(t.p0.zx, t.p1.zx, t.p2.zx, t.winding.y, corner.zx, margin);
 }
 
-// All of the above tests for one voxel.
-bool triangleOverlapsVoxel(GridTriangle t, ivec3 voxel, float margin) {
-    const ivec4 columns = columnRange(t, margin, voxel.xy + 1);
-    const ivec2 depths = depthRange(t, voxel.xy, margin, voxel.z + 1);
-    return all(greaterThanEqual(voxel.xy, columns.xy)) && all(lessThanEqual(voxel.xy, columns.zw)) && voxel.z >= depths.x &&
-           voxel.z <= depths.y && overlapsColumn(t, voxel.xy, margin) && overlapsVoxel(t, voxel, margin);
-}
-
 // Barycentric coordinates of the triangle's point over xy, clamped to the triangle.
 vec2 barycentricsAt(GridTriangle t, vec2 xy) {
     const vec2 e1 = t.p1.xy - t.p0.xy, e2 = t.p2.xy - t.p0.xy, d = xy - t.p0.xy;
-    const float whole = e1.x * e2.y - e1.y * e2.x;
+    const float determinant = e1.x * e2.y - e1.y * e2.x;
     vec3 w;
-    w.y = (d.x * e2.y - d.y * e2.x) / whole;
-    w.z = (e1.x * d.y - e1.y * d.x) / whole;
+    w.y = (d.x * e2.y - d.y * e2.x) / determinant;
+    w.z = (e1.x * d.y - e1.y * d.x) / determinant;
     w.x = 1.0 - w.y - w.z;
     w = max(w, 0.0);
     return w.yz / (w.x + w.y + w.z);

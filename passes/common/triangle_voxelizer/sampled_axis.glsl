@@ -1,6 +1,6 @@
-// A pixel is a column of voxels along the triangle's dominant axis (Arnebäck 2017, section 3.2.1). A pixel with a sample point in the
-// triangle yields one voxel: that in which the line through the pixel's center intersects the triangle's plane. Entry point of fragment
-// shaders that define processFragment().
+// A pixel is a column of voxels along the triangle's dominant axis (Arnebäck 2017, section 3.2.1). A pixel with a
+// sample point in the triangle yields one voxel: that in which the line through the pixel's center intersects the
+// triangle's plane. Entry point of fragment shaders that define processFragment().
 #include "passes/common/triangle_voxelizer/sub_samples.glsl"
 #include "passes/common/triangle_voxelizer/voxelizer_push.glsl"
 
@@ -22,8 +22,8 @@ bool passesAlphaMask(TriangleFragment f) {
 }
 
 // Eight samples of a pixel, the standard pattern, in sixteenths of its width from its center.
-const ivec2 kEightSamples[8] = ivec2[8](ivec2(1, -3), ivec2(-1, 3), ivec2(5, 1), ivec2(-3, -5), ivec2(-5, 5), ivec2(-7, -1),
-                                        ivec2(3, 7), ivec2(7, -7));
+const ivec2 kEightSamples[8] = ivec2[8](ivec2(1, -3), ivec2(-1, 3), ivec2(5, 1), ivec2(-3, -5), ivec2(-5, 5),
+                                        ivec2(-7, -1), ivec2(3, 7), ivec2(7, -7));
 
 bool isCovered(GridTriangle t, vec2 center) {
     for (uint i = 0u; i < voxelizer.samples; ++i) {

@@ -9,15 +9,16 @@ const int kSide = 4;
 const float kSubSamples = 16.0;
 const uint CENTER = 1u << 16;  // A bit after those of the sub-samples: the center of the face.
 
-// Whether a point is on the inner side of an edge. Points on the edge belong to one of the two triangles that share it (fill rule).
+// Whether a point is on the inner side of an edge. Points on the edge belong to one of the two triangles that share it
+// (fill rule).
 bool isInsideEdge(vec2 a, vec2 b, float winding, vec2 point) {
     const vec2 inward = winding * vec2(a.y - b.y, b.x - a.x);
     const float distance_ = dot(inward, point - a);
     return distance_ > 0.0 || (distance_ == 0.0 && (inward.y > 0.0 || (inward.y == 0.0 && inward.x > 0.0)));
 }
 
-// The sub-samples of the voxel's face across z whose lines along z hit the triangle within the voxel. For another axis, permute all
-// vectors.
+// The sub-samples of the voxel's face across z whose lines along z hit the triangle within the voxel. For another axis,
+// permute all vectors.
 uint subSamples(vec3 p0, vec3 p1, vec3 p2, vec3 normal, float winding, ivec3 voxel) {
     if (winding == 0.0) return 0u;
     const vec2 corner = vec2(voxel.xy);
@@ -68,7 +69,8 @@ uint opaqueSubSamples(GridTriangle t, GpuMaterial m, ivec3 voxel, uint mask) {
     uint opaque = 0u;
     for (uint rest = mask; rest != 0u; rest &= rest - 1u) {
         const int bit = findLSB(rest);
-        if (!alphaCut(m, surfacePoint(t.index, barycentricsAt(t, subSamplePoint(voxel, bit))))) opaque |= 1u << uint(bit);
+        if (!alphaCut(m, surfacePoint(t.index, barycentricsAt(t, subSamplePoint(voxel, bit)))))
+            opaque |= 1u << uint(bit);
     }
     return opaque;
 }

@@ -1,5 +1,6 @@
-// A pixel is a sample point of a surface, one of samples² in a voxel's face: the fragment is the part of the triangle that the sample
-// represents. Entry point of fragment shaders that define processFragment(), with the same functions as clipped_fragment.glsl.
+// A pixel is a sample point of a surface, one of samples² in a voxel's face: the fragment is the part of the triangle
+// that the sample represents. Entry point of fragment shaders that define processFragment(), with the same functions as
+// clipped_fragment.glsl.
 #include "passes/common/triangle_voxelizer/grid_triangle.glsl"
 #include "passes/common/triangle_voxelizer/voxelizer_push.glsl"
 
@@ -31,11 +32,12 @@ bool passesAlphaMask(TriangleFragment f) {
     return !alphaCut(sceneMaterials.data[s.material], s);
 }
 
-// The projection along axis a sees |n_a| of the area of a triangle with unit normal n. Weighted by |n_a| / samples² each, the sample
-// points of all three projections add up to the area, since n_x² + n_y² + n_z² = 1.
+// The projection along axis a sees |n_a| of the area of a triangle with unit normal n. Weighted by |n_a| / samples²
+// each, the sample points of all three projections add up to the area, since n_x² + n_y² + n_z² = 1.
 bool clipFragment(TriangleFragment f, out ClippedFragment c) {
     if (!passesAlphaMask(f)) return false;
-    c.area = abs(surfacePoint(f.triangle, f.barycentrics).geometricNormal[voxelizer.axis]) / float(voxelizer.samples * voxelizer.samples);
+    c.area = abs(surfacePoint(f.triangle, f.barycentrics).geometricNormal[voxelizer.axis]) /
+             float(voxelizer.samples * voxelizer.samples);
     c.center = f.barycentrics;
     c.axis = voxelizer.axis;
     c.subSamples = f.subSamples;
@@ -66,8 +68,8 @@ uint nearestSubSamples() {
 }
 
 void main() {
-    // Two coordinates come from the sample point, unaffected by rounding; the third from depth, which interpolation may carry far
-    // beyond a triangle that is nearly edge-on.
+    // Two coordinates come from the sample point, unaffected by rounding; the third from depth, which interpolation may
+    // carry far beyond a triangle that is nearly edge-on.
     const uint a = voxelizer.axis, b = (a + 1u) % 3u, c = (a + 2u) % 3u;
     ivec3 voxel;
     voxel[a] = int(floor(clamp(gridPosition[a], depths.x, depths.y)));

@@ -17,8 +17,10 @@ void main() {
     gridPosition = gridVertex(voxelizer.grid, v[corner]);
 
     const uint a = voxelizer.axis, b = (a + 1u) % 3u, c = (a + 2u) % 3u;
-    const vec3 depth = vec3(gridVertex(voxelizer.grid, v.x)[a], gridVertex(voxelizer.grid, v.y)[a], gridVertex(voxelizer.grid, v.z)[a]);
+    const vec3 depth = vec3(gridVertex(voxelizer.grid, v.x)[a], gridVertex(voxelizer.grid, v.y)[a],
+                            gridVertex(voxelizer.grid, v.z)[a]);
     depths = vec2(min(depth.x, min(depth.y, depth.z)), max(depth.x, max(depth.y, depth.z)));
-    const vec2 plane = vec2(gridPosition[b] / float(voxelizer.grid.resolution[b]), gridPosition[c] / float(voxelizer.grid.resolution[c]));
+    const vec2 plane = vec2(gridPosition[b] / float(voxelizer.grid.resolution[b]),
+                            gridPosition[c] / float(voxelizer.grid.resolution[c]));
     gl_Position = vec4(2.0 * plane - 1.0, 0.5, 1.0);
 }

@@ -18,7 +18,7 @@ GridBounds::GridBounds(const Geometry& geometry, const gpu::VoxelGrid& grid, uin
     high = (glm::max(a, glm::max(b, c)) - grid.origin) / grid.voxelSize + kSpare;
 }
 
-VoxelRegion::VoxelRegion(const gpu::VoxelGrid& grid) : VoxelRegion(grid, {heldVoxels(grid)}) {}
+VoxelRegion::VoxelRegion(const gpu::VoxelGrid& grid) : VoxelRegion(grid, {windowVoxels(grid)}) {}
 
 VoxelRegion::VoxelRegion(const gpu::VoxelGrid& grid, std::vector<VoxelBox> boxes)
     : grid_(grid), boxes_(std::move(boxes)) {
@@ -29,15 +29,15 @@ VoxelRegion::VoxelRegion(const gpu::VoxelGrid& grid, std::vector<VoxelBox> boxes
     }
 }
 
-std::vector<VoxelBox> VoxelRegion::slots() const {
-    const int side = int(grid_.windowSize);
+std::vector<VoxelBox> VoxelRegion::wrappedBoxes() const {
+    const int windowSize = int(grid_.windowSize);
     std::vector<VoxelBox> split = boxes_;
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<VoxelBox> whole = std::move(split);
         split.clear();
         for (VoxelBox box : whole) {
-            box.first[axis] &= side - 1;
-            const int excess = box.first[axis] + int(box.size[axis]) - side;
+            box.first[axis] &= windowSize - 1;
+            const int excess = box.first[axis] + int(box.size[axis]) - windowSize;
             if (excess > 0) {
                 VoxelBox wrapped = box;
                 wrapped.first[axis] = 0;

@@ -8,17 +8,16 @@
 
 namespace voxray {
 
-/// The voxels to voxelize: all that a grid holds, or boxes of them, which may overlap.
+/// The voxels to voxelize: the whole window of a grid, or boxes of it, which may overlap.
 class VoxelRegion {
  public:
-    /// All that the grid holds.
+    /// The grid's window.
     explicit VoxelRegion(const gpu::VoxelGrid& grid);
-    /// Boxes of what the grid holds.
+    /// Boxes within the grid's window.
     VoxelRegion(const gpu::VoxelGrid& grid, std::vector<VoxelBox> boxes);
 
-    const std::vector<VoxelBox>& boxes() const { return boxes_; }
-    /// The boxes in slots (coordinates modulo the window's size): those across the seam are split.
-    std::vector<VoxelBox> slots() const;
+    /// The boxes in wrapped coordinates (modulo the window's size): those that cross the seam are split.
+    std::vector<VoxelBox> wrappedBoxes() const;
     /// Bounds of all boxes, in grid coordinates.
     const glm::vec3& low() const { return low_; }
     const glm::vec3& high() const { return high_; }

@@ -8,8 +8,8 @@
 namespace voxray {
 
 /// World space to Vulkan clip space (y down) for a pinhole camera. Depth is reversed, 1 on the near plane and
-/// 0 on the far one, so that surfaces 10⁻⁶ of their distance apart are told apart; the far plane is behind
-/// all of the scene, the near one by the size of its region before the camera.
+/// 0 on the far one, so that it resolves 10⁻⁶ of a surface's distance. The far plane is behind all of the
+/// scene; the distance of the near one depends on the size of its region.
 glm::mat4 viewProjection(const Camera& camera, uint32_t width, uint32_t height, const Geometry& geometry);
 
 }  // namespace voxray

@@ -7,13 +7,13 @@
 
 namespace voxray {
 
-/// Where the gather rays of a frame hit. The G-buffer's texels fall into blocks; each block owns
-/// `raysPerBlock` rays, spread over its texels and over their hemispheres by cosine
-/// (shaders/view/gather_layout.glsl). Rays are stored block by block, in batches of whole blocks.
+/// Hits of a frame's gather rays. Each block of the G-buffer's texels has `raysPerBlock` rays, distributed
+/// over its texels and by cosine over their hemispheres (shaders/view/gather_layout.glsl). Rays are stored
+/// block by block, in batches of whole blocks.
 struct GatherHits : Resource {
     gpu::GatherLayout layout{};
     uint32_t blocksPerBatch = 0;
-    std::vector<Buffer> batches;  ///< Hit a ray.
+    std::vector<Buffer> batches;  ///< Hit per ray.
 
     uint32_t blocks() const { return layout.blocks.x * layout.blocks.y; }
     /// Blocks of batch `b`.

@@ -6,26 +6,24 @@
 
 namespace voxray {
 
-/// What the camera sees: `samples` x `samples` texels a pixel. Texel (samples x + i, samples y + j) is
-/// sub-pixel (i, j) of pixel (x, y), seen through its center; whoever makes an image of the frame's size from
-/// it averages the texels of each pixel. Texels that show no surface have position.w = 0.
+/// The surfaces that the camera sees, at `samples` x `samples` texels per pixel: texel (samples x + i,
+/// samples y + j) is the center of sub-pixel (i, j) of pixel (x, y). Passes that write frame images average
+/// the texels of each pixel. Texels without a surface have position.w = 0.
 struct GBuffer : Resource {
-    uint32_t samples = 1;  ///< Sub-pixels along each side of a pixel; known from plan() on.
-    Image position;  ///< RGBA32F: world position in m; how far off it rays begin, 0 where there is none.
-    Image normal;    ///< RGBA16F: shading normal, flipped to the camera's side.
-    Image geometricNormal;  ///< RGBA16F: the triangle's normal, flipped to the camera's side.
+    uint32_t samples = 1;   ///< Texels along an edge of a pixel; known from plan() on.
+    Image position;         ///< RGBA32F: world position, m; offset of ray origins along the normal, m.
+    Image normal;           ///< RGBA16F: shading normal, facing the camera.
+    Image geometricNormal;  ///< RGBA16F: the triangle's normal, facing the camera.
     Image albedo;           ///< RGBA16F: diffuse reflectance.
-    Image emission;  ///< RGBA32F: radiance towards the camera, W/(m² sr); the environment's on a miss.
-    Image specular;  ///< RGBA16F: specular reflectance at normal incidence, roughness.
-    Image fresnel;   ///< RGBA8: reflectance at grazing incidence; what diffuse light loses at normal and at
-                     ///< grazing incidence. Both are read by shaders/scene/specular.glsl.
+    Image emission;         ///< RGBA32F: radiance towards the camera, W/(m² sr); the environment's on a miss.
+    Image specular;         ///< RGBA16F: F0, roughness; unpacked by specularOf() of shaders/scene/specular.glsl.
+    Image fresnel;          ///< RGBA8: F90, F0 and F90 of the dielectric layer; likewise.
 
-    /// Of shaders that declare its images by their names, and `samples`.
+    /// For shaders that declare images of these names, and `samples`.
     std::vector<Binding> bindings() const {
-        std::vector<Binding> all{
-            {"position", position}, {"normal", normal},     {"geometricNormal", geometricNormal},
-            {"albedo", albedo},     {"emission", emission}, {"specular", specular},
-            {"fresnel", fresnel},   {"samples", samples}};
+        std::vector<Binding> all{{"position", position}, {"normal", normal},     {"geometricNormal", geometricNormal},
+                                 {"albedo", albedo},     {"emission", emission}, {"specular", specular},
+                                 {"fresnel", fresnel},   {"samples", samples}};
         for (Binding& binding : all) binding.optional = true;
         return all;
     }
@@ -42,7 +40,7 @@ struct GBuffer : Resource {
     }
 };
 
-/// Texels of a frame's g-buffer.
+/// Texels of a frame's G-buffer.
 inline glm::uvec2 gbufferExtent(const Frame& frame, uint32_t samples) {
     return {frame.width * samples, frame.height * samples};
 }

@@ -4,12 +4,12 @@
 
 namespace voxray {
 
-/// What specular lobes reflect of indirect light, for each texel of the g-buffer.
+/// Indirect light that specular lobes reflect, for each texel of the G-buffer.
 struct SpecularLobes : Resource {
-    Image reflected;  ///< RGBA32F: radiance, W/(m² sr); the fraction of light left to the diffuse lobe.
-    bool emission = false;  ///< It holds what surfaces emit, too.
-    /// Set in plan() by the pass that reads it and joins it with what it finds itself: whoever writes it then
-    /// leaves specular light out of its own image.
+    Image reflected;        ///< RGBA32F: radiance, W/(m² sr); fraction of light transmitted to the diffuse lobe.
+    bool emission = false;  ///< Whether it includes what surfaces emit.
+    /// Set in plan() by a pass that adds it to its own output: the writing pass then leaves specular light
+    /// out of its image.
     mutable bool isJoined = false;
 
     std::vector<const Image*> checkedImages() const override { return {&reflected}; }

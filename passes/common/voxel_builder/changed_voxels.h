@@ -9,10 +9,9 @@
 
 namespace voxray {
 
-/// The voxels to build again where surfaces have changed, of those that a grid holds: voxels that meet a
-/// changed box, m, and those within a voxel of it, as far as visibility probes reach. @param more so many
-/// voxels farther on each side.
-std::vector<VoxelBox> changedVoxels(const gpu::VoxelGrid& grid, const std::vector<Box>& changed,
-                                    uint32_t more = 0);
+/// The voxels of a grid's window to rebuild after surfaces have changed: those that overlap a changed box
+/// (m), enlarged by the length of visibility probes. @param margin in voxels, by which the result is enlarged
+/// further.
+std::vector<VoxelBox> changedVoxels(const gpu::VoxelGrid& grid, const std::vector<Box>& changed, uint32_t margin = 0);
 
 }  // namespace voxray

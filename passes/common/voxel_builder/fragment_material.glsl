@@ -1,14 +1,14 @@
-// What a clipped fragment is made of, at its center and filtered to a voxel's width.
+// Material of a clipped fragment, at its center, with textures filtered to a voxel's width.
 #ifndef VOXRAY_FRAGMENT_MATERIAL_GLSL
 #define VOXRAY_FRAGMENT_MATERIAL_GLSL
 
 #include "shaders/scene/scene.glsl"
 
 struct FragmentMaterial {
-    SurfacePoint at;
+    SurfacePoint point;
     vec3 base;    // Base colour.
-    vec3 albedo;  // Diffuse.
-    vec3 normal;  // Of shading, front side.
+    vec3 albedo;  // Diffuse reflectance.
+    vec3 normal;  // Shading normal, front side.
     float metallic;
     float roughness;
 };
@@ -23,16 +23,16 @@ float footprintLevel(GpuTextureRef ref, vec2 texCoordWidth_) {
 
 FragmentMaterial fragmentMaterial(TriangleFragment f, ClippedFragment c) {
     FragmentMaterial result;
-    result.at = surfacePoint(f.triangle, c.center);
-    const GpuMaterial m = sceneMaterials.data[result.at.material];
-    const vec2 metallicRoughness =
-        vec2(m.metallic, m.roughness) *
-        lookup(m.metallicRoughnessTexture, result.at.texCoords, footprintLevel(m.metallicRoughnessTexture, c.texCoordWidth)).bg;
+    result.point = surfacePoint(f.triangle, c.center);
+    const GpuMaterial m = sceneMaterials.data[result.point.material];
+    const float roughnessLevel = footprintLevel(m.metallicRoughnessTexture, c.texCoordWidth);
+    const vec2 metallicRoughness = vec2(m.metallic, m.roughness) *
+                                   lookup(m.metallicRoughnessTexture, result.point.texCoords, roughnessLevel).bg;
     result.metallic = metallicRoughness.x;
     result.roughness = metallicRoughness.y;
-    result.base = baseColor(m, result.at, footprintLevel(m.baseColorTexture, c.texCoordWidth)).rgb;
+    result.base = baseColor(m, result.point, footprintLevel(m.baseColorTexture, c.texCoordWidth)).rgb;
     result.albedo = result.base * (1.0 - metallicRoughness.x);
-    result.normal = shadingNormal(m, result.at, footprintLevel(m.normalTexture, c.texCoordWidth));
+    result.normal = shadingNormal(m, result.point, footprintLevel(m.normalTexture, c.texCoordWidth));
     return result;
 }
 

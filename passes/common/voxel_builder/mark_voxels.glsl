@@ -1,4 +1,4 @@
-// Fragment callback: sets the occupancy bit of each voxel that a triangle meets.
+// Fragment callback: sets the occupancy bit of each voxel that a triangle overlaps.
 #ifndef VOXRAY_MARK_VOXELS_GLSL
 #define VOXRAY_MARK_VOXELS_GLSL
 

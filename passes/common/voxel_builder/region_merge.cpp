@@ -5,33 +5,32 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBoxThreads = 64;  // As in region_bits.comp.
+constexpr uint32_t kBoxThreads = 64;  // As in mark_region.comp.
 
 }  // namespace
 
 RegionMerge::RegionMerge(ProgramOwner& owner)
-    : bits_(owner, "region_bits.comp"),
-      merge_(owner, "region_merge.comp"),
-      materials_(owner, "region_materials.comp") {}
+    : bits_(owner, "mark_region.comp"),
+      merge_(owner, "merge_occupancy.comp"),
+      materials_(owner, "merge_materials.comp") {}
 
-Buffer RegionMerge::bits(CommandStream& stream, const VoxelRegion& region,
-                         const SurfaceVoxels& voxels) const {
+Buffer RegionMerge::bits(CommandStream& stream, const VoxelRegion& region, const SurfaceVoxels& voxels) const {
     Device& device = stream.device();
     Buffer bits(device, "voxel region", voxels.occupancy.bytes());
     stream.fill(bits, 0);
-    const std::vector<VoxelBox> list = region.slots();
+    const std::vector<VoxelBox> list = region.wrappedBoxes();
     Buffer boxes;
     if (!list.empty()) {
         boxes = Buffer(device, "boxes of voxels", list.size() * sizeof(VoxelBox));
         stream.upload(boxes, list);
-        uint64_t words = 0;  // Of the largest box, or a few more.
+        uint64_t words = 0;  // Upper bound for the largest box.
         for (const VoxelBox& box : list)
             words = std::max(words, (uint64_t(box.size.x) / 32 + 2) * box.size.y * box.size.z);
         const glm::uvec3 groups = Invocations(words).groups({kBoxThreads, 1, 1});
         stream.dispatch(bits_, glm::uvec3(groups.x * kBoxThreads, groups.y, list.size()),
                         {{"boxes", boxes},
                          {"region", bits},
-                         {"rows", heldVoxels(voxels.grid).size.y},
+                         {"rows", windowVoxels(voxels.grid).size.y},
                          {"wordsPerRow", voxels.grid.wordsPerRow}});
     }
     stream.finish();
@@ -42,12 +41,9 @@ Buffer RegionMerge::merged(CommandStream& stream, const Buffer& bits, const Buff
                            const Buffer& rebuilt) const {
     Buffer merged(stream.device(), "voxel occupancy", previous.bytes());
     const uint32_t words = uint32_t(previous.bytes() / sizeof(uint32_t));
-    stream.dispatch(merge_, words,
-                    {{"region", bits},
-                     {"rebuilt", rebuilt},
-                     {"previous", previous},
-                     {"merged", merged},
-                     {"words", words}});
+    stream.dispatch(
+        merge_, words,
+        {{"region", bits}, {"rebuilt", rebuilt}, {"previous", previous}, {"merged", merged}, {"words", words}});
     stream.finish();
     return merged;
 }

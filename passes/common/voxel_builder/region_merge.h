@@ -6,23 +6,22 @@
 
 namespace voxray {
 
-/// Puts the voxels of a region that was built again in the place of the previous ones. Voxels beyond the
-/// region keep their materials; only their numbers change.
+/// Replaces the voxels of a region by rebuilt ones. Voxels outside the region retain their materials; their
+/// numbers change.
 class RegionMerge {
  public:
     explicit RegionMerge(ProgramOwner& owner);
 
-    /// A bit for each voxel of a region, in words as those of `voxels`' occupancy. Waits for the device.
+    /// A bit for each voxel of a region, laid out as the occupancy of `voxels`. Waits for the device.
     Buffer bits(CommandStream& stream, const VoxelRegion& region, const SurfaceVoxels& voxels) const;
-    /// An occupancy out of two: `rebuilt` within the region of these bits, and `previous` elsewhere. Drops
-    /// from `rebuilt` what lies beyond the region.
-    Buffer merged(CommandStream& stream, const Buffer& bits, const Buffer& previous,
-                  const Buffer& rebuilt) const;
-    /// Merges occupancies: drops from `rebuilt` what lies beyond the region. `previous` stays as it is.
+    /// Merges two occupancies: `rebuilt` within the region of these bits, `previous` elsewhere. Clears
+    /// `rebuilt` outside the region.
+    Buffer merged(CommandStream& stream, const Buffer& bits, const Buffer& previous, const Buffer& rebuilt) const;
+    /// The first step: merges occupancies. Clears that of `rebuilt` outside the region.
     void occupancy(CommandStream& stream, const VoxelRegion& region, const SurfaceVoxels& previous,
                    SurfaceVoxels& rebuilt);
-    /// Then ranks and materials, once `rebuilt` has them; `previous` becomes the result. Waits for the
-    /// device.
+    /// The second step, once `rebuilt` has ranks and materials: merges these. `previous` becomes the result.
+    /// Waits for the device.
     void materials(CommandStream& stream, const PrefixSum& prefixSum, const SurfaceVoxels& rebuilt,
                    SurfaceVoxels& previous);
 

@@ -5,7 +5,7 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer SurfaceAccumulatorRef { LargeUints surfaceAccumulator; };
-// Nine a voxel, as visibility_count.comp adds them up: visible points by face +x -x +y -y +z -z, then all points by axis.
+// Nine per voxel (count_visible_points.comp): visible points by face +x -x +y -y +z -z, then all points by axis.
 readonly buffer Visibility { uint data[]; } visibility;
 layout(push_constant) uniform Push {
     uint voxelCount;
@@ -26,7 +26,7 @@ void main() {
     m.area = float(sum(at + SUM_AREA)) / UNITS_PER_FACE;
     const vec3 axisArea = unsignedSum(at + SUM_AXIS_AREA) / UNITS_PER_FACE;
     for (int axis = 0; axis < 3; ++axis) {
-        // The surfaces of a voxel without a probe point count as visible from both sides.
+        // Surfaces of a voxel without probe points count as visible from both sides
         const float all = float(visibility.data[voxel * 9u + 6u + axis]);
         const float positive = all > 0.0 ? float(visibility.data[voxel * 9u + 2u * axis]) / all : 1.0;
         const float negative = all > 0.0 ? float(visibility.data[voxel * 9u + 2u * axis + 1u]) / all : 1.0;
@@ -38,6 +38,7 @@ void main() {
     m.emission = unsignedSum(at + SUM_EMISSION) / weight * push.largestEmission;
     m.metallic = float(sum(at + SUM_METALLIC)) / weight;
     m.roughness = float(sum(at + SUM_ROUGHNESS)) / weight;
-    m.opacity = max(opacity(sum(at + SUB_SAMPLES)), max(opacity(sum(at + SUB_SAMPLES + 1u)), opacity(sum(at + SUB_SAMPLES + 2u))));
+    m.opacity = max(opacity(sum(at + SUB_SAMPLES)),
+                    max(opacity(sum(at + SUB_SAMPLES + 1u)), opacity(sum(at + SUB_SAMPLES + 2u))));
     voxelMaterials.data[voxel] = packMaterial(m);
 }

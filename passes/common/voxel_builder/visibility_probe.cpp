@@ -9,17 +9,16 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kBatchPoints = 1u << 18;
-constexpr uint64_t kCounts = 9;  // Of a voxel, as in visibility_count.comp.
+constexpr uint64_t kCounts = 9;  // Per voxel, as in count_visible_points.comp.
 
-struct ProbePoint {  // As in visibility_point.glsl.
+struct ProbePoint {  // As in probe_point.glsl.
     glm::vec3 position;
     uint32_t triangle;
 };
 
-/// Number of probes on a triangle: its area in voxel faces times `pointsPerFace`, rounded so that the mean
-/// over triangles is right: up where the fraction and the triangle's number in the van der Corput sequence
-/// add up to
-/// 1. The sequence is spread evenly over triangles that are neighbours in the list.
+/// Number of probes on a triangle: its area in voxel faces times `pointsPerFace`, rounded up or down so that
+/// the mean over triangles is right: up where the fraction plus the triangle's van der Corput number reach 1.
+/// Consecutive triangles have well distributed numbers.
 uint64_t pointsOn(const Geometry& g, const gpu::VoxelGrid& grid, uint32_t triangle, uint32_t pointsPerFace) {
     const glm::uvec3 v = g.triangles[triangle];
     const glm::dvec3 p0 = g.positions[v.x], p1 = g.positions[v.y], p2 = g.positions[v.z];
@@ -33,46 +32,45 @@ uint64_t pointsOn(const Geometry& g, const gpu::VoxelGrid& grid, uint32_t triang
 }  // namespace
 
 VisibilityProbe::VisibilityProbe(ProgramOwner& owner)
-    : emit_(owner, "visibility_emit.comp"), count_(owner, "visibility_count.comp") {}
+    : generateRays_(owner, "generate_visibility_rays.comp"), count_(owner, "count_visible_points.comp") {}
 
-Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels,
-                            const std::vector<uint32_t>& triangles, uint32_t pointsPerFace) const {
+Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels, const std::vector<uint32_t>& triangles,
+                            uint32_t pointsPerFace) const {
     CommandStream& stream = context.stream;
     Buffer counts(context.device, "visibility counts",
                   std::max<uint64_t>(voxels.voxelCount, 1) * kCounts * sizeof(uint32_t));
     stream.fill(counts, 0);
     if (pointsPerFace == 0 || voxels.voxelCount == 0) return counts;
 
-    // In batches: two rays to each point that lies in one of the voxels; whether they meet its surface, into
-    // the counts of the point's voxel. The host makes points of all triangles, the device drops those
-    // elsewhere.
-    const Buffer batch(context.device, "visibility probes", kBatchPoints * sizeof(glm::uvec2));
-    const Buffer kept(context.device, "number of visibility probes", sizeof(uint32_t));
+    // In batches: the host lists probes of all triangles; the device drops those outside `voxels`, traces two
+    // rays to each remaining one, and counts those whose surfaces they reach.
+    const Buffer candidates(context.device, "visibility probes", kBatchPoints * sizeof(glm::uvec2));
+    const Buffer pointCount(context.device, "number of visibility probes", sizeof(uint32_t));
     const Buffer rays(context.device, "visibility rays", 2ull * kBatchPoints * sizeof(Ray));
     const Buffer hits(context.device, "visibility results", 2ull * kBatchPoints * sizeof(Hit));
-    const Buffer keptPoints(context.device, "visibility probes in voxels", kBatchPoints * sizeof(ProbePoint));
-    std::vector<glm::uvec2> points;  // Triangle, and number of the point on it.
+    const Buffer probePoints(context.device, "visibility probes in voxels", kBatchPoints * sizeof(ProbePoint));
+    std::vector<glm::uvec2> points;  // Triangle, and index of the point on it.
     const auto probe = [&] {
         if (points.empty()) return;
-        stream.upload(batch, points);
-        stream.fill(kept, 0);
-        context.dispatch(emit_, points.size(),
+        stream.upload(candidates, points);
+        stream.fill(pointCount, 0);
+        context.dispatch(generateRays_, points.size(),
                          {context.scene,
                           voxels,
-                          {"points", batch},
-                          {"keptPoints", keptPoints},
+                          {"candidates", candidates},
+                          {"probePoints", probePoints},
                           {"rays", rays},
-                          {"kept", kept},
+                          {"pointCount", pointCount},
                           {"count", uint32_t(points.size())},
                           {"seed", randomSeed(context.frame)}});
         points.clear();
-        const uint32_t count = stream.readAs<uint32_t>(kept, 1)[0];
+        const uint32_t count = stream.readAs<uint32_t>(pointCount, 1)[0];
         if (count == 0) return;
         context.tracer.closestHit(stream, rays, hits, 2 * count);
         context.dispatch(count_, count,
                          {context.scene,
                           voxels,
-                          {"keptPoints", keptPoints},
+                          {"probePoints", probePoints},
                           {"rays", rays},
                           {"hits", hits},
                           {"counts", counts},

@@ -1,5 +1,6 @@
-// Distances between cells that are not empty (shaders/voxel_march/distances.glsl): first which ones are, of voxels or of an octree's
-// nodes; then along one axis after the other, each time from the distances along those before.
+// Computes distances of empty cells (shaders/voxel_march/distances.glsl). First the occupancy of cells, from voxels
+// (OF_VOXELS) or an octree's nodes (OF_NODES); then one dispatch per axis (AXIS), each from the distances along the
+// axes before.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxel_march/distances.glsl"
 #include "shaders/voxels/voxel_types.h"
@@ -21,39 +22,41 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 #if defined(OF_VOXELS)
-// Writes the brick's bits too.
+// Writes the brick's occupancy as well.
 uint cellWord(ivec3 cell, uint index) {
     uvec2 bits = uvec2(0u);
     uint mask = 0u;
     for (uint bit = 0u; bit < 64u; ++bit) {
-        const ivec3 at = ivec3(bit, bit >> 2, bit >> 4) & 3;
-        if (!isOccupied(push.grid, 4 * cell + at)) continue;
+        const ivec3 voxel = ivec3(bit, bit >> 2, bit >> 4) & 3;
+        if (!isOccupied(push.grid, 4 * cell + voxel)) continue;
         bits[bit >> 5] |= 1u << (bit & 31u);
-        mask |= 1u << octantOf(at >> 1);
+        mask |= 1u << octantOf(voxel >> 1);
     }
     voxelBricks.words[2u * index] = bits.x;
     voxelBricks.words[2u * index + 1u] = bits.y;
-    return mask == 0u ? FAR_FROM_ALL : mask;
+    return mask == 0u ? MAX_DISTANCES : mask;
 }
 #elif defined(OF_NODES)
 uint cellWord(ivec3 cell, uint index) {
     const uint word = octree.table.data[octreeTableEntry(cell, uint(push.level))];
-    return word == 0u ? FAR_FROM_ALL : word;
+    return word == 0u ? MAX_DISTANCES : word;
 }
 #else
-// The square, or cube, before a cell is empty as far as those before each of the cells along the axis are, and these themselves.
+// Extends distances by one axis: to the largest d such that each of the d cells from this one on along the axis has a
+// distance of d or more along the previous axes. That is the minimum over k of max(k, distance of the k-th cell).
 uint cellWord(ivec3 cell, uint index) {
     uint word = source.words[index];
     if (!isCellEmpty(word)) return word;
     const ivec3 count = cellCount(push.grid.resolution, push.level), stride = ivec3(1, count.x, count.x * count.y);
     for (uint down = 0u; down < 2u; ++down) {
-        const int cells = down == 1u ? cell[AXIS] : count[AXIS] - 1 - cell[AXIS], next = down == 1u ? -stride[AXIS] : stride[AXIS];
+        const int cells = down == 1u ? cell[AXIS] : count[AXIS] - 1 - cell[AXIS],
+                  step_ = down == 1u ? -stride[AXIS] : stride[AXIS];
         for (int k = 1; k <= min(MAX_DISTANCE - 1, cells); ++k) {
-            const uint other = source.words[uint(int(index) + k * next)];
+            const uint neighbor = source.words[uint(int(index) + k * step_)];
             for (uint i = 0u; i < 4u; ++i) {
                 const uint below = i & ((1u << AXIS) - 1u), octant = below | down << AXIS | (i - below) << 1;
-                const int nearest = min(distanceOf(word, octant), max(k, distanceOf(other, octant)));
-                word = bitfieldInsert(word, uint(nearest), distanceShift(octant), 3);
+                const int distance_ = min(distanceOf(word, octant), max(k, distanceOf(neighbor, octant)));
+                word = bitfieldInsert(word, uint(distance_), distanceShift(octant), 3);
             }
         }
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "passes/common/compute/enum_define.h"
 
 namespace voxray {
 namespace {
@@ -13,19 +14,9 @@ constexpr uint64_t kCountBytes = 2 * sizeof(uint64_t);
 constexpr const char* kDistances = "distances between voxels";
 constexpr const char* kFewerAxes = "distances along fewer axes";
 
-/// Cubes of `width` voxels.
-uint64_t cubes(glm::uvec3 resolution, uint32_t width) {
-    const glm::u64vec3 count((resolution + width - 1u) / width);
-    return count.x * count.y * count.z;
-}
-
-uint64_t brickBytes(glm::uvec3 resolution) {
-    return cubes(resolution, 1u << kBrickLevel) * sizeof(glm::uvec2);
-}
-
-/// A word a cell of 2^level voxels (shaders/voxel_march/distances.glsl).
+/// A word per cell of 2^level voxels (shaders/voxel_march/distances.glsl).
 uint64_t distanceBytes(glm::uvec3 resolution, uint32_t level) {
-    return cubes(resolution, 1u << level) * sizeof(uint32_t);
+    return levelVoxels(resolution, level) * sizeof(uint32_t);
 }
 
 /// As in shaders/voxel_march/distances.glsl.
@@ -33,17 +24,17 @@ uint32_t distanceLevel(const OctreeSize& size) {
     return std::min(size.tableLevel() + 1, size.levels());
 }
 
-bool isOctree(VoxelTraversal walk) {
-    return walk == VoxelTraversal::SvoRestart || walk == VoxelTraversal::SvoVoxels ||
-           walk == VoxelTraversal::Svo;
+bool isOctree(VoxelTraversal traversal) {
+    return traversal == VoxelTraversal::SvoRestart || traversal == VoxelTraversal::SvoVoxels ||
+           traversal == VoxelTraversal::Svo;
 }
 
-bool hasDistances(VoxelTraversal walk) {
-    return walk == VoxelTraversal::Bricks || walk == VoxelTraversal::Svo;
+bool hasDistances(VoxelTraversal traversal) {
+    return traversal == VoxelTraversal::Bricks || traversal == VoxelTraversal::Svo;
 }
 
-/// @throws Error for voxels that no walk takes.
-void require(const gpu::VoxelGrid& grid) {
+/// @throws Error for grids that no traversal supports.
+void requireWholeGrid(const gpu::VoxelGrid& grid) {
     const glm::uvec3 size = grid.resolution;
     if (glm::any(glm::greaterThan(size, glm::uvec3(std::min(kMaxResolution, grid.windowSize)))))
         throw Error(
@@ -58,23 +49,22 @@ Kernel alongAxis(ProgramOwner& owner, const char* axis) {
 
 }  // namespace
 
-VoxelMarch::VoxelMarch(ProgramOwner& owner, VoxelTraversal walk, float epsilon)
-    : walk_(walk),
+VoxelMarch::VoxelMarch(ProgramOwner& owner, VoxelTraversal traversal, float epsilon)
+    : traversal_(traversal),
       epsilon_(epsilon),
-      cells_(owner, "distances.comp", {{isOctree(walk) ? "OF_NODES" : "OF_VOXELS", "1"}}),
+      cells_(owner, "distances.comp", {{isOctree(traversal) ? "OF_NODES" : "OF_VOXELS", "1"}}),
       along_{alongAxis(owner, "0"), alongAxis(owner, "1"), alongAxis(owner, "2")} {
-    if (isOctree(walk)) builder_.emplace(owner);
+    if (isOctree(traversal)) builder_.emplace(owner);
 }
 
 void VoxelMarch::plan(MemoryPlan& plan, const SurfaceVoxels& voxels) {
-    require(voxels.grid);
-    for (Kernel* kernel : {&cells_, &along_[0], &along_[1], &along_[2]})
-        kernel->compileIf(hasDistances(walk_));
+    requireWholeGrid(voxels.grid);
+    for (Kernel* kernel : {&cells_, &along_[0], &along_[1], &along_[2]}) kernel->compileIf(hasDistances(traversal_));
     plan.buffer(counts_, "voxel march counts", kCountBytes);
-    if (walk_ != VoxelTraversal::Bricks) return;
+    if (traversal_ != VoxelTraversal::Bricks) return;
     const glm::uvec3 resolution = voxels.grid.resolution;
     const uint64_t bytes = distanceBytes(resolution, kBrickLevel);
-    plan.buffer(bricks_, "bricks of voxels", brickBytes(resolution));
+    plan.buffer(bricks_, "bricks of voxels", levelVoxels(resolution, kBrickLevel) * sizeof(glm::uvec2));
     plan.buffer(distances_, kDistances, bytes);
     plan.scratchBuffer(fewerAxes_, kFewerAxes, bytes);
 }
@@ -83,33 +73,31 @@ void VoxelMarch::begin(CommandStream& stream, const SurfaceVoxels& voxels) {
     voxels_ = &voxels;
     stream.fill(counts_, 0);
     if (version_ == voxels.version) return;
-    if (isOctree(walk_)) {
+    if (isOctree(traversal_)) {
         octree_ = {};
         octree_ = builder_->build(stream, voxels);
         octree_.leafVoxels = {};
     }
-    if (hasDistances(walk_)) measureDistances(stream);
-    octree_.table = {};  // No walk reads it.
+    if (hasDistances(traversal_)) measureDistances(stream);
+    octree_.table = {};  // No traversal reads it.
     version_ = voxels.version;
 }
 
 void VoxelMarch::measureDistances(CommandStream& stream) {
     const gpu::VoxelGrid& grid = voxels_->grid;
-    const uint32_t level = isOctree(walk_) ? distanceLevel(octree_.size) : kBrickLevel;
-    const uint64_t cells = cubes(grid.resolution, 1u << level);
+    const uint32_t level = isOctree(traversal_) ? distanceLevel(octree_.size) : kBrickLevel;
+    const uint64_t cells = levelVoxels(grid.resolution, level);
     const Bindings numbers{{"grid", grid}, {"level", level}};
-    if (isOctree(walk_)) {
+    if (isOctree(traversal_)) {
         const uint64_t bytes = distanceBytes(grid.resolution, level);
         distances_ = {};
         distances_ = Buffer(stream.device(), kDistances, bytes);
         fewerAxes_ = Buffer(stream.device(), kFewerAxes, bytes);
         stream.dispatch(cells_, cells, {octree_, {"target", fewerAxes_}, numbers.all()});
     } else {
-        stream.dispatch(cells_, cells,
-                        {{"voxelOccupancy", voxels_->occupancy},
-                         {"voxelBricks", bricks_},
-                         {"target", fewerAxes_},
-                         numbers.all()});
+        stream.dispatch(
+            cells_, cells,
+            {{"voxelOccupancy", voxels_->occupancy}, {"voxelBricks", bricks_}, {"target", fewerAxes_}, numbers.all()});
     }
     for (size_t axis = 0; axis < 3; ++axis) {
         const Buffer& source = axis == 1 ? distances_ : fewerAxes_;
@@ -117,34 +105,23 @@ void VoxelMarch::measureDistances(CommandStream& stream) {
         stream.dispatch(along_[axis], cells, {{"source", source}, {"target", target}, numbers.all()});
     }
     stream.finish();
-    if (isOctree(walk_)) fewerAxes_ = {};
+    if (isOctree(traversal_)) fewerAxes_ = {};
 }
 
 Defines VoxelMarch::defines() const {
-    switch (walk_) {
-        case VoxelTraversal::Bits:
-            return {{"MARCH_WALK_BITS", "1"}};
-        case VoxelTraversal::Bricks:
-            return {{"MARCH_WALK_BRICKS", "1"}};
-        case VoxelTraversal::SvoRestart:
-            if (epsilon_ > 0)
-                return {{"MARCH_WALK_SVO_RESTART", "1"}, {"MARCH_EPSILON", fmt::format("{:.9e}", epsilon_)}};
-            return {{"MARCH_WALK_SVO_RESTART", "1"}};
-        case VoxelTraversal::SvoVoxels:
-            return {{"MARCH_WALK_SVO_VOXELS", "1"}};
-        case VoxelTraversal::Svo:
-            return {{"MARCH_WALK_SVO", "1"}};
-    }
-    return {};
+    Defines defines{{enumDefine("MARCH_", traversal_), "1"}};
+    if (traversal_ == VoxelTraversal::SvoRestart && epsilon_ > 0)
+        defines.emplace("MARCH_EPSILON", fmt::format("{:.9e}", epsilon_));
+    return defines;
 }
 
 std::vector<Binding> VoxelMarch::bindings() const {
-    std::vector<Binding> all{ifUsed({"voxelOccupancy", voxels_->occupancy}),
-                             ifUsed({"voxelRank", voxels_->rank}), ifUsed({"voxelMarchCounts", counts_})};
-    if (isOctree(walk_)) all.push_back({"octree", octree_.header});
-    if (hasDistances(walk_)) all.push_back({"voxelDistances", distances_});
-    if (walk_ == VoxelTraversal::Bricks) all.push_back({"voxelBricks", bricks_});
-    if (walk_ == VoxelTraversal::Svo) all.push_back({"voxelNodes", octree_.nodes});
+    std::vector<Binding> all{ifUsed({"voxelOccupancy", voxels_->occupancy}), ifUsed({"voxelRank", voxels_->rank}),
+                             ifUsed({"voxelMarchCounts", counts_})};
+    if (isOctree(traversal_)) all.push_back({"octree", octree_.header});
+    if (hasDistances(traversal_)) all.push_back({"voxelDistances", distances_});
+    if (traversal_ == VoxelTraversal::Bricks) all.push_back({"voxelBricks", bricks_});
+    if (traversal_ == VoxelTraversal::Svo) all.push_back({"voxelNodes", octree_.nodes});
     return all;
 }
 

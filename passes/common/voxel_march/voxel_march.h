@@ -10,41 +10,41 @@
 
 namespace voxray {
 
-/// How a ray finds the occupied voxels on its way. All find the same ones.
+/// Data structures that rays traverse to find occupied voxels. All find the same ones.
 enum class VoxelTraversal {
     Bits,        ///< Voxel by voxel over the occupancy bits.
-    Bricks,      ///< Bits by bricks of 4^3 voxels, and how far space is empty before each.
-    SvoRestart,  ///< The octree, from its root down in each step (Sun and Agu 2015, figure 3).
-    SvoVoxels,   ///< The same voxel by voxel, through empty ones too (Seok 2021, figure 12).
-    Svo,         ///< The octree, from a level with distances on down.
+    Bricks,      ///< Bricks of 4^3 bits, with the distances to the next occupied brick.
+    SvoRestart,  ///< The octree, from its root in each step (Sun and Agu 2015, figure 3).
+    SvoVoxels,   ///< The same voxel by voxel, through empty space as well (Seok 2021, figure 12).
+    Svo,         ///< The octree, from a level with distances down.
 };
 template <>
 struct EnumNames<VoxelTraversal> {
     static constexpr std::array names{
         std::pair{VoxelTraversal::Bits, "bits"}, std::pair{VoxelTraversal::Bricks, "bricks"},
-        std::pair{VoxelTraversal::SvoRestart, "svo_restart"},
-        std::pair{VoxelTraversal::SvoVoxels, "svo_voxels"}, std::pair{VoxelTraversal::Svo, "svo"}};
+        std::pair{VoxelTraversal::SvoRestart, "svo_restart"}, std::pair{VoxelTraversal::SvoVoxels, "svo_voxels"},
+        std::pair{VoxelTraversal::Svo, "svo"}};
 };
 
-/// What rays walk through: surface voxels and what a walk needs besides, built of them. A shader that walks
-/// is compiled with defines(), includes shaders/voxel_march/voxel_march.glsl and is given bindings(): it is
-/// written once for all walks. A pass calls plan() in its own. Docs: docs/voxel-march.md.
+/// Surface voxels with the data structure of a traversal, for shaders that trace rays through them. Such a
+/// shader includes shaders/voxel_march/voxel_march.glsl, is compiled with defines() and given bindings(), for
+/// any traversal. A pass calls plan() from its own. Docs: docs/voxel-march.md.
 class VoxelMarch {
  public:
-    /// @param epsilon for SvoRestart: steps in floats, past each node by this many voxels, as in the
-    /// paper, which skips what is thinner; 0 steps exactly.
-    VoxelMarch(ProgramOwner& owner, VoxelTraversal walk, float epsilon = 0);
+    /// @param epsilon of SvoRestart, in voxels: above 0 steps are in floats, past each node by epsilon, as in
+    /// the paper; shorter segments in voxels are skipped. 0: exact steps.
+    VoxelMarch(ProgramOwner& owner, VoxelTraversal traversal, float epsilon = 0);
 
-    /// Describes what a walk takes besides the voxels.
-    /// @throws Error for a grid that it can't walk through.
+    /// Describes the memory of the data structure. @throws Error for a grid of more than 1024 voxels along an
+    /// axis or a window.
     void plan(MemoryPlan& plan, const SurfaceVoxels& voxels);
 
-    /// Takes over the voxels where their content is another one, and sets the counts to 0. `voxels` must
-    /// outlive the walks. Waits for the device where it builds.
+    /// Sets the voxels, which must outlive the rays, and resets the counts. Where the voxels have changed it
+    /// builds the data structure, and waits for the device.
     void begin(CommandStream& stream, const SurfaceVoxels& voxels);
 
     Defines defines() const;
-    /// Of all that shaders/voxel_march/voxel_march.glsl may use.
+    /// For shaders/voxel_march/voxel_march.glsl.
     std::vector<Binding> bindings() const;
     /// Steps and visits since begin(), 64 bits each (PassContext::voxelCounts).
     const Buffer& counts() const { return counts_; }
@@ -52,19 +52,19 @@ class VoxelMarch {
     uint64_t memoryBytes() const;
 
  private:
-    /// Makes what shaders/voxel_march/distances.glsl tells of the voxels or of the octree.
+    /// Computes the distances of shaders/voxel_march/distances.glsl, and the bricks.
     void measureDistances(CommandStream& stream);
 
-    VoxelTraversal walk_;
+    VoxelTraversal traversal_;
     float epsilon_;
-    std::optional<OctreeBuilder> builder_;  ///< Of walks through an octree.
+    std::optional<OctreeBuilder> builder_;  ///< Of the octree.
     Kernel cells_;
-    std::array<Kernel, 3> along_;  ///< The axes.
+    std::array<Kernel, 3> along_;  ///< By axis.
     const SurfaceVoxels* voxels_ = nullptr;
-    std::optional<uint64_t> version_;  ///< Of the voxels that bricks or octree are built of.
+    std::optional<uint64_t> version_;  ///< Of the voxels that the data structure is built from.
     Octree octree_;
     Buffer bricks_, distances_;
-    Buffer fewerAxes_;  ///< Distances along one axis or two, while those along all three are measured.
+    Buffer fewerAxes_;  ///< Distances along one axis or two, while those along all three are computed.
     Buffer counts_;
 };
 

@@ -9,8 +9,8 @@ constexpr uint32_t kRaysPerLaunch = 1u << 26;
 
 }  // namespace
 
-VoxelTracer::VoxelTracer(ProgramOwner& owner, VoxelTraversal walk, float epsilon)
-    : march_(owner, walk, epsilon),
+VoxelTracer::VoxelTracer(ProgramOwner& owner, VoxelTraversal traversal, float epsilon)
+    : march_(owner, traversal, epsilon),
       closestHit_(owner, "voxel_tracer.comp", march_.defines()),
       occluded_(owner, "voxel_tracer.comp", march_.defines()) {}
 
@@ -20,14 +20,14 @@ void VoxelTracer::plan(MemoryPlan& plan, const SurfaceVoxels& voxels) {
     occluded_.specialize({{"kOccluded", 1}});
 }
 
-void VoxelTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
-                        uint32_t count, Coherence) {
+void VoxelTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
+                        Coherence) {
     for (uint32_t first = 0; first < count;) {
         const uint32_t end = first + std::min(kRaysPerLaunch, count - first);
         stream.dispatch(query == Query::Occluded ? occluded_ : closestHit_, end - first,
                         {march_,
                          {"rays", rays.address()},
-                         {"hits", results.address()},
+                         {"results", results.address()},
                          {"grid", grid_},
                          {"firstRay", first},
                          {"endRay", end}});

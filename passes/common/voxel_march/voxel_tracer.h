@@ -5,20 +5,18 @@
 
 namespace voxray {
 
-/// Streams of rays through voxels, with the interface of rays through triangles: what takes the one can take
-/// the other, for comparison (Magalhães 2020, section 3.3.3.2). A hit's `triangle` is the number of the
-/// surface voxel, its t is where the ray enters it, u and v are 0. Rays that start in an occupied voxel hit
-/// it: whoever starts them at a surface moves their ends out of its voxels
+/// Traces streams of rays through voxels in place of triangles (Magalhães 2020, section 3.3.3.2). A hit's
+/// `triangle` is the number of the surface voxel, its t is where the ray enters it, u and v are 0. Rays that
+/// start in an occupied voxel hit it: offset their ends from surfaces
 /// (shaders/voxel_march/surface_segment.glsl).
 class VoxelTracer final : public RayTracer {
  public:
-    VoxelTracer(ProgramOwner& owner, VoxelTraversal walk, float epsilon = 0);
+    VoxelTracer(ProgramOwner& owner, VoxelTraversal traversal, float epsilon = 0);
 
     /// As VoxelMarch::plan().
     void plan(MemoryPlan& plan, const SurfaceVoxels& voxels);
     std::string_view name() const override { return "voxels"; }
-    /// Takes over the voxels, as VoxelMarch::begin(); before the first rays and where the voxels have
-    /// changed.
+    /// As VoxelMarch::begin(): before the first rays and after the voxels have changed.
     void begin(CommandStream& stream, const SurfaceVoxels& voxels) {
         march_.begin(stream, voxels);
         grid_ = voxels.grid;
@@ -27,7 +25,7 @@ class VoxelTracer final : public RayTracer {
     const VoxelMarch& march() const { return march_; }
 
  private:
-    /// Nothing: begin() takes over what has moved.
+    /// Empty: begin() sets what has moved.
     void updateStructure(CommandStream&) override {}
     void trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
                Coherence coherence) override;

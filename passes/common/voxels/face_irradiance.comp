@@ -1,4 +1,4 @@
-// Flux over area: the irradiance of each voxel's faces, of one kind of light or of two, and the area.
+// Irradiance of each voxel's faces, flux over area, of one flux buffer or the sum of two; and the area.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/packed_flux.glsl"
 layout(local_size_x = 64) in;
@@ -11,7 +11,7 @@ layout(scalar) readonly buffer FacesRef { Faces faces; };
 layout(push_constant) uniform Push {
     uint count;           // Faces.
     float voxelFaceArea;  // m²
-    float addedWeight;    // 1 or 0.
+    float addedWeight;    // 1: adds `added`; 0: doesn't.
 } push;
 
 void main() {

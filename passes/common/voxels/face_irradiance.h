@@ -4,16 +4,27 @@
 
 namespace voxray {
 
-/// The irradiance of each voxel's six faces, ready for lookups by many rays
-/// (shaders/voxels/face_irradiance.glsl). 6 x (W/m², area in voxel faces) as 24 floats a voxel.
+/// Irradiance of each voxel's six faces for lookups at many hits (shaders/voxels/face_irradiance.glsl): RGB,
+/// W/m², and area in voxel faces, 24 floats per voxel.
 class FaceIrradiance {
  public:
-    explicit FaceIrradiance(ProgramOwner& owner);
+    explicit FaceIrradiance(ProgramOwner& owner) : program_(owner, "face_irradiance.comp") {}
 
-    /// Divides flux, and with `added` the sum of both, by area; allocates on the first call and where the
-    /// number of voxels has changed. @param area, flux: as VoxelIrradiance holds them.
-    void update(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& area,
-                const LargeBuffer& flux, const LargeBuffer* added = nullptr);
+    /// Divides flux, or the sum of `flux` and `added`, by area. Reallocates when the number of voxels has
+    /// changed. @param area, flux, added as in VoxelIrradiance.
+    void update(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& area, const LargeBuffer& flux,
+                const LargeBuffer* added = nullptr) {
+        const uint32_t faces = voxels.voxelCount * kFaces;
+        ensureSize(faces_, stream.device(), "face irradiance", uint64_t(faces) * 4 * sizeof(float));
+        stream.dispatch(program_, faces,
+                        {{"FluxRef", flux.ref()},
+                         {"AddedRef", (added ? *added : flux).ref()},
+                         {"area", area},
+                         {"FacesRef", faces_.ref()},
+                         {"count", faces},
+                         {"voxelFaceArea", voxels.grid.voxelSize * voxels.grid.voxelSize},
+                         {"addedWeight", added ? 1.0f : 0.0f}});
+    }
     /// Frees the irradiance, once the stream has finished.
     void end() { faces_ = {}; }
     Binding binding() const { return {"FaceIrradianceRef", faces_.ref()}; }

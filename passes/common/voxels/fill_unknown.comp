@@ -1,11 +1,11 @@
-// Gives a face on which nothing was measured the mean irradiance of the same face of the voxels around it, over its own
-// unoccluded area. Where those know nothing either it stays unknown.
+// Sets faces of unknown irradiance to the mean irradiance of the same face of the 26 adjacent voxels, over their own
+// unoccluded area. Where those are unknown as well, the face remains unknown.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/packed_flux.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer Measured { uint data[]; } measured;  // Areas of faces that were measured; 0: unknown.
+layout(scalar) readonly buffer Measured { uint data[]; } measured;  // Areas before; 0: unknown.
 layout(scalar) buffer Area { uint data[]; } area;
 layout(scalar) buffer DirectRef { LargeUints direct; };
 layout(scalar) buffer IndirectRef { LargeUints indirect; };
@@ -20,18 +20,18 @@ struct FaceLight {
     float area;     // In units of a voxel's face.
 };
 
-// Of the same face of the 26 voxels around a voxel.
-FaceLight around(ivec3 voxel, uint face) {
+// Sum over the same face of the 26 adjacent voxels.
+FaceLight sumNeighbors(ivec3 voxel, uint face) {
     FaceLight sum = FaceLight(vec3(0.0), vec3(0.0), 0.0);
     for (int i = 0; i < 27; ++i) {
-        const uint other = voxelNumber(push.grid, voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1);
-        if (i == 13 || other == NO_VOXEL) continue;
-        const uint at = 6u * other + face;
-        const float known = areaOf(measured.data[at / 2u], at);
-        if (known == 0.0) continue;
-        sum.direct += loadFlux(direct, at);
-        sum.indirect += loadFlux(indirect, at);
-        sum.area += known;
+        const uint neighbor = voxelNumber(push.grid, voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1);
+        if (i == 13 || neighbor == NO_VOXEL) continue;
+        const uint index = 6u * neighbor + face;
+        const float area_ = areaOf(measured.data[index / 2u], index);
+        if (area_ == 0.0) continue;
+        sum.direct += loadFlux(direct, index);
+        sum.indirect += loadFlux(indirect, index);
+        sum.area += area_;
     }
     return sum;
 }
@@ -44,15 +44,16 @@ void fill(ivec3 voxel, uint number) {
         bool isFilled = false;
         for (uint k = 0u; k < 2u; ++k) {
             const uint face = 2u * pair + k;
-            const float own = unoccluded(m, 2u * axis + k);
+            const float unoccludedArea = unoccluded(m, 2u * axis + k);
             light[k] = FaceLight(loadFlux(direct, face), loadFlux(indirect, face), areaOf(measured.data[pair], k));
-            if (light[k].area > 0.0 || own == 0.0) continue;
-            const FaceLight sum = around(voxel, 2u * axis + k);
+            if (light[k].area > 0.0 || unoccludedArea == 0.0) continue;
+            const FaceLight sum = sumNeighbors(voxel, 2u * axis + k);
             if (sum.area == 0.0) continue;
-            light[k] = FaceLight(sum.direct * (own / sum.area), sum.indirect * (own / sum.area), own);
+            const float scale = unoccludedArea / sum.area;
+            light[k] = FaceLight(sum.direct * scale, sum.indirect * scale, unoccludedArea);
             isFilled = true;
         }
-        // Other threads may read the known face of the pair meanwhile: packing it again gives the same bits.
+        // Other invocations may read the pair's known face at the same time: packing it again gives the same bits
         if (!isFilled) continue;
         storeFlux(direct, pair, light[0].direct, light[1].direct);
         storeFlux(indirect, pair, light[0].indirect, light[1].indirect);
@@ -63,9 +64,8 @@ void fill(ivec3 voxel, uint number) {
 void main() {
     const uint word = linearIndex();
     if (word >= push.words) return;
-    const uint row = word / push.grid.wordsPerRow, rows = heldVoxels(push.grid).y;
-    const uvec3 slot = uvec3(32u * (word % push.grid.wordsPerRow), row % rows, row / rows);
+    const uvec3 first = wordCoordinates(push.grid, word);
     uint number = voxelRank.before[word];
     for (uint bits = voxelOccupancy.words[word]; bits != 0u; bits &= bits - 1u)
-        fill(ivec3(voxelInSlot(push.grid, slot + uvec3(findLSB(bits), 0u, 0u))), number++);
+        fill(ivec3(unwrappedVoxel(push.grid, first + uvec3(findLSB(bits), 0u, 0u))), number++);
 }

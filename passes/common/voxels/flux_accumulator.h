@@ -1,25 +1,35 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "passes/common/voxels/voxels.h"
 
 namespace voxray {
 
-/// Flux that rays bring to voxels, summed in 64-bit fixed point for each face: exact to float rounding, and
-/// bit-identical in any order. A shader adds with shaders/voxels/flux_accumulator.glsl and
-/// bindings().
+/// Sums the flux of rays by voxel face, in 64-bit fixed point: exact to float rounding, and bit-identical in
+/// any order. Shaders add to it by shaders/voxels/flux_accumulator.glsl.
 class FluxAccumulator {
  public:
-    explicit FluxAccumulator(ProgramOwner& owner);
+    explicit FluxAccumulator(ProgramOwner& owner) : resolve_(owner, "flux_accumulator_resolve.comp") {}
 
-    /// Allocates and clears. @param power W of all light together. It makes 2^56 units, so that even all of
-    /// it in one voxel, bounced up to 64 times, stays below 2^63.
-    void begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels, double power);
-    std::vector<Binding> bindings() const;
+    /// Allocates and clears. @param power of all lights, W: 2^56 units, so that a sum stays below 2^63 even
+    /// if all of it arrives at one face in each of 64 bounces.
+    void begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels, double power) {
+        const uint64_t sums = uint64_t(std::max(voxels.voxelCount, 1u)) * kFaces * 3;
+        sums_ = LargeBuffer(device, "flux accumulator", sums * sizeof(uint64_t));
+        stream.fill(sums_, 0);
+        unitsPerWatt_ = float(std::ldexp(1.0, 56) / power);
+    }
+    std::vector<Binding> bindings() const { return {{"FluxAccumulatorRef", sums_.ref()}}; }
     float unitsPerWatt() const { return unitsPerWatt_; }
-    /// Watts into `flux` (VoxelIrradiance::direct or ::indirect).
-    void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const LargeBuffer& flux) const;
+    /// Writes watts to `flux` (VoxelIrradiance::direct or ::indirect).
+    void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const LargeBuffer& flux) const {
+        const uint32_t pairs = voxels.voxelCount * 3;
+        stream.dispatch(resolve_, pairs,
+                        {*this, {"FluxRef", flux.ref()}, {"pairs", pairs}, {"wattsPerUnit", 1.0f / unitsPerWatt_}});
+    }
     /// Frees the sums, once the stream has finished.
     void end() { sums_ = {}; }
 

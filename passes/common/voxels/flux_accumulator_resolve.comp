@@ -1,4 +1,4 @@
-// Fixed-point sums to watts.
+// Converts fixed-point sums to watts.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/flux_accumulator.glsl"
 #include "shaders/voxels/packed_flux.glsl"
@@ -11,8 +11,9 @@ layout(push_constant) uniform Push {
 } push;
 
 vec3 watts(uint face) {
-    const uint at = 3u * face;
-    return vec3(fluxAccumulator.data[at], fluxAccumulator.data[at + 1u], fluxAccumulator.data[at + 2u]) * push.wattsPerUnit;
+    const uint first = 3u * face;
+    return vec3(fluxAccumulator.data[first], fluxAccumulator.data[first + 1u], fluxAccumulator.data[first + 2u]) *
+           push.wattsPerUnit;
 }
 
 void main() {

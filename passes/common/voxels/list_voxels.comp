@@ -1,4 +1,4 @@
-// The coordinates of each surface voxel, by the voxel's number.
+// Lists the coordinates of surface voxels, by number.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
@@ -12,9 +12,8 @@ layout(push_constant, scalar) uniform Push {
 void main() {
     const uint word = linearIndex();
     if (word >= push.words) return;
-    const uint row = word / push.grid.wordsPerRow, rows = heldVoxels(push.grid).y;
-    const uvec3 slot = uvec3(32u * (word % push.grid.wordsPerRow), row % rows, row / rows);
+    const uvec3 first = wordCoordinates(push.grid, word);
     uint voxel = voxelRank.before[word];
     for (uint bits = voxelOccupancy.words[word]; bits != 0u; bits &= bits - 1u)
-        voxelCoordinates.data[voxel++] = voxelInSlot(push.grid, slot + uvec3(findLSB(bits), 0u, 0u));
+        voxelCoordinates.data[voxel++] = unwrappedVoxel(push.grid, first + uvec3(findLSB(bits), 0u, 0u));
 }

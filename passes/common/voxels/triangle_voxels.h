@@ -13,7 +13,7 @@
 
 namespace voxray {
 
-/// A triangle's corners in voxels from the grid's corner.
+/// A triangle's corners in grid coordinates.
 inline std::array<glm::dvec3, 3> cornersInVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid,
                                                  uint32_t triangle) {
     std::array<glm::dvec3, 3> corners;
@@ -24,16 +24,15 @@ inline std::array<glm::dvec3, 3> cornersInVoxels(const Geometry& geometry, const
     return corners;
 }
 
-/// Counts take voxels for larger than walks over triangles do, by so much on each side: those have a margin
-/// of up to 1/2048 (grid_triangle.glsl), and coordinates that are rounded to 2^-14.
+/// By how much voxels are enlarged, so that a count includes all that a voxelizer finds: their margin is up
+/// to 1/2048 (grid_triangle.glsl), and their coordinates are rounded to 2^-14.
 constexpr double kCountMargin = 1.0 / 1024;
-/// What rounding on the device may move a plane, twice, over the product of its edges' lengths, likewise.
+/// Twice the voxelizers' rounding error of a plane, over the product of its edges' lengths.
 constexpr double kCountRounding = 1e-6;
 
-/// Calls visit(glm::ivec3) once for each voxel that a triangle, in voxels, passes through, of a grid of
-/// `resolution`: where its column along the axis that the triangle faces most meets the triangle, within the
-/// triangle's plane's depth there, by less than any walk's rounding. That is all that exact voxelization
-/// finds, and about a hundredth more. Nothing for a triangle without area.
+/// Calls visit(glm::ivec3) once for each voxel that may overlap a triangle, given in grid coordinates: where
+/// its column along the triangle's dominant axis overlaps the triangle, at the depths of the triangle's
+/// plane. That is all that exact voxelization finds, and about 1 % more. None for a triangle without area.
 template <typename Visit>
 void visitVoxels(glm::uvec3 resolution, const std::array<glm::dvec3, 3>& corners, const Visit& visit) {
     constexpr double margin = kCountMargin;
@@ -48,15 +47,14 @@ void visitVoxels(glm::uvec3 resolution, const std::array<glm::dvec3, 3>& corners
     const glm::ivec3 first(glm::clamp(glm::floor(low - margin), glm::dvec3(0), voxels));
     const glm::ivec3 last(glm::clamp(glm::floor(high + margin), glm::dvec3(-1), voxels - 1.0));
 
-    // Within one voxel
+    // The triangle is in one voxel
     if (first == last) {
         visit(first);
         return;
     }
 
-    // Edges as lines in the plane across the axis: outward normal and the most that a point inside reaches
-    // along it.
-    std::array<glm::dvec3, 3> edges;  // (normal u, normal v, reach)
+    // Half-planes of the edges, projected along the axis
+    std::array<glm::dvec3, 3> edges;  // Outward normal along u and v, maximum of a point along it.
     for (size_t i = 0; i < 3; ++i) {
         const glm::dvec3 along = corners[(i + 1) % 3] - corners[i];
         const glm::dvec2 outward = (normal[w] > 0 ? 1.0 : -1.0) * glm::dvec2(along[v], -along[u]);
@@ -64,21 +62,19 @@ void visitVoxels(glm::uvec3 resolution, const std::array<glm::dvec3, 3>& corners
                                  margin * (std::abs(outward.x) + std::abs(outward.y))};
     }
     const double slopeU = -normal[u] / normal[w], slopeV = -normal[v] / normal[w];
-    const double length1 = glm::length(corners[1] - corners[0]),
-                 length2 = glm::length(corners[2] - corners[0]);
-    const double planeError =
-        kCountRounding * length1 * length2 / glm::length(normal) * std::max(length1, length2);
+    const double length1 = glm::length(corners[1] - corners[0]), length2 = glm::length(corners[2] - corners[0]);
+    const double planeError = kCountRounding * length1 * length2 / glm::length(normal) * std::max(length1, length2);
     const double reach = 0.5 * (std::abs(slopeU) + std::abs(slopeV)) + margin + planeError;
     for (int y = first[v]; y <= last[v]; ++y)
         for (int x = first[u]; x <= last[u]; ++x) {
-            // A column is passed by where for each edge its nearest corner is outside.
+            // A column whose nearest corner is outside an edge is skipped
             const bool outside = std::ranges::any_of(edges, [&](const glm::dvec3& e) {
                 return e.x * (e.x < 0 ? x + 1 : x) + e.y * (e.y < 0 ? y + 1 : y) > e.z;
             });
             if (outside) continue;
             const double center =
                 corners[0][w] + slopeU * (x + 0.5 - corners[0][u]) + slopeV * (y + 0.5 - corners[0][v]);
-            // Of a sliver these may be NaN: then its whole depth counts.
+            // For slivers these may be NaN: then the whole depth counts
             const int from = int(std::max(double(first[w]), std::floor(center - reach)));
             const int to = int(std::min(double(last[w]), std::floor(center + reach)));
             glm::ivec3 voxel;

@@ -1,4 +1,4 @@
-// The unoccluded area of each voxel's surfaces, by face.
+// Writes the unoccluded area of each voxel's surfaces, by face.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/packed_flux.glsl"
 #include "shaders/voxels/voxels.glsl"

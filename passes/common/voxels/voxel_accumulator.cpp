@@ -1,12 +1,12 @@
 #include "passes/common/voxels/voxel_accumulator.h"
 
 #include "base/error.h"
+#include "passes/common/compute/enum_define.h"
 
 namespace voxray {
 namespace {
 
-/// Bytes that the sums and the weights of a voxel take, as shaders/voxels/voxel_accumulator.glsl declares
-/// them.
+/// As declared in shaders/voxels/voxel_accumulator.glsl.
 struct BytesPerVoxel {
     uint64_t sums, weights;
 };
@@ -37,16 +37,7 @@ void VoxelAccumulator::plan(const PassPlan& plan, const std::string& pass, const
 }
 
 Defines VoxelAccumulator::defines(Write write) {
-    switch (write) {
-        case Write::Average:
-            return {{"WRITE", "WRITE_AVERAGE"}};
-        case Write::Max:
-            return {{"WRITE", "WRITE_MAX"}};
-        case Write::MovingAverage:
-            return {{"WRITE", "WRITE_MOVING_AVERAGE"}};
-        default:
-            return {{"WRITE", "WRITE_NONE"}};
-    }
+    return {{"WRITE", enumDefine("WRITE_", write)}};
 }
 
 void VoxelAccumulator::begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels,
@@ -59,8 +50,7 @@ void VoxelAccumulator::begin(Device& device, CommandStream& stream, const Surfac
     clear(sums_, "voxel irradiance sums", voxels.voxelCount * bytes.sums);
     if (bytes.weights > 0) clear(weights_, "voxel irradiance weights", voxels.voxelCount * bytes.weights);
     scale_ = 1;
-    if (params_.write == Write::Average && typicalIrradiance > 0)
-        scale_ = float(1u << 24) / typicalIrradiance;
+    if (params_.write == Write::Average && typicalIrradiance > 0) scale_ = float(1u << 24) / typicalIrradiance;
     if (params_.write == Write::MovingAverage) scale_ = 1 / params_.white;
 }
 

@@ -9,7 +9,7 @@
 
 namespace voxray {
 
-/// How samples of light that meet at one face of a voxel are merged.
+/// How samples at one face of a voxel are merged.
 enum class Write { Average, Max, MovingAverage, None };
 template <>
 struct EnumNames<Write> {
@@ -18,61 +18,55 @@ struct EnumNames<Write> {
                                       std::pair{Write::None, "none"}};
 };
 
-/// The parameters of a pass that writes to voxels. Derive the pass's Params from it and append
-/// WriteParams::schema() to its schema with std::tuple_cat.
+/// Parameters of a pass that writes samples to voxels; it adds schema() to its own with std::tuple_cat.
 struct WriteParams {
     Write write = Write::Average;
     float white = 1.0f;
     static constexpr auto schema() {
         return std::tuple{
             field("write", &WriteParams::write,
-                  "How light that meets in a voxel is merged: average is exact and independent of order; "
-                  "max keeps the brightest sample; "
-                  "moving_average is the 8-bit compare-and-swap loop of Magalhães 2020; "
-                  "none stores each sample over the one before, so that whichever comes last stays: "
-                  "what a write costs at least."),
+                  "How samples in a voxel are merged: average, exact and independent of order; "
+                  "max, the brightest sample; moving_average, the 8-bit compare-and-swap loop of Magalhães 2020; "
+                  "none, the last sample, as the lower bound of the cost."),
             field("white", &WriteParams::white,
-                  "Irradiance, W/m², that white stands for in the 8 bits of moving_average; "
-                  "what is brighter is clamped.",
-                  1e-6f, 1e9f)
+                  "Irradiance, W/m², of white in the 8 bits of moving_average; brighter samples are clamped.", 1e-6f,
+                  1e9f)
                 .onlyWith(oneOf(&WriteParams::write, {Write::MovingAverage}))};
     }
 };
 
-/// Irradiance samples, merged for each face of each voxel. A shader that writes them is compiled with
-/// defines(), includes shaders/voxels/voxel_accumulator.glsl and is given bindings(). Source: Magalhães 2020,
-/// sections 4.2.5.2 to 4.2.5.3 and 5.2.4.
+/// Merges irradiance samples by voxel face. A shader that writes samples includes
+/// shaders/voxels/voxel_accumulator.glsl, is compiled with defines() and given bindings(). Source: Magalhães
+/// 2020, sections 4.2.5.2 to 4.2.5.3 and 5.2.4.
 ///  - average: 64-bit fixed-point sums of weight and weighted irradiance: bit-identical in any order, exact
 ///  to
 ///    2^-24 of `typicalIrradiance` a sample. A sample counts up to 2^16 times the typical irradiance; at
 ///    typical brightness 2^38 samples fit a face, at that bound 2^23.
 ///  - max: per channel, by atomicMax on float bits.
-///  - moving_average: RGBA8, the count in alpha, which stops at 255; a sample is lost after 2^16 attempts.
-///  - none: one plain store; the last sample stays, whichever that is.
-/// All but average know no weights: a face takes all of a sample, or none below 1/16 of its weight.
+///  - moving_average: RGBA8 with the count, up to 255, in alpha; a sample is lost after 2^16 attempts.
+///  - none: a plain store; the last sample remains, in any order.
+/// All but average ignore weights: a face takes the whole sample, or nothing for a weight below 1/16.
 class VoxelAccumulator {
  public:
     VoxelAccumulator(ProgramOwner& owner, const WriteParams& params);
 
     /// @throws Error naming `pass` where the device lacks 64-bit atomics that `average` needs.
     static void plan(const PassPlan& plan, const std::string& pass, const WriteParams& params);
-    /// Selects the write for a shader that includes shaders/voxels/voxel_accumulator.glsl.
+    /// For a shader that includes shaders/voxels/voxel_accumulator.glsl.
     static Defines defines(Write write);
 
-    /// Clears, allocating where there is no memory of the right size yet. @param typicalIrradiance W/m², sets
-    /// the unit of the fixed-point sums: see meanIrradiance() in passes/common/lights/light_sources.h.
+    /// Clears the sums, and reallocates them if their size has changed. @param typicalIrradiance W/m²: the
+    /// unit of fixed-point sums is 2^-24 of it (meanIrradiance() of passes/common/lights/light_sources.h).
     void begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels, float typicalIrradiance);
     /// For the shader that writes.
     std::vector<Binding> bindings() const;
-    /// Factor from W/m² to stored units, which the writing shader passes to writeIrradiance().
+    /// Units per W/m², to be passed to writeIrradiance().
     float scale() const { return scale_; }
 
-    /// Mean irradiance times unoccluded area into `flux` (VoxelIrradiance::direct or ::indirect). `area` is
-    /// raised to the unoccluded area of every face that a sample fell on, and kept elsewhere: clear it before
-    /// the first resolve() if faces without samples are unknown, fill it with unoccluded areas if they are
-    /// dark.
-    void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const LargeBuffer& flux,
-                 const Buffer& area) const;
+    /// Writes mean irradiance times unoccluded area to `flux` (VoxelIrradiance::direct or ::indirect), and
+    /// raises `area` to the unoccluded area for faces with samples. Clear `area` before the first resolve()
+    /// if faces without samples are unknown; fill it with unoccluded areas if they are dark.
+    void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const LargeBuffer& flux, const Buffer& area) const;
     /// Frees the sums, once the stream has finished.
     void end() { sums_ = {}, weights_ = {}; }
 

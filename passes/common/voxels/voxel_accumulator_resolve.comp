@@ -1,4 +1,4 @@
-// Merged irradiance to flux over the unoccluded area of each face, and that area where a sample fell.
+// Converts merged irradiance to flux on the unoccluded area of each face; writes that area for faces with samples.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/packed_flux.glsl"
 #include "shaders/voxels/voxel_accumulator.glsl"
@@ -21,11 +21,11 @@ void main() {
         const uint pair = 3u * voxel + axis;
         vec3 watts[2];
         float areas[2];
-        for (uint side = 0u; side < 2u; ++side) {
-            const float unoccludedArea = unoccluded(m, 2u * axis + side);
-            const vec4 merged = mergedIrradiance(2u * pair + side, push.scale);
-            watts[side] = merged.rgb * (unoccludedArea * push.voxelSize * push.voxelSize);
-            areas[side] = max(areaOf(area.data[pair], side), merged.w > 0.0 ? unoccludedArea : 0.0);
+        for (uint k = 0u; k < 2u; ++k) {
+            const float unoccludedArea = unoccluded(m, 2u * axis + k);
+            const vec4 merged = mergedIrradiance(2u * pair + k, push.scale);
+            watts[k] = merged.rgb * (unoccludedArea * push.voxelSize * push.voxelSize);
+            areas[k] = max(areaOf(area.data[pair], k), merged.w > 0.0 ? unoccludedArea : 0.0);
         }
         storeFlux(flux, pair, watts[0], watts[1]);
         area.data[pair] = packAreas(areas[0], areas[1]);

@@ -3,70 +3,38 @@
 #include <atomic>
 #include <bit>
 #include <cstdint>
-#include <glm/common.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 #include <vector>
 
 namespace voxray {
 
-/// A bit for each voxel of a box, on the host.
+/// A set of voxels in a box, a bit each, on the host.
 class VoxelBits {
  public:
     explicit VoxelBits(glm::uvec3 size)
         : size_(size), wordsPerRow_((size.x + 63) / 64), words_(wordsPerRow_ * size.y * size.z, 0) {}
 
     glm::uvec3 size() const { return size_; }
-    /// A voxel of the box. From any thread. Most voxels are marked again and again: these are only read.
+    /// Marks a voxel of the box; thread-safe. Bits that are set already are only read.
     void mark(glm::ivec3 v) {
         const std::atomic_ref<uint64_t> bits(words_[word(v)]);
         const uint64_t bit = 1ull << (v.x % 64);
         if (!(bits.load(std::memory_order_relaxed) & bit)) bits.fetch_or(bit, std::memory_order_relaxed);
     }
     bool isInside(glm::ivec3 v) const {
-        return glm::all(glm::greaterThanEqual(v, glm::ivec3(0))) &&
-               glm::all(glm::lessThan(v, glm::ivec3(size_)));
+        return glm::all(glm::greaterThanEqual(v, glm::ivec3(0))) && glm::all(glm::lessThan(v, glm::ivec3(size_)));
     }
-    /// Whether a voxel is marked; outside of the box none is.
+    /// Whether a voxel is marked; false outside the box.
     bool operator[](glm::ivec3 v) const { return isInside(v) && words_[word(v)] >> (v.x % 64) & 1; }
     uint32_t count() const {
         uint32_t sum = 0;
         for (const uint64_t bits : words_) sum += uint32_t(std::popcount(bits));
         return sum;
     }
-    /// Marked voxels one by one: rows along x, then y, then z.
-    template <typename Visit>
-    void forEach(const Visit& visit) const {
-        for (glm::ivec3 v(0); v.z < int(size_.z); ++v.z)
-            for (v.y = 0; v.y < int(size_.y); ++v.y)
-                for (size_t i = 0; i < wordsPerRow_; ++i)
-                    for (uint64_t bits = words_[word({int(64 * i), v.y, v.z})]; bits; bits &= bits - 1)
-                        visit(glm::ivec3(64 * int(i) + std::countr_zero(bits), v.y, v.z));
-    }
-
-    /// Voxels twice as wide, half as many along each axis, rounded up: those with a marked one in them.
-    VoxelBits coarser() const {
-        VoxelBits result((size_ + 1u) / 2u);
-        forEach([&](glm::ivec3 v) { result.mark(v / 2); });
-        return result;
-    }
-    /// The marked voxels and the 26 round each of them, as far as they are in the box.
-    VoxelBits withNeighbors() const {
-        VoxelBits result(size_);
-        forEach([&](glm::ivec3 v) {
-            const glm::ivec3 low = glm::max(v - 1, glm::ivec3(0)),
-                             high = glm::min(v + 1, glm::ivec3(size_) - 1);
-            glm::ivec3 n;
-            for (n.z = low.z; n.z <= high.z; ++n.z)
-                for (n.y = low.y; n.y <= high.y; ++n.y)
-                    for (n.x = low.x; n.x <= high.x; ++n.x) result.mark(n);
-        });
-        return result;
-    }
 
  private:
-    size_t word(glm::ivec3 v) const {
-        return (size_t(v.z) * size_.y + size_t(v.y)) * wordsPerRow_ + size_t(v.x) / 64;
-    }
+    size_t word(glm::ivec3 v) const { return (size_t(v.z) * size_.y + size_t(v.y)) * wordsPerRow_ + size_t(v.x) / 64; }
     glm::uvec3 size_;
     size_t wordsPerRow_;
     std::vector<uint64_t> words_;

@@ -5,7 +5,7 @@
 
 namespace voxray {
 
-/// A box of voxels of a grid, or of one of its levels.
+/// A box of voxels in a grid or one of its levels.
 struct VoxelBox {
     glm::ivec3 first{0};
     glm::uvec3 size{0};

@@ -19,7 +19,7 @@ std::vector<Binding> SurfaceVoxels::bindings(std::vector<Binding> more) const {
 void VoxelIrradiance::allocate(Device& device, uint32_t voxelCount) {
     const uint64_t fluxBytes = uint64_t(voxelCount) * kFluxWords * sizeof(uint32_t);
     if (direct && direct.bytes() == fluxBytes) return;
-    direct = {}, indirect = {}, area = {};  // The previous ones go first.
+    direct = {}, indirect = {}, area = {};  // Frees the previous ones first.
     direct = LargeBuffer(device, "voxel direct flux", fluxBytes);
     indirect = LargeBuffer(device, "voxel indirect flux", fluxBytes);
     area = Buffer(device, "voxel area", uint64_t(voxelCount) * kAreaWords * sizeof(uint32_t));
@@ -32,15 +32,15 @@ void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const Voxe
         return std::max({emission.x, emission.y, emission.z}) > 0;
     };
     if (std::ranges::all_of(scene.geometry.triangleMaterials, emits)) return;
-    // No flux at all packs to words of 0, and nothing else does.
+    // Only a flux of 0 packs to words of 0
     const std::vector<uint32_t> direct =
         stream.readAs<uint32_t>(irradiance.direct, irradiance.direct.bytes() / sizeof(uint32_t));
     if (std::ranges::none_of(direct, [](uint32_t word) { return word != 0; }))
         throw Error(
             "no light falls on any voxel: either the lights shine past the scene, "
-            "or all that they reach has another surface within one voxel ({:.3g} m); "
-            "raise voxelize's 'resolution', give the part of a large scene that is looked at "
-            "as 'scene.region', or set voxelize's 'visibility_rays: 0'",
+            "or all that they reach has another surface within one voxel ({:.3g} m); raise voxelize's 'resolution', "
+            "give the part of a large scene that is looked at as 'scene.region', or set voxelize's 'visibility_rays: "
+            "0'",
             voxels.grid.voxelSize);
 }
 
@@ -53,7 +53,7 @@ gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t 
         const float voxels = std::ceil(extent[axis] / grid.voxelSize + 0.25f - 1e-4f);
         grid.resolution[axis] = std::clamp(uint32_t(std::max(voxels, 1.0f)), 1u, resolution);
     }
-    // The scene in the center of the grid.
+    // Centered on the scene
     grid.origin = 0.5f * (boundsMin + boundsMax) - 0.5f * grid.voxelSize * glm::vec3(grid.resolution);
     grid.wordsPerRow = (grid.resolution.x + 31) / 32;
     grid.windowSize = std::bit_ceil(resolution);
@@ -66,12 +66,11 @@ double estimateVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
     for (uint32_t t = 0; t < geometry.triangles.size(); ++t) {
         if (!isInRegion(geometry, t)) continue;
         const glm::uvec3 v = geometry.triangles[t];
-        const glm::dvec3 a = geometry.positions[v.x], b = geometry.positions[v.y],
-                         c = geometry.positions[v.z];
+        const glm::dvec3 a = geometry.positions[v.x], b = geometry.positions[v.y], c = geometry.positions[v.z];
         area += 0.5 * glm::length(glm::cross(b - a, c - a));
     }
-    // A plane of the area of one voxel's face passes through |nx| + |ny| + |nz| voxels: 3/2 on average over
-    // all directions.
+    // A plane with the area of a voxel's face passes through |nx| + |ny| + |nz| voxels: 3/2 on average over
+    // all directions
     const double voxels = 1.5 * area / (double(grid.voxelSize) * grid.voxelSize);
     return std::min(voxels, double(grid.resolution.x) * grid.resolution.y * grid.resolution.z);
 }

@@ -8,13 +8,13 @@
 
 namespace voxray {
 
-/// Surface voxels of a clipmap: those in each level's window round the camera, up to the first level that is
-/// held whole. The voxels of a level are twice as large as those of the level below.
+/// Surface voxels of a clipmap: those in each level's window around the camera, up to the first level whose
+/// window is its whole grid. The voxels of a level are twice as wide as those of the next finer level.
 struct ClipmapVoxels : Resource {
     struct Level {
-        SurfaceVoxels voxels;         ///< All that the window holds.
+        SurfaceVoxels voxels;         ///< Of the window.
         std::vector<VoxelBox> boxes;  ///< Rebuilt in this frame.
-        SurfaceVoxels updated;        ///< The voxels of `boxes` alone; empty where these are the window.
+        SurfaceVoxels updated;        ///< The voxels of `boxes` only; empty if these are the window.
     };
     gpu::RadianceGrid grid{};  ///< Of the whole scene and all levels.
     ClipmapWindows windows;

@@ -15,7 +15,7 @@ namespace {
 /// the window, in whole voxels, lags behind the camera.
 constexpr float kMargin = 1;
 
-/// Width of the transition to the next level at either end of the reach, as a fraction of the window's side.
+/// Width of the transition to the next level at either end of the reach, as a fraction of the window's size.
 /// Up to 1/4 the next level, whose window is twice as large, still counts in full there.
 constexpr float kTransition = 1.0f / 8;
 
@@ -30,17 +30,17 @@ uint32_t clipmapLevels(glm::uvec3 resolution, const ClipmapParams& params, const
         throw Error(
             "{}: with {} levels no window of {} voxels holds the whole scene of {}x{}x{}; "
             "set 'clipmap_levels' to {} or more, or raise 'clipmap_resolution'",
-            pass, params.clipmapLevels, params.clipmapResolution, resolution.x, resolution.y, resolution.z,
-            least);
+            pass, params.clipmapLevels, params.clipmapResolution, resolution.x, resolution.y, resolution.z, least);
     return std::min(params.clipmapLevels, gridLevels(resolution));
 }
 
-ClipmapWindows::ClipmapWindows(const gpu::RadianceGrid& grid, uint32_t side) : grid_(grid), side_(side) {
+ClipmapWindows::ClipmapWindows(const gpu::RadianceGrid& grid, uint32_t windowSize)
+    : grid_(grid), windowSize_(windowSize) {
     for (uint32_t level = 0; level < grid.levels; ++level) {
         const glm::uvec3 resolution = levelResolution(grid.resolution, level);
-        const glm::uvec3 size = glm::min(resolution, glm::uvec3(side));
+        const glm::uvec3 size = glm::min(resolution, glm::uvec3(windowSize));
         if (size != resolution) firstWhole_ = level + 1;
-        slotOffsets_.push_back(uint32_t(voxels_));
+        firstIndices_.push_back(uint32_t(voxels_));
         voxels_ += VoxelBox{glm::ivec3(0), size}.count();
     }
 }
@@ -48,16 +48,17 @@ ClipmapWindows::ClipmapWindows(const gpu::RadianceGrid& grid, uint32_t side) : g
 gpu::ClipmapWindow ClipmapWindows::window(uint32_t level, const glm::vec3& camera) const {
     const float voxel = grid_.voxelSize * float(1u << level);
     const glm::uvec3 resolution = levelResolution(grid_.resolution, level);
-    const float half = 0.5f * float(side_), reach = half - kMargin, full = reach - kTransition * float(side_);
+    const float half = 0.5f * float(windowSize_), reach = half - kMargin,
+                full = reach - kTransition * float(windowSize_);
     gpu::ClipmapWindow w{};
-    w.slotOffset = slotOffsets_[level];
-    w.falloff = 1 / (kTransition * float(side_) * voxel);
+    w.firstIndex = firstIndices_[level];
+    w.falloff = 1 / (kTransition * float(windowSize_) * voxel);
     for (int axis = 0; axis < 3; ++axis) {
-        w.size[axis] = std::min(resolution[axis], side_);
+        w.size[axis] = std::min(resolution[axis], windowSize_);
         w.reach[axis] = kUnbounded;
-        if (resolution[axis] <= side_) continue;
+        if (resolution[axis] <= windowSize_) continue;
 
-        // Near the grid's border the window stops, such that the level counts in full up to the border.
+        // The window stops where the level's full weight extends to the grid's border
         const float center = std::clamp((camera[axis] - grid_.origin[axis]) / voxel, full,
                                         float(grid_.resolution[axis]) / float(1u << level) - full);
         w.first[axis] = int(std::round(center - half));

@@ -6,7 +6,6 @@
 
 #include "base/schema.h"
 #include "passes/common/voxels/voxel_box.h"
-#include "passes/cones/radiance/radiance_clipmap_types.h"
 #include "passes/cones/radiance/radiance_types.h"
 
 namespace voxray {
@@ -19,7 +18,7 @@ struct ClipmapParams {
         return std::tuple{field("clipmap_resolution", &ClipmapParams::clipmapResolution,
                                 "Voxels along an edge of a clipmap's window.", powersOfTwo(16, 1024)),
                           field("clipmap_levels", &ClipmapParams::clipmapLevels,
-                                "Levels of a clipmap at most. The coarsest must hold the whole scene; "
+                                "Maximum levels of a clipmap. The coarsest must hold the whole scene; "
                                 "cones that are wider than its voxels read these. "
                                 "By default down to a single voxel; Arnebäck 2017 has 5.",
                                 1u, uint32_t(RADIANCE_CLIPMAP_LEVELS))};
@@ -30,30 +29,31 @@ struct ClipmapParams {
 /// the whole grid.
 uint32_t clipmapLevels(glm::uvec3 resolution, const ClipmapParams& params, const std::string& pass);
 
-/// Windows of a clipmap over `grid` (Panteleev 2014): of each level at most `side` voxels
-/// along an axis, round the camera. Smaller levels are held whole. `side`: a power of two, 16 or more.
+/// Windows of a clipmap over `grid` (Panteleev 2014), around the camera: at most `windowSize` voxels of each
+/// level along an axis. The windows of smaller levels are their whole grids.
 class ClipmapWindows {
  public:
     ClipmapWindows() = default;
-    ClipmapWindows(const gpu::RadianceGrid& grid, uint32_t side);
+    /// @param windowSize a power of two, 16 or more.
+    ClipmapWindows(const gpu::RadianceGrid& grid, uint32_t windowSize);
 
     /// Voxels of all windows together.
     uint64_t voxels() const { return voxels_; }
-    /// The first level that is held whole, as are all after it.
+    /// The finest level whose window is its whole grid.
     uint32_t firstWhole() const { return firstWhole_; }
-    uint32_t side() const { return side_; }
+    uint32_t windowSize() const { return windowSize_; }
     /// The window of a level for a camera at `camera` (m).
     gpu::ClipmapWindow window(uint32_t level, const glm::vec3& camera) const;
 
  private:
     gpu::RadianceGrid grid_{};
-    uint32_t side_ = 0;
+    uint32_t windowSize_ = 0;
     uint32_t firstWhole_ = 0;
     uint64_t voxels_ = 0;
-    std::vector<uint32_t> slotOffsets_;  ///< By level.
+    std::vector<uint32_t> firstIndices_;  ///< By level.
 };
 
-/// Reported value: the voxels of its windows that a pass updated, because they scrolled in or changed.
+/// Reported value: the number of voxels that a pass updated, because they scrolled in or changed.
 constexpr const char* kUpdatedVoxels = "updated voxels";
 
 /// The voxels in `window` that were not in `previous`, a window of the same level: up to three disjoint

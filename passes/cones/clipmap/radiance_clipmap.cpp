@@ -15,7 +15,7 @@ constexpr uint32_t kClipmapValueBytes = 8;  // passes/cones/radiance/radiance_te
 /// The buffer `radianceVoxels` of passes/cones/radiance/radiance_clipmap.glsl, without what the storage adds.
 struct ClipmapHeader {
     gpu::RadianceGrid grid;
-    uint32_t side;
+    uint32_t windowSize;
     uint32_t firstWhole;
     std::array<gpu::ClipmapWindow, RADIANCE_CLIPMAP_LEVELS> windows;
 };
@@ -34,8 +34,7 @@ void RadianceClipmap::plan(PassPlan& plan, const std::string& pass, RadianceVoxe
     if (radiance.layout == RadianceLayout::ClipmapTextures) {
         const glm::uvec3 extent = packAtlas(windows_, grid.levels, grid.directions).extent;
         planRadianceTexture(plan, pass, "set 'layout' to clipmap", extent, 1, radiance);
-        plan.buffer(radiance.header, "radiance clipmap's header",
-                    sizeof(ClipmapHeader) + sizeof(ClipmapTextureHeader));
+        plan.buffer(radiance.header, "radiance clipmap's header", sizeof(ClipmapHeader) + sizeof(ClipmapTextureHeader));
         return;
     }
     radiance.grid.unit = 1;
@@ -62,18 +61,16 @@ void RadianceClipmap::prepare(PassSetup& setup, RadianceVoxels& radiance) const 
     prepareRadianceTexture(setup, radiance);
 }
 
-std::vector<gpu::ClipmapWindow> RadianceClipmap::moveWindows(PassContext& context,
-                                                             RadianceVoxels& radiance) const {
+std::vector<gpu::ClipmapWindow> RadianceClipmap::moveWindows(PassContext& context, RadianceVoxels& radiance) const {
     const glm::vec3 camera = context.frame.camera.position;
     std::vector<gpu::ClipmapWindow> windows;
-    for (uint32_t level = 0; level < radiance.grid.levels; ++level)
-        windows.push_back(windows_.window(level, camera));
+    for (uint32_t level = 0; level < radiance.grid.levels; ++level) windows.push_back(windows_.window(level, camera));
     if (radiance.euclidean)
         for (gpu::ClipmapWindow& w : windows) {
             w.center = camera;
             w.reach = glm::vec3(std::min({w.reach.x, w.reach.y, w.reach.z}));
         }
-    ClipmapHeader header{radiance.grid, windows_.side(), windows_.firstWhole(), {}};
+    ClipmapHeader header{radiance.grid, windows_.windowSize(), windows_.firstWhole(), {}};
     std::ranges::copy(windows, header.windows.begin());
     context.stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
     return windows;

@@ -20,12 +20,11 @@ struct EnumNames<LevelDistance> {
 struct ClipmapLevelParams {
     LevelDistance levelDistance = LevelDistance::Axis;
     static constexpr auto schema() {
-        return std::tuple{
-            field("level_distance", &ClipmapLevelParams::levelDistance,
-                  "By which distance from the camera coarser levels of a clipmap take over. "
-                  "axis: that along the axis where it is largest, so that all of a window counts. "
-                  "euclidean: as published in Arnebäck 2017 (section 4.2.1), for comparison: "
-                  "a ball in each window counts, half of its voxels.")};
+        return std::tuple{field("level_distance", &ClipmapLevelParams::levelDistance,
+                                "The distance from the camera by which coarser levels of a clipmap replace finer ones. "
+                                "axis: that along the axis where it is largest, so that all of a window counts. "
+                                "euclidean: as published in Arnebäck 2017 (section 4.2.1), for comparison: "
+                                "a ball in each window counts, half of its voxels.")};
     }
 };
 
@@ -34,15 +33,15 @@ struct ClipmapLevelParams {
 class RadianceClipmap {
  public:
     RadianceClipmap() = default;
-    /// @param side of a window, a power of two.
-    RadianceClipmap(const gpu::RadianceGrid& grid, uint32_t side) : windows_(grid, side) {}
+    /// @param windowSize voxels along an axis, a power of two.
+    RadianceClipmap(const gpu::RadianceGrid& grid, uint32_t windowSize) : windows_(grid, windowSize) {}
 
     /// Describes the memory of `radiance`, whose layout and grid are set. Sets the unit to 1 in a buffer,
     /// where values have exponents. @throws Error naming `pass` for more values than 32 bits number, or a
     /// texture that the device can't make.
     void plan(PassPlan& plan, const std::string& pass, RadianceVoxels& radiance) const;
     void prepare(PassSetup& setup, RadianceVoxels& radiance) const;
-    /// Moves the windows to the frame's camera; slots keep their contents. @return the windows, by level.
+    /// Moves the windows to the frame's camera. Stored values remain. @return the windows, by level.
     std::vector<gpu::ClipmapWindow> moveWindows(PassContext& context, RadianceVoxels& radiance) const;
     const ClipmapWindows& windows() const { return windows_; }
 

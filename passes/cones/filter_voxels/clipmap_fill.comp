@@ -1,5 +1,5 @@
-// Fills a box of a clipmap level's voxels. A voxel is filtered bottom-up from all voxels of the source level in it, so that its value
-// doesn't depend on the windows of finer levels.
+// Fills a box of a clipmap level's voxels. A voxel is filtered bottom-up from all voxels of the source level in it, so
+// that its value doesn't depend on the windows of finer levels.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cones/radiance/radiance_voxels.glsl"
 #include "passes/cones/radiance/surface_radiance.glsl"
@@ -11,7 +11,7 @@ layout(push_constant, scalar) uniform Push {
     ivec3 boxFirst;
     uvec3 boxSize;
     uint level;
-    uint source;  // Level to filter from, which is held whole; 0: the surface voxels.
+    uint source;  // Level to filter from, whose window is its whole grid; 0: the surface voxels.
 } push;
 
 // Whether no surface passes through a voxel of a level. Tests a word, up to 32 voxels along x, at a time.
@@ -32,16 +32,13 @@ bool isEmpty(ivec3 voxel, uint level) {
 vec4 sourceValue(ivec3 voxel, uint face) {
     if (push.source > 0u) {
         const ClipmapWindow w = radianceVoxels.window[push.source];
-        return inWindow(w, voxel) ? radianceValue(clipmapSlot(push.source, voxel), face) : vec4(0.0);
+        return inWindow(w, voxel) ? radianceValue(radianceIndex(push.source, voxel), face) : vec4(0.0);
     }
-    const uint surfaceVoxel = voxelNumber(push.grid, voxel);
-    if (surfaceVoxel == NO_VOXEL) return vec4(0.0);
-    return radianceVoxels.grid.directions == 6u ? faceRadiance(push.grid, surfaceVoxel, face, push.emission)
-                                                : meanRadiance(push.grid, surfaceVoxel, push.emission);
+    return voxelRadiance(push.grid, voxelNumber(push.grid, voxel), face, push.emission);
 }
 
-// The `index`-th descendant of a voxel, `depth` levels below. Order: on each level the four pairs along the face's axis, of each pair the
-// front voxel first.
+// The `index`-th descendant of a voxel, `depth` levels below. Order: on each level the four pairs along the face's
+// axis, of each pair the front voxel first.
 ivec3 descendant(ivec3 voxel, uint depth, uint index, uint face) {
     const uint axis = face >> 1;
     for (uint d = depth; d-- > 0u;) {
@@ -55,8 +52,8 @@ ivec3 descendant(ivec3 voxel, uint depth, uint index, uint face) {
     return voxel;
 }
 
-// Filters a voxel from the level `depth` below. The values of each level are quantized, as if it had been filtered from the stored level
-// below. Partial results by level: `front`, the front voxel of a pair; `sum`, of the pairs before it.
+// Filters a voxel from the level `depth` below. The values of each level are quantized, as if it had been filtered from
+// the stored level below. Partial results by level: `front`, the front voxel of a pair; `sum`, of the pairs before it.
 vec4 filtered(ivec3 voxel, uint depth, uint face) {
     const bool byFace = radianceVoxels.grid.directions == 6u;
     vec4 sum[RADIANCE_CLIPMAP_LEVELS], front[RADIANCE_CLIPMAP_LEVELS];
@@ -64,15 +61,15 @@ vec4 filtered(ivec3 voxel, uint depth, uint face) {
     vec4 value = vec4(0.0);
     const uint end = 1u << (3u * depth);
     for (uint index = 0u; index < end;) {
-        // The largest empty descendant that begins here, else one of the source level.
+        // The largest empty descendant at this index, else the one of the source level
         uint d = index == 0u ? depth : uint(findLSB(index)) / 3u;
         if (push.source > 0u) d = 0u;
         while (d > 0u && !isEmpty(descendant(voxel, depth - d, index >> (3u * d), face), d)) --d;
         value = d > 0u ? vec4(0.0) : sourceValue(descendant(voxel, depth, index, face), face);
         value = quantizedRadiance(value);
-        const uint covered = 1u << (3u * d);
+        const uint descendants = 1u << (3u * d);
 
-        // Ascend while this is the last of its parent's children.
+        // Ascend while this is the last of its parent's children
         for (; d < depth; ++d) {
             const uint octant = (index >> (3u * d)) & 7u;
             if ((octant & 1u) == 0u) {
@@ -84,7 +81,7 @@ vec4 filtered(ivec3 voxel, uint depth, uint face) {
             value = quantizedRadiance(0.25 * sum[d]);
             sum[d] = vec4(0.0);
         }
-        index += covered;
+        index += descendants;
     }
     return value;
 }
@@ -94,8 +91,8 @@ void main() {
     const uvec3 size = push.boxSize;
     if (i >= size.x * size.y * size.z) return;
     const ivec3 voxel = push.boxFirst + ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
-    const CLIPMAP_SLOT slot = clipmapSlot(push.level, voxel);
+    const RADIANCE_INDEX index = radianceIndex(push.level, voxel);
     const bool empty = push.source == 0u && isEmpty(voxel, push.level);
     for (uint face = 0u; face < radianceVoxels.grid.directions; ++face)
-        storeRadiance(slot, face, empty ? vec4(0.0) : filtered(voxel, push.level - push.source, face));
+        storeRadiance(index, face, empty ? vec4(0.0) : filtered(voxel, push.level - push.source, face));
 }

@@ -2,9 +2,8 @@
 #include <cstring>
 
 #include "base/error.h"
-#include "passes/cones/filter_voxels/dense_fill.h"
-#include "passes/cones/filter_voxels/radiance_storage.h"
-#include "passes/cones/radiance/radiance_dense_types.h"
+#include "passes/cones/filter_voxels/full_grids.h"
+#include "passes/cones/radiance/radiance_types.h"
 
 namespace voxray {
 namespace {
@@ -21,28 +20,26 @@ static_assert(sizeof(gpu::RadianceGrid) % 8 == 0);
 
 uint64_t pyramidVoxels(const gpu::RadianceGrid& grid) {
     uint64_t voxels = 0;
-    for (uint32_t level = 0; level < grid.levels; ++level)
-        voxels += voxelsOf(levelResolution(grid.resolution, level));
+    for (uint32_t level = 0; level < grid.levels; ++level) voxels += levelVoxels(grid.resolution, level);
     return voxels;
 }
 
-class DenseStorage final : public RadianceStorage {
+class DenseStorage final : public FullGrids {
  public:
-    explicit DenseStorage(ProgramOwner& owner) : fill_(owner) {}
+    using FullGrids::FullGrids;
 
     void plan(PassPlan& plan, const SurfaceVoxels&, RadianceVoxels& radiance) override {
         const gpu::RadianceGrid& grid = radiance.grid;
         const uint64_t values = pyramidVoxels(grid) * grid.directions;
         if (values > UINT32_MAX)
             throw Error(
-                "filter_voxels: "
-                "{} values of {}x{}x{} voxels and their levels can't be numbered in 32 bits; "
+                "filter_voxels: {} values of {}x{}x{} voxels and their levels can't be numbered in 32 bits; "
                 "lower voxelize's 'resolution'",
                 values, grid.resolution.x, grid.resolution.y, grid.resolution.z);
         radiance.storage = std::vector<Buffer>(1);
         plan.buffer(radiance.storage[0], "radiance voxels", values * kValueBytes);
         plan.buffer(radiance.header, "radiance voxels' header", sizeof(DenseHeader));
-        fill_.plan(radiance);
+        define(radiance);
     }
 
     void prepare(PassSetup& setup, RadianceVoxels& radiance) override {
@@ -51,18 +48,10 @@ class DenseStorage final : public RadianceStorage {
         uint32_t first = 0;
         for (uint32_t level = 0; level < grid.levels; ++level) {
             header.levels[level] = {levelResolution(grid.resolution, level), first};
-            first += uint32_t(voxelsOf(header.levels[level].resolution));
+            first += uint32_t(levelVoxels(grid.resolution, level));
         }
         setup.stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
     }
-
-    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
-             RadianceVoxels& radiance, float emission) override {
-        fill_.run(context.stream, voxels, light, radiance, emission);
-    }
-
- private:
-    DenseFill fill_;
 };
 
 }  // namespace

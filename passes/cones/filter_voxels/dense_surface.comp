@@ -16,12 +16,8 @@ void main() {
     const ivec3 cell = ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
     const uint voxel = voxelNumber(push.grid, cell);
     const RADIANCE_LEVEL level = radianceLevel(0u);
-    const uint directions = radianceVoxels.grid.directions;
-    for (uint face = 0u; face < directions; ++face) {
-        vec4 value = vec4(0.0);
-        if (voxel != NO_VOXEL)
-            value = directions == 6u ? faceRadiance(push.grid, voxel, face, push.emission)
-                                     : meanRadiance(push.grid, voxel, push.emission);
+    for (uint face = 0u; face < radianceVoxels.grid.directions; ++face) {
+        const vec4 value = voxelRadiance(push.grid, voxel, face, push.emission);
         storeRadiance(radianceIndex(level, cell), face, value / vec4(vec3(radianceVoxels.grid.unit), 1.0));
     }
 }

@@ -25,7 +25,7 @@ struct SurfaceLight {
 class RadianceStorage {
  public:
     virtual ~RadianceStorage() = default;
-    /// Whether it holds windows round the camera, so that it is filled in each frame.
+    /// Whether it stores windows around the camera, so that it is filled in each frame.
     virtual bool followsCamera() const { return false; }
     /// Describes memory. The grid of `radiance` is set; its unit and number of levels may be changed.
     /// @throws Error if the device lacks a feature.
@@ -35,7 +35,7 @@ class RadianceStorage {
     /// Fills all levels. `emission`: 1 to add what surfaces emit, 0 not to.
     virtual void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
                      RadianceVoxels& radiance, float emission) = 0;
-    /// Called when nothing will be filled again: frees what is needed for that alone.
+    /// Called after the last run(): frees scratch.
     virtual void finalize(CommandStream&, RadianceVoxels&) {}
 };
 
@@ -43,11 +43,10 @@ class RadianceStorage {
 struct BrickParams {
     bool brickNeighbors = true;
     static constexpr auto schema() {
-        return std::tuple{field("brick_neighbors", &BrickParams::brickNeighbors,
-                                "Whether the 26 neighbours of each node "
-                                "that surfaces pass through are made to exist. "
-                                "Off, values that bricks share differ where one is missing, "
-                                "as in Arnebäck 2017, figure 28.")};
+        return std::tuple{
+            field("brick_neighbors", &BrickParams::brickNeighbors,
+                  "Whether the 26 neighbors of each node that surfaces pass through get bricks. "
+                  "Off, values that bricks share differ where one is missing, as in Arnebäck 2017, figure 28.")};
     }
 };
 

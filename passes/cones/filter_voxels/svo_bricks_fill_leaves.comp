@@ -1,5 +1,6 @@
-// Fills the bricks of leaves: the first dispatch finds the brightest value, the second writes the values. All 27 of a leaf are the
-// voxel's until transfers average them with the neighbors'. Neighbors without surfaces are transparent and black.
+// Fills the bricks of leaves: the first dispatch finds the brightest value, the second writes the values. All 27 of a
+// leaf are the voxel's until transfers average them with the neighbors'. Neighbors without surfaces are transparent and
+// black.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cones/radiance/radiance_voxels.glsl"
 #include "passes/cones/radiance/surface_radiance.glsl"

@@ -1,6 +1,6 @@
-// Copies a level of an octree and its values to a smaller octree without the descendants of uniform nodes: first the masks of the
-// level's nodes (MASKS), then their words, their values and a list of their children (WORDS), four nodes of the new octree per thread.
-// `nodes`: for each of them its number in the old octree and its voxel.
+// Copies a level of an octree and its values to a smaller octree without the descendants of uniform nodes: first the
+// masks of the level's nodes (MASKS), then their words, their values and a list of their children (WORDS), four nodes
+// of the new octree per thread. `nodes`: for each of them its number in the old octree and its voxel.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cones/radiance/radiance_svo.glsl"
 layout(local_size_x = 64) in;
@@ -35,7 +35,8 @@ uint maskOf(uint old) {
 void main() {
     const uint word = linearIndex();
     uint mask = 0u;
-    for (uint i = 4u * word; i < min(4u * word + 4u, push.count); ++i) mask |= maskOf(nodes.data[i].x) << (8u * (i & 3u));
+    for (uint i = 4u * word; i < min(4u * word + 4u, push.count); ++i)
+        mask |= maskOf(nodes.data[i].x) << (8u * (i & 3u));
     if (4u * word < push.count) masks.words[word] = mask;
 }
 #else

@@ -32,13 +32,12 @@ void SvoCollapse::run(CommandStream& stream, RadianceVoxels& radiance) const {
     // Each uniform node loses its eight children.
     const std::vector<uint32_t> uniformNodes = stream.readAs<uint32_t>(counts, size.levels());
     OctreeSize smaller = size;
-    for (uint32_t level = 1; level < size.levels(); ++level)
-        smaller.nodes[level - 1] -= 8 * uniformNodes[level];
+    for (uint32_t level = 1; level < size.levels(); ++level) smaller.nodes[level - 1] -= 8 * uniformNodes[level];
     if (smaller.nodes != size.nodes) radiance = shrink(stream, radiance, uniform, smaller);
 }
 
-RadianceVoxels SvoCollapse::shrink(CommandStream& stream, const RadianceVoxels& radiance,
-                                   const Buffer& uniform, const OctreeSize& smaller) const {
+RadianceVoxels SvoCollapse::shrink(CommandStream& stream, const RadianceVoxels& radiance, const Buffer& uniform,
+                                   const OctreeSize& smaller) const {
     Device& device = stream.device();
     RadianceVoxels result;
     result.layout = radiance.layout;
@@ -77,11 +76,8 @@ RadianceVoxels SvoCollapse::shrink(CommandStream& stream, const RadianceVoxels& 
         nodes = std::move(children);
     }
 
-    for (uint32_t level = smaller.levels(); level-- > smaller.tableLevel();) {
-        const glm::uvec3 voxels = levelResolution(smaller.resolution, level);
-        stream.dispatch(fillTable_, uint64_t(voxels.x) * voxels.y * voxels.z,
-                        {result.octree, {"level", level}});
-    }
+    for (uint32_t level = smaller.levels(); level-- > smaller.tableLevel();)
+        stream.dispatch(fillTable_, levelVoxels(smaller.resolution, level), {result.octree, {"level", level}});
     stream.finish();
     return result;
 }

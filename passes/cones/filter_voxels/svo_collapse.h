@@ -5,9 +5,8 @@
 
 namespace voxray {
 
-/// Collapses uniform subtrees of an octree: where all eight children of a node hold the same bits, the node
-/// replaces them, and so on upwards (Crassin 2011; Arnebäck 2017, section 5.4 and figure 48). Exact: samples
-/// don't change.
+/// Collapses uniform subtrees of an octree, bottom-up: a node replaces its eight children if they have the
+/// same bits (Crassin 2011; Arnebäck 2017, section 5.4 and figure 48). Exact: samples don't change.
 class SvoCollapse {
  public:
     explicit SvoCollapse(ProgramOwner& owner);

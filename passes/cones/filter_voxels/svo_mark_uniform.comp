@@ -1,5 +1,5 @@
-// Marks and counts the uniform nodes of a level. All eight children of a uniform node exist, are uniform or leaves, and hold the same
-// bits as the node in each direction, so that it can replace them.
+// Marks and counts the uniform nodes of a level. All eight children of a uniform node exist, are uniform or leaves, and
+// have the same values as the node in each direction, so that it can replace them.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cones/radiance/radiance_svo.glsl"
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-// The values of an octree's leaves: radiance and opacity of the surfaces.
+// Writes the values of an octree's leaves: radiance and opacity of the surfaces.
 #include "passes/cones/filter_voxels/svo_changed.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cones/radiance/surface_radiance.glsl"
@@ -17,10 +17,6 @@ void main() {
     if (leaf >= push.count) return;
     const uint voxel = voxelNumber(push.grid, unpackCell(leaves.cell[leaf]));
     const uint node = push.firstLeaf + leaf;
-    if (radianceVoxels.grid.directions == 6u) {
-        for (uint face = 0u; face < 6u; ++face)
-            replaceOctreeValue(node, face, faceRadiance(push.grid, voxel, face, push.emission));
-    } else {
-        replaceOctreeValue(node, 0u, meanRadiance(push.grid, voxel, push.emission));
-    }
+    for (uint face = 0u; face < radianceVoxels.grid.directions; ++face)
+        replaceOctreeValue(node, face, voxelRadiance(push.grid, voxel, face, push.emission));
 }

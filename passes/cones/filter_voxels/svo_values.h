@@ -5,10 +5,8 @@
 
 namespace voxray {
 
-/// Radiance of an octree's nodes: `RadianceVoxels::octree` has the structure, `storage` 64 bits by direction
-/// and node (passes/cones/radiance/radiance_texel.glsl).
-
-/// Moves an octree into `radiance`, whose grid is set, and allocates values for its nodes, undefined as yet.
+/// Moves an octree into `radiance`, whose grid is set, and allocates undefined values for its nodes: 64 bits
+/// by direction and node (passes/cones/radiance/radiance_texel.glsl).
 void allocateSvoValues(CommandStream& stream, Octree octree, RadianceVoxels& radiance);
 
 /// Filters the values of inner nodes from those of their children, bottom-up.

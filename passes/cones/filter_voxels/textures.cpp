@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <bit>
 
-#include "passes/cones/filter_voxels/dense_fill.h"
+#include "passes/cones/filter_voxels/full_grids.h"
 #include "passes/cones/radiance/radiance_texture.h"
-#include "passes/cones/radiance/radiance_textures_types.h"
+#include "passes/cones/radiance/radiance_types.h"
 
 namespace voxray {
 namespace {
@@ -17,9 +17,7 @@ struct TextureHeader {
 gpu::TextureLayout textureLayout(glm::uvec3 resolution) {
     gpu::TextureLayout layout{};
     for (int axis = 0; axis < 3; ++axis) layout.extent[axis] = std::bit_ceil(resolution[axis]);
-    const int longest = resolution.x >= std::max(resolution.y, resolution.z) ? 0
-                        : resolution.y >= resolution.z                       ? 1
-                                                                             : 2;
+    const int longest = resolution.x >= std::max(resolution.y, resolution.z) ? 0 : resolution.y >= resolution.z ? 1 : 2;
     layout.along[longest] = 1;
     layout.extent.z = std::max(layout.extent.z, 2u);  // An image one texel deep would be 2D.
     return layout;
@@ -27,18 +25,17 @@ gpu::TextureLayout textureLayout(glm::uvec3 resolution) {
 
 /// Full grids as mip levels of a 3D texture, filtered by the device as Arnebäck 2017 does. Docs:
 /// docs/cone-tracing.md.
-class TexturesStorage final : public RadianceStorage {
+class TexturesStorage final : public FullGrids {
  public:
-    explicit TexturesStorage(ProgramOwner& owner) : fill_(owner) {}
+    using FullGrids::FullGrids;
 
     void plan(PassPlan& plan, const SurfaceVoxels&, RadianceVoxels& radiance) override {
         const gpu::RadianceGrid& grid = radiance.grid;
         layout_ = textureLayout(grid.resolution);
         planRadianceTexture(plan, "filter_voxels", "set 'layout' to dense",
-                            layout_.extent * (1u + (grid.directions - 1u) * layout_.along), grid.levels,
-                            radiance);
+                            layout_.extent * (1u + (grid.directions - 1u) * layout_.along), grid.levels, radiance);
         plan.buffer(radiance.header, "radiance voxels' header", sizeof(TextureHeader));
-        fill_.plan(radiance);
+        define(radiance);
     }
 
     void prepare(PassSetup& setup, RadianceVoxels& radiance) override {
@@ -47,14 +44,8 @@ class TexturesStorage final : public RadianceStorage {
         prepareRadianceTexture(setup, radiance);
     }
 
-    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
-             RadianceVoxels& radiance, float emission) override {
-        fill_.run(context.stream, voxels, light, radiance, emission);
-    }
-
  private:
     gpu::TextureLayout layout_{};
-    DenseFill fill_;
 };
 
 }  // namespace

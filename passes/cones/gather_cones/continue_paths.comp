@@ -5,7 +5,8 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Origins { Surfel data[]; } origins;             // Surfels that the rays start from.
-layout(scalar) readonly buffer OriginNormals { uvec2 data[]; } originNormals;  // y: their geometric normals, octahedral.
+// y: their geometric normals, octahedral.
+layout(scalar) readonly buffer OriginNormals { uvec2 data[]; } originNormals;
 layout(push_constant, scalar) uniform Push {
     uint rayCount;
     float range;  // m; 0: all paths end.
@@ -17,6 +18,6 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.rayCount) return;
     const Surfel origin = origins.data[i];
-    resolveNearFieldRay(i, origin.parent, fromOctahedral(originNormals.data[i].y), origin.reflectance, push.width, push.range, origin.id,
-                        sobol2(origin.id, push.seed));
+    resolveNearFieldRay(i, origin.parent, fromOctahedral(originNormals.data[i].y), origin.reflectance, push.width,
+                        push.range, origin.id, sobol2(origin.id, push.seed));
 }

@@ -1,5 +1,6 @@
-// Integrates the strata of specular lobes by importance sampling, for each cosine to the viewer and each roughness. Strata partition the
-// distribution of visible half vectors into equal parts: one in the center, 6, 12 and so on round it.
+// Integrates the strata of specular lobes by importance sampling, for each cosine to the viewer and each roughness.
+// Strata partition the distribution of visible half vectors into equal probabilities: one in the center, with rings of
+// 6, 12 and so on.
 #include "passes/cones/gather_cones/lobe_types.h"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/specular.glsl"

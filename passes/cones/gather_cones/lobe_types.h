@@ -11,7 +11,7 @@
 
 VOXRAY_SHARED_BEGIN
 
-// The part of a lobe that one cone represents.
+// A stratum of a lobe, which one cone represents.
 struct LobeStratum {
     vec3 mean;      // Of the incident directions: along the surface away from the viewer, across that, along
                     // the normal.

@@ -1,5 +1,5 @@
-// Reflected radiance of each pixel: albedo / pi times filtered irradiance, averaged over its texels. With SPECULAR the reflection of
-// specular lobes is added, and the diffuse one scaled by what they leave to it.
+// Reflected radiance of each pixel: albedo / pi times filtered irradiance, averaged over its texels. With SPECULAR the
+// reflection of specular lobes is added, and the diffuse one scaled by what they leave to it.
 #include "passes/cones/gather_cones/texel_stride.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -18,8 +18,9 @@ layout(push_constant, scalar) uniform Push {
     float voxelSize;  // m
 } push;
 
-// Mean over about 25 traced texels, which averages out their cones' different directions. Weights fall with the distance from the tangent
-// plane, in voxels (cones resolve no finer detail), and with the angle between the normals (the error bound of Ward et al. 1988).
+// Mean over about 25 traced texels, which averages out their cones' different directions. Weights fall with the
+// distance from the tangent plane, in voxels (cones resolve no finer detail), and with the angle between the normals
+// (the error bound of Ward et al. 1988).
 vec3 filteredIrradiance(ivec2 texel) {
     const vec4 p = texelFetch(position, texel, 0);
     if (p.w == 0.0) return vec3(0.0);

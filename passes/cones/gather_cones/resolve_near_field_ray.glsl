@@ -1,5 +1,6 @@
-// Resolves a ray through the near field of a cone: a hit is stored as a surfel, where direct light is sampled and a path continues;
-// without a hit the cone is traced from the ray's end. Needs the bindings of shaders/scene/scene.glsl and of radiance voxels.
+// Resolves a ray through the near field of a cone: a hit is stored as a surfel, where direct light is sampled and a
+// path continues; without a hit the cone is traced from the ray's end. Needs the bindings of shaders/scene/scene.glsl
+// and of radiance voxels.
 //
 //        o────────┤        o: start; ┤: end of the near field
 //     ───x────────┴──      The cone is traced to the right of it: it doesn't read what voxels hold of the
@@ -16,12 +17,14 @@ layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(scalar) buffer Light { vec4 data[]; } light;  // By cone of the batch: its radiance times pi.
 // Near hits, in any order; `parent` is the cone.
 layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
-layout(scalar) writeonly buffer Continuations { uvec2 data[]; } continuations;  // By surfel: 1, and the geometric normal, octahedral.
+// By surfel: 1, and the geometric normal, octahedral.
+layout(scalar) writeonly buffer Continuations { uvec2 data[]; } continuations;
 buffer Count { uint value; } count;                                             // Of surfels.
 
-// Resolves ray i, which carries `throughput` of the incident radiance to cone `parent`. `ng`: unit geometric normal at its start. With a
-// `range` of 0 the cone begins at the start, whatever the ray hit.
-void resolveNearFieldRay(uint i, uint parent, vec3 ng, vec3 throughput, float width, float range, uint id, vec2 dither) {
+// Resolves ray i, which carries `throughput` of the incident radiance to cone `parent`. `ng`: unit geometric normal at
+// its start. With a `range` of 0 the cone begins at the start, whatever the ray hit.
+void resolveNearFieldRay(uint i, uint parent, vec3 ng, vec3 throughput, float width, float range, uint id,
+                         vec2 dither) {
     const Ray ray = rays.data[i];
     const Hit hit = hits.data[i];
     if (ray.tMax < 0.0) return;

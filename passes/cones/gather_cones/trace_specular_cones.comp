@@ -1,5 +1,5 @@
-// Radiance that the specular lobe of each g-buffer texel reflects, by a cone for each of its strata, and the fraction of light that it
-// leaves to the diffuse lobe below.
+// Radiance that the specular lobe of each g-buffer texel reflects, by a cone for each of its strata, and the fraction
+// of light that it leaves to the diffuse lobe below.
 #include "passes/cones/gather_cones/lobe_types.h"
 #include "passes/cones/radiance/radiance_cone.glsl"
 #include "shaders/scene/specular.glsl"
@@ -27,13 +27,14 @@ LobeStratum lookupStratum(float cosOut, float roughness, uint stratum) {
     const vec2 coordinates = clamp(vec2(sqrt(cosOut), roughness), 0.0, 1.0) * last;
     const uvec2 corner = uvec2(min(coordinates, last - 1.0));
     const vec2 fraction = coordinates - vec2(corner);
-    const uint n = push.strataPerLobe, first = (corner.y * LOBE_COSINES + corner.x) * n + stratum, next = first + LOBE_COSINES * n;
+    const uint n = push.strataPerLobe, first = (corner.y * LOBE_COSINES + corner.x) * n + stratum,
+               next = first + LOBE_COSINES * n;
     return mixStrata(mixStrata(strata.data[first], strata.data[first + n], fraction.x),
                     mixStrata(strata.data[next], strata.data[next + n], fraction.x), fraction.y);
 }
 
-// Width at unit distance, 2 tan a, of the circular cone with the spread of a stratum: unit directions in a cone of half angle a have a
-// mean of length (1 + cos a) / 2.
+// Width at unit distance, 2 tan a, of the circular cone with the spread of a stratum: unit directions in a cone of half
+// angle a have a mean of length (1 + cos a) / 2.
 float coneWidth(float meanLength) {
     const float cosine = clamp(2.0 * meanLength - 1.0, 0.1, 1.0);
     return 2.0 * sqrt(1.0 - cosine * cosine) / cosine;
@@ -66,8 +67,9 @@ void main() {
     }
 
     const vec3 away = cosOut * ns - out_;
-    const vec3 along =
-        dot(away, away) > 1e-12 ? normalize(away) : normalize(cross(ns, abs(ns.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
+    const vec3 along = dot(away, away) > 1e-12
+                           ? normalize(away)
+                           : normalize(cross(ns, abs(ns.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0)));
     const vec3 across = cross(ns, along);
     for (uint i = 0u; i < push.strataPerLobe; ++i) {
         const LobeStratum stratum = lookupStratum(cosOut, s.roughness, i);
@@ -75,7 +77,8 @@ void main() {
         if (meanLength == 0.0) continue;
         const vec3 direction = (stratum.mean.x * along + stratum.mean.y * across + stratum.mean.z * ns) / meanLength;
         if (dot(direction, ng) <= 0.0) continue;
-        sum += (stratum.albedo.x * s.f0 + stratum.albedo.y * s.f90) * coneRadiance(base, direction, coneWidth(meanLength), 0.0);
+        sum += (stratum.albedo.x * s.f0 + stratum.albedo.y * s.f90) *
+               coneRadiance(base, direction, coneWidth(meanLength), 0.0);
     }
     imageStore(reflected, texel, vec4(sum, diffuseScale));
 }

@@ -16,14 +16,8 @@ void main() {
     const uvec3 size = push.boxSize;
     if (i >= size.x * size.y * size.z) return;
     const ivec3 voxel = push.boxFirst + ivec3(i % size.x, i / size.x % size.y, i / (size.x * size.y));
-    const CLIPMAP_SLOT slot = clipmapSlot(push.level, voxel);
+    const RADIANCE_INDEX index = radianceIndex(push.level, voxel);
     const uint surfaceVoxel = voxelNumber(push.grid, voxel);
-    const uint directions = radianceVoxels.grid.directions;
-    for (uint face = 0u; face < directions; ++face) {
-        vec4 value = vec4(0.0);
-        if (surfaceVoxel != NO_VOXEL)
-            value = directions == 6u ? faceRadiance(push.grid, surfaceVoxel, face, 0.0)
-                                     : meanRadiance(push.grid, surfaceVoxel, 0.0);
-        storeRadiance(slot, face, value);
-    }
+    for (uint face = 0u; face < radianceVoxels.grid.directions; ++face)
+        storeRadiance(index, face, voxelRadiance(push.grid, surfaceVoxel, face, 0.0));
 }

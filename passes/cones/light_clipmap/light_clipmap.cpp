@@ -30,27 +30,23 @@ class LightClipmap final : public Pass {
  public:
     static constexpr const char* kName = "light_clipmap";
     static constexpr const char* kHelp =
-        "Lights the voxel clipmap by a shadow map of every light. "
-        "Tests the part of each triangle in a voxel of voxelize_clipmap against the maps. "
-        "What voxels reflect is made radiance voxels for gather_cones. "
-        "The cones bring one bounce more than 'bounces'. "
-        "What scrolled in is lit in each frame; all of the windows where a light or a surface has moved, "
-        "and with bounces wherever anything scrolled in. "
-        "No emissive surfaces as lights and no environment: they have no single viewpoint. "
-        "Biased by: voxel size, so distance from the camera; shadow_resolution. "
-        "Source: Arnebäck 2017, section 4.1.2, after Panteleev 2014.";
+        "Computes direct light of the voxels of voxelize_clipmap by shadow maps, "
+        "and radiance voxels for gather_cones from it. "
+        "Each triangle clipped to a voxel is tested against the map of each light. "
+        "The cones gather one bounce more than 'bounces'. Each frame updates voxels that scrolled in; "
+        "all if a light or a surface has moved, and with bounces if any scrolled in. Only for punctual lights: "
+        "emissive surfaces and the environment have no single viewpoint. Biased by: voxel size, "
+        "so distance from the camera; shadow_resolution. Source: Arnebäck 2017, section 4.1.2, after Panteleev 2014.";
     struct Params : ClipmapLevelParams, ConeBounceParams {
         uint32_t shadowResolution = 512;
         ClipmapLayout layout = ClipmapLayout::Clipmap;
         static constexpr auto schema() {
             return std::tuple_cat(
-                std::tuple{
-                    field("shadow_resolution", &Params::shadowResolution,
-                          "Texels along an edge of each shadow map; a point light has six.", 2u, 4096u),
-                    field("layout", &Params::layout,
-                          "How voxels are stored: clipmap, in a buffer; "
-                          "clipmap_textures, as published in Arnebäck 2017: "
-                          "in a 3D texture that the device's sampler filters.")},
+                std::tuple{field("shadow_resolution", &Params::shadowResolution,
+                                 "Texels along an edge of each shadow map; a point light has six.", 2u, 4096u),
+                           field("layout", &Params::layout,
+                                 "How voxels are stored: clipmap, in a buffer; clipmap_textures, "
+                                 "as published in Arnebäck 2017: in a 3D texture that the device's sampler filters.")},
                 ClipmapLevelParams::schema(), ConeBounceParams::schema());
         }
     };
@@ -64,13 +60,11 @@ class LightClipmap final : public Pass {
     /// Updates light and all levels where windows or, with `moved`, lights or surfaces have changed.
     void relight(PassContext& context, bool moved);
     /// Direct light of the voxels in boxes of a level. @param voxels include these.
-    VoxelIrradiance directLight(PassContext& context, const SurfaceVoxels& voxels,
-                                const std::vector<VoxelBox>& boxes);
+    VoxelIrradiance directLight(PassContext& context, const SurfaceVoxels& voxels, const std::vector<VoxelBox>& boxes);
     /// Fills boxes of a level with the radiance that surface voxels reflect.
     void fillWindow(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
-                    const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light,
-                    const LargeBuffer& indirect);
-    /// Filters the levels above the first that is held whole, each from the one below.
+                    const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light, const LargeBuffer& indirect);
+    /// Filters the levels above the first whole one, each from the next finer level.
     void fillCoarseLevels(PassContext& context);
 
     const Params params_;
@@ -84,7 +78,7 @@ class LightClipmap final : public Pass {
         voxelizer_->makeProgram(*this, "passes/cones/light_clipmap/light_voxels");
     Kernel litArea_{*this, "lit_area.comp"};
     Kernel fillWindow_{*this, "fill_window.comp"};
-    Kernel fillLevel_{*this, "fill_level.comp"};
+    Kernel filterLevel_{*this, "passes/cones/radiance/filter_level.comp"};
     FluxAccumulator flux_{*this};
     ConeBounces bounces_{*this, params_.bounceCones};
     std::optional<uint64_t> sceneVersion_;  ///< Of the last frame.
@@ -104,12 +98,12 @@ void LightClipmap::plan(PassPlan& plan) {
     radiance.euclidean = params_.levelDistance == LevelDistance::Euclidean;
     radiance.grid = clipmap.grid;
     radiance.grid.unit = radianceUnit(*plan.frame.scene);
-    storage_ = RadianceClipmap(clipmap.grid, clipmap.windows.side());
+    storage_ = RadianceClipmap(clipmap.grid, clipmap.windows.windowSize());
     storage_.plan(plan, kName, radiance);
     shadowMaps_.plan(plan, sources_, params_.shadowResolution);
 
     if (params_.bounces > 0) bounces_.plan(plan, radiance);
-    for (Kernel* kernel : {&fillWindow_, &fillLevel_}) kernel->define(radiance.defines());
+    for (Kernel* kernel : {&fillWindow_, &filterLevel_}) kernel->define(radiance.defines());
 }
 
 void LightClipmap::prepare(PassSetup& setup) {
@@ -122,12 +116,12 @@ void LightClipmap::record(PassContext& context) {
     RadianceVoxels& radiance = context[radiance_];
     storage_.moveWindows(context, radiance);
 
-    // A light or a surface that moved may move a shadow anywhere.
+    // A light or a surface that moved may change shadows anywhere
     const bool moved = sceneVersion_ != context.frame.sceneVersion;
     if (moved) shadowMaps_.draw(context, sources_);
     sceneVersion_ = context.frame.sceneVersion;
-    const bool updated = std::ranges::any_of(
-        clipmap.levels, [](const ClipmapVoxels::Level& level) { return !level.boxes.empty(); });
+    const bool updated =
+        std::ranges::any_of(clipmap.levels, [](const ClipmapVoxels::Level& level) { return !level.boxes.empty(); });
     updatedVoxels_ = 0;
     if (moved || updated) relight(context, moved);
     context.report(kUpdatedVoxels, double(updatedVoxels_));
@@ -136,7 +130,7 @@ void LightClipmap::record(PassContext& context) {
 void LightClipmap::relight(PassContext& context, bool moved) {
     const ClipmapVoxels& clipmap = context[clipmap_];
     const RadianceVoxels& radiance = context[radiance_];
-    // Bounced light comes from anywhere.
+    // Bounced light may change anywhere
     const bool everywhere = moved || params_.bounces > 0;
 
     // Direct light
@@ -144,7 +138,7 @@ void LightClipmap::relight(PassContext& context, bool moved) {
     for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
         const ClipmapVoxels::Level& level = clipmap.levels[l];
         const SurfaceVoxels& voxels = everywhere || !level.updated.materials ? level.voxels : level.updated;
-        const std::vector<VoxelBox> boxes = everywhere ? std::vector{heldVoxels(voxels.grid)} : level.boxes;
+        const std::vector<VoxelBox> boxes = everywhere ? std::vector{windowVoxels(voxels.grid)} : level.boxes;
         if (boxes.empty()) continue;
         VoxelIrradiance direct = directLight(context, voxels, boxes);
         fillWindow(context, l, voxels, boxes, direct, direct.indirect);
@@ -164,7 +158,7 @@ void LightClipmap::relight(PassContext& context, bool moved) {
         for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
             const SurfaceVoxels& voxels = clipmap.levels[l].voxels;
             if (voxels.voxelCount == 0) continue;
-            fillWindow(context, l, voxels, {heldVoxels(voxels.grid)}, lights[l], flux[l]);
+            fillWindow(context, l, voxels, {windowVoxels(voxels.grid)}, lights[l], flux[l]);
         }
         fillCoarseLevels(context);
     }
@@ -189,9 +183,8 @@ VoxelIrradiance LightClipmap::directLight(PassContext& context, const SurfaceVox
     irradiance.allocate(context.device, uint32_t(count));
     stream.fill(irradiance.indirect, 0);
     flux_.resolve(stream, voxels, irradiance.direct);
-    context.dispatch(
-        litArea_, voxels.voxelCount,
-        {voxels, {"litArea", litArea}, {"area", irradiance.area}, {"voxelCount", voxels.voxelCount}});
+    context.dispatch(litArea_, voxels.voxelCount,
+                     {voxels, {"litArea", litArea}, {"area", irradiance.area}, {"voxelCount", voxels.voxelCount}});
 
     stream.finish();
     voxelizer_->release();
@@ -220,9 +213,8 @@ void LightClipmap::fillWindow(PassContext& context, uint32_t level, const Surfac
 void LightClipmap::fillCoarseLevels(PassContext& context) {
     const RadianceVoxels& radiance = context[radiance_];
     for (uint32_t l = storage_.windows().firstWhole() + 1; l < radiance.grid.levels; ++l) {
-        const glm::uvec3 size = levelResolution(radiance.grid.resolution, l);
-        const uint64_t voxels = uint64_t(size.x) * size.y * size.z;
-        context.dispatch(fillLevel_, voxels, {radiance.fillBindings(), {"level", l}});
+        const uint64_t voxels = levelVoxels(radiance.grid.resolution, l);
+        context.dispatch(filterLevel_, voxels, {radiance.fillBindings(), {"level", l}});
         updatedVoxels_ += voxels;
     }
 }

@@ -1,5 +1,5 @@
-// Direct light on the surfaces of voxels. The fragment callback tests each clipped fragment, the part of a triangle in a voxel, against
-// the shadow map of each punctual light:
+// Direct light on the surfaces of voxels. The fragment callback tests each clipped fragment, a triangle clipped to a
+// voxel, against the shadow map of each punctual light:
 //
 //        * light
 //         \   .                 E    mean irradiance over the fragment's sub-samples: o lit, x in shadow
@@ -7,9 +7,9 @@
 //     /|    \       .     /|    n    normal of its lit side
 //    +---o---o---o---x---+ |
 //    | |                 | |    E A n_a²    flux to the face along axis a that the lit side faces
-//    | +-----------------|-+    A n_a² lit  area that the flux arrives at, where `lit` is the fraction of sub-samples with o
+//    | +-----------------|-+    A n_a² lit  area that the flux arrives at; `lit`: fraction of the sub-samples o
 //    |/                  |/
-//    +-------------------+      Both are summed by voxel and face in fixed point, so that the order of additions does not matter.
+//    +-------------------+      Both are summed by voxel and face in fixed point: the order of additions does not matter.
 #include "passes/common/triangle_voxelizer/exact.glsl"
 #include "passes/common/voxel_builder/surface_accumulator.h"
 #include "shaders/lights/lights.glsl"
@@ -31,7 +31,7 @@ void processFragment(TriangleFragment f) {
     const int count = max(bitCount(c.subSamples), 1);
     uvec2 lit = uvec2(0u);  // Sub-samples that any light reaches, on the front and on the back.
     for (uint k = 0u; k < shadowLights.count; ++k) {
-        // Each light is on one side of the triangle.
+        // A light illuminates one side of the triangle
         const ShadowLight shadowed = shadowLights.data[k];
         const GpuLight light = sceneLights.data[shadowed.light];
         const int back = dot(samplePunctual(light, p0).direction, front) < 0.0 ? 1 : 0;
@@ -51,7 +51,8 @@ void processFragment(TriangleFragment f) {
             lit[back] |= 1u << i;
         }
 
-        // Clamped to the power of all lights: point samples may exceed it where a light is much nearer than the fragment is wide.
+        // Clamped to the power of all lights: point samples may exceed it where a light is much nearer than the
+        // fragment is wide.
         const vec3 watts = irradiance / float(count) * (c.area * voxelizer.grid.voxelSize * voxelizer.grid.voxelSize);
         addFlux(voxel, normal, min(watts, vec3(exp2(FLUX_POWER_BITS) / unitsPerWatt)), unitsPerWatt);
     }

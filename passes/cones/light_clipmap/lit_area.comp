@@ -1,5 +1,5 @@
-// The area that the flux at each face of a voxel arrives at, in units of a voxel's face: the unoccluded area, and at least the lit one,
-// since lit surfaces are visible even if the visibility probes missed that.
+// The area that the flux at each face of a voxel arrives at, in units of a voxel's face: the unoccluded area, and at
+// least the lit one, since lit surfaces are visible even if the visibility probes missed that.
 #include "passes/common/voxel_builder/surface_accumulator.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/packed_flux.glsl"

@@ -1,8 +1,10 @@
-// Bricks of a level from those of their children (Arnebäck 2017, section 3.2.4, figures 30 and 31), in three dispatches: the value in
-// the brick's center; those on its sides and edges; those at its corners. Values on sides, edges and corners are partial sums, of a
-// half, a quarter and an eighth of the kernel: neighbors hold the rest, and transfers add them up.
+// Bricks of a level from those of their children (Arnebäck 2017, section 3.2.4, figures 30 and 31), in three
+// dispatches: the value in the brick's center; those on its faces and edges; those at its corners. Values on faces,
+// edges and corners are partial sums over a half, a quarter and an eighth of the kernel, to which transfers add those
+// of the neighbors.
 //
-// The kernel is 1/4 1/2 1/4 along each axis. Two neighbors share the kernel's center on a side, so that each takes half of it:
+// The kernel is 1/4 1/2 1/4 along each axis. On a face two neighbors share the kernel's center, so that each has half
+// of it:
 //
 //        children's values, along an axis      0     1     2     3     4
 //        value 0 of the brick                 1/4   1/4
@@ -14,14 +16,15 @@ layout(local_size_x = 64) in;
 
 layout(push_constant, scalar) uniform Push {
     LevelNodes nodes;
-    uint minSides;  // Filters values that lie on at least so many sides of the brick, ...
-    uint maxSides;  // ... and at most so many.
+    uint minFaces;  // Filters values that are on at least so many faces of the brick, ...
+    uint maxFaces;  // ... and at most so many.
 } push;
 
 // Mask of the octants whose bricks contain a texel coordinate (0 to 4) along one axis; `low`: mask of the lower four.
 uint octantsAt(int texel, uint low) { return texel < 2 ? low : texel > 2 ? 0xffu & ~low : 0xffu; }
 
-// The children's value at a texel, 0 to 4 along each axis, from the first of the bricks that share it. `present`: children with bricks.
+// The children's value at a texel, 0 to 4 along each axis, from the first of the bricks that share it. `present`:
+// children with bricks.
 vec4 childValue(uint brick[8], uint present, ivec3 texel) {
     const uint sharing = octantsAt(texel.x, 0x55u) & octantsAt(texel.y, 0x33u) & octantsAt(texel.z, 0x0fu) & present;
     if (sharing == 0u) return vec4(0.0);
@@ -40,9 +43,9 @@ void main() {
     }
     for (int i = 0; i < int(BRICK_VALUES); ++i) {
         const ivec3 texel = ivec3(i % 3, i / 3 % 3, i / 9);
-        const bvec3 isSide = notEqual(texel, ivec3(1));
-        const uint sides = uint(isSide.x) + uint(isSide.y) + uint(isSide.z);
-        if (sides < push.minSides || sides > push.maxSides) continue;
+        const bvec3 isOnFace = notEqual(texel, ivec3(1));
+        const uint faces = uint(isOnFace.x) + uint(isOnFace.y) + uint(isOnFace.z);
+        if (faces < push.minFaces || faces > push.maxFaces) continue;
         const ivec3 low = max(2 * texel - 1, ivec3(0)), high = min(2 * texel + 1, ivec3(4));
         vec4 sum = vec4(0.0);
         for (int z = low.z; z <= high.z; ++z)

@@ -1,5 +1,6 @@
-// Makes the values equal that two bricks share across an axis (Arnebäck 2017, section 3.2.3, figure 27). The first pass writes their mean
-// (leaves) or sum (partial sums of the filter) to the neighbor up the axis, the second copies it back to the one down the axis.
+// Makes the values equal that two bricks share across an axis (Arnebäck 2017, section 3.2.3, figure 27). The first pass
+// writes their mean (leaves) or sum (partial sums of the filter) to the neighbor up the axis, the second copies it back
+// to the one down the axis.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cones/radiance/radiance_voxels.glsl"
 layout(local_size_x = 64) in;

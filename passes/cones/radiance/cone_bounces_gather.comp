@@ -1,5 +1,5 @@
-// Flux that arrives at the faces of surface voxels, by a set of cones through radiance voxels from the voxel's center. A thread gathers
-// for the two faces across an axis, which share a word.
+// Flux that arrives at the faces of surface voxels, by a set of cones through radiance voxels from the voxel's center.
+// A thread gathers for the two faces across an axis, which share a word.
 #include "passes/cones/radiance/cone_set.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cones/radiance/surface_radiance.glsl"
@@ -27,7 +27,8 @@ vec3 gather(uint voxel, uint face) {
     const uvec3 coordinates = voxelCoordinates.data[voxel];
     const vec3 normal = meanNormal(m.normal, faceNormal(face));
     const vec3 center = push.grid.origin + (vec3(coordinates) + 0.5) * push.grid.voxelSize;
-    // The cones' positions in their strata vary from voxel to voxel, by the additive recurrence of Roberts 2018 along each axis.
+    // The cones' positions in their strata vary from voxel to voxel, by the additive recurrence of Roberts 2018 along
+    // each axis.
     const vec3 dither = fract(vec3(0.5) + float(coordinates.x) * vec3(0.754877666, 0.569840296, 0.819172513) +
                               float(coordinates.y) * vec3(0.569840296, 0.754877666, 0.671043607) +
                               float(coordinates.z) * vec3(0.671043607, 0.819172513, 0.549700478));

@@ -5,8 +5,8 @@
 #include "passes/cones/radiance/cone_types.h"
 #include "shaders/scene/sampling.glsl"
 
-// Axis of a cone of the set about the unit normal. `dither`, two numbers in [0, 1): position in its stratum (azimuth, then angle from the
-// normal).
+// Axis of a cone of the set about the unit normal. `dither`, two numbers in [0, 1): position in its stratum (azimuth,
+// then angle from the normal).
 vec3 coneDirection(Cone cone, vec3 normal, vec2 dither) {
     vec3 tangent, bitangent;
     frame(normal, tangent, bitangent);

@@ -7,8 +7,8 @@
 
 layout(scalar) readonly buffer Cones { Cone data[]; } cones;
 
-// Irradiance, W/m², at `position` on a surface with unit geometric and unit shading normal, by the first `count` cones of the set.
-// `dither`, three numbers in [0, 1): two for coneDirection(), and the shift of the cones' levels.
+// Irradiance, W/m², at `position` on a surface with unit geometric and unit shading normal, by the first `count` cones
+// of the set. `dither`, three numbers in [0, 1): two for coneDirection(), and the shift of the cones' levels.
 vec3 coneIrradiance(vec3 position, vec3 geometricNormal, vec3 normal, uint count, vec3 dither) {
     const ConeBase base = coneBase(position, geometricNormal, dither.z, 0.0);
     vec3 sum = vec3(0.0);

@@ -7,7 +7,7 @@
 namespace voxray {
 namespace {
 
-/// A ring of strata round the normal.
+/// A ring of strata around the normal.
 struct Ring {
     uint32_t cones;
     double within;  ///< Fraction of a uniform hemisphere's irradiance from this ring and those within it: the

@@ -6,7 +6,7 @@
 
 namespace voxray {
 
-/// Cones that partition the hemisphere over a surface, in rings round its normal. Each represents a stratum
+/// Cones that partition the hemisphere over a surface, in rings around its normal. Each represents a stratum
 /// of its ring; its weight is the stratum's cosine-weighted solid angle.
 /// @param count one of coneSetSizes().
 std::vector<gpu::Cone> coneSet(uint32_t count);

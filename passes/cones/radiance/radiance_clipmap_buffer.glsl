@@ -7,27 +7,27 @@
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer ClipmapValues { uvec2 data[]; };
 layout(scalar) readonly buffer RadianceVoxels {
     RadianceGrid grid;
-    uint side;
+    uint windowSize;
     uint firstWhole;
     ClipmapWindow window[RADIANCE_CLIPMAP_LEVELS];
-    ClipmapValues values;  // By window, slot and direction: passes/cones/radiance/radiance_texel.glsl.
+    ClipmapValues values;  // By window, index and direction: passes/cones/radiance/radiance_texel.glsl.
 } radianceVoxels;
 
-#define NO_SLOT 0xffffffffu
+#define NO_VALUE 0xffffffffu
 
-#define CLIPMAP_SLOT uint
-uint slotIn(ClipmapWindow w, ivec3 voxel) {
-    const uvec3 slot = uvec3(voxel) & (radianceVoxels.side - 1u);
-    return w.slotOffset + (slot.z * w.size.y + slot.y) * w.size.x + slot.x;
+#define RADIANCE_INDEX uint
+uint indexInWindow(ClipmapWindow w, ivec3 voxel) {
+    const uvec3 wrapped = uvec3(voxel) & (radianceVoxels.windowSize - 1u);
+    return w.firstIndex + (wrapped.z * w.size.y + wrapped.y) * w.size.x + wrapped.x;
 }
-uint clipmapSlot(uint level, ivec3 voxel) { return slotIn(radianceVoxels.window[level], voxel); }
+uint radianceIndex(uint level, ivec3 voxel) { return indexInWindow(radianceVoxels.window[level], voxel); }
 
-vec4 radianceValue(uint slot, uint face) {
-    return unpackRadiance(radianceVoxels.values.data[slot * radianceVoxels.grid.directions + face]);
+vec4 radianceValue(uint index, uint face) {
+    return unpackRadiance(radianceVoxels.values.data[index * radianceVoxels.grid.directions + face]);
 }
 
-void storeRadiance(uint slot, uint face, vec4 value) {
-    radianceVoxels.values.data[slot * radianceVoxels.grid.directions + face] = packRadiance(value);
+void storeRadiance(uint index, uint face, vec4 value) {
+    radianceVoxels.values.data[index * radianceVoxels.grid.directions + face] = packRadiance(value);
 }
 
 vec4 quantizedRadiance(vec4 value) { return unpackRadiance(packRadiance(value)); }
@@ -38,12 +38,13 @@ vec4 sampleWindow(uint level, vec3 position, vec3 direction) {
     const ClipmapWindow w = radianceVoxels.window[level];
     vec3 fraction;
     const ivec3 corner = cornerVoxel(level, position, fraction);
-    uint slot[8];
+    uint indices[8];
     for (uint octant = 0u; octant < 8u; ++octant) {
         const ivec3 voxel = blockVoxel(corner, octant);
-        slot[octant] = inWindow(w, voxel) && octantWeight(octant, fraction) > 0.0 ? slotIn(w, voxel) : NO_SLOT;
+        indices[octant] =
+            inWindow(w, voxel) && octantWeight(octant, fraction) > 0.0 ? indexInWindow(w, voxel) : NO_VALUE;
     }
-    return interpolateBlock(slot, fraction, direction);
+    return interpolateBlock(indices, fraction, direction);
 }
 
 #endif

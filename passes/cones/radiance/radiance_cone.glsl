@@ -1,5 +1,5 @@
-// Voxel cone tracing, front to back (Crassin et al. 2011, section 7), with samples in layers of voxels rather than at free distances
-// along the cone.
+// Voxel cone tracing, front to back (Crassin et al. 2011, section 7), with samples in layers of voxels rather than at
+// free distances along the cone.
 //
 //          layer   layer     layer of a coarser level
 //        |   .   |   .   |       .       |
@@ -8,10 +8,10 @@
 //    o---|--_x---|-'     |       .       |
 //        |   .   |   .   |       .       |
 //
-// Along each of the three axes the cone samples every layer of voxels that it crosses exactly once, and reads there the faces that
-// oppose it along that axis. A closed surface then has an opacity of 1 wherever its voxels lie: the three projections of its area are
-// each counted once. Samples at free distances would hit a wall of one voxel's thickness twice or not at all. Nothing behind the
-// cone's start contributes.
+// Along each of the three axes the cone samples every layer of voxels that it crosses exactly once, and reads there the
+// faces that oppose it along that axis. A closed surface then has an opacity of 1 wherever its voxels lie: the three
+// projections of its area are each counted once. Samples at free distances would hit a wall of one voxel's thickness
+// twice or not at all. Nothing behind the cone's start contributes.
 #ifndef VOXRAY_RADIANCE_CONE_GLSL
 #define VOXRAY_RADIANCE_CONE_GLSL
 
@@ -27,15 +27,16 @@ struct ConeBase {
     vec3 normal;    // The surface's geometric normal, unit length.
     uint level;     // Finest level of the samples: above 0 in a clipmap's outer windows.
     float clear;    // m from the start along the cones that are known to be free of surfaces.
-    // By axis: height above the surface's plane, in voxels of a sample's level, above which a sample of a layer across that axis does
-    // not read the surface itself. 0 where the surface has no faces along the axis.
+    // By axis: height above the surface's plane, in voxels of a sample's level, above which a sample of a layer across
+    // that axis does not read the surface itself. 0 where the surface has no faces along the axis.
     vec3 clearHeight;
-    // By face +x -x +y -y +z -z: radiance times opacity, and opacity, within the start's voxel, for a cone that leaves it that way.
+    // By face +x -x +y -y +z -z: radiance times opacity, and opacity, within the start's voxel, for a cone in that
+    // direction.
     vec4 startVoxel[6];
 };
 
-// Radiance and opacity of a wall that stands on the surface within the start's voxel, for a cone along `face`. The voxel alone can't
-// tell whether the wall is in front of the start or behind it:
+// Radiance and opacity of a wall that stands on the surface within the start's voxel, for a cone along `face`. The
+// voxel alone can't tell whether the wall is in front of the start or behind it:
 //
 //      in front:   o  |          behind:   |  o
 //              _______|____                |______________     the surface continues in the next voxel
@@ -53,8 +54,8 @@ vec4 wallInStartVoxel(ConeBase base, uint face) {
     return sampleLevel(base.level, inWall + voxel * up, forward);
 }
 
-// `dither`, 0 to 1: between two windows of a clipmap it chooses the start level, so that the transition is gradual. `clear`, m: length
-// from the start along the cones that is known to be free of surfaces; 0: unknown.
+// `dither`, 0 to 1: between two windows of a clipmap it chooses the start level, so that the transition is gradual.
+// `clear`, m: length from the start along the cones that is known to be free of surfaces; 0: unknown.
 ConeBase coneBase(vec3 position, vec3 normal, float dither, float clear) {
     ConeBase base;
     base.position = position + normal * (radianceVoxels.grid.voxelSize / 256.0);
@@ -65,14 +66,16 @@ ConeBase coneBase(vec3 position, vec3 normal, float dither, float clear) {
     // A sample at a layer's center reads half a voxel along the axis and, interpolated, one and a half across it.
     const vec3 size = abs(normal);
     base.clearHeight = vec3(1.5 * (size.x + size.y + size.z)) - size;
-    if (radianceVoxels.grid.directions == 6u) base.clearHeight = mix(base.clearHeight, vec3(0.0), lessThan(size, vec3(0.1)));
+    if (radianceVoxels.grid.directions == 6u)
+        base.clearHeight = mix(base.clearHeight, vec3(0.0), lessThan(size, vec3(0.1)));
     for (uint face = 0u; face < 6u; ++face)
-        base.startVoxel[face] = clear > 0.0 || base.clearHeight[face >> 1] > 0.0 ? vec4(0.0) : wallInStartVoxel(base, face);
+        base.startVoxel[face] =
+            clear > 0.0 || base.clearHeight[face >> 1] > 0.0 ? vec4(0.0) : wallInStartVoxel(base, face);
     return base;
 }
 
-// State of a cone along one axis. While crossing a layer the cone also moves along it, by several voxels where it is nearly parallel
-// to it: then `samples` samples, evenly spaced over the crossing, count 1 / samples each.
+// State of a cone along one axis. While crossing a layer the cone also moves along it, by several voxels where it is
+// nearly parallel to it: then `samples` samples, evenly spaced over the crossing, count 1 / samples each.
 struct ConeAxis {
     float start;  // In voxels of level 0, in the direction of travel.
     float speed;  // Voxels a metre.
@@ -99,9 +102,10 @@ void placeSample(inout ConeAxis axis) {
     axis.t = (float(axis.next) + fraction * float(1u << axis.level) - axis.start) / axis.speed;
 }
 
-// Selects the next layer: the coarsest that begins at the end of the last one and is at most half as wide as the cone there, dithered by
-// half a level. A voxel's filter, a tent two voxels wide convolved with a box of one, then has the variance of the cone's cross-section.
-// `clearance`: the largest voxel, per unit of distance, whose samples don't read the surface that the cone starts from.
+// Selects the next layer: the coarsest that begins at the end of the last one and is at most half as wide as the cone
+// there, dithered by half a level. A voxel's filter, a tent two voxels wide convolved with a box of one, then has the
+// variance of the cone's cross-section. `clearance`: the largest voxel, per unit of distance, whose samples don't read
+// the surface that the cone starts from.
 void findLayer(inout ConeAxis axis, ConeShape shape, float clearance) {
     axis.t = 1.0e30;
     const float voxel = radianceVoxels.grid.voxelSize;
@@ -124,19 +128,20 @@ void advance(inout ConeAxis axis, ConeShape shape, float clearance) {
     findLayer(axis, shape, clearance);
 }
 
-// Compositing. Opacities of samples closer to each other than a voxel's diagonal belong to one surface and add up; after a gap the next
-// surface is composited behind the last one, as if independent of it.
+// Compositing. Opacities of samples closer to each other than a voxel's diagonal belong to one surface and add up;
+// after a gap the next surface is composited behind the last one, as if independent of it.
 //
-// Columns. Interpolated opacities of a slanted surface add up to 1 only on average: its voxels form stairs, and a cone may pass between
-// two steps.
+// Columns. Interpolated opacities of a slanted surface add up to 1 only on average: its voxels form stairs, and a cone
+// may pass between two steps.
 //
 //        [ ][ ]            the cone ---> passes between the voxels of the upper and the lower step,
 //      -------------->     although along each column (down) the surface is closed
 //              [ ][ ]
 //
-// Along a column of voxels, across the cone's layers, the opacities add up to exactly 1. So a sample also raises the opacity to that of
-// its column: of the faces in COLUMN_LAYERS layers up to this one that oppose the cone, less those that face along it, which belong to
-// what lies behind the surface. A plane of any orientation occludes 0.97, 0.99, 1.00 of the rays with columns of 2, 3, 4 layers.
+// Along a column of voxels, across the cone's layers, the opacities add up to exactly 1. So a sample also raises the
+// opacity to that of its column: of the faces in COLUMN_LAYERS layers up to this one that oppose the cone, less those
+// that face along it, which belong to what lies behind the surface. A plane of any orientation occludes 0.97, 0.99,
+// 1.00 of the rays with columns of 2, 3, 4 layers.
 #define COLUMN_LAYERS 3
 
 struct ConeLight {
@@ -157,9 +162,10 @@ void raiseOpacity(inout ConeLight light, float opacity, vec4 value) {
     light.opacity += added;
 }
 
-// Composites a sample. `front`: of the faces that oppose the cone. `back`: opacity of the faces along it. A surface with more back faces
-// than front faces is seen from behind: it blocks the cone and is black. Up to an opacity of 1/2 of back faces may belong to the stairs
-// of a slanted surface seen from the front; the excess counts twice, so that a full back face blocks in full.
+// Composites a sample. `front`: of the faces that oppose the cone. `back`: opacity of the faces along it. A surface
+// with more back faces than front faces is seen from behind: it blocks the cone and is black. Up to an opacity of 1/2
+// of back faces may belong to the stairs of a slanted surface seen from the front; the excess counts twice, so that a
+// full back face blocks in full.
 void addSample(inout ConeLight light, vec4 front, float back, float t, float voxel) {
     if (front.a + back <= 0.0) return;
     if (t - light.lastT > 1.75 * voxel) {
@@ -175,18 +181,18 @@ void addSample(inout ConeLight light, vec4 front, float back, float t, float vox
     raiseOpacity(light, light.opacity + front.a, front);
 }
 
-// Radiance that arrives at `base` through a cone along `direction` (unit, above the surface), `width` wide at unit distance, with
-// levels shifted by `dither`, -1/2 to 1/2.
+// Radiance that arrives at `base` through a cone along `direction` (unit, above the surface), `width` wide at unit
+// distance, with levels shifted by `dither`, -1/2 to 1/2.
 vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
     const RadianceGrid g = radianceVoxels.grid;
     const bool faces = g.directions == 6u;
-    const vec3 clearance =
-        mix(dot(direction, base.normal) / max(base.clearHeight, 1e-6), vec3(1.0e30), equal(base.clearHeight, vec3(0.0)));
+    const vec3 clearance = mix(dot(direction, base.normal) / max(base.clearHeight, 1e-6), vec3(1.0e30),
+                               equal(base.clearHeight, vec3(0.0)));
     const float speed = (abs(direction.x) + abs(direction.y) + abs(direction.z)) / g.voxelSize;
     ConeShape shape = ConeShape(width, dither, speed, 1.0e30, base.level);
 
-    // Axes are mirrored, about a multiple of the coarsest voxels' width, such that the cone travels along each in the positive direction.
-    // Then the contribution of the start's voxel.
+    // Axes are mirrored, about a multiple of the coarsest voxels' width, such that the cone travels along each in the
+    // positive direction. Then the contribution of the start's voxel.
     const int coarsest = 1 << (g.levels - 1u);
     const int mirrored = (int(max(g.resolution.x, max(g.resolution.y, g.resolution.z))) + coarsest - 1) & -coarsest;
     ConeAxis axis[3];
@@ -210,8 +216,8 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
 
     for (uint k = 0u; k < 3u; ++k) findLayer(axis[k], shape, clearance[k]);
 
-    // Each step takes the nearest sample of the three axes. There are at most one and a half samples per voxel width of the path, of all
-    // axes together, and those of the first layer of an axis that the cone is nearly perpendicular to.
+    // Each step takes the nearest sample of the three axes. There are at most one and a half samples per voxel width of
+    // the path, of all axes together, and those of the first layer of an axis that the cone is nearly perpendicular to.
     const int maxSteps = 4 * int(g.resolution.x + g.resolution.y + g.resolution.z);
     for (int step_ = 0; step_ < maxSteps && light.transmittance * (1.0 - light.opacity) > MIN_TRANSMITTANCE; ++step_) {
         const uint k = axis[0].t <= axis[1].t ? (axis[0].t <= axis[2].t ? 0u : 2u) : (axis[1].t <= axis[2].t ? 1u : 2u);
@@ -220,10 +226,12 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
         // The last layer may be thicker than the grid.
         if (t > shape.exit_ + 2.0 * voxel) break;
 
-        // Samples within the distance known to be clear are skipped. Those that may still read the surface at the start don't block the
-        // cone; with one value for all faces they can't be told apart from that surface and are skipped.
+        // Samples within the distance known to be clear are skipped. Those that may still read the surface at the start
+        // don't block the cone; with one value for all faces they can't be told apart from that surface and are
+        // skipped.
         const bool clear = clearance[k] * t >= voxel;
-        const float sampleEnd = t + 0.5 * voxel / (axis[k].speed * radianceVoxels.grid.voxelSize * float(axis[k].samples));
+        const float sampleEnd =
+            t + 0.5 * voxel / (axis[k].speed * radianceVoxels.grid.voxelSize * float(axis[k].samples));
         if ((clear || faces) && sampleEnd >= base.clear) {
             const bool up = direction[k] >= 0.0;
             const float center = float(axis[k].next) + 0.5 * float(1u << axis[k].level);

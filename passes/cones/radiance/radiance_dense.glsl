@@ -1,8 +1,7 @@
-// Radiance voxels in full grids, one for each level (layout: dense). A voxel's values are adjacent, four half floats each.
+// Radiance voxels in full grids, one for each level (layout: dense). A voxel's values are adjacent, four half floats
+// each.
 #ifndef VOXRAY_RADIANCE_DENSE_GLSL
 #define VOXRAY_RADIANCE_DENSE_GLSL
-
-#include "passes/cones/radiance/radiance_dense_types.h"
 
 // By address: a grid may exceed the maximum size of a bound buffer.
 layout(buffer_reference, scalar, buffer_reference_align = 8) buffer RadianceValues { uvec2 data[]; };
@@ -12,7 +11,7 @@ layout(scalar) readonly buffer RadianceVoxels {
     DenseLevel level[RADIANCE_DENSE_LEVELS];
 } radianceVoxels;
 
-#define NO_SLOT 0xffffffffu
+#define NO_VALUE 0xffffffffu
 uint radianceIndex(DenseLevel level, ivec3 voxel) {
     const uvec3 v = uvec3(voxel);
     return level.first + (v.z * level.resolution.y + v.y) * level.resolution.x + v.x;
@@ -41,13 +40,13 @@ vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     const DenseLevel d = radianceVoxels.level[level];
     vec3 fraction;
     const ivec3 corner = cornerVoxel(level, position, fraction);
-    uint slot[8];
+    uint indices[8];
     for (uint octant = 0u; octant < 8u; ++octant) {
         const ivec3 voxel = blockVoxel(corner, octant);
         const bool inside = all(greaterThanEqual(voxel, ivec3(0))) && all(lessThan(voxel, ivec3(d.resolution)));
-        slot[octant] = inside && octantWeight(octant, fraction) > 0.0 ? radianceIndex(d, voxel) : NO_SLOT;
+        indices[octant] = inside && octantWeight(octant, fraction) > 0.0 ? radianceIndex(d, voxel) : NO_VALUE;
     }
-    const vec4 value = interpolateBlock(slot, fraction, direction);
+    const vec4 value = interpolateBlock(indices, fraction, direction);
     return vec4(radianceVoxels.grid.unit * value.rgb, value.a);
 }
 

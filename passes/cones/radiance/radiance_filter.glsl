@@ -1,10 +1,11 @@
-// Filters of 2x2x2 radiance voxels, for coarser levels and for interpolation. Values are radiance times opacity, and opacity
-// (passes/cones/radiance/radiance_voxels.glsl). `octant` numbers the voxels of a block: x in bit 0, y in bit 1, z in bit 2.
+// Filters of 2x2x2 radiance voxels, for coarser levels and for interpolation. Values are radiance times opacity, and
+// opacity (passes/cones/radiance/radiance_voxels.glsl). `octant` numbers the voxels of a block: x in bit 0, y in bit 1,
+// z in bit 2.
 #ifndef VOXRAY_RADIANCE_FILTER_GLSL
 #define VOXRAY_RADIANCE_FILTER_GLSL
 
-// A position in voxels of a level, whose centers are whole numbers; rounded to 1/1024 of a voxel, so that a position in the center of a
-// layer reads that layer alone.
+// A position in voxels of a level, whose centers are whole numbers; rounded to 1/1024 of a voxel, so that a position in
+// the center of a layer reads that layer alone.
 vec3 levelCoordinates(RadianceGrid g, uint level, vec3 position) {
     return round(((position - g.origin) / (g.voxelSize * float(1u << level)) - 0.5) * 1024.0) / 1024.0;
 }
@@ -12,8 +13,8 @@ vec3 levelCoordinates(RadianceGrid g, uint level, vec3 position) {
 // One of the eight voxels from `corner` on.
 ivec3 blockVoxel(ivec3 corner, uint octant) { return corner + ivec3(octant & 1u, (octant >> 1) & 1u, octant >> 2); }
 
-// Two voxels one behind the other along a ray. Their surfaces mostly belong to one surface through both, so opacities add up; only the
-// excess over 1 is occluded.
+// Two voxels one behind the other along a ray. Their surfaces mostly belong to one surface through both, so opacities
+// add up; only the excess over 1 is occluded.
 vec4 compositePair(vec4 front, vec4 rear) {
     return front + rear * (rear.a > 0.0 ? clamp((1.0 - front.a) / rear.a, 0.0, 1.0) : 0.0);
 }
@@ -21,7 +22,8 @@ vec4 compositePair(vec4 front, vec4 rear) {
 // Whether an octant is in the layer that a ray against `face` (+x -x +y -y +z -z) enters first.
 bool isFront(uint face, uint octant) { return ((octant >> (face >> 1)) & 1u) == 1u - (face & 1u); }
 
-// The value of a parent voxel for one face: pairs of children along the axis are composited, and the four pairs averaged.
+// The value of a parent voxel for one face: pairs of children along the axis are composited, and the four pairs
+// averaged.
 vec4 combineFaces(vec4 child[8], uint face) {
     const uint step_ = 1u << (face >> 1);
     vec4 sum = vec4(0.0);
@@ -30,7 +32,7 @@ vec4 combineFaces(vec4 child[8], uint face) {
     return 0.25 * sum;
 }
 
-// The same with one value for all faces: the mean, since front and rear can't be told apart.
+// The same with one value for all faces: the mean, since there is no front.
 vec4 combineAll(vec4 child[8]) {
     vec4 sum = vec4(0.0);
     for (uint octant = 0u; octant < 8u; ++octant) sum += child[octant];
@@ -44,8 +46,8 @@ float octantWeight(uint octant, vec3 fraction) {
     return weight.x * weight.y * weight.z;
 }
 
-// Interpolated value of one face. The rear voxel of each pair counts as far as the front one transmits, so that a surface occludes the
-// one behind it, though both lie within the filter's support.
+// Interpolated value of one face. The rear voxel of each pair counts as far as the front one transmits, so that a
+// surface occludes the one behind it, though both lie within the filter's support.
 vec4 interpolateFaces(vec4 value[8], uint face, vec3 fraction) {
     const uint step_ = 1u << (face >> 1);
     vec4 sum = vec4(0.0);

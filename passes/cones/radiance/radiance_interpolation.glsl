@@ -1,13 +1,15 @@
 // Trilinear interpolation between the voxels of one level. The including layout has declared
 //  - radianceVoxels;
-//  - NO_SLOT: of a voxel that is empty or outside;
-//  - vec4 radianceValue(uint slot, uint face): the stored value. `face`: 0 to 5 for +x -x +y -y +z -z, 0 with one value for all.
+//  - NO_VALUE: of a voxel that is empty or outside;
+//  - vec4 radianceValue(uint slot, uint face): the stored value. `face`: 0 to 5 for +x -x +y -y +z -z, 0 with one value
+//    for all.
 #ifndef VOXRAY_RADIANCE_INTERPOLATION_GLSL
 #define VOXRAY_RADIANCE_INTERPOLATION_GLSL
 
 #include "passes/cones/radiance/radiance_filter.glsl"
 
-// The lower corner of the 2x2x2 voxels between whose centers a position lies, and its fractional coordinates between them.
+// The lower corner of the 2x2x2 voxels between whose centers a position lies, and its fractional coordinates between
+// them.
 ivec3 cornerVoxel(uint level, vec3 position, out vec3 fraction) {
     const vec3 coordinates = levelCoordinates(radianceVoxels.grid, level, position);
     const vec3 corner = floor(coordinates);
@@ -16,7 +18,7 @@ ivec3 cornerVoxel(uint level, vec3 position, out vec3 fraction) {
 }
 
 // Radiance and opacity along `direction`, interpolated between the eight voxels of a block, which are stored at `slot`.
-vec4 interpolateBlock(uint slot[8], vec3 fraction, vec3 direction) {
+vec4 interpolateBlock(uint indices[8], vec3 fraction, vec3 direction) {
     vec4 value[8];
     vec4 sum = vec4(0.0);
     const bool faces = radianceVoxels.grid.directions == 6u;
@@ -24,7 +26,7 @@ vec4 interpolateBlock(uint slot[8], vec3 fraction, vec3 direction) {
         const uint face = 2u * axis + (direction[axis] > 0.0 ? 1u : 0u);
         if (faces && direction[axis] == 0.0) continue;
         for (uint octant = 0u; octant < 8u; ++octant)
-            value[octant] = slot[octant] == NO_SLOT ? vec4(0.0) : radianceValue(slot[octant], faces ? face : 0u);
+            value[octant] = indices[octant] == NO_VALUE ? vec4(0.0) : radianceValue(indices[octant], faces ? face : 0u);
         sum += faces ? abs(direction[axis]) * interpolateFaces(value, face, fraction) : interpolateAll(value, fraction);
     }
     return sum;

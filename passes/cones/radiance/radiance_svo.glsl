@@ -16,9 +16,11 @@ layout(scalar) readonly buffer RadianceVoxels {
 uint octreeValueIndex(uint node, uint face) { return face * octree.shape.nodeCount + node; }
 
 // Radiance times opacity, and opacity, of a node; 0 for NO_NODE.
-vec4 radianceValue(uint node, uint face) { return unpackRadiance(radianceVoxels.values.data[octreeValueIndex(node, face)]); }
+vec4 radianceValue(uint node, uint face) {
+    return unpackRadiance(radianceVoxels.values.data[octreeValueIndex(node, face)]);
+}
 
-#define NO_SLOT NO_NODE
+#define NO_VALUE NO_NODE
 #include "passes/cones/radiance/radiance_interpolation.glsl"
 
 vec4 sampleLevel(uint level, vec3 position, vec3 direction) {

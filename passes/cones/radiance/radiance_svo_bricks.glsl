@@ -4,7 +4,8 @@
 
 #include "shaders/octree/brick_octree.glsl"
 
-// The largest channel of all leaves' radiance times opacity, W/(m² sr), as the bits of a float: what 1 in a brick represents.
+// The largest channel of all leaves' radiance times opacity, W/(m² sr), as the bits of a float: what 1 in a brick
+// represents.
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer BrickScale { uint brightest; };
 layout(scalar) buffer RadianceVoxels {  // Not readonly: addresses are handed to functions.
     RadianceGrid grid;
@@ -14,7 +15,9 @@ layout(scalar) buffer RadianceVoxels {  // Not readonly: addresses are handed to
 } radianceVoxels;
 
 // Radiance times opacity over the brightest, and opacity.
-vec4 brickValue(uint brick, ivec3 texel) { return unpackUnorm4x8(radianceVoxels.bricks.data[brickIndex(brick, texel)]); }
+vec4 brickValue(uint brick, ivec3 texel) {
+    return unpackUnorm4x8(radianceVoxels.bricks.data[brickIndex(brick, texel)]);
+}
 void storeBrickValue(uint brick, ivec3 texel, vec4 value) {
     radianceVoxels.bricks.data[brickIndex(brick, texel)] = packUnorm4x8(value);
 }
@@ -24,7 +27,8 @@ vec4 sampleLevel(uint level, vec3 position, vec3 direction) {
     const RadianceGrid g = radianceVoxels.grid;
     const vec3 coordinates = (position - g.origin) / (g.voxelSize * float(1u << level));
     const ivec3 cell = ivec3(floor(coordinates));
-    if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(levelResolution(g, level))))) return vec4(0.0);
+    if (any(lessThan(cell, ivec3(0))) || any(greaterThanEqual(cell, ivec3(levelResolution(g, level)))))
+        return vec4(0.0);
     const uint brick = findBrick(radianceVoxels.nodes, cell, g.levels - 1u - level);
     if (brick == NO_BRICK) return vec4(0.0);
     const vec3 inBrick = 2.0 * (coordinates - vec3(cell));

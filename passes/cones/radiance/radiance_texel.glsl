@@ -1,6 +1,6 @@
-// Radiance and opacity in 64 bits: three mantissas of 14 bits with a shared exponent of 8 bits, and 14 bits of opacity. Radiance has the
-// range of floats and an error of at most 2^-14 of its largest channel; opacity has an error of at most 2^-15. Radiance below 2^-113
-// W/(m² sr) is 0.
+// Radiance and opacity in 64 bits: three mantissas of 14 bits with a shared exponent of 8 bits, and 14 bits of opacity.
+// Radiance has the range of floats and an error of at most 2^-14 of its largest channel; opacity has an error of at
+// most 2^-15. Radiance below 2^-113 W/(m² sr) is 0.
 #ifndef VOXRAY_RADIANCE_TEXEL_GLSL
 #define VOXRAY_RADIANCE_TEXEL_GLSL
 

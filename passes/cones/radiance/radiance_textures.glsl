@@ -1,11 +1,9 @@
-// Radiance voxels in full grids as in radiance_dense.glsl, but in one 3D texture that the sampler filters (layout: textures). Each mip
-// level holds a level of voxels. The faces lie side by side along one axis:
+// Radiance voxels in full grids as in radiance_dense.glsl, but in one 3D texture that the sampler filters (layout:
+// textures). Each mip level holds a level of voxels. The faces lie side by side along one axis:
 //
 //      | +x | -x | +y | -y | +z | -z |     each `extent` texels long, of which the grid's voxels are the first
 #ifndef VOXRAY_RADIANCE_TEXTURES_GLSL
 #define VOXRAY_RADIANCE_TEXTURES_GLSL
-
-#include "passes/cones/radiance/radiance_textures_types.h"
 
 layout(scalar) readonly buffer RadianceVoxels {
     RadianceGrid grid;
@@ -35,8 +33,8 @@ void storeRadiance(ivec4 voxel, uint face, vec4 value) {
     imageStore(radianceTarget, texelOf(voxel, face), min(value, vec4(65504.0)));
 }
 
-// Values outside of the grid are 0: coordinates there are clamped to it, and weighted as linear interpolation with 0 does, so that no
-// face reads the next one in the texture.
+// Values outside of the grid are 0: coordinates there are clamped to it, and weighted as linear interpolation with 0
+// does, so that no face reads the next one in the texture.
 vec4 filteredFace(uint level, vec3 coordinates, uint face) {
     const vec3 inGrid = clamp(coordinates, vec3(0.0), vec3(levelResolution(radianceVoxels.grid, level) - 1u));
     const vec3 weight = max(1.0 - abs(coordinates - inGrid), 0.0);

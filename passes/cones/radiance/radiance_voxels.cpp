@@ -1,13 +1,11 @@
 #include "passes/cones/radiance/radiance_voxels.h"
 
-#include <cctype>
+#include "passes/common/compute/enum_define.h"
 
 namespace voxray {
 
 Defines RadianceVoxels::defines() const {
-    std::string name = "RADIANCE_";
-    for (const char letter : enumName(layout)) name += char(std::toupper(letter));
-    Defines defines{{name, "1"}};
+    Defines defines{{enumDefine("RADIANCE_", layout), "1"}};
     if (euclidean) defines.emplace("RADIANCE_CLIPMAP_EUCLIDEAN", "1");
     return defines;
 }

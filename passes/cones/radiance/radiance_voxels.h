@@ -22,15 +22,15 @@ struct EnumNames<RadianceLayout> {
                                       std::pair{RadianceLayout::SvoBricks, "svo_bricks"}};
 };
 constexpr const char* kRadianceLayoutHelp =
-    "How voxels are stored: dense, a full grid for each level; svo, a sparse octree: "
-    "only what surfaces pass through; "
-    "clipmap, of each level a window round the camera, which follows it in each frame; "
+    "How voxels are stored: dense, a full grid for each level; "
+    "svo, a sparse octree of the voxels that surfaces pass through; "
+    "clipmap, a window of each level around the camera, updated in each frame; "
     "textures and clipmap_textures, dense and clipmap in a 3D texture that the device's sampler filters, "
     "as in Arnebäck 2017, to compare hardware filtering with ours; "
     "svo_bricks, an octree as published there, for comparison with svo: 8 bits a channel, one direction.";
 
 /// Outgoing radiance and opacity of surfaces, prefiltered at all scales. A shader that samples them includes
-/// passes/cones/radiance/radiance_voxels.glsl, is compiled with defines() and given bindings(), whatever the
+/// passes/cones/radiance/radiance_voxels.glsl, is compiled with defines() and given bindings(), for any
 /// layout.
 struct RadianceVoxels : Resource {
     // Known from plan() on, except the grid's unit:

@@ -4,9 +4,10 @@
 
 #include "passes/cones/radiance/radiance_voxels.glsl"
 
-// What a ray along `direction` (unit) sees in a cube of side `footprint` (m) round `position`: rgb, the radiance that surfaces there send
-// against `direction`, times their opacity, W/(m² sr); a, the opacity over one footprint's length: 0 in empty space, above 1 where
-// surfaces occlude each other. Linear in space and, by opacity per length, between levels: a surface is equally opaque in both.
+// What a ray along `direction` (unit) sees in a cube of side `footprint` (m) around `position`: rgb, the radiance that
+// surfaces there send against `direction`, times their opacity, W/(m² sr); a, the opacity over one footprint's length:
+// 0 in empty space, above 1 where surfaces occlude each other. Linear in space and, by opacity per length, between
+// levels: a surface is equally opaque in both.
 vec4 sampleRadiance(vec3 position, float footprint, vec3 direction) {
     const float top = float(radianceVoxels.grid.levels - 1u);
     const float level = clamp(log2(footprint / radianceVoxels.grid.voxelSize), 0.0, top);
@@ -14,7 +15,8 @@ vec4 sampleRadiance(vec3 position, float footprint, vec3 direction) {
     const float coarserWeight = level - float(finer);
     vec4 sum = sampleLevel(finer, position, direction) * (1.0 - coarserWeight) * (footprint / radianceVoxelSize(finer));
     if (coarserWeight > 0.0)
-        sum += sampleLevel(finer + 1u, position, direction) * coarserWeight * (footprint / radianceVoxelSize(finer + 1u));
+        sum +=
+            sampleLevel(finer + 1u, position, direction) * coarserWeight * (footprint / radianceVoxelSize(finer + 1u));
     return sum;
 }
 

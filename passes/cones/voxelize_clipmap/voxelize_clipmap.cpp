@@ -10,11 +10,11 @@ namespace voxray {
 namespace {
 
 /// A level's grid, without the position of its window.
-gpu::VoxelGrid levelGrid(gpu::VoxelGrid grid, uint32_t level, uint32_t side) {
+gpu::VoxelGrid levelGrid(gpu::VoxelGrid grid, uint32_t level, uint32_t windowSize) {
     grid.voxelSize *= float(1u << level);
     grid.resolution = levelResolution(grid.resolution, level);
-    grid.windowSize = side;
-    grid.wordsPerRow = (heldVoxels(grid).size.x + 31) / 32;
+    grid.windowSize = windowSize;
+    grid.wordsPerRow = (windowVoxels(grid).size.x + 31) / 32;
     return grid;
 }
 
@@ -26,22 +26,20 @@ class VoxelizeClipmap final : public Pass {
  public:
     static constexpr const char* kName = "voxelize_clipmap";
     static constexpr const char* kHelp =
-        "Voxelizes the scene's surfaces into a clipmap around the camera. "
-        "Large voxels hold all of the scene. Each finer level holds those of a window. "
-        "Takes memory by the windows, not by the scene, but for 8 bytes a triangle or more. "
-        "In each frame voxelizes what scrolled in, and what moved. For light_clipmap. "
-        "Finds voxels as voxelize's method exact. "
+        "Voxelizes the scene's surfaces into a clipmap around the camera, for light_clipmap. "
+        "The coarsest level covers the whole scene, each finer level a window. "
+        "Memory depends on the windows, not on the scene, except for 8 bytes per triangle or more. "
+        "Each frame voxelizes what scrolled in or moved, as voxelize's method exact. "
         "Biased by: distance from the camera; a gap narrower than a voxel of its level is closed. "
         "Source: Arnebäck 2017, section 4.1.1, after Panteleev 2014.";
     struct Params : ClipmapParams, VoxelBuildParams {
         uint32_t resolution = 128;
         static constexpr auto schema() {
-            return std::tuple_cat(
-                std::tuple{field("resolution", &Params::resolution,
-                                 "Voxels of the finest level along the scene's longest side, "
-                                 "if it were held whole.",
-                                 1u, 1024u)},
-                ClipmapParams::schema(), VoxelBuildParams::schema());
+            return std::tuple_cat(std::tuple{field("resolution", &Params::resolution,
+                                                   "Voxels of the finest level along the scene's longest axis, "
+                                                   "if its window were the whole scene.",
+                                                   1u, 1024u)},
+                                  ClipmapParams::schema(), VoxelBuildParams::schema());
         }
     };
 
@@ -52,7 +50,7 @@ class VoxelizeClipmap final : public Pass {
 
  private:
     const Params params_;
-    Out<ClipmapVoxels> clipmap_{*this, "clipmap", "surface voxels round the camera, at all scales"};
+    Out<ClipmapVoxels> clipmap_{*this, "clipmap", "surface voxels around the camera, at all scales"};
     VoxelBuilder builder_{*this, makeExactVoxelizer(), params_.visibilityRays};
     std::vector<gpu::ClipmapWindow> windows_;  ///< Of the last frame, by level.
     uint64_t sceneVersion_ = 0;                ///< Of the last frame.
@@ -83,8 +81,7 @@ void VoxelizeClipmap::record(PassContext& context) {
     ClipmapVoxels& clipmap = context[clipmap_];
     const bool moved = frame.sceneVersion != sceneVersion_;
     const bool changesAreKnown = !moved || (frame.sceneVersion == sceneVersion_ + 1 && frame.changed);
-    const std::vector<gpu::ClipmapWindow> previous =
-        changesAreKnown ? windows_ : std::vector<gpu::ClipmapWindow>();
+    const std::vector<gpu::ClipmapWindow> previous = changesAreKnown ? windows_ : std::vector<gpu::ClipmapWindow>();
     windows_.clear();
     uint64_t updated = 0;
     for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
@@ -94,13 +91,11 @@ void VoxelizeClipmap::record(PassContext& context) {
         voxels.grid.first = windows_[l].first;
         level.updated = {};
         if (previous.empty()) {
-            level.boxes = {heldVoxels(voxels.grid)};
+            level.boxes = {windowVoxels(voxels.grid)};
             builder_.build(context, voxels);
         } else {
             level.boxes = scrolledIn(previous[l], windows_[l]);
-            if (moved)
-                std::ranges::copy(changedVoxels(voxels.grid, *frame.changed),
-                                  std::back_inserter(level.boxes));
+            if (moved) std::ranges::copy(changedVoxels(voxels.grid, *frame.changed), std::back_inserter(level.boxes));
             if (!level.boxes.empty())
                 level.updated = builder_.update(context, VoxelRegion(voxels.grid, level.boxes), voxels);
         }

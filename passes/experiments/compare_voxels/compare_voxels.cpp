@@ -11,7 +11,7 @@ std::vector<uint32_t> occupancyOf(CommandStream& stream, const SurfaceVoxels& vo
     return stream.readAs<uint32_t>(voxels.occupancy, voxels.words());
 }
 
-/// In units of a voxel's face.
+/// Surface area in units of a voxel's face.
 double areaOf(CommandStream& stream, const SurfaceVoxels& voxels) {
     double area = 0;
     for (const gpu::PackedVoxelMaterial& packed :
@@ -22,24 +22,23 @@ double areaOf(CommandStream& stream, const SurfaceVoxels& voxels) {
 
 }  // namespace
 
-/// Counts what one voxelization misses of another and adds to it.
+/// Counts the voxels that a voxelization misses, or adds, relative to another.
 class CompareVoxels final : public Pass {
  public:
     static constexpr const char* kName = "compare_voxels";
     static constexpr const char* kHelp =
         "Compares two voxelizations: missed and added voxels, and surface area. "
-        "Counts the voxels of 'truth' that 'voxels' misses, and those that it adds, "
-        "and compares their surface areas. The numbers go into values.csv and the report. "
-        "Writes nothing that others read. Exact. Both need the same grid: the same 'resolution'. "
+        "Counts the voxels of 'truth' that 'voxels' misses, and those that it adds, and compares surface areas. "
+        "Results are in values.csv and the report; there are no outputs. Exact. "
+        "Both inputs need the same 'resolution'. "
         "Source: Schwarz and Seidel 2010, section 4, for 'method: exact' as the truth.";
 
     void plan(PassPlan& plan) override {
         const glm::uvec3 a = plan[truth_].grid.resolution, b = plan[voxels_].grid.resolution;
         if (a != b)
             throw Error(
-                "compare_voxels: 'truth' has {}x{}x{} voxels, 'voxels' {}x{}x{}; "
-                "give both the same 'resolution'",
-                a.x, a.y, a.z, b.x, b.y, b.z);
+                "compare_voxels: 'truth' has {}x{}x{} voxels, 'voxels' {}x{}x{}; give both the same 'resolution'", a.x,
+                a.y, a.z, b.x, b.y, b.z);
     }
     void record(PassContext& context) override {
         const SurfaceVoxels& truth = context[truth_];
@@ -58,7 +57,7 @@ class CompareVoxels final : public Pass {
     }
 
  private:
-    In<SurfaceVoxels> truth_{*this, "truth", "the voxels that there should be"};
+    In<SurfaceVoxels> truth_{*this, "truth", "the reference voxels"};
     In<SurfaceVoxels> voxels_{*this, "voxels", "the voxels to compare"};
 };
 VOXRAY_REGISTER_PASS(CompareVoxels);

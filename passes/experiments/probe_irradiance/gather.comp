@@ -1,15 +1,15 @@
-// Irradiance by cones at every so many-th surfel, in a place that its number picks: the order of surfels is any.
+// Irradiance by cones at every `stride`-th surfel by id, stored by id, as surfels are in any order.
 #include "passes/cones/radiance/cone_set.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/surfel_types.h"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(scalar) writeonly buffer Irradiance { vec4 data[]; } irradiance;  // W/m²; 1 where a point is.
+layout(scalar) writeonly buffer Irradiance { vec4 data[]; } irradiance;  // W/m²; w: 1 where there is a point.
 layout(push_constant) uniform Push {
-    uint count;      // Of surfels.
+    uint count;      // Surfels.
     uint stride;
-    uint coneCount;  // Of a set.
+    uint coneCount;  // Cones of a set.
     uint samples;    // Sets.
 } push;
 
@@ -20,7 +20,7 @@ void main() {
     if (s.id % push.stride != 0u) return;
     const uint point = s.id / push.stride;
     if (point >= uint(irradiance.data.length())) return;
-    // Of three numbers in [0, 1) those of one set complement those of the others: the additive recurrence of Roberts 2018.
+    // Sets have low-discrepancy points in [0, 1)³ (additive recurrence, Roberts 2018)
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < push.samples; ++k) {
         const uint sample_ = (point * push.samples + k) & 0xffffu;

@@ -12,26 +12,24 @@
 namespace voxray {
 namespace {
 
-/// Rec. 709, as the metrics have it.
+/// Rec. 709, as in the metrics.
 double luminance(const glm::vec4& c) {
     return glm::dot(glm::dvec3(c), glm::dvec3(0.2126, 0.7152, 0.0722));
 }
 
 }  // namespace
 
-/// Irradiance by cones at points that stay where they are on the surfaces, whatever the camera does, and how
-/// it changes from frame to frame. In a scene at rest a change is the method's own: a clipmap's levels that
-/// follow the camera, a window that scrolls. Random numbers are each point's own, the same in every frame.
+/// Irradiance by cones at fixed points on surfaces, and its change from frame to frame. In a static scene
+/// changes are artifacts of the method, such as clipmap levels that follow the camera, or windows that
+/// scroll. A point has the same random numbers in every frame.
 class ProbeIrradiance final : public Pass {
  public:
     static constexpr const char* kName = "probe_irradiance";
     static constexpr const char* kHelp =
-        "Measures how stable irradiance is over frames, by cones at fixed points. "
-        "The points stand still on the surfaces. "
-        "For each frame it reports the mean irradiance (W/m²) and its change since the last frame over "
-        "that mean: on average over the points and where it is largest. "
-        "Tests stability: with a moving camera and all else at rest the change is the method's own. "
-        "Surfaces may not move: points could not be told apart.";
+        "Measures how stable irradiance is over frames, by cones at fixed points. The points are on static surfaces. "
+        "For each frame it reports the mean irradiance (W/m²) and its change since the last frame relative "
+        "to this mean: the average over points and the maximum. Tests stability: where only the camera moves, "
+        "changes are artifacts of the method. Surfaces may not move, as points would lose their identity.";
     struct Params {
         uint32_t maxPoints = 1024;
         uint32_t cones = 6;
@@ -39,12 +37,11 @@ class ProbeIrradiance final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("max_points", &Params::maxPoints,
-                      "Largest number of points, taken from those of place_surfels.", 1u, 1u << 20),
+                      "Maximum number of points, a subset of the surfels of place_surfels.", 1u, 1u << 20),
                 field("cones", &Params::cones, "Cones from each point.", coneSetSizes()),
                 field("cone_sets", &Params::coneSets,
-                      "Sets of cones from each point, "
-                      "whose directions and levels are shifted against each other. "
-                      "gather_cones sends one from a texel and takes the mean over some 25 texels.",
+                      "Sets of cones from each point, with different rotations and levels. "
+                      "gather_cones traces one set per texel and averages over about 25 texels.",
                       1u, 256u)};
         }
     };
@@ -57,11 +54,11 @@ class ProbeIrradiance final : public Pass {
 
  private:
     const Params params_;
-    In<Surfels> surfels_{*this, "surfels", "points on surfaces, some of which are probed"};
+    In<Surfels> surfels_{*this, "surfels", "points on surfaces, a subset of which is probed"};
     In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales"};
     Kernel gather_{*this, "gather.comp"};
     Buffer cones_, irradiance_;
-    std::vector<glm::vec4> last_;  ///< As `irradiance_` was in the last frame.
+    std::vector<glm::vec4> last_;  ///< `irradiance_` in the previous frame.
 };
 
 void ProbeIrradiance::plan(PassPlan& plan) {
@@ -79,13 +76,12 @@ void ProbeIrradiance::prepare(PassSetup& setup) {
 }
 
 void ProbeIrradiance::record(PassContext& context) {
-    // Gather at the points: every so many-th surfel by its number, of which there are two for each point that
-    // was spread. An odd stride, so that both sides of surfaces have their turn.
+    // Gather at every stride-th surfel by id. Each point of place_surfels has two ids, for the sides of its
+    // surface; the odd stride alternates between them
     const Surfels& surfels = context[surfels_];
-    const uint64_t numbers = 2 * surfels.pointCount;
-    const uint32_t stride = uint32_t((numbers + params_.maxPoints - 1) / params_.maxPoints) | 1u;
-    ensureSize(irradiance_, context.device, "irradiance of points",
-               (numbers / stride + 1) * sizeof(glm::vec4));
+    const uint64_t ids = 2 * surfels.pointCount;
+    const uint32_t stride = uint32_t((ids + params_.maxPoints - 1) / params_.maxPoints) | 1u;
+    ensureSize(irradiance_, context.device, "irradiance of points", (ids / stride + 1) * sizeof(glm::vec4));
     if (context.changed(surfels_)) last_.clear();
     context.stream.fill(irradiance_, 0);
     for (const Surfels::Chunk& chunk : surfels.chunks)
@@ -101,7 +97,7 @@ void ProbeIrradiance::record(PassContext& context) {
     const std::vector<glm::vec4> now =
         context.stream.readAs<glm::vec4>(irradiance_, irradiance_.bytes() / sizeof(glm::vec4));
 
-    // Compare with the last frame.
+    // Compare with the previous frame
     double sum = 0, change = 0, largest = 0;
     uint64_t points = 0;
     for (size_t i = 0; i < now.size(); ++i) {

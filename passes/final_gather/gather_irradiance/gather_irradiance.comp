@@ -1,4 +1,4 @@
-// Radiance that each pixel's surface reflects of the irradiance that the voxels hold there.
+// Radiance that each pixel reflects of the irradiance in voxels, averaged over its texels.
 #include "shaders/voxels/voxel_irradiance.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -9,8 +9,8 @@ layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     float radius;
-    int samples;  // Texels of the g-buffer along each side of a pixel.
-    uint lookup;  // As VoxelLookup numbers them.
+    int samples;  // Texels of the G-buffer along an edge of a pixel.
+    uint lookup;  // VoxelLookup
 } push;
 #define SEVEN_TAP 1u
 #define BILINEAR_FACE 2u

@@ -25,16 +25,16 @@ struct EnumNames<VoxelLookup> {
                                       std::pair{VoxelLookup::BilinearFace, "bilinear_face"}};
 };
 
-/// Light per pixel from the voxels at the surface: albedo / pi times the irradiance that the voxels hold
-/// there. Source: Magalhães 2020, section 3.4.
+/// Light of each pixel by a lookup in the voxels at its surface: albedo / pi times the irradiance there.
+/// Source: Magalhães 2020, section 3.4.
 class GatherIrradiance final : public Pass {
  public:
     static constexpr const char* kName = "gather_irradiance";
     static constexpr const char* kHelp =
         "Looks light up in the voxels' irradiance at each pixel. "
-        "The irradiance is interpolated at the pixel's surface, for the surface's normal; "
-        "no ray is traced. Biased by: voxel size (detail below it is lost, shadows too with `light: "
-        "direct`; light creeps round thin edges). Noisy by: the injection's rays. Lambert surfaces only. "
+        "The irradiance is interpolated at the pixel's surface, for the surface's normal; no ray is traced. "
+        "Biased by: voxel size (detail below it is lost, shadows too with `light: direct`; "
+        "light leaks around thin edges). Noisy by: the injection's rays. Lambert surfaces only. "
         "Source: Magalhães 2020, section 3.4.";
     struct Params {
         GatheredLight light = GatheredLight::Indirect;
@@ -43,19 +43,16 @@ class GatherIrradiance final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("light", &Params::light,
-                      "indirect: light that was reflected before it arrived. "
-                      "direct: light from its sources, in place of direct_shadow_rays."),
+                      "indirect: light that was reflected at least once. "
+                      "direct: light straight from its sources, in place of direct_shadow_rays."),
                 field("radius", &Params::radius,
-                      "Reach of the interpolation in voxels; 1 is trilinear, more is smoother and blurs.",
-                      0.5f, 8.0f)
+                      "Radius of the interpolation's kernel in voxels; 1 is trilinear, more is smoother.", 0.5f, 8.0f)
                     .onlyWith(noneOf(&Params::lookup, {VoxelLookup::BilinearFace})),
                 field("lookup", &Params::lookup,
-                      "trilinear: at the surface. "
-                      "seven_tap: there and at one voxel's distance along each axis, "
-                      "which hides holes in the voxels and blurs (Magalhães 2020, listing 4.8; "
-                      "there empty voxels count as black, here they are left out). "
-                      "bilinear_face: the face most like the normal alone, "
-                      "between four voxels of one layer (Cosin and Patow 2022).")};
+                      "trilinear: at the surface. seven_tap: there and at one voxel's distance along each axis, "
+                      "which hides holes in the voxels and blurs (Magalhães 2020, listing 4.8, "
+                      "but empty voxels are omitted instead of black). bilinear_face: "
+                      "only the face closest to the normal, between four voxels of one layer (Cosin and Patow 2022).")};
         }
     };
 
@@ -65,7 +62,7 @@ class GatherIrradiance final : public Pass {
 
  private:
     bool isDirect() const { return params_.light == GatheredLight::Direct; }
-    /// Voxels along each axis round that of a point that are read for it, at most.
+    /// Maximum distance along an axis of voxels that are read for a point from the voxel that contains it.
     uint32_t reach() const;
 
     const Params params_;
@@ -80,18 +77,18 @@ class GatherIrradiance final : public Pass {
 uint32_t GatherIrradiance::reach() const {
     const float radius = params_.lookup == VoxelLookup::BilinearFace ? 1.0f : params_.radius;
     const uint32_t tap = params_.lookup == VoxelLookup::SevenTap ? 1 : 0;
-    // Of voxels whose centers are nearer than the radius, which voxel_irradiance.glsl doubles twice, to a
-    // point anywhere in its own
+    // voxel_irradiance.glsl reads centers closer than the radius, which it doubles up to twice; the point may
+    // be anywhere in its voxel
     return uint32_t(std::ceil(4 * radius + 0.5f)) - 1 + tap;
 }
 
 void GatherIrradiance::plan(PassPlan& plan) {
-    const std::optional<uint32_t> known = plan[irradiance_].reach;
-    if (known && *known < reach())
+    const std::optional<uint32_t> gathered = plan[irradiance_].reach;
+    if (gathered && *gathered < reach())
         throw Error(
-            "the lookup reads voxels up to {} from what the camera sees, "
-            "and light is gathered for those up to {}; set the 'reach' of gather_clusters to {}",
-            reach(), *known, reach());
+            "the lookup reads voxels up to {} from what the camera sees, and light is gathered for those up to {}; "
+            "set the 'reach' of gather_clusters to {}",
+            reach(), *gathered, reach());
     if (!isDirect()) plan[reflected_].lightBounces = plan[irradiance_].lightBounces;
     plan.frameImage(reflected_);
 }

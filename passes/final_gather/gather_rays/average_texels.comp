@@ -1,9 +1,9 @@
-// Irradiance of each G-buffer texel: the mean of what its rays bring.
+// Irradiance of each G-buffer texel: the mean over its gather rays.
 #include "shaders/view/gather_layout.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-// By ray: radiance times pi; distance of the hit in m, infinite for a miss, negative for a ray that starts from no surface.
+// Per ray: radiance times pi; distance of the hit, m, 1e30 for a miss, -1 for a ray that starts from no surface.
 layout(scalar) readonly buffer Light { vec4 data[]; } light;
 layout(rgba32f) writeonly uniform image2D gathered;  // Irradiance, W/m²; number of rays.
 layout(push_constant, scalar) uniform Push {
@@ -22,7 +22,7 @@ void main() {
     const uvec2 texel = texelOf(g, block, t);
     if (any(greaterThanEqual(texel, g.texels))) return;
 
-    // Rays of this texel: a run of the block's, or at most one where texels outnumber rays.
+    // The texel's rays: a run of the block's rays, or at most one where texels outnumber rays
     const bool fewer = g.raysPerBlock < count;
     const uint first = fewer ? nearestRay(g, t) : firstRay(g, t);
     const uint last = fewer ? first + (rayTexel(g, block, first) == t ? 1u : 0u) : firstRay(g, t + 1u);

@@ -1,19 +1,19 @@
-// The ends of rays that went on.
-#include "passes/final_gather/gather_rays/hit.glsl"
+// Shades the hits of continuation rays.
+#include "passes/final_gather/gather_rays/shade_hit.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer From { Surfel data[]; } from;  // That the rays started from.
+layout(scalar) readonly buffer Origins { Surfel data[]; } origins;  // Surfels that the rays start from.
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(push_constant, scalar) uniform Push {
     uint rays_;
-    float nearField;  // Cells; 0 where rays must end.
+    float nearField;  // Cells; 0: paths end at these hits.
 } push;
 
 void main() {
     const uint i = linearIndex();
     if (i >= push.rays_ || rays.data[i].tMax < 0.0 || hits.data[i].triangle == NO_HIT) return;
-    const Surfel s = from.data[i];
+    const Surfel s = origins.data[i];
     shadeHit(s.parent, hits.data[i], rays.data[i].origin, s.reflectance, s.id, push.nearField);
 }

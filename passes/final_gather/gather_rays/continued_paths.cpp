@@ -5,7 +5,7 @@
 namespace voxray {
 namespace {
 
-/// As in hit.glsl.
+/// As in shade_hit.glsl.
 struct HitCounts {
     uint32_t surfels, unlit;
 };
@@ -17,20 +17,18 @@ ContinuedPaths::ContinuedPaths(ProgramOwner& owner, const Defines& stored)
       reflect_(owner, "passes/surfels/reflect_at_hits.comp"),
       continue_(owner, "continue_paths.comp", stored) {}
 
-void ContinuedPaths::plan(PassPlan& plan, const Settings& settings, const SpecializationConstants& constants,
-                          uint32_t rays) {
+void ContinuedPaths::plan(PassPlan& plan, const Settings& settings, uint32_t rays) {
     settings_ = settings;
     continue_.define(defines());
-    continue_.specialize(constants);
     reflect_.compileIf(isUsed());
     continue_.compileIf(isUsed());
     plan.buffer(surfels_[0], "surfels at hits", rays * sizeof(gpu::Surfel));
-    plan.buffer(continuations_, "surfels whose rays go on", rays * 2 * sizeof(uint32_t));
+    plan.buffer(continuations_, "surfels whose paths continue", rays * 2 * sizeof(uint32_t));
     plan.buffer(counts_, "counts of hits", sizeof(HitCounts));
     if (!isUsed()) return;
     sources_ = lightSources(*plan.frame.scene);
     hitLight_.emplace(owner_).plan(plan, rays);
-    plan.buffer(surfels_[1], "surfels one step before", rays * sizeof(gpu::Surfel));
+    plan.buffer(surfels_[1], "surfels at next hits", rays * sizeof(gpu::Surfel));
     plan.buffer(direct_, "direct light at hits", rays * 4 * sizeof(float));
     plan.buffer(rays_, "next rays", rays * sizeof(Ray));
     plan.buffer(hits_, "next hits", rays * sizeof(Hit));
@@ -40,54 +38,54 @@ Defines ContinuedPaths::defines() const {
     return settings_.measureDirect ? Defines{{"SHADOW_RAYS", "1"}} : Defines{};
 }
 
-std::vector<Binding> ContinuedPaths::begin(CommandStream& stream) const {
+std::vector<Binding> ContinuedPaths::clearHits(CommandStream& stream) const {
     stream.fill(counts_, 0);
     return {{"surfels", surfels_[0]}, {"continuations", continuations_}, {"counts", counts_}};
 }
 
-ContinuedPaths::Counts ContinuedPaths::follow(PassContext& context, const std::vector<Binding>& stored,
-                                              const Buffer& light) const {
+ContinuedPaths::Counts ContinuedPaths::trace(PassContext& context, const std::vector<Binding>& stored,
+                                             const Buffer& light) const {
     CommandStream& stream = context.stream;
-    Counts all;
+    Counts total;
     for (uint32_t step = 0; step <= settings_.maxSteps; ++step) {
-        const HitCounts listed = stream.readAs<HitCounts>(counts_, 1)[0];
-        all.unlit += listed.unlit;
-        if (listed.surfels == 0) break;
+        const HitCounts hits = stream.readAs<HitCounts>(counts_, 1)[0];
+        total.unlit += hits.unlit;
+        if (hits.surfels == 0) break;
 
-        // Direct light at the surfels, and rays on.
+        // Measure direct light at the surfels, and generate continuation rays
         const Buffer &from = surfels_[step % 2], &to = surfels_[(step + 1) % 2];
         const uint32_t seed = randomSeed(context.frame, context.frameIndex) + 0x51u + step * 0x9e3779b9u;
-        hitLight_->measure(context, sources_, from, listed.surfels, settings_.lightSamples, seed, direct_);
-        context.dispatch(reflect_, listed.surfels,
+        hitLight_->measure(context, sources_, from, hits.surfels, settings_.lightSamples, seed, direct_);
+        context.dispatch(reflect_, hits.surfels,
                          {context.scene,
                           {"surfels", from},
                           {"direct", direct_},
                           {"light", light},
                           {"continuations", continuations_},
                           {"rays", rays_},
-                          {"count", listed.surfels},
+                          {"count", hits.surfels},
                           {"seed", seed + 0xa3u}});
         if (settings_.nearField == 0 || step == settings_.maxSteps) break;
 
-        // Where those end.
-        context.tracer.closestHit(stream, rays_, hits_, listed.surfels);
-        all.rays += listed.surfels;
+        // Trace these rays and shade their hits
+        context.tracer.closestHit(stream, rays_, hits_, hits.surfels);
+        total.rays += hits.surfels;
         stream.fill(counts_, 0);
         const bool isLast = step + 1 == settings_.maxSteps;
-        context.dispatch(continue_, listed.surfels,
+        context.dispatch(continue_, hits.surfels,
                          {context.scene,
                           stored,
-                          {"from", from},
+                          {"origins", from},
                           {"rays", rays_},
                           {"hits", hits_},
                           {"light", light},
                           {"surfels", to},
                           {"continuations", continuations_},
                           {"counts", counts_},
-                          {"rays", listed.surfels},
+                          {"rays", hits.surfels},
                           {"nearField", isLast ? 0.0f : settings_.nearField}});
     }
-    return all;
+    return total;
 }
 
 }  // namespace voxray

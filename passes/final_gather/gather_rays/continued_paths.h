@@ -8,35 +8,34 @@
 
 namespace voxray {
 
-/// What follows at hits of gather rays where stored light is not all that is asked for: shadow rays measure
-/// direct light there, and where the ray is to go on, as a path does, stored light or the same again is at
-/// its end. Shaders list such hits, and count those where no light is stored (hit.glsl).
+/// Paths that continue gather rays whose hits cannot be shaded by stored light alone (shade_hit.glsl lists
+/// these hits). Shadow rays measure direct light at such a hit; where the path continues, a further ray adds
+/// indirect light, whose hit is shaded in the same way.
 class ContinuedPaths {
  public:
     struct Settings {
-        bool measureDirect = false;  ///< At every hit: stored light does not hold it.
-        uint32_t lightSamples = 1;   ///< Of the emissive surfaces and of the environment, at each such hit.
-        float nearField = 0;         ///< Cells: rays shorter than this go on; 0: no ray does.
-        uint32_t maxSteps = 3;       ///< That a ray goes on, at most.
+        bool measureDirect = false;  ///< At every hit, as stored light is only indirect.
+        uint32_t lightSamples = 1;   ///< Shadow rays to emissive surfaces, and to the environment.
+        float nearField = 0;         ///< Cells: paths continue from hits closer than this; 0: none does.
+        uint32_t maxSteps = 3;       ///< Maximum continuation rays of a path.
     };
     struct Counts {
-        uint64_t rays = 0;   ///< That went on.
-        uint64_t unlit = 0;  ///< Hits far enough off to read stored light, where none is.
+        uint64_t rays = 0;   ///< Continuation rays.
+        uint64_t unlit = 0;  ///< Hits beyond the near field where no light is stored.
     };
 
-    /// @param stored where light is stored, as definitions.
+    /// @param stored definitions of stored light.
     ContinuedPaths(ProgramOwner& owner, const Defines& stored);
 
-    /// @param constants of stored light. @param rays of a batch, at most.
-    void plan(PassPlan& plan, const Settings& settings, const SpecializationConstants& constants,
-              uint32_t rays);
-    /// What else a shader is compiled with that includes hit.glsl.
+    /// @param rays maximum number of gather rays in a batch.
+    void plan(PassPlan& plan, const Settings& settings, uint32_t rays);
+    /// Further definitions of shaders that include shade_hit.glsl.
     Defines defines() const;
-    /// Empties the list. @return what such a shader binds to write it.
-    std::vector<Binding> begin(CommandStream& stream) const;
-    /// Follows what has been listed since. Waits for the device.
-    /// @param stored bindings of stored light. @param light of the batch's rays, to which it adds.
-    Counts follow(PassContext& context, const std::vector<Binding>& stored, const Buffer& light) const;
+    /// Empties the list of hits. @return bindings of shaders that append to it.
+    std::vector<Binding> clearHits(CommandStream& stream) const;
+    /// Adds light of the listed hits, and of the paths that continue from them, to that of the gather rays.
+    /// Waits for the device. @param stored bindings of stored light. @param light of the batch's gather rays.
+    Counts trace(PassContext& context, const std::vector<Binding>& stored, const Buffer& light) const;
 
  private:
     bool isUsed() const { return settings_.measureDirect || settings_.nearField > 0; }
@@ -45,9 +44,9 @@ class ContinuedPaths {
     Settings settings_;
     Kernel reflect_, continue_;
     std::vector<LightSource> sources_;
-    std::optional<SurfelDirectLight> hitLight_;  ///< Where it is measured.
-    std::array<Buffer, 2> surfels_;  ///< At hits that were listed, and at those of one step before.
-    Buffer continuations_, counts_;  ///< Of the list.
+    std::optional<SurfelDirectLight> hitLight_;
+    std::array<Buffer, 2> surfels_;  ///< At listed hits; read and written in turn by the steps of paths.
+    Buffer continuations_, counts_;  ///< shade_hit.glsl
     Buffer direct_, rays_, hits_;
 };
 

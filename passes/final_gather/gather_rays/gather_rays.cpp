@@ -22,20 +22,19 @@ struct EnumNames<DirectAtHits> {
                                       std::pair{DirectAtHits::ShadowRays, "shadow_rays"}};
 };
 
-/// Indirect light by a final gather: rays find what each pixel sees, stored light tells how bright that is.
-/// Source: Magalhães 2020 (hybrid of rays and voxels); NVIDIA's SHaRC (the cache's query). filter_irradiance
-/// lowers its noise.
+/// Indirect light by a final gather: the hits of gather rays are shaded by stored light. Source: Magalhães
+/// 2020 (hybrid of rays and voxels); NVIDIA's SHaRC (lookups in the cache). filter_irradiance lowers its
+/// noise.
 class GatherRays final : public Pass {
  public:
     static constexpr const char* kName = "gather_rays";
     static constexpr const char* kHelp =
         "Gathers indirect light by shading ray hits with stored light. "
-        "The hits of trace_gather_rays take the irradiance that `source` holds there and their own albedo. "
-        "Hits near the pixel and those without stored light are measured by paths, "
-        "which bring a bounce more than is stored. Biased by: "
-        "the size of voxels or of the cache's cells (light at the hits is as coarse as they are, "
-        "not at the pixel; with `direct_at_hits: "
-        "shadow_rays` only indirect light is) and merge_voxels' tolerance. "
+        "The hits of trace_gather_rays reflect the irradiance that `source` holds there by their albedo. "
+        "From hits near the pixel and those without stored light paths continue, "
+        "which add a bounce to what is stored. "
+        "Biased by: the size of voxels or of the cache's cells (of light at the hits, not at the pixel; "
+        "with `direct_at_hits: shadow_rays` of indirect light only) and merge_voxels' tolerance. "
         "Noisy by: rays_per_block, which filter_irradiance lowers; few samples in a cell of the cache. "
         "Lambert surfaces only. Reports how many hits find no light.";
     struct Params {
@@ -47,13 +46,11 @@ class GatherRays final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("source", &Params::source,
-                      "Where light is stored. voxels: in their faces, by any injection. "
-                      "merged_voxels: in the trees of merge_voxels. "
-                      "radiance_cache: in the hashed cells of update_radiance_cache."),
-                field(
-                    "direct_at_hits", &Params::directAtHits,
-                    "Direct light at the hits. voxels: as coarse as voxels. shadow_rays: "
-                    "exact, by a shadow ray from each hit to each light; voxels bring indirect light alone.")
+                      "Storage of light. voxels: faces of surface voxels, filled by any injection. merged_voxels: "
+                      "the trees of merge_voxels. radiance_cache: the hashed cells of update_radiance_cache."),
+                field("direct_at_hits", &Params::directAtHits,
+                      "Direct light at the hits. voxels: from voxels, as coarse as they are. shadow_rays: "
+                      "exact, by a shadow ray from each hit to each light; only indirect light is read from voxels.")
                     .onlyWith(oneOf(&Params::source, {GatherSource::Voxels})),
                 field("light_samples", &Params::lightSamples,
                       "Shadow rays to the emissive surfaces, and to the environment, "
@@ -63,15 +60,13 @@ class GatherRays final : public Pass {
                               noneOf(&Params::nearFieldCells, {0.0f}),
                               oneOf(&Params::source, {GatherSource::MergedVoxels})),
                 field("near_field_cells", &Params::nearFieldCells,
-                      "A ray shorter than this many cells, or one that hits where no light is stored, "
-                      "goes on as a path does instead of reading the cell there: "
-                      "up to three times, over a radiance cache up to seven. "
-                      "Cells are voxels, as they were before they were merged, or those of the cache. "
-                      "0: every hit is read, and is black where no light is stored.",
+                      "Paths continue from hits closer than this, in voxels or cells of the cache, "
+                      "and from hits where no light is stored: up to three times, with a radiance cache up to seven. "
+                      "0: every hit reads stored light, and is black where there is none.",
                       0.0f, 64.0f),
                 field("min_samples", &Params::minSamples,
-                      "A cell with fewer samples counts as one without light: "
-                      "a ray that hits there goes on. With a near_field_cells of 0 it is read all the same.",
+                      "Samples that a cell needs for paths to end there; "
+                      "with a near_field_cells of 0 cells with fewer are read, too.",
                       1u, 65536u)
                     .onlyWith(oneOf(&Params::source, {GatherSource::RadianceCache}))};
         }
@@ -82,27 +77,25 @@ class GatherRays final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Of a ray that goes on. In a cache without a cell rays become paths of eight bounces.
-    static constexpr uint32_t kMaxSteps = 3, kMaxStepsOverCache = 7;
-    static constexpr uint64_t kLightBytes = 4 * sizeof(float);  ///< Of a ray.
+    /// Continuation rays of a path. Where the cache has no cells paths have eight bounces.
+    static constexpr uint32_t kMaxSteps = 3, kMaxCacheSteps = 7;
 
-    bool isOverCache() const { return params_.source == GatherSource::RadianceCache; }
-    /// Shades a batch of hits and adds up what the rays of each texel and of each block bring.
+    bool readsCache() const { return params_.source == GatherSource::RadianceCache; }
+    /// Shades a batch of hits and sums over the rays of each texel and of each block.
     ContinuedPaths::Counts gather(PassContext& context, const std::vector<Binding>& stored, uint32_t batch);
 
     const Params params_;
-    StoredLight stored_{*this, params_.source, params_.directAtHits == DirectAtHits::Voxels,
-                        params_.minSamples};
+    StoredLight stored_{*this, params_.source, params_.directAtHits == DirectAtHits::Voxels, params_.minSamples};
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     In<GatherHits> hits_{*this, "gather_hits", "where the gather rays hit"};
     Out<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "irradiance from few rays a texel"};
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light, unfiltered"};
-    Kernel shade_{*this, "shade.comp", stored_.defines()};
+    Kernel shadeHits_{*this, "shade_hits.comp", stored_.defines()};
     Kernel averageTexels_{*this, "average_texels.comp"};
     Kernel sumMoments_{*this, "sum_moments.comp"};
     ContinuedPaths paths_{*this, stored_.defines()};
     std::optional<IrradianceResolve> resolve_;  ///< Where `indirect` is read.
-    Buffer light_;                              ///< What the rays of a batch bring.
+    Buffer light_;                              ///< Radiance times pi and hit distance of a batch's rays.
 };
 
 void GatherRays::plan(PassPlan& plan) {
@@ -116,8 +109,7 @@ void GatherRays::plan(PassPlan& plan) {
             "{3}: blocks of {0}x{0} texels have {1} rays, which leaves texels without any; "
             "let filter_irradiance follow, or raise 'rays_per_block' of trace_gather_rays to {2}",
             hits.layout.blockSize, hits.layout.raysPerBlock, texelsPerBlock, kName);
-    plan.image(noisy.irradiance, "noisy irradiance",
-               NoisyIrradiance::desc(plan.frame, plan[gbuffer_].samples));
+    plan.image(noisy.irradiance, "noisy irradiance", NoisyIrradiance::desc(plan.frame, plan[gbuffer_].samples));
     sumMoments_.compileIf(noisy.isRead);
     if (noisy.isRead) {
         noisy.blockSize = hits.layout.blockSize;
@@ -129,20 +121,19 @@ void GatherRays::plan(PassPlan& plan) {
     }
 
     const uint32_t rays = hits.blocksPerBatch * hits.layout.raysPerBlock;
-    plan.buffer(light_, "light of gather rays", rays * kLightBytes);
+    plan.buffer(light_, "light of gather rays", rays * sizeof(glm::vec4));
     stored_.plan(plan);
     paths_.plan(plan,
                 {.measureDirect = !stored_.holdsDirect(plan),
                  .lightSamples = params_.lightSamples,
                  .nearField = params_.nearFieldCells,
-                 .maxSteps = isOverCache() ? kMaxStepsOverCache : kMaxSteps},
-                stored_.constants(), rays);
-    shade_.define(paths_.defines());
-    shade_.specialize(stored_.constants());
+                 .maxSteps = readsCache() ? kMaxCacheSteps : kMaxSteps},
+                rays);
+    shadeHits_.define(paths_.defines());
 }
 
 void GatherRays::record(PassContext& context) {
-    const std::vector<Binding> stored = stored_.bindings(context);
+    const std::vector<Binding> stored = stored_.update(context);
     double traced = 0, unlit = 0;
     for (uint32_t b = 0; b < context[hits_].batches.size(); ++b) {
         const ContinuedPaths::Counts counts = gather(context, stored, b);
@@ -150,25 +141,23 @@ void GatherRays::record(PassContext& context) {
         traced += double(counts.rays);
         unlit += double(counts.unlit);
     }
-    context.report(isOverCache() ? "hits without a cell, % of rays" : "hits on unlit faces, % of rays",
+    context.report(readsCache() ? "hits without a cell, % of rays" : "hits on unlit faces, % of rays",
                    traced > 0 ? 100 * unlit / traced : 0);
-    if (resolve_)
-        resolve_->record(context, context[gbuffer_], context[noisy_].irradiance, context[indirect_].image);
+    if (resolve_) resolve_->record(context, context[gbuffer_], context[noisy_].irradiance, context[indirect_].image);
 }
 
-ContinuedPaths::Counts GatherRays::gather(PassContext& context, const std::vector<Binding>& stored,
-                                          uint32_t batch) {
+ContinuedPaths::Counts GatherRays::gather(PassContext& context, const std::vector<Binding>& stored, uint32_t batch) {
     const GatherHits& hits = context[hits_];
     const uint32_t firstBlock = batch * hits.blocksPerBatch, blocks = hits.batchBlocks(batch);
     const uint32_t rays = blocks * hits.layout.raysPerBlock;
     const uint32_t texelsPerBlock = hits.layout.blockSize * hits.layout.blockSize;
 
-    // Shade the hits with the irradiance that is stored there, and measure light where none is to be had.
-    const std::vector<Binding> list = paths_.begin(context.stream);
-    context.dispatch(shade_, rays,
+    // Shade the hits by stored light, and trace paths where it does not suffice
+    const std::vector<Binding> hitList = paths_.clearHits(context.stream);
+    context.dispatch(shadeHits_, rays,
                      {context.scene,
                       stored,
-                      list,
+                      hitList,
                       context[gbuffer_],
                       {"hits", hits.batches[batch]},
                       {"light", light_},
@@ -176,9 +165,9 @@ ContinuedPaths::Counts GatherRays::gather(PassContext& context, const std::vecto
                       {"firstBlock", firstBlock},
                       {"rays", rays},
                       {"nearField", params_.nearFieldCells}});
-    const ContinuedPaths::Counts counts = paths_.follow(context, stored, light_);
+    const ContinuedPaths::Counts counts = paths_.trace(context, stored, light_);
 
-    // Add up what the rays of each texel and of each block bring.
+    // Sum over the rays of each texel and of each block
     const NoisyIrradiance& noisy = context[noisy_];
     context.dispatch(averageTexels_, uint64_t(blocks) * texelsPerBlock,
                      {{"light", light_},

@@ -2,13 +2,12 @@
 
 namespace voxray {
 
-StoredLight::StoredLight(Pass& pass, GatherSource source, bool voxelsBringDirect, uint32_t minSamples)
+StoredLight::StoredLight(Pass& pass, GatherSource source, bool readsVoxelDirect, uint32_t minSamples)
     : source_(source),
-      voxelsBringDirect_(voxelsBringDirect),
+      readsVoxelDirect_(readsVoxelDirect),
       minSamples_(minSamples),
       voxels_(pass, "voxels", "surface voxels", source == GatherSource::Voxels),
-      irradiance_(pass, "irradiance", "light that arrives at the voxels' surfaces",
-                  source == GatherSource::Voxels),
+      irradiance_(pass, "irradiance", "light that arrives at the voxels' surfaces", source == GatherSource::Voxels),
       tree_(pass, "irradiance_tree", "light of merged voxels", source == GatherSource::MergedVoxels),
       cache_(pass, "radiance_cache", "light that arrives at surfaces, by hashed cells",
              source == GatherSource::RadianceCache) {
@@ -21,7 +20,7 @@ void StoredLight::plan(PassPlan& plan) {
 
 bool StoredLight::holdsDirect(const PassPlan& plan) const {
     if (source_ == GatherSource::MergedVoxels) return plan[tree_].holdsDirect;
-    return source_ == GatherSource::RadianceCache || voxelsBringDirect_;
+    return source_ == GatherSource::RadianceCache || readsVoxelDirect_;
 }
 
 std::optional<uint32_t> StoredLight::bounces(const PassPlan& plan) const {
@@ -32,24 +31,19 @@ std::optional<uint32_t> StoredLight::bounces(const PassPlan& plan) const {
 
 Defines StoredLight::defines() const {
     if (source_ == GatherSource::MergedVoxels) return {{"STORED_IN_MERGED_VOXELS", "1"}};
-    if (source_ == GatherSource::RadianceCache) return {{"STORED_IN_RADIANCE_CACHE", "1"}};
+    if (source_ == GatherSource::RadianceCache)
+        return {{"STORED_IN_RADIANCE_CACHE", "1"}, {"MIN_SAMPLES", std::to_string(minSamples_)}};
     return {{"STORED_IN_VOXELS", "1"}};
 }
 
-SpecializationConstants StoredLight::constants() const {
-    if (source_ != GatherSource::RadianceCache) return {};
-    return {{"minSamples", minSamples_}};
-}
-
-std::vector<Binding> StoredLight::bindings(PassContext& context) {
+std::vector<Binding> StoredLight::update(PassContext& context) {
     if (source_ == GatherSource::MergedVoxels) return context[tree_].bindings();
     if (source_ == GatherSource::RadianceCache) return context[cache_].bindings();
 
     const SurfaceVoxels& voxels = context[voxels_];
     if (context.changed(voxels_) || context.changed(irradiance_)) {
         const VoxelIrradiance& light = context[irradiance_];
-        faces_->update(context.stream, voxels, light.area, light.indirect,
-                       voxelsBringDirect_ ? &light.direct : nullptr);
+        faces_->update(context.stream, voxels, light.area, light.indirect, readsVoxelDirect_ ? &light.direct : nullptr);
         context.stream.upload(grid_, std::vector{voxels.grid});
     }
     return voxels.bindings({faces_->binding(), {"grid", grid_}});

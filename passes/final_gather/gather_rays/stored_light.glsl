@@ -1,22 +1,42 @@
-// Light that is stored for surfaces, wherever that is. C++: passes/final_gather/gather_rays/stored_light.h.
+// Lookups of stored irradiance, in one of three storages. Host: passes/final_gather/gather_rays/stored_light.h.
 #ifndef VOXRAY_STORED_LIGHT_GLSL
 #define VOXRAY_STORED_LIGHT_GLSL
 
-// What is stored for a point of a surface.
+#if defined(STORED_IN_VOXELS)
+#include "shaders/voxels/face_irradiance.glsl"
+layout(scalar) readonly buffer Grid { VoxelGrid data; } grid;
+#elif defined(STORED_IN_MERGED_VOXELS)
+#include "passes/final_gather/merged_voxels/irradiance_tree.glsl"
+#elif defined(STORED_IN_RADIANCE_CACHE)
+#include "passes/cache/radiance_cache.glsl"
+#endif
+
 struct StoredLight {
     vec3 irradiance;  // W/m²
-    float cellSize;   // m: edge of the cell that it is the mean of.
-    bool known;       // False where no light was stored.
+    float cellSize;   // Edge of the cell over which it is averaged, m.
+    bool known;       // False where no light is stored.
 };
 
-// Each defines, for a surface with unit normal `normal`, on the side that it points to:
-// StoredLight storedLight(vec3 position, vec3 normal).
+// The value stored for a surface point, for the side of the surface that the unit normal points to.
+StoredLight storedLight(vec3 position, vec3 normal) {
+    StoredLight stored = StoredLight(vec3(0.0), 0.0, false);
 #if defined(STORED_IN_VOXELS)
-#include "passes/final_gather/gather_rays/voxel_light.glsl"
+    const VoxelGrid g = grid.data;
+    stored.irradiance = irradianceAt(g, position, normal, stored.known);
+    stored.cellSize = g.voxelSize;
 #elif defined(STORED_IN_MERGED_VOXELS)
-#include "passes/final_gather/gather_rays/merged_voxel_light.glsl"
+    stored.irradiance = irradianceAt(irradianceTree.grid.voxels, position, normal, stored.known);
+    stored.cellSize = irradianceTree.grid.voxels.voxelSize;
 #elif defined(STORED_IN_RADIANCE_CACHE)
-#include "passes/final_gather/gather_rays/cached_light.glsl"
+    const RadianceCacheGrid g = radianceCacheGrid.data;
+    stored.cellSize = radianceCacheCellSize(g, radianceCacheLevel(g, position));
+    const uint slot = findRadianceCell(g, radianceCacheKey(g, position, normal));
+    if (slot == NO_CELL) return stored;
+    const vec4 mean = meanRadianceCell(g, slot);
+    stored.irradiance = mean.rgb;
+    stored.known = mean.w >= float(MIN_SAMPLES);
 #endif
+    return stored;
+}
 
 #endif

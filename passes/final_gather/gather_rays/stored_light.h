@@ -11,7 +11,7 @@
 
 namespace voxray {
 
-/// Where a final gather reads light.
+/// Storage from which a final gather reads light.
 enum class GatherSource { Voxels, MergedVoxels, RadianceCache };
 template <>
 struct EnumNames<GatherSource> {
@@ -20,27 +20,26 @@ struct EnumNames<GatherSource> {
                                       std::pair{GatherSource::RadianceCache, "radiance_cache"}};
 };
 
-/// The light that is stored at the hits of gather rays: the ports that bring it, and what shaders that
-/// include stored_light.glsl are compiled with and given.
+/// Stored light at the hits of gather rays: its ports, and the definitions and bindings of its shaders.
 class StoredLight {
  public:
-    /// @param voxelsBringDirect false: of voxels' light indirect light alone is read.
-    /// @param minSamples of a cell of the cache that is read.
-    StoredLight(Pass& pass, GatherSource source, bool voxelsBringDirect, uint32_t minSamples);
+    /// @param readsVoxelDirect whether direct light is read from voxels, too. @param minSamples samples that
+    /// a cell of the cache needs.
+    StoredLight(Pass& pass, GatherSource source, bool readsVoxelDirect, uint32_t minSamples);
 
     void plan(PassPlan& plan);
-    /// Whether it holds direct light, too.
+    /// Whether direct light is stored, too.
     bool holdsDirect(const PassPlan& plan) const;
     /// Resource::lightBounces.
     std::optional<uint32_t> bounces(const PassPlan& plan) const;
+    /// Of shaders that include stored_light.glsl.
     Defines defines() const;
-    SpecializationConstants constants() const;
-    /// What the light is now.
-    std::vector<Binding> bindings(PassContext& context);
+    /// Brings the light up to date. @return its bindings.
+    std::vector<Binding> update(PassContext& context);
 
  private:
     const GatherSource source_;
-    const bool voxelsBringDirect_;
+    const bool readsVoxelDirect_;
     const uint32_t minSamples_;
     In<SurfaceVoxels> voxels_;
     In<VoxelIrradiance> irradiance_;

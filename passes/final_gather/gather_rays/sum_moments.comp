@@ -1,10 +1,10 @@
-// Sums over the rays of each block, for filter_irradiance: how noisy rays are and how fast irradiance can change there.
+// Moments of each block's gather rays, from which filter_irradiance estimates noise and gradients.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/filter/ray_moments.h"
 layout(local_size_x = 64) in;
 
-// By ray: radiance times pi; distance of the hit in m, infinite for a miss, negative for a ray that starts from no surface.
+// Per ray: radiance times pi; distance of the hit, m, 1e30 for a miss, -1 for a ray that starts from no surface.
 layout(scalar) readonly buffer Light { vec4 data[]; } light;
 layout(scalar) writeonly buffer Moments { RayMoments data[]; } moments;
 layout(push_constant) uniform Push {

@@ -7,23 +7,21 @@
 
 VOXRAY_SHARED_BEGIN
 
-// A node that splits is one word: the axis, the first voxel along it that lies behind the split, and how many
-// words on the child behind the split stands; the child before it is the next word. A leaf is two words.
-#define TREE_LEAF 3u  // In place of an axis.
-#define TREE_LEAF_WORDS 2u
+// An inner node is one word: the axis of its split, the first voxel behind the splitting plane, and the
+// offset in words to the child behind the plane; the child before it is the next word. A leaf is two words.
+#define TREE_LEAF 3u  // Instead of an axis.
 #define TREE_MAX_SPLIT 0x3ffu
 #define TREE_MAX_OFFSET 0xfffffu
 
-// The light of a region of voxels, at one of their faces: means of the voxels where that face knows any.
+// The mean over the voxels of a leaf whose face has a value.
 struct TreeLeaf {
-    vec3 irradiance;  // W/m²: flux over area, of all of them together.
+    vec3 irradiance;  // W/m²: total flux over total area.
     float area;       // In units of a voxel's face.
 };
 
-// The grid whose voxels were merged, and the root of each face's tree: +x -x +y -y +z -z.
 struct IrradianceTreeGrid {
-    VoxelGrid voxels;
-    uint root[6];
+    VoxelGrid voxels;  // Whose voxels are merged.
+    uint root[6];      // Root of each face's tree: +x -x +y -y +z -z.
 };
 
 VOXRAY_SHARED_FUNCTION uint packSplit(uint axis, uint split, uint offset) {
@@ -39,7 +37,7 @@ VOXRAY_SHARED_FUNCTION uint splitOffset(uint word) {
     return word >> 12;
 }
 
-// Areas lose their last bit.
+// Areas lose their lowest bit.
 VOXRAY_SHARED_FUNCTION uvec2 packLeaf(TreeLeaf leaf) {
     const uvec2 rgb = packRgb(leaf.irradiance);
     const uint area = (packArea(leaf.area) + 1u) >> 1;

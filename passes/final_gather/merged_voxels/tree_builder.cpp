@@ -12,22 +12,22 @@
 namespace voxray {
 namespace {
 
-/// Irradiances whose relative variance is below this are equal: packing rounds to 13 bits.
+/// Relative variance below which irradiances are equal, as packing rounds to 13 bits.
 constexpr double kEqual = 1e-9;
 
-/// What no light reaches shares no leaf with what some does, whatever that costs: a black room must not get a
-/// part of the light behind its wall. An area that counts is 1e-6 voxel faces or more.
+/// Squared error per area of black samples in a leaf with others: keeps light from leaking into a black room
+/// behind a wall. Prevents such leaves where the area is 1e-6 voxel faces or more.
 constexpr double kMixedPenalty = 1e9;
 
-/// Planes in the outer quarters of the samples' extent are near an end.
-constexpr double kFarFromEnds = 0.25;
+/// Fraction of the samples' extent at either end in which splits are penalized.
+constexpr double kPenalizedEnd = 0.25;
 
-/// Sums over samples from which the error of their mean follows.
+/// Sums over samples that yield the error of their mean.
 struct Sums {
     uint32_t count = 0;
     double area = 0, litArea = 0, darkArea = 0;
     glm::dvec3 flux{0.0};      ///< Irradiance times area.
-    double weight = 0;         ///< Area over the square of what errors are relative to.
+    double weight = 0;         ///< Area over the squared error scale.
     glm::dvec3 weighted{0.0};  ///< Irradiance times weight.
     double squared = 0;        ///< Squared irradiance times weight.
 
@@ -52,11 +52,11 @@ struct Sums {
         squared += s.squared;
     }
     glm::dvec3 mean() const { return area > 0 ? flux / area : glm::dvec3(0.0); }
-    /// Squared relative error of the mean, summed, over red, green and blue in equal parts.
+    /// Squared relative error of the mean, summed over samples and averaged over red, green and blue.
     double squaredError() const {
         const glm::dvec3 m = mean();
-        const double spread = squared - 2 * glm::dot(weighted, m) + weight * glm::dot(m, m);
-        return std::max(spread, 0.0) + kMixedPenalty * std::min(litArea, darkArea);
+        const double variance = squared - 2 * glm::dot(weighted, m) + weight * glm::dot(m, m);
+        return std::max(variance, 0.0) + kMixedPenalty * std::min(litArea, darkArea);
     }
     bool isUniform() const { return squaredError() <= kEqual * squared; }
     gpu::TreeLeaf leaf() const { return {glm::vec3(mean()), count > 0 ? float(area / count) : 0.0f}; }
@@ -64,10 +64,10 @@ struct Sums {
 
 struct Split {
     int axis = -1;
-    int plane = 0;  ///< The first voxel behind it.
+    int plane = 0;  ///< First voxel behind the plane.
 };
 
-/// What a subtree costs: its error, and its leaves.
+/// Costs of a subtree.
 struct Subtree {
     double squaredError;
     uint32_t leaves;
@@ -75,8 +75,7 @@ struct Subtree {
 
 class Builder {
  public:
-    Builder(double tolerance, std::vector<uint32_t>& words)
-        : errorOfLeaf_(tolerance * tolerance), words_(words) {}
+    Builder(double tolerance, std::vector<uint32_t>& words) : leafCost_(tolerance * tolerance), words_(words) {}
 
     Subtree build(std::span<FaceSample> samples) {
         Sums sums;
@@ -86,18 +85,17 @@ class Builder {
             low = glm::min(low, s.voxel);
             high = glm::max(high, s.voxel);
         }
-        // What no split can improve on
+        // Leave samples undivided where no split can reduce the cost
         const Subtree asLeaf{sums.squaredError(), 1};
         const size_t first = words_.size();
-        const Split split = sums.isUniform() || asLeaf.squaredError < errorOfLeaf_
+        const Split split = sums.isUniform() || asLeaf.squaredError < leafCost_
                                 ? Split{}
                                 : bestSplit(samples, asLeaf.squaredError, low, high);
         if (split.axis < 0) return replaceByLeaf(first, sums, asLeaf);
 
-        // Both parts, and whether they are worth their leaves
-        const auto behind = std::partition(samples.begin(), samples.end(), [&](const FaceSample& s) {
-            return s.voxel[split.axis] < split.plane;
-        });
+        // Build both children, and prune them where their leaves reduce the error too little
+        const auto behind = std::partition(samples.begin(), samples.end(),
+                                           [&](const FaceSample& s) { return s.voxel[split.axis] < split.plane; });
         words_.push_back(0);
         const Subtree before = build({samples.begin(), behind});
         const size_t offset = words_.size() - first;
@@ -105,16 +103,15 @@ class Builder {
         const Subtree both{before.squaredError + after.squaredError, before.leaves + after.leaves};
         if (cost(both) >= cost(asLeaf)) return replaceByLeaf(first, sums, asLeaf);
         if (offset > TREE_MAX_OFFSET)
-            throw Error("merged voxels need a tree of over {} leaves; raise merge_voxels' 'tolerance'",
-                        before.leaves);
+            throw Error("merged voxels need a tree of over {} leaves; raise merge_voxels' 'tolerance'", before.leaves);
         words_[first] = gpu::packSplit(uint32_t(split.axis), uint32_t(split.plane), uint32_t(offset));
         return both;
     }
 
  private:
-    double cost(const Subtree& t) const { return t.squaredError + errorOfLeaf_ * t.leaves; }
+    double cost(const Subtree& t) const { return t.squaredError + leafCost_ * t.leaves; }
 
-    /// In place of all words from `first` on.
+    /// Replaces all words from `first` on by a leaf.
     Subtree replaceByLeaf(size_t first, const Sums& sums, const Subtree& asLeaf) {
         const glm::uvec2 words = gpu::packLeaf(sums.leaf());
         words_.resize(first);
@@ -122,12 +119,12 @@ class Builder {
         return asLeaf;
     }
 
-    /// The plane between voxels that leaves the least error on both its sides; none where there is one voxel.
-    /// Planes near an end have to gain more: cutting off slice by slice would make the tree a list.
+    /// The plane between voxels with the least error before and behind it; none for a single voxel. Planes
+    /// close to an end are penalized, as cutting off single slices would degenerate the tree to a list.
     /// @param undivided error without a split.
     Split bestSplit(std::span<const FaceSample> samples, double undivided, glm::ivec3 low, glm::ivec3 high) {
         Split best;
-        double least = std::numeric_limits<double>::infinity();
+        double minError = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
             const size_t slices = size_t(high[axis] - low[axis]) + 1;
             slices_.assign(slices, {});
@@ -142,16 +139,16 @@ class Builder {
                 before.add(slices_[i - 1]);
                 const double fromEnd = double(std::min(i, slices - i)) / double(slices);
                 const double error = before.squaredError() + behind_[i].squaredError() +
-                                     undivided * std::max(kFarFromEnds - fromEnd, 0.0);
-                if (error >= least) continue;
-                least = error;
+                                     undivided * std::max(kPenalizedEnd - fromEnd, 0.0);
+                if (error >= minError) continue;
+                minError = error;
                 best = {axis, low[axis] + int(i)};
             }
         }
         return best;
     }
 
-    double errorOfLeaf_;
+    double leafCost_;
     std::vector<uint32_t>& words_;
     std::vector<Sums> slices_, behind_;
 };

@@ -1,4 +1,4 @@
-// Starts a batch of gather rays from the G-buffer's surfaces, distributed by cosine about their normals.
+// Generates a batch of gather rays from the G-buffer's surfaces, distributed by cosine about their normals.
 #include "shaders/view/gather_layout.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
@@ -22,22 +22,14 @@ void main() {
     const uvec2 block = uvec2(blockIndex % g.blocks.x, blockIndex / g.blocks.x);
     const ivec2 texel = ivec2(texelOf(g, block, rayTexel(g, block, j)));
 
-    Ray ray;
-    ray.origin = vec3(0.0);
-    ray.direction = vec3(0.0, 0.0, 1.0);
-    ray.tMin = 0.0;
-    ray.tMax = -1.0;
+    Ray ray = kNoRay;
     const vec4 p = all(lessThan(texel, ivec2(g.texels))) ? texelFetch(position, texel, 0) : vec4(0.0);
     if (p.w > 0.0) {
         const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
         const vec3 faceNormal = normalize(texelFetch(geometricNormal, texel, 0).xyz);
         const vec3 direction = cosineDirection(raySample(g, block, j), n);
-        // A normal map may point rays below the surface: those see the surface itself, which reflects nothing to it.
-        if (dot(direction, faceNormal) > 0.0) {
-            ray.origin = p.xyz + faceNormal * p.w;
-            ray.direction = direction;
-            ray.tMax = 1.0e30;
-        }
+        // Directions below the surface, as normal maps cause them, bring no light
+        if (dot(direction, faceNormal) > 0.0) ray = Ray(p.xyz + faceNormal * p.w, 0.0, direction, 1.0e30);
     }
     rays.data[i] = ray;
 }

@@ -8,29 +8,28 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kGatherBatchRays = 1u << 18;  // Bounds what gather_rays needs for a batch to 36 MiB.
+constexpr uint32_t kGatherBatchRays = 1u << 18;  // Bounds gather_rays' memory for a batch to 36 MiB.
 
 }  // namespace
 
-/// The rays of a hybrid final gather: geometry from rays, light at their hits from voxels. Tracing stands
-/// apart from shading, so that an injection pass can light just what the rays hit (inject_voxel_rays with
-/// points: gather_hits).
-/// Source: Magalhães 2020, section 6.1 (rays for detail below a voxel); sampling: Ahmed and Wonka 2020.
+/// The rays of a hybrid final gather: rays find geometry, voxels hold the light at their hits. Tracing and
+/// shading are separate passes, so that an injection can light only what the rays hit (inject_voxel_rays with
+/// points: gather_hits). Source: Magalhães 2020, section 6.1 (rays for detail below a voxel); sampling: Ahmed
+/// and Wonka 2020.
 class TraceGatherRays final : public Pass {
  public:
     static constexpr const char* kName = "trace_gather_rays";
     static constexpr const char* kHelp =
-        "Traces cosine-distributed gather rays from what the camera sees. "
-        "They are for gather_rays to shade. Exact geometry; noisy by: rays_per_block. "
+        "Traces cosine-distributed gather rays from what the camera sees. gather_rays shades their hits. "
+        "Exact geometry; noisy by: rays_per_block. "
         "Where a block has fewer rays than texels, filter_irradiance fills the texels without any.";
     struct Params {
         uint32_t raysPerBlock = 16;
         uint32_t block = 1;
         static constexpr auto schema() {
             return std::tuple{
-                field("rays_per_block", &Params::raysPerBlock, "Rays of each block.", 1u, 65536u).lessNoise(),
-                field("block", &Params::block, "Texels of the G-buffer along a block's edge.",
-                      powersOfTwo(1, 8))};
+                field("rays_per_block", &Params::raysPerBlock, "Rays from each block.", 1u, 65536u).lessNoise(),
+                field("block", &Params::block, "Texels of the G-buffer along a block's edge.", powersOfTwo(1, 8))};
         }
     };
 
@@ -49,13 +48,11 @@ class TraceGatherRays final : public Pass {
 void TraceGatherRays::plan(PassPlan& plan) {
     GatherHits& hits = plan[hits_];
     const glm::uvec2 texels = glm::uvec2(plan.frame.width, plan.frame.height) * plan[gbuffer_].samples;
-    hits.layout = {texels, (texels + params_.block - 1u) / params_.block, params_.block, params_.raysPerBlock,
-                   0};
+    hits.layout = {texels, (texels + params_.block - 1u) / params_.block, params_.block, params_.raysPerBlock, 0};
     hits.blocksPerBatch = std::clamp(kGatherBatchRays / params_.raysPerBlock, 1u, hits.blocks());
     hits.batches = std::vector<Buffer>((hits.blocks() + hits.blocksPerBatch - 1) / hits.blocksPerBatch);
     for (uint32_t b = 0; b < hits.batches.size(); ++b)
-        plan.buffer(hits.batches[b], "gather hits",
-                    uint64_t(hits.batchBlocks(b)) * params_.raysPerBlock * sizeof(Hit));
+        plan.buffer(hits.batches[b], "gather hits", uint64_t(hits.batchBlocks(b)) * params_.raysPerBlock * sizeof(Hit));
     plan.buffer(rays_, "gather rays", uint64_t(hits.blocksPerBatch) * params_.raysPerBlock * sizeof(Ray));
 }
 

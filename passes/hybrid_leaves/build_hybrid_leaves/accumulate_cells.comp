@@ -1,5 +1,5 @@
-// Accumulates the materials of clipped fragments in their cells, weighted by area. Fixed point: the order of additions does not
-// matter. voxelizer.fixedPointScale: units of area per cell face.
+// Accumulates the materials of clipped fragments in their cells, weighted by area. Fixed point: the order of additions
+// does not matter. voxelizer.fixedPointScale: units of area per cell face.
 #include "passes/hybrid_leaves/build_hybrid_leaves/cell_sums.h"
 #include "passes/hybrid_leaves/build_hybrid_leaves/cell_surface.glsl"
 #include "shaders/scene/specular.glsl"
@@ -16,8 +16,8 @@ void addVector(uint word, vec3 units) {
 }
 
 void addExtended(uint word, FragmentMaterial f, float emissionLevel, float units) {
-    const GpuMaterial m = sceneMaterials.data[f.at.material];
-    const vec3 emitted = emission(m, f.at, emissionLevel) / max(hybridLeaves.shape.largestEmission, 1e-20) * units;
+    const GpuMaterial m = sceneMaterials.data[f.point.material];
+    const vec3 emitted = emission(m, f.point, emissionLevel) / max(hybridLeaves.shape.largestEmission, 1e-20) * units;
     const Specular s = makeSpecular(f.base, f.metallic, f.roughness, m.specular, m.specularColor, m.ior);
     addVector(word + SUM_EMISSION, emitted);
     if (m.doubleSided != 0u) addFixed(word + SUM_EMISSION_BOTH_SIDES, max(emitted.r, max(emitted.g, emitted.b)));

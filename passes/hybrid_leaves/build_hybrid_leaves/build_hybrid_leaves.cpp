@@ -71,12 +71,10 @@ class BuildHybridLeaves final : public Pass {
  public:
     static constexpr const char* kName = "build_hybrid_leaves";
     static constexpr const char* kHelp =
-        "Gives the leaves of the voxel octree their triangles or finer voxels. "
-        "Each leaf of the octree over surface voxels takes the list of the triangles in it or, "
-        "where they are more than a capacity, a grid of finer voxels. "
-        "This is for rays sharper than voxels are. "
-        "Biased by: grid, where leaves hold grids: surfaces are as thick as its cells. "
-        "lists: fragments misses triangles, write: none flickers. Source: Seok 2021, chapter 3.";
+        "Builds the leaves of a hybrid octree over surface voxels, for rays that resolve more than voxels. "
+        "Each leaf holds the list of its triangles or, if these exceed a capacity, a grid of finer voxels, "
+        "its cells. Biased by: grid, since surfaces in grids are as thick as cells; `lists: "
+        "fragments` misses triangles; `write: none` flickers. Source: Seok 2021, chapter 3.";
     struct Params {
         uint32_t primitives = 64;
         uint32_t grid = 16;
@@ -86,25 +84,22 @@ class BuildHybridLeaves final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("primitives", &Params::primitives,
-                      "Capacity p of a leaf: the most triangles that it lists; "
-                      "a leaf with more gets a grid (Seok 2021, section 3.2).",
+                      "Capacity p of a leaf: maximum triangles of its list; "
+                      "a leaf with more has a grid (Seok 2021, section 3.2).",
                       1u, 1u << 20),
                 field("grid", &Params::grid,
-                      "Resolution m of a leaf's grid: cells along its edge. "
-                      "Only those that hold surfaces take memory besides two bits.",
-                      2u, 16u),
+                      "Resolution m of a leaf's grid: cells along its edge. An empty cell takes two bits.", 2u, 16u),
                 field("lists", &Params::lists,
                       "exact: every triangle that overlaps the leaf. "
-                      "fragments: those of which a raster pass makes a fragment there, "
-                      "which misses some (Seok 2021, figures 24 and 25)."),
-                field(
-                    "write", &Params::write,
-                    "average: a cell is the mean of its surfaces, weighted by area. none: "
-                    "the last one that is written, which changes from run to run (Seok 2021, section 3.2)."),
+                      "fragments: every triangle with a raster fragment in the leaf, which misses some (Seok 2021, "
+                      "figures 24 and 25)."),
+                field("write", &Params::write,
+                      "average: a cell is the mean of its surfaces, weighted by area. "
+                      "none: the last one that is written, which changes from run to run (Seok 2021, section 3.2)."),
                 field("grid_levels", &Params::gridLevels,
-                      "finest: every ray meets cells of 1/m of the leaf's edge. "
+                      "finest: rays intersect cells of 1/m of the leaf's edge. "
                       "footprint: grids also have cells of twice the edge, and so on up to half the leaf; "
-                      "a ray meets the largest that are not wider than it is.")
+                      "rays intersect the largest cells that are no wider than the ray.")
                     .onlyWith(oneOf(&Params::write, {CellWrite::Average}))};
         }
     };
@@ -116,10 +111,9 @@ class BuildHybridLeaves final : public Pass {
  private:
     /// Whether only a region is rebuilt, and all leaves outside are copied.
     bool isUpdate() const { return updateCache_ && updateCache_->isActive(); }
-    /// Builds the leaves of a region and copies the others. False where sums need other fixed-point units:
+    /// Builds the leaves of a region and copies the others. False if sums need other fixed-point units:
     /// then all leaves must be rebuilt.
-    bool build(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& surface,
-               HybridLeaves& leaves);
+    bool build(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& surface, HybridLeaves& leaves);
     /// Adds voxels of masked triangles that are too transparent to be surface voxels.
     void addMaskedVoxels(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& voxels,
                          HybridLeaves& leaves);
@@ -136,13 +130,12 @@ class BuildHybridLeaves final : public Pass {
         return params_.lists == LeafLists::Fragments ? Defines{{"FRAGMENTS", "1"}} : Defines{};
     }
     std::unique_ptr<PassProgram> voxelizerProgram(const char* file, const Defines& defines = {}) {
-        return voxelizer_->makeProgram(*this, std::string("passes/hybrid_leaves/build_hybrid_leaves/") + file,
-                                       defines);
+        return voxelizer_->makeProgram(*this, std::string("passes/hybrid_leaves/build_hybrid_leaves/") + file, defines);
     }
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels: the leaves"};
-    Out<HybridLeaves> leaves_{*this, "hybrid_leaves", "what each leaf holds"};
+    Out<HybridLeaves> leaves_{*this, "hybrid_leaves", "lists and grids of the leaves"};
     std::unique_ptr<TriangleVoxelizer> voxelizer_ = makeExactVoxelizer();
     std::unique_ptr<PassProgram> markLeaves_ = voxelizerProgram("mark_leaves"),
                                  countTriangles_ = voxelizerProgram("count_triangles", listDefines()),
@@ -157,7 +150,7 @@ class BuildHybridLeaves final : public Pass {
     std::optional<LeafUpdateCache> updateCache_;  ///< Where surfaces move.
     Buffer counts_;                               ///< Triangles of each leaf.
     Buffer rebuiltCounts_;                        ///< The same of rebuilt leaves, 0 for others.
-    LargeBuffer pairs_;  ///< Scratch, of triangles and leaves with grids: three words each.
+    LargeBuffer pairs_;                           ///< Scratch, of triangles and leaves with grids: three words each.
     uint32_t pairCount_ = 0;
     uint32_t itemCount_ = 0;  ///< Of all lists.
     uint32_t rebuiltLeaves_ = 0;
@@ -165,16 +158,14 @@ class BuildHybridLeaves final : public Pass {
 };
 
 uint32_t BuildHybridLeaves::gridLevels() const {
-    const bool hasAllLevels =
-        params_.write == CellWrite::Average && params_.gridLevels == GridLevels::Footprint;
+    const bool hasAllLevels = params_.write == CellWrite::Average && params_.gridLevels == GridLevels::Footprint;
     return hasAllLevels ? allGridLevels(params_.grid) : 1;
 }
 
 void BuildHybridLeaves::plan(PassPlan& plan) {
     const gpu::VoxelGrid& grid = plan[voxels_].grid;
     if (grid.windowSize < std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z}))
-        throw Error(
-            "build_hybrid_leaves needs all voxels, and this grid holds a window of them: take voxelize");
+        throw Error("build_hybrid_leaves needs all voxels, and this grid holds a window of them: take voxelize");
     const Geometry& geometry = plan.frame.scene->geometry;
     plan.buffer(plan[leaves_].header, "hybrid leaves' header", hybridHeaderBytes());
     plan.buffer(plan[leaves_].corners, "corners of triangles",
@@ -233,8 +224,8 @@ bool BuildHybridLeaves::build(PassContext& context, const VoxelRegion& region, c
     return true;
 }
 
-void BuildHybridLeaves::addMaskedVoxels(PassContext& context, const VoxelRegion& region,
-                                        const SurfaceVoxels& voxels, HybridLeaves& leaves) {
+void BuildHybridLeaves::addMaskedVoxels(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& voxels,
+                                        HybridLeaves& leaves) {
     const std::vector<uint32_t> triangles = maskedTriangles(*context.frame.scene);
     if (triangles.empty()) return;
     CommandStream& stream = context.stream;
@@ -245,8 +236,7 @@ void BuildHybridLeaves::addMaskedVoxels(PassContext& context, const VoxelRegion&
     masked.rank = Buffer(context.device, "ranks with masks", voxels.rank.bytes());
     stream.copy(voxels.occupancy, masked.occupancy, voxels.occupancy.bytes());
     voxelizer_->select(context, masked.grid, region, triangles);
-    voxelizer_->run(context, *markLeaves_, masked.grid, std::vector<Binding>{{"occupancy", masked.occupancy}},
-                    0);
+    voxelizer_->run(context, *markLeaves_, masked.grid, std::vector<Binding>{{"occupancy", masked.occupancy}}, 0);
     if (isUpdate())
         masked.occupancy =
             regionMerge_.merged(stream, updateCache_->region(), updateCache_->occupancy(), masked.occupancy);
@@ -254,13 +244,12 @@ void BuildHybridLeaves::addMaskedVoxels(PassContext& context, const VoxelRegion&
     voxelizer_->release();
 }
 
-void BuildHybridLeaves::classifyLeaves(PassContext& context, const SurfaceVoxels& voxels,
-                                       HybridLeaves& leaves) {
+void BuildHybridLeaves::classifyLeaves(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves) {
     // Triangles of each leaf
     CommandStream& stream = context.stream;
     const uint32_t count = voxels.voxelCount;
     const Bindings leafBindings{{"leaves", count}, {"capacity", params_.primitives}};
-    rebuiltCounts_ = Buffer(context.device, "triangles of leaves that are built", wordBytes(count));
+    rebuiltCounts_ = Buffer(context.device, "triangles of leaves that are built", uintBytes(count));
     counts_ = Buffer(context.device, "triangles of each leaf", rebuiltCounts_.bytes());
     stream.fill(rebuiltCounts_, 0);
     voxelizer_->run(context, *countTriangles_, voxels.grid, voxels.bindings({{"counts", rebuiltCounts_}}), 0);
@@ -270,10 +259,10 @@ void BuildHybridLeaves::classifyLeaves(PassContext& context, const SurfaceVoxels
     else
         stream.copy(rebuiltCounts_, counts_, counts_.bytes());
 
-    // First items of lists and indices of grids by exclusive prefix sums; Seok 2021, figure 7, takes the
-    // order of arrival
-    const Buffer sizes(context.device, "sizes of lists", wordBytes(count));
-    const Buffer grids(context.device, "grids", wordBytes(count));
+    // First items of lists and indices of grids by exclusive prefix sums; by order of arrival in Seok 2021,
+    // figure 7
+    const Buffer sizes(context.device, "sizes of lists", uintBytes(count));
+    const Buffer grids(context.device, "grids", uintBytes(count));
     const Buffer statistics(context.device, "what leaves are", sizeof(LeafStatistics));
     stream.fill(statistics, 0);
     stream.dispatch(sizeLists_, count,
@@ -283,7 +272,7 @@ void BuildHybridLeaves::classifyLeaves(PassContext& context, const SurfaceVoxels
                      {"grids", grids},
                      {"statistics", statistics},
                      leafBindings.all()});
-    leaves.words = Buffer(context.device, "hybrid leaves", wordBytes(count));
+    leaves.words = Buffer(context.device, "hybrid leaves", uintBytes(count));
     itemCount_ = prefixSum_.run(stream, sizes, leaves.words, count);
     requireBelow(itemCount_, kMaxListItems, "items of lists");
     leaves.gridCount = prefixSum_.run(stream, grids, grids, count);
@@ -294,16 +283,14 @@ void BuildHybridLeaves::classifyLeaves(PassContext& context, const SurfaceVoxels
     pairCount_ = counted.pairs;
     leaves.emptyCount = counted.empty;
     leaves.primitiveCount = counted.listed;
-    stream.dispatch(
-        classifyLeaves_, count,
-        {{"counts", counts_}, {"gridIndices", grids}, {"words", leaves.words}, leafBindings.all()});
+    stream.dispatch(classifyLeaves_, count,
+                    {{"counts", counts_}, {"gridIndices", grids}, {"words", leaves.words}, leafBindings.all()});
     stream.finish();
 }
 
 void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves) {
     CommandStream& stream = context.stream;
-    leaves.primitives =
-        Buffer(context.device, "lists of triangles", wordBytes(uint64_t(itemCount_) * LIST_ITEM_WORDS));
+    leaves.primitives = Buffer(context.device, "lists of triangles", uintBytes(uint64_t(itemCount_) * LIST_ITEM_WORDS));
     const CellLayout layout = cellLayout(*context.frame.scene->scene);
     const uint32_t gridWords = wordsPerGrid(params_.grid, gridLevels());
     leaves.shape = {voxels.voxelCount, params_.primitives, params_.grid,          gridLevels(),
@@ -314,21 +301,19 @@ void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& vox
     // Filled from the last item to the first in order of arrival (Seok 2021, figure 8), then sorted, so that
     // results are deterministic. What is voxelized further (figure 9) is summed in fixed point: its order
     // does not matter
-    const Buffer remaining(context.device, "places left in lists", rebuiltCounts_.bytes());
+    const Buffer remaining(context.device, "free items of lists", rebuiltCounts_.bytes());
     const Buffer pairCount(context.device, "number of pairs", sizeof(uint32_t));
     stream.copy(rebuiltCounts_, remaining, rebuiltCounts_.bytes());
     stream.fill(pairCount, 0);
-    pairs_ = LargeBuffer(context.device, "triangles in grids", 3 * wordBytes(pairCount_));
+    pairs_ = LargeBuffer(context.device, "triangles in grids", 3 * uintBytes(pairCount_));
     const std::vector<Binding> bindings = voxels.bindings({{"remaining", remaining},
                                                            {"pairCount", pairCount},
                                                            {"PairsRef", pairs_.ref()},
                                                            {"hybridLeaves", leaves.header}});
     voxelizer_->run(context, *fillLists_, voxels.grid, bindings, 0);
-    stream.dispatch(sortLists_, voxels.voxelCount,
-                    {leaves,
-                     {"counts", rebuiltCounts_},
-                     {"leaves", voxels.voxelCount},
-                     {"capacity", params_.primitives}});
+    stream.dispatch(
+        sortLists_, voxels.voxelCount,
+        {leaves, {"counts", rebuiltCounts_}, {"leaves", voxels.voxelCount}, {"capacity", params_.primitives}});
     if (isUpdate()) updateCache_->copyLists(stream, leaves, counts_);
     stream.finish();
 }

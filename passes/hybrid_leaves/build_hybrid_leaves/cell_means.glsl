@@ -21,8 +21,8 @@ vec3 signedSums(uint word) { return vec3(signedSum(word), signedSum(word + 1u), 
 CellSums loadCellSums(uint cell) {
     const bool isExtended = hybridLeaves.shape.cellWords == EXTENDED_CELL_WORDS;
     const uint word = cell * (isExtended ? EXTENDED_SUM_UINTS : SUM_UINTS);
-    CellSums s = CellSums(signedSum(word + SUM_AREA), signedSums(word + SUM_NORMAL), signedSums(word + SUM_POINT), signedSums(word + SUM_ALBEDO),
-                          vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
+    CellSums s = CellSums(signedSum(word + SUM_AREA), signedSums(word + SUM_NORMAL), signedSums(word + SUM_POINT),
+                          signedSums(word + SUM_ALBEDO), vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     if (!isExtended) return s;
     s.emission = signedSums(word + SUM_EMISSION);
     s.f0 = signedSums(word + SUM_F0);
@@ -32,8 +32,8 @@ CellSums loadCellSums(uint cell) {
     return s;
 }
 
-// Adds the sums of a finer cell. `center`: its center relative to that of the coarse cell; `scale`: its edge; both in edges of
-// the coarse cell.
+// Adds the sums of a finer cell. `center`: its center relative to that of the coarse cell; `scale`: its edge; both in
+// edges of the coarse cell.
 void addSums(inout CellSums s, CellSums finer, vec3 center, float scale) {
     s.area += finer.area;
     s.normal += finer.normal;
@@ -53,8 +53,8 @@ void storeMeans(uint cell, CellSums s) {
     storeGridCell(cell, GridCell(normal, dot(normal, s.point / area), s.albedo / area, 0.0));
     if (hybridLeaves.shape.cellWords != EXTENDED_CELL_WORDS) return;
     const bool emitsBothSides = 2.0 * s.emissionBothSides > max(s.emission.r, max(s.emission.g, s.emission.b));
-    storeExtendedCell(cell, ExtendedCell(s.emission / area * hybridLeaves.shape.largestEmission, emitsBothSides, s.f0 / area, s.f90 / area,
-                                         s.roughness / area));
+    storeExtendedCell(cell, ExtendedCell(s.emission / area * hybridLeaves.shape.largestEmission, emitsBothSides,
+                                         s.f0 / area, s.f90 / area, s.roughness / area));
 }
 
 #endif

@@ -21,8 +21,8 @@ vec3 fromCellCenter(TriangleFragment cell, vec3 permuted) {
     return axis == 0u ? p.zxy : axis == 1u ? p.yzx : p;
 }
 
-// False where the alpha mask cuts it away. Area and centroid as in clipFragment(). Sub-samples, the larger part of the cost, are
-// taken of masked triangles only.
+// False if the alpha mask removes it. Area and centroid as in clipFragment(). Sub-samples, which dominate the cost, are
+// computed for masked triangles only.
 bool cellSurface(TriangleFragment cell, out CellSurface s) {
     s.cellIndex = gridCellIndex(gridBit(gridLevel(cellGrid, 0u), cell.voxel));
     if (s.cellIndex == NO_CELL) return false;
@@ -38,7 +38,7 @@ bool cellSurface(TriangleFragment cell, out CellSurface s) {
     c.center = barycentricsAt(t, center);
     c.texCoordWidth = t.texCoordWidth;
     s.material = fragmentMaterial(cell, c);
-    s.emissionLevel = footprintLevel(sceneMaterials.data[s.material.at.material].emissiveTexture, c.texCoordWidth);
+    s.emissionLevel = footprintLevel(sceneMaterials.data[s.material.point.material].emissiveTexture, c.texCoordWidth);
     const vec3 surfaceCentroid = t.p0 + c.center.x * (t.p1 - t.p0) + c.center.y * (t.p2 - t.p0);
     s.point = clamp(fromCellCenter(cell, surfaceCentroid), -0.5, 0.5);
     return true;

@@ -25,7 +25,8 @@ void main() {
     // Sum the finest cells in a fixed order
     const GridLevel finestLevel = gridLevel(grid, 0u);
     const float scale = 1.0 / float(1u << levelIndex);
-    const ivec3 firstCell = cell << levelIndex, lastCell = min(firstCell + int(1u << levelIndex), ivec3(finestLevel.edge)) - 1;
+    const ivec3 firstCell = cell << levelIndex,
+                lastCell = min(firstCell + int(1u << levelIndex), ivec3(finestLevel.edge)) - 1;
     CellSums sums = CellSums(0.0, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0);
     for (int z = firstCell.z; z <= lastCell.z; ++z)
         for (int y = firstCell.y; y <= lastCell.y; ++y)

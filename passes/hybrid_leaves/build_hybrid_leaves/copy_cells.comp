@@ -4,7 +4,8 @@
 readonly buffer PreviousGrid { uint grid[]; } previousGrid;
 
 void main() {
-    const uint word = linearIndex(), perGrid = hybridLeaves.shape.wordsPerGrid, cellWords = hybridLeaves.shape.cellWords;
+    const uint word = linearIndex(), perGrid = hybridLeaves.shape.wordsPerGrid,
+               cellWords = hybridLeaves.shape.cellWords;
     if (word >= push.count) return;
     const uint previous = previousGrid.grid[word / perGrid], bits = hybridLeaves.gridBits.data[word];
     if (previous == NO_PREVIOUS || bits == 0u) return;

@@ -7,5 +7,6 @@ void main() {
     const uint word = linearIndex(), perGrid = hybridLeaves.shape.wordsPerGrid;
     if (word >= push.count) return;
     const uint previous = previousGrid.grid[word / perGrid];
-    if (previous != NO_PREVIOUS) hybridLeaves.gridBits.data[word] = previousWord(push.gridBits, previous * perGrid + word % perGrid);
+    if (previous != NO_PREVIOUS)
+        hybridLeaves.gridBits.data[word] = previousWord(push.gridBits, previous * perGrid + word % perGrid);
 }

@@ -21,5 +21,6 @@ void main() {
     }
     const uint items = LIST_ITEMS(counts.triangles[leaf]);
     for (uint i = 0u; i < items; ++i)
-        hybridLeaves.primitives.data[firstItem(word) + i] = LeafLists(push.primitives).data[firstItem(previousLeafWord) + i];
+        hybridLeaves.primitives.data[firstItem(word) + i] =
+            LeafLists(push.primitives).data[firstItem(previousLeafWord) + i];
 }

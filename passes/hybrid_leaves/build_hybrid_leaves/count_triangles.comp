@@ -1,5 +1,5 @@
-// Fragment callback: counts the triangles of each leaf, nearly transparent ones included, since rays may hit what the alpha mask
-// leaves.
+// Fragment callback: counts the triangles of each leaf, nearly transparent ones included, since rays may hit what the
+// alpha mask leaves.
 #include "passes/hybrid_leaves/build_hybrid_leaves/is_listed.glsl"
 #include "shaders/voxels/voxels.glsl"
 

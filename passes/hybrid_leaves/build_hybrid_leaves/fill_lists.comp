@@ -1,5 +1,5 @@
-// Fragment callback: adds a triangle to its leaf's list, from the last item to the first; or, where the leaf has a grid, the pair
-// of both to those that are voxelized further.
+// Fragment callback: adds a triangle to its leaf's list, from the last item to the first; or, where the leaf has a
+// grid, the pair of both to those that are voxelized further.
 #include "passes/hybrid_leaves/build_hybrid_leaves/is_listed.glsl"
 #include "passes/hybrid_leaves/build_hybrid_leaves/triangle_leaf_box.glsl"
 #include "passes/hybrid_leaves/hybrid_leaves.glsl"

@@ -4,9 +4,9 @@
 
 #include "passes/common/triangle_voxelizer/exact.glsl"
 
-// With FRAGMENTS those of which rasterization along the dominant axis makes a fragment: where the center of the voxel's column is
-// in the triangle, at a depth in the voxel. Triangles between centers, and a second voxel of a column, are missed (Seok 2021,
-// figure 24).
+// With FRAGMENTS those of which rasterization along the dominant axis makes a fragment: where the center of the voxel's
+// column is in the triangle, at a depth in the voxel. Triangles between centers, and a second voxel of a column, are
+// missed (Seok 2021, figure 24).
 bool isListed(TriangleFragment f) {
 #ifdef FRAGMENTS
     const GridTriangle t = f.permutedTriangle;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <utility>
@@ -8,6 +7,7 @@
 #include "base/schema.h"
 #include "passes/common/compute/large_buffer.h"
 #include "passes/common/compute/prefix_sum.h"
+#include "passes/common/compute/uint_bytes.h"
 #include "passes/hybrid_leaves/build_hybrid_leaves/cell_sums.h"
 #include "passes/hybrid_leaves/build_hybrid_leaves/leaf_update_cache.h"
 
@@ -17,16 +17,10 @@ namespace voxray {
 enum class CellWrite { Average, None };
 template <>
 struct EnumNames<CellWrite> {
-    static constexpr std::array names{std::pair{CellWrite::Average, "average"},
-                                      std::pair{CellWrite::None, "none"}};
+    static constexpr std::array names{std::pair{CellWrite::Average, "average"}, std::pair{CellWrite::None, "none"}};
 };
 
 constexpr uint64_t kMaxGridCells = (1ull << 32) / EXTENDED_SUM_UINTS;  // Indices have 32 bits.
-
-/// Bytes of so many words, at least one.
-inline uint64_t wordBytes(uint64_t count) {
-    return std::max<uint64_t>(count, 1) * sizeof(uint32_t);
-}
 
 /// @throws Error where `count` reaches the limit.
 void requireBelow(uint64_t count, uint64_t limit, const char* what);

@@ -5,6 +5,7 @@ void processFragment(TriangleFragment cell) {
     if (!passesAlphaMask(cell)) return;
     for (uint level = 0u; level < hybridLeaves.shape.gridLevels; ++level) {
         const GridBit cellBit = gridBit(gridLevel(cellGrid, level), cell.voxel >> level);
-        if ((hybridLeaves.gridBits.data[cellBit.word] & cellBit.bit) == 0u) atomicOr(hybridLeaves.gridBits.data[cellBit.word], cellBit.bit);
+        if ((hybridLeaves.gridBits.data[cellBit.word] & cellBit.bit) == 0u)
+            atomicOr(hybridLeaves.gridBits.data[cellBit.word], cellBit.bit);
     }
 }

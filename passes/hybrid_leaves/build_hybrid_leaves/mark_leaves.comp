@@ -5,5 +5,6 @@
 buffer Occupancy { uint words[]; } occupancy;
 
 void processFragment(TriangleFragment f) {
-    if (insideGrid(voxelizer.grid, f.voxel)) atomicOr(occupancy.words[voxelWord(voxelizer.grid, f.voxel)], voxelBit(voxelizer.grid, f.voxel));
+    if (insideGrid(voxelizer.grid, f.voxel))
+        atomicOr(occupancy.words[voxelWord(voxelizer.grid, f.voxel)], voxelBit(voxelizer.grid, f.voxel));
 }

@@ -1,5 +1,5 @@
-// Merges the triangle counts of unchanged leaves, all outside the region, with those of rebuilt ones. One invocation per
-// occupancy word.
+// Merges the triangle counts of unchanged leaves, all outside the region, with those of rebuilt ones. One invocation
+// per occupancy word.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
@@ -10,7 +10,8 @@ readonly buffer PreviousRank { uint before[]; } previousRank;
 readonly buffer PreviousCounts { uint triangles[]; } previousCounts;
 buffer RebuiltCounts { uint triangles[]; } rebuiltCounts;  // Counted in the region; set to 0 for unchanged leaves.
 writeonly buffer Counts { uint triangles[]; } counts;
-writeonly buffer PreviousLeaf { uint leaf[]; } previousLeaf;  // Index of an unchanged leaf in the previous build, NO_VOXEL for others.
+// Index of an unchanged leaf in the previous build, NO_VOXEL for others.
+writeonly buffer PreviousLeaf { uint leaf[]; } previousLeaf;
 buffer RebuiltLeaves { uint count; } rebuiltLeaves;
 layout(push_constant) uniform Push { uint words; } push;
 
@@ -25,7 +26,8 @@ void main() {
             previousLeaf.leaf[leaf] = NO_VOXEL;
             counts.triangles[leaf] = rebuiltCounts.triangles[leaf];
         } else {
-            const uint previous = previousRank.before[word] + uint(bitCount(previousOccupancy.words[word] & (bit - 1u)));
+            const uint previous =
+                previousRank.before[word] + uint(bitCount(previousOccupancy.words[word] & (bit - 1u)));
             previousLeaf.leaf[leaf] = previous;
             counts.triangles[leaf] = previousCounts.triangles[previous];
             rebuiltCounts.triangles[leaf] = 0u;

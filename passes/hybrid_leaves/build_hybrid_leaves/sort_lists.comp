@@ -1,5 +1,5 @@
-// Sorts each list in place by ascending triangle, marks its end, and adds groups to long lists. Heap sort (Williams 1964): most
-// lists are short, some are long.
+// Sorts each list in place by ascending triangle, marks its end, and adds groups to long lists. Heap sort (Williams
+// 1964): most lists are short, some are long.
 #include "passes/hybrid_leaves/build_hybrid_leaves/leaves_push.glsl"
 #include "passes/hybrid_leaves/hybrid_leaves.glsl"
 #include "passes/hybrid_leaves/leaf_box.glsl"
@@ -23,17 +23,20 @@ void siftDown(uint first, uint root, uint count) {
     hybridLeaves.primitives.data[first + root] = item;
 }
 
-// Shifts items to make room for an item before each group, which holds the group's box. From the last group to the first.
+// Shifts items to make room for an item before each group, which holds the group's box. From the last group to the
+// first.
 void addGroups(uint first, uint count) {
     for (uint group = (count - 1u) / LIST_GROUP + 1u; group-- > 0u;) {
-        const uint source = first + group * LIST_GROUP, target = source + group, size = min(count - group * LIST_GROUP, LIST_GROUP);
+        const uint source = first + group * LIST_GROUP, target = source + group,
+                   size = min(count - group * LIST_GROUP, LIST_GROUP);
         uint box = hybridLeaves.primitives.data[source].box;
         for (uint i = size; i-- > 0u;) {
             const ListItem item = hybridLeaves.primitives.data[source + i];
             hybridLeaves.primitives.data[target + 1u + i] = item;
             box = unionOfLeafBoxes(box, item.box);
         }
-        hybridLeaves.primitives.data[target] = ListItem(box | (group == (count - 1u) / LIST_GROUP ? LIST_ENDS : 0u), 0u);
+        hybridLeaves.primitives.data[target] =
+            ListItem(box | (group == (count - 1u) / LIST_GROUP ? LIST_ENDS : 0u), 0u);
     }
 }
 

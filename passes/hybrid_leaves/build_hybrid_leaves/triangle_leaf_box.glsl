@@ -1,5 +1,5 @@
-// The box of a triangle in a leaf (passes/hybrid_leaves/leaf_box.glsl): bounds of the triangle clipped to the leaf, which is
-// enlarged by LEAF_BOX_MARGIN.
+// The box of a triangle in a leaf (passes/hybrid_leaves/leaf_box.glsl): bounds of the triangle clipped to the leaf,
+// which is enlarged by LEAF_BOX_MARGIN.
 #ifndef VOXRAY_TRIANGLE_LEAF_BOX_GLSL
 #define VOXRAY_TRIANGLE_LEAF_BOX_GLSL
 
@@ -20,7 +20,8 @@ Polygon clipped(Polygon polygon, int axis, float sign_, float limit) {
         const vec3 a = polygon.corners[i], b = polygon.corners[i + 1 < polygon.count ? i + 1 : 0];
         const float distanceA = sign_ * a[axis] - limit, distanceB = sign_ * b[axis] - limit;
         if (distanceA <= 0.0 && result.count < MAX_CORNERS) result.corners[result.count++] = a;
-        if (distanceA * distanceB < 0.0 && result.count < MAX_CORNERS) result.corners[result.count++] = mix(a, b, distanceA / (distanceA - distanceB));
+        if (distanceA * distanceB < 0.0 && result.count < MAX_CORNERS)
+            result.corners[result.count++] = mix(a, b, distanceA / (distanceA - distanceB));
     }
     return result;
 }
@@ -47,7 +48,8 @@ uint triangleLeafBox(TriangleFragment f) {
     lower = t.axis == 0u ? lower.zxy : t.axis == 1u ? lower.yzx : lower;
     upper = t.axis == 0u ? upper.zxy : t.axis == 1u ? upper.yzx : upper;
     const float steps = float(LEAF_BOX_STEPS);
-    const uvec3 first = uvec3(clamp(floor(lower * steps), 0.0, steps - 1.0)), last = uvec3(clamp(floor(upper * steps), 0.0, steps - 1.0));
+    const uvec3 first = uvec3(clamp(floor(lower * steps), 0.0, steps - 1.0)),
+                last = uvec3(clamp(floor(upper * steps), 0.0, steps - 1.0));
     return packLeafBox(first, last) | (isAlphaMasked(f) ? LEAF_BOX_IS_MASKED : 0u);
 }
 

@@ -1,6 +1,6 @@
-// Voxelizes triangles into the cells of leaves' grids: the triangle voxelizer within one voxel, where coordinates are small. One
-// invocation per pair of a triangle and a leaf. Entry point of shaders that define processFragment(), for which a fragment's
-// voxel is the cell in the grid `cellGrid`.
+// Voxelizes triangles into the cells of leaves' grids: the triangle voxelizer within one voxel, where coordinates are
+// small. One invocation per pair of a triangle and a leaf. Entry point of shaders that define processFragment(), for
+// which a fragment's voxel is the cell in the grid `cellGrid`.
 #ifndef VOXRAY_VOXELIZE_IN_LEAF_GLSL
 #define VOXRAY_VOXELIZE_IN_LEAF_GLSL
 

@@ -9,7 +9,8 @@ void processFragment(TriangleFragment cell) {
     storeGridCell(s.cellIndex, GridCell(s.material.normal, dot(s.material.normal, s.point), s.material.albedo, 0.0));
     if (hybridLeaves.shape.cellWords == GRID_CELL_WORDS) return;
     const FragmentMaterial f = s.material;
-    const GpuMaterial m = sceneMaterials.data[f.at.material];
+    const GpuMaterial m = sceneMaterials.data[f.point.material];
     const Specular lobe = makeSpecular(f.base, f.metallic, f.roughness, m.specular, m.specularColor, m.ior);
-    storeExtendedCell(s.cellIndex, ExtendedCell(emission(m, f.at, s.emissionLevel), m.doubleSided != 0u, lobe.f0, lobe.f90, lobe.roughness));
+    storeExtendedCell(s.cellIndex, ExtendedCell(emission(m, f.point, s.emissionLevel), m.doubleSided != 0u, lobe.f0,
+                                                lobe.f90, lobe.roughness));
 }

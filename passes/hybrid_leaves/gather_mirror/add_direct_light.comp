@@ -1,4 +1,4 @@
-// Adds the direct light that surfels reflect to the light of their slots.
+// Adds the direct light that surfels reflect to the light of their paths.
 #include "passes/hybrid_leaves/gather_mirror/mirror_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/surfel_types.h"

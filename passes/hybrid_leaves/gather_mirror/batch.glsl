@@ -10,7 +10,8 @@ uint texelsPerPixel(MirrorBatch b) { return b.samples * b.samples; }
 // Texel of the G-buffer by its index in the batch.
 ivec2 texelOf(MirrorBatch b, uint texelIndex) {
     const uint texelInPixel = texelIndex % texelsPerPixel(b), pixel = b.firstPixel + texelIndex / texelsPerPixel(b);
-    return ivec2(uvec2(pixel % b.width, pixel / b.width) * b.samples + uvec2(texelInPixel % b.samples, texelInPixel / b.samples));
+    return ivec2(uvec2(pixel % b.width, pixel / b.width) * b.samples +
+                 uvec2(texelInPixel % b.samples, texelInPixel / b.samples));
 }
 
 // Weight of rays for a specular lobe; cones have the rest, so that the sum is the lobe at every roughness.

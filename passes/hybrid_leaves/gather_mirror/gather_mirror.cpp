@@ -15,6 +15,7 @@
 #include "passes/common/view/specular_lobes.h"
 #include "passes/common/voxels/face_irradiance.h"
 #include "passes/cones/radiance/radiance_voxels.h"
+#include "passes/hybrid_leaves/gather_mirror/mirror_params.h"
 #include "passes/hybrid_leaves/gather_mirror/mirror_types.h"
 #include "passes/hybrid_leaves/gather_mirror/schlick_table.h"
 #include "passes/hybrid_leaves/hybrid_tracer.h"
@@ -24,7 +25,7 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBatchSlots = 1u << 18;  // Bounds the memory of a batch to 80 MiB.
+constexpr uint32_t kBatchPaths = 1u << 18;  // Bounds the memory of a batch to 80 MiB.
 
 /// As in shade_hits.comp.
 struct MirrorCounts {
@@ -33,100 +34,29 @@ struct MirrorCounts {
 
 /// Pixels whose rays are traced together.
 uint32_t batchPixels(const Frame& frame, uint32_t samples, uint32_t rays) {
-    return std::clamp(kBatchSlots / (samples * samples * rays), 1u, frame.width * frame.height);
+    return std::clamp(kBatchPaths / (samples * samples * rays), 1u, frame.width * frame.height);
 }
 
-uint32_t flagWords(uint64_t slots) {
-    return uint32_t((slots + 31) / 32);
+uint32_t flagWords(uint64_t paths) {
+    return uint32_t((paths + 31) / 32);
 }
 
 }  // namespace
 
-/// How direct light at hits is computed.
-enum class MirrorDirect { Voxels, ShadowRays };
-template <>
-struct EnumNames<MirrorDirect> {
-    static constexpr std::array names{std::pair{MirrorDirect::Voxels, "voxels"},
-                                      std::pair{MirrorDirect::ShadowRays, "shadow_rays"}};
-};
-
-/// What traces rays: the scene's ray tracer, or one of two walks through hybrid leaves (HybridTraversal).
-enum class MirrorWalk { Exact, Hierarchical, VoxelByVoxel };
-template <>
-struct EnumNames<MirrorWalk> {
-    static constexpr std::array names{std::pair{MirrorWalk::Exact, "exact"},
-                                      std::pair{MirrorWalk::Hierarchical, "hierarchical"},
-                                      std::pair{MirrorWalk::VoxelByVoxel, "voxel_by_voxel"}};
-};
-
-/// How a ray through hybrid leaves continues where it is wider than a voxel.
-enum class WideRays { Rays, Cones };
-template <>
-struct EnumNames<WideRays> {
-    static constexpr std::array names{std::pair{WideRays::Rays, "rays"}, std::pair{WideRays::Cones, "cones"}};
-};
-
 /// Specular light of mirror-like surfaces: reflected rays from each texel of the G-buffer, shaded at their
-/// hits. Docs: docs/mirrors.md. Source: Seok 2021 (rays for mirrors, cones for all else).
+/// hits. Docs: docs/mirrors.md. Source: Seok 2021 (rays for mirrors, cones for other surfaces).
 class GatherMirror final : public Pass {
  public:
     static constexpr const char* kName = "gather_mirror";
     static constexpr const char* kHelp =
         "Traces reflected rays for the specular light of mirror-like surfaces. "
-        "Their light is joined with the direct and the indirect light of other passes. "
-        "It includes lamps and environment that a mirror shows, and mirrors in mirrors. "
-        "Biased by: voxel size (indirect light where rays end; direct light too with `direct_at_hits: "
-        "voxels`); specular light of what mirrors show is left out where it is rougher than the hand-over; "
-        "light that mirrors throw at other surfaces is in voxels only where their injection follows it; "
-        "cells of hybrid leaves' grids reach a little farther than their surfaces. Noisy by: "
-        "`rays` where surfaces are no perfect mirrors; light_samples. Source: Seok 2021, chapter 4.";
-    struct Params {
-        float maxRoughness = 0.1f;
-        float blendRoughness = 0.1f;
-        uint32_t rays = 1;
-        uint32_t bounces = 4;
-        MirrorWalk walk = MirrorWalk::Exact;
-        WideRays wideRays = WideRays::Rays;
-        MirrorDirect directAtHits = MirrorDirect::ShadowRays;
-        uint32_t lightSamples = 1;
-        static constexpr auto schema() {
-            return std::tuple{
-                field("max_roughness", &Params::maxRoughness,
-                      "Up to this roughness rays alone bring specular light. Perfect mirrors end at 0.0316.",
-                      0.0f, 1.0f),
-                field("blend_roughness", &Params::blendRoughness,
-                      "Over this much more roughness rays hand over to the cones of gather_cones, "
-                      "or to none where no pass writes 'lobes'.",
-                      0.0f, 1.0f),
-                field("rays", &Params::rays,
-                      "Rays of each g-buffer texel whose surface is no perfect mirror; a mirror sends one.",
-                      1u, 64u)
-                    .lessNoise(),
-                field("bounces", &Params::bounces,
-                      "Mirrors that light meets one after another, at most, "
-                      "the one that the camera sees among them; "
-                      "what the last one shows of further mirrors is black.",
-                      1u, 32u),
-                field("walk", &Params::walk,
-                      "What finds the ends of rays. exact: the ray tracer. "
-                      "hierarchical, voxel_by_voxel: leaves of the octree, "
-                      "which hold triangles or grids of fine voxels, past empty space of all sizes or, "
-                      "as in the paper, through each finest voxel on the way, from the root each time."),
-                field("wide_rays", &Params::wideRays,
-                      "Rays through hybrid leaves that are wider than a voxel where they come "
-                      "to a surface. rays: they stay rays. "
-                      "cones: a cone through larger voxels goes on, which hold direct light, too.")
-                    .onlyWith(noneOf(&Params::walk, {MirrorWalk::Exact})),
-                field("direct_at_hits", &Params::directAtHits,
-                      "Direct light where rays end. voxels: as coarse as voxels. shadow_rays: "
-                      "exact, by a shadow ray to each light; voxels bring indirect light alone."),
-                field("light_samples", &Params::lightSamples,
-                      "Shadow rays to the emissive surfaces, and to the environment, from each ray's end.",
-                      1u, 256u)
-                    .lessNoise()
-                    .onlyWith(oneOf(&Params::directAtHits, {MirrorDirect::ShadowRays}))};
-        }
-    };
+        "It is added to the direct and indirect light of other passes, and includes emissive surfaces, "
+        "the environment and other mirrors. Biased by: voxel size (indirect light at hits, "
+        "and direct light with `direct_at_hits: voxels`); rough specular lobes of reflected surfaces are ignored; "
+        "caustics are in voxels only where their injection traces them; "
+        "cells of hybrid leaves' grids are slightly thicker than their surfaces. "
+        "Noisy by: `rays` where surfaces are no perfect mirrors; light_samples. Source: Seok 2021, chapter 4.";
+    using Params = MirrorParams;
 
     explicit GatherMirror(const Params& params);
     void plan(PassPlan& plan) override;
@@ -134,10 +64,10 @@ class GatherMirror final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    bool isHybrid() const { return params_.walk != MirrorWalk::Exact; }
+    bool isHybrid() const { return params_.walk != MirrorTraversal::Exact; }
     bool continuesAsCones() const { return isHybrid() && params_.wideRays == WideRays::Cones; }
     bool usesShadowRays() const { return params_.directAtHits == MirrorDirect::ShadowRays; }
-    Defines walkDefines() const { return isHybrid() ? Defines{{"HYBRID", "1"}} : Defines{}; }
+    Defines traversalDefines() const { return isHybrid() ? Defines{{"HYBRID", "1"}} : Defines{}; }
     gpu::MirrorBatch firstBatch(const Frame& frame, uint32_t samples, uint32_t frameIndex) const;
     /// Irradiance in voxels by face; updated where it has changed.
     void updateFaceIrradiance(PassContext& context);
@@ -153,30 +83,28 @@ class GatherMirror final : public Pass {
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
     In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
-    In<HybridLeaves> leaves_{*this, "hybrid_leaves", "what each leaf of the octree holds", isHybrid()};
-    In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales",
-                                 continuesAsCones()};
-    InOptional<SpecularLobes> lobes_{*this, "lobes", "specular light by cones, for what is rougher"};
+    In<HybridLeaves> leaves_{*this, "hybrid_leaves", "lists and grids of the octree's leaves", isHybrid()};
+    In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales", continuesAsCones()};
+    InOptional<SpecularLobes> lobes_{*this, "lobes", "specular light by cones, for rougher surfaces"};
     InOptional<FrameImage> inputDirect_{*this, "direct", "radiance reflected of direct light"};
-    InOptional<FrameImage> inputIndirect_{*this, "indirect",
-                                          "radiance that diffuse albedos reflect of indirect light"};
-    Out<FrameImage> direct_{*this, "direct", "the same, and what mirrors show of lamps and environment"};
-    Out<FrameImage> indirect_{*this, "indirect", "the same, and what else mirrors show"};
-    Out<MirrorEnds> ends_{*this, "mirror_ends", "what a pixel's mirror rays ended on, to look at"};
-    Kernel flagSlots_{*this, "flag_slots.comp"};
-    Kernel generateRays_{*this, "generate_rays.comp", walkDefines()};
+    InOptional<FrameImage> inputIndirect_{*this, "indirect", "radiance that diffuse albedos reflect of indirect light"};
+    Out<FrameImage> direct_{*this, "direct", "the same, with emissive surfaces and environment in mirrors"};
+    Out<FrameImage> indirect_{*this, "indirect", "the same, with all other light in mirrors"};
+    Out<MirrorEnds> ends_{*this, "mirror_ends", "what a pixel's mirror rays hit, for AOVs"};
+    Kernel flagPaths_{*this, "flag_paths.comp"};
+    Kernel generateRays_{*this, "generate_rays.comp", traversalDefines()};
     Kernel traceConeContinuation_{*this, "trace_cone_continuation.comp"};
-    Kernel shadeHits_{*this, "shade_hits.comp", walkDefines()};
+    Kernel shadeHits_{*this, "shade_hits.comp", traversalDefines()};
     Kernel addDirectLight_{*this, "add_direct_light.comp"};
     Kernel resolve_{*this, "resolve.comp"};
     Compaction compaction_{*this};
     FaceIrradiance faceIrradiance_{*this};
     std::vector<LightSource> sources_;
     std::optional<SurfelDirectLight> directLightAtHits_;  ///< With shadow rays.
-    std::optional<HybridTracer> hybridTracer_;            ///< With a walk through hybrid leaves.
+    std::optional<HybridTracer> hybridTracer_;            ///< With a traversal of hybrid leaves.
     uint64_t triangleHitCount_ = 0, cellHitCount_ = 0, coneCount_ = 0, missCount_ = 0;  ///< Of a frame.
     Buffer grid_, schlickMeans_, counts_;
-    Buffer flags_, slots_, light_;        ///< Of a batch.
+    Buffer flags_, pathIndices_, light_;  ///< Of a batch.
     std::array<Buffer, 2> paths_, rays_;  ///< Current and next ones.
     std::array<Buffer, 2> starts_;        ///< A gpu::RayStart for each ray through hybrid leaves.
     Buffer hits_, surfels_, irradianceAtHits_;
@@ -185,24 +113,23 @@ class GatherMirror final : public Pass {
 GatherMirror::GatherMirror(const Params& params) : params_(params) {
     if (usesShadowRays()) directLightAtHits_.emplace(*this);
     if (isHybrid())
-        hybridTracer_.emplace(*this, params_.walk == MirrorWalk::Hierarchical
-                                         ? HybridTraversal::Hierarchical
-                                         : HybridTraversal::VoxelByVoxel);
+        hybridTracer_.emplace(*this, params_.walk == MirrorTraversal::Hierarchical ? HybridTraversal::Hierarchical
+                                                                                   : HybridTraversal::VoxelByVoxel);
 }
 
 void GatherMirror::plan(PassPlan& plan) {
     const SpecularLobes* lobes = plan[lobes_];
     if (lobes && lobes->emission)
         throw Error(
-            "gather_mirror: the cones of 'lobes' bring what surfaces emit, "
-            "which rays and the direct pass bring too; set 'emission' of filter_voxels to false");
+            "gather_mirror: the cones of 'lobes' bring what surfaces emit, which rays and the direct pass bring too; "
+            "set 'emission' of filter_voxels to false");
     if (continuesAsCones() && plan[radiance_].emission)
         throw Error(
             "gather_mirror: wide rays would bring what surfaces emit, which other passes bring, too; "
             "set 'emission' of filter_voxels to false");
     if (lobes) lobes->isJoined = true;
     const uint32_t samples = plan[gbuffer_].samples;
-    const uint64_t slots =
+    const uint64_t maxPaths =
         uint64_t(batchPixels(plan.frame, samples, params_.rays)) * samples * samples * params_.rays;
 
     plan.buffer(grid_, "grid of voxels", sizeof(gpu::VoxelGrid));
@@ -210,25 +137,24 @@ void GatherMirror::plan(PassPlan& plan) {
     plan.frameImage(direct_);
     plan.frameImage(indirect_);
     plan.image(plan[ends_].fractions, "ends of mirror rays", frameImageDesc(plan.frame));
-    // Light in voxels is reflected once more at hits; an empty number counts as none
+    // Light in voxels is reflected once more at hits; an unknown number of bounces counts as none
     std::optional<uint32_t> bounces = oneMoreBounce(plan[irradiance_].lightBounces);
     if (const FrameImage* input = plan[inputIndirect_]) bounces = std::max(bounces, input->lightBounces);
     plan[indirect_].lightBounces = bounces;
     plan[indirect_].hasSpecularLobes = true;
 
     plan.buffer(counts_, "numbers of mirror rays", sizeof(MirrorCounts));
-    plan.buffer(flags_, "flags of mirror rays", flagWords(slots) * sizeof(uint32_t));
-    plan.buffer(slots_, "list of mirror rays", slots * sizeof(uint32_t));
-    plan.buffer(light_, "light of mirror rays", slots * sizeof(gpu::MirrorLight));
-    for (Buffer& paths : paths_) plan.buffer(paths, "paths of mirror rays", slots * sizeof(gpu::MirrorPath));
-    for (Buffer& rays : rays_) plan.buffer(rays, "mirror rays", slots * sizeof(Ray));
+    plan.buffer(flags_, "flags of mirror rays", flagWords(maxPaths) * sizeof(uint32_t));
+    plan.buffer(pathIndices_, "list of mirror rays", maxPaths * sizeof(uint32_t));
+    plan.buffer(light_, "light of mirror rays", maxPaths * sizeof(gpu::MirrorLight));
+    for (Buffer& paths : paths_) plan.buffer(paths, "paths of mirror rays", maxPaths * sizeof(gpu::MirrorPath));
+    for (Buffer& rays : rays_) plan.buffer(rays, "mirror rays", maxPaths * sizeof(Ray));
     if (hybridTracer_) {
         hybridTracer_->plan(plan, plan[voxels_]);
-        for (Buffer& starts : starts_)
-            plan.buffer(starts, "starts of mirror rays", slots * sizeof(gpu::RayStart));
+        for (Buffer& starts : starts_) plan.buffer(starts, "starts of mirror rays", maxPaths * sizeof(gpu::RayStart));
     }
-    plan.buffer(hits_, "hits of mirror rays", slots * sizeof(Hit));
-    plan.buffer(surfels_, "surfels at hits", (usesShadowRays() ? slots : 1) * sizeof(gpu::Surfel));
+    plan.buffer(hits_, "hits of mirror rays", maxPaths * sizeof(Hit));
+    plan.buffer(surfels_, "surfels at hits", (usesShadowRays() ? maxPaths : 1) * sizeof(gpu::Surfel));
     traceConeContinuation_.compileIf(continuesAsCones());
     if (continuesAsCones()) traceConeContinuation_.define(plan[radiance_].defines());
     shadeHits_.specialize({{"kShadowRays", usesShadowRays()}});
@@ -236,8 +162,8 @@ void GatherMirror::plan(PassPlan& plan) {
     resolve_.specialize({{"kHasLobes", lobes != nullptr}});
     if (!directLightAtHits_) return;
     sources_ = lightSources(*plan.frame.scene);
-    directLightAtHits_->plan(plan, uint32_t(slots));
-    plan.buffer(irradianceAtHits_, "direct light at hits", slots * 4 * sizeof(float));
+    directLightAtHits_->plan(plan, uint32_t(maxPaths));
+    plan.buffer(irradianceAtHits_, "direct light at hits", maxPaths * 4 * sizeof(float));
 }
 
 gpu::MirrorBatch GatherMirror::firstBatch(const Frame& frame, uint32_t samples, uint32_t frameIndex) const {
@@ -265,8 +191,7 @@ void GatherMirror::record(PassContext& context) {
     triangleHitCount_ = cellHitCount_ = coneCount_ = missCount_ = 0;
     if (hybridTracer_) {
         const SurfaceVoxels& voxels = context[voxels_];
-        const float maxWidth =
-            continuesAsCones() ? voxels.grid.voxelSize : std::numeric_limits<float>::infinity();
+        const float maxWidth = continuesAsCones() ? voxels.grid.voxelSize : std::numeric_limits<float>::infinity();
         hybridTracer_->begin(context.stream, context.scene, voxels, context[leaves_], maxWidth);
     }
     for (uint32_t first = 0; first < pixels; first += pixelsPerBatch) {
@@ -293,20 +218,20 @@ void GatherMirror::updateFaceIrradiance(PassContext& context) {
 }
 
 void GatherMirror::gather(PassContext& context, const gpu::MirrorBatch& batch) {
-    // List the slots that send a ray
+    // List the active paths
     CommandStream& stream = context.stream;
-    const uint64_t slots = uint64_t(batch.pixels) * batch.samples * batch.samples * batch.rays;
+    const uint64_t maxPaths = uint64_t(batch.pixels) * batch.samples * batch.samples * batch.rays;
     stream.fill(light_, 0);
     stream.fill(flags_, 0);
-    context.dispatch(flagSlots_, slots, {context[gbuffer_], {"flags", flags_}, {"batch", batch}});
-    uint32_t count = compaction_.run(stream, flags_, slots_, flagWords(slots));
+    context.dispatch(flagPaths_, maxPaths, {context[gbuffer_], {"flags", flags_}, {"batch", batch}});
+    uint32_t count = compaction_.run(stream, flags_, pathIndices_, flagWords(maxPaths));
     if (count == 0) return;
 
     // Trace paths, bounce by bounce
     context.dispatch(generateRays_, count,
                      {context.scene,
                       context[gbuffer_],
-                      {"slots", slots_},
+                      {"pathIndices", pathIndices_},
                       {"paths", paths_[0]},
                       {"rays", rays_[0]},
                       ifUsed({"starts", starts_[0]}),
@@ -324,7 +249,8 @@ void GatherMirror::trace(PassContext& context, uint32_t depth, uint32_t count) {
         context.tracer.closestHit(context.stream, rays, hits_, count);
         return;
     }
-    hybridTracer_->closestHitWithStarts(context.stream, rays, starts_[depth % 2], hits_, count);
+    hybridTracer_->setStarts(&starts_[depth % 2]);
+    hybridTracer_->closestHit(context.stream, rays, hits_, count);
     context.extraRays += count;
     if (!continuesAsCones()) return;
     context.dispatch(traceConeContinuation_, count,
@@ -337,8 +263,7 @@ void GatherMirror::trace(PassContext& context, uint32_t depth, uint32_t count) {
                       {"count", count}});
 }
 
-uint32_t GatherMirror::shadeHits(PassContext& context, const gpu::MirrorBatch& batch, uint32_t depth,
-                                 uint32_t count) {
+uint32_t GatherMirror::shadeHits(PassContext& context, const gpu::MirrorBatch& batch, uint32_t depth, uint32_t count) {
     CommandStream& stream = context.stream;
     stream.fill(counts_, 0);
     context.dispatch(shadeHits_, count,

@@ -14,7 +14,7 @@ struct HitSurface {
     vec3 albedo;
     vec3 emission;    // Towards the ray, W/(m² sr).
     Specular specular;
-    float offset;     // m, along the face normal: where rays begin.
+    float offset;     // Of ray origins along the face normal, m.
 };
 
 // `direction` has unit length; `area`: of the footprint across the ray, m². False for a triangle without area.
@@ -28,11 +28,13 @@ bool surfaceAtHit(Hit hit, vec3 direction, float area, out HitSurface surface) {
     surface.offset = s.offset;
     surface.faceNormal = isFront ? s.geometricNormal : -s.geometricNormal;
 
-    // Textures at the footprint's mip level; level 0 of cut-outs, whose mips mix in the color of what is cut away
+    // Textures at the footprint's mip level; level 0 of alpha masks, whose coarser levels include the color of removed
+    // texels
     const float surfaceArea = area / max(abs(cosine), 1e-4);
     surface.normal = shadingNormal(m, s, footprintLevel(m.normalTexture, s, surfaceArea));
     if (dot(surface.normal, surface.faceNormal) < 0.0) surface.normal = -surface.normal;
-    const vec3 base = baseColor(m, s, m.alphaMode == ALPHA_MASK ? 0.0 : footprintLevel(m.baseColorTexture, s, surfaceArea)).rgb;
+    const vec3 base =
+        baseColor(m, s, m.alphaMode == ALPHA_MASK ? 0.0 : footprintLevel(m.baseColorTexture, s, surfaceArea)).rgb;
     const vec2 rough =
         lookup(m.metallicRoughnessTexture, s.texCoords, footprintLevel(m.metallicRoughnessTexture, s, surfaceArea)).gb;
     const float metallic = m.metallic * rough.y;
@@ -48,8 +50,8 @@ bool surfaceAtHit(Hit hit, vec3 direction, float area, out HitSurface surface) {
 
 bool isCell(Hit hit) { return (hit.triangle & HIT_IS_CELL) != 0u && hit.triangle != NO_HIT; }
 
-// The surface of a grid cell. The fraction that its diffuse lobe loses is that of a dielectric layer; metals have no diffuse
-// lobe.
+// The surface of a grid cell. The fraction that its diffuse lobe loses is that of a dielectric layer; metals have no
+// diffuse lobe.
 void surfaceOfCell(Hit hit, Ray ray, out HitSurface surface) {
     const GridCell cell = gridCell(hit.triangle & ~HIT_IS_CELL);
     const bool isFront = dot(cell.normal, ray.direction) <= 0.0;

@@ -1,4 +1,4 @@
-// Adds specular light to the direct and indirect light that other passes bring to each pixel of a batch.
+// Adds specular light to the direct and indirect light of other passes, for each pixel of a batch.
 #include "passes/hybrid_leaves/gather_mirror/batch.glsl"
 #include "passes/hybrid_leaves/gather_mirror/diffuse_fraction.glsl"
 layout(local_size_x = 64) in;
@@ -9,7 +9,7 @@ uniform sampler2D normal;
 uniform sampler2D albedo;
 uniform sampler2D specular;
 uniform sampler2D fresnel;
-uniform sampler2D lobes;  // Of gather_cones; one black texel without.
+uniform sampler2D lobes;     // Of gather_cones; one black texel without.
 uniform sampler2D direct;    // Of other passes; one black texel without.
 uniform sampler2D indirect;  // Likewise, diffuse lobes only.
 layout(scalar) readonly buffer Light { MirrorLight data[]; } light;
@@ -43,8 +43,9 @@ void main() {
         const float weight = hasSpecular(s) ? rayWeight(b, s.roughness) : 0.0;
         if (kHasLobes) indirect_ += (1.0 - weight) * texelFetch(lobes, texel, 0).rgb;
 
-        // Diffuse lobe: what the specular one transmits; all where nothing brings specular light
-        const vec3 out_ = normalize(b.camera - p.xyz), n = specularNormal(normalize(texelFetch(normal, texel, 0).xyz), out_);
+        // Diffuse lobe: attenuated by the specular one only as far as that is gathered
+        const vec3 out_ = normalize(b.camera - p.xyz),
+                   n = specularNormal(normalize(texelFetch(normal, texel, 0).xyz), out_);
         const vec3 diffuseAlbedo = texelFetch(albedo, texel, 0).rgb;
         albedo_ += diffuseAlbedo;
         transmittedAlbedo += diffuseAlbedo * mix(1.0, meanDiffuseFraction(s, dot(n, out_)), kHasLobes ? 1.0 : weight);

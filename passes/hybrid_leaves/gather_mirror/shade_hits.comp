@@ -17,7 +17,8 @@ layout(scalar) writeonly buffer NextRays { Ray data[]; } nextRays;
 #ifdef HYBRID
 layout(scalar) writeonly buffer NextStarts { RayStart data[]; } nextStarts;
 #endif
-layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;  // Where direct light is measured; `parent` is the slot.
+// Where direct light is sampled; `parent` is the path's index.
+layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
 layout(scalar) buffer Light { MirrorLight data[]; } light;
 // Next paths, surfels, and rays by how they ended: on triangles, on cells of grids, as cones, nowhere.
 buffer Counts { uint next, surfels, triangles, cells, wide, missed; } counts;
@@ -31,13 +32,13 @@ layout(push_constant, scalar) uniform Push {
 // Emission after one reflection is direct light, as in the reference.
 void addEmitted(MirrorPath path, vec3 radiance) {
     if (path.countsEmission == 0u) return;
-    if (push.depth == 0u) light.data[path.slot].direct += path.throughput * radiance;
-    else light.data[path.slot].indirect += path.throughput * radiance;
+    if (push.depth == 0u) light.data[path.index].direct += path.throughput * radiance;
+    else light.data[path.index].indirect += path.throughput * radiance;
 }
 
-// Of a slot's first ray.
+// Records where the first ray of a path ended.
 void recordEnd(MirrorPath path, uint end) {
-    if (push.depth == 0u) light.data[path.slot].end = end;
+    if (push.depth == 0u) light.data[path.index].end = end;
 }
 
 void main() {
@@ -82,26 +83,28 @@ void main() {
     const vec3 out_ = -ray.direction, n = specularNormal(surface.normal, out_);
     const float cosOut = dot(n, out_);
     const float weight = hasSpecular(surface.specular) ? rayWeight(push.batch, surface.specular.roughness) : 0.0;
-    const vec3 diffuse = path.throughput * surface.albedo * (mix(1.0, meanDiffuseFraction(surface.specular, cosOut), weight) / PI);
-    const uint id = (push.batch.firstPixel * texelsPerPixel(push.batch)) * push.batch.rays + path.slot;
+    const vec3 diffuse =
+        path.throughput * surface.albedo * (mix(1.0, meanDiffuseFraction(surface.specular, cosOut), weight) / PI);
+    const uint id = (push.batch.firstPixel * texelsPerPixel(push.batch)) * push.batch.rays + path.index;
     if (any(greaterThan(diffuse, vec3(0.0)))) {
         bool isKnown;
-        light.data[path.slot].indirect += diffuse * interpolatedIrradianceAt(grid.data, surface.position, surface.faceNormal, isKnown);
+        light.data[path.index].indirect +=
+            diffuse * interpolatedIrradianceAt(grid.data, surface.position, surface.faceNormal, isKnown);
         if (kShadowRays)
             surfels.data[atomicAdd(counts.surfels, 1u)] =
-                Surfel(surface.position + max(clearance, surface.offset) * surface.faceNormal, NO_VOXEL, surface.normal, id, diffuse,
-                       path.slot, 1.0);
+                Surfel(surface.position + max(clearance, surface.offset) * surface.faceNormal, NO_VOXEL, surface.normal,
+                       id, diffuse, path.index, 1.0);
     }
 
-    // A mirror in the mirror
+    // The next ray, at a hit on a mirror
     if (push.isLast != 0u || weight == 0.0) return;
-    const LobeRay lobe =
-        lobeRay(surface.specular, n, surface.faceNormal, out_, sobol2(id, push.batch.seed + 0x51u * (push.depth + 1u)), 1u);
+    const LobeRay lobe = lobeRay(surface.specular, n, surface.faceNormal, out_,
+                                 sobol2(id, push.batch.seed + 0x51u * (push.depth + 1u)), 1u);
     const vec3 throughput = path.throughput * weight * lobe.weight;
     if (all(equal(throughput, vec3(0.0)))) return;
     const uint next = atomicAdd(counts.next, 1u);
     const float spread = sqrt(path.spread * path.spread + lobe.solidAngle);
-    nextPaths.data[next] = MirrorPath(throughput, path.slot, width, spread, 1u);
+    nextPaths.data[next] = MirrorPath(throughput, path.index, width, spread, 1u);
     nextRays.data[next] = Ray(surface.position + surface.faceNormal * surface.offset, 0.0, lobe.direction, 1.0e30);
 #ifdef HYBRID
     nextStarts.data[next] = RayStart(surface.faceNormal, width, spread);

@@ -1,9 +1,9 @@
-// Makes a surfel of each hit of a camera ray, on the side that the ray came from. Surfels are appended in any order; nothing that
-// follows depends on it.
+// A surfel at the hit of each camera ray, on the side that the ray came from. Surfels are appended in any order, on
+// which nothing depends.
 //
-// Rays are spread evenly over the image, so the surface that one stands for is the solid angle of its part of the image, times
-// distance², over the cosine to the surface. Points that are spread evenly over surfaces send cosine-distributed rays that arrive
-// evenly over what they reach (the kernel cos cos / distance² is the same from both ends): a ray hands its area on.
+// Rays are distributed evenly over the image, so a ray stands for the surface area within its solid angle: solid angle
+// * distance² / cosine to the surface. The diffuse ray from there hands the area on: evenly distributed points that
+// send cosine-distributed rays hit surfaces evenly, since cos cos / distance² is symmetric.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/surfel_at_hit.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -17,12 +17,12 @@ layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint rayCount;
     uint firstId;
-    vec3 forward;     // Of the camera, unit length.
-    float imageArea;  // Of the image 1 m before the camera, over the area of all surfaces.
-    float maxArea;   // That a plane has in a voxel, in units of Surfel::area.
+    vec3 forward;     // View direction, unit length.
+    float imageArea;  // Of the image plane at 1 m, over the area of all surfaces.
+    float maxArea;    // Of a plane in a voxel, in units of Surfel::area.
 } push;
 
-// Area of surface that a ray stands for.
+// The surface area that a ray stands for, in units of Surfel::area.
 float rayArea(Ray ray, float t, vec3 normal) {
     const float cosImage = dot(ray.direction, push.forward), cosSurface = abs(dot(ray.direction, normal));
     const float solidAngle = push.imageArea * cosImage * cosImage * cosImage;

@@ -7,26 +7,24 @@
 
 namespace voxray {
 
-/// Light tracing: every light sends rays that carry its power, each hit leaves what it carries in the voxel
-/// that it hits, then goes on. The sum over rays is the flux that a voxel's surfaces catch; divided by their
-/// area it is their mean irradiance, with no factor to calibrate. Source: Magalhães 2020, section 3.3 (rays
-/// from the light); flux over area instead of a mean of deposits is ours: it stays right where several lights
-/// or a light and a shadow share a voxel.
+/// Light tracing: rays from every light deposit their power in the voxels that they hit, bounce after bounce.
+/// The flux that a voxel's surfaces receive, over their area, is their mean irradiance, with no factor to
+/// calibrate. Source: Magalhães 2020, section 3.3 (rays from the light). Flux over area instead of a mean of
+/// deposits is ours: it is right where a light and a shadow, or several lights, share a voxel.
 class InjectLightRays final : public Pass {
  public:
     static constexpr const char* kName = "inject_light_rays";
     static constexpr const char* kHelp =
-        "Traces rays from every light and leaves their power in the voxels hit. Then the rays bounce. "
-        "Biased by: voxel size; write other than average; secondary: "
-        "mirror, which takes every surface for a coloured mirror. Noisy by: rays_per_light. "
-        "Leaves unlit: nothing that light reaches, given rays enough. "
+        "Traces rays from every light, and deposits their power in the voxels hit. Then the rays bounce. Biased by: "
+        "voxel size; write other than average; secondary: mirror, which takes every surface for a coloured mirror. "
+        "Noisy by: rays_per_light. Leaves unlit: nothing that light reaches, given rays enough. "
         "With diffuse bounces all surfaces are Lambert surfaces of their base colour. "
         "Source: Magalhães 2020, section 3.3.";
     struct Params : LightPathParams {
         uint32_t raysPerLight = 1048576;
         static constexpr auto schema() {
             return std::tuple_cat(std::tuple{field("rays_per_light", &Params::raysPerLight,
-                                                   "Rays that each punctual light sends; "
+                                                   "Rays from each punctual light; "
                                                    "all emissive surfaces together count as one light, "
                                                    "the environment as another.",
                                                    1u, 1u << 26)
@@ -53,17 +51,15 @@ class InjectLightRays final : public Pass {
             const uint32_t seed = randomSeed(context.frame, s), rays = params_.raysPerLight;
             for (uint32_t first = 0; first < rays; first += kMaxBatchRays) {
                 const uint32_t count = std::min(kMaxBatchRays, rays - first);
-                emission_.emit(context, sources[s], {seed, rays, first, count}, paths_.rays(),
-                               paths_.paths());
-                paths_.follow(context, voxels, {seed, first, count});
+                emission_.emit(context, sources[s], {seed, rays, first, count}, paths_.rays(), paths_.paths());
+                paths_.trace(context, voxels, {seed, first, count});
             }
         }
         paths_.finish(context, voxels, context[irradiance_]);
     }
 
  private:
-    static constexpr uint32_t kMaxBatchRays =
-        1u << 20;  ///< Bounds the memory of rays and what they carry to 108 MiB.
+    static constexpr uint32_t kMaxBatchRays = 1u << 20;  ///< Bounds the memory of rays to 108 MiB.
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels to light"};

@@ -8,22 +8,20 @@
 
 namespace voxray {
 
-/// Reflective shadow maps: a view of the scene from every light is rasterised, and what each texel sees gets
-/// the light through the texel. A texel is thus a light ray whose first hit the rasteriser found; bounces are
+/// Rasterizes the scene from every light. Each texel is a light ray with a known first hit; bounces are
 /// traced. Source: Dachsbacher and Stamminger 2005; Crassin et al. 2011, section 6 (injection into voxels).
 class InjectRsm final : public Pass {
  public:
     static constexpr const char* kName = "inject_rsm";
     static constexpr const char* kHelp =
-        "Lights voxels by the texels of a reflective shadow map (RSM) per light. Rasterises the scene "
-        "from every light and leaves the light through each texel in the voxel that the texel sees. "
-        "Then rays bounce. Point lights take a cube of six views, spots one (wider than 90° across: "
+        "Lights voxels by a reflective shadow map (RSM) of each light. Rasterizes the scene from every light "
+        "and deposits the light through each texel in the voxel of the point that the texel shows. "
+        "Then rays bounce from there. Point lights take a cube of six views, spots one (wider than 90° across: "
         "the cube), directional lights one over the scene's bounding sphere. "
         "No emissive surfaces and no environment: they have no single viewpoint. "
         "Biased by: voxel size; rsm_resolution (texels larger than voxels leave gaps). "
-        "Noisy by: bounces alone, of rays from each texel (rsm_resolution). "
-        "Leaves unlit: what lies nearer to a light than 0.0001 of the scene's extent. "
-        "Source: Dachsbacher and Stamminger 2005.";
+        "Noisy by: bounces alone, of rays from each texel (rsm_resolution). Leaves unlit: "
+        "what lies nearer to a light than 0.0001 of the scene's extent. Source: Dachsbacher and Stamminger 2005.";
     struct Params : LightPathParams {
         uint32_t rsmResolution = 768;
         static constexpr auto schema() {
@@ -39,8 +37,7 @@ class InjectRsm final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    static constexpr uint32_t kMaxBatchTexels =
-        1u << 20;  ///< Bounds the memory of rays and what they carry to 108 MiB.
+    static constexpr uint32_t kMaxBatchTexels = 1u << 20;  ///< Bounds the memory of rays to 108 MiB.
 
     uint32_t texels() const { return params_.rsmResolution * params_.rsmResolution; }
 
@@ -48,7 +45,7 @@ class InjectRsm final : public Pass {
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels to light"};
     Out<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
     RsmImage map_{*this};
-    Kernel makeRays_{*this, "rsm_rays.comp"};
+    Kernel generateRays_{*this, "generate_light_rays.comp"};
     LightPaths paths_{*this, params_};
 };
 
@@ -69,22 +66,20 @@ void InjectRsm::record(PassContext& context) {
         const std::vector<gpu::LightView> views = lightViews(state.lights[sources[s].light], state.geometry);
         for (uint32_t v = 0; v < views.size(); ++v) {
             map_.draw(context, views[v]);
-
-            // Texels are light rays with known hits.
             for (uint32_t first = 0; first < texels(); first += kMaxBatchTexels) {
                 const uint32_t batch = std::min(kMaxBatchTexels, texels() - first);
-                context.dispatch(makeRays_, batch,
+                context.dispatch(generateRays_, batch,
                                  {context.scene,
                                   {"rays", paths_.rays()},
                                   {"hits", paths_.hits()},
                                   {"paths", paths_.paths()},
-                                  {"seen", map_.image()},
+                                  {"rsm", map_.image()},
                                   {"view", views[v]},
                                   {"light", sources[s].light},
                                   {"resolution", params_.rsmResolution},
                                   {"firstTexel", first},
                                   {"texels", batch}});
-                paths_.follow(context, voxels, {seed, v * texels() + first, batch, true});
+                paths_.trace(context, voxels, {seed, v * texels() + first, batch, true});
             }
         }
     }

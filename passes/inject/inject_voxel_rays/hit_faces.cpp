@@ -3,8 +3,8 @@
 namespace voxray {
 
 HitFaces::HitFaces(ProgramOwner& owner)
-    : measure_(owner, "mark_surfel_faces.comp"),
-      mark_(owner, "mark_hit_faces.comp"),
+    : markSurfelFaces_(owner, "mark_surfel_faces.comp"),
+      markHitFaces_(owner, "mark_hit_faces.comp"),
       select_(owner, "select_surfels.comp") {}
 
 void HitFaces::plan(PassPlan& plan) {
@@ -12,28 +12,29 @@ void HitFaces::plan(PassPlan& plan) {
     plan.buffer(selected_, "surfels to light", Surfels::kMaxChunkSurfels * sizeof(gpu::Surfel));
 }
 
-void HitFaces::mark(PassContext& context, const SurfaceVoxels& voxels, const Surfels& surfels,
-                    const GBuffer& gbuffer, const GatherHits& hits) {
+void HitFaces::mark(PassContext& context, const SurfaceVoxels& voxels, const Surfels& surfels, const GBuffer& gbuffer,
+                    const GatherHits& hits) {
     const auto clear = [&](Buffer& buffer, const char* name) {
         ensureSize(buffer, context.device, name, uint64_t(voxels.voxelCount) * sizeof(uint32_t));
         context.stream.fill(buffer, 0);
     };
-    clear(faces_, "faces to light");
+    clear(hitFaces_, "faces to light");
     if (context.changed(voxels) || context.changed(surfels)) {
-        clear(measured_, "faces with surfels");
+        clear(facesWithSurfels_, "faces with surfels");
         for (const Surfels::Chunk& chunk : surfels.chunks)
-            context.dispatch(measure_, chunk.count,
-                             {{"surfels", chunk.surfels}, {"measured", measured_}, {"count", chunk.count}});
+            context.dispatch(
+                markSurfelFaces_, chunk.count,
+                {{"surfels", chunk.surfels}, {"facesWithSurfels", facesWithSurfels_}, {"count", chunk.count}});
     }
     for (uint32_t b = 0; b < hits.batches.size(); ++b) {
         const uint32_t rays = hits.batchBlocks(b) * hits.layout.raysPerBlock;
-        context.dispatch(mark_, rays,
+        context.dispatch(markHitFaces_, rays,
                          {context.scene,
                           gbuffer,
                           voxels,
                           {"hits", hits.batches[b]},
-                          {"asked", faces_},
-                          {"measured", measured_},
+                          {"hitFaces", hitFaces_},
+                          {"facesWithSurfels", facesWithSurfels_},
                           {"layout", hits.layout},
                           {"firstBlock", b * hits.blocksPerBatch},
                           {"rays", rays}});
@@ -45,7 +46,7 @@ uint32_t HitFaces::select(PassContext& context, const Surfels::Chunk& chunk) con
     stream.fill(count_, 0);
     context.dispatch(select_, chunk.count,
                      {{"surfels", chunk.surfels},
-                      {"asked", faces_},
+                      {"hitFaces", hitFaces_},
                       {"selected", selected_},
                       {"selectedCount", count_},
                       {"count", chunk.count}});

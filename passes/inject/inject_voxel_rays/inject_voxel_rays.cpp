@@ -21,7 +21,7 @@ struct EnumNames<VoxelRayPoints> {
                                       std::pair{VoxelRayPoints::GatherHits, "gather_hits"}};
 };
 
-/// How their direct light is measured.
+/// How the direct light of surfels is measured.
 enum class VoxelRayDirect { ShadowRays, ShadowMaps };
 
 template <>
@@ -30,48 +30,43 @@ struct EnumNames<VoxelRayDirect> {
                                       std::pair{VoxelRayDirect::ShadowMaps, "shadow_maps"}};
 };
 
-/// Rays from the voxels' surfaces: shadow rays to the lights, and paths that bring indirect light. Source:
-/// Magalhães 2020, section 6.1, whose rays read the light of the last frame in the voxels that they hit;
-/// there also: to light only what the view needs.
+/// Irradiance at the voxels' surfels: direct light by shadow rays or shadow maps, indirect light by paths.
+/// Source: Magalhães 2020, section 6.1, where rays read the voxels' light of the last frame at their hits;
+/// lighting only what the view needs is from there, too.
 class InjectVoxelRays final : public Pass {
  public:
     static constexpr const char* kName = "inject_voxel_rays";
     static constexpr const char* kHelp =
         "Lights voxels by shadow rays and paths from their surfels. "
-        "The surfels are points on the voxels' surfaces (place_surfels). "
-        "With `points: gather_hits` it lights, in each frame, "
-        "only the faces that the rays of trace_gather_rays (which must come before) hit. "
-        "With `direct: shadow_maps` surfels are tested against each light's shadow map, "
-        "and light bounces by paths with shadow rays. "
-        "Point lights take a cube of six maps, spots one (wider than 90° across: "
+        "Surfels are points on the voxels' surfaces (place_surfels). With `points: gather_hits` it lights "
+        "in each frame only the faces that the rays of trace_gather_rays (which must come before) hit. "
+        "With `direct: shadow_maps` direct light of surfels comes by each light's shadow map: "
+        "point lights take a cube of six maps, spots one (wider than 90° across: "
         "the cube), directional lights one over the scene's bounding sphere; "
-        "no emissive surfaces and no environment: they have no single viewpoint. Biased by: voxel size; "
-        "of shadow maps also shadow_resolution (shadow edges and gaps below a texel). "
-        "Noisy by: points_per_voxel, paths_per_point. "
-        "Leaves unlit: nothing; with gather_hits all that no gather ray hits. "
+        "emissive surfaces and the environment have no single viewpoint and are refused. Biased by: voxel size; "
+        "of shadow maps also shadow_resolution (shadow edges and gaps below a texel). Noisy by: "
+        "points_per_voxel, paths_per_point. Leaves unlit: nothing; with gather_hits all that no gather ray hits. "
         "In shadow maps what lies nearer to a light than 0.0001 of the scene's extent casts no shadow. "
         "Source: Magalhães 2020, section 6.1; shadow maps: Arnebäck 2017.";
     struct Params : WriteParams {
         VoxelRayPoints points = VoxelRayPoints::All;
         VoxelRayDirect direct = VoxelRayDirect::ShadowRays;
         uint32_t shadowResolution = 1024;
-        /// So many that a lookup beats a constant image (docs/injection.md).
+        /// Enough for a lookup to beat a constant image (docs/injection.md).
         uint32_t pathsPerPoint = 16;
         uint32_t bounces = 8;
         uint32_t lightSamples = 1;
 
-        bool byShadowMaps() const {
-            return points == VoxelRayPoints::All && direct == VoxelRayDirect::ShadowMaps;
-        }
+        bool byShadowMaps() const { return points == VoxelRayPoints::All && direct == VoxelRayDirect::ShadowMaps; }
         static constexpr auto schema() {
             return std::tuple_cat(
                 std::tuple{field("points", &Params::points,
                                  "Which surfels are lit. all: those of every voxel. "
                                  "gather_hits: those on the faces that the frame's gather rays hit; "
-                                 "few paths_per_point do, for a gather averages over many faces."),
+                                 "few paths_per_point suffice, since a gather averages over many faces."),
                            field("direct", &Params::direct,
-                                 "How their direct light is measured. shadow_rays: by rays to the lights. "
-                                 "shadow_maps: by a depth view from each light.")
+                                 "How direct light of surfels is measured. shadow_rays: by rays to the lights. "
+                                 "shadow_maps: by a shadow map of each light.")
                                .onlyWith(oneOf(&Params::points, {VoxelRayPoints::All})),
                            field("shadow_resolution", &Params::shadowResolution,
                                  "Texels along an edge of each shadow map.", 2u, 8192u)
@@ -81,11 +76,10 @@ class InjectVoxelRays final : public Pass {
                     field("paths_per_point", &Params::pathsPerPoint, "Paths from each point.", 1u, 1024u)
                         .lessNoise()
                         .onlyWith(noneOf(&Params::bounces, {0u})),
-                    field("bounces", &Params::bounces,
-                          "Bounces of light; Russian roulette by albedo ends paths early.", 0u, 32u),
+                    field("bounces", &Params::bounces, "Bounces of light; Russian roulette by albedo ends paths early.",
+                          0u, 32u),
                     field("light_samples", &Params::lightSamples,
-                          "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u,
-                          256u)
+                          "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u, 256u)
                         .onlyWith(oneOf(&Params::direct, {VoxelRayDirect::ShadowRays}),
                                   oneOf(&Params::points, {VoxelRayPoints::GatherHits}))});
         }
@@ -96,11 +90,10 @@ class InjectVoxelRays final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Lights surfels by shadow rays and paths.
-    void light(PassContext& context, const PathScene& scene, const Buffer& surfels, uint32_t count);
-    /// The same with direct irradiance that is known. @param direct W/m², 4 floats each.
-    void lightIndirect(PassContext& context, const PathScene& scene, const Buffer& surfels, uint32_t count,
-                       const Buffer& direct);
+    /// Writes the irradiance of surfels to their voxels, the indirect one by paths. @param direct W/m², 4
+    /// floats each.
+    void inject(PassContext& context, const PathScene& scene, const Buffer& surfels, uint32_t count,
+                const Buffer& direct);
 
     const Params params_;
     const bool onlyHits_ = params_.points == VoxelRayPoints::GatherHits;
@@ -125,8 +118,8 @@ InjectVoxelRays::InjectVoxelRays(const Params& params) : params_(params) {
 void InjectVoxelRays::plan(PassPlan& plan) {
     const SceneState& scene = *plan.frame.scene;
     if (shadowMaps_) requireClearPanes(scene, kName);
-    sources_ = shadowMaps_ ? requirePunctualLights(scene, kName, "'direct: shadow_rays'")
-                           : requireLightSources(scene, kName);
+    sources_ =
+        shadowMaps_ ? requirePunctualLights(scene, kName, "'direct: shadow_rays'") : requireLightSources(scene, kName);
     plan[irradiance_].lightBounces = params_.bounces;
     injection_.plan(plan, kName, params_, plan[voxels_]);
     if (shadowMaps_) shadowMaps_->plan(plan, params_.shadowResolution);
@@ -146,40 +139,33 @@ void InjectVoxelRays::record(PassContext& context) {
     const Surfels& surfels = context[surfels_];
     VoxelIrradiance& irradiance = context[irradiance_];
     injection_.begin(context, scene, irradiance);
-    std::vector<Buffer> byMaps;  // Read until finish().
-    if (shadowMaps_) byMaps = shadowMaps_->measure(context, sources_, surfels);
+    std::vector<Buffer> shadowMapLight;  // By chunk; read until finish().
+    if (shadowMaps_) shadowMapLight = shadowMaps_->measure(context, sources_, surfels);
     if (hitFaces_) hitFaces_->mark(context, scene.voxels, surfels, context[gbuffer_], context[hits_]);
     for (size_t c = 0; c < surfels.chunks.size(); ++c) {
         const Surfels::Chunk& chunk = surfels.chunks[c];
-        if (shadowMaps_) {
-            lightIndirect(context, scene, chunk.surfels, chunk.count, byMaps[c]);
-        } else if (hitFaces_) {
-            const uint32_t count = hitFaces_->select(context, chunk);
-            if (count > 0) light(context, scene, hitFaces_->selected(), count);
-        } else {
-            light(context, scene, chunk.surfels, chunk.count);
+        const Buffer& lit = hitFaces_ ? hitFaces_->selected() : chunk.surfels;
+        const uint32_t count = hitFaces_ ? hitFaces_->select(context, chunk) : chunk.count;
+        if (count == 0) continue;
+        if (!shadowMaps_) {
+            const uint32_t seed = randomSeed(context.frame, context.frameIndex);
+            paths_->measureDirect(context, scene, lit, count, seed, direct_);
         }
+        inject(context, scene, lit, count, shadowMaps_ ? shadowMapLight[c] : direct_);
     }
     injection_.finish(context, scene.voxels, irradiance);
-    if (hitFaces_) return;  // No ray reads faces without light, and all may be in the dark.
+    if (hitFaces_) return;  // Gather rays read no faces without surfels, and all that they read may be dark.
     requireLight(context.stream, scene.voxels, irradiance, *context.frame.scene);
     injection_.fillUnknown(context, scene.voxels, irradiance);
 }
 
-void InjectVoxelRays::light(PassContext& context, const PathScene& scene, const Buffer& surfels,
-                            uint32_t count) {
-    paths_->measure(context, scene, surfels, count, randomSeed(context.frame, context.frameIndex), direct_);
-    lightIndirect(context, scene, surfels, count, direct_);
-}
-
-void InjectVoxelRays::lightIndirect(PassContext& context, const PathScene& scene, const Buffer& surfels,
-                                    uint32_t count, const Buffer& direct) {
+void InjectVoxelRays::inject(PassContext& context, const PathScene& scene, const Buffer& surfels, uint32_t count,
+                             const Buffer& direct) {
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
     injection_.writeDirect(context, surfels, count, direct);
     for (uint32_t path = 0; path < params_.pathsPerPoint && params_.bounces > 0; ++path) {
-        paths_->begin(context, surfels, count, seed + (path + 1) * 0xc2b2ae35u, indirect_);
-        for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce)
-            paths_->extend(context, scene, indirect_);
+        paths_->init(context, surfels, count, seed + (path + 1) * 0xc2b2ae35u, indirect_);
+        for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) paths_->extend(context, scene, indirect_);
         injection_.writeIndirect(context, surfels, count, indirect_);
     }
 }

@@ -1,4 +1,4 @@
-// Marks the voxel faces that the shading of gather rays will read: see irradianceAt() in shaders/voxels/face_lookup.glsl.
+// Marks the voxel faces that irradianceAt() (shaders/voxels/face_lookup.glsl) will read at the hits of gather rays.
 #include "shaders/voxels/face.glsl"
 #include "shaders/view/gather_layout.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -9,8 +9,8 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 uniform sampler2D position;
-buffer Asked { uint data[]; } asked;             // A bit a face, by voxel.
-readonly buffer Measured { uint data[]; } measured;  // The same: faces that have surfels.
+buffer HitFaces { uint data[]; } hitFaces;  // One bit per face, by voxel.
+readonly buffer FacesWithSurfels { uint data[]; } facesWithSurfels;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     GatherLayout layout_;
@@ -18,10 +18,10 @@ layout(push_constant, scalar) uniform Push {
     uint rays;
 } push;
 
-// The area that irradianceAt() will find: a face without surfels stays unknown.
+// The area that irradianceAt() will find; faces without surfels stay unknown.
 float knownArea(uint voxel, vec3 normal) {
     const VoxelMaterial m = voxelMaterial(voxel);
-    const uint known = measured.data[voxel];
+    const uint known = facesWithSurfels.data[voxel];
     float area = 0.0;
     for (uint face = 0u; face < 6u; ++face) {
         if ((known >> face & 1u) == 0u) continue;
@@ -34,9 +34,9 @@ float knownArea(uint voxel, vec3 normal) {
     return area;
 }
 
-// Few voxels are asked for by many rays: look before the atomic.
+// Many rays hit the same faces: a read saves most atomics.
 void mark(uint voxel, uint faces) {
-    if ((asked.data[voxel] & faces) != faces) atomicOr(asked.data[voxel], faces);
+    if ((hitFaces.data[voxel] & faces) != faces) atomicOr(hitFaces.data[voxel], faces);
 }
 
 void main() {
@@ -50,19 +50,19 @@ void main() {
     const uint blockIndex = push.firstBlock + i / g.raysPerBlock;
     const uvec2 block = uvec2(blockIndex % g.blocks.x, blockIndex / g.blocks.x);
     const ivec2 texel = ivec2(texelOf(g, block, rayTexel(g, block, i % g.raysPerBlock)));
-    const vec3 from = texelFetch(position, texel, 0).xyz;
-    const vec3 normal = dot(s.geometricNormal, from - s.position) >= 0.0 ? s.geometricNormal : -s.geometricNormal;
+    const vec3 origin = texelFetch(position, texel, 0).xyz;
+    const vec3 normal = dot(s.geometricNormal, origin - s.position) >= 0.0 ? s.geometricNormal : -s.geometricNormal;
     const uint faces = push.grid.directions == 1u ? 63u : faceBits(normal);
 
-    const ivec3 cell = voxelAt(push.grid, s.position);
-    const uint own = voxelNumber(push.grid, cell);
+    const ivec3 center = voxelAt(push.grid, s.position);
+    const uint hitVoxel = voxelNumber(push.grid, center);
     float area = 0.0;
-    if (own != NO_VOXEL) {
-        mark(own, faces);
-        area = knownArea(own, normal);
+    if (hitVoxel != NO_VOXEL) {
+        mark(hitVoxel, faces);
+        area = knownArea(hitVoxel, normal);
     }
     for (int k = 0; k < 27 && area < SMALL_FACE_AREA; ++k) {
-        const uint voxel = voxelNumber(push.grid, cell + ivec3(k % 3, (k / 3) % 3, k / 9) - 1);
+        const uint voxel = voxelNumber(push.grid, center + ivec3(k % 3, (k / 3) % 3, k / 9) - 1);
         if (k == 13 || voxel == NO_VOXEL) continue;
         mark(voxel, faces);
         area += knownArea(voxel, normal);

@@ -21,7 +21,7 @@ std::vector<Buffer> ShadowMapLight::measure(PassContext& context, const std::vec
         const std::vector<gpu::LightView> views = lightViews(state.lights[source.light], state.geometry);
         for (uint32_t v = 0; v < views.size(); ++v) {
             map_.draw(context, views[v]);
-            const uint32_t side = views.size() == kCubeFaces ? v : kCubeFaces;
+            const uint32_t face = views.size() == kCubeFaces ? v : kCubeFaces;
             for (size_t c = 0; c < surfels.chunks.size(); ++c) {
                 const Surfels::Chunk& chunk = surfels.chunks[c];
                 context.dispatch(test_, chunk.count,
@@ -32,7 +32,7 @@ std::vector<Buffer> ShadowMapLight::measure(PassContext& context, const std::vec
                                   {"view", views[v]},
                                   {"light", source.light},
                                   {"resolution", resolution_},
-                                  {"side", side},
+                                  {"face", face},
                                   {"count", chunk.count}});
             }
         }

@@ -7,16 +7,15 @@
 
 namespace voxray {
 
-/// Direct irradiance of surfels by shadow maps: a depth view of the scene from every light is rasterised, and
-/// surfels are tested against it, with percentage-closer filtering over 2x2 texels. Source: Arnebäck 2017
-/// tests voxels against a shadow map as they are voxelized; filtering: Reeves et al. 1987.
+/// Direct irradiance of surfels by shadow maps, one view of a light after the other, with percentage-closer
+/// filtering over 2x2 texels. Source: Arnebäck 2017, where voxels are tested; filtering: Reeves et al. 1987.
 class ShadowMapLight {
  public:
     explicit ShadowMapLight(ProgramOwner& owner);
 
-    /// @param resolution texels a side.
+    /// @param resolution texels along an edge.
     void plan(PassPlan& plan, uint32_t resolution);
-    /// @param sources punctual ones alone. @return W/m² of each chunk's surfels, 4 floats each.
+    /// @param sources punctual lights. @return irradiance of the surfels of each chunk, W/m², 4 floats each.
     std::vector<Buffer> measure(PassContext& context, const std::vector<LightSource>& sources,
                                 const Surfels& surfels) const;
 

@@ -1,5 +1,5 @@
-// Adds the light of one view of a light to the surfels in it, by the fraction of the four nearest texels, weighted bilinearly,
-// that see the surfel.
+// Adds the light of one shadow map to the surfels in it, by percentage-closer filtering: times the fraction of the four
+// nearest texels, weighted bilinearly, that pass the shadow test.
 #include "shaders/lights/light_view.glsl"
 #include "shaders/lights/lights.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -12,13 +12,14 @@ uniform sampler2D shadowMap;
 layout(push_constant, scalar) uniform Push {
     LightView view;
     uint light;
-    uint resolution;  // Texels a side.
-    uint side;        // Which side of a cube the view is, in the order +x -x +y -y +z -z; 6: it is no cube's.
+    uint resolution;  // Texels along an edge.
+    uint face;        // Of a cube of maps, +x -x +y -y +z -z; 6: the map is alone.
     uint count;
 } push;
 
-bool seen(ivec2 texel, Surfel s) {
-    return texelPassesShadowTest(push.view, push.resolution, texel, texelFetch(shadowMap, texel, 0).r, s.position, s.normal);
+bool passes(ivec2 texel, Surfel s) {
+    const float depth = texelFetch(shadowMap, texel, 0).r;
+    return texelPassesShadowTest(push.view, push.resolution, texel, depth, s.position, s.normal);
 }
 
 void main() {
@@ -26,16 +27,15 @@ void main() {
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
     const LightView view = push.view;
-    const vec3 away = s.position - view.origin;
-    if (push.side < 6u && cubeFace(away) != push.side) return;
+    if (push.face < 6u && cubeFace(s.position - view.origin) != push.face) return;
     const LightSample l = samplePunctual(sceneLights.data[push.light], s.position);
     const vec3 irradiance = l.irradiance * max(dot(s.normal, l.direction), 0.0);
     if (all(equal(irradiance, vec3(0.0)))) return;
 
     vec4 weights;
-    const ivec2 first = nearestTexels(view, push.resolution, s.position, weights);
+    const ivec2 first = bilinearTexels(view, push.resolution, s.position, weights);
     float visible = 0.0;
     for (int k = 0; k < 4; ++k)
-        if (seen(first + ivec2(k & 1, k >> 1), s)) visible += weights[k];
+        if (passes(first + ivec2(k & 1, k >> 1), s)) visible += weights[k];
     direct.data[i] += vec4(visible * irradiance, 0.0);
 }

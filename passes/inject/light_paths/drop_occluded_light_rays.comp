@@ -1,4 +1,4 @@
-// Rays of light that a surface occludes before they begin carry nothing, and are not traced.
+// Deactivates light rays that a surface occludes between the light and their origins.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/inject/light_paths/light_path_types.h"
 #include "shaders/trace/ray_types.h"

@@ -1,4 +1,4 @@
-// From where each ray of light begins, the ray back to the light.
+// A ray from the origin of each light ray back to its light.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
@@ -7,7 +7,7 @@ layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) writeonly buffer BackRays { Ray data[]; } backRays;
 layout(push_constant) uniform Push {
     uint count;
-    float length_;  // m, beyond all surfaces.
+    float length_;  // m: reaches beyond all surfaces.
 } push;
 
 void main() {

@@ -1,4 +1,4 @@
-// Starts a batch of rays from one source of light.
+// A batch of rays from one source of light.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/inject/light_paths/light_emission.glsl"
 layout(local_size_x = 64) in;

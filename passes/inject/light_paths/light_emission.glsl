@@ -1,4 +1,4 @@
-// Rays that sources of light of every kind send. Needs the bindings of shaders/scene/scene.glsl.
+// Rays from light sources of every kind. Needs the bindings of shaders/scene/scene.glsl.
 #ifndef VOXRAY_LIGHT_EMISSION_GLSL
 #define VOXRAY_LIGHT_EMISSION_GLSL
 
@@ -8,46 +8,46 @@
 #include "shaders/scene/scene.glsl"
 #include "shaders/trace/ray_types.h"
 
-// A point of the disc that the scene's region fits behind, seen along a direction, before all surfaces or before those near the region
-// (EmittingSource::start). Where there are surfaces around the
-// region, which send light into it, a quarter of the points lie on a ring round that disc. `area`: m², that the point stands for, as if
-// it were the only one.
+// A point on a disc across `direction`, at EmittingSource::start before the center of the scene's region: on the disc
+// that the region's sphere projects onto or, a quarter of the points, on the ring around it, from which surfaces around
+// the region reflect light into it. There is no ring without such surfaces. `area`: m², one over the point's density.
 vec3 discPoint(EmittingSource e, vec2 u, vec3 direction, out float area) {
-    const float inner = e.sceneRadius * e.sceneRadius, ring = pow(min(RING_RADII * e.sceneRadius, e.reach), 2.0) - inner;
-    const float onRing = ring > 0.0 ? 0.25 : 0.0;
-    const bool isOnRing = u.x < onRing;
-    const float part = isOnRing ? u.x / onRing : (u.x - onRing) / (1.0 - onRing);
-    area = PI * (isOnRing ? ring / onRing : inner / (1.0 - onRing));
+    const float inner = e.sceneRadius * e.sceneRadius;
+    const float ring = pow(min(RING_RADII * e.sceneRadius, e.reach), 2.0) - inner;
+    const float ringProbability = ring > 0.0 ? 0.25 : 0.0;
+    const bool isOnRing = u.x < ringProbability;
+    const float v = isOnRing ? u.x / ringProbability : (u.x - ringProbability) / (1.0 - ringProbability);
+    area = PI * (isOnRing ? ring / ringProbability : inner / (1.0 - ringProbability));
 
     vec3 t, b;
     frame(direction, t, b);
-    const float r = sqrt(isOnRing ? inner + ring * part : inner * part), phi = 2.0 * PI * u.y;
+    const float r = sqrt(isOnRing ? inner + ring * v : inner * v), phi = 2.0 * PI * u.y;
     return e.sceneCenter - direction * e.start + t * (r * cos(phi)) + b * (r * sin(phi));
 }
 
-// Sets the ray's origin and direction, and the path's power and beam as if this were the source's only ray.
+// Sets the ray's origin and direction, and the path's power and cross-section, as if this were the source's only ray.
 void emitPunctual(EmittingSource e, vec2 u, inout Ray ray, inout LightPath path) {
     const GpuLight light = sceneLights.data[e.light];
     ray.origin = light.position;
     if (light.type == LIGHT_POINT) {
-        // Uniform over the sphere: flux = I * 4 pi.
+        // Uniform over the sphere: flux = I * 4 pi
         ray.direction = sphereDirection(u);
         path.solidAngle = 4.0 * PI;
         path.power = light.intensity * path.solidAngle;
     } else if (light.type == LIGHT_SPOT) {
-        // Uniform over the outer cone: flux = I(angle) * its solid angle.
+        // Uniform over the outer cone: flux = I(angle) * the cone's solid angle
         ray.direction = coneDirection(u, light.direction, light.cosOuter);
         path.solidAngle = 2.0 * PI * (1.0 - light.cosOuter);
         path.power = light.intensity * spotFalloff(light, dot(ray.direction, light.direction)) * path.solidAngle;
     } else {
-        // Flux = E * area.
+        // Flux = E * area
         ray.direction = light.direction;
         ray.origin = discPoint(e, u, light.direction, path.area);
         path.power = light.intensity * path.area;
     }
 }
 
-// A triangle by its power, a point uniform on it, a direction by cosine: flux = L * pi * area / probability.
+// A triangle by power, a uniform point on it, a cosine-distributed direction: flux = L * pi * area / probability.
 void emitFromSurface(EmittingSource e, uint index, vec2 u, vec2 onTriangle, inout Ray ray, inout LightPath path) {
     const float pick = sobol2(index, hashCombine(e.seed, 2u)).x;
     const GpuEmitter emitter = sceneEmitters.data[pickEmitter(e.emitterCount, pick)];
@@ -61,7 +61,7 @@ void emitFromSurface(EmittingSource e, uint index, vec2 u, vec2 onTriangle, inou
     path.power = emittedRadiance(m, s) * PI * emitter.area * sides / emitter.probability;
 }
 
-// Uniform over directions: flux = L * 4 pi * area.
+// Uniform directions: flux = L * 4 pi * area.
 void emitFromEnvironment(EmittingSource e, vec2 u, vec2 onDisc, inout Ray ray, inout LightPath path) {
     ray.direction = -sphereDirection(u);
     float area;
@@ -69,8 +69,8 @@ void emitFromEnvironment(EmittingSource e, vec2 u, vec2 onDisc, inout Ray ray, i
     path.power = environmentRadiance(-ray.direction) * 4.0 * PI * area;
 }
 
-// Ray `index` of the rays that a source sends, and what it carries: its part of all that the source sends. A ray that carries nothing
-// is one that is not traced (tMax < tMin). Rays of one seed complement each other: their numbers are points of a Sobol sequence.
+// Ray `index` of a source, with its fraction of the source's power; inactive without power. Rays of one seed are
+// stratified: they take consecutive points of a Sobol sequence.
 Ray emitLightRay(EmittingSource e, uint index, out LightPath path) {
     const vec2 u = sobol2(index, hashCombine(e.seed, 0u));
     const vec2 u2 = sobol2(index, hashCombine(e.seed, 1u));

@@ -8,23 +8,21 @@
 namespace voxray {
 namespace {
 
-// Merged irradiances need beams: light whose cross-section is known at each hit.
-void checkBeams(const std::string& pass, const LightPathParams& params,
-                const std::vector<LightSource>& sources) {
+/// Merging irradiances needs rays with a known cross-section.
+void checkBeams(const std::string& pass, const LightPathParams& params, const std::vector<LightSource>& sources) {
     const std::string write = enumName(params.write);
     const bool isDiffuse = params.secondary == Secondary::Diffuse || params.secondary == Secondary::Material;
     if (isDiffuse && params.bounces > 0)
         throw Error(
-            "{}: 'write: {}' merges irradiances, and a diffusely reflected ray has none, only power; "
-            "use 'secondary: mirror' or 'none', or 'write: average'",
+            "{}: 'write: {}' merges irradiances, and a diffusely reflected ray has none, only power; use 'secondary: "
+            "mirror' or 'none', or 'write: average'",
             pass, write);
     for (const LightSource& source : sources)
         if (source.kind != LightSource::Punctual)
             throw Error(
                 "{}: 'write: {}' merges irradiances, and a ray from {} has none, only power; use 'write: "
                 "average', or point, spot and directional lights alone",
-                pass, write,
-                source.kind == LightSource::Emitters ? "an emissive surface" : "the environment");
+                pass, write, source.kind == LightSource::Emitters ? "an emissive surface" : "the environment");
 }
 
 }  // namespace
@@ -32,12 +30,12 @@ void checkBeams(const std::string& pass, const LightPathParams& params,
 LightPaths::LightPaths(ProgramOwner& owner, const LightPathParams& params)
     : params_(params),
       sumsFlux_(params.write == Write::Average),
-      visibility_(owner, "light_paths_visibility.comp"),
-      follow_(owner, "light_paths_follow.comp",
-              sumsFlux_ ? Defines{{"FLUX", "1"}} : VoxelAccumulator::defines(params.write)),
+      generateOcclusionRays_(owner, "passes/surfels/generate_occlusion_rays.comp"),
+      deposit_(owner, "deposit_light.comp",
+               sumsFlux_ ? Defines{{"FLUX", "1"}} : VoxelAccumulator::defines(params.write)),
       unoccludedArea_(owner, "passes/common/voxels/unoccluded_area.comp"),
       paneTransmittance_(owner) {
-    for (size_t i = 0; i < targets(); ++i) {
+    for (size_t i = 0; i < accumulatorCount(); ++i) {
         if (sumsFlux_)
             fluxes_[i].emplace(owner);
         else
@@ -47,7 +45,7 @@ LightPaths::LightPaths(ProgramOwner& owner, const LightPathParams& params)
 
 void LightPaths::plan(PassPlan& plan, const std::string& pass, uint32_t batch, const SurfaceVoxels& voxels,
                       const std::vector<LightSource>& sources) {
-    follow_.specialize({{"kSecondary", uint32_t(params_.secondary)}, {"kCaustics", params_.caustics}});
+    deposit_.specialize({{"kSecondary", uint32_t(params_.secondary)}, {"kCaustics", params_.caustics}});
     if (sumsFlux_) {
         if (!plan.device.shaderInt64Atomics)
             throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", pass,
@@ -60,62 +58,59 @@ void LightPaths::plan(PassPlan& plan, const std::string& pass, uint32_t batch, c
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
     plan.scratchBuffer(paths_, "light paths", batch * sizeof(gpu::LightPath));
     paneTransmittance_.plan(plan, batch);
-    plan.scratchBuffer(visibilityRays_, "visibility rays", batch * sizeof(Ray));
-    plan.scratchBuffer(hidden_, "visibility results", batch * sizeof(uint32_t));
+    plan.scratchBuffer(occlusionRays_, "visibility rays", batch * sizeof(Ray));
+    plan.scratchBuffer(occluded_, "visibility results", batch * sizeof(uint32_t));
     plan.estimate(voxels.estimatedCount * VoxelIrradiance::bytes(1));
 }
 
-void LightPaths::begin(PassContext& context, const SurfaceVoxels& voxels,
-                       const std::vector<LightSource>& sources) {
+void LightPaths::begin(PassContext& context, const SurfaceVoxels& voxels, const std::vector<LightSource>& sources) {
     const double power = totalPower(sources);
     const float typical = meanIrradiance(sources, context.frame.scene->geometry);
-    for (size_t i = 0; i < targets(); ++i) {
+    for (size_t i = 0; i < accumulatorCount(); ++i) {
         if (sumsFlux_)
             fluxes_[i]->begin(context.device, context.stream, voxels, power);
         else
             irradiances_[i]->begin(context.device, context.stream, voxels, typical);
     }
-    context.stream.fill(hidden_, 0);
+    context.stream.fill(occluded_, 0);
 }
 
-void LightPaths::follow(PassContext& context, const SurfaceVoxels& voxels, const Batch& batch) {
+void LightPaths::trace(PassContext& context, const SurfaceVoxels& voxels, const Batch& batch) {
     CommandStream& stream = context.stream;
     for (uint32_t bounce = 0; bounce <= params_.lastBounce(); ++bounce) {
-        if (bounce > 0 || !batch.hitsKnown) context.tracer.closestHit(stream, rays_, hits_, batch.count);
-
+        if (bounce > 0 || !batch.hasFirstHits) context.tracer.closestHit(stream, rays_, hits_, batch.count);
         if (bounce == 0)
-            paneTransmittance_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float),
-                                     batch.count, &hits_);
+            paneTransmittance_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float), batch.count,
+                                     &hits_);
 
-        // Whether each hit is visible from open space, where only unoccluded area counts.
+        // Occlusion of the hits, where only unoccluded area counts
         if (voxels.unoccludedAreaOnly) {
-            stream.dispatch(visibility_, batch.count,
+            stream.dispatch(generateOcclusionRays_, batch.count,
                             {context.scene,
                              {"rays", rays_},
                              {"hits", hits_},
-                             {"visibilityRays", visibilityRays_},
-                             {"batchRays", batch.count},
+                             {"occlusionRays", occlusionRays_},
+                             {"rayCount", batch.count},
                              {"voxelSize", voxels.grid.voxelSize}});
-            context.tracer.occluded(stream, visibilityRays_, hidden_, batch.count);
+            context.tracer.occluded(stream, occlusionRays_, occluded_, batch.count);
         }
 
-        // Deposit and bounce.
+        // Deposit and scatter
         const size_t target = bounce == 0 ? 0 : 1;
-        stream.dispatch(
-            follow_, batch.count,
-            {context.scene,
-             voxels,
-             sumsFlux_ ? fluxes_[target]->bindings() : irradiances_[target]->bindings(),
-             {"scale", sumsFlux_ ? fluxes_[target]->unitsPerWatt() : irradiances_[target]->scale()},
-             {"rays", rays_},
-             {"hits", hits_},
-             {"paths", paths_},
-             {"hidden", hidden_},
-             {"firstRay", batch.first},
-             {"batchRays", batch.count},
-             {"seed", batch.seed},
-             {"bounce", bounce},
-             {"lastBounce", params_.lastBounce()}});
+        stream.dispatch(deposit_, batch.count,
+                        {context.scene,
+                         voxels,
+                         sumsFlux_ ? fluxes_[target]->bindings() : irradiances_[target]->bindings(),
+                         {"scale", sumsFlux_ ? fluxes_[target]->unitsPerWatt() : irradiances_[target]->scale()},
+                         {"rays", rays_},
+                         {"hits", hits_},
+                         {"paths", paths_},
+                         {"occluded", occluded_},
+                         {"firstRay", batch.first},
+                         {"batchRays", batch.count},
+                         {"seed", batch.seed},
+                         {"bounce", bounce},
+                         {"lastBounce", params_.lastBounce()}});
     }
 }
 
@@ -123,7 +118,7 @@ void LightPaths::finish(PassContext& context, const SurfaceVoxels& voxels, Voxel
     CommandStream& stream = context.stream;
     irradiance.allocate(context.device, voxels.voxelCount);
 
-    // A face that no ray met is dark, not unknown.
+    // Faces that no ray hit are dark, not unknown
     stream.dispatch(unoccludedArea_, voxels.voxelCount,
                     {voxels, {"area", irradiance.area}, {"voxelCount", voxels.voxelCount}});
     const auto resolve = [&](size_t i, const LargeBuffer& flux) {
@@ -139,7 +134,7 @@ void LightPaths::finish(PassContext& context, const SurfaceVoxels& voxels, Voxel
         stream.fill(irradiance.indirect, 0);
 
     stream.finish();
-    for (size_t i = 0; i < targets(); ++i) {
+    for (size_t i = 0; i < accumulatorCount(); ++i) {
         if (sumsFlux_)
             fluxes_[i]->end();
         else

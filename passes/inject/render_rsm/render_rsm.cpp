@@ -5,24 +5,23 @@
 
 namespace voxray {
 
-/// Reflective shadow maps (Dachsbacher and Stamminger 2005): the scene as each light sees it, for passes that
-/// take their virtual lights or their shadows from there.
+/// Reflective shadow maps (Dachsbacher and Stamminger 2005) of all punctual lights, for virtual lights and
+/// shadows.
 class RenderRsm final : public Pass {
  public:
     static constexpr const char* kName = "render_rsm";
     static constexpr const char* kHelp =
-        "Rasterises the scene from every light into reflective shadow maps (RSM). "
-        "They tell which point each texel sees. They are for sample_vpls and direct_shadow_maps. "
+        "Rasterizes the scene from every light into reflective shadow maps (RSM). "
+        "These store the surface point of each texel, for sample_vpls and direct_shadow_maps. "
         "Point lights take a cube of six views, spots one (wider than 90° across: "
         "the cube), directional lights one over the scene's bounding sphere. "
-        "No emissive surfaces and no environment: they have no single viewpoint. "
-        "Biased by: rsm_resolution. Sees nothing nearer to a light than 0.0001 of the scene's extent. "
-        "Source: Dachsbacher and Stamminger 2005.";
+        "No emissive surfaces and no environment: they have no single viewpoint. Biased by: rsm_resolution. "
+        "Sees nothing nearer to a light than 0.0001 of the scene's extent. Source: Dachsbacher and Stamminger 2005.";
     struct Params {
         uint32_t rsmResolution = 512;
         static constexpr auto schema() {
-            return std::tuple{field("rsm_resolution", &Params::rsmResolution,
-                                    "Texels along an edge of each view.", 2u, 4096u)};
+            return std::tuple{
+                field("rsm_resolution", &Params::rsmResolution, "Texels along an edge of each view.", 2u, 4096u)};
         }
     };
 
@@ -43,8 +42,7 @@ void RenderRsm::plan(PassPlan& plan) {
     const SceneState& state = *plan.frame.scene;
     Rsm& rsm = plan[rsm_];
     rsm.resolution = params_.rsmResolution;
-    rsm.sources =
-        requirePunctualLights(state, kName, "direct_shadow_rays, and 'first: light_rays' of sample_vpls");
+    rsm.sources = requirePunctualLights(state, kName, "direct_shadow_rays, and 'first: light_rays' of sample_vpls");
     rsm.firstView = {0};
     for (const LightSource& source : rsm.sources)
         rsm.firstView.push_back(rsm.firstView.back() +
@@ -62,9 +60,9 @@ void RenderRsm::record(PassContext& context) {
     CommandStream& stream = context.stream;
     std::vector<gpu::RsmView> views;
     for (const LightSource& source : rsm.sources) {
-        const auto own = lightViews(state.lights[source.light], state.geometry);
-        for (uint32_t v = 0; v < own.size(); ++v)
-            views.push_back({own[v], source.light, own.size() == kCubeFaces ? v : kCubeFaces});
+        const auto sourceViews = lightViews(state.lights[source.light], state.geometry);
+        for (uint32_t v = 0; v < sourceViews.size(); ++v)
+            views.push_back({sourceViews[v], source.light, sourceViews.size() == kCubeFaces ? v : kCubeFaces});
     }
     stream.upload(rsm.views, views);
     for (size_t v = 0; v < views.size(); ++v) {

@@ -1,5 +1,5 @@
-// Volumes of one RGBA8 word per voxel, as published in Magalhães 2020: of all voxels of the grid; empty ones hold 0. Host:
-// passes/published/magalhaes_2020/packed_voxels.h.
+// Volumes of one RGBA8 word per voxel, as published in Magalhães 2020: of all voxels of the grid; empty ones hold 0.
+// Host: passes/published/magalhaes_2020/packed_voxels.h.
 #ifndef VOXRAY_PACKED_VOXELS_GLSL
 #define VOXRAY_PACKED_VOXELS_GLSL
 

@@ -12,41 +12,30 @@
 
 namespace voxray {
 
-/// How a color is merged into a voxel's word (passes/published/packed_write.glsl).
+/// How a color is merged into a voxel's word, numbered as in passes/published/packed_write.glsl.
 enum class PackedWrite { MovingAverage, Max, None };
 template <>
 struct EnumNames<PackedWrite> {
     static constexpr std::array names{std::pair{PackedWrite::MovingAverage, "moving_average"},
-                                      std::pair{PackedWrite::Max, "max"},
-                                      std::pair{PackedWrite::None, "none"}};
+                                      std::pair{PackedWrite::Max, "max"}, std::pair{PackedWrite::None, "none"}};
 };
 
 /// The parameter of passes that write packed words.
 struct PackedWriteParams {
     PackedWrite write = PackedWrite::MovingAverage;
     static constexpr auto schema() {
-        return std::tuple{
-            field("write", &PackedWriteParams::write,
-                  "How what meets in a voxel's word is merged, as published in Magalhães 2020. "
-                  "moving_average: compare and swap, the count in alpha (section 4.2.5.3). "
-                  "max: one atomic maximum of the packed word, so that blue decides (section 5.2.4). "
-                  "none: a plain store, the last one stays, whichever that is.")};
+        return std::tuple{field("write", &PackedWriteParams::write,
+                                "How values in a voxel's word are merged, as published in Magalhães 2020. "
+                                "moving_average: compare and swap, with the count in alpha (section 4.2.5.3). "
+                                "max: an atomic maximum of the packed word, decided by blue (section 5.2.4). "
+                                "none: a plain store; which value remains is undefined.")};
     }
     /// Definitions of passes/published/packed_write.glsl.
-    Defines defines() const {
-        switch (write) {
-            case PackedWrite::MovingAverage:
-                return {{"PACKED_WRITE", "PACKED_MOVING_AVERAGE"}};
-            case PackedWrite::Max:
-                return {{"PACKED_WRITE", "PACKED_MAX"}};
-            default:
-                return {{"PACKED_WRITE", "PACKED_NONE"}};
-        }
-    }
+    Defines defines() const { return {{"PACKED_WRITE", std::to_string(int(write))}}; }
 };
 
 /// Volumes of one RGBA8 word per voxel, as published in Magalhães 2020 (section 4.2.1, table 4.1): no faces,
-/// no areas, and a word for empty voxels, too, which is 0. Buffers stand for the thesis's 3D textures. GLSL
+/// no areas, and a word for empty voxels, too, which is 0. Buffers replace the thesis's 3D textures. GLSL
 /// access: passes/published/magalhaes_2020/packed_voxels.glsl.
 struct PackedVoxels : Resource {
     gpu::VoxelGrid grid{};

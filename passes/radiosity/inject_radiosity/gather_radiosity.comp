@@ -1,5 +1,5 @@
-// One bounce by gathering: each surfel takes the mean radiosity of the surfels that it is linked to, and reflects it. Links are
-// cosine-distributed, so that irradiance is that mean; a link without surfel counts as black.
+// One bounce by gathering: each surfel takes the mean radiosity of the surfels that it is linked to, and reflects it.
+// Links are cosine-distributed, so that irradiance is that mean; a link without surfel counts as black.
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/radiosity.glsl"

@@ -24,11 +24,10 @@ class InjectRadiosity final : public Pass {
  public:
     static constexpr const char* kName = "inject_radiosity";
     static constexpr const char* kHelp =
-        "Lights surfels by shadow rays and by radiosity along their links. "
-        "Direct light of the voxels' surfels comes by shadow rays. "
-        "Indirect light comes along the links of link_surfels: a sum over links for each bounce, no rays. "
-        "For light that changes where surfaces don't. Biased by: voxel size, surfels' distance; "
-        "textures' normals are left out. Noisy by: points_per_voxel, rays_per_surfel. "
+        "Lights voxels from their surfels by shadow rays and by radiosity along links. "
+        "Direct light comes by shadow rays; indirect light comes along the links of link_surfels: "
+        "a sum over links per bounce, no rays. For light that changes where surfaces don't. Biased by: "
+        "voxel size, the distance of surfels; normal maps are ignored. Noisy by: points_per_voxel, rays_per_surfel. "
         "Leaves unlit: nothing. Source: Goral et al. 1984; Lehtinen et al. 2008.";
     struct Params : WriteParams {
         uint32_t bounces = 8;
@@ -39,8 +38,7 @@ class InjectRadiosity final : public Pass {
                 std::tuple{
                     field("bounces", &Params::bounces, "Bounces of light.", 0u, 64u),
                     field("light_samples", &Params::lightSamples,
-                          "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u,
-                          256u)});
+                          "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u, 256u)});
         }
     };
 
@@ -57,8 +55,7 @@ class InjectRadiosity final : public Pass {
     std::vector<ChunkLight> measureDirect(PassContext& context);
     /// Adds bounce `bounce`, from 1 on, to the indirect irradiance of all chunks.
     void gatherRadiosity(PassContext& context, uint32_t bounce, const std::vector<ChunkLight>& light);
-
-    /// Stores the indirect irradiance of all chunks by slot.
+    /// Stores the indirect irradiance of all chunks in the order of SurfelsByVoxel.
     void storeSurfelIrradiance(PassContext& context, const std::vector<ChunkLight>& light);
 
     const Params params_;
@@ -83,7 +80,7 @@ void InjectRadiosity::plan(PassPlan& plan) {
     injection_.plan(plan, kName, params_, plan[voxels_]);
     directLight_.plan(plan, Surfels::kMaxChunkSurfels);
     plan.lightRays = uint64_t(plan[surfels_].estimatedCount) * plan.frame.scene->lights.size();
-    // That of one ray is about 1
+    // The relative variance of one ray is about 1
     plan[surfelIrradiance_].relativeVariance = 1.0f / float(plan[links_].raysPerSurfel);
 }
 
@@ -113,12 +110,10 @@ std::vector<InjectRadiosity::ChunkLight> InjectRadiosity::measureDirect(PassCont
         radiosity = LargeBuffer(context.device, "radiosity of surfels", links.surfelCount * kRadiosityBytes);
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
     std::vector<ChunkLight> light;
-    uint32_t firstSurfel = 0;
     for (const Surfels::Chunk& chunk : context[surfels_].chunks) {
         const uint64_t bytes = chunk.count * kSurfelIrradianceBytes;
-        ChunkLight& chunkLight =
-            light.emplace_back(Buffer(context.device, "direct irradiance of surfels", bytes),
-                               Buffer(context.device, "indirect irradiance of surfels", bytes));
+        ChunkLight& chunkLight = light.emplace_back(Buffer(context.device, "direct irradiance of surfels", bytes),
+                                                    Buffer(context.device, "indirect irradiance of surfels", bytes));
         context.stream.fill(chunkLight.indirect, 0);
         directLight_.measure(context, sources_, chunk.surfels, chunk.count, params_.lightSamples, seed,
                              chunkLight.direct);
@@ -127,20 +122,17 @@ std::vector<InjectRadiosity::ChunkLight> InjectRadiosity::measureDirect(PassCont
                           {"direct", chunkLight.direct},
                           {"RadiosityRef", radiosity_[0].ref()},
                           {"count", chunk.count},
-                          {"firstSurfel", firstSurfel}});
-        firstSurfel += chunk.count;
+                          {"firstSurfel", chunk.firstIndex}});
     }
     return light;
 }
 
-void InjectRadiosity::gatherRadiosity(PassContext& context, uint32_t bounce,
-                                      const std::vector<ChunkLight>& light) {
+void InjectRadiosity::gatherRadiosity(PassContext& context, uint32_t bounce, const std::vector<ChunkLight>& light) {
     const SurfelLinks& links = context[links_];
     // Later bounces carry less and smoother light: fewer rays suffice
     const uint32_t rays = (links.raysPerSurfel + bounce - 1) / bounce;
     const std::vector<Surfels::Chunk>& chunks = context[surfels_].chunks;
-    uint32_t firstSurfel = 0;
-    for (size_t i = 0; i < chunks.size(); ++i) {
+    for (size_t i = 0; i < chunks.size(); ++i)
         context.dispatch(gatherRadiosity_, chunks[i].count,
                          {{"surfels", chunks[i].surfels},
                           {"LinksRef", links.links.ref()},
@@ -148,11 +140,9 @@ void InjectRadiosity::gatherRadiosity(PassContext& context, uint32_t bounce,
                           {"NextRadiosityRef", radiosity_[1].ref()},
                           {"indirect", light[i].indirect},
                           {"count", chunks[i].count},
-                          {"firstSurfel", firstSurfel},
+                          {"firstSurfel", chunks[i].firstIndex},
                           {"rays", rays},
                           {"surfelCount", links.surfelCount}});
-        firstSurfel += chunks[i].count;
-    }
     std::swap(radiosity_[0], radiosity_[1]);
 }
 
@@ -162,17 +152,14 @@ void InjectRadiosity::storeSurfelIrradiance(PassContext& context, const std::vec
     ensureSize(surfelIrradiance.lit, context.device, "indirect irradiance of surfels",
                std::max(byVoxel.sortedCount, 1u) * kLitBytes);
     const std::vector<Surfels::Chunk>& chunks = context[surfels_].chunks;
-    uint32_t firstSurfel = 0;
-    for (size_t i = 0; i < chunks.size(); ++i) {
+    for (size_t i = 0; i < chunks.size(); ++i)
         context.dispatch(storeSurfelIrradiance_, chunks[i].count,
                          {{"indirect", light[i].indirect},
                           {"SortedIndicesRef", byVoxel.sortedIndices.ref()},
                           {"PackedRef", byVoxel.packed.ref()},
                           {"LitRef", surfelIrradiance.lit.ref()},
                           {"count", chunks[i].count},
-                          {"firstSurfel", firstSurfel}});
-        firstSurfel += chunks[i].count;
-    }
+                          {"firstSurfel", chunks[i].firstIndex}});
 }
 
 VOXRAY_REGISTER_PASS(InjectRadiosity);

@@ -1,4 +1,4 @@
-// Stores the indirect irradiance of surfels by slot, for gathers that read surfels.
+// Stores the indirect irradiance of surfels in the order of SurfelsByVoxel, for gathers.
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/packed_surfel.glsl"
@@ -17,6 +17,7 @@ layout(push_constant) uniform Push {
 void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
-    const uint slot = sortedIndices.data[push.firstSurfel + i];
-    if (slot != 0xffffffffu) lit.data[slot] = uvec3(packed_.data[slot], packRadiosity(indirect.data[i].rgb));
+    const uint sortedIndex = sortedIndices.data[push.firstSurfel + i];
+    if (sortedIndex == 0xffffffffu) return;
+    lit.data[sortedIndex] = uvec3(packed_.data[sortedIndex], packRadiosity(indirect.data[i].rgb));
 }

@@ -23,7 +23,7 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 const uint NO_SURFEL = 0xffffffffu;
-const float MAX_NEAR_ERROR = 0.5;  // 0.7 voxels on one plane, or half a voxel and a plane 20 degrees off.
+const float MAX_ERROR = 0.5;  // 0.7 voxels on one plane, or half a voxel and a plane 20 degrees off.
 
 // The best surfel so far, by squared distance in voxels plus squared bias (surfel_bias.glsl).
 struct NearestSurfel {
@@ -38,9 +38,9 @@ const float OCCLUSION_MISMATCH = 2.0;
 void searchVoxel(ivec3 voxel, vec3 position, vec3 normal, uint occlusion, inout NearestSurfel nearest) {
     const uint list = voxelNumber(push.grid, voxel);
     if (list == NO_VOXEL) return;
-    const uvec2 slots = lists.data[list];
+    const uvec2 range = lists.data[list];
     SortedSurfelWords words = sorted;  // Loop-invariant load, which compilers do not hoist.
-    for (uint i = slots.x; i < slots.y; ++i) {
+    for (uint i = range.x; i < range.y; ++i) {
         const SortedSurfel s = sortedSurfel(words, i);
         if (dot(s.normal, normal) <= 0.0) continue;
         const vec3 offset = s.position - position;
@@ -48,16 +48,16 @@ void searchVoxel(ivec3 voxel, vec3 position, vec3 normal, uint occlusion, inout 
                             surfelBias(position, normal, s.position, s.normal) +
                             ((s.id & VOXRAY_OCCLUDED) == occlusion ? 0.0 : OCCLUSION_MISMATCH);
         if (error < nearest.error || (error == nearest.error && s.id < nearest.id))
-            nearest = NearestSurfel(error, s.number, s.id);
+            nearest = NearestSurfel(error, s.index, s.id);
     }
 }
 
-// Searches the voxel of the hit, and its 26 neighbours where that has no surfel within MAX_NEAR_ERROR.
+// Searches the voxel of the hit, and its 26 neighbours where that has no surfel within MAX_ERROR.
 uint nearestSurfel(vec3 position, vec3 normal, uint occlusion) {
     const ivec3 voxel = voxelAt(push.grid, position);
     NearestSurfel nearest = NearestSurfel(1.0e30, NO_SURFEL, NO_SURFEL);
     searchVoxel(voxel, position, normal, occlusion, nearest);
-    if (nearest.error < MAX_NEAR_ERROR) return nearest.surfel;
+    if (nearest.error < MAX_ERROR) return nearest.surfel;
     for (int i = 0; i < 27; ++i)
         if (i != 13) searchVoxel(voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, position, normal, occlusion, nearest);
     return nearest.surfel;

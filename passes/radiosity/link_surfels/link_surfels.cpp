@@ -23,16 +23,16 @@ class LinkSurfels final : public Pass {
  public:
     static constexpr const char* kName = "link_surfels";
     static constexpr const char* kHelp =
-        "Links the surfels that see each other, for radiosity. Finds the links by rays, "
-        "once for a geometry. Light then travels along them without rays (inject_radiosity). "
-        "Biased by: surfels' distance (a hit takes the light of the nearest surfel in its voxel). "
+        "Links the surfels that see each other, for radiosity. "
+        "Rays find the links once for a geometry; light then travels along them (inject_radiosity). "
+        "Biased by: the distance of surfels (a hit takes the light of the nearest surfel in its voxel). "
         "Noisy by: rays_per_surfel. Source: Goral et al. 1984; Lehtinen et al. 2008.";
     struct Params {
         uint32_t raysPerSurfel = 64;
         static constexpr auto schema() {
-            return std::tuple{field("rays_per_surfel", &Params::raysPerSurfel,
-                                    "Rays from each surfel; 4 bytes each.", 1u, 4096u)
-                                  .lessNoise()};
+            return std::tuple{
+                field("rays_per_surfel", &Params::raysPerSurfel, "Rays from each surfel; 4 bytes each.", 1u, 4096u)
+                    .lessNoise()};
         }
     };
 
@@ -41,14 +41,12 @@ class LinkSurfels final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Traces the rays of a chunk, whose first surfel has the index `firstSurfel`, and links their hits.
-    /// @param inverseDistances by slot, means over a surfel's rays, 1/voxel.
-    void linkHits(PassContext& context, const Surfels::Chunk& chunk, uint32_t firstSurfel, SurfelLinks& links,
-                  const LargeBuffer& inverseDistances) const;
-
-    void packMeanDistances(PassContext& context, const LargeBuffer& inverseDistances) const;
-
     void packSurfels(PassContext& context) const;
+    /// Traces the rays of a chunk and links their hits. @param inverseDistances by sorted surfel, means over
+    /// its rays, 1/voxel.
+    void linkHits(PassContext& context, const Surfels::Chunk& chunk, SurfelLinks& links,
+                  const LargeBuffer& inverseDistances) const;
+    void packMeanDistances(PassContext& context, const LargeBuffer& inverseDistances) const;
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels, by which surfels are found"};
@@ -60,7 +58,7 @@ class LinkSurfels final : public Pass {
     NeighbourSearch neighbourSearch_{*this};
     Kernel packSurfels_{*this, "pack_surfels.comp"};
     Kernel generateRays_{*this, "generate_rays.comp"};
-    Kernel generateOcclusionRays_{*this, "generate_occlusion_rays.comp"};
+    Kernel generateOcclusionRays_{*this, "passes/surfels/generate_occlusion_rays.comp"};
     Kernel linkHits_{*this, "link_hits.comp"};
     Kernel meanInverseDistance_{*this, "mean_inverse_distance.comp"};
     Kernel packMeanDistances_{*this, "pack_mean_distances.comp"};
@@ -73,8 +71,8 @@ void LinkSurfels::plan(PassPlan& plan) {
                   (params_.raysPerSurfel * sizeof(uint32_t) + sizeof(gpu::SortedSurfel)));
     plan.scratchBuffer(rays_, "link rays", uint64_t(kBatchRays) * sizeof(Ray));
     plan.scratchBuffer(hits_, "link hits", uint64_t(kBatchRays) * sizeof(Hit));
-    plan.scratchBuffer(occlusionRays_, "rays that tell covered hits", uint64_t(kBatchRays) * sizeof(Ray));
-    plan.scratchBuffer(occluded_, "link hits on covered sides", uint64_t(kBatchRays) * sizeof(uint32_t));
+    plan.scratchBuffer(occlusionRays_, "occlusion rays of link hits", uint64_t(kBatchRays) * sizeof(Ray));
+    plan.scratchBuffer(occluded_, "occluded link hits", uint64_t(kBatchRays) * sizeof(uint32_t));
     plan.scratchBuffer(unlinkedHits_, "number of hits without surfel", sizeof(uint32_t));
     plan[byVoxel_].hasOccludedSurfels = plan[surfels_].hasOccludedSurfels;
 }
@@ -97,20 +95,15 @@ void LinkSurfels::record(PassContext& context) {
     const LargeBuffer inverseDistances(context.device, "inverse distances of surfels",
                                        std::max(context[byVoxel_].sortedCount, 1u) * sizeof(float));
     context.stream.fill(unlinkedHits_, 0);
-    uint32_t firstSurfel = 0;
-    for (const Surfels::Chunk& chunk : surfels.chunks) {
-        linkHits(context, chunk, firstSurfel, links, inverseDistances);
-        firstSurfel += chunk.count;
-    }
+    for (const Surfels::Chunk& chunk : surfels.chunks) linkHits(context, chunk, links, inverseDistances);
     packMeanDistances(context, inverseDistances);
     if (context[neighbours_].isRead)
         context.report("radius of neighbours, voxels",
-                       neighbourSearch_.run(context.stream, context[voxels_], surfels.pointCount,
-                                            context[byVoxel_], context[neighbours_]));
+                       neighbourSearch_.run(context.stream, context[voxels_], surfels.pointCount, context[byVoxel_],
+                                            context[neighbours_]));
     const uint32_t unlinkedHits = context.stream.readAs<uint32_t>(unlinkedHits_, 1)[0];
     context.report("links", double(count) * params_.raysPerSurfel);
-    context.report("hits without surfel, % of rays",
-                   100.0 * unlinkedHits / (double(count) * params_.raysPerSurfel));
+    context.report("hits without surfel, % of rays", 100.0 * unlinkedHits / (double(count) * params_.raysPerSurfel));
 }
 
 void LinkSurfels::packSurfels(PassContext& context) const {
@@ -126,16 +119,15 @@ void LinkSurfels::packSurfels(PassContext& context) const {
                       {"voxels", voxels.voxelCount}});
 }
 
-void LinkSurfels::linkHits(PassContext& context, const Surfels::Chunk& chunk, uint32_t firstSurfel,
-                           SurfelLinks& links, const LargeBuffer& inverseDistances) const {
+void LinkSurfels::linkHits(PassContext& context, const Surfels::Chunk& chunk, SurfelLinks& links,
+                           const LargeBuffer& inverseDistances) const {
     const SurfaceVoxels& voxels = context[voxels_];
     const SurfelsByVoxel& byVoxel = context[byVoxel_];
     const bool testsOcclusion = context[surfels_].hasOccludedSurfels;
     if (!testsOcclusion) context.stream.fill(occluded_, 0);
     const uint32_t raysPerSurfel = params_.raysPerSurfel, surfelsPerBatch = kBatchRays / raysPerSurfel;
     for (uint32_t firstInChunk = 0; firstInChunk < chunk.count; firstInChunk += surfelsPerBatch) {
-        const uint32_t surfels = std::min(surfelsPerBatch, chunk.count - firstInChunk),
-                       rays = surfels * raysPerSurfel;
+        const uint32_t surfels = std::min(surfelsPerBatch, chunk.count - firstInChunk), rays = surfels * raysPerSurfel;
         context.dispatch(generateRays_, rays,
                          {{"surfels", chunk.surfels},
                           {"rays", rays_},
@@ -164,7 +156,7 @@ void LinkSurfels::linkHits(PassContext& context, const Surfels::Chunk& chunk, ui
                           {"lists", byVoxel.lists},
                           {"LinksRef", links.links.ref()},
                           {"unlinkedHits", unlinkedHits_},
-                          {"firstSurfel", firstSurfel + firstInChunk},
+                          {"firstSurfel", chunk.firstIndex + firstInChunk},
                           {"rayCount", rays},
                           {"raysPerSurfel", raysPerSurfel},
                           {"surfelCount", links.surfelCount}});
@@ -172,7 +164,7 @@ void LinkSurfels::linkHits(PassContext& context, const Surfels::Chunk& chunk, ui
                          {{"hits", hits_},
                           {"SortedIndicesRef", byVoxel.sortedIndices.ref()},
                           {"InverseDistancesRef", inverseDistances.ref()},
-                          {"firstSurfel", firstSurfel + firstInChunk},
+                          {"firstSurfel", chunk.firstIndex + firstInChunk},
                           {"surfelCount", surfels},
                           {"raysPerSurfel", raysPerSurfel},
                           {"voxelSize", voxels.grid.voxelSize}});

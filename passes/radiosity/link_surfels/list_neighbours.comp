@@ -20,37 +20,39 @@ layout(scalar) readonly buffer PairsRef { NeighbourPairs pairs; };
 #endif
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
-    uint slots;
+    uint count;
     float radius;  // m, at most a voxel.
 } push;
 
 void main() {
-    const uint slot = linearIndex();
-    if (slot >= push.slots) return;
+    const uint surfel = linearIndex();
+    if (surfel >= push.count) return;
     SortedSurfelWords words = sorted;  // Loop-invariant load, which compilers do not hoist.
-    const SortedSurfel center = sortedSurfel(words, slot);
+    const SortedSurfel center = sortedSurfel(words, surfel);
     const ivec3 voxel = voxelAt(push.grid, center.position);
     const float squaredRadius = push.radius * push.radius;
 #ifdef COUNT
     uint count = 0u;
 #else
-    uint next = begins.data[slot];
-    const float centerInverse = inverseDistanceOf(packed_.data[slot].y);
+    uint next = begins.data[surfel];
+    const float centerInverse = unpackInverseDistance(packed_.data[surfel].y);
 #endif
     for (int i = 0; i < 27; ++i) {
         const uint list = voxelNumber(push.grid, voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1);
         if (list == NO_VOXEL) continue;
-        const uvec2 slots = lists.data[list];
-        for (uint j = slots.x; j < slots.y; ++j) {
+        const uvec2 range = lists.data[list];
+        for (uint j = range.x; j < range.y; ++j) {
             const SortedSurfel neighbour = sortedSurfel(words, j);
             const vec3 offset = neighbour.position - center.position;
             const float distanceSquared = dot(offset, offset);
-            if (j == slot || distanceSquared >= squaredRadius || dot(neighbour.normal, center.normal) <= 0.0) continue;
+            if (j == surfel || distanceSquared >= squaredRadius) continue;
+            if (dot(neighbour.normal, center.normal) <= 0.0) continue;
             if (((neighbour.id ^ center.id) & VOXRAY_OCCLUDED) != 0u) continue;  // Light in a gap is independent.
 #ifdef COUNT
             ++count;
 #else
-            const float meanInverse = 0.5 * (centerInverse + inverseDistanceOf(packed_.data[j].y)) / push.grid.voxelSize;
+            const float inverse = unpackInverseDistance(packed_.data[j].y);
+            const float meanInverse = 0.5 * (centerInverse + inverse) / push.grid.voxelSize;
             const float bias = surfelBias(center.position, center.normal, neighbour.position, neighbour.normal) +
                                distanceBias(distanceSquared, meanInverse);
             pairs.data[next++] = packNeighbour(j, bias, 1.0 - distanceSquared / squaredRadius);
@@ -58,7 +60,7 @@ void main() {
         }
     }
 #ifdef COUNT
-    counts.data[slot] = count;
+    counts.data[surfel] = count;
     atomicMax(largest.value, count);
 #endif
 }

@@ -6,7 +6,7 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(scalar) readonly buffer SortedIndicesRef { LargeUints sortedIndices; };
-layout(scalar) readonly buffer InverseDistancesRef { LargeFloats inverseDistances; };  // By slot, 1/voxel.
+layout(scalar) readonly buffer InverseDistancesRef { LargeFloats inverseDistances; };  // By sorted surfel, 1/voxel.
 layout(push_constant) uniform Push {
     uint firstSurfel;  // Of the batch.
     uint surfelCount;  // Of the batch.
@@ -20,12 +20,12 @@ const float MIN_DISTANCE = 1.0 / 64.0;
 void main() {
     const uint i = linearIndex();
     if (i >= push.surfelCount) return;
-    const uint slot = sortedIndices.data[push.firstSurfel + i];
-    if (slot == 0xffffffffu) return;
+    const uint sortedIndex = sortedIndices.data[push.firstSurfel + i];
+    if (sortedIndex == 0xffffffffu) return;
     float sum = 0.0;
     for (uint ray = 0u; ray < push.raysPerSurfel; ++ray) {
         const Hit hit = hits.data[i * push.raysPerSurfel + ray];
         if (hit.triangle != NO_HIT) sum += push.voxelSize / max(hit.t, MIN_DISTANCE * push.voxelSize);
     }
-    inverseDistances.data[slot] = sum / float(push.raysPerSurfel);
+    inverseDistances.data[sortedIndex] = sum / float(push.raysPerSurfel);
 }

@@ -1,11 +1,11 @@
-// Packs with each surfel the mean inverse distance over its voxel's surfels of similar normals and equal occlusion. With a
-// surfel's own distance, lookups in a gap would prefer surfels that see far, which are the brighter ones.
+// Packs with each surfel the mean inverse distance over its voxel's surfels of similar normals and equal occlusion.
+// With a surfel's own distance, lookups in a gap would prefer surfels that see far, which are the brighter ones.
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/packed_surfel.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer InverseDistancesRef { LargeFloats inverseDistances; };  // By slot, 1/voxel.
+layout(scalar) readonly buffer InverseDistancesRef { LargeFloats inverseDistances; };  // By sorted surfel, 1/voxel.
 layout(scalar) readonly buffer PackedRef { PackedSurfels packed_; };
 readonly buffer Lists { uvec2 data[]; } lists;
 layout(push_constant) uniform Push {
@@ -15,18 +15,18 @@ layout(push_constant) uniform Push {
 void main() {
     const uint list = linearIndex();
     if (list >= push.voxels) return;
-    const uvec2 slots = lists.data[list];
-    for (uint i = slots.x; i < slots.y; ++i) {
+    const uvec2 range = lists.data[list];
+    for (uint i = range.x; i < range.y; ++i) {
         const uvec2 surfel = packed_.data[i];
-        const vec3 normal = normalOfSurfel(surfel.y);
+        const vec3 normal = unpackNormal(surfel.y);
         float sum = 0.0, weights = 0.0;
-        for (uint j = slots.x; j < slots.y; ++j) {
+        for (uint j = range.x; j < range.y; ++j) {
             const uvec2 neighbour = packed_.data[j];
-            const float weight = dot(normal, normalOfSurfel(neighbour.y));
+            const float weight = dot(normal, unpackNormal(neighbour.y));
             if (weight <= 0.0 || isOccludedSurfel(surfel.x) != isOccludedSurfel(neighbour.x)) continue;
             sum += weight * inverseDistances.data[j];
             weights += weight;
         }
-        packed_.data[i] = uvec2(surfel.x, withInverseDistance(surfel.y, sum / weights));
+        packed_.data[i] = uvec2(surfel.x, packInverseDistance(surfel.y, sum / weights));
     }
 }

@@ -1,4 +1,4 @@
-// Packs surfels by slot for lookups.
+// Packs surfels for lookups.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/packed_surfel.glsl"
 #include "passes/surfels/sorted_surfels.glsl"
@@ -27,11 +27,12 @@ ivec3 voxelOfList(uint list, vec3 position) {
 void main() {
     const uint list = linearIndex();
     if (list >= push.voxels) return;
-    const uvec2 slots = lists.data[list];
+    const uvec2 range = lists.data[list];
     SortedSurfelWords words = sorted;
-    for (uint i = slots.x; i < slots.y; ++i) {
+    for (uint i = range.x; i < range.y; ++i) {
         const SortedSurfel s = sortedSurfel(words, i);
         const vec3 inGrid = (s.position - push.grid.origin) / push.grid.voxelSize;
-        packed_.data[i] = packSurfel(inGrid - vec3(voxelOfList(list, s.position)), s.normal, (s.id & VOXRAY_OCCLUDED) != 0u);
+        const vec3 inVoxel = inGrid - vec3(voxelOfList(list, s.position));
+        packed_.data[i] = packSurfel(inVoxel, s.normal, (s.id & VOXRAY_OCCLUDED) != 0u);
     }
 }

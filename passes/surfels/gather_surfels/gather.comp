@@ -1,14 +1,14 @@
 // Radiance that each pixel's surfaces reflect of the irradiance that surfels around them hold.
 //
-// Each surfel of the eight voxels around a point counts by the tent weights of these voxels, times
+// Each surfel of the eight voxels around a point is weighted by the trilinear weight of its voxel, times
 //
 //     noise / (noise + bias²)
 //
-// as the taps of filter_irradiance do: it helps as long as the noise that it averages out outweighs the bias that it brings.
-// noise: relative variance of a surfel's irradiance. bias²: surfel_bias.glsl. Surfels in a gap narrower than a voxel (covered) and
-// those with open space before them see different light: a point takes the mean of its own kind alone. Where both kinds are near, a
-// ray tells which kind that is; resolve.comp then adds its light.
-#include "passes/surfels/gather_surfels/undecided.h"
+// as in filter_irradiance: a surfel counts as long as the noise that it averages out exceeds the bias that it adds.
+// noise: relative variance of a surfel's irradiance. bias²: surfel_bias.glsl. Occluded surfels, in gaps narrower than a
+// voxel, see other light than unoccluded ones, so a surface takes the mean of its own kind. Where both kinds are around
+// it, an occlusion ray decides, and resolve.comp then adds the radiance.
+#include "passes/surfels/gather_surfels/ambiguous_surface.h"
 #include "shaders/scene/sampling.glsl"
 #include "passes/surfels/occlusion_ray.glsl"
 #include "passes/surfels/packed_surfel.glsl"
@@ -23,11 +23,11 @@ uniform sampler2D geometricNormal;
 uniform sampler2D albedo;
 readonly buffer Lists { uvec2 data[]; } lists;
 layout(scalar) readonly buffer LitRef { LitSurfels lit; };
-#if PROBED
+#if TESTS_OCCLUSION
 buffer Count { uint value; } count;
-layout(scalar) writeonly buffer Surfaces { Undecided data[]; } surfaces;
-layout(scalar) writeonly buffer Probes { Ray data[]; } probes;  // Of each undecided surface.
-writeonly buffer First { uint data[]; } first;                  // The first undecided surface of each pixel.
+layout(scalar) writeonly buffer Surfaces { AmbiguousSurface data[]; } surfaces;
+layout(scalar) writeonly buffer OcclusionRays { Ray data[]; } occlusionRays;  // By ambiguous surface.
+writeonly buffer First { uint data[]; } first;                                // By pixel: its first ambiguous surface.
 #endif
 layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant, scalar) uniform Push {
@@ -37,116 +37,122 @@ layout(push_constant, scalar) uniform Push {
     float noise;  // Relative variance of a surfel's irradiance.
 } push;
 
-// SAMPLES, texels of the g-buffer along each side of a pixel, is defined by gather_surfels.cpp. A pixel has no more surfaces than texels.
-#define SURFACES (SAMPLES * SAMPLES)
+// Texels of a pixel, SAMPLES along either axis. A pixel has no more surfaces than texels.
+#define TEXELS (SAMPLES * SAMPLES)
 
-const float NEAR = 0.25;  // Voxels. Chosen; docs/surfels.md has what others bring.
+// Distance of texels that share a lookup, in voxels. Chosen; docs/surfels.md compares others.
+const float MERGE_DISTANCE = 0.25;
 
-// Texels of a pixel that lie close together and look the same way: one lookup serves them all.
+// Texels of a pixel with similar positions and normals, which share one lookup.
 struct PixelSurface {
     vec3 position;         // Mean, m.
     vec3 normal;           // Unit length; shading normal of the first texel.
     vec3 geometricNormal;  // Unit length, of the first texel.
-    vec3 albedo;           // Sum over its texels over the number of the pixel's.
+    vec3 albedo;           // Sum over the surface's texels.
 };
 
-// Of surfels of one kind.
-struct Mean {
-    vec3 sum;
+// Weighted sum of the irradiance of surfels of one kind.
+struct WeightedSum {
+    vec3 irradiance;
     float weights;
 };
 
-// Adds up the surfels around a surface, by kind.
-void lookUp(PixelSurface at, out Mean open, out Mean covered) {
-    const vec3 center = (at.position - push.grid.origin) / push.grid.voxelSize - 0.5, part = fract(center);
+// Sums up the surfels around a surface.
+void lookUp(PixelSurface surface, out WeightedSum unoccluded, out WeightedSum occluded) {
+    const vec3 center = (surface.position - push.grid.origin) / push.grid.voxelSize - 0.5, fraction = fract(center);
     const ivec3 first = ivec3(floor(center));
-    LitSurfels surfels = lit;  // The address is read once: no compiler takes it out of the loop.
-    open = covered = Mean(vec3(0.0), 0.0);
+    LitSurfels surfels = lit;  // Loop-invariant load, which compilers do not hoist.
+    unoccluded = occluded = WeightedSum(vec3(0.0), 0.0);
     for (int v = 0; v < 8; ++v) {
-        const ivec3 far = ivec3(v & 1, (v >> 1) & 1, v >> 2);
-        const vec3 along = mix(1.0 - part, part, vec3(far));
-        const uint number = voxelNumber(push.grid, first + far);
-        if (number == NO_VOXEL) continue;
-        const float tent = along.x * along.y * along.z;
-        const uvec2 slots = lists.data[number];
-        const vec3 inVoxel = part + 0.5 - vec3(far);
-        for (uint i = slots.x; i < slots.y; ++i) {
+        const ivec3 corner = ivec3(v & 1, (v >> 1) & 1, v >> 2);
+        const vec3 weights = mix(1.0 - fraction, fraction, vec3(corner));
+        const uint voxel = voxelNumber(push.grid, first + corner);
+        if (voxel == NO_VOXEL) continue;
+        const float trilinear = weights.x * weights.y * weights.z;
+        const uvec2 range = lists.data[voxel];
+        const vec3 inVoxel = fraction + 0.5 - vec3(corner);
+        for (uint i = range.x; i < range.y; ++i) {
             const uvec3 s = surfels.data[i];
-            const vec3 n = normalOfSurfel(s.y), place = placeInVoxel(s.x), away = place - inVoxel;
-            if (dot(n, at.geometricNormal) <= 0.0) continue;
-            const float bias = planeBias(inVoxel, at.geometricNormal, place, n) + normalBias(at.normal, n) +
-                               distanceBias(dot(away, away), inverseDistanceOf(s.y));
-            const float weight = tent * push.noise / (push.noise + bias);
+            const vec3 n = unpackNormal(s.y), surfelPosition = unpackPosition(s.x), offset = surfelPosition - inVoxel;
+            if (dot(n, surface.geometricNormal) <= 0.0) continue;
+            const float bias = planeBias(inVoxel, surface.geometricNormal, surfelPosition, n) +
+                               normalBias(surface.normal, n) +
+                               distanceBias(dot(offset, offset), unpackInverseDistance(s.y));
+            const float weight = trilinear * push.noise / (push.noise + bias);
             const vec3 weighted = weight * unpackRadiosity(s.z);
             if (isOccludedSurfel(s.x))
-                covered = Mean(covered.sum + weighted, covered.weights + weight);
+                occluded = WeightedSum(occluded.irradiance + weighted, occluded.weights + weight);
             else
-                open = Mean(open.sum + weighted, open.weights + weight);
+                unoccluded = WeightedSum(unoccluded.irradiance + weighted, unoccluded.weights + weight);
         }
     }
 }
+
+ivec2 texelOfPixel(ivec2 pixel, int t) { return pixel * SAMPLES + ivec2(t % SAMPLES, t / SAMPLES); }
 
 void main() {
     const ivec2 inBand = ivec2(gl_GlobalInvocationID.xy), pixel = inBand + ivec2(0, push.firstRow);
     if (any(greaterThanEqual(inBand, push.extent))) return;
 
-    // Constant bounds: loops over texels can be unrolled, and these arrays be registers.
-    vec3 positions[SURFACES], normals[SURFACES], albedos[SURFACES];
-    bool isLeft[SURFACES];
-    for (int t = 0; t < SURFACES; ++t) {
-        const ivec2 texel = pixel * SAMPLES + ivec2(t % SAMPLES, t / SAMPLES);
+    // Loops over texels have constant bounds, so that they can be unrolled and these arrays be registers
+    vec3 positions[TEXELS], normals[TEXELS], albedos[TEXELS];
+    bool isPending[TEXELS];
+    for (int t = 0; t < TEXELS; ++t) {
+        const ivec2 texel = texelOfPixel(pixel, t);
         const vec4 p = texelFetch(position, texel, 0);
         positions[t] = p.xyz;
         normals[t] = normalize(texelFetch(normal, texel, 0).xyz);
         albedos[t] = texelFetch(albedo, texel, 0).rgb;
-        isLeft[t] = p.w > 0.0 && albedos[t] != vec3(0.0);
+        isPending[t] = p.w > 0.0 && albedos[t] != vec3(0.0);
     }
 
-    // Each turn takes the first texel that is left, with those that lie so near that light can't be told apart: pixels side by side,
-    // whose texels belong together in other ways, look up at the same time.
+    // The first pending texel is merged with those close to it that have less bias than noise. All pixels look up their
+    // i-th surface at the same time, whichever texels it has.
     vec3 sum = vec3(0.0);
-    uint undecided = VOXRAY_NO_UNDECIDED;
-    for (int turn = 0; turn < SURFACES; ++turn) {
-        int own = SURFACES;
-        vec3 from = vec3(0.0), n = vec3(0.0);
-        for (int t = SURFACES - 1; t >= 0; --t)
-            if (isLeft[t]) own = t, from = positions[t], n = normals[t];
-        if (own == SURFACES) break;
-        const vec3 ng = normalize(texelFetch(geometricNormal, pixel * SAMPLES + ivec2(own % SAMPLES, own / SAMPLES), 0).xyz);
+    uint firstAmbiguous = VOXRAY_NO_SURFACE;
+    for (int i = 0; i < TEXELS; ++i) {
+        int firstTexel = TEXELS;
+        vec3 origin = vec3(0.0), n = vec3(0.0);
+        for (int t = TEXELS - 1; t >= 0; --t)
+            if (isPending[t]) firstTexel = t, origin = positions[t], n = normals[t];
+        if (firstTexel == TEXELS) break;
+        const vec3 ng = normalize(texelFetch(geometricNormal, texelOfPixel(pixel, firstTexel), 0).xyz);
         PixelSurface surface = PixelSurface(vec3(0.0), n, ng, vec3(0.0));
         float texels = 0.0;
-        for (int t = 0; t < SURFACES; ++t) {
-            const vec3 between = positions[t] - from;
-            if (!isLeft[t] || length(between) >= NEAR * push.grid.voxelSize) continue;
-            if (t != own && planeBias(vec3(0.0), ng, between, ng) + normalBias(n, normals[t]) >= push.noise) continue;
-            isLeft[t] = false;
+        for (int t = 0; t < TEXELS; ++t) {
+            const vec3 offset = positions[t] - origin;
+            if (!isPending[t] || length(offset) >= MERGE_DISTANCE * push.grid.voxelSize) continue;
+            const float bias = planeBias(vec3(0.0), ng, offset, ng) + normalBias(n, normals[t]);
+            if (t != firstTexel && bias >= push.noise) continue;
+            isPending[t] = false;
             surface.position += positions[t];
             surface.albedo += albedos[t];
             texels += 1.0;
         }
         surface.position /= texels;
-        const vec3 reflected = surface.albedo / (float(SURFACES) * PI);
+        const vec3 brdf = surface.albedo / (float(TEXELS) * PI);
 
-        Mean open, covered;
-        lookUp(surface, open, covered);
-#if PROBED
-        if (open.weights > 0.0 && covered.weights > 0.0) {
-            // The ray starts on the surface, where the mean of its texels need not lie.
-            const float offset = texelFetch(position, pixel * SAMPLES + ivec2(own % SAMPLES, own / SAMPLES), 0).w;
-            const uint at = atomicAdd(count.value, 1u);
-            surfaces.data[at] = Undecided(reflected * open.sum / open.weights, reflected * covered.sum / covered.weights, undecided);
-            probes.data[at] = occlusionRay(from + offset * ng, ng, push.grid.voxelSize);
-            undecided = at;
+        WeightedSum unoccluded, occluded;
+        lookUp(surface, unoccluded, occluded);
+#if TESTS_OCCLUSION
+        if (unoccluded.weights > 0.0 && occluded.weights > 0.0) {
+            // The ray begins at a texel, since the mean position need not lie on the surface
+            const float rayOffset = texelFetch(position, texelOfPixel(pixel, firstTexel), 0).w;
+            const uint ambiguous = atomicAdd(count.value, 1u);
+            surfaces.data[ambiguous] = AmbiguousSurface(brdf * unoccluded.irradiance / unoccluded.weights,
+                                                        brdf * occluded.irradiance / occluded.weights, firstAmbiguous);
+            occlusionRays.data[ambiguous] = occlusionRay(origin + rayOffset * ng, ng, push.grid.voxelSize);
+            firstAmbiguous = ambiguous;
             continue;
         }
 #endif
-        if (open.weights + covered.weights > 0.0)
-            sum += reflected * (open.sum + covered.sum) / (open.weights + covered.weights);
+        if (unoccluded.weights + occluded.weights > 0.0)
+            sum += brdf * (unoccluded.irradiance + occluded.irradiance) / (unoccluded.weights + occluded.weights);
         else
-            sum += reflected * voxelIrradiance(push.grid, surface.position, ng, 1.0, false);
+            sum += brdf * voxelIrradiance(push.grid, surface.position, ng, 1.0, false);
     }
     imageStore(result, pixel, vec4(sum, 1.0));
-#if PROBED
-    first.data[inBand.y * push.extent.x + inBand.x] = undecided;
+#if TESTS_OCCLUSION
+    first.data[inBand.y * push.extent.x + inBand.x] = firstAmbiguous;
 #endif
 }

@@ -1,5 +1,5 @@
-// Both sides of points that are spread evenly over the surfaces, each with a ray along its normal, as long as a voxel, which
-// tells whether open space lies before it.
+// Two surfels at each point, one on either side of the surface, and the rays that test whether they are occluded. Rays
+// of invalid surfels are inactive.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
@@ -36,7 +36,7 @@ void main() {
         s.parent = 0u;
         s.area = 1.0;
         candidates.data[2u * i + side] = s;
-        const bool isPlaced = voxel != NO_VOXEL && !isCut && dot(s.normal, s.normal) > 0.0;
-        rays.data[2u * i + side] = isPlaced ? occlusionRay(s.position, s.normal, push.grid.voxelSize) : kNoRay;
+        const bool isValid = voxel != NO_VOXEL && !isCut && dot(s.normal, s.normal) > 0.0;
+        rays.data[2u * i + side] = isValid ? occlusionRay(s.position, s.normal, push.grid.voxelSize) : kNoRay;
     }
 }

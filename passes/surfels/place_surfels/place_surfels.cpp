@@ -21,42 +21,39 @@ constexpr uint64_t kMaxPoints = 1u << 28;
 
 }  // namespace
 
-/// Which sides of surfaces have points.
+/// Sides of surfaces that have surfels.
 enum class SurfelSides { Open, All };
 
 template <>
 struct EnumNames<SurfelSides> {
-    static constexpr std::array names{std::pair{SurfelSides::Open, "open"},
-                                      std::pair{SurfelSides::All, "all"}};
+    static constexpr std::array names{std::pair{SurfelSides::Open, "open"}, std::pair{SurfelSides::All, "all"}};
 };
 
-/// Spreads points evenly over all surfaces and keeps those sides that have open space before them, as far as
-/// a voxel: a voxel's irradiance is that of its open sides. `sides: all` keeps covered sides, too, with area
-/// 0: they belong to no voxel's irradiance, but light that gets into a gap narrower than a voxel is theirs.
-/// Where voxelize probes no exposure, all sides count as open. Where surfaces move, those that stay keep
-/// their points, and what moves has as many for its area.
+/// Distributes points evenly over all surfaces, with a surfel on each side that is unoccluded: no other
+/// surface lies within a voxel before it. A voxel's irradiance is that of these sides. `sides: all` adds
+/// occluded sides with area 0, for light in gaps narrower than a voxel. Without voxelize's visibility rays
+/// all sides count as unoccluded. Where surfaces move, static ones keep their points, and moving ones get as
+/// many per area.
 class PlaceSurfels final : public Pass {
  public:
     static constexpr const char* kName = "place_surfels";
     static constexpr const char* kHelp =
-        "Spreads points (surfels) evenly over the surfaces. "
-        "There inject_voxel_rays and inject_radiosity measure the irradiance of voxels. "
-        "Depends on geometry alone. Noisy by: points_per_voxel. "
-        "Misses: voxels that hold little surface may get no point.";
+        "Distributes points (surfels) evenly over both sides of the surfaces. "
+        "There inject_voxel_rays and inject_radiosity measure the irradiance of voxels. Depends on geometry alone. "
+        "Noisy by: points_per_voxel. Misses: voxels that hold little surface may get no point.";
     struct Params {
         uint32_t pointsPerVoxel = 4;
         SurfelSides sides = SurfelSides::Open;
         static constexpr auto schema() {
-            return std::tuple{
-                field("points_per_voxel", &Params::pointsPerVoxel,
-                      "Points for each surface voxel, on average; "
-                      "where surfaces move, for each of those that what stays passes through.",
-                      1u, 256u)
-                    .lessNoise(),
-                field("sides", &Params::sides,
-                      "open: sides with open space before them, as far as a voxel. "
-                      "all: covered ones, too, which gather_surfels and links read: "
-                      "inside of gaps narrower than a voxel; voxels are lit by open ones alone.")};
+            return std::tuple{field("points_per_voxel", &Params::pointsPerVoxel,
+                                    "Mean number of points per surface voxel; "
+                                    "where surfaces move, per voxel that static surfaces pass through.",
+                                    1u, 256u)
+                                  .lessNoise(),
+                              field("sides", &Params::sides,
+                                    "open: the sides of surfaces without another surface within a voxel before them. "
+                                    "all: also the others, as in gaps narrower than a voxel, "
+                                    "which gather_surfels and link_surfels read; voxels are lit by open sides alone.")};
         }
     };
 
@@ -65,28 +62,35 @@ class PlaceSurfels final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// The same at all times, where anything stays.
+    /// Constant over time where some surfaces are static.
     PointDensity density(const Geometry& geometry, const SurfaceVoxels& voxels);
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
     Out<Surfels> surfels_{*this, "surfels", "points that measure irradiance"};
     Kernel place_{*this, "place.comp"};
-    Kernel keep_{*this, "compact_surfels.comp"};
-    std::optional<uint32_t> stillVoxels_;  ///< Those that what stays passes through, where surfaces move.
-    Buffer triangles_, rays_, occluded_, candidates_, kept_, count_;  ///< Scratch, of a batch of points.
+    Kernel compact_{*this, "compact_surfels.comp"};
+    std::optional<uint32_t> staticVoxels_;  ///< Voxels with static surfaces, where others move.
+    Buffer triangles_, rays_, occluded_, candidates_, compacted_, count_;  ///< Scratch, of a batch of points.
 };
 
 PointDensity PlaceSurfels::density(const Geometry& geometry, const SurfaceVoxels& voxels) {
-    const SurfaceAreas area = surfaceAreas(geometry);
+    const SurfaceAreas areas = surfaceAreas(geometry);
     const double perVoxel = params_.pointsPerVoxel;
-    if (movingInstanceRanges(geometry).empty()) return {perVoxel * voxels.voxelCount, area.still};
-    if (!stillVoxels_) stillVoxels_ = countStaticVoxels(geometry, voxels.grid);
-    // A plane of the area of one voxel's face passes through |nx| + |ny| + |nz| voxels, at most the root
-    // of 3.
-    const double known = area.still > 0 ? area.still : area.moving;
-    const double most = std::sqrt(3.0) * known / (double(voxels.grid.voxelSize) * voxels.grid.voxelSize);
-    return {perVoxel * (area.still > 0 ? std::min(double(*stillVoxels_), most) : most), known};
+    PointDensity density{perVoxel * voxels.voxelCount, areas.ofStatic};
+    if (!movingInstanceRanges(geometry).empty()) {
+        if (!staticVoxels_) staticVoxels_ = countStaticVoxels(geometry, voxels.grid);
+        // A plane with the area of a voxel's face passes through |nx| + |ny| + |nz| voxels, at most sqrt(3)
+        density.area = areas.ofStatic > 0 ? areas.ofStatic : areas.ofMoving;
+        const double maxVoxels =
+            std::sqrt(3.0) * density.area / (double(voxels.grid.voxelSize) * voxels.grid.voxelSize);
+        density.points = perVoxel * (areas.ofStatic > 0 ? std::min(double(*staticVoxels_), maxVoxels) : maxVoxels);
+    }
+    const double points = density.points / density.area * (areas.ofStatic + areas.ofMoving);
+    if (points > double(kMaxPoints))
+        throw Error("{}: {:.3g} points are more than {}; lower 'points_per_voxel' or voxelize's 'resolution'", kName,
+                    points, kMaxPoints);
+    return density;
 }
 
 void PlaceSurfels::plan(PassPlan& plan) {
@@ -99,7 +103,7 @@ void PlaceSurfels::plan(PassPlan& plan) {
     plan.scratchBuffer(rays_, "visibility rays", Surfels::kMaxChunkSurfels * sizeof(Ray));
     plan.scratchBuffer(occluded_, "visibility results", Surfels::kMaxChunkSurfels * sizeof(uint32_t));
     plan.scratchBuffer(candidates_, "surfel candidates", Surfels::kMaxChunkSurfels * sizeof(gpu::Surfel));
-    plan.scratchBuffer(kept_, "surfels kept", Surfels::kMaxChunkSurfels * sizeof(gpu::Surfel));
+    plan.scratchBuffer(compacted_, "surfels of a batch", Surfels::kMaxChunkSurfels * sizeof(gpu::Surfel));
     plan.scratchBuffer(count_, "number of surfels", sizeof(uint32_t));
 }
 
@@ -115,9 +119,7 @@ void PlaceSurfels::record(PassContext& context) {
     surfels.chunks.clear();
     surfels.count = 0;
     const Geometry& geometry = context.frame.scene->geometry;
-    PointDensity d = density(geometry, voxels);
-    d.points = std::min(d.points, double(kMaxPoints));
-    const std::vector<uint32_t> triangles = spreadPoints(geometry, d, kMaxPoints);
+    const std::vector<uint32_t> triangles = distributePoints(geometry, density(geometry, voxels));
     const uint64_t points = surfels.pointCount = triangles.size();
     for (uint64_t first = 0; first < points; first += kBatchPoints) {
         const uint32_t batch = uint32_t(std::min<uint64_t>(kBatchPoints, points - first));
@@ -136,18 +138,19 @@ void PlaceSurfels::record(PassContext& context) {
         else
             stream.fill(occluded_, 0);
         stream.fill(count_, 0);
-        context.dispatch(keep_, 2 * batch,
+        context.dispatch(compact_, 2 * batch,
                          {{"rays", rays_},
                           {"occluded", occluded_},
                           {"candidates", candidates_},
-                          {"surfels", kept_},
+                          {"surfels", compacted_},
                           {"count", count_},
                           {"candidateCount", 2 * batch},
-                          {"keepCovered", params_.sides == SurfelSides::All}});
+                          {"includeOccluded", params_.sides == SurfelSides::All}});
         const uint32_t count = stream.readAs<uint32_t>(count_, 1)[0];
         if (count == 0) continue;
-        surfels.chunks.push_back({Buffer(context.device, "surfels", count * sizeof(gpu::Surfel)), count});
-        stream.copy(kept_, surfels.chunks.back().surfels, count * sizeof(gpu::Surfel));
+        surfels.chunks.push_back(
+            {Buffer(context.device, "surfels", count * sizeof(gpu::Surfel)), count, uint32_t(surfels.count)});
+        stream.copy(compacted_, surfels.chunks.back().surfels, count * sizeof(gpu::Surfel));
         surfels.count += count;
     }
     stream.finish();

@@ -7,26 +7,26 @@
 namespace voxray {
 namespace {
 
-constexpr uint64_t kSurroundingsBytes = 4 * sizeof(float), kLitBytes = 3 * sizeof(uint32_t);
+constexpr uint64_t kNeighbourhoodBytes = 4 * sizeof(float), kLitBytes = 3 * sizeof(uint32_t);
 
 }  // namespace
 
-/// Lowers the noise of surfels' irradiance by their surroundings', as far as the light there is the same.
-/// Source: the weights of filter_irradiance (docs/filtering.md), between points in space; docs/surfels.md.
+/// Denoises the irradiance of surfels by means over neighbours in the same light. Source: the weights of
+/// filter_irradiance (docs/filtering.md), between points in space; docs/surfels.md.
 class SmoothSurfels final : public Pass {
  public:
     static constexpr const char* kName = "smooth_surfels";
     static constexpr const char* kHelp =
         "Denoises the surfels' irradiance by means over neighbours. "
-        "This lowers the noise of what gather_surfels reads. "
-        "A surfel takes the mean irradiance of the surfels within a voxel's size, "
-        "as far as they lie on the same surface in the same light. Once for a light, "
-        "so that frames cost the same. Biased by: iterations (blurs what is smaller than a voxel).";
+        "Each surfel takes the mean over the surfels within a voxel's size, "
+        "as far as they are on the same surface in the same light. "
+        "Runs once for a light, so that gather_surfels is less noisy at the same cost per frame. "
+        "Biased by: iterations (blurs what is smaller than a voxel).";
     struct Params {
         uint32_t iterations = 2;
         static constexpr auto schema() {
             return std::tuple{field("iterations", &Params::iterations,
-                                    "How often each surfel takes the mean of its surroundings.", 1u, 16u)};
+                                    "Number of times that each surfel takes the mean over its neighbours.", 1u, 16u)};
         }
     };
 
@@ -36,11 +36,11 @@ class SmoothSurfels final : public Pass {
 
  private:
     const Params params_;
-    In<SurfelsByVoxel> surfels_{*this, "surfels_by_voxel", "surfels, in the slots of their light"};
+    In<SurfelsByVoxel> surfels_{*this, "surfels_by_voxel", "the surfels of each voxel"};
     In<SurfelNeighbours> neighbours_{*this, "neighbours", "the surfels around each surfel"};
     In<SurfelIrradiance> light_{*this, "surfel_irradiance", "light that arrives at surfels"};
     Out<SurfelIrradiance> smooth_{*this, "surfel_irradiance", "the same with less noise"};
-    Kernel surroundings_{*this, "neighbourhood_moments.comp"};
+    Kernel moments_{*this, "neighbourhood_moments.comp"};
     Kernel mean_{*this, "mean.comp"};
 };
 
@@ -51,24 +51,24 @@ void SmoothSurfels::plan(PassPlan& plan) {
 void SmoothSurfels::record(PassContext& context) {
     const SurfelsByVoxel& surfels = context[surfels_];
     const uint32_t count = surfels.sortedCount;
-    const uint64_t slots = std::max(count, 1u);
+    const uint64_t allocated = std::max(count, 1u);
     LargeBuffer& result = context[smooth_].lit;
-    ensureSize(result, context.device, "smooth irradiance of surfels", slots * kLitBytes);
-    LargeBuffer other(context.device, "irradiance one step before", slots * kLitBytes);
-    const LargeBuffer surroundings(context.device, "surroundings of surfels", slots * kSurroundingsBytes);
+    ensureSize(result, context.device, "smooth irradiance of surfels", allocated * kLitBytes);
+    LargeBuffer intermediate(context.device, "intermediate irradiance of surfels", allocated * kLitBytes);
+    const LargeBuffer neighbourhoods(context.device, "moments of neighbourhoods", allocated * kNeighbourhoodBytes);
 
     const SurfelNeighbours& neighbours = context[neighbours_];
     const LargeBuffer* from = &context[light_].lit;
     for (uint32_t i = 0; i < params_.iterations; ++i) {
         // The last iteration writes the result.
-        LargeBuffer& to = (params_.iterations - i) % 2 == 1 ? result : other;
+        LargeBuffer& to = (params_.iterations - i) % 2 == 1 ? result : intermediate;
         const Bindings bindings{{"begins", neighbours.begins},
                                 {"PairsRef", neighbours.pairs.ref()},
                                 {"LitRef", from->ref()},
-                                {"SurroundingsRef", surroundings.ref()},
+                                {"NeighbourhoodsRef", neighbourhoods.ref()},
                                 {"count", count},
                                 {"noise", context[light_].relativeVariance}};
-        context.dispatch(surroundings_, count, bindings);
+        context.dispatch(moments_, count, bindings);
         context.dispatch(mean_, count, {bindings.all(), {"ResultRef", to.ref()}});
         from = &to;
     }

@@ -4,42 +4,30 @@
 #include "passes/common/view/surface_motion.h"
 
 namespace voxray {
-namespace {
 
-ImageDesc descOf(glm::uvec2 extent, VkFormat format) {
-    ImageDesc desc;
-    desc.format = format;
-    desc.extent = {extent, 1};
-    return desc;
-}
-
-}  // namespace
-
-/// Adds up a gather's irradiance over frames. Source: the temporal part of Schied et al. 2017 (SVGF), with
-/// the clamp of Salvi 2016. Docs: docs/accumulation.md.
+/// Accumulates a gather's irradiance over frames. Source: the temporal accumulation of Schied et al. 2017
+/// (SVGF), with the clamp of Salvi 2016. Docs: docs/accumulation.md.
 class Accumulate final : public Pass {
  public:
     static constexpr const char* kName = "accumulate";
     static constexpr const char* kHelp =
         "Averages a gather's irradiance over frames by temporal reprojection. "
-        "What a surface had in the frame before is looked up where it was seen then. "
-        "Lowers noise; the result serves as 'noisy_irradiance' of filter_irradiance, or as an image. "
+        "The history of a surface point is looked up at its image position in the previous frame. "
+        "The result has less noise and is 'noisy_irradiance' of filter_irradiance, or an image. "
         "Biased where light changes, by lag, which 'clamp' bounds, and, while the camera moves, "
-        "by the blur of lookups between texels. Source: Schied et al. "
-        "2017; Salvi 2016; docs/accumulation.md.";
+        "by the blur of lookups between texels. Source: Schied et al. 2017; Salvi 2016; docs/accumulation.md.";
     struct Params {
         uint32_t history = 16;
         float clamp = 0.0f;
         static constexpr auto schema() {
             return std::tuple{
                 field("history", &Params::history,
-                      "Frames in the mean, this one included. "
-                      "Once so many have come, each new one counts as one in so many. 1: this frame alone.",
+                      "Maximum frames in the mean, this one included; beyond them the mean is exponential. "
+                      "1: this frame only.",
                       1u, 64u),
                 field("clamp", &Params::clamp,
-                      "How far history may be off the mean of this frame's surroundings, "
-                      "in standard deviations of what these surroundings hold. 0: as far as it is. "
-                      "Smaller: less lag, more noise.",
+                      "Maximum difference of history from the mean of this frame's neighborhood, "
+                      "in standard deviations of the neighborhood: smaller for less lag and more noise. 0: unlimited.",
                       0.0f, 100.0f)};
         }
     };
@@ -52,17 +40,17 @@ class Accumulate final : public Pass {
  private:
     const Params params_;
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
-    In<SurfaceMotion> motion_{*this, "motion", "where it was in the frame before"};
+    In<SurfaceMotion> motion_{*this, "motion", "motion since the previous frame"};
     In<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "irradiance of this frame"};
-    Out<NoisyIrradiance> accumulated_{*this, "noisy_irradiance", "irradiance of these frames"};
-    Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of it"};
-    Kernel findCells_{*this, "cells.comp"};
+    Out<NoisyIrradiance> accumulated_{*this, "noisy_irradiance", "mean irradiance over frames"};
+    Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of this irradiance"};
+    Kernel averageCells_{*this, "average_cells.comp"};
     Kernel accumulate_{*this, "accumulate.comp", params_.clamp > 0 ? Defines{{"CLAMP", "1"}} : Defines{}};
     Kernel storeHistory_{*this, "store_history.comp"};
     IrradianceResolve resolve_{*this};
-    Image cellLight_, cellSurface_;  ///< cells.comp; where history is clamped.
-    Image frames_;  ///< R32F: in how many frames the texel's surface was seen, this one included.
-    // Of the frame before
+    Image cellLight_, cellSurface_;  ///< average_cells.comp; where history is clamped.
+    Image frames_;                   ///< R32F: length of the texel's history, this frame included.
+    // Stored for the next frame
     bool hasHistory_ = false;
     Image historyLight_;     ///< RGBA32F: irradiance, W/m², and number of rays.
     Image historyPosition_;  ///< RGBA32F: m; instance as in SurfaceMotion::previous.
@@ -73,7 +61,7 @@ void Accumulate::plan(PassPlan& plan) {
     const NoisyIrradiance& noisy = plan[noisy_];
     const uint32_t samples = plan[gbuffer_].samples;
     const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
-    constexpr VkFormat kWide = VK_FORMAT_R32G32B32A32_SFLOAT;
+    const ImageDesc values{VK_FORMAT_R32G32B32A32_SFLOAT, {texels, 1}};
 
     NoisyIrradiance& result = plan[accumulated_];
     result.lightBounces = noisy.lightBounces;
@@ -85,15 +73,15 @@ void Accumulate::plan(PassPlan& plan) {
     indirect.lightBounces = noisy.lightBounces;
     if (indirect.isRead) plan.frameImage(indirect_);
 
-    plan.image(frames_, "length of history", descOf(texels, VK_FORMAT_R32_SFLOAT));
-    plan.image(historyLight_, "history of irradiance", descOf(texels, kWide));
-    plan.image(historyPosition_, "history of positions", descOf(texels, kWide));
-    plan.image(historyNormal_, "history of normals", descOf(texels, VK_FORMAT_R16G16B16A16_SFLOAT));
-    findCells_.compileIf(params_.clamp > 0);
+    plan.image(frames_, "length of history", {VK_FORMAT_R32_SFLOAT, values.extent});
+    plan.image(historyLight_, "history of irradiance", values);
+    plan.image(historyPosition_, "history of positions", values);
+    plan.image(historyNormal_, "history of normals", {VK_FORMAT_R16G16B16A16_SFLOAT, values.extent});
+    averageCells_.compileIf(params_.clamp > 0);
     if (params_.clamp == 0) return;
-    const glm::uvec2 cells = (texels + noisy.spacing - 1u) / noisy.spacing;
-    plan.image(cellLight_, "light of cells", descOf(cells, kWide));
-    plan.image(cellSurface_, "surfaces of cells", descOf(cells, kWide));
+    const ImageDesc cells{values.format, {(texels + noisy.spacing - 1u) / noisy.spacing, 1}};
+    plan.image(cellLight_, "light of cells", cells);
+    plan.image(cellSurface_, "surfaces of cells", cells);
 }
 
 void Accumulate::record(PassContext& context) {
@@ -103,9 +91,9 @@ void Accumulate::record(PassContext& context) {
     const NoisyIrradiance& result = context[accumulated_];
     const glm::uvec3 texels = result.irradiance.desc().extent;
 
-    // What this frame's surroundings hold
+    // Average the cells of this frame's neighborhoods
     if (params_.clamp > 0)
-        context.dispatch(findCells_, cellLight_.desc().extent,
+        context.dispatch(averageCells_, cellLight_.desc().extent,
                          {gbuffer,
                           {"irradiance", noisy.irradiance},
                           {"previous", motion.previous},
@@ -113,7 +101,7 @@ void Accumulate::record(PassContext& context) {
                           {"cellSurface", cellSurface_},
                           {"spacing", noisy.spacing}});
 
-    // This frame and those before it
+    // Add this frame to the history
     context.dispatch(accumulate_, texels,
                      {gbuffer,
                       {"irradiance", noisy.irradiance},
@@ -131,7 +119,7 @@ void Accumulate::record(PassContext& context) {
                       {"hasHistory", hasHistory_},
                       {"spacing", noisy.spacing}});
 
-    // For the next frame
+    // Store it for the next frame
     context.dispatch(storeHistory_, texels,
                      {gbuffer,
                       {"result", result.irradiance},
@@ -142,7 +130,7 @@ void Accumulate::record(PassContext& context) {
                       {"historyNormal", historyNormal_}});
     hasHistory_ = true;
 
-    // The variance of a ray is this frame's: it does not depend on how many there are
+    // Copy this frame's moments, as the variance of a single ray does not depend on the number of rays
     if (noisy.blockSize > 0) context.stream.copy(noisy.moments, result.moments, result.moments.bytes());
     if (const FrameImage& indirect = context[indirect_]; indirect.isRead)
         resolve_.record(context, gbuffer, result.irradiance, indirect.image);

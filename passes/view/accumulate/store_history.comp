@@ -1,4 +1,4 @@
-// What the next frame needs to know of this one.
+// Stores this frame for the next one.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D result;

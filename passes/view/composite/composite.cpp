@@ -7,15 +7,12 @@ class Composite final : public Pass {
  public:
     static constexpr const char* kName = "composite";
     static constexpr const char* kHelp =
-        "Adds up emitted light (or the environment), direct and indirect light. "
-        "What no pass writes is black.";
+        "Adds emitted light (or the environment), direct, indirect and ambient light. Missing inputs are black. "
+        "Source of ambient light: Magalhães 2020, section 4.4, where it is 0.2.";
     struct Params {
         float ambient = 0.0f;
         static constexpr auto schema() {
-            return std::tuple{field("ambient", &Params::ambient,
-                                    "Radiance, W/(m² sr), that a white surface sends out besides, "
-                                    "others by their albedo. Magalhães 2020, section 4.4: 0.2.",
-                                    0.0f, 1e9f)};
+            return std::tuple{field("ambient", &Params::ambient, "Ambient radiance, W/(m² sr).", 0.0f, 1e9f)};
         }
     };
     explicit Composite(const Params& params) : params_(params) {}

@@ -5,17 +5,17 @@
 
 namespace voxray {
 
-/// Direct light per pixel by shadow maps (Williams 1978): each texel of the g-buffer is tested against what
-/// the lights' views see, with percentage-closer filtering over 2x2 texels (Reeves et al. 1987).
+/// Direct light by shadow maps (Williams 1978): each texel of the G-buffer is tested against the depth in the
+/// lights' views, with percentage-closer filtering over 2x2 texels (Reeves et al. 1987).
 class DirectShadowMaps final : public Pass {
  public:
     static constexpr const char* kName = "direct_shadow_maps";
     static constexpr const char* kHelp =
         "Computes direct light at each pixel by shadow maps. "
         "The lights are point, spot and directional lights, and the maps are those of render_rsm. "
-        "Biased by: rsm_resolution, at edges of shadows by about a texel, contacts within half a texel. "
-        "No noise. Mirrors reflect no light. Compare with direct_shadow_rays. "
-        "Source: Williams 1978; filtering: Reeves et al. 1987; as Sun and Agu 2015, section 3.2.";
+        "Biased by: rsm_resolution, at edges of shadows by about a texel, at contacts within half a texel. No noise. "
+        "Mirrors reflect no light. Compare with direct_shadow_rays. Source: Williams 1978; filtering: Reeves et al. "
+        "1987; as Sun and Agu 2015, section 3.2.";
 
     void plan(PassPlan& plan) override {
         requireClearPanes(*plan.frame.scene, kName);

@@ -1,5 +1,5 @@
-// What each pixel reflects of the lights that its texels are seen by, by the fraction of the four nearest texels of the light's map,
-// weighted bilinearly, that see it.
+// Radiance that each pixel reflects of punctual lights, shadowed by percentage-closer filtering: the bilinearly
+// weighted fraction of the four nearest texels of a light's map that see the point.
 #include "shaders/lights/lights.glsl"
 #include "shaders/lights/rsm.glsl"
 #include "shaders/scene/sampling.glsl"
@@ -16,28 +16,29 @@ uniform sampler2D specular;
 uniform sampler2D fresnel;
 layout(rgba32f) uniform writeonly image2D direct;
 layout(push_constant, scalar) uniform Push {
-    uint samples;  // Texels along each side of a pixel.
+    uint samples;            // Texels along an edge of a pixel.
     uint resolution, views;  // Of the maps.
     vec3 camera;
 } push;
 
-// Depth of what a texel of a map sees along the view's axis, relative to its farthest.
+// Depth of the surface in a texel of a map, along the view's axis, relative to the view's farthest depth.
 float depthAt(uint number, LightView view, ivec2 texel) {
-    const RsmTexel seen = rsmTexel(number, push.resolution, texel);
-    if (seen.triangle == NO_HIT) return 1.0;
-    const uvec3 v = triangleVertices(seen.triangle);
-    const vec2 w = seen.barycentrics;
-    const vec3 at = (1.0 - w.x - w.y) * vertexPosition(v.x) + w.x * vertexPosition(v.y) + w.y * vertexPosition(v.z);
-    return dot(at - view.origin, view.forward) / view.farthest;
+    const RsmTexel surface = rsmTexel(number, push.resolution, texel);
+    if (surface.triangle == NO_HIT) return 1.0;
+    const uvec3 v = triangleVertices(surface.triangle);
+    const vec2 w = surface.barycentrics;
+    const vec3 point = (1.0 - w.x - w.y) * vertexPosition(v.x) + w.x * vertexPosition(v.y) + w.y * vertexPosition(v.z);
+    return dot(point - view.origin, view.forward) / view.farthest;
 }
 
-float visibleFraction(uint number, LightView view, vec3 at, vec3 side) {
+float visibleFraction(uint number, LightView view, vec3 point, vec3 faceNormal) {
     vec4 weights;
-    const ivec2 first = nearestTexels(view, push.resolution, at, weights);
+    const ivec2 first = bilinearTexels(view, push.resolution, point, weights);
     float visible = 0.0;
     for (int k = 0; k < 4; ++k) {
         const ivec2 texel = first + ivec2(k & 1, k >> 1);
-        if (texelPassesShadowTest(view, push.resolution, texel, depthAt(number, view, texel), at, side)) visible += weights[k];
+        const float depth = depthAt(number, view, texel);
+        if (texelPassesShadowTest(view, push.resolution, texel, depth, point, faceNormal)) visible += weights[k];
     }
     return visible;
 }
@@ -49,16 +50,16 @@ vec3 reflected(ivec2 texel) {
     const Specular surface = specularOf(texelFetch(specular, texel, 0), texelFetch(fresnel, texel, 0));
     vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
     if (hasSpecular(surface)) n = specularNormal(n, out_);
-    const vec3 side = normalize(texelFetch(geometricNormal, texel, 0).xyz);
+    const vec3 faceNormal = normalize(texelFetch(geometricNormal, texel, 0).xyz);
     vec3 sum = vec3(0.0);
     for (uint number = 0u; number < push.views; ++number) {
         const RsmView v = rsmViews.data[number];
         if (v.cubeFace < 6u && cubeFace(p.xyz - v.view.origin) != v.cubeFace) continue;
         const LightSample s = samplePunctual(sceneLights.data[v.light], p.xyz);
         const float cosine = dot(n, s.direction);
-        if (cosine <= 0.0 || dot(side, s.direction) <= 0.0 || s.irradiance == vec3(0.0)) continue;
+        if (cosine <= 0.0 || dot(faceNormal, s.direction) <= 0.0 || s.irradiance == vec3(0.0)) continue;
         sum += reflectance(diffuse, surface, n, out_, s.direction) * s.irradiance * cosine *
-               visibleFraction(number, v.view, p.xyz, side);
+               visibleFraction(number, v.view, p.xyz, faceNormal);
     }
     return sum;
 }

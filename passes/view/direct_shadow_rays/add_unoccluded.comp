@@ -1,8 +1,8 @@
-// Adds what the shadow rays of a batch of pixels carry where nothing was in their way, averaged over each pixel.
+// Adds the radiance of unoccluded shadow rays, averaged over each pixel of a batch.
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer Carried { vec4 data[]; } carried;
+layout(scalar) readonly buffer RayRadiance { vec4 data[]; } rayRadiance;
 layout(scalar) readonly buffer Occluded { uint data[]; } occluded;
 layout(rgba32f) uniform image2D direct;
 layout(push_constant, scalar) uniform Push {
@@ -18,7 +18,7 @@ void main() {
     vec3 sum = vec3(0.0);
     for (uint k = 0u; k < push.raysPerPixel; ++k) {
         const uint ray = i * push.raysPerPixel + k;
-        if (occluded.data[ray] == 0u) sum += carried.data[ray].rgb;
+        if (occluded.data[ray] == 0u) sum += rayRadiance.data[ray].rgb;
     }
     const uint index = push.firstPixel + i;
     const ivec2 pixel = ivec2(index % push.width, index / push.width);

@@ -4,6 +4,7 @@
 
 #include "graph/registry.h"
 #include "passes/common/compute/random_seed.h"
+#include "passes/common/lights/light_sources.h"
 #include "passes/common/lights/pane_transmittance.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/voxel_march/voxel_tracer.h"
@@ -11,27 +12,24 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays and what they carry to 52 MiB.
-enum TargetKind : uint32_t { kPunctual = 0, kEmitters = 1, kEnvironment = 2 };  // SOURCE_* of lights.glsl.
+constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays and their radiance to 52 MiB.
 
-/// Pixels whose rays are traced together.
+/// Pixels of a batch.
 uint32_t batchPixels(const Frame& frame, const GBuffer& gbuffer) {
     return std::min(frame.width * frame.height, kBatchRays / (gbuffer.samples * gbuffer.samples));
 }
 
 }  // namespace
 
-/// What shadow rays meet: the scene's triangles, or its surface voxels.
+/// Geometry for shadow rays: the scene's triangles, or its surface voxels.
 enum class Visibility { Exact, Voxels };
 template <>
 struct EnumNames<Visibility> {
-    static constexpr std::array names{std::pair{Visibility::Exact, "exact"},
-                                      std::pair{Visibility::Voxels, "voxels"}};
+    static constexpr std::array names{std::pair{Visibility::Exact, "exact"}, std::pair{Visibility::Voxels, "voxels"}};
 };
 
-/// Direct light per pixel by shadow rays through the stream interface: one ray for each texel of the g-buffer
-/// to each point, spot and directional light, `light_samples` rays to the emissive surfaces and to the
-/// environment.
+/// Direct light by shadow rays through the stream interface: from each texel of the G-buffer one ray to each
+/// point, spot and directional light, and `light_samples` rays to emissive surfaces and to the environment.
 class DirectShadowRays final : public Pass {
  public:
     static constexpr const char* kName = "direct_shadow_rays";
@@ -39,24 +37,22 @@ class DirectShadowRays final : public Pass {
         "Computes direct light by shadow rays from every pixel to every light. Exact for point, "
         "spot and directional lights; noisy by `light_samples` for emissive surfaces (picked by power, "
         "uniform over area) and for the environment (by cosine). "
-        "Mirrors reflect no lamp and no environment: gather_mirror brings what they show of these. "
-        "With `visibility: voxels` biased by voxel size. "
-        "Compare with gather_irradiance with `light: direct`.";
+        "Mirrors reflect no lamp and no environment: gather_mirror adds their reflections. "
+        "With `visibility: voxels` biased by voxel size. Compare with gather_irradiance with `light: direct`.";
     struct Params {
         uint32_t lightSamples = 4;
         Visibility visibility = Visibility::Exact;
         static constexpr auto schema() {
             return std::tuple{
                 field("light_samples", &Params::lightSamples,
-                      "Shadow rays for each g-buffer texel to all emissive surfaces together, "
+                      "Shadow rays from each G-buffer texel to all emissive surfaces together, "
                       "and as many to the environment.",
                       1u, 4096u)
                     .lessNoise(),
                 field("visibility", &Params::visibility,
-                      "What shadow rays meet. exact: the scene's triangles. "
-                      "voxels: those of the port `voxels`, those of their own surface left out; "
-                      "shadows are wider by about a voxel, contacts and corners too dark "
-                      "or too bright within three (Magalhães 2020, section 3.3.3.2).")};
+                      "Geometry for shadow rays. exact: the scene's triangles. voxels: "
+                      "surface voxels, without those around the ray's origin; shadows are wider by about a voxel, "
+                      "contacts and corners too dark or too bright within three (Magalhães 2020, section 3.3.3.2).")};
         }
     };
 
@@ -69,20 +65,20 @@ class DirectShadowRays final : public Pass {
 
     const Params params_;
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
-    In<SurfaceVoxels> voxels_{*this, "voxels", "what shadow rays meet", tracesVoxels()};
+    In<SurfaceVoxels> voxels_{*this, "voxels", "geometry for shadow rays", tracesVoxels()};
     Out<FrameImage> direct_{*this, "direct", "radiance reflected of direct light"};
     Kernel generateRays_{*this, "generate_shadow_rays.comp"};
     Kernel add_{*this, "add_unoccluded.comp"};
-    Buffer rays_, carried_, occluded_;
+    Buffer rays_, radiance_, occluded_;
     PaneTransmittance paneTransmittance_{*this};
-    std::optional<VoxelTracer> voxelTracer_;  ///< With Visibility::Voxels. All walks tell the same.
+    std::optional<VoxelTracer> voxelTracer_;  ///< With Visibility::Voxels.
 };
 
 void DirectShadowRays::plan(PassPlan& plan) {
     const GBuffer& gbuffer = plan[gbuffer_];
     const uint64_t rays = batchPixels(plan.frame, gbuffer) * gbuffer.samples * gbuffer.samples;
     plan.buffer(rays_, "shadow rays", rays * sizeof(Ray));
-    plan.buffer(carried_, "shadow ray radiance", rays * 4 * sizeof(float));
+    plan.buffer(radiance_, "shadow ray radiance", rays * 4 * sizeof(float));
     plan.buffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
     paneTransmittance_.plan(plan, rays);
     plan.lightRays = uint64_t(plan.frame.width) * plan.frame.height * gbuffer.samples * gbuffer.samples *
@@ -111,16 +107,16 @@ void DirectShadowRays::record(PassContext& context) {
     }
     const uint64_t raysBefore = tracer->raysTraced();
 
-    // A stream of shadow rays for each light, `light` being its index, or for each sample of the emissive
-    // surfaces and the environment, by its number.
-    const auto shadowRays = [&](TargetKind kind, uint32_t light) {
+    // A stream of shadow rays for each punctual light, `light` being its index, and for each sample of the
+    // emissive surfaces and of the environment, `light` being the sample's index
+    const auto shadowRays = [&](LightSource::Kind kind, uint32_t light) {
         for (uint32_t first = 0; first < pixels; first += batch) {
             const uint32_t count = std::min(batch, pixels - first), rays = count * perPixel;
             context.dispatch(generateRays_, rays,
                              {context.scene,
                               gbuffer,
                               {"rays", rays_},
-                              {"carried", carried_},
+                              {"rayRadiance", radiance_},
                               {"kind", kind},
                               {"light", light},
                               {"lightSamples", params_.lightSamples},
@@ -132,10 +128,10 @@ void DirectShadowRays::record(PassContext& context) {
                               {"camera", frame.camera.position},
                               {"grid", grid}});
             tracer->occluded(stream, rays_, occluded_, rays,
-                             kind == kPunctual ? Coherence::Coherent : Coherence::Incoherent);
-            paneTransmittance_.apply(context, rays_, carried_, 4, rays);
+                             kind == LightSource::Punctual ? Coherence::Coherent : Coherence::Incoherent);
+            paneTransmittance_.apply(context, rays_, radiance_, 4, rays);
             context.dispatch(add_, count,
-                             {{"carried", carried_},
+                             {{"rayRadiance", radiance_},
                               {"occluded", occluded_},
                               {"direct", direct},
                               {"width", frame.width},
@@ -144,10 +140,10 @@ void DirectShadowRays::record(PassContext& context) {
                               {"raysPerPixel", perPixel}});
         }
     };
-    for (uint32_t light = 0; light < context.scene.lightCount; ++light) shadowRays(kPunctual, light);
+    for (uint32_t light = 0; light < context.scene.lightCount; ++light) shadowRays(LightSource::Punctual, light);
     for (uint32_t s = 0; s < params_.lightSamples; ++s) {
-        if (context.scene.emitterCount > 0) shadowRays(kEmitters, s);
-        if (context.scene.hasEnvironment) shadowRays(kEnvironment, s);
+        if (context.scene.emitterCount > 0) shadowRays(LightSource::Emitters, s);
+        if (context.scene.hasEnvironment) shadowRays(LightSource::Environment, s);
     }
     if (voxelTracer_) {
         context.extraRays += tracer->raysTraced() - raysBefore;

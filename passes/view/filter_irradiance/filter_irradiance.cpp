@@ -9,48 +9,36 @@
 namespace voxray {
 namespace {
 
-// Of the means that are compared: light from some hundreds of pixels, of rays where each has one.
-constexpr uint32_t kMeanLevels = 3;
-
-/// Of an image of elements (elements.glsl).
-ImageDesc elementsDesc(const Frame& frame, uint32_t samples, VkFormat format) {
-    ImageDesc desc;
-    desc.format = format;
-    desc.extent = {frame.width, frame.height * (samples > 1 ? 2 : 1), 1};
-    return desc;
-}
+constexpr uint32_t kMeanLevels = 3;  // Neighborhoods whose means are compared have hundreds of pixels.
 
 }  // namespace
 
-/// Lowers the noise of any gather's irradiance. Source: the edge-avoiding à-trous wavelet of Dammertz et al.
-/// 2010, with a weight that balances noise against what texels differ by: the gradient bound of Ward et al.
-/// 1988, geometry, and the means of their surroundings (wavelet.comp).
-/// Docs: docs/filtering.md.
+/// Denoises a gather's irradiance. Source: the edge-avoiding à-trous wavelet of Dammertz et al. 2010, with a
+/// weight that balances noise against bias: the gradient bound of Ward et al. 1988, geometry, and means of
+/// neighborhoods (wavelet.comp). Docs: docs/filtering.md.
 class FilterIrradiance final : public Pass {
  public:
     static constexpr const char* kName = "filter_irradiance";
     static constexpr const char* kHelp =
         "Denoises a gather's irradiance along surfaces and multiplies by albedo. "
         "The noisy irradiance is that of a gather (gather_rays, path_trace). "
-        "An edge-avoiding wavelet whose width follows from the number of rays and, "
-        "where the gather tells them, from their variance, the distances of their hits, "
-        "and how much the light around texels differs. "
+        "An edge-avoiding wavelet whose width follows from the number of rays and, where the gather writes moments, "
+        "from their variance, the distances of their hits, and the differences of light between neighborhoods. "
         "Biased by: edge_stopping_scale and levels, less the more rays. Lambert surfaces only. "
         "Source: Dammertz et al. 2010; Ward et al. 1988; docs/filtering.md.";
     struct Params {
         uint32_t levels = 4;
         float edgeStoppingScale = 0.1f;
         static constexpr auto schema() {
-            return std::tuple{
-                field("levels", &Params::levels,
-                      "Levels of the wavelet, each of twice the reach of the one before: "
-                      "n levels reach 2^n - 1 pixels.",
-                      1u, 6u),
-                field("edge_stopping_scale", &Params::edgeStoppingScale,
-                      "Factor of the bound on how much irradiance differs between two texels. "
-                      "1: the whole bound, sharp and noisy. Smaller: smoother, and shadows blur. "
-                      "Most changes cancel, so a tenth is a good start.",
-                      0.01f, 100.0f)};
+            return std::tuple{field("levels", &Params::levels,
+                                    "Levels of the wavelet, each with twice the radius of the previous one: "
+                                    "n levels have a radius of 2^n - 1 pixels.",
+                                    1u, 6u),
+                              field("edge_stopping_scale", &Params::edgeStoppingScale,
+                                    "Factor of the bound of the difference of irradiance between two texels. "
+                                    "1: the whole bound, sharp and noisy; less: smoother, and shadows blur. "
+                                    "A tenth is a good start, as most changes cancel.",
+                                    0.01f, 100.0f)};
         }
     };
 
@@ -59,8 +47,10 @@ class FilterIrradiance final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    /// Computes the statistics of light around each element.
     void findLight(PassContext& context) const;
-    const Image& means(PassContext& context) const;
+    /// @return the mean irradiance of each element's neighborhood.
+    const Image& computeMeans(PassContext& context) const;
     uint64_t elements() const;
 
     const Params params_;
@@ -73,14 +63,14 @@ class FilterIrradiance final : public Pass {
     Kernel findLight_{*this, "light.comp"};
     Kernel wavelet_{*this, "wavelet.comp"};
     Kernel resolve_{*this, "resolve.comp"};
-    Buffer second_;           ///< How many pixels show a second surface, then their numbers.
-    Buffer blockStatistics_;  ///< gpu::RayStatistics a block, where the gather tells moments.
+    Buffer second_;           ///< Number of pixels with a second surface, then their indices.
+    Buffer blockStatistics_;  ///< gpu::RayStatistics per block, where the gather writes moments.
     // Images of elements (elements.glsl).
     Image surfaces_;     ///< surface.glsl
-    Image reflectance_;  ///< Albedo times the part of the pixel that has it.
-    Image means_[2];     ///< Of surroundings (mean.comp), where the gather tells moments.
+    Image reflectance_;  ///< Albedo times the surface's fraction of the pixel.
+    Image means_[2];     ///< Means of neighborhoods (mean.comp), where the gather writes moments.
     Image light_;        ///< surface_light.glsl
-    Image filtered_[2];  ///< Irradiance, W/m², and number of rays; levels write them in turn.
+    Image filtered_[2];  ///< Irradiance, W/m², and number of rays; read and written in turn by levels.
 };
 
 void FilterIrradiance::plan(PassPlan& plan) {
@@ -90,25 +80,22 @@ void FilterIrradiance::plan(PassPlan& plan) {
     while ((samples << minLevels) < 2 * noisy.spacing) ++minLevels;
     if (noisy.spacing > samples && params_.levels < minLevels)
         throw Error(
-            "filter_irradiance: the gather has rays for one texel in each {0}x{0}, "
-            "which {1} levels leave with gaps; raise 'levels' to {2} or the gather's rays",
+            "filter_irradiance: the gather has rays for one texel in each {0}x{0}, which {1} levels leave with gaps; "
+            "raise 'levels' to {2} or the gather's rays",
             noisy.spacing, params_.levels, minLevels);
     plan[indirect_].lightBounces = noisy.lightBounces;
     plan.frameImage(indirect_);
-    const ImageDesc values = elementsDesc(plan.frame, samples, VK_FORMAT_R32G32B32A32_SFLOAT);
-    plan.image(surfaces_, "surfaces of pixels",
-               elementsDesc(plan.frame, samples, VK_FORMAT_R32G32B32A32_UINT));
-    plan.image(reflectance_, "reflectance of surfaces",
-               elementsDesc(plan.frame, samples, VK_FORMAT_R16G16B16A16_SFLOAT));
-    plan.image(light_, "light around surfaces", values);
+    const glm::uvec3 extent{plan.frame.width, plan.frame.height * (samples > 1 ? 2 : 1), 1};
+    const ImageDesc values{VK_FORMAT_R32G32B32A32_SFLOAT, extent};
+    plan.image(surfaces_, "surfaces of pixels", {VK_FORMAT_R32G32B32A32_UINT, extent});
+    plan.image(reflectance_, "reflectance of surfaces", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
+    plan.image(light_, "statistics of light", values);
     for (Image& level : filtered_) plan.image(level, "filtered irradiance", values);
-    plan.buffer(second_, "second surfaces",
-                (1 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
+    plan.buffer(second_, "second surfaces", (1 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
     if (noisy.blockSize > 0) {
         const glm::uvec2 blocks = noisy.blocks(gbufferExtent(plan.frame, samples));
-        plan.buffer(blockStatistics_, "statistics of rays",
-                    uint64_t(blocks.x) * blocks.y * sizeof(gpu::RayStatistics));
-        for (Image& mean : means_) plan.image(mean, "mean irradiance of surroundings", values);
+        plan.buffer(blockStatistics_, "statistics of rays", uint64_t(blocks.x) * blocks.y * sizeof(gpu::RayStatistics));
+        for (Image& mean : means_) plan.image(mean, "mean irradiance of neighborhoods", values);
     }
 
     Defines defines{{"SAMPLES", std::to_string(samples)}};
@@ -122,7 +109,7 @@ void FilterIrradiance::plan(PassPlan& plan) {
 void FilterIrradiance::record(PassContext& context) {
     const glm::uvec2 pixels = context.frame.pixels();
 
-    // The surfaces of each pixel.
+    // Find the surfaces of each pixel
     context.stream.fill(second_, 0);
     context.dispatch(findSurfaces_, uint64_t(pixels.x) * pixels.y,
                      {context[gbuffer_],
@@ -133,7 +120,7 @@ void FilterIrradiance::record(PassContext& context) {
                       {"second", second_},
                       {"pixels", pixels}});
 
-    // Their light, filtered.
+    // Filter their irradiance
     findLight(context);
     for (uint32_t level = 0; level < params_.levels; ++level)
         context.dispatch(wavelet_, elements(),
@@ -145,7 +132,7 @@ void FilterIrradiance::record(PassContext& context) {
                           {"level", level},
                           {"edgeStoppingScale", params_.edgeStoppingScale}});
 
-    // What they reflect.
+    // Compute the radiance that they reflect
     context.dispatch(resolve_, pixels,
                      {{"irradiance", filtered_[params_.levels % 2]},
                       {"reflectance", reflectance_},
@@ -162,7 +149,7 @@ void FilterIrradiance::findLight(PassContext& context) const {
         blocks = noisy.blocks(gbufferExtent(context.frame, samples));
         context.dispatch(statistics_, blocks,
                          {{"moments", noisy.moments}, {"statistics", blockStatistics_}, {"blocks", blocks}});
-        mean = &means(context);
+        mean = &computeMeans(context);
     }
     context.dispatch(findLight_, elements(),
                      {{"second", second_},
@@ -176,19 +163,16 @@ void FilterIrradiance::findLight(PassContext& context) const {
                       {"camera", camera.origin}});
 }
 
-const Image& FilterIrradiance::means(PassContext& context) const {
-    const Image* from = &filtered_[0];
+const Image& FilterIrradiance::computeMeans(PassContext& context) const {
+    const Image* source = &filtered_[0];
     for (uint32_t level = 0; level < kMeanLevels; ++level) {
-        const Image& to = means_[level % 2];
-        context.dispatch(mean_, elements(),
-                         {{"second", second_},
-                          {"surfaces", surfaces_},
-                          {"source", *from},
-                          {"result", to},
-                          {"level", level}});
-        from = &to;
+        const Image& result = means_[level % 2];
+        context.dispatch(
+            mean_, elements(),
+            {{"second", second_}, {"surfaces", surfaces_}, {"source", *source}, {"result", result}, {"level", level}});
+        source = &result;
     }
-    return *from;
+    return *source;
 }
 
 uint64_t FilterIrradiance::elements() const {

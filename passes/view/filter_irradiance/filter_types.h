@@ -1,4 +1,4 @@
-// What the rays around a block tell of the light there, shared by C++ and GLSL.
+// Statistics of the rays around a block, shared by C++ and GLSL.
 #ifndef VOXRAY_FILTER_TYPES_H
 #define VOXRAY_FILTER_TYPES_H
 
@@ -8,7 +8,7 @@ VOXRAY_SHARED_BEGIN
 
 struct RayStatistics {
     float gradient;  // Bound of the relative change of irradiance along a surface, 1/m.
-    float variance;  // Of a single ray, over its squared mean.
+    float variance;  // Variance of a single ray over its squared mean.
 };
 
 VOXRAY_SHARED_END

@@ -1,7 +1,8 @@
-// What is known of the light around each element: the mean of its surroundings, and the statistics of the rays there, interpolated
-// between the centers of blocks.
+// Statistics of the light around each element: the mean irradiance of its neighborhood, and the statistics of rays,
+// interpolated between the centers of blocks.
 #include "passes/view/filter_irradiance/filter_types.h"
 #include "passes/view/filter_irradiance/elements.glsl"
+#include "passes/view/filter_irradiance/surface_light.glsl"
 
 #ifdef MOMENTS
 uniform sampler2D mean;  // mean.comp
@@ -15,8 +16,9 @@ layout(push_constant, scalar) uniform Push {
     vec3 camera;       // m
 } push;
 
-// What is nearer than 4 pixels changes irradiance within a few pixels whatever the filter does, so the gradient is bounded as if
-// nothing were nearer (Tabellion and Lamorlette 2004, section 5, bound the spacing of irradiance records by pixels likewise).
+// Surfaces closer than 4 pixels change irradiance within a few pixels in any case, so the gradient is bounded as if
+// nothing were closer (Tabellion and Lamorlette 2004, section 5, bound the spacing of irradiance records by pixels
+// likewise).
 #define MIN_PIXELS 4.0
 
 #ifdef MOMENTS
@@ -28,8 +30,8 @@ vec2 statisticsOf(ivec2 block) {
 
 // x: gradient, y: variance.
 vec2 interpolatedStatistics(ivec2 pixel) {
-    const vec2 at = (vec2(pixel) + 0.5) / push.blockSize - 0.5, weight = fract(at);
-    const ivec2 corner = ivec2(floor(at));
+    const vec2 inBlocks = (vec2(pixel) + 0.5) / push.blockSize - 0.5, weight = fract(inBlocks);
+    const ivec2 corner = ivec2(floor(inBlocks));
     return mix(mix(statisticsOf(corner), statisticsOf(corner + ivec2(1, 0)), weight.x),
                mix(statisticsOf(corner + ivec2(0, 1)), statisticsOf(corner + ivec2(1, 1)), weight.x), weight.y);
 }
@@ -41,21 +43,20 @@ void main() {
     if (!elementOfThread(pixels, element)) return;
     const uvec4 surface = texelFetch(surfaces, element, 0);
 
-    // Without moments light is everywhere the same as far as we know: 1, with the largest gradient. The variance of a ray is then
-    // taken as its squared mean.
-    vec4 found = vec4(1.0, 0.0, 1.0, 1.0e30);
+    // Without moments assume a mean of 1 everywhere, the maximum gradient, and a ray's variance of its squared mean
+    SurfaceLight found = SurfaceLight(1.0, 0.0, 1.0, 1.0e30);
     float relativeVariance = 1.0;
 #ifdef MOMENTS
     const vec2 rays = interpolatedStatistics(ivec2(element.x, element.y % pixels.y));
-    const vec3 around = texelFetch(mean, element, 0).xyz;
+    const vec3 neighborhood = texelFetch(mean, element, 0).xyz;
     relativeVariance = rays.y;
-    found.x = around.x;
-    found.z = rays.y * around.x * around.x;
-    found.y = around.y > 0.0 ? found.z * around.z / (around.y * around.y) : 0.0;
-    found.w = rays.x;
+    found.mean = neighborhood.x;
+    found.rayVariance = rays.y * neighborhood.x * neighborhood.x;
+    found.meanVariance =
+        neighborhood.y > 0.0 ? found.rayVariance * neighborhood.z / (neighborhood.y * neighborhood.y) : 0.0;
+    found.gradient = rays.x;
 #endif
-    const float maxGradient =
-        sqrt(relativeVariance) / (MIN_PIXELS * push.pixelAngle * distance(unpackSurface(surface).position, push.camera));
-    found.w = min(found.w, maxGradient);
-    imageStore(light, element, areaOf(surface) > 0.0 ? found : vec4(0.0));
+    const float minDistance = MIN_PIXELS * push.pixelAngle * distance(unpackSurface(surface).position, push.camera);
+    found.gradient = min(found.gradient, sqrt(relativeVariance) / minDistance);
+    imageStore(light, element, areaOf(surface) > 0.0 ? packLight(found) : vec4(0.0));
 }

@@ -1,11 +1,13 @@
-// One level of a plain edge-avoiding à-trous wavelet (Dammertz et al. 2010), stopped by geometry alone: the mean light of an
-// element's surroundings on the same surface. Means are compared to tell whether light differs between elements (wavelet.comp).
+// One level of an edge-avoiding à-trous wavelet (Dammertz et al. 2010) with geometric edge-stopping only: the mean
+// irradiance of an element's neighborhood on the same surface. wavelet.comp compares these means to detect changes of
+// light.
 #include "passes/view/filter_irradiance/elements.glsl"
 #include "shaders/scene/sampling.glsl"
 
-// At level 0 irradiance and number of rays, later the result of the level before.
+// At level 0 irradiance and number of rays, then the result of the previous level.
 uniform sampler2D source;
-// Mean luminance, W/m²; rays of a whole pixel; sum of their squared weights, so that the mean stands for rays² / squares of them.
+// Mean luminance, W/m²; rays per pixel; sum of their squared weights: the mean has the variance of rays² / squares
+// rays.
 layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant) uniform Push { int level; } push;
 
@@ -19,22 +21,22 @@ void main() {
         return;
     }
 
-    const Surface own = unpackSurface(bits);
+    const Surface center = unpackSurface(bits);
     float luminances = 0.0, rays = 0.0, squares = 0.0, weights = 0.0;
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) {
             const ivec2 pixel = ivec2(element.x, element.y % pixels.y) + (ivec2(x, y) << push.level);
             if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, pixels))) continue;
             for (int layer = 0, layers = 1; layer < layers; ++layer) {
-                const ivec2 at = pixel + ivec2(0, layer * pixels.y);
-                const uvec4 other = texelFetch(surfaces, at, 0);
-                const float area = areaOf(other);
+                const ivec2 tap = pixel + ivec2(0, layer * pixels.y);
+                const uvec4 neighbor = texelFetch(surfaces, tap, 0);
+                const float area = areaOf(neighbor);
                 if (area == 0.0) continue;
                 if (area < 1.0) layers = LAYERS;
-                // Rays are as many as an element's area makes them, at level 0; later they are those of a whole pixel.
-                const vec4 from = texelFetch(source, at, 0);
-                const vec3 light = push.level == 0 ? vec3(luminance(from.rgb), from.aa) : from.rgb;
-                const float same = kernel(x, y) * sameSurface(own, unpackSurface(other));
+                // At level 0 the number of rays is that of the element, later per pixel
+                const vec4 value = texelFetch(source, tap, 0);
+                const vec3 light = push.level == 0 ? vec3(luminance(value.rgb), value.aa) : value.rgb;
+                const float same = kernel(x, y) * sameSurface(center, unpackSurface(neighbor));
                 const float weight = push.level == 0 ? same : same * area;
                 luminances += weight * light.y * light.x;
                 rays += weight * light.y;
@@ -43,6 +45,6 @@ void main() {
             }
         }
 
-    imageStore(result, element,
-               vec4(rays > 0.0 ? luminances / rays : 0.0, rays / weights, overlap(push.level) * squares / (weights * weights), 0.0));
+    const float meanSquares = overlap(push.level) * squares / (weights * weights);
+    imageStore(result, element, vec4(rays > 0.0 ? luminances / rays : 0.0, rays / weights, meanSquares, 0.0));
 }

@@ -1,8 +1,8 @@
-// Radiance that each pixel reflects, by Lambert's law.
+// Radiance that each pixel reflects of the filtered irradiance, by Lambert's law.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D irradiance;   // Of elements (elements.glsl), W/m².
-uniform sampler2D reflectance;  // Albedo times the part of the pixel that has it.
+uniform sampler2D reflectance;  // Albedo times the surface's fraction of the pixel.
 layout(rgba32f) writeonly uniform image2D result;
 
 void main() {

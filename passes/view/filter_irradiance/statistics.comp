@@ -1,15 +1,16 @@
-// From sums over rays to the two numbers that steer the filter: how noisy a single ray is, and how fast irradiance can change
-// along a surface. Blocks have few rays, so each takes its 3 x 3 neighbourhood, weighted 1 2 1 along rows and columns.
+// Computes the filter's two statistics from moments of rays: the variance of a single ray, and a bound of the gradient
+// of irradiance along a surface. As blocks have few rays, each sums its 3 x 3 neighborhood, weighted 1 2 1 along rows
+// and columns.
 //
-// The gradient bound. Irradiance E is the mean of what rays bring, L. An even surrounding of radiance M/pi gives the same E
-// everywhere, so only the deviations L - M can change E along a surface. A light at distance r changes its contribution by at
-// most 1/r of it per metre (the split sphere of Ward, Rubinstein and Clear 1988, section 3, which has all light in place of the
-// deviations). Over the rays around a block:
+// The gradient bound. Irradiance E is the mean of the rays' light L, pi times their radiance. Uniform light M from all
+// directions gives the same E everywhere, so only deviations L - M change E along a surface. A light at distance r
+// changes its contribution by a fraction of at most 1/r per metre (the split sphere of Ward, Rubinstein and Clear 1988,
+// section 3, for all light instead of the deviations). Over the rays around a block:
 //
 //     |grad E| / E  <=  sum(|L - M| / r) / sum(L)  <=  sqrt(sum((L - M)^2 / r) * sum(1/r)) / sum(L)
 //
-// The second step is the inequality of Cauchy and Schwarz. Its sums expand to sums of L/r and L^2/r, so that M need not be known
-// while rays are added up.
+// The second step is the Cauchy-Schwarz inequality. Its sums expand to sums of L/r and L^2/r, so that M is not needed
+// while rays are summed.
 #include "passes/view/filter_irradiance/filter_types.h"
 #include "shaders/filter/ray_moments.h"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -24,8 +25,8 @@ void main() {
     RayMoments sum = RayMoments(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) {
-            const ivec2 other = clamp(block + ivec2(x, y), ivec2(0), last);
-            const RayMoments m = moments.data[other.y * int(push.blocks.x) + other.x];
+            const ivec2 neighbor = clamp(block + ivec2(x, y), ivec2(0), last);
+            const RayMoments m = moments.data[neighbor.y * int(push.blocks.x) + neighbor.x];
             const float weight = (x == 0 ? 2.0 : 1.0) * (y == 0 ? 2.0 : 1.0);
             sum.rays += weight * m.rays;
             sum.luminance += weight * m.luminance;

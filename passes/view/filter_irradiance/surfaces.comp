@@ -1,6 +1,6 @@
-// Finds the surfaces that each pixel shows, two at most (elements.glsl), and takes the texels of each together. The first one is
-// that which most of the pixel's rays start from, of those that tie the one that most texels show; the second one is found alike
-// among the texels that are left, and stands for all of them.
+// Finds at most two surfaces in each pixel (elements.glsl) and averages their texels. The first is the surface with
+// most of the pixel's rays, and among those with equally many the one with most texels. The second is found in the same
+// way among the remaining texels, and represents all of them.
 #include "passes/view/filter_irradiance/surface.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
@@ -12,8 +12,8 @@ uniform sampler2D irradiance;
 uniform sampler2D albedo;
 layout(rgba32ui) writeonly uniform uimage2D surfaces;
 layout(rgba32f) writeonly uniform image2D source;       // Irradiance, W/m²; number of rays.
-layout(rgba16f) writeonly uniform image2D reflectance;  // Albedo times the part of the pixel that has it.
-layout(scalar) buffer Second { uint data[]; } second;   // How many second surfaces there are, then their pixels in any order.
+layout(rgba16f) writeonly uniform image2D reflectance;  // Albedo times the surface's fraction of the pixel.
+layout(scalar) buffer Second { uint data[]; } second;   // Number of second surfaces, then their pixels, in any order.
 layout(push_constant) uniform Push { uvec2 pixels; } push;
 
 #define TEXELS (SAMPLES * SAMPLES)  // Of a pixel.
@@ -26,33 +26,33 @@ void main() {
     if (i >= push.pixels.x * push.pixels.y) return;
     const ivec2 pixel = ivec2(i % push.pixels.x, i / push.pixels.x);
 
-    // The pixel's texels.
+    // Read the pixel's texels
     Surface texels[TEXELS];
     bool isUnassigned[TEXELS];
     float rays[TEXELS];
-    int left = 0;
+    int unassigned = 0;
     for (int t = 0; t < TEXELS; ++t) {
         const ivec2 texel = texelOf(pixel, t);
         const vec4 p = texelFetch(position, texel, 0);
         texels[t] = Surface(p.xyz, texelFetch(geometricNormal, texel, 0).xyz, texelFetch(normal, texel, 0).xyz);
         rays[t] = texelFetch(irradiance, texel, 0).w;
         isUnassigned[t] = p.w > 0.0;
-        left += isUnassigned[t] ? 1 : 0;
+        unassigned += isUnassigned[t] ? 1 : 0;
     }
 
     for (int layer = 0; layer < LAYERS; ++layer) {
         const ivec2 element = pixel + ivec2(0, layer * int(push.pixels.y));
-        if (left == 0) {
+        if (unassigned == 0) {
             imageStore(surfaces, element, uvec4(0u));
             imageStore(source, element, vec4(0.0));
             imageStore(reflectance, element, vec4(0.0));
             continue;
         }
 
-        // The surface that most rays start from.
+        // Select the surface with most rays
         int best = 0, bestTexels = 0;
         float bestRays = -1.0;
-        for (int a = 0; a < TEXELS && bestTexels < left; ++a) {
+        for (int a = 0; a < TEXELS && bestTexels < unassigned; ++a) {
             if (!isUnassigned[a]) continue;
             float groupRays = 0.0;
             int groupTexels = 0;
@@ -68,7 +68,7 @@ void main() {
             }
         }
 
-        // Its mean, and the light and the albedo of its texels. The second surface stands for all that are left.
+        // Average its geometry, irradiance and albedo; light and albedo of the second surface over all remaining texels
         Surface mean_ = Surface(vec3(0.0), vec3(0.0), vec3(0.0));
         vec3 light = vec3(0.0), color = vec3(0.0);
         float lightRays = 0.0;
@@ -88,7 +88,7 @@ void main() {
                 ++area;
                 color += texelFetch(albedo, texel, 0).rgb;
                 isUnassigned[b] = false;
-                --left;
+                --unassigned;
             }
         }
         imageStore(surfaces, element, packSurface(mean_, float(area) / float(TEXELS)));

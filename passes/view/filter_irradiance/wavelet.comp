@@ -1,24 +1,25 @@
-// One level of the edge-avoiding à-trous wavelet filter (Dammertz et al. 2010) over irradiance: 3 x 3 taps, 2^level pixels apart.
-// In place of their edge-stopping functions, and of SVGF's (Schied et al. 2017), each tap's weight balances noise against bias:
+// One level of the edge-avoiding à-trous wavelet filter (Dammertz et al. 2010) over irradiance: 3 x 3 taps, 2^level
+// pixels apart. Instead of their edge-stopping functions and SVGF's (Schied et al. 2017), a tap's weight balances noise
+// against bias:
 //
 //     weight = kernel * noise / (noise + bias²)
 //
-// noise: variance of the two elements' values, the mean of both, so that neither takes more from the other than it gives: a weight
-//   that depended on one alone would move energy to where light is even. One ray's variance (statistics.comp) over the number
-//   of rays that the value stands for, which grows from level to level. Few rays: a wide filter. Many: a narrow one, in the limit
-//   none.
-// bias²: what the elements' irradiance may differ by, in the mean square. The sum of
-//   - what geometry and hits bound: along the surface the distance times the gradient bound (statistics.comp), and over a change of
-//     normal one ray's standard deviation times sqrt((1 - cos) / cos), which for small angles is the bound of Ward et al. 1988.
-//     Both add up the changes of all surroundings as if none canceled another, so the edge-stopping scale is mostly below 1;
-//   - what elements of different surfaces differ by that know nothing of each other (UNRELATED);
-//   - what the means of their surroundings (mean.comp) do differ by, beyond the noise of these means.
+// noise: mean variance of the two elements' values. The weight is symmetric; one that depended on a single element's
+//   variance would move energy to where light is even. The variance is that of one ray (statistics.comp) over the
+//   number of rays that the value represents, which grows from level to level: with few rays the filter is wide, with
+//   many it is narrow, in the limit the identity.
+// bias²: expected mean squared difference of the elements' irradiance, the sum of
+//   - a geometric bound: along the surface the distance times the gradient bound (statistics.comp), and for different
+//     normals one ray's standard deviation times sqrt((1 - cos) / cos), which for small angles is the bound of Ward et
+//     al. 1988. Both bounds add absolute changes, which cancel in part, so the edge-stopping scale is mostly below 1;
+//   - the difference of unrelated values, for elements on different surfaces (UNRELATED);
+//   - the measured difference of the neighborhoods' means (mean.comp), beyond the noise of these means.
 #include "passes/view/filter_irradiance/surface_light.glsl"
 #include "passes/view/filter_irradiance/elements.glsl"
 
 uniform sampler2D light;
-uniform sampler2D source;  // Irradiance, W/m²; number of rays that it stands for.
-layout(rgba32f) writeonly uniform image2D result;  // Likewise.
+uniform sampler2D source;  // Irradiance, W/m²; number of rays that it represents.
+layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant) uniform Push {
     int level;
     float edgeStoppingScale;
@@ -34,29 +35,29 @@ void main() {
         return;
     }
 
-    const Surface own = unpackSurface(bits);
+    const Surface center = unpackSurface(bits);
     const SurfaceLight centerLight = unpackLight(texelFetch(light, element, 0));
     const float centerNoise = centerLight.rayVariance / max(texelFetch(source, element, 0).w, 1e-3);
     vec3 sum = vec3(0.0);
-    float weights = 0.0, squaredWeights = 0.0;  // The latter over the taps' rays.
+    float weights = 0.0, squaredWeights = 0.0;  // squaredWeights: over the taps' rays.
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) {
             const ivec2 pixel = ivec2(element.x, element.y % pixels.y) + (ivec2(x, y) << push.level);
             if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, pixels))) continue;
             for (int layer = 0, layers = 1; layer < layers; ++layer) {
-                const ivec2 at = pixel + ivec2(0, layer * pixels.y);
-                const uvec4 neighborBits = texelFetch(surfaces, at, 0);
+                const ivec2 tap = pixel + ivec2(0, layer * pixels.y);
+                const uvec4 neighborBits = texelFetch(surfaces, tap, 0);
                 const float area = areaOf(neighborBits);
                 if (area == 0.0) continue;
                 if (area < 1.0) layers = LAYERS;
-                const vec4 value = texelFetch(source, at, 0);
+                const vec4 value = texelFetch(source, tap, 0);
                 if (value.w == 0.0) continue;
-                const Surface other = unpackSurface(neighborBits);
-                const SurfaceLight neighborLight = unpackLight(texelFetch(light, at, 0));
-                const float bias2 = squaredBias(own, centerLight, other, neighborLight, push.edgeStoppingScale);
+                const Surface neighbor = unpackSurface(neighborBits);
+                const SurfaceLight neighborLight = unpackLight(texelFetch(light, tap, 0));
+                const float bias2 = squaredBias(center, centerLight, neighbor, neighborLight, push.edgeStoppingScale);
 
-                // An element counts as its area does. At level 0 its rays do, which are as many; later the number of rays that a
-                // value stands for tells how even light is there, and must not decide how much the value counts.
+                // Elements are weighted by area: at level 0 by their rays, whose number is proportional to it; later
+                // the number of rays depends on how even the light is and must not weight the value
                 const float noise = 0.5 * (centerNoise + neighborLight.rayVariance / value.w);
                 const float count = kernel(x, y) * (push.level == 0 ? value.w : area);
                 const float weight = count * (bias2 > 0.0 ? noise / (noise + bias2) : 1.0);
@@ -66,8 +67,8 @@ void main() {
             }
         }
 
-    // A weighted mean of values with 1/w the variance of one ray has the variance sum(weight² / w) / sum(weight)², were they
-    // independent.
+    // A weighted mean of independent values of value.w rays each has sum(weight² / value.w) / sum(weight)² of one ray's
+    // variance
     const float rays = weights * weights / (overlap(push.level) * squaredWeights);
     imageStore(result, element, weights > 0.0 ? vec4(sum / weights, rays) : vec4(0.0));
 }

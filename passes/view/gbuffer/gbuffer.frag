@@ -2,7 +2,7 @@
 
 layout(push_constant, scalar) uniform Push {
     mat4 viewProjection;
-    View view;
+    CameraView view;
 } push;
 
 layout(location = 0) in vec3 position;

@@ -1,4 +1,4 @@
-#include "passes/view/gbuffer/view.glsl"
+#include "passes/view/camera_view.glsl"
 #include "shaders/scene/scene.glsl"
 #ifdef MOTION
 #include "passes/view/gbuffer/previous.glsl"
@@ -6,7 +6,7 @@
 
 layout(push_constant, scalar) uniform Push {
     mat4 viewProjection;
-    View view;
+    CameraView view;
 } push;
 
 layout(location = 0) out vec3 position;
@@ -43,7 +43,7 @@ void main() {
     material = s.material;
     gl_Position = push.viewProjection * vec4(s.position, 1.0);
 
-    // A face that looks away meets the face in front of it at the silhouette, at the same depth: it loses by a ten-thousandth of its
-    // distance (depth is reversed), more than a pixel's rounding makes, so that no pixel sees a closed body from inside.
+    // Back faces recede by 1e-4 of their distance (depth is reversed): at the silhouette they have the same depth as
+    // the front faces, but for rounding, and must not win there
     if (dot(s.geometricNormal, push.view.origin - s.position) < 0.0) gl_Position.z *= 1.0 - 1e-4;
 }

@@ -1,4 +1,4 @@
-// Where a point that the camera sees was in the frame before.
+// Positions of surface points in the previous frame.
 #ifndef VOXRAY_GBUFFER_PREVIOUS_GLSL
 #define VOXRAY_GBUFFER_PREVIOUS_GLSL
 
@@ -14,13 +14,15 @@ vec3 previousPosition(uint triangle, vec2 barycentrics) {
     return interpolate(w, p0, p1, p2);
 }
 
-// Number of the instance that a triangle belongs to, plus 1.
+// Index of a triangle's mesh instance, plus 1.
 float instanceOf(uint triangle) {
     uint low = 0u, high = uint(instanceStarts.data.length());
     while (low < high) {
         const uint split = (low + high) / 2u;
-        if (instanceStarts.data[split] <= triangle) low = split + 1u;
-        else high = split;
+        if (instanceStarts.data[split] <= triangle)
+            low = split + 1u;
+        else
+            high = split;
     }
     return float(low);
 }

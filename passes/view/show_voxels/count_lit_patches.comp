@@ -1,4 +1,4 @@
-// How many patches at each face of each part of a cluster light arrives at straight from the lights.
+// Counts the directly lit patches at each face of each cluster component.
 #include "passes/view/show_voxels/lit_patch.glsl"
 #include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(scalar) readonly buffer Components { ClusterComponent data[]; } components;
 layout(scalar) readonly buffer MemberGroups { uint data[]; } memberGroups;
-writeonly buffer LitPatches { uint data[]; } litPatches;  // 6 a part.
+writeonly buffer LitPatches { uint data[]; } litPatches;  // 6 per component.
 layout(push_constant) uniform Push { uint count; } push;
 
 void main() {

@@ -1,5 +1,5 @@
-// How many lit patches each face of a voxel sees: those that its list names, and of each part's face that it names all that are lit. Of
-// several open sides in a voxel the one that sees the most counts.
+// Counts the lit patches that each voxel face sees: patches in its visibility list, and all lit patches at the faces of
+// components in the list. Of several surface groups in a voxel, the one that sees the most counts.
 #include "passes/view/show_voxels/lit_patch.glsl"
 #include "passes/clusters/visibility_list.glsl"
 #include "passes/clusters/group_patches.glsl"
@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer LitPatches { uint data[]; } litPatches;
-buffer VisibleLitPatches { uint data[]; } visibleLitPatches;  // By voxel and face: the number plus one; 0 where there is no patch.
+buffer VisibleLitPatches { uint data[]; } visibleLitPatches;  // By voxel and face: the count plus 1; 0: no patch.
 layout(push_constant, scalar) uniform Push {
     VisibilityListLayout lists;
     uint count;
@@ -31,7 +31,8 @@ void main() {
     if (i >= push.count) return;
     const SurfaceGroup group = groups.data[i];
     if (group.isOccluded == 1u) return;
-    uint at = group.firstPatch;
+    uint patchNumber = group.firstPatch;
     for (uint face = 0u; face < 6u; ++face)
-        if (hasPatch(group, face)) atomicMax(visibleLitPatches.data[6u * group.voxel + face], countVisibleLit(at++) + 1u);
+        if (hasPatch(group, face))
+            atomicMax(visibleLitPatches.data[6u * group.voxel + face], countVisibleLit(patchNumber++) + 1u);
 }

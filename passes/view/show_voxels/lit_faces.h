@@ -6,16 +6,15 @@
 
 namespace voxray {
 
-/// How many lit faces of voxels each voxel face sees. Source: Cosin and Patow 2022, figure 13, which counts
-/// lit voxels.
+/// Counts the lit voxel faces that each voxel face sees. Source: Cosin and Patow 2022, figure 13, which
+/// counts lit voxels.
 class LitFaces {
  public:
     explicit LitFaces(ProgramOwner& owner);
 
-    /// Counts again.
-    void count(CommandStream& stream, uint32_t voxels, const VoxelPatches& patches,
-               const ClusterVisibility& visibility, const ClusterLight& light);
-    /// By voxel and face: the number plus one; 0 where no surface looks that way.
+    void count(CommandStream& stream, uint32_t voxels, const VoxelPatches& patches, const ClusterVisibility& visibility,
+               const ClusterLight& light);
+    /// By voxel and face: the count plus 1; 0 where no surface faces that way.
     const Buffer& visibleLitPatches() const { return visibleLitPatches_; }
 
  private:

@@ -1,4 +1,4 @@
-// Which patches light arrives at straight from the lights.
+// Whether a patch receives direct light.
 #include "shaders/compute/large_buffer.glsl"
 #include "passes/surfels/radiosity.glsl"
 

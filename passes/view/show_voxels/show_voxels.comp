@@ -1,20 +1,18 @@
-// What the first voxel on the ray through each pixel's center holds.
+// Value of the first surface voxel on the ray through each pixel's center.
+#include "passes/view/camera_view.glsl"
 #include "shaders/voxel_march/voxel_march.glsl"
 #ifdef SHOW_IRRADIANCE
 #include "shaders/voxels/face_irradiance.glsl"
 #endif
 #ifdef SHOW_LIT_FACES
-readonly buffer VisibleLitPatches { uint data[]; } visibleLitPatches;  // The number plus one; 0 where no surface looks that way.
+readonly buffer VisibleLitPatches { uint data[]; } visibleLitPatches;  // The count plus 1; 0: no surface.
 #endif
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
-    vec3 origin;
-    vec3 forward;
-    vec3 right;  // From the image's center to its edge, at a distance of 1.
-    vec3 up;
+    CameraView view;
     uint show;
     uint redAt;
 } push;
@@ -22,18 +20,18 @@ layout(push_constant, scalar) uniform Push {
 #define SHOW_ALBEDO 0u
 #define SHOW_OPACITY 2u
 
-vec3 held(VoxelHit hit) {
+vec3 voxelColor(VoxelHit hit) {
     const uint number = voxelNumber(push.grid, hit.voxel);
 #ifdef SHOW_IRRADIANCE
-    // From within a voxel no face is seen
+    // A ray that starts in a voxel enters no face
     if (hit.face == NO_FACE) return vec3(0.0);
     const vec4 light = faceLight(number, hit.voxel, hit.face);
     return light.w > 0.0 ? light.rgb / 3.14159265358979 : vec3(1.0, 0.0, 1.0);
 #elif defined(SHOW_LIT_FACES)
     if (hit.face == NO_FACE) return vec3(0.0);
-    const uint seen = visibleLitPatches.data[6u * number + hit.face];
-    const float red = min(float(seen - 1u) / float(push.redAt), 1.0);
-    return seen > 0u ? vec3(red, 1.0 - red, 0.0) : vec3(1.0, 0.0, 1.0);
+    const uint count = visibleLitPatches.data[6u * number + hit.face];
+    const float red = min(float(count - 1u) / float(push.redAt), 1.0);
+    return count > 0u ? vec3(red, 1.0 - red, 0.0) : vec3(1.0, 0.0, 1.0);
 #else
     const VoxelMaterial material = voxelMaterial(number);
     if (push.show == SHOW_ALBEDO) return material.albedo;
@@ -44,13 +42,11 @@ vec3 held(VoxelHit hit) {
 
 void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    const ivec2 size = imageSize(result);
-    if (any(greaterThanEqual(pixel, size))) return;
-    const vec2 at = 2.0 * (vec2(pixel) + 0.5) / vec2(size) - 1.0;
-    const vec3 direction = normalize(push.forward + at.x * push.right - at.y * push.up);
+    if (any(greaterThanEqual(pixel, imageSize(result)))) return;
     VoxelHit hit;
     vec3 color = vec3(0.0);
-    if (closest(push.grid, push.origin, direction, 0.0, 1.0e30, hit)) color = held(hit);
+    if (closest(push.grid, push.view.origin, viewDirection(push.view, uvec2(pixel)), 0.0, 1.0e30, hit))
+        color = voxelColor(hit);
     imageStore(result, pixel, vec4(color, 1.0));
     countMarch();
 }

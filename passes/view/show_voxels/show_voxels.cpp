@@ -7,8 +7,8 @@
 #include "passes/common/voxel_march/voxel_march.h"
 #include "passes/common/voxels/face_irradiance.h"
 #include "passes/cones/radiance/radiance_voxels.h"
+#include "passes/view/camera_view.h"
 #include "passes/view/show_voxels/lit_faces.h"
-#include "scene/camera_rays.h"
 
 namespace voxray {
 
@@ -25,15 +25,14 @@ struct EnumNames<ShownValue> {
                                       std::pair{ShownValue::RadianceOpacity, "radiance_opacity"}};
 };
 
-/// The voxels themselves, as cubes, seen by the camera: for looking at what other passes read.
+/// Renders voxels as cubes, to inspect what other passes read.
 class ShowVoxels final : public Pass {
  public:
     static constexpr const char* kName = "show_voxels";
     static constexpr const char* kHelp =
-        "Draws voxels as cubes, each in the color of what it holds. "
-        "A pixel shows the first voxel on the ray through its center, without antialiasing. "
-        "Surface voxels, or prefiltered ones of any level. For looking at, not for scores. "
-        "Exact, no noise of its own.";
+        "Draws voxels as cubes, each in the color of its value. "
+        "A pixel shows the first voxel on the ray through its center, without antialiasing: a surface voxel, "
+        "or a radiance voxel of some level. For inspection, not for scores. Exact, no noise of its own.";
     struct Params {
         ShownValue show = ShownValue::Albedo;
         uint32_t redAt = 225;
@@ -41,21 +40,19 @@ class ShowVoxels final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("show", &Params::show,
-                      "Of surface voxels. albedo: diffuse reflectance. "
-                      "irradiance: what arrives at the face that is seen, "
-                      "as the radiance of a white surface there (over pi); "
-                      "magenta where the injection did not look. opacity: 0 to 1. "
-                      "normal: each component from -1 to 1 as 0 to 1. lit_faces: "
-                      "how many lit faces of voxels the face sees by its list (cluster_visibility), "
-                      "none as green, red_at as red; "
-                      "of a part of a cluster all count (Cosin and Patow 2022, figure 13); "
-                      "magenta where no surfel looks that way. Of prefiltered voxels, which cones read. "
-                      "radiance: what their surfaces send through the face that is seen. "
-                      "radiance_opacity: the part of a beam that they hide there."),
-                field("red_at", &Params::redAt, "So many lit faces, and more, are red.", 1u, 1u << 24)
+                      "Of surface voxels. albedo: diffuse reflectance. irradiance: of the visible face, "
+                      "as the radiance of a white surface (over pi); magenta where the injection gives no value. "
+                      "opacity: 0 to 1. normal: components from -1 to 1 as 0 to 1. "
+                      "lit_faces: the number of lit voxel faces in the face's visibility list (cluster_visibility), "
+                      "from green for none to red for red_at; "
+                      "every lit face of a listed cluster component counts (Cosin and Patow 2022, figure 13); "
+                      "magenta where no surfel faces that way. Of radiance voxels, which cones read. "
+                      "radiance: what leaves through the visible face. "
+                      "radiance_opacity: the fraction of a beam that is blocked there."),
+                field("red_at", &Params::redAt, "Number of lit faces from which on a face is shown red.", 1u, 1u << 24)
                     .onlyWith(oneOf(&Params::show, {ShownValue::LitFaces})),
                 field("level", &Params::level,
-                      "Level of the prefiltered voxels: each is twice as wide as those of the level before.",
+                      "Level of radiance voxels; each level's voxels are twice as wide as those of the level below.",
                       0u, 15u)
                     .onlyWith(oneOf(&Params::show, {ShownValue::Radiance, ShownValue::RadianceOpacity}))};
         }
@@ -72,24 +69,22 @@ class ShowVoxels final : public Pass {
     bool showsLevel() const {
         return params_.show == ShownValue::Radiance || params_.show == ShownValue::RadianceOpacity;
     }
-    /// Brings up to date what is shown of faces, and binds it.
-    Binding faces(PassContext& context);
+    /// Brings the values that are shown up to date. @return their binding.
+    Binding updateValues(PassContext& context);
     void recordLevel(PassContext& context);
 
     const Params params_;
-    In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales",
-                                 showsLevel()};
+    In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales", showsLevel()};
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels", !showsLevel()};
-    In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces",
-                                    showsLight()};
+    In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces", showsLight()};
     In<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels", showsLitFaces()};
     In<ClusterVisibility> visibility_{*this, "cluster_visibility", "what each patch sees", showsLitFaces()};
     In<ClusterLight> clusterLight_{*this, "cluster_light", "which patches are lit", showsLitFaces()};
     Out<FrameImage> final_{*this, "final", "voxels, as cubes"};
     Kernel program_{*this, showsLevel() ? "show_levels.comp" : "show_voxels.comp"};
     std::optional<VoxelMarch> march_;      ///< Of surface voxels.
-    std::optional<FaceIrradiance> faces_;  ///< Where light is shown.
-    std::optional<LitFaces> litFaces_;     ///< Where lit faces are shown.
+    std::optional<FaceIrradiance> faces_;  ///< With ShownValue::Irradiance.
+    std::optional<LitFaces> litFaces_;     ///< With ShownValue::LitFaces.
 };
 
 ShowVoxels::ShowVoxels(const Params& params) : params_(params) {
@@ -103,8 +98,8 @@ void ShowVoxels::plan(PassPlan& plan) {
     if (showsLevel()) {
         const RadianceVoxels& radiance = plan[radiance_];
         if (params_.level >= radiance.grid.levels)
-            throw Error("show_voxels.level: there is no level {}; the radiance voxels have 0 to {}",
-                        params_.level, radiance.grid.levels - 1);
+            throw Error("show_voxels.level: there is no level {}; the radiance voxels have 0 to {}", params_.level,
+                        radiance.grid.levels - 1);
         program_.define(radiance.defines());
         return;
     }
@@ -120,23 +115,19 @@ void ShowVoxels::record(PassContext& context) {
     if (showsLevel()) return recordLevel(context);
     const SurfaceVoxels& voxels = context[voxels_];
     march_->begin(context.stream, voxels);
-    const Binding shown = faces(context);
-    const CameraRays camera = cameraRays(context.frame.camera, context.frame.width, context.frame.height);
+    const Binding values = updateValues(context);
     context.dispatch(program_, context.frame.pixels(),
                      {*march_,
-                      shown,
+                      values,
                       {"result", context[final_].image},
                       {"grid", voxels.grid},
-                      {"origin", camera.origin},
-                      {"forward", camera.forward},
-                      {"right", camera.right},
-                      {"up", camera.up},
+                      {"view", cameraView(context.frame, context.frame.pixels())},
                       {"show", params_.show},
                       {"redAt", params_.redAt}});
     context.voxelCounts.push_back(&march_->counts());
 }
 
-Binding ShowVoxels::faces(PassContext& context) {
+Binding ShowVoxels::updateValues(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
     if (showsLight()) {
         const VoxelIrradiance& light = context[irradiance_];
@@ -154,14 +145,10 @@ Binding ShowVoxels::faces(PassContext& context) {
 }
 
 void ShowVoxels::recordLevel(PassContext& context) {
-    const CameraRays camera = cameraRays(context.frame.camera, context.frame.width, context.frame.height);
     context.dispatch(program_, context.frame.pixels(),
                      {context[radiance_],
                       {"result", context[final_].image},
-                      {"origin", camera.origin},
-                      {"forward", camera.forward},
-                      {"right", camera.right},
-                      {"up", camera.up},
+                      {"view", cameraView(context.frame, context.frame.pixels())},
                       {"level", params_.level},
                       {"showsOpacity", params_.show == ShownValue::RadianceOpacity}});
 }

@@ -4,43 +4,40 @@
 
 namespace voxray {
 
-enum class VoxelizeMethodName { Exact, DominantAxis, ThreeAxis };
+enum class VoxelizeMethod { Exact, DominantAxis, ThreeAxis };
 template <>
-struct EnumNames<VoxelizeMethodName> {
-    static constexpr std::array names{std::pair{VoxelizeMethodName::Exact, "exact"},
-                                      std::pair{VoxelizeMethodName::DominantAxis, "dominant_axis"},
-                                      std::pair{VoxelizeMethodName::ThreeAxis, "three_axis"}};
+struct EnumNames<VoxelizeMethod> {
+    static constexpr std::array names{std::pair{VoxelizeMethod::Exact, "exact"},
+                                      std::pair{VoxelizeMethod::DominantAxis, "dominant_axis"},
+                                      std::pair{VoxelizeMethod::ThreeAxis, "three_axis"}};
 };
 
-/// Turns triangles into surface voxels: everywhere the first time, later where surfaces have changed.
+/// Voxelizes triangles into surface voxels: the whole scene first, then the regions where surfaces change.
 class VoxelizePass final : public Pass {
  public:
     static constexpr const char* kName = "voxelize";
     static constexpr const char* kHelp =
-        "Turns the scene into surface voxels that hold its materials. "
-        "A voxel holds albedo, normal, emission, metallic, roughness, opacity and area. "
-        "method exact tests triangles against voxels' boxes; "
-        "dominant_axis rasterises once and conservatively: "
-        "it adds voxels that are only grazed, and samples areas; "
-        "three_axis rasterises three times and misses surfaces between its sample points: "
+        "Voxelizes the scene's triangles into surface voxels with materials. A voxel holds albedo, normal, emission, "
+        "metallic, roughness, opacity and area. method exact tests triangles against voxel boxes; "
+        "dominant_axis rasterizes once and conservatively, which adds voxels that are only grazed and samples areas; "
+        "three_axis rasterizes three times and misses surfaces between sample points, "
         "those thinner than a voxel / samples_per_voxel_edge in two directions. "
         "Source: Magalhães 2020, section 3.2; Schwarz and Seidel 2010 (exact).";
     struct Params : VoxelBuildParams {
-        VoxelizeMethodName method = VoxelizeMethodName::Exact;
+        VoxelizeMethod method = VoxelizeMethod::Exact;
         uint32_t resolution = 128;
         uint32_t samplesPerVoxelEdge = 2;
         static constexpr auto schema() {
             return std::tuple_cat(
                 std::tuple{
                     field("method", &Params::method,
-                          "How the voxels that triangles meet are found: "
+                          "Test for the voxels that triangles overlap: "
                           "exact (compute shader, overlap of triangles and boxes), "
                           "dominant_axis (one conservative raster pass), three_axis (three raster passes)."),
-                    field("resolution", &Params::resolution, "Voxels along the scene's longest side.", 1u,
-                          1024u),
+                    field("resolution", &Params::resolution, "Voxels along the scene's longest side.", 1u, 1024u),
                     field("samples_per_voxel_edge", &Params::samplesPerVoxelEdge,
                           "Sample points along a voxel's edge, in each of the three projections.", 1u, 16u)
-                        .onlyWith(oneOf(&Params::method, {VoxelizeMethodName::ThreeAxis}))},
+                        .onlyWith(oneOf(&Params::method, {VoxelizeMethod::ThreeAxis}))},
                 VoxelBuildParams::schema());
         }
     };
@@ -58,14 +55,9 @@ class VoxelizePass final : public Pass {
 };
 
 std::unique_ptr<TriangleVoxelizer> VoxelizePass::makeVoxelizer() {
-    switch (params_.method) {
-        case VoxelizeMethodName::ThreeAxis:
-            return makeThreeAxisVoxelizer(params_.samplesPerVoxelEdge);
-        case VoxelizeMethodName::DominantAxis:
-            return makeDominantAxisVoxelizer();
-        default:
-            return makeExactVoxelizer();
-    }
+    if (params_.method == VoxelizeMethod::Exact) return makeExactVoxelizer();
+    if (params_.method == VoxelizeMethod::DominantAxis) return makeDominantAxisVoxelizer();
+    return makeThreeAxisVoxelizer(params_.samplesPerVoxelEdge);
 }
 
 void VoxelizePass::plan(PassPlan& plan) {

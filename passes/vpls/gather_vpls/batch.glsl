@@ -1,4 +1,5 @@
-// Receivers of a batch: subset s has every block-th texel of the G-buffer along both axes; with SURFELS every block²-th surfel.
+// Receivers of a batch: subset s has every block-th texel of the G-buffer along both axes; with SURFELS every block²-th
+// surfel.
 #include "passes/vpls/gather_vpls/gather_types.h"
 
 #ifdef SURFELS

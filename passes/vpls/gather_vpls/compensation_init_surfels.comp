@@ -22,7 +22,8 @@ void main() {
     const vec4 p = texelFetch(position, texel, 0);
     const vec3 faceNormal = normalize(texelFetch(geometricNormal, texel, 0).xyz);
     // Black where there is no surface
+    const vec3 reflectance = vec3(p.w > 0.0 ? 1.0 : 0.0);
     surfels.data[i] = Surfel(p.xyz + p.w * faceNormal, 0xffffffffu, normalize(texelFetch(normal, texel, 0).xyz),
-                             texelIndex * push.raysPerTexel + push.rayInTexel, vec3(p.w > 0.0 ? 1.0 : 0.0), texelIndex, 1.0);
+                             texelIndex * push.raysPerTexel + push.rayInTexel, reflectance, texelIndex, 1.0);
     faceNormals.data[i] = toOctahedral(faceNormal);
 }

@@ -1,5 +1,5 @@
-// Surfels where rays hit. Of the light from there the bound B takes the fraction 1 - d² / B at a distance d (Kollig and Keller
-// 2004, section 4), which is added back.
+// Surfels where rays hit. Of the light from there the bound B takes the fraction 1 - d² / B at a distance d (Kollig and
+// Keller 2004, section 4), which is added back.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/octahedral.glsl"
 #include "shaders/scene/sampling.glsl"
@@ -27,7 +27,8 @@ void main() {
     surfelAtHit(hits.data[ray], previous.position, hit, faceNormal, offset);
     hit.position += offset * faceNormal;
     const vec3 segment = hit.position - previous.position;
-    hit.reflectance *= previous.reflectance * (max(1.0 - dot(segment, segment) / push.minDistanceSquared, 0.0) / survivalProbability(previous.reflectance));
+    const float missing = max(1.0 - dot(segment, segment) / push.minDistanceSquared, 0.0);
+    hit.reflectance *= previous.reflectance * (missing / survivalProbability(previous.reflectance));
     hit.id = previous.id;
     hit.parent = previous.parent;
     surfels.data[i] = hit;

@@ -15,18 +15,8 @@
 
 namespace voxray {
 
-/// What decides whether a virtual point light is occluded.
-enum class VplVisibility {
-    Svo,
-    SvoRestart,
-    Bricks,
-    Bits,
-    HybridLeaves,
-    ShadowMap,
-    ImperfectShadowMap,
-    Exact,
-    None
-};
+/// How the visibility of virtual point lights is tested.
+enum class VplVisibility { Svo, SvoRestart, Bricks, Bits, HybridLeaves, ShadowMap, ImperfectShadowMap, Exact, None };
 template <>
 struct EnumNames<VplVisibility> {
     static constexpr std::array names{std::pair{VplVisibility::Svo, "svo"},
@@ -42,17 +32,11 @@ struct EnumNames<VplVisibility> {
 
 namespace {
 
-bool usesShadowMaps(VplVisibility visibility) {
-    return visibility == VplVisibility::ShadowMap || visibility == VplVisibility::ImperfectShadowMap;
-}
-
-bool tracesVoxels(VplVisibility visibility) {
-    return !usesShadowMaps(visibility) && visibility != VplVisibility::HybridLeaves &&
-           visibility != VplVisibility::Exact && visibility != VplVisibility::None;
-}
-
-VoxelTraversal voxelWalk(VplVisibility visibility) {
+/// How shadow rays traverse surface voxels; nullopt: visibility is not that of surface voxels.
+std::optional<VoxelTraversal> voxelTraversal(VplVisibility visibility) {
     switch (visibility) {
+        case VplVisibility::Svo:
+            return VoxelTraversal::Svo;
         case VplVisibility::SvoRestart:
             return VoxelTraversal::SvoRestart;
         case VplVisibility::Bricks:
@@ -60,7 +44,7 @@ VoxelTraversal voxelWalk(VplVisibility visibility) {
         case VplVisibility::Bits:
             return VoxelTraversal::Bits;
         default:
-            return VoxelTraversal::Svo;
+            return std::nullopt;
     }
 }
 
@@ -74,11 +58,11 @@ class GatherVpls final : public Pass {
     static constexpr const char* kName = "gather_vpls";
     static constexpr const char* kHelp =
         "Gathers indirect light from virtual point lights (VPLs) by shadow rays. "
-        "A shadow ray, through voxels or exact, goes to each of the lights of sample_vpls. "
-        "Each texel of a block takes another part of them; let filter_irradiance follow. "
-        "Biased by: bound without compensation_rays, which darkens contacts and corners; "
-        "voxel size or map_resolution, unless visibility is exact. Noisy by: the number of virtual lights, "
-        "as blotches that all texels share. Source: Sun and Agu 2015; Kollig and Keller 2004.";
+        "Each texel of a block gathers from a different subset of the lights of sample_vpls; "
+        "filter_irradiance should follow. Biased by: bound without compensation_rays, "
+        "which darkens contacts and corners; voxel size or map_resolution, unless visibility is exact. "
+        "Noisy by: the number of virtual lights, as blotches that all texels share. "
+        "Source: Sun and Agu 2015; Kollig and Keller 2004.";
     struct Params {
         uint32_t block = 4;
         float bound = 1;
@@ -93,53 +77,52 @@ class GatherVpls final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("block", &Params::block,
-                      "Texels along the edge of blocks whose texels share all virtual lights out among them.",
+                      "Texels along the edge of a block, over whose texels the virtual lights are divided.",
                       powersOfTwo(1, 16)),
                 field("bound", &Params::bound,
-                      "Virtual lights nearer than this give no more light than at it: factor of the radius "
-                      "of the disc that has as much area as there is surface for each path of light. "
+                      "Distance below which virtual lights get no brighter, "
+                      "in radii of a disc with the area of all surfaces divided by the number of light paths. "
                       "0: no bound.",
                       0.0f, 1000.0f),
                 field("compensation_rays", &Params::compensationRays,
-                      "Rays of each texel that bring back what 'bound' takes away, "
-                      "which is then no bias but noise near contacts; 0: it is left out.",
+                      "Rays per texel that restore the light that 'bound' takes away, "
+                      "so that it is no bias but noise near contacts; 0: none.",
                       0u, 256u)
                     .onlyWith(noneOf(&Params::bound, {0.0f})),
                 field("roulette", &Params::roulette,
-                      "Virtual lights that, were nothing in the way, "
-                      "would bring a texel less than this times what its lights do on average, "
-                      "get a shadow ray with a chance in proportion, and count for more by as much. "
-                      "Saves rays for noise; 0: each gets one that faces the texel.",
+                      "Russian roulette of shadow rays: "
+                      "virtual lights whose unoccluded light at a texel is less than this times the mean "
+                      "of the texel's lights get a ray with a probability in proportion to it. "
+                      "Saves rays for noise; 0: none.",
                       0.0f, 100.0f),
                 field("early_out", &Params::earlyOut,
-                      "As 'roulette', but such virtual lights are left out altogether, as the paper does: "
-                      "the image is darker by what they would bring. 0: none is.",
+                      "As 'roulette', but such virtual lights are left out altogether, as in the paper: "
+                      "the image loses their light. 0: none are.",
                       0.0f, 100.0f)
                     .onlyWith(oneOf(&Params::roulette, {0.0f})),
                 field("visibility", &Params::visibility,
-                      "What hides virtual lights. "
-                      "svo, bricks, bits: surface voxels, on three walks that find the same ones. "
-                      "svo_restart: these by the paper's walk. hybrid_leaves: "
-                      "triangles and grids that the octree's leaves hold (build_hybrid_leaves). "
-                      "shadow_map: what a map of each virtual light's hemisphere sees, by a ray a texel. "
-                      "imperfect_shadow_map: the same, made of points (Ritschel et al. 2008). "
-                      "exact: triangles. none: nothing."),
+                      "What occludes virtual lights. "
+                      "svo, bricks, bits: surface voxels, by three traversals with equal results. "
+                      "svo_restart: surface voxels, by the paper's traversal. hybrid_leaves: "
+                      "triangles and grids in the leaves of an octree (build_hybrid_leaves). shadow_map: "
+                      "a shadow map of each virtual light's hemisphere, by a ray per texel. imperfect_shadow_map: "
+                      "the same, splatted from points (Ritschel et al. 2008). exact: triangles. none: nothing."),
                 field("restart_epsilon", &Params::restartEpsilon,
-                      "Voxels by which the walk steps past each node, as the paper does, "
-                      "which skips what is thinner; 0 steps exactly.",
+                      "Voxels by which the traversal steps past each node, as in the paper, "
+                      "which skips thinner nodes; 0 steps exactly.",
                       0.0f, 1.0f)
                     .onlyWith(oneOf(&Params::visibility, {VplVisibility::SvoRestart})),
                 field("end_epsilon", &Params::endEpsilon,
-                      "Voxels by which both ends of a shadow ray are moved along it, as the paper does; "
-                      "0 moves them out of their surfaces' voxels along normals.",
+                      "Voxels by which a shadow ray is shortened at both ends, as in the paper; "
+                      "0 moves the ends out of their surfaces' voxels along normals.",
                       0.0f, 64.0f)
                     .onlyWith(oneOf(&Params::visibility, {VplVisibility::SvoRestart})),
-                field("map_resolution", &Params::mapResolution,
-                      "Texels along each side of a virtual light's map.", 4u, 1024u)
-                    .onlyWith(oneOf(&Params::visibility,
-                                    {VplVisibility::ShadowMap, VplVisibility::ImperfectShadowMap})),
+                field("map_resolution", &Params::mapResolution, "Texels along an edge of a virtual light's shadow map.",
+                      4u, 1024u)
+                    .onlyWith(
+                        oneOf(&Params::visibility, {VplVisibility::ShadowMap, VplVisibility::ImperfectShadowMap})),
                 field("map_points", &Params::mapPoints,
-                      "Points of the scene's surfaces that each map is made of.", 64u, 1u << 20)
+                      "Points of the scene's surfaces that each map is splatted from.", 64u, 1u << 20)
                     .onlyWith(oneOf(&Params::visibility, {VplVisibility::ImperfectShadowMap}))};
         }
     };
@@ -152,11 +135,11 @@ class GatherVpls final : public Pass {
     const Params params_;
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     In<Vpls> vpls_{*this, "vpls", "virtual point lights"};
-    In<SurfaceVoxels> voxels_{
-        *this, "voxels",
-        tracesVoxels(params_.visibility) ? "what shadow rays meet" : "whose octree shadow rays walk through",
-        tracesVoxels(params_.visibility) || params_.visibility == VplVisibility::HybridLeaves};
-    In<HybridLeaves> leaves_{*this, "hybrid_leaves", "what shadow rays meet",
+    const std::optional<VoxelTraversal> traversal_ = voxelTraversal(params_.visibility);
+    In<SurfaceVoxels> voxels_{*this, "voxels",
+                              traversal_ ? "what occludes shadow rays" : "voxels whose octree shadow rays traverse",
+                              traversal_ || params_.visibility == VplVisibility::HybridLeaves};
+    In<HybridLeaves> leaves_{*this, "hybrid_leaves", "what occludes shadow rays",
                              params_.visibility == VplVisibility::HybridLeaves};
     Out<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "irradiance from a subset of lights a texel"};
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light, unfiltered"};
@@ -171,10 +154,8 @@ class GatherVpls final : public Pass {
 };
 
 GatherVpls::GatherVpls(const Params& params) : params_(params) {
-    if (tracesVoxels(params_.visibility))
-        voxelTracer_.emplace(*this, voxelWalk(params_.visibility), params_.restartEpsilon);
-    if (params_.visibility == VplVisibility::HybridLeaves)
-        hybridTracer_.emplace(*this, HybridTraversal::Hierarchical);
+    if (traversal_) voxelTracer_.emplace(*this, *traversal_, params_.restartEpsilon);
+    if (params_.visibility == VplVisibility::HybridLeaves) hybridTracer_.emplace(*this, HybridTraversal::Hierarchical);
     if (params_.visibility == VplVisibility::ShadowMap)
         shadowMaps_ = std::make_unique<TracedShadowMaps>(*this, params_.mapResolution);
     if (params_.visibility == VplVisibility::ImperfectShadowMap)
@@ -190,16 +171,14 @@ void GatherVpls::plan(PassPlan& plan) {
     const bool isCompensated = params_.compensationRays > 0 && minDistanceSquared > 0;
     if (shadowMaps_) shadowMaps_->plan(plan);
     const bool usesRoulette = params_.roulette > 0;
-    const VplGather::DimLightCulling culling{usesRoulette ? params_.roulette : params_.earlyOut,
-                                             usesRoulette};
+    const VplGather::DimLightCulling culling{usesRoulette ? params_.roulette : params_.earlyOut, usesRoulette};
     const float endEpsilon = params_.visibility == VplVisibility::SvoRestart ? params_.endEpsilon : 0;
     vplGather_.plan(plan,
                     {params_.block, minDistanceSquared, culling, endEpsilon, shadowMaps_.get(), isCompensated,
                      hybridTracer_.has_value()},
                     texels, uint64_t(vpls.paths) * vpls.bounces);
     if (isCompensated)
-        compensation_.emplace(*this).plan(plan, {params_.compensationRays, vpls.bounces, minDistanceSquared},
-                                          texels);
+        compensation_.emplace(*this).plan(plan, {params_.compensationRays, vpls.bounces, minDistanceSquared}, texels);
     NoisyIrradiance& noisy = plan[noisy_];
     noisy.blockSize = params_.block;
     noisy.lightBounces = plan[indirect_].lightBounces = vpls.lightBounces;

@@ -17,5 +17,5 @@ void main() {
     if (i >= push.vplCount * texelsPerMap) return;
     const Vpl vpl = vpls.data[activeVpls.data[push.firstVpl + i / texelsPerMap]];
     const vec2 uv = (vec2(i % push.resolution, i % texelsPerMap / push.resolution) + 0.5) / float(push.resolution);
-    rays.data[i] = Ray(vpl.position, 0.0, hemiOctahedralDirection(uv, vpl.faceNormal), 1.0e30);
+    rays.data[i] = Ray(vpl.position, 0.0, hemiOctahedralDirection(uv, vpl.normal), 1.0e30);
 }

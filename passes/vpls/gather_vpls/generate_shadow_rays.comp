@@ -1,5 +1,5 @@
-// A shadow ray from each receiver of a batch to each virtual light of it, with the light's unoccluded irradiance (Sun and Agu
-// 2015, equations 1 to 4).
+// A shadow ray from each receiver of a batch to each virtual light of it, with the light's unoccluded irradiance (Sun
+// and Agu 2015, equations 1 to 4).
 #include "passes/vpls/gather_vpls/receiver.glsl"
 #include "passes/hybrid_leaves/hybrid_types.h"
 #include "shaders/compute/linear_index.glsl"
@@ -17,7 +17,8 @@ layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 #ifdef STARTS
 layout(scalar) writeonly buffer Starts { RayStart data[]; } starts;
 #endif
-layout(scalar) writeonly buffer Contributions { vec4 data[]; } contributions;  // Irradiance, W/m²; 1 / max(distance, bound), 1/m.
+// Irradiance, W/m²; 1 / max(distance, bound), 1/m.
+layout(scalar) writeonly buffer Contributions { vec4 data[]; } contributions;
 layout(push_constant, scalar) uniform Push {
     VplBatch batch;
     float minDistanceSquared;  // m²
@@ -47,7 +48,7 @@ float random(uint i, uint vpl) {
 // The segment through voxels that is tested; false where it is empty.
 bool voxelSegment(Receiver r, Vpl vpl, out vec3 from, out vec3 to) {
     if (push.endEpsilon == 0.0)
-        return segmentBetweenSurfaces(push.grid, r.position, r.faceNormal, vpl.position, vpl.faceNormal, from, to);
+        return segmentBetweenSurfaces(push.grid, r.position, r.faceNormal, vpl.position, vpl.normal, from, to);
     const vec3 toVpl = vpl.position - r.position, shift = push.endEpsilon * push.grid.voxelSize * normalize(toVpl);
     from = r.position + shift;
     to = vpl.position - shift;
@@ -66,7 +67,8 @@ void main() {
     if (isWithinBounces(b, vplIndex) && receiver(b, i % b.receiverCount, r)) {
         const Vpl vpl = vpls.data[vplIndex];
         vec3 direction;
-        const float geometry = vplGeometryTerm(vpl, r.position, r.normal, r.faceNormal, push.minDistanceSquared, direction);
+        const float geometry =
+            vplGeometryTerm(vpl, r.position, r.normal, r.faceNormal, push.minDistanceSquared, direction);
         const float survival = survivalProbability(i, luminance(vpl.flux) * geometry);
         if (geometry > 0.0 && random(i, vplIndex) < survival) {
             const float distance_ = max(distance(vpl.position, r.position), sqrt(push.minDistanceSquared));

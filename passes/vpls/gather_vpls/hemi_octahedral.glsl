@@ -1,5 +1,5 @@
-// Hemi-octahedral map (Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors"): the upper half
-// of an octahedron over a surface, unfolded to the unit square.
+// Hemi-octahedral map (Cigolle et al. 2014, "A Survey of Efficient Representations for Independent Unit Vectors"): the
+// upper half of an octahedron over a surface, unfolded to the unit square.
 #include "shaders/scene/sampling.glsl"
 
 // The octahedron's point at `uv` in [0, 1]², over a surface with the unit normal n.

@@ -10,6 +10,7 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kPointSets = 16;  // Adjacent maps use different sets.
+constexpr uint32_t kMaxSplats = 1u << 31;
 
 /// Cumulative area of the triangles in the region, up to and including each, over the total.
 std::vector<float> areaCdf(const Geometry& g) {
@@ -25,7 +26,7 @@ std::vector<float> areaCdf(const Geometry& g) {
 }  // namespace
 
 ImperfectShadowMaps::ImperfectShadowMaps(ProgramOwner& owner, uint32_t resolution, uint32_t pointsPerMap)
-    : VplShadowMaps(resolution),
+    : VplShadowMaps(resolution, kMaxSplats / pointsPerMap),
       pointsPerMap_(pointsPerMap),
       samplePoints_(owner, "ism_sample_points.comp"),
       splat_(owner, "ism_splat.comp"),
@@ -36,8 +37,7 @@ void ImperfectShadowMaps::plan(PassPlan& plan) {
     const Geometry& geometry = plan.frame.scene->geometry;
     area_ = float(surfaceArea(geometry));
     plan.buffer(areaCdf_, "areas of triangles", geometry.triangles.size() * sizeof(float));
-    plan.buffer(pointSets_, "points of shadow maps",
-                uint64_t(kPointSets) * pointsPerMap_ * sizeof(gpu::MapPoint));
+    plan.buffer(pointSets_, "points of shadow maps", uint64_t(kPointSets) * pointsPerMap_ * sizeof(gpu::MapPoint));
     for (uint32_t level = 0; level < kLevels; ++level)
         plan.buffer(levels_[level], level == 0 ? "shadow maps" : "coarser shadow maps",
                     uint64_t(capacity()) * levelResolution(level) * levelResolution(level) * sizeof(float));
@@ -56,8 +56,7 @@ void ImperfectShadowMaps::beginFrame(PassContext& context) {
                       {"triangleCount", uint32_t(geometry.triangles.size())}});
 }
 
-void ImperfectShadowMaps::render(PassContext& context, const Vpls& vpls, uint32_t first,
-                                 uint32_t count) const {
+void ImperfectShadowMaps::render(PassContext& context, const Vpls& vpls, uint32_t first, uint32_t count) const {
     context.stream.fill(levels_[0], 0);
     // A disc has the area of its share of all surfaces
     const float radius = std::sqrt(area_ / (glm::pi<float>() * float(pointsPerMap_)));

@@ -6,7 +6,8 @@ layout(local_size_x = 64) in;
 void main() {
     const uint i = linearIndex(), texelsPerMap = push.coarseResolution * push.coarseResolution, map = i / texelsPerMap;
     if (map >= push.mapCount) return;
-    const ivec2 texel = ivec2(i % push.coarseResolution, i % texelsPerMap / push.coarseResolution), last = ivec2(push.fineResolution) - 1;
+    const ivec2 texel = ivec2(i % push.coarseResolution, i % texelsPerMap / push.coarseResolution);
+    const ivec2 last = ivec2(push.fineResolution) - 1;
     float sum = 0.0, knownCount = 0.0;
     for (int k = 0; k < 4; ++k) {
         const ivec2 child = 2 * texel + ivec2(k & 1, k >> 1);

@@ -6,7 +6,7 @@
 layout(local_size_x = 64) in;
 
 readonly buffer ActiveVpls { uint data[]; } activeVpls;
-writeonly buffer MeanLuminance { float data[]; } meanLuminance;  // By receiver of the batch: luminance of irradiance, W/m².
+writeonly buffer MeanLuminance { float data[]; } meanLuminance;  // By receiver: of irradiance, W/m².
 layout(push_constant, scalar) uniform Push {
     VplBatch batch;
     float minDistanceSquared;  // m²
@@ -24,7 +24,8 @@ void main() {
             if (!isWithinBounces(b, vplIndex)) continue;
             const Vpl vpl = vpls.data[vplIndex];
             vec3 direction;
-            sum += luminance(vpl.flux) * vplGeometryTerm(vpl, r.position, r.normal, r.faceNormal, push.minDistanceSquared, direction);
+            sum += luminance(vpl.flux) *
+                   vplGeometryTerm(vpl, r.position, r.normal, r.faceNormal, push.minDistanceSquared, direction);
         }
     meanLuminance.data[i] = sum / float(b.vplCount);
 }

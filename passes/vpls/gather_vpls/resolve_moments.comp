@@ -1,5 +1,5 @@
-// Sums the moments of each block for filter_irradiance. A sample is one virtual light: with n lights at a texel, n times its
-// contribution.
+// Sums the moments of each block for filter_irradiance. A sample is one virtual light: with n lights at a texel, n
+// times its contribution.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/filter/ray_moments.h"
 #include "shaders/scene/sampling.glsl"

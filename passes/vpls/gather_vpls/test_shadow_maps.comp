@@ -1,6 +1,6 @@
-// Tests the shadow rays of a batch against their virtual lights' maps. A receiver is occluded where its tangent plane, on the ray
-// of the nearest texel, lies behind that texel's depth: flat surfaces do not shadow themselves. Half a texel's width is allowed
-// for curvature and rounding.
+// Tests the shadow rays of a batch against their virtual lights' maps. A receiver is occluded where its tangent plane,
+// on the ray of the nearest texel, lies behind that texel's depth: flat surfaces do not shadow themselves. Half a
+// texel's width is allowed for curvature and rounding.
 #include "passes/vpls/gather_vpls/hemi_octahedral.glsl"
 #include "passes/vpls/gather_vpls/receiver.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -11,7 +11,8 @@ layout(local_size_x = 64) in;
 readonly buffer ActiveVpls { uint data[]; } activeVpls;
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 #ifdef SPLATTED
-readonly buffer Maps { float data[]; } maps;  // By texel: inverse depth, 1/m, in multiples of hemiOctahedralPoint(); 0: unknown.
+// By texel: inverse depth, 1/m, in multiples of hemiOctahedralPoint(); 0: unknown.
+readonly buffer Maps { float data[]; } maps;
 #else
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;  // By texel.
 #endif
@@ -36,8 +37,8 @@ bool mapDepth(uint map, ivec2 texel, vec3 octahedronPoint, out float t) {
 bool isUnoccluded(Vpl vpl, uint map, Receiver r) {
     const ivec2 last = ivec2(push.resolution) - 1;
     const vec3 toReceiver = r.position - vpl.position;
-    const ivec2 texel = clamp(ivec2(hemiOctahedralUv(toReceiver, vpl.faceNormal) * float(push.resolution)), ivec2(0), last);
-    const vec3 octahedronPoint = hemiOctahedralPoint((vec2(texel) + 0.5) / float(push.resolution), vpl.faceNormal);
+    const ivec2 texel = clamp(ivec2(hemiOctahedralUv(toReceiver, vpl.normal) * float(push.resolution)), ivec2(0), last);
+    const vec3 octahedronPoint = hemiOctahedralPoint((vec2(texel) + 0.5) / float(push.resolution), vpl.normal);
     const vec3 texelDirection = normalize(octahedronPoint);
     float t;
     if (!mapDepth(map, texel, octahedronPoint, t)) return true;
@@ -52,9 +53,10 @@ void main() {
     const VplBatch b = push.batch;
     if (i >= b.receiverCount * b.vplCount) return;
     const Ray ray = rays.data[i];
+    const uint map = i / b.receiverCount;
     Receiver r;
     bool isOccluded = false;
     if (ray.tMax > ray.tMin && receiver(b, i % b.receiverCount, r))
-        isOccluded = !isUnoccluded(vpls.data[activeVpls.data[b.firstVpl + i / b.receiverCount]], i / b.receiverCount, r);
+        isOccluded = !isUnoccluded(vpls.data[activeVpls.data[b.firstVpl + map]], map, r);
     occluded.data[i] = isOccluded ? 1u : 0u;
 }

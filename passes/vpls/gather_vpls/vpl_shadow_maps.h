@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "graph/pass.h"
 #include "passes/vpls/vpls.h"
 
@@ -11,8 +13,9 @@ class VplShadowMaps {
  public:
     static constexpr uint32_t kTexels = 1u << 20;  ///< Of all maps of a range: bounds the memory.
 
-    /// @param resolution texels along an edge of each map.
-    explicit VplShadowMaps(uint32_t resolution) : resolution_(resolution) {}
+    /// @param resolution texels along an edge of each map. @param maxMaps maps of a range, at most.
+    explicit VplShadowMaps(uint32_t resolution, uint32_t maxMaps = kTexels)
+        : resolution_(resolution), capacity_(std::min(kTexels / (resolution * resolution), maxMaps)) {}
     virtual ~VplShadowMaps() = default;
 
     virtual void plan(PassPlan& plan) = 0;
@@ -26,10 +29,10 @@ class VplShadowMaps {
     virtual Binding binding() const = 0;
 
     uint32_t resolution() const { return resolution_; }
-    uint32_t capacity() const { return kTexels / (resolution_ * resolution_); }
+    uint32_t capacity() const { return capacity_; }
 
  private:
-    uint32_t resolution_;
+    uint32_t resolution_, capacity_;
 };
 
 }  // namespace voxray

@@ -1,5 +1,5 @@
-// Deposits a virtual point light where each ray hit, then scatters the ray. VOXEL_HITS: the rays hit surface voxels. VOXEL_NEXT:
-// scattered rays will.
+// Deposits a virtual point light where each ray hit, then scatters the ray. VOXEL_HITS: the rays hit surface voxels.
+// VOXEL_NEXT: scattered rays will.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/inject/light_paths/light_bounce.glsl"
 #ifdef VOXEL_NEXT
@@ -48,8 +48,8 @@ void main() {
     LightVertex p;
     if (!lightVertexAtHit(ray, hit, p)) return;
     LightPath path = paths.data[i];
-    // Power arrives by the geometric cosine, the BSDF reflects by the shading cosine: the adjoint BSDF of light paths (Veach
-    // 1997, section 5.3)
+    // Power arrives by the geometric cosine, the BSDF reflects by the shading cosine: the adjoint BSDF of light paths
+    // (Veach 1997, section 5.3)
     const float cosShading = -dot(p.normal, ray.direction), cosGeometric = -dot(p.faceNormal, ray.direction);
     if (cosShading <= 0.0 || cosGeometric <= 0.0) return;
     path.power *= cosShading / cosGeometric;
@@ -57,7 +57,7 @@ void main() {
     const vec3 flux = path.power * p.albedo;
     if (any(greaterThan(flux, vec3(0.0)))) {
         const uint vplIndex = pathOrder.data[push.firstPath + i] * push.bounces + push.bounce;
-        vpls.data[vplIndex] = Vpl(p.position + p.offset * p.faceNormal, p.normal, p.faceNormal, flux);
+        vpls.data[vplIndex] = Vpl(p.position + p.offset * p.faceNormal, p.faceNormal, flux);
         atomicOr(flags.words[vplIndex / 32u], 1u << (vplIndex % 32u));
     }
     if (push.bounce + 1u == push.bounces) return;

@@ -1,12 +1,13 @@
-// The first ray of each path of a light, through a texel of the light's RSM that is sampled in proportion to its weight: a Sobol
-// point is warped by the marginal distribution of rows, then by that of the texels in the row.
+// The first ray of each path of a light, through a texel of the light's RSM that is sampled in proportion to its
+// weight: a Sobol point is warped by the marginal distribution of rows, then by that of the texels in the row.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/inject/light_paths/rsm_light.glsl"
 #include "shaders/lights/rsm.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer PrefixSums { uint data[]; } prefixSums;  // Exclusive, of the texels' weights, view by view and row by row.
+// Exclusive prefix sums of the texels' weights, view by view and row by row.
+readonly buffer PrefixSums { uint data[]; } prefixSums;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(scalar) writeonly buffer Hits { Hit data[]; } hits;
 layout(scalar) writeonly buffer Paths { LightPath data[]; } paths;
@@ -21,7 +22,9 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 uint sumBeforeRow(uint row) { return row < push.rows ? prefixSums.data[row * push.resolution] : push.weightSum; }
-uint sumBeforeTexel(uint texel) { return texel < push.rows * push.resolution ? prefixSums.data[texel] : push.weightSum; }
+uint sumBeforeTexel(uint texel) {
+    return texel < push.rows * push.resolution ? prefixSums.data[texel] : push.weightSum;
+}
 
 // u in [0, 1) to an integer in [0, count).
 uint scaled(float u, uint count) { return min(uint(u * float(count)), count - 1u); }
@@ -41,7 +44,8 @@ void main() {
         if (sumBeforeRow(middle) <= rowSum) low = middle;
         else high = middle;
     }
-    const uint row = low, sumBefore = sumBeforeRow(row), texelSum = sumBefore + scaled(u.x, sumBeforeRow(row + 1u) - sumBefore);
+    const uint row = low, sumBefore = sumBeforeRow(row);
+    const uint texelSum = sumBefore + scaled(u.x, sumBeforeRow(row + 1u) - sumBefore);
     low = row * push.resolution, high = low + push.resolution;
     while (high - low > 1u) {
         const uint middle = (low + high) / 2u;

@@ -18,8 +18,7 @@ RsmSampling::RsmSampling(ProgramOwner& owner)
 
 void RsmSampling::plan(PassPlan& plan, const Rsm& rsm) {
     uint32_t views = 0;
-    for (size_t s = 0; s < rsm.sources.size(); ++s)
-        views = std::max(views, rsm.firstView[s + 1] - rsm.firstView[s]);
+    for (size_t s = 0; s < rsm.sources.size(); ++s) views = std::max(views, rsm.firstView[s + 1] - rsm.firstView[s]);
     const uint64_t texels = uint64_t(views) * rsm.texelsPerView();
     plan.scratchBuffer(weights_, "weights of shadow maps' texels", texels * sizeof(uint32_t));
 }

@@ -37,8 +37,7 @@ std::vector<uint32_t> interleavedPathOrder(const std::vector<uint32_t>& pathCoun
         for (uint32_t i = 0; i < paths; ++i) position.push_back((i + 0.5) / paths);
     std::vector<uint32_t> paths(position.size()), order(position.size());
     std::iota(paths.begin(), paths.end(), 0u);
-    std::stable_sort(paths.begin(), paths.end(),
-                     [&](uint32_t a, uint32_t b) { return position[a] < position[b]; });
+    std::stable_sort(paths.begin(), paths.end(), [&](uint32_t a, uint32_t b) { return position[a] < position[b]; });
     for (uint32_t index = 0; index < paths.size(); ++index) order[paths[index]] = index;
     return order;
 }
@@ -61,7 +60,7 @@ struct EnumNames<FirstVertices> {
                                       std::pair{FirstVertices::Rsm, "rsm"}};
 };
 
-/// What rays after the first bounce hit.
+/// What rays after the first hit are traced through.
 enum class VplBounce { Exact, Svo };
 template <>
 struct EnumNames<VplBounce> {
@@ -75,12 +74,10 @@ class SampleVpls final : public Pass {
  public:
     static constexpr const char* kName = "sample_vpls";
     static constexpr const char* kHelp =
-        "Places virtual point lights (VPLs) where rays from the lights hit. "
-        "The rays go on, bounce after bounce. From these points gather_vpls sends indirect light. "
-        "Lights of every kind send rays by their power. "
-        "All surfaces are Lambert surfaces of their base colour. Biased by: shading normals, "
-        "whose factor on light paths is left out; voxel size with 'bounce: svo'. Noisy by: "
-        "vpls_per_bounce. Each frame draws the same numbers, so that virtual lights move with a light, "
+        "Deposits virtual point lights (VPLs) where light paths hit surfaces, for gather_vpls. "
+        "Lights of every kind emit paths in proportion to their power. "
+        "All surfaces are Lambert surfaces of their base colour. Biased by: voxel size with 'bounce: svo'. Noisy by: "
+        "vpls_per_bounce. Each frame takes the same random numbers, so that virtual lights move with a light, "
         "unless 'resample' is set. Source: Keller 1997; Sun and Agu 2015, section 3.2.";
     struct Params {
         uint32_t vplsPerBounce = 1024;
@@ -91,23 +88,21 @@ class SampleVpls final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("vpls_per_bounce", &Params::vplsPerBounce,
-                      "Paths of light. Each leaves a virtual point light at each of its hits, "
-                      "until Russian roulette by albedo ends it. Each light sends at least one.",
+                      "Light paths, at least one per light. "
+                      "Each deposits a virtual light at each hit, until Russian roulette by albedo ends it.",
                       1u, 1u << 24)
                     .lessNoise(),
-                field("bounces", &Params::bounces, "Bounces of light: hits of a path that count.", 1u, 16u),
+                field("bounces", &Params::bounces, "Bounces of light: maximum hits of a path.", 1u, 16u),
                 field("first", &Params::first,
-                      "Where paths begin. light_rays: where rays from lights of every kind hit, "
-                      "which carry equal power. rsm: at texels of reflective shadow maps (render_rsm), "
-                      "picked by the flux that their points reflect; "
-                      "point, spot and directional lights alone."),
+                      "How first hits are sampled. light_rays: by rays of equal power from lights of every kind. "
+                      "rsm: by texels of reflective shadow maps (render_rsm) in proportion to the flux "
+                      "that their points reflect; point, spot and directional lights only."),
                 field("bounce", &Params::bounce,
-                      "What rays from one virtual light to the next meet. exact: triangles. "
-                      "svo: surface voxels, and virtual lights past the first bounce stand before them, "
+                      "What rays after the first hit are traced through. exact: triangles. "
+                      "svo: surface voxels; virtual lights past the first bounce lie where rays enter them, "
                       "with the voxel's mean normal and albedo."),
                 field("resample", &Params::resample,
-                      "Whether each frame draws numbers of its own, for comparison: "
-                      "virtual lights then jump.")};
+                      "Whether each frame takes its own random numbers, for comparison: virtual lights then jump.")};
         }
     };
 
@@ -118,12 +113,15 @@ class SampleVpls final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    /// Traces all paths of source `s`, the first of which has the index `firstPath` source by source. @param
+    /// source the same in this frame.
+    void tracePaths(PassContext& context, uint32_t s, const LightSource& source, uint32_t firstPath);
+
     const Params params_;
     In<Rsm> rsm_{*this, "rsm", "what lights see", params_.first == FirstVertices::Rsm};
-    In<SurfaceVoxels> voxels_{*this, "voxels", "what rays of further bounces meet",
-                              params_.bounce == VplBounce::Svo};
+    In<SurfaceVoxels> voxels_{*this, "voxels", "what rays of further bounces hit", params_.bounce == VplBounce::Svo};
     Out<Vpls> vpls_{*this, "vpls", "virtual point lights"};
-    std::vector<LightSource> sources_;        ///< Those that were on when paths were divided.
+    std::vector<LightSource> sources_;        ///< Sources that were on when paths were divided.
     std::vector<uint32_t> pathCounts_;        ///< By source.
     std::optional<LightEmission> emission_;   ///< With FirstVertices::LightRays.
     std::optional<RsmSampling> rsmSampling_;  ///< With FirstVertices::Rsm.
@@ -180,74 +178,67 @@ void SampleVpls::record(PassContext& context) {
     const std::vector<LightSource> activeSources = lightSources(*context.frame.scene);
     for (const LightSource& source : activeSources)
         if (!findSource(sources_, source))
-            throw Error(
-                "{}: a light began to shine after the first frame, when paths were divided among lights",
-                kName);
+            throw Error("{}: a light began to shine after the first frame, when paths were divided among lights",
+                        kName);
     stream.fill(flags_, 0);
     stream.fill(vpls.points, 0);
-    RayTracer* bounceTracer = &context.tracer;
-    std::vector<Binding> voxelBindings{{"grid", gpu::VoxelGrid{}}};
-    if (voxelTracer_) {
-        const SurfaceVoxels& voxels = context[voxels_];
-        voxelTracer_->begin(stream, voxels);
-        bounceTracer = &*voxelTracer_;
-        voxelBindings = voxels.bindings();
-    }
+    if (voxelTracer_) voxelTracer_->begin(stream, context[voxels_]);
     const uint64_t voxelRaysBefore = voxelTracer_ ? voxelTracer_->raysTraced() : 0;
-
-    // Each light's paths in batches, bounce by bounce. A light that is off now sends none
     uint32_t firstPath = 0;
-    for (uint32_t s = 0; s < sources_.size(); firstPath += pathCounts_[s], ++s) {
-        const LightSource* source = findSource(activeSources, sources_[s]);
-        if (!source) continue;
-        const auto seedIndex = uint32_t(s + (params_.resample ? context.frameIndex * sources_.size() : 0));
-        LightEmission::Batch batch{randomSeed(context.frame, seedIndex), pathCounts_[s], 0, 0};
-        const bool hasRsmHits = rsmSampling_.has_value();
-        for (; batch.first < batch.rays; batch.first += batch.count) {
-            batch.count = std::min(batch.rays - batch.first, kBatchPaths);
-            if (hasRsmHits)
-                rsmSampling_->emit(context, context[rsm_], s, {rays_, hits_, paths_, batch});
-            else
-                emission_->emit(context, *source, batch, rays_, paths_);
-            for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {
-                if (bounce > 0)
-                    bounceTracer->closestHit(stream, rays_, hits_, batch.count);
-                else if (!hasRsmHits)
-                    context.tracer.closestHit(stream, rays_, hits_, batch.count);
-                if (bounce == 0)
-                    paneTransmittance_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float),
-                                             batch.count, &hits_);
-                context.dispatch(bounce > 0 && voxelTracer_ ? depositVplsInVoxels_ : depositVpls_,
-                                 batch.count,
-                                 {context.scene,
-                                  voxelBindings,
-                                  {"rays", rays_},
-                                  {"hits", hits_},
-                                  {"paths", paths_},
-                                  {"pathOrder", pathOrder_},
-                                  {"VplsRef", vpls.points.ref()},
-                                  {"flags", flags_},
-                                  {"count", batch.count},
-                                  {"firstPath", firstPath + batch.first},
-                                  {"firstRay", batch.first},
-                                  {"seed", batch.seed},
-                                  {"bounce", bounce},
-                                  {"bounces", params_.bounces}});
-            }
-        }
-    }
+    for (uint32_t s = 0; s < sources_.size(); firstPath += pathCounts_[s], ++s)
+        if (const LightSource* source = findSource(activeSources, sources_[s]))
+            tracePaths(context, s, *source, firstPath);
     if (voxelTracer_) {
         context.extraRays += voxelTracer_->raysTraced() - voxelRaysBefore;
         context.voxelCounts.push_back(&voxelTracer_->march().counts());
     }
-    vpls.activeCount =
-        compaction_.run(stream, flags_, vpls.activeIndices, uint32_t(flags_.bytes() / sizeof(uint32_t)));
+    vpls.activeCount = compaction_.run(stream, flags_, vpls.activeIndices, uint32_t(flags_.bytes() / sizeof(uint32_t)));
     context.report("vpls", vpls.activeCount);
     if (vpls.activeCount == 0 && !activeSources.empty())
         throw Error(
             "{}: none of {} rays from the lights hit a surface that reflects light; "
             "let lights shine on the scene, or raise 'vpls_per_bounce'",
             kName, vpls.paths);
+}
+
+void SampleVpls::tracePaths(PassContext& context, uint32_t s, const LightSource& source, uint32_t firstPath) {
+    CommandStream& stream = context.stream;
+    std::vector<Binding> voxelBindings{{"grid", gpu::VoxelGrid{}}};
+    if (voxelTracer_) voxelBindings = context[voxels_].bindings();
+    const auto seedIndex = uint32_t(s + (params_.resample ? context.frameIndex * sources_.size() : 0));
+    LightEmission::Batch batch{randomSeed(context.frame, seedIndex), pathCounts_[s], 0, 0};
+    for (; batch.first < batch.rays; batch.first += batch.count) {
+        batch.count = std::min(batch.rays - batch.first, kBatchPaths);
+        if (rsmSampling_)
+            rsmSampling_->emit(context, context[rsm_], s, {rays_, hits_, paths_, batch});
+        else
+            emission_->emit(context, source, batch, rays_, paths_);
+        for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {
+            const bool tracesVoxels = voxelTracer_ && bounce > 0;
+            if (tracesVoxels)
+                voxelTracer_->closestHit(stream, rays_, hits_, batch.count);
+            else if (bounce > 0 || !rsmSampling_)
+                context.tracer.closestHit(stream, rays_, hits_, batch.count);
+            if (bounce == 0)
+                paneTransmittance_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float), batch.count,
+                                         &hits_);
+            context.dispatch(tracesVoxels ? depositVplsInVoxels_ : depositVpls_, batch.count,
+                             {context.scene,
+                              voxelBindings,
+                              {"rays", rays_},
+                              {"hits", hits_},
+                              {"paths", paths_},
+                              {"pathOrder", pathOrder_},
+                              {"VplsRef", context[vpls_].points.ref()},
+                              {"flags", flags_},
+                              {"count", batch.count},
+                              {"firstPath", firstPath + batch.first},
+                              {"firstRay", batch.first},
+                              {"seed", batch.seed},
+                              {"bounce", bounce},
+                              {"bounces", params_.bounces}});
+        }
+    }
 }
 
 VOXRAY_REGISTER_PASS(SampleVpls);

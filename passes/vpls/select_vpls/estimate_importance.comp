@@ -7,7 +7,8 @@ layout(local_size_x = 64) in;
 readonly buffer ActiveVpls { uint data[]; } activeVpls;
 readonly buffer GeometryTerms { float data[]; } geometryTerms;
 readonly buffer Occluded { uint data[]; } occluded;
-layout(scalar) writeonly buffer Importance { vec2 data[]; } importance;  // Luminance of irradiance, W/m², and of flux, W.
+// Luminance of irradiance, W/m², and of flux, W.
+layout(scalar) writeonly buffer Importance { vec2 data[]; } importance;
 layout(push_constant, scalar) uniform Push {
     uint first, count;
     uint texelsPerVpl;

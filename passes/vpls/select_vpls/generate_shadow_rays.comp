@@ -28,7 +28,8 @@ void main() {
     const ivec2 texel = min(ivec2(sobol2(push.first * push.texelsPerVpl + i, push.seed) * vec2(extent)), extent - 1);
     const vec4 p = texelFetch(position, texel, 0);
     if (p.w > 0.0) {
-        const vec3 n = normalize(texelFetch(normal, texel, 0).xyz), faceNormal = normalize(texelFetch(geometricNormal, texel, 0).xyz);
+        const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
+        const vec3 faceNormal = normalize(texelFetch(geometricNormal, texel, 0).xyz);
         vec3 direction;
         const vec3 origin = p.xyz + p.w * faceNormal;
         geometry = vplGeometryTerm(vpl, origin, n, faceNormal, push.minDistanceSquared, direction);

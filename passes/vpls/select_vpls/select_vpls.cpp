@@ -11,18 +11,17 @@
 
 namespace voxray {
 
-/// Selects virtual point lights by what they bring to the camera's image: each is kept with a probability by
-/// its irradiance at a few random texels, and weighted by the inverse. Source: Georgiev and Slusallek 2010,
-/// "Simple and Robust Iterative Importance Sampling of Virtual Point Lights".
+/// Importance resampling of virtual point lights by their irradiance at a few random texels of the image.
+/// Source: Georgiev and Slusallek 2010, "Simple and Robust Iterative Importance Sampling of Virtual Point
+/// Lights".
 class SelectVpls final : public Pass {
  public:
     static constexpr const char* kName = "select_vpls";
     static constexpr const char* kHelp =
-        "Picks virtual point lights (VPLs) by what they bring to random texels. "
-        "Keeps a number of those of sample_vpls for gather_vpls. "
-        "Exact shadow rays measure what they bring to a few random texels. Those that stay count for more. "
-        "No bias: any may stay. Noisy by: count; "
-        "and points, which miss where a light is seen from few places. Source: Georgiev and Slusallek 2010.";
+        "Selects virtual point lights (VPLs) of sample_vpls by their light at random texels. "
+        "The probability to select one is in proportion to its irradiance at a few texels, by exact shadow rays, "
+        "and its flux is divided by that probability. No bias. Noisy by: count; "
+        "and points, which miss virtual lights that few texels see. Source: Georgiev and Slusallek 2010.";
     struct Params {
         uint32_t count = 2048;
         uint32_t points = 32;
@@ -30,20 +29,18 @@ class SelectVpls final : public Pass {
         float bound = 1;
         static constexpr auto schema() {
             return std::tuple{
-                field("count", &Params::count, "Virtual point lights that stay, at most.", 1u, 1u << 20)
-                    .lessNoise(),
-                field("points", &Params::points,
-                      "Texels that each virtual light is tried on, others for each.", 1u, 1024u)
+                field("count", &Params::count, "Maximum number of selected virtual lights.", 1u, 1u << 20).lessNoise(),
+                field("points", &Params::points, "Random texels that each virtual light is tested at.", 1u, 1024u)
                     .lessNoise(),
                 field("unseen", &Params::unseen,
-                      "Fraction of 'count' that goes by flux alone, "
-                      "to virtual lights that these texels don't see too. "
-                      "Smaller: they are rarer and brighter.",
+                      "Fraction of 'count' that is selected by flux alone, "
+                      "for virtual lights that the tested texels don't see. "
+                      "A smaller one makes these rarer and brighter.",
                       0.001f, 1.0f),
                 field("bound", &Params::bound,
-                      "That of gather_vpls, "
-                      "so that virtual lights near the texels are weighed by what it will let them bring. "
-                      "Another one biases nothing.",
+                      "The 'bound' of gather_vpls, "
+                      "so that virtual lights near the tested texels get the weight that they have there. "
+                      "Another value is no bias.",
                       0.0f, 1000.0f)};
         }
     };
@@ -60,8 +57,8 @@ class SelectVpls final : public Pass {
 
     const Params params_;
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
-    In<Vpls> candidates_{*this, "vpls", "virtual point lights to choose from"};
-    Out<Vpls> vpls_{*this, "vpls", "those that stay"};
+    In<Vpls> candidates_{*this, "vpls", "virtual point lights to select from"};
+    Out<Vpls> vpls_{*this, "vpls", "selected virtual point lights"};
     Kernel generateRays_{*this, "generate_shadow_rays.comp"};
     Kernel estimateImportance_{*this, "estimate_importance.comp"};
     Kernel storeSelected_{*this, "store_selected.comp"};
@@ -78,13 +75,11 @@ void SelectVpls::plan(PassPlan& plan) {
     vpls.areaPerPath = float(surfaceArea(plan.frame.scene->geometry) * vpls.bounces / vpls.paths);
     plan.buffer(vpls.points, "selected virtual point lights", vpls.capacity(kName) * sizeof(gpu::Vpl));
     plan.buffer(vpls.activeIndices, "list of selected virtual point lights", vpls.paths * sizeof(uint32_t));
-    plan.buffer(selectedCandidates_, "places of selected virtual point lights",
-                vpls.paths * sizeof(uint32_t));
+    plan.buffer(selectedCandidates_, "indices of selected virtual point lights", vpls.paths * sizeof(uint32_t));
     plan.buffer(weights_, "weights of selected virtual point lights", vpls.paths * sizeof(float));
-    const uint64_t batch = std::min(points, uint64_t(kBatchShadowRays / params_.points)),
-                   rays = batch * params_.points;
+    const uint64_t batch = std::min(points, uint64_t(kBatchShadowRays / params_.points)), rays = batch * params_.points;
     plan.scratchBuffer(rays_, "shadow rays", rays * sizeof(Ray));
-    plan.scratchBuffer(geometryTerms_, "kernels of shadow rays", rays * sizeof(float));
+    plan.scratchBuffer(geometryTerms_, "geometry terms of shadow rays", rays * sizeof(float));
     plan.scratchBuffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
     plan.scratchBuffer(importance_, "importance of virtual point lights", batch * sizeof(glm::vec2));
 }
@@ -118,8 +113,7 @@ void SelectVpls::record(PassContext& context) {
     const auto candidateIndices = stream.readAs<uint32_t>(candidates.activeIndices, candidates.activeCount);
     std::vector<uint32_t> activeIndices;
     for (const uint32_t i : selected.indices)
-        activeIndices.push_back(uint32_t(activeIndices.size()) * vpls.bounces +
-                                candidateIndices[i] % vpls.bounces);
+        activeIndices.push_back(uint32_t(activeIndices.size()) * vpls.bounces + candidateIndices[i] % vpls.bounces);
     stream.fill(vpls.points, 0);
     stream.upload(vpls.activeIndices, activeIndices);
     stream.upload(selectedCandidates_, selected.indices);
@@ -140,8 +134,7 @@ std::vector<glm::vec2> SelectVpls::estimateImportance(PassContext& context) cons
     CommandStream& stream = context.stream;
     const Vpls& candidates = context[candidates_];
     const uint32_t batch = uint32_t(occluded_.bytes() / sizeof(uint32_t)) / params_.points;
-    const float minDistanceSquared =
-        params_.bound * params_.bound * context[vpls_].areaPerPath / glm::pi<float>();
+    const float minDistanceSquared = params_.bound * params_.bound * context[vpls_].areaPerPath / glm::pi<float>();
     std::vector<glm::vec2> result;
     for (uint32_t first = 0; first < candidates.activeCount; first += batch) {
         const uint32_t count = std::min(candidates.activeCount - first, batch), rays = count * params_.points;

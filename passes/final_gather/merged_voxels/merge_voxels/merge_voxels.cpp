@@ -12,7 +12,7 @@
 namespace voxray {
 namespace {
 
-/// The buffer `irradianceTree` of passes/final_gather/merged_voxels/irradiance_tree.glsl.
+/// As in irradiance_tree.glsl.
 struct Header {
     VkDeviceAddress words;
     gpu::IrradianceTreeGrid grid;
@@ -20,38 +20,35 @@ struct Header {
 
 }  // namespace
 
-/// Which light merged voxels hold.
 enum class MergedLight { All, Indirect };
 template <>
 struct EnumNames<MergedLight> {
-    static constexpr std::array names{std::pair{MergedLight::All, "all"},
-                                      std::pair{MergedLight::Indirect, "indirect"}};
+    static constexpr std::array names{std::pair{MergedLight::All, "all"}, std::pair{MergedLight::Indirect, "indirect"}};
 };
 
-/// Merges voxels that hold nearly the same light, so that error decides where they are small.
+/// Merges voxels of similar irradiance, so that the resolution follows the error.
 class MergeVoxels final : public Pass {
  public:
     static constexpr const char* kName = "merge_voxels";
     static constexpr const char* kHelp =
-        "Merges neighbouring voxels of nearly the same light into k-d trees. "
-        "Each face has its own tree, whose leaves stand for merged voxels. The trees are for gather_rays. "
-        "The tree is grown down to voxels and pruned where leaves are not worth their memory. "
-        "Runs on the host. Biased by: tolerance; flux is kept. "
-        "Source: cost-complexity pruning (Breiman et al. 1984; Chou, Lookabaugh and Gray 1989).";
+        "Merges adjacent voxels of similar irradiance into k-d trees. "
+        "There is a tree for each of the six face directions, whose leaves are merged voxels, for gather_rays. "
+        "Trees are built down to single voxels, then leaves that reduce the error too little are pruned. "
+        "Runs on the host. Biased by: tolerance; flux is preserved. Source: cost-complexity pruning (Breiman et al. "
+        "1984; Chou, Lookabaugh and Gray 1989).";
     struct Params {
         float tolerance = 0.3f;
         MergedLight light = MergedLight::All;
         static constexpr auto schema() {
             return std::tuple{
                 field("tolerance", &Params::tolerance,
-                      "Relative error of irradiance that is allowed over one voxel's face: "
-                      "a leaf is kept where it lowers the squared relative error, times area, "
-                      "by more than this squared voxel faces. 0: "
-                      "voxels are merged only where they hold the same. Black is merged with black alone.",
+                      "Relative error of irradiance that is accepted over the area of one voxel face. "
+                      "A leaf is pruned where it reduces the squared relative error times area, in voxel faces, "
+                      "by less than this squared. 0: only equal values are merged. Black is merged with black only.",
                       0.0f, 30.0f),
                 field("light", &Params::light,
                       "all: direct and indirect light. "
-                      "indirect: gather_rays measures direct light at each hit.")};
+                      "indirect: indirect light only; gather_rays measures direct light at each hit.")};
         }
     };
 
@@ -63,7 +60,7 @@ class MergeVoxels final : public Pass {
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
     In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
-    Out<IrradianceTree> tree_{*this, "irradiance_tree", "the same light, voxels that are alike merged"};
+    Out<IrradianceTree> tree_{*this, "irradiance_tree", "light of merged voxels"};
 };
 
 void MergeVoxels::plan(PassPlan& plan) {
@@ -82,27 +79,27 @@ void MergeVoxels::record(PassContext& context) {
     const VoxelIrradiance& light = context[irradiance_];
     IrradianceTree& tree = context[tree_];
 
-    // A tree for each face
-    VoxelFaces all = readVoxelFaces(context.stream, voxels, light, tree.holdsDirect);
+    // Build the trees
+    VoxelFaces voxelFaces = readVoxelFaces(context.stream, voxels, light, tree.holdsDirect);
     std::array<SampleTree, kFaces> trees;
     parallelRanges(kFaces, 1, [&](size_t begin, size_t end) {
         for (size_t face = begin; face < end; ++face)
-            trees[face] = buildSampleTree(all.faces[face], params_.tolerance);
+            trees[face] = buildSampleTree(voxelFaces.faces[face], params_.tolerance);
     });
 
-    // One after another
+    // Concatenate them
     Header header{0, {voxels.grid, {}}};
     std::vector<uint32_t> words;
     double area = 0, squaredError = 0;
     size_t count = 0;
-    tree.leaves = 0;
+    uint32_t leaves = 0;
     for (size_t face = 0; face < kFaces; ++face) {
         header.grid.root[face] = uint32_t(words.size());
         words.insert(words.end(), trees[face].words.begin(), trees[face].words.end());
-        tree.leaves += trees[face].leaves;
+        leaves += trees[face].leaves;
         squaredError += trees[face].squaredError;
-        for (const FaceSample& s : all.faces[face]) area += s.area;
-        count += all.faces[face].size();
+        for (const FaceSample& s : voxelFaces.faces[face]) area += s.area;
+        count += voxelFaces.faces[face].size();
     }
     tree.words = {};
     tree.words = Buffer(context.device, "irradiance tree", words.size() * sizeof(uint32_t));
@@ -110,15 +107,15 @@ void MergeVoxels::record(PassContext& context) {
     header.words = tree.words.address();
     context.stream.upload(tree.header, std::as_bytes(std::span(&header, 1)));
 
-    // The voxels that they are for
+    // Copy the voxels' occupancy
     context.stream.copy(voxels.occupancy, tree.occupancy, tree.occupancy.bytes());
     context.stream.copy(voxels.rank, tree.rank, tree.rank.bytes());
     tree.faces = {};
-    tree.faces = Buffer(context.device, "faces of merged voxels", all.known.size() * sizeof(uint32_t));
-    context.stream.upload(tree.faces, all.known);
+    tree.faces = Buffer(context.device, "faces of merged voxels", voxelFaces.faceBits.size() * sizeof(uint32_t));
+    context.stream.upload(tree.faces, voxelFaces.faceBits);
     context.stream.finish();
     context.report("faces of voxels", double(count));
-    context.report("leaves", tree.leaves);
+    context.report("leaves", leaves);
     context.report("bytes of the trees", double(tree.words.bytes()));
     context.report("bytes in all", double(tree.bytes()));
     context.report("relative error of faces", area > 0 ? std::sqrt(squaredError / area) : 0);

@@ -8,24 +8,22 @@ class GatherSteppedCones final : public Pass {
  public:
     static constexpr const char* kName = "gather_stepped_cones";
     static constexpr const char* kHelp =
-        "Gathers indirect light by six cones of 60 degrees, as published. "
-        "It is for comparison with gather_cones. "
-        "The cones have fixed directions about the normal and are weighed by their cosine. "
+        "Gathers indirect light by six cones of 60 degrees, as published. For comparison with gather_cones. "
+        "The cones have fixed directions about the normal and are weighted by their cosine. "
         "Each is sampled at points along its axis and composited front to back. "
-        "Biased by: voxel size; six directions; closed walls that a step passes, or meets twice. No noise. "
+        "Biased by: voxel size; six directions; thin walls that a step skips or samples twice. No noise. "
         "Source: Arnebäck 2017, sections 3.1.5 and 3.2.5.";
     struct Params {
         float step = 0.5f;
         float start = 1.0f;
         static constexpr auto schema() {
             return std::tuple{field("step", &Params::step,
-                                    "From a sample to the next, in widths of the cone there; "
-                                    "each counts for so much of its width.",
+                                    "Distance between samples, in widths of the cone; "
+                                    "a sample's opacity counts for this fraction of its width.",
                                     0.125f, 1.0f),
                               field("start", &Params::start,
-                                    "From the surface to a cone's first sample, in voxels. "
-                                    "Near ones see the surface itself, far ones pass what is near. "
-                                    "As published it is unknown.",
+                                    "Voxels from the surface to a cone's first sample (not given in the thesis). "
+                                    "If small, the surface itself is sampled; if large, close surfaces are skipped.",
                                     0.5f, 16.0f)};
         }
     };

@@ -1,6 +1,6 @@
-// Radiance that each pixel reflects of six cones' light, averaged over its texels (Arnebäck 2017, sections 3.1.5 and 3.2.5). The
-// thesis does not give a cone's first sample: `start`. A cone ends one sample width outside of the grid, beyond which all samples
-// are empty.
+// Radiance that each pixel reflects of six cones' light, averaged over its texels (Arnebäck 2017, sections 3.1.5 and
+// 3.2.5). The thesis does not give a cone's first sample: `start`. A cone ends one sample width outside of the grid,
+// beyond which all samples are empty.
 #include "passes/cones/radiance/sample_radiance.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -1,6 +1,6 @@
-// Light injection (Arnebäck 2017, section 3.2.3): a texel of a reflective shadow map lights the leaf that it sees, which reflects
-// by its mean color and mean normal (equation 2). The first pass counts each leaf's texels and finds the brightest contribution;
-// the second accumulates the mean over texels.
+// Light injection (Arnebäck 2017, section 3.2.3): a texel of a reflective shadow map lights the leaf that it sees,
+// which reflects by its mean color and mean normal (equation 2). The first pass counts each leaf's texels and finds the
+// brightest contribution; the second accumulates the mean over texels.
 #include "passes/published/arneback_2017/light_octree/leaf_sums.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/lights/lights.glsl"
@@ -50,5 +50,6 @@ void main() {
     }
     if (brightest.bits == 0u) return;
     const vec3 fraction = radiance / (uintBitsToFloat(brightest.bits) * float(sums.data[leafIndex].texels));
-    for (uint c = 0u; c < 3u; ++c) atomicAdd(sums.data[leafIndex].radiance[c], uint(fraction[c] * kFixedPointOne + 0.5));
+    for (uint c = 0u; c < 3u; ++c)
+        atomicAdd(sums.data[leafIndex].radiance[c], uint(fraction[c] * kFixedPointOne + 0.5));
 }

@@ -6,7 +6,7 @@
 
 struct LeafSum {
     uint texels;
-    uint radiance[3];  // Contributions of texels to their mean, relative to the brightest texel: they add up to at most 1.
+    uint radiance[3];  // Sum of contributions to the mean, relative to the brightest texel: at most 1.
 };
 const float kFixedPointOne = 1073741824.0;  // 2^30: each of 2^30 texels may round up.
 

@@ -12,5 +12,6 @@ void main() {
     if (i >= push.leaves) return;
     const LeafSum sum = sums.data[i];
     if (sum.texels == 0u) return;
-    leaves.data[i] += uintBitsToFloat(brightest.bits) / kFixedPointOne * vec3(sum.radiance[0], sum.radiance[1], sum.radiance[2]);
+    const vec3 mean = vec3(sum.radiance[0], sum.radiance[1], sum.radiance[2]);
+    leaves.data[i] += uintBitsToFloat(brightest.bits) / kFixedPointOne * mean;
 }

@@ -1,6 +1,6 @@
-// Writes the bricks of leaves; the first pass finds the brightest leaf. A leaf is one voxel of light, so all 27 values of its
-// brick are equal until neighbors are averaged in. Leaves with surfaces are opaque; neighbors that exist without surfaces are
-// transparent and black.
+// Writes the bricks of leaves; the first pass finds the brightest leaf. A leaf is one voxel of light, so all 27 values
+// of its brick are equal until neighbors are averaged in. Leaves with surfaces are opaque; neighbors that exist without
+// surfaces are transparent and black.
 #include "passes/published/arneback_2017/light_octree/leaf_sums.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/cones/radiance/radiance_voxels.glsl"

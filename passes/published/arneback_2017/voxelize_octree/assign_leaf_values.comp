@@ -1,5 +1,5 @@
-// "Leaf Value Assignment" (Arnebäck 2017, section 3.2.2): merges the color and the normal of each fragment into its leaf. Leaves
-// of static surfaces keep theirs, whatever moves there.
+// "Leaf Value Assignment" (Arnebäck 2017, section 3.2.2): merges the color and the normal of each fragment into its
+// leaf. Leaves of static surfaces keep theirs, whatever moves there.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/octree/brick_octree.glsl"
 #include "passes/published/packed_write.glsl"

@@ -3,10 +3,10 @@
 #include <numeric>
 
 #include "graph/registry.h"
+#include "passes/common/compute/large_buffer.h"
 #include "passes/common/octree/brick_octree_builder.h"
 #include "passes/common/triangle_voxelizer/triangle_voxelizer.h"
 #include "passes/common/voxels/voxels.h"
-#include "passes/published/arneback_2017/voxelize_octree/fragment_list.h"
 
 namespace voxray {
 namespace {
@@ -17,6 +17,14 @@ gpu::VoxelGrid boundingCube(glm::vec3 low, glm::vec3 high, uint32_t resolution) 
     const float halfEdge = 0.5f * std::max({size.x, size.y, size.z});
     return makeVoxelGrid(center - halfEdge, center + halfEdge, resolution);
 }
+
+/// Fragments of triangles, one word per fragment in each array (Arnebäck 2017, listing 1).
+struct FragmentList {
+    uint32_t count = 0;
+    LargeBuffer cells;    ///< Voxel, 10 bits per axis.
+    LargeBuffer colors;   ///< Diffuse albedo, RGBA8.
+    LargeBuffer normals;  ///< 0.5 n + 0.5 of the front-side normal n, RGBA8.
+};
 
 }  // namespace
 
@@ -29,12 +37,11 @@ class VoxelizeOctree final : public Pass {
     static constexpr const char* kName = "voxelize_octree";
     static constexpr const char* kHelp =
         "Voxelizes triangles into an octree of bricks with color and normal. "
-        "Turns triangles into a list of fragments and these into the octree. "
-        "Its leaves hold a mean color and a mean normal, for light_octree. "
+        "Triangles are rasterized into a fragment list, over which the octree is built. "
+        "Leaves hold a mean color and a mean normal, for light_octree. "
         "As published in Arnebäck 2017 (sections 3.2.1 and 3.2.2), for comparison: "
-        "voxelize and filter_voxels with layout svo are the method to use. "
-        "Biased by: voxel size; surfaces whose sides share a voxel, whose normals cancel out; "
-        "surfaces between samples, which are missed; 8 bits. "
+        "use voxelize and filter_voxels with layout svo instead. Biased by: voxel size; "
+        "opposite surfaces in a voxel, whose normals cancel out; surfaces between samples, which are missed; 8 bits. "
         "Noisy by: nothing, but means of 8 bits depend on the order of threads by a few steps. "
         "Source: Arnebäck 2017, section 3.2.";
     struct Params {
@@ -42,19 +49,18 @@ class VoxelizeOctree final : public Pass {
         uint32_t samples = 8;
         bool brickNeighbors = true;
         static constexpr auto schema() {
-            return std::tuple{
-                field("resolution", &Params::resolution,
-                      "Voxels along each side of the cube round the scene, "
-                      "which is as wide as the scene's longest side.",
-                      1u, 1024u),
-                field("samples", &Params::samples,
-                      "Sample points of a voxel's column that are tested: "
-                      "8 for multisampling as published (how many it does not say), "
-                      "1 for the column's center alone.",
-                      {1u, 8u}),
-                field("brick_neighbors", &Params::brickNeighbors,
-                      "Whether the 26 neighbours of each node that surfaces pass through are made "
-                      "to exist. Off, values that bricks share differ where one is missing (figure 28).")};
+            return std::tuple{field("resolution", &Params::resolution,
+                                    "Voxels along an edge of the scene's bounding cube, "
+                                    "whose edge is the scene's longest side.",
+                                    1u, 1024u),
+                              field("samples", &Params::samples,
+                                    "Sample points of a voxel's column: "
+                                    "8 for multisampling as published (the thesis does not give the number), "
+                                    "1 for the column's center only.",
+                                    {1u, 8u}),
+                              field("brick_neighbors", &Params::brickNeighbors,
+                                    "Whether the 26 neighbors of each node with surfaces are created. Off: values "
+                                    "that adjacent bricks share differ where a neighbor is missing (figure 28).")};
         }
     };
     explicit VoxelizeOctree(const Params& params) : params_(params) {}
@@ -117,10 +123,9 @@ void VoxelizeOctree::record(PassContext& context) {
         builder_.build(stream, octree, fragments.cells, fragments.count);
         assignLeafValues(context, fragments);
         const gpu::LevelNodes& leaves = octree.levels[0];
-        context.dispatch(markStaticLeaves_, leaves.staticCount,
-                         {{"OctreeNodesRef", octree.nodes.ref()},
-                          {"firstNode", leaves.staticFirst},
-                          {"count", leaves.staticCount}});
+        context.dispatch(
+            markStaticLeaves_, leaves.staticCount,
+            {{"OctreeNodesRef", octree.nodes.ref()}, {"firstNode", leaves.staticFirst}, {"count", leaves.staticCount}});
         stream.finish();
         hasStatic_ = true;
     }
@@ -148,11 +153,10 @@ FragmentList VoxelizeOctree::voxelize(PassContext& context, const std::vector<ui
     list.colors = LargeBuffer(context.device, "fragments' colors", bytes);
     list.normals = LargeBuffer(context.device, "fragments' normals", bytes);
     stream.fill(counter, 0);
-    voxelizer_->run(
-        context, *appendFragments_, grid,
-        std::array{Binding{"fragmentCount", counter}, Binding{"CellsRef", list.cells.ref()},
-                   Binding{"ColorsRef", list.colors.ref()}, Binding{"NormalsRef", list.normals.ref()}},
-        0);
+    voxelizer_->run(context, *appendFragments_, grid,
+                    std::array{Binding{"fragmentCount", counter}, Binding{"CellsRef", list.cells.ref()},
+                               Binding{"ColorsRef", list.colors.ref()}, Binding{"NormalsRef", list.normals.ref()}},
+                    0);
     stream.finish();
     voxelizer_->release();
     return list;

@@ -1,5 +1,5 @@
-// Radiance that each pixel reflects of the irradiance in packed voxels, interpolated between voxel centers; empty voxels count as
-// black.
+// Radiance that each pixel reflects of the irradiance in packed voxels, interpolated between voxel centers; empty
+// voxels count as black.
 #include "passes/published/magalhaes_2020/packed_voxels.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -21,7 +21,8 @@ vec3 trilinear(vec3 p) {
     for (uint k = 0u; k < 8u; ++k) {
         const ivec3 offset = ivec3(k & 1u, (k >> 1) & 1u, k >> 2);
         const vec3 weight = mix(1.0 - fraction, fraction, vec3(offset));
-        sum += weight.x * weight.y * weight.z * packedColor(irradiance.data[packedIndex(push.grid, ivec3(corner) + offset)]);
+        const uint word = irradiance.data[packedIndex(push.grid, ivec3(corner) + offset)];
+        sum += weight.x * weight.y * weight.z * packedColor(word);
     }
     return sum;
 }

@@ -20,19 +20,17 @@ class DirectPackedVoxels final : public Pass {
  public:
     static constexpr const char* kName = "direct_packed_voxels";
     static constexpr const char* kHelp =
-        "Looks light up in packed voxels, filtered between voxels. "
-        "A voxel's light is what its one word holds. "
-        "Of light that secondary rays left there it shows that, too. "
-        "As published in Magalhães 2020 (section 4.4), for comparison: gather_irradiance with `light: "
-        "direct` is the method to use. Biased by: voxel size; "
-        "empty voxels, which are filtered in as black; light from all sides of a surface in one. "
+        "Looks light up in packed voxels, filtered between voxels. A voxel's light is in one word, "
+        "which includes light of secondary rays. As published in Magalhães 2020 (section 4.4), for comparison: "
+        "use gather_irradiance with `light: direct` instead. Biased by: voxel size; "
+        "empty voxels, which are interpolated as black; light from both sides of a surface in one value. "
         "No noise of its own. Source: Magalhães 2020, sections 3.4.1 and 4.4.";
     struct Params {
         PackedLookup lookup = PackedLookup::SevenTap;
         static constexpr auto schema() {
             return std::tuple{field("lookup", &Params::lookup,
                                     "As published in Magalhães 2020. single: trilinear, at the surface. "
-                                    "seven_tap: the mean of that and "
+                                    "seven_tap: the mean of this and "
                                     "of lookups at one voxel's distance along each axis (listing 4.8).")};
         }
     };

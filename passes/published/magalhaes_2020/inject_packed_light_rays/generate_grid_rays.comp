@@ -1,5 +1,5 @@
-// Rays of a spot light through the points of a planar grid that spans 90 degrees about its axis, with the light's intensity in
-// their direction.
+// Rays of a spot light through the points of a planar grid that spans 90 degrees about its axis, with the light's
+// intensity in their direction.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"

@@ -23,7 +23,7 @@ constexpr float kTMin = 0.02f;  // m (listing 7.7).
 ///  - A hit deposits intensity * cosine / length² in its voxel, by the voxel's mean normal and the length of
 ///    this segment only.
 ///  - Secondary rays are mirrored about the mean normal; their intensity is the irradiance at the hit times
-///    the albedo there. By its unit this is no intensity: metres stand where steradians should.
+///    the albedo there. Its unit is not that of an intensity: the formula has m² instead of sr.
 ///
 /// The text is followed where the listings differ from it: listing 7.7 stores a debug color, disables
 /// secondary rays, starts them at the origin, and omits the albedo, which sections 3.2.7.1 and 4.3.2.2 have.
@@ -33,13 +33,12 @@ class InjectPackedLightRays final : public Pass {
     static constexpr const char* kName = "inject_packed_light_rays";
     static constexpr const char* kHelp =
         "Traces a planar grid of rays from one spot light into packed voxels. "
-        "The irradiance of each hit is merged into the voxel's one word. Then the rays are mirrored. "
-        "As published in Magalhães 2020 (section 4.3), for comparison: "
-        "inject_light_rays is the method to use. "
-        "Biased by: voxel size; write: all rays of a voxel count alike, whatever area they stand for; "
-        "falloff that begins again with each segment; 8 bits of white. "
-        "Noisy by: nothing, but moving_average and none depend on the order of threads. Leaves unlit: "
-        "what lies between the grid's rays or beyond 45 degrees, and voxels that voxelization missed. "
+        "The irradiance of each hit is merged into the voxel's word, then the ray is mirrored. "
+        "As published in Magalhães 2020 (section 4.3), for comparison: use inject_light_rays instead. "
+        "Biased by: voxel size; write: all rays in a voxel have equal weight, whatever area they represent; "
+        "distance falloff restarts with each segment; 8 bits of white. "
+        "Noisy by: nothing, but moving_average and none depend on the order of threads. "
+        "Surfaces between the grid's rays or beyond 45 degrees, and voxels that voxelization missed, remain black. "
         "Source: Magalhães 2020, sections 3.3.1 and 4.3.";
     struct Params : PackedWriteParams {
         uint32_t raysPerLight = 262144;
@@ -47,16 +46,15 @@ class InjectPackedLightRays final : public Pass {
         float white = 3.14159265f;
         static constexpr auto schema() {
             return std::tuple_cat(
-                std::tuple{field("rays_per_light", &Params::raysPerLight,
-                                 "Rays of the grid: the square of a whole number, of rays along its edge.",
-                                 1u, 1u << 26),
-                           field("bounces", &Params::bounces,
-                                 "Mirrored rays after a ray's first hit. 0 and 1 as published.", 0u, 64u),
-                           field("white", &Params::white,
-                                 "Irradiance, W/m², that the largest of 8 bits stands for; "
-                                 "what is brighter is clamped. "
-                                 "pi, as published: a white surface then sends out a radiance of 1.",
-                                 1e-6f, 1e9f)},
+                std::tuple{
+                    field("rays_per_light", &Params::raysPerLight, "Rays of the grid; a square number.", 1u, 1u << 26),
+                    field("bounces", &Params::bounces, "Mirrored rays after a ray's first hit. 0 and 1 as published.",
+                          0u, 64u),
+                    field("white", &Params::white,
+                          "Irradiance, W/m², of the maximum 8-bit value, "
+                          "to which brighter values are clamped. "
+                          "pi as published: a white surface then reflects a radiance of 1.",
+                          1e-6f, 1e9f)},
                 PackedWriteParams::schema());
         }
     };
@@ -83,8 +81,7 @@ class InjectPackedLightRays final : public Pass {
 uint32_t InjectPackedLightRays::spotLight(const SceneState& scene) {
     const std::vector<LightSource> sources = requireLightSources(scene, kName);
     const LightSource& first = sources.front();
-    if (sources.size() > 1 || first.kind != LightSource::Punctual ||
-        scene.lights[first.light].type != LightType::Spot)
+    if (sources.size() > 1 || first.kind != LightSource::Punctual || scene.lights[first.light].type != LightType::Spot)
         throw Error("{}: it takes one spot light and no other light, as published", kName);
     return first.light;
 }

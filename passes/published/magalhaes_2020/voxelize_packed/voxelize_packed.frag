@@ -1,5 +1,5 @@
-// Fragment callback: merges the normal and the albedo of each fragment into its voxel's words. Textures are read at their finest
-// level.
+// Fragment callback: merges the normal and the albedo of each fragment into its voxel's words. Textures are read at
+// their finest level.
 #include "passes/common/triangle_voxelizer/raster.glsl"
 #include "passes/published/magalhaes_2020/packed_voxels.glsl"
 #include "passes/published/packed_write.glsl"

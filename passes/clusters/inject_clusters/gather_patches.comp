@@ -1,0 +1,15 @@
+// Gathers the irradiance of each patch along its visibility list.
+#include "passes/clusters/gather_patch.glsl"
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer IrradianceRef { LargeUints irradiance; };
+layout(push_constant, scalar) uniform Push {
+    VisibilityListLayout lists;
+    uint patches;
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i < push.patches) irradiance.data[i] = packRadiosity(gatherPatch(push.lists, i));
+}

@@ -1,0 +1,54 @@
+// Shading of a gather ray's hit by stored light. Needs the bindings of shaders/scene/scene.glsl.
+#ifndef VOXRAY_SHADE_HIT_GLSL
+#define VOXRAY_SHADE_HIT_GLSL
+
+#include "passes/final_gather/gather_rays/stored_light.glsl"
+#include "passes/surfels/surfel_at_hit.glsl"
+#include "shaders/scene/octahedral.glsl"
+
+layout(scalar) buffer Light { vec4 data[]; } light;
+// Hits where shadow rays measure direct light, in any order; `parent` is the gather ray.
+layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
+// Per surfel: 1 where its path continues, and the geometric normal, octahedral.
+layout(scalar) writeonly buffer Continuations { uvec2 data[]; } continuations;
+buffer Counts {
+    uint surfels;
+    uint unlit;  // Hits beyond the near field where no light is stored.
+} counts;
+
+// Adds `throughput` times the light reflected at a ray's hit to gather ray i. Stored light has the resolution of its
+// cells: a ray from `origin` that is shorter than `nearField` cells does not read it but continues as a path does, and
+// so does a ray that hits where no light is stored. With a `nearField` of 0 every ray ends at its hit.
+//
+//      ┌───────┬───────┐
+//      │   o───┼───┼─> ·   ·: a hit beyond the near field reads the cell.
+//      │    \  │       │   x: at a hit in the near field a shadow ray measures direct light, and the path continues.
+//     ─┼─────x─┼───────┼─
+//      └───────┴───────┘
+void shadeHit(uint i, Hit hit, vec3 origin, vec3 throughput, uint id, float nearField) {
+    Surfel surfel;
+    vec3 faceNormal;
+    float offset;
+    if (!surfelAtHit(hit, origin, surfel, faceNormal, offset)) return;
+
+    // Read the light stored for the side that the ray hit
+    surfel.reflectance *= throughput;
+    const StoredLight stored = storedLight(surfel.position, faceNormal);
+    const bool isNear = hit.t < nearField * stored.cellSize;
+    if (!isNear && !stored.known) atomicAdd(counts.unlit, 1u);
+    const bool isContinued = isNear || (nearField > 0.0 && !stored.known);
+    if (!isContinued) light.data[i].rgb += surfel.reflectance * stored.irradiance;
+#ifndef SHADOW_RAYS
+    if (!isContinued) return;
+#endif
+
+    // List the hit for shadow rays
+    surfel.position += offset * faceNormal;
+    surfel.id = id;
+    surfel.parent = i;
+    const uint index = atomicAdd(counts.surfels, 1u);
+    surfels.data[index] = surfel;
+    continuations.data[index] = uvec2(isContinued ? 1u : 0u, toOctahedral(faceNormal));
+}
+
+#endif
