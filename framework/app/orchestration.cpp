@@ -171,9 +171,8 @@ void addParetoCommand(CLI::App& app, int&) {
         ->check(CLI::IsMember({"indirect", "total"}))
         ->default_str("indirect");
     addFlag(command, "--no-images", "Leave out images and error maps, for a smaller page.");
-    addText(
-        command, "--figures", "DIR",
-        "Folder for figures of a paper: the matrix and each scene's chart as SVG and PDF, with their data.");
+    addText(command, "--figures", "DIR",
+            "Folder for figures of a paper: the matrix and each scene's chart as SVG and PDF, with their data.");
 }
 
 }  // namespace voxray
