@@ -40,5 +40,5 @@ def encode(rgb: np.ndarray) -> str:
 def luminance_range(rgb: np.ndarray) -> tuple[float, float] | None:
     """The luminances that all but 0.1 % of the lit pixels at either end lie between; None where all are black."""
     luminance = rgb @ _LUMINANCE
-    lit = luminance[luminance > 0]
+    lit = luminance[(luminance > 0) & np.isfinite(luminance)]
     return tuple(np.percentile(lit, _PERCENTILES)) if len(lit) else None

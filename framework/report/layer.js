@@ -1,51 +1,54 @@
 "use strict";
-// Canvases that show images by the page's state. They are drawn where they are in sight: a page may have hundreds.
+// Canvases that show images by the page's state. They have pixels where they are in sight: a page may have hundreds.
 (() => {
     const { state, onChange } = page;
-    const layers = new Map(); // by canvas
+    const layers = new Map(); // by stage
     const inSight = new Set();
 
-    async function draw(canvas) {
-        const layer = layers.get(canvas);
-        const [image, reference] = layer.sources();
+    async function draw(layer) {
+        const { canvas, sources } = layer;
+        const [image, reference] = sources();
         const wanted = [image?.id, reference?.id, state.colors, state.exposure].join(" ");
         if (layer.drawn === wanted) return;
         layer.drawn = wanted;
-        canvas.style.visibility = image ? "" : "hidden";
+        canvas.hidden = !image;
+        canvas.setAttribute("aria-busy", String(Boolean(image)));
         if (!image) return;
-        canvas.setAttribute("aria-busy", "true");
-        const [pixels, right] = await Promise.all([image, reference].map((source) => source && page.pixelsOf(source)));
+        const [pixels, compared] = await Promise.all([image, reference].map((source) => source && page.pixelsOf(source)));
         if (layer.drawn !== wanted) return; // another change came meanwhile
         canvas.width = pixels.width;
         canvas.height = pixels.height;
-        canvas.getContext("2d").putImageData(page.shade(pixels, right), 0, 0);
-        canvas.removeAttribute("aria-busy");
+        canvas.getContext("2d").putImageData(page.shade(pixels, compared), 0, 0);
+        canvas.setAttribute("aria-busy", "false");
         sharpen();
+    }
+    function release(layer) {
+        layer.drawn = "";
+        layer.canvas.width = layer.canvas.height = 0;
+        layer.canvas.setAttribute("aria-busy", "false");
     }
     const watcher = new IntersectionObserver((entries) => {
         for (const { target, isIntersecting } of entries) {
-            if (isIntersecting) {
-                inSight.add(target);
-                draw(target);
-            } else {
-                inSight.delete(target);
-            }
+            inSight[isIntersecting ? "add" : "delete"](target);
+            layers.get(target).forEach(isIntersecting ? draw : release);
         }
     }, { rootMargin: "500px" });
-    onChange(["colors", "exposure", "show", "against", "left", "right", "light"], () => inSight.forEach(draw));
+    onChange(["colors", "exposure", "show", "against", "left", "right", "light"], () => {
+        for (const stage of inSight) layers.get(stage).forEach(draw);
+    });
     onChange(["exposure"], () => {
         const stated = document.querySelector(".stops");
         if (stated) stated.textContent = `${state.exposure > 0 ? "+" : ""}${Number(state.exposure)}`;
     });
 
-    // Adds a canvas to what an image stands in. @param sources returns the image to show, and what its error is to be shown against
-    page.addLayer = (parent, sources, name = "") => {
+    // @param sources returns the image to show and, for its error, what it is compared with
+    page.addLayer = (stage, sources, name = "") => {
         const canvas = document.createElement("canvas");
         canvas.className = name;
         canvas.setAttribute("aria-hidden", "true");
-        parent.append(canvas);
-        layers.set(canvas, { sources });
-        watcher.observe(canvas);
+        stage.firstElementChild.append(canvas);
+        layers.set(stage, [...(layers.get(stage) ?? []), { canvas, sources }]);
+        watcher.observe(stage);
     };
 
     // Pixels are shown as squares where they are enlarged, and averaged where they are reduced.

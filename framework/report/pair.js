@@ -8,11 +8,13 @@
     for (const side of sides) {
         const stage = document.querySelector(`.stage[data-side="${side}"]`);
         if (!stage) continue;
-        page.addLayer(stage.firstElementChild, () => [imageOn(side)]);
+        page.addLayer(stage, () => [imageOn(side)]);
         page.addReadout(stage, () => sides.map((each) => [nameOn(each), imageOn(each)]));
         onChange([side, "light"], () => {
             const image = imageOn(side);
-            if (image) stage.style.aspectRatio = `${image.getAttribute("width")} / ${image.getAttribute("height")}`;
+            if (!image) return;
+            const ratio = `${image.getAttribute("width")} / ${image.getAttribute("height")}`;
+            for (const element of [stage, stage.firstElementChild]) element.style.aspectRatio = ratio;
         });
     }
 

@@ -2,7 +2,7 @@
 // The radiance of images: R, G, B in planes of 32-bit floats, from half floats (half_floats.py) or, without them, from previews.
 (() => {
     const previewScale = 2 ** -(Number(document.documentElement.dataset.stops) || 0);
-    const known = new WeakMap();
+    const known = new Map(), maxKnown = 32; // by image, those used last at the end
 
     const ofHalf = Float32Array.from({ length: 1 << 16 }, (_, bits) => {
         const exponent = (bits >> 10) & 31, fraction = (bits & 1023) / 1024;
@@ -42,8 +42,16 @@
 
     // A promise of an image's pixels; previews are clipped and have 8 bits, so that theirs are not exact.
     page.pixelsOf = (image) => {
-        if (!known.has(image)) known.set(image, read(image));
-        return known.get(image);
+        const pixels = known.get(image) ?? read(image);
+        known.delete(image);
+        known.set(image, pixels); // last
+        if (known.size > maxKnown) known.delete(known.keys().next().value);
+        return pixels;
+    };
+    // The index of the pixel of `other` where that of index `i` in `pixels` is.
+    page.indexIn = (other, pixels, i) => {
+        const row = Math.floor(((Math.floor(i / pixels.width) + 0.5) / pixels.height) * other.height);
+        return row * other.width + Math.floor((((i % pixels.width) + 0.5) / pixels.width) * other.width);
     };
     page.luminanceAt = ({ data }, i) => {
         const count = data.length / 3;

@@ -5,7 +5,7 @@
     let column = null, row = null;
     const digits = (value) => String(Number(value.toPrecision(4)));
 
-    // @param sources returns the images to read by their names; the error of the first against the second is stated
+    // @param sources returns names and images to read; the ratio of the first two luminances is stated
     page.addReadout = (stage, sources) => {
         const canvas = stage.firstElementChild;
         const cursor = document.createElement("i");
@@ -17,27 +17,29 @@
         output.setAttribute("aria-live", "polite");
         stage.parentElement.append(output);
 
-        async function read(place) {
+        async function read(pixelOf) {
             const named = sources().filter(([, image]) => image);
             if (named.length === 0) return;
-            const pixels = await Promise.all(named.map(([, image]) => page.pixelsOf(image)));
-            const { width, height } = pixels[0];
-            [column, row] = place(width, height);
+            const all = await Promise.all(named.map(([, image]) => page.pixelsOf(image)));
+            const { width, height } = all[0];
+            [column, row] = pixelOf(width, height);
             column = Math.min(width - 1, Math.max(0, column));
             row = Math.min(height - 1, Math.max(0, row));
-            const at = row * width + column;
-            const said = pixels.map(({ data, isExact }, i) => `${named[i][0]} ${[0, 1, 2].map((c) => digits(data[c * width * height + at])).join(" ")}${isExact ? "" : " (of 8 bits)"}`);
-            if (pixels.length > 1) {
-                const [shown, right] = pixels.map((image) => page.luminanceAt(image, at));
-                if (right > 0) said.push(`luminance × ${digits(shown / right)}`);
-            }
-            output.textContent = [`x ${column}, y ${row}`, ...said].join(" · ");
+            const readings = all.map((pixels, i) => {
+                const index = page.indexIn(pixels, all[0], row * width + column), { data, isExact } = pixels;
+                const color = [0, 1, 2].map((c) => digits(data[(c * data.length) / 3 + index]));
+                return { text: `${named[i][0]} ${color.join(" ")}${isExact ? "" : " (8 bits)"}`, luminance: page.luminanceAt(pixels, index) };
+            });
+            const ratio = readings[0].luminance / readings[1]?.luminance;
+            output.textContent = [`x ${column}, y ${row}`, ...readings.map(({ text }) => text),
+                                  ...(isFinite(ratio) ? [`luminance × ${digits(ratio)}`] : [])].join(" · ");
             Object.assign(cursor.style, { left: `${(100 * (column + 0.5)) / width}%`, top: `${(100 * (row + 0.5)) / height}%` });
         }
         stage.addEventListener("pointermove", (event) => {
             const box = canvas.getBoundingClientRect();
             cursor.hidden = true;
-            read((width, height) => [Math.floor(((event.clientX - box.left) / box.width) * width), Math.floor(((event.clientY - box.top) / box.height) * height)]);
+            const across = (event.clientX - box.left) / box.width, down = (event.clientY - box.top) / box.height;
+            read((width, height) => [Math.floor(across * width), Math.floor(down * height)]);
         });
         stage.addEventListener("keydown", async (event) => {
             if (!(event.key in steps) || event.ctrlKey || event.metaKey || event.altKey) return;

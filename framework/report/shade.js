@@ -23,12 +23,12 @@
     // Colors from 0 to 1 that a legend of the toolbar names.
     function rampOf(selector) {
         const { colors, low, high } = document.querySelector(selector).dataset;
-        const stops = colors.split(", ").map((hex) => [1, 3, 5].map((at) => parseInt(hex.slice(at, at + 2), 16)));
+        const knots = colors.split(", ").map((hex) => [1, 3, 5].map((start) => parseInt(hex.slice(start, start + 2), 16)));
         const table = Array.from({ length: 256 }, (_, i) => {
-            const at = (i / 255) * (stops.length - 1), before = Math.min(stops.length - 2, Math.floor(at));
-            return stops[before].map((channel, c) => channel + (at - before) * (stops[before + 1][c] - channel));
+            const position = (i / 255) * (knots.length - 1), before = Math.min(knots.length - 2, Math.floor(position));
+            return knots[before].map((channel, c) => channel + (position - before) * (knots[before + 1][c] - channel));
         });
-        return { low: Number(low), high: Number(high), at: (value) => table[Math.round(255 * Math.min(1, Math.max(0, value)))] };
+        return { low: Number(low), high: Number(high), colorOf: (value) => table[Math.round(255 * Math.min(1, Math.max(0, value))) || 0] };
     }
     const luminanceRamp = rampOf(".only-luminance i"), errorRamp = rampOf(".only-error i");
 
@@ -40,12 +40,15 @@
     function falseColor(colorAt) {
         return (color, i) => colorAt(i).forEach((channel, c) => { color[c] = channel; });
     }
-    // Writes a pixel's color; 8 bits for false colors, else linear.
+    // Returns a function that writes a pixel's color as bytes.
     function shader(pixels, reference) {
-        if (reference) return falseColor((i) => errorRamp.at(0.5 + 0.5 * errorOf(page.luminanceAt(pixels, i), page.luminanceAt(reference, i))));
+        if (reference) {
+            const rightAt = (i) => page.luminanceAt(reference, page.indexIn(reference, pixels, i));
+            return falseColor((i) => errorRamp.colorOf(0.5 + 0.5 * errorOf(page.luminanceAt(pixels, i), rightAt(i))));
+        }
         if (state.colors === "luminance") {
             const { low, high } = luminanceRamp;
-            return falseColor((i) => luminanceRamp.at((Math.log10(Math.max(1e-30, page.luminanceAt(pixels, i))) - low) / (high - low)));
+            return falseColor((i) => luminanceRamp.colorOf((Math.log10(Math.max(1e-30, page.luminanceAt(pixels, i))) - low) / (high - low)));
         }
         const { data, isExact } = pixels, count = data.length / 3, scale = 2 ** (stops + Number(state.exposure));
         const isNeutral = state.colors === "pbr_neutral" && isExact; // previews have their curve
@@ -60,12 +63,12 @@
     page.shade = (pixels, reference) => {
         const image = new ImageData(pixels.width, pixels.height), color = [0, 0, 0];
         const write = shader(pixels, reference), { data } = image;
-        for (let i = 0, at = 0; at < data.length; ++i, at += 4) {
+        for (let i = 0, byte = 0; byte < data.length; ++i, byte += 4) {
             write(color, i);
-            data[at] = color[0];
-            data[at + 1] = color[1];
-            data[at + 2] = color[2];
-            data[at + 3] = 255;
+            data[byte] = color[0];
+            data[byte + 1] = color[1];
+            data[byte + 2] = color[2];
+            data[byte + 3] = 255;
         }
         return image;
     };

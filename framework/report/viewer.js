@@ -19,8 +19,8 @@
     for (const viewer of viewers) {
         const canvas = viewer.firstElementChild;
         const image = canvas.querySelector(".photo");
-        page.addLayer(canvas, () => [image, state.show === "error" ? otherOf(viewer) : null]);
-        page.addLayer(canvas, () => [otherOf(viewer)], "ref");
+        page.addLayer(viewer, () => [image, state.show === "error" ? otherOf(viewer) : null]);
+        page.addLayer(viewer, () => [otherOf(viewer)], "ref");
         const line = document.createElement("div");
         line.className = "line";
         canvas.append(line);
@@ -54,7 +54,7 @@
 
     for (const stage of document.querySelectorAll(".single-view")) {
         const image = stage.querySelector(".photo");
-        page.addLayer(stage.firstElementChild, () => [image]);
+        page.addLayer(stage, () => [image]);
         page.addReadout(stage, () => [["reference", image]]);
     }
 

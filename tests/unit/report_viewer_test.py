@@ -188,6 +188,21 @@ class InABrowser(unittest.TestCase):
         self.assertTrue(abs(x - SIZE[0] / 2) <= 1 and abs(y - SIZE[1] / 2) <= 1, said)
         self.assertIn(f"2 b {self.numbers(0.3, x, y)} · 3 c {self.numbers(0.1, x, y)}", said)
 
+    def test_images_of_other_sizes_are_compared_by_position(self):
+        self.open()
+        small, large = {"width": 4, "height": 2}, {"width": 8, "height": 6}
+        found = self.browser.run("return [0, 7, 20, 47].map((i) => page.indexIn(arguments[0], arguments[1], i))", small, large)
+        self.assertEqual(found, [0, 3, 2, 7])
+        self.assertEqual(self.browser.run("return page.indexIn(arguments[0], arguments[0], 29)", large), 29)
+
+    def test_images_out_of_sight_have_no_pixels(self):
+        self.open()
+        self.browser.run("document.body.style.paddingBottom = '9000px'; scrollTo(0, 1e6)")
+        self.browser.settle()
+        self.assertEqual(self.browser.run("return document.querySelector('#variant-1 .viewer canvas').width"), 0)
+        self.open()
+        self.assertEqual(self.browser.run("return document.querySelector('#variant-1 .viewer canvas').width"), SIZE[0])
+
     def test_browsers_that_cannot_unpack_show_previews(self):
         self.open()
         data = self.browser.run("""const image = document.getElementById("variant-1-total").cloneNode();
