@@ -31,8 +31,7 @@ uint64_t graphRuns(const Experiment& experiment);
 /// @param reference of frame 0; nullptr: no scores. @param referenceOf returns the references of other
 /// frames; empty: all frames share one. @param withAovs whether AOVs of frame 0 are downloaded.
 /// @throws Error, Interrupted; validation messages are errors.
-VariantImages renderVariant(Variant& variant, const Study& study, Session& session,
-                            const PreparedReference* reference,
+VariantImages renderVariant(Variant& variant, const Study& study, Session& session, const PreparedReference* reference,
                             const std::function<FrameReference(uint32_t)>& referenceOf, bool withAovs,
                             const std::function<void(double)>& progress);
 

@@ -61,8 +61,7 @@ std::vector<uint8_t> encodePng(const DecodedImage& image);
 /// @throws Error if the image is empty or has neither 1 nor 3 channels, or the file cannot be written.
 void writeExr(const std::filesystem::path& path, const ImageF& image);
 /// The same with channels of any names: "P.X" is the channel X of the layer P.
-void writeExr(const std::filesystem::path& path, const ImageF& image,
-              const std::vector<std::string>& channelNames);
+void writeExr(const std::filesystem::path& path, const ImageF& image, const std::vector<std::string>& channelNames);
 
 /// Writes an 8-bit PNG of encoded display values, clamped to [0, 1], atomically.
 /// @throws Error as writeExr(), and if a value is NaN.

@@ -24,8 +24,7 @@ TEST(Tone, PbrNeutralFollowsItsSpecification) {
     expectNear(pbrNeutral({0.8, 0.5, 0.08}), {0.76, 0.46, 0.04}, 1e-12);
     expectNear(pbrNeutral({2, 2, 2}), {0.96, 0.96, 0.96}, 1e-12);
     expectNear(pbrNeutral({1, 0, 0}), {0.88, 0.0155599214145383, 0.0155599214145383}, 1e-12);
-    expectNear(pbrNeutral({5.04, 1.04, 0.24}), {0.987142857142857, 0.494165642178751, 0.395570199185930},
-               1e-12);
+    expectNear(pbrNeutral({5.04, 1.04, 0.24}), {0.987142857142857, 0.494165642178751, 0.395570199185930}, 1e-12);
     expectNear(pbrNeutral({-1, 0.5, 0.3}), pbrNeutral({0, 0.5, 0.3}), 0);
 }
 
