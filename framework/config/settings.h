@@ -9,6 +9,7 @@
 #include "base/schema.h"
 #include "base/value.h"
 #include "config/scene_additions.h"
+#include "image/tone.h"
 #include "scene/moving_spheres.h"
 #include "scene/scene.h"
 #include "trace/ray_tracer.h"
@@ -21,6 +22,12 @@ struct EnumNames<TracerKind> {
     static constexpr std::array names{std::pair{TracerKind::Auto, "auto"}, std::pair{TracerKind::RayQuery, "ray_query"},
                                       std::pair{TracerKind::RayPipeline, "ray_pipeline"},
                                       std::pair{TracerKind::Embree, "embree"}};
+};
+
+template <>
+struct EnumNames<ToneCurve> {
+    static constexpr std::array names{std::pair{ToneCurve::Srgb, "srgb"},
+                                      std::pair{ToneCurve::PbrNeutral, "pbr_neutral"}};
 };
 
 enum class MaterialMode { AsIs, Lambert };
@@ -60,11 +67,16 @@ struct ImageSettings {
     uint32_t width = 640;
     uint32_t height = 360;
     float exposureStops = 0;
+    ToneCurve tone = ToneCurve::Srgb;
     static constexpr auto schema() {
-        return std::tuple{field("width", &ImageSettings::width, "Width in pixels.", 1u, 8192u),
-                          field("height", &ImageSettings::height, "Height in pixels.", 1u, 8192u),
-                          field("exposure_stops", &ImageSettings::exposureStops,
-                                "Exposure of previews and LDR metrics: radiance is scaled by 2^stops.", -30.0f, 30.0f)};
+        return std::tuple{
+            field("width", &ImageSettings::width, "Width in pixels.", 1u, 8192u),
+            field("height", &ImageSettings::height, "Height in pixels.", 1u, 8192u),
+            field("exposure_stops", &ImageSettings::exposureStops,
+                  "Exposure of previews and LDR metrics: radiance is scaled by 2^stops.", -30.0f, 30.0f),
+            field("tone", &ImageSettings::tone,
+                  "Tone curve of previews: srgb clips to white, pbr_neutral (Khronos) compresses highlights. "
+                  "Metrics don't depend on it.")};
     }
 };
 

@@ -37,8 +37,10 @@ VariantImages renderVariant(Variant& variant, const Study& study, Session& sessi
 
 /// Writes final, indirect and the FLIP maps as EXR and PNG into a folder, AOVs as EXR, and previews of all
 /// compared frames of a sequence into its folder `frames`.
-void writeVariantImages(const std::filesystem::path& folder, const VariantImages& images, float exposureStops);
+void writeVariantImages(const std::filesystem::path& folder, const VariantImages& images,
+                        const ImageSettings& settings);
 /// Writes a reference's images, their halves and its masks.
-void writeReferenceImages(const std::filesystem::path& folder, const PreparedReference& reference, float exposureStops);
+void writeReferenceImages(const std::filesystem::path& folder, const PreparedReference& reference,
+                          const ImageSettings& settings);
 
 }  // namespace voxray

@@ -251,12 +251,18 @@ std::vector<uint8_t> encodePng(const DecodedImage& image) {
     return file;
 }
 
-ImageF preview(const ImageF& linear, float exposureStops) {
+ImageF preview(const ImageF& linear, float exposureStops, ToneCurve tone) {
     ImageF display = linear;
     const double scale = std::exp2(double(exposureStops));
-    parallelRanges(display.data.size(), 1 << 14, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i)
-            display.data[i] = float(srgbEncode(std::clamp(double(display.data[i]) * scale, 0.0, 1.0)));
+    parallelRanges(display.pixelCount(), 1 << 13, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            float* pixel = &display.data[i * display.channels];
+            std::array<double, 3> color;
+            for (uint32_t c = 0; c < 3; ++c) color[c] = pixel[std::min(c, display.channels - 1)] * scale;
+            if (tone == ToneCurve::PbrNeutral) color = pbrNeutral(color);
+            for (uint32_t c = 0; c < display.channels; ++c)
+                pixel[c] = float(srgbEncode(std::clamp(color[c], 0.0, 1.0)));
+        }
     });
     return display;
 }

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import json
+import math
 
-from report import bars, charts, details, images, pages, parts, style, table, text, values
+import numpy as np
+
+from report import bars, charts, details, images, pages, parts, selection, style, table, text, values
 from report.names import Names, families_of, names_of
-from report.results import IMAGES, Metric, Results, folder_of, section
-from report.selection import selected
+from report.results import IMAGES, Metric, Results, folder_of, number, section
 from report.setting import setting_of
 from report.summary import summary, unfinished
 
-_SCRIPTS = ("d3", "tables.js", "chart.js", "state.js", "table.js", "viewer.js", "pair.js", "report_charts.js", "keys.js")  # in the order in which they run
+_SCRIPTS = ("d3", "tables.js", "chart.js", "state.js", "table.js", "pixels.js", "shade.js", "layer.js", "readout.js", "viewer.js", "pair.js",
+            "report_charts.js", "keys.js")  # in the order in which they run
 _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's row numbers
 _MAX_NAMED_POINTS = 12
 _MAX_LISTED = 12  # variants that a note names
@@ -30,7 +33,8 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
     lights = results.lights()
     names = names_of(results)
     families = families_of(results, names)
-    shown = results.only(selected(results, lights, names, wanted or []))
+    shown = results.only(selection.selected(results, lights, names, wanted or []))
+    with_floats = selection.with_floats(results, lights, list(shown.variants["variant"]))
     anchors = _anchors(names, shown)
     styles, legends, curves = style.variant_styles(results, families)
     colors = style.pass_colors(results)
@@ -41,7 +45,8 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
     value_charts = values.value_charts(shown, results)
     chart_data = {"charts": [*drawn, *(sequence.charts if sequence else ()), *value_charts],
                   **charts.variants(results, styles, names, labels, anchors, curves)}
-    variants = details.variants(shown, lights, colors, names, anchors, warnings)
+    variants = details.variants(shown, lights, colors, names, anchors, with_floats, warnings)
+    reference = _reference(results, lights, with_floats, warnings)
     thumbnails = details.thumbnails(shown, lights, variants)
     manifest = _manifest_of(results, shown)
     return pages.render(
@@ -60,7 +65,8 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
                               lambda folder, name: details.picture(results, folder, name, images.embed, warnings)),
         sequence=sequence,
         values=values.value_table(shown, names),
-        bars=bars.bar_groups(shown, colors, names, anchors), reference=_reference(results, lights, warnings),
+        bars=bars.bar_groups(shown, colors, names, anchors), reference=reference,
+        viewer=_viewer(results, variants, reference),
         variants=variants, max_rows=_MAX_ROWS, left_out=len(results.variants) - len(variants),
         error_gradient=images.gradient(images.ERROR_COLORS), provenance=_provenance(results),
         config=text.yaml_like(results.manifest["config"]) if results.manifest.get("config") else "",
@@ -105,13 +111,26 @@ def _pictured(results: Results, lights, variants: list[details.Variant]) -> list
                     if any(view.image for view in variant.views)]
 
 
-def _reference(results: Results, lights, warnings) -> dict:
+def _viewer(results: Results, variants: list[details.Variant], reference: dict) -> dict:
+    """How the viewers show radiance at first, and their false colors: `low` and `high` are the powers of ten between which
+    the luminances of all half-float images lie."""
+    pictures = [view.image for variant in variants for view in variant.views] + [view["picture"] for view in reference["views"]]
+    ranges = [picture.luminance for picture in pictures if picture and picture.luminance]
+    low, high = (np.log10([edge[i] for edge in ranges] or [1]) for i in (0, 1))
+    first = math.floor(low.min())
+    stops = number(results.manifest.get("exposure_stops"))
+    return {"tone": "pbr_neutral" if results.manifest.get("tone") == "pbr_neutral" else "srgb",
+            "stops": stops if math.isfinite(stops) else 0, "low": first, "high": max(math.ceil(high.max()), first + 1),
+            "luminance": images.gradient(images.LUMINANCE_COLORS, 33), "error": images.gradient(images.SIGNED_ERROR_COLORS, 33)}
+
+
+def _reference(results: Results, lights, with_floats, warnings) -> dict:
     records = results.references()
     facts = [(key.replace("_", " "), text.figures(value) if isinstance(value, float) else text.plain(value))
              for key, value in records[0].items()]
     folders = list(dict.fromkeys(folder_of(record) for record in records))
     views = [{"folder": folder, "light": light,
-              "picture": details.picture(results, folder, IMAGES[light][0], images.embed, warnings)}
+              "picture": details.photo(results, folder, light, folder in with_floats, warnings)}
              for folder in folders for light in lights]
     if not any(view["picture"] for view in views):
         warnings.append("The reference's image is missing, so variants cannot be compared with it by eye.")

@@ -71,7 +71,7 @@ class FullRun(unittest.TestCase):
         named = names.names_of(results)
         lights = results.lights()
         anchors = {name: f"variant-{number}" for name, number in named.numbers.items()}
-        shown = details.variants(results, lights, style.pass_colors(results), named, anchors, [])
+        shown = details.variants(results, lights, style.pass_colors(results), named, anchors, set(), [])
         leads = {lead.light: lead.copies for lead in details.leads(results, lights, shown, details.thumbnails(results, lights, shown))}
         for light, error in (("total", "0.211"), ("indirect", "0.300")):
             reference, best, its_error = leads[light]

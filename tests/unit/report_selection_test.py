@@ -51,6 +51,16 @@ class Selection(ReportTest):
         with mock.patch.object(selection, "_MAX_VARIANTS", 4):
             self.assertEqual(self.selected(), "abd")
 
+    def test_half_floats_that_would_be_too_large_are_those_of_the_front(self):
+        self.write(floats=True)
+        results = load(self.directory)
+        with mock.patch.object(selection, "_float_bytes", lambda *_: 10.0):
+            for size, shown, expected in ((60, "abcde", "abcde"), (59, "abcde", "abd"), (59, "bce", "bce"), (35, "abcde", "ab"), (10, "abcde", "")):
+                with mock.patch.object(selection, "_MAX_FLOAT_BYTES", size):
+                    self.assertEqual(selection.with_floats(results, results.lights(), list(shown)), {"reference", *expected}, size)
+            with mock.patch.object(selection, "_MAX_FLOAT_BYTES", 9):
+                self.assertEqual(selection.with_floats(results, results.lights(), list("abcde")), set())
+
     def test_others_keep_their_row_and_their_points(self):
         self.write()
         self.assertEqual(make_report.main([str(self.directory), "--images", "front"]), 0)
@@ -90,7 +100,7 @@ class Timeline(ReportTest):
         made_up.write_results(self.directory, [made_up.variant("a", 10, 0.3)], made_up.manifest([]), images=False)
         results = load(self.directory)
         named = names.names_of(results)
-        passes = details.variants(results, ["total"], style.pass_colors(results), named, {"a": "x"}, [])[0].passes
+        passes = details.variants(results, ["total"], style.pass_colors(results), named, {"a": "x"}, set(), [])[0].passes
         # Of 20 ms of build 14 and 5.6, of 10 ms a frame 2, 7 and 0.5; the build is the longest phase
         for row, start, width in zip(passes, (0, 14, 0, 2, 9), (14, 5.6, 2, 7, 0.5)):
             self.assertAlmostEqual(row.start, 100 * start / 19.6, places=6, msg=row.name)
