@@ -35,7 +35,7 @@ class Compute : public VulkanTest {
 };
 
 TEST_F(Compute, PrefixSumsOfValuesAndOfSetBits) {
-    const PrefixSum ofValues(programs_, PrefixSum::Of::Values), ofBits(programs_, PrefixSum::Of::SetBits);
+    const PrefixSum ofValues(programs_, PrefixSum::Input::Uints), ofBits(programs_, PrefixSum::Input::SetBits);
     programs_.compile();
     for (const uint32_t count : kCounts) {
         const std::vector<uint32_t> values = randomNumbers(count, 2000, count), words = randomNumbers(count, 0, count);

@@ -8,7 +8,7 @@
 /// but may be intended. Settings that can't be intended throw UsageError.
 namespace voxray {
 
-class LightRays;
+class ShadowRayCost;
 
 /// A variant whose graph is planned on its scene.
 struct PlannedVariant {
@@ -17,8 +17,8 @@ struct PlannedVariant {
     const PreparedScene& scene;
     bool isNewScene;  ///< Whether the previous variant has another scene; then the scene itself is checked.
     SceneLoader& loader;
-    LightRays& lightRays;
-    double metallicFraction;  ///< ViewCheck::metallicFraction
+    ShadowRayCost& shadowRayCost;
+    double visibleMetalFraction;  ///< ViewCheck::visibleMetalFraction
     const Graph* reference;   ///< Planned on the same scene; nullptr: no reference.
 };
 

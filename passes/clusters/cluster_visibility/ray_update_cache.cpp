@@ -42,7 +42,7 @@ void RayUpdateCache::startUpdate(CommandStream& stream, const SurfaceVoxels& vox
     stream.fill(newGroups_, NO_GROUP);
     stream.dispatch(renumberGroups_, patches.groupCount,
                     {{"groups", patches.groups},
-                     {"previousGroups", patches.previousGroups},
+                     {"previousGroupIndex", patches.previousGroupIndex},
                      {"coordinates", clusters.coordinates},
                      {"changedNeighbourhood", changedNeighbourhood},
                      {"firstPatches", firstPatches_},

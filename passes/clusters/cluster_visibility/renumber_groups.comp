@@ -6,7 +6,7 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-readonly buffer PreviousGroups { uint data[]; } previousGroups;
+readonly buffer PreviousGroupIndex { uint data[]; } previousGroupIndex;
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
 // A bit for each voxel in which hits may have changed.
 readonly buffer ChangedNeighbourhood { uint words[]; } changedNeighbourhood;
@@ -21,7 +21,7 @@ layout(push_constant, scalar) uniform Push {
 void main() {
     const uint i = linearIndex();
     if (i >= push.groupCount) return;
-    const uint previous = previousGroups.data[i];
+    const uint previous = previousGroupIndex.data[i];
     previousFirstPatches.data[i] = previous == NO_GROUP ? NO_GROUP : firstPatches.data[previous];
     const ivec3 voxel = ivec3(coordinates.data[groups.data[i].voxel]);
     const uint changed = changedNeighbourhood.words[voxelWord(push.grid, voxel)] & voxelBit(push.grid, voxel);
