@@ -214,9 +214,8 @@ void PreparedExperiment::recordInputs() {
     for (const auto& [id, count] : cullCounts(study_))
         if (runsSomewhere(study_, id)) culledIds.push_back(fmt::format("'{}' in {}", id, count));
     if (!culledIds.empty())
-        manifest_.notes.push_back(
-            fmt::format("left out, because no compared image depends on them: {} of {} variants",
-                        fmt::join(culledIds, ", "), study_.variants.size()));
+        manifest_.notes.push_back(fmt::format("left out, because no compared image depends on them: {} of {} variants",
+                                              fmt::join(culledIds, ", "), study_.variants.size()));
     if (!study_.reference.isNull()) manifest_.referencePass = study_.reference.items[0];
     manifest_.device = session_->device().info();
     manifest_.requestedDevice = options_.deviceName;

@@ -103,7 +103,9 @@ Value checkedReference(const Study& study) {
                          "reference.spp: must be at least 2, best a power of two (e.g. 64): "
                          "noise is the difference of the two halves");
     if (const Value* light = experiment.reference.find("light"); light && light->scalar != "all")
-        throw UsageError(light->where, "reference.light: must be 'all' or left out, because the reference needs direct and indirect light");
+        throw UsageError(
+            light->where,
+            "reference.light: must be 'all' or left out, because the reference needs direct and indirect light");
     return resolved;
 }
 

@@ -31,7 +31,7 @@ struct Variant : SweepPoint {
     /// Holds only passes that the compared images depend on. A graph has state, so it is run once; graphOf() makes
     /// another.
     Graph graph;
-    Value resolved;  ///< Config tree of the graph including all default values.
+    Value resolved;                         ///< Config tree of the graph including all default values.
     std::vector<std::string> culledPasses;  ///< Ids.
     /// For each compared image: the parameters that lower its noise (Graph::noiseParameters()).
     std::map<std::string, std::vector<std::string>> noiseParameters;

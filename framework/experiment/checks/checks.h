@@ -19,7 +19,7 @@ struct PlannedVariant {
     SceneLoader& loader;
     ShadowRayCost& shadowRayCost;
     double visibleMetalFraction;  ///< ViewCheck::visibleMetalFraction
-    const Graph* reference;   ///< Planned on the same scene; nullptr: no reference.
+    const Graph* reference;       ///< Planned on the same scene; nullptr: no reference.
 };
 
 /// A check, which appends its diagnostics to `found`.
@@ -52,7 +52,7 @@ Diagnostics checkAddedSceneUnits(const SceneSettings& scene, const PreparedScene
 void keepFileLightsWithoutLights(const PlannedVariant&, Diagnostics&);
 void staticMovingSpheres(const PlannedVariant&, Diagnostics&);
 // Time and memory (cost.cpp)
-void slowLightRays(const PlannedVariant&, Diagnostics&);
+void slowShadowRays(const PlannedVariant&, Diagnostics&);
 // What is compared (comparison.cpp)
 void shortHistory(const PlannedVariant&, Diagnostics&);
 void missingLight(const PlannedVariant&, Diagnostics&);
@@ -61,7 +61,7 @@ void missingLobes(const PlannedVariant&, Diagnostics&);
 
 /// Checks of each variant.
 inline constexpr Check<PlannedVariant> kVariantChecks[] = {checkAddedSceneUnits, keepFileLightsWithoutLights,
-                                                           staticMovingSpheres,  slowLightRays,
+                                                           staticMovingSpheres,  slowShadowRays,
                                                            shortHistory,         missingLight,
                                                            differentBounces,     missingLobes};
 

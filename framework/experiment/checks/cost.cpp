@@ -105,7 +105,7 @@ void ShadowRayCost::check(std::span<const Graph::PassInfo> passes, Diagnostics& 
     }
 }
 
-void slowLightRays(const PlannedVariant& v, Diagnostics& found) {
+void slowShadowRays(const PlannedVariant& v, Diagnostics& found) {
     v.shadowRayCost.check(v.variant.graph.passes(), found);
 }
 

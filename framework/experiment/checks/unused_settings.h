@@ -23,7 +23,7 @@ class UnusedMotionSettings {
     void add(const Variant& variant, const Scene& scene);
 
     /// @throws UsageError with file and line for the first setting that has no effect in any variant.
-    void refuse() const;
+    void throwIfAny() const;
 
  private:
     struct Use {

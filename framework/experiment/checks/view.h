@@ -38,7 +38,7 @@ struct View {
     std::function<bool(const Light&)> reachesView;
     std::vector<VisiblePoint> points;  ///< Evenly distributed over the image.
     double surfaceFraction = 0;        ///< Fraction of the image that shows surfaces.
-    double visibleMetalFraction = 0;       ///< Fraction of these surfaces that is metal.
+    double visibleMetalFraction = 0;   ///< Fraction of these surfaces that is metal.
     bool showsBacks = false;           ///< Whether most of these surfaces show their back sides.
     bool isEmpty = false;              ///< Whether surfaceFraction is below kMinSurfaceFraction.
     ImageF image = {};                 ///< Path traced, 3 channels, W/(m² sr); none if the view is empty.
