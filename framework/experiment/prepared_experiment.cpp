@@ -190,7 +190,7 @@ PreparedExperiment::PreparedExperiment(Study study, const RunOptions& options)
     session_.emplace(device, options_.sourceRoot,
                      sceneFolders(options_.scenes, options_.sourceRoot, study_.experiment.file));
 
-    // key(), referenceHashOf() and tracerName() throw for invalid settings; so they are called first
+    // key(), referenceHashOf() and tracerName() throw for invalid settings, so they are called first
     for (Variant& variant : study_.variants) {
         variant.sceneKey = session_->loader().key(variant.setup.scene);
         variant.referenceHash = session_->referenceHashOf(study_, variant.setup);

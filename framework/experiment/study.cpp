@@ -36,13 +36,13 @@ bool isChainCulled(const Variant& variant, const std::string& id, const Value& v
 /// Why a swept parameter (an axis of the sweep) has no effect in a variant: no image depends on its pass, or it is
 /// unused because of other parameters. Empty if it has an effect.
 /// @param chosen the variant's value of the parameter.
-std::string whyWithoutEffect(const Variant& variant, const std::string& axis, const Value& chosen) {
-    const size_t dot = axis.find('.');
-    const std::string id = axis.substr(0, dot);
+std::string whyWithoutEffect(const Variant& variant, const std::string& parameter, const Value& chosen) {
+    const size_t dot = parameter.find('.');
+    const std::string id = parameter.substr(0, dot);
     const bool isPass = dot == std::string::npos;
     if (isChainCulled(variant, id, isPass ? chosen : Value())) return fmt::format("no image depends on '{}'", id);
     for (const UnusedSetting& unused : variant.unused)
-        if (unused.name == axis) return unused.why;
+        if (unused.name == parameter) return unused.why;
     return {};
 }
 
@@ -51,11 +51,11 @@ std::string whyWithoutEffect(const Variant& variant, const std::string& axis, co
 /// another's image, that error is reported, as the likely cause.
 void removeDuplicates(Study& study) {
     const std::vector<std::string> keys = sweepKeys(study.experiment);
-    std::vector<std::map<std::string, Value>> values(keys.size());  // Values of each axis by label.
+    std::vector<std::map<std::string, Value>> values(keys.size());  // Values of each swept parameter by label.
     for (size_t a = 0; a < keys.size(); ++a) {
-        const Value& axis = study.experiment.sweep.members[a].value;
-        const std::vector<std::string> labels = sweepLabels(axis);
-        std::vector<Value> all = sweepValues(axis);
+        const Value& swept = study.experiment.sweep.members[a].value;
+        const std::vector<std::string> labels = sweepLabels(swept);
+        std::vector<Value> all = sweepValues(swept);
         for (size_t i = 0; i < labels.size(); ++i) values[a].emplace(labels[i], std::move(all[i]));
     }
     std::set<std::vector<std::string>> unique;
@@ -64,7 +64,7 @@ void removeDuplicates(Study& study) {
     std::erase_if(study.variants, [&](Variant& variant) {
         for (size_t a = 0; a < keys.size(); ++a) {
             const auto chosen = values[a].find(variant.values[a]);
-            if (chosen == values[a].end()) continue;  // The variant has no value of the axis.
+            if (chosen == values[a].end()) continue;  // The variant has no value of the parameter.
             const std::string why = whyWithoutEffect(variant, keys[a], chosen->second);
             if (why.empty()) continue;
             variant.values[a] = kNoValue;

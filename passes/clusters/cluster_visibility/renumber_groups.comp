@@ -11,7 +11,7 @@ layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
 // A bit for each voxel in which hits may have changed.
 readonly buffer ChangedNeighbourhood { uint words[]; } changedNeighbourhood;
 readonly buffer FirstPatches { uint data[]; } firstPatches;  // Per previous group.
-writeonly buffer NewGroups { uint data[]; } newGroups;       // Per previous group. Must be NO_GROUP before.
+writeonly buffer NewGroupIndex { uint data[]; } newGroupIndex;       // Per previous group. Must be NO_GROUP before.
 writeonly buffer PreviousFirstPatches { uint data[]; } previousFirstPatches;  // Per group; NO_GROUP: it is new.
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
@@ -25,5 +25,5 @@ void main() {
     previousFirstPatches.data[i] = previous == NO_GROUP ? NO_GROUP : firstPatches.data[previous];
     const ivec3 voxel = ivec3(coordinates.data[groups.data[i].voxel]);
     const uint changed = changedNeighbourhood.words[voxelWord(push.grid, voxel)] & voxelBit(push.grid, voxel);
-    if (previous != NO_GROUP && changed == 0u) newGroups.data[previous] = i;
+    if (previous != NO_GROUP && changed == 0u) newGroupIndex.data[previous] = i;
 }
