@@ -30,7 +30,7 @@ void main() {
     if (voxel >= push.voxels) return;
     const uint first = firstGroup.data[voxel], end = firstGroup.data[voxel + 1u];
     vec3 voxelPositive = vec3(0.0), voxelNegative = vec3(0.0);
-    float samplePoints = 0.0;  // Of the surfels, if each point has two.
+    float samplePoints = 0.0;  // Half of the surfels: with 'sides: all' each point has two.
     for (uint group = first; group < end; ++group) {
         samplePoints += 0.5 * float(groups.data[group].surfelCount);
         for (uint i = 0u; i < groups.data[group].surfelCount && groups.data[group].isOccluded == 0u; ++i)
