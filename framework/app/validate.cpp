@@ -50,8 +50,8 @@ struct ConfigCheck {
 /// Checks a config with the given profile, or without a profile and again with each of its profiles. Each
 /// warning is reported once, with the first profile that has it.
 /// @throws UsageError for the first error.
-void validate(const std::filesystem::path& config, const ConfigOptions& options, SceneLoader& loader, ViewChecks& views,
-              const Registry& registry, ConfigCheck& outcome) {
+void validate(const std::filesystem::path& config, const ConfigOptions& options, SceneLoader& loader,
+              CameraViewChecks& views, const Registry& registry, ConfigCheck& outcome) {
     std::vector<std::string> profiles{options.profile};
     if (options.profile.empty())
         for (const std::string& name : profileNames(config)) profiles.push_back(name);
@@ -111,7 +111,7 @@ int validateAll(const ValidateArguments& arguments) {
     std::atomic<size_t> next = 0;
     const auto work = [&] {
         SceneLoader loader({});
-        ViewChecks views(pathTracedPreview);
+        CameraViewChecks views(pathTracedPreview);
         for (size_t group = next++; group < groups.size(); group = next++)
             for (const size_t i : groups[group]) {
                 const std::filesystem::path& config = arguments.configs[i];

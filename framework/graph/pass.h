@@ -139,7 +139,7 @@ class PassContext : public PortAccess {
     uint64_t extraRays = 0;
     /// Counters of voxel marches (shaders/voxel_march), read when all passes have run: two 64-bit numbers,
     /// steps and words read. They become the pass's voxel_steps and the value "voxel visits".
-    std::vector<const Buffer*> voxelCounts;
+    std::vector<const Buffer*> visitCounts;
 
     struct Value {
         std::string name;

@@ -13,12 +13,12 @@ SurfelSort::SurfelSort(ProgramOwner& owner)
     : count_(owner, "count_surfels.comp"),
       scatter_(owner, "scatter_surfels.comp"),
       sortVoxel_(owner, "sort_voxel_surfels.comp"),
-      prefixSum_(owner, PrefixSum::Of::Values) {}
+      prefixSum_(owner, PrefixSum::Input::Uints) {}
 
 void SurfelSort::run(CommandStream& stream, const Surfels& surfels, uint32_t voxels, SurfelsByVoxel& result) const {
     Device& device = stream.device();
-    result.lists = {}, result.sorted = {}, result.sortedIndices = {};
-    result.lists = Buffer(device, "lists of surfels by voxel", voxels * kListBytes);
+    result.ranges = {}, result.sorted = {}, result.sortedIndices = {};
+    result.ranges = Buffer(device, "lists of surfels by voxel", voxels * kListBytes);
 
     // Each voxel's range
     const Buffer begins(device, "first surfel of each voxel", voxels * sizeof(uint32_t));
@@ -46,7 +46,7 @@ void SurfelSort::run(CommandStream& stream, const Surfels& surfels, uint32_t vox
                      {"SortedIndicesRef", result.sortedIndices.ref()},
                      {"begins", begins},
                      {"ends", ends},
-                     {"lists", result.lists},
+                     {"surfelRanges", result.ranges},
                      {"voxels", voxels}});
     stream.finish();
 }

@@ -38,9 +38,9 @@ NormalCounts countNormals(const std::shared_ptr<const Scene>& scene, const std::
                            "cluster_voxels, target: 8, normals: open_space, ties: " + ties}),
                 16, 16);
     const PassSample& sample = chain.buildSamples.at(1);
-    NormalCounts counts{.tied = reported(sample, "voxels with a tie of unoccupied directions, %"),
-                        .decided = reported(sample, "voxels that fragments decide otherwise, %"),
-                        .changed = reported(sample, "voxels with another normal than by area, %")};
+    NormalCounts counts{.tied = reported(sample, "voxels with several equally open directions, %"),
+                        .decided = reported(sample, "voxels whose tie fragments break in another way, %"),
+                        .changed = reported(sample, "voxels whose normal differs from the area-weighted one, %")};
     for (const gpu::VoxelCluster& cluster :
          chain.read<gpu::VoxelCluster>(chain.get<VoxelClusters>("clusters").clusters)) {
         const float up = cluster.seedNormal.y;

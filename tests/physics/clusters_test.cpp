@@ -19,7 +19,7 @@ struct Clusters {
         clusters = chain.read<gpu::VoxelCluster>(c.clusters);
         clusterOfVoxel = chain.read<uint32_t>(c.clusterOfVoxel);
         coordinates = chain.read<glm::uvec3>(c.coordinates);
-        unassigned = reported(chain.buildSamples.at(1), "voxels no seed reached, %");
+        unassigned = reported(chain.buildSamples.at(1), "voxels that no seed reached, %");
     }
     Voxels voxels;
     std::vector<gpu::VoxelCluster> clusters;

@@ -132,7 +132,7 @@ TEST(Validate, MotionIsRefusedWhereItHasNoEffectInAnyVariant) {
             const Registry registry = fakes::registry();
             Study study = makeStudy(parseExperiment(text, "x.yaml"), registry);
             SceneLoader loader({});
-            ViewChecks views({});
+            CameraViewChecks views({});
             planVariants(study, loader, views, DeviceInfo());
         } catch (const UsageError& error) {
             return std::string(error.what());

@@ -23,14 +23,14 @@ TEST(EnvironmentMap, NamesThePixelThatIsNoRadiance) {
     EXPECT_NO_THROW(checkRadiance(ImageF(4, 2, 3, 0.0f), "sky.exr"));
 }
 
-TEST(LightRays, IsToldOfManyLightsThatTakeLong) {
+TEST(ShadowRayCost, WarnsOfManyLightsThatTakeLong) {
     SceneState state = evaluate(makeBuiltinScene("plane", {}), 0);
     Graph::PassInfo pass{"shadows", "direct_shadow_rays", Phase::Frame, 0, {"x.yaml", 7}, 0};
     const auto said = [&](size_t lights, uint64_t rays) {
         state.lights.resize(lights);
         pass.lightRays = rays;
         Diagnostics found;
-        LightRays(state).check({&pass, 1}, found);
+        ShadowRayCost(state).check({&pass, 1}, found);
         return found.empty() ? "" : found.front().str();
     };
     EXPECT_CONTAINS(said(500, 1'000'000'000'000), "x.yaml:7: shadows: 500 lights take 1000000 million rays");

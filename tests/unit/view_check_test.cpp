@@ -44,7 +44,7 @@ TEST(ViewCheck, SaysNothingOfBuiltInScenesButThoseThatAreDarkByIntention) {
 TEST(ViewCheck, TellsHowMuchOfTheViewIsMetal) {
     // Half a metal counts half; what a config says of a material stands above its mode.
     const auto metalOf = [](const std::string& scene) {
-        return checkOf(scene, 0, "[{pass: gbuffer}]").metallicFraction;
+        return checkOf(scene, 0, "[{pass: gbuffer}]").visibleMetalFraction;
     };
     const std::string plane = "builtin: plane, override: {ground: {metallic: ";
     EXPECT_NEAR(metalOf(plane + "1}}"), 1, 1e-6);

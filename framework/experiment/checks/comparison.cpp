@@ -82,7 +82,7 @@ void differentBounces(const PlannedVariant& v, Diagnostics& found) {
 /// Warns of a variant without specular lobes if much of the view is metal.
 void missingLobes(const PlannedVariant& v, Diagnostics& found) {
     constexpr double kMinMetallicFraction = 0.1;
-    if (!v.reference || v.metallicFraction < kMinMetallicFraction) return;
+    if (!v.reference || v.visibleMetalFraction < kMinMetallicFraction) return;
     const auto* test = v.variant.graph.resource<FrameImage>(kIndirectImage);
     const auto* expected = v.reference->resource<FrameImage>(kIndirectImage);
     if (!test || !expected || test->hasSpecularLobes || !expected->hasSpecularLobes) return;
@@ -90,7 +90,7 @@ void missingLobes(const PlannedVariant& v, Diagnostics& found) {
         {v.variant.setup.scene.where,
          fmt::format("scene: {:.0f} % of the surfaces in view are metal, which reflects by specular lobes alone: "
                      "the reference has what they reflect of indirect light, and this variant lacks it",
-                     100 * v.metallicFraction),
+                     100 * v.visibleMetalFraction),
          "write 'materials: "
          "lambert' for a scene without lobes, or take gather_mirror, or gather_cones with 'specular'"});
 }

@@ -68,7 +68,7 @@ std::vector<std::string> smallerTextures(const SceneSettings& settings, const Sc
 
 }  // namespace
 
-double LightRays::perSecond() {
+double ShadowRayCost::perSecond() {
     if (perSecond_) return *perSecond_;
     // Rays from vertices all over the scene to all lights in turn
     const Geometry& g = state_.geometry;
@@ -89,7 +89,7 @@ double LightRays::perSecond() {
     return *perSecond_;
 }
 
-void LightRays::check(std::span<const Graph::PassInfo> passes, Diagnostics& found) {
+void ShadowRayCost::check(std::span<const Graph::PassInfo> passes, Diagnostics& found) {
     if (state_.lights.size() < kMinLights || state_.geometry.triangles.empty()) return;
     for (const Graph::PassInfo& pass : passes) {
         if (pass.lightRays < kMinRays) continue;
@@ -105,8 +105,8 @@ void LightRays::check(std::span<const Graph::PassInfo> passes, Diagnostics& foun
     }
 }
 
-void slowLightRays(const PlannedVariant& v, Diagnostics& found) {
-    v.lightRays.check(v.variant.graph.passes(), found);
+void slowShadowRays(const PlannedVariant& v, Diagnostics& found) {
+    v.shadowRayCost.check(v.variant.graph.passes(), found);
 }
 
 /// Warns of variants that exceed the config's limit of memory. @throws UsageError if all do.

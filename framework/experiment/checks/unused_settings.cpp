@@ -38,7 +38,7 @@ void refuseUnusedParameters(const Study& study) {
             throw UsageError(parameter.where, "{}: {}; leave it out", parameter.name, parameter.why);
 }
 
-void UnusedMotion::add(const Variant& variant, const Scene& scene) {
+void UnusedMotionSettings::add(const Variant& variant, const Scene& scene) {
     const auto addUse = [&](const std::string& path, bool hasEffect, const char* why) {
         Use& use = uses_.try_emplace(path, Use{false, locationOf(variant.config, path), why}).first->second;
         use.hasEffect = use.hasEffect || hasEffect;
@@ -58,7 +58,7 @@ void UnusedMotion::add(const Variant& variant, const Scene& scene) {
     if (std::ranges::any_of(settings.lights, moves)) addUse("scene.lights", hasFrames, single);
 }
 
-void UnusedMotion::refuse() const {
+void UnusedMotionSettings::throwIfAny() const {
     for (const auto& [path, use] : uses_)
         if (!use.hasEffect) throw UsageError(use.where, "{}: no effect: {}", path, use.why);
 }

@@ -64,7 +64,7 @@ void traceView(View& view, const Camera& camera, Size size) {
         }
     const size_t count = view.points.size();
     view.surfaceFraction = double(count) / (double(size.width) * size.height);
-    view.metallicFraction = metallic / double(std::max<size_t>(count, 1));
+    view.visibleMetalFraction = metallic / double(std::max<size_t>(count, 1));
     view.showsBacks = 2 * backs > count;
     view.isEmpty = view.surfaceFraction < kMinSurfaceFraction;
 }
@@ -145,12 +145,12 @@ ViewCheck checkView(const Setup& setup, const PreparedScene& prepared, const Pre
             if (view.image = render(state, quality);
                 !isDarkAt(setup.image.exposureStops, view.image, view.contentFraction()))
                 break;
-    ViewCheck checked{{}, view.metallicFraction};
+    ViewCheck checked{{}, view.visibleMetalFraction};
     for (const Check<View> check : kViewChecks) check(view, checked.found);
     return checked;
 }
 
-const ViewCheck& ViewChecks::of(const Setup& setup, const std::string& sceneKey, const PreparedScene& prepared) {
+const ViewCheck& CameraViewChecks::of(const Setup& setup, const std::string& sceneKey, const PreparedScene& prepared) {
     // Diagnostics have locations in a config and are not valid for other configs
     const std::string viewKey = keyOf(setup, sceneKey), configKey = setup.scene.where.file + " " + viewKey;
     for (const std::string& key : {viewKey, configKey})

@@ -8,7 +8,7 @@
 namespace voxray {
 
 ComponentLabeling::ComponentLabeling(ProgramOwner& owner)
-    : prefixSum_(owner, PrefixSum::Of::Values),
+    : prefixSum_(owner, PrefixSum::Input::Uints),
       compaction_(owner),
       histogram_(owner),
       radixSort_(owner),

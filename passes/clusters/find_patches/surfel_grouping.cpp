@@ -25,11 +25,11 @@ SurfelGrouping::SurfelGrouping(ProgramOwner& owner)
       joinGroup_(owner, "join_group.comp") {}
 
 void SurfelGrouping::run(PassContext& context, const RayBatch& batch, const SurfaceVoxels& voxels, bool hasOccluded,
-                         const SurfelsByVoxel& lists, const VoxelPatches& patches) const {
-    groupByVisibility(context, batch, voxels.voxelCount, lists, patches, false);
+                         const SurfelsByVoxel& surfelsByVoxel, const VoxelPatches& patches) const {
+    groupByVisibility(context, batch, voxels.voxelCount, surfelsByVoxel, patches, false);
     if (!hasOccluded) return;
     measureGaps(context, batch, voxels.grid.voxelSize, patches);
-    groupByVisibility(context, batch, voxels.voxelCount, lists, patches, true);
+    groupByVisibility(context, batch, voxels.voxelCount, surfelsByVoxel, patches, true);
 }
 
 void SurfelGrouping::measureGaps(PassContext& context, const RayBatch& batch, float voxelSize,
@@ -49,7 +49,8 @@ void SurfelGrouping::measureGaps(PassContext& context, const RayBatch& batch, fl
 }
 
 void SurfelGrouping::groupByVisibility(PassContext& context, const RayBatch& batch, uint32_t voxels,
-                                       const SurfelsByVoxel& lists, const VoxelPatches& patches, bool occluded) const {
+                                       const SurfelsByVoxel& surfelsByVoxel, const VoxelPatches& patches,
+                                       bool occluded) const {
     CommandStream& stream = context.stream;
     const Buffer seeds(context.device, "seeds of surface groups", uintBytes(voxels));
     const Buffer remaining(context.device, "voxels with surfels without a group", uintBytes(1));
@@ -57,7 +58,7 @@ void SurfelGrouping::groupByVisibility(PassContext& context, const RayBatch& bat
         const uint32_t round = (occluded ? kMaxGroupsPerVoxel : 0) + i;
         stream.fill(remaining, 0);
         context.dispatch(selectSeed_, voxels,
-                         {{"lists", lists.lists},
+                         {{"surfelRanges", surfelsByVoxel.ranges},
                           {"seeds", seeds},
                           {"remaining", remaining},
                           {"GroupedSurfelsRef", patches.surfels.ref()},

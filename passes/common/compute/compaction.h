@@ -8,7 +8,7 @@ namespace voxray {
 class Compaction {
  public:
     explicit Compaction(ProgramOwner& owner)
-        : prefixSum_(owner, PrefixSum::Of::SetBits), list_(owner, "compaction.comp") {}
+        : prefixSum_(owner, PrefixSum::Input::SetBits), list_(owner, "compaction.comp") {}
 
     /// Writes the indices of the flagged items, in ascending order.
     /// @param flags a bit per item: that of item i is bit i % 32 of word i / 32; bits beyond the last item

@@ -18,7 +18,7 @@ uint32_t sortBlocksOf(uint32_t count) {
 }  // namespace
 
 RadixSort::RadixSort(ProgramOwner& owner)
-    : prefixSum_(owner, PrefixSum::Of::Values),
+    : prefixSum_(owner, PrefixSum::Input::Uints),
       count_(owner, "radix_sort.comp", {{"COUNT_DIGITS", "1"}}),
       scatter_(owner, "radix_sort.comp", {{"SCATTER", "1"}}) {}
 

@@ -35,7 +35,7 @@ BrickOctreeBuilder::BrickOctreeBuilder(ProgramOwner& owner, bool neighbors)
       link_(owner, "brick_octree_link.comp"),
       subdivide_(owner, "brick_octree_subdivide.comp"),
       clear_(owner, "brick_octree_clear.comp"),
-      prefixSum_(owner, PrefixSum::Of::Values) {}
+      prefixSum_(owner, PrefixSum::Input::Uints) {}
 
 void BrickOctreeBuilder::build(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells,
                                uint32_t fragments) const {

@@ -15,7 +15,7 @@ OctreeBuilder::OctreeBuilder(ProgramOwner& owner)
     : flag_(owner, "octree_flag.comp"),
       subdivide_(owner, "octree_subdivide.comp"),
       number_(owner, "octree_number.comp"),
-      prefixSum_(owner, PrefixSum::Of::SetBits) {}
+      prefixSum_(owner, PrefixSum::Input::SetBits) {}
 
 Octree OctreeBuilder::build(CommandStream& stream, const SurfaceVoxels& voxels) const {
     Device& device = stream.device();

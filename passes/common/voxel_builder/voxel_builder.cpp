@@ -12,7 +12,7 @@ VoxelBuilder::VoxelBuilder(ProgramOwner& owner, std::unique_ptr<TriangleVoxelize
       markVoxels_(voxelizer_->makeProgram(owner, "passes/common/voxel_builder/mark_voxels")),
       addSurfaces_(voxelizer_->makeProgram(owner, "passes/common/voxel_builder/add_surfaces")),
       resolve_(owner, "surface_accumulator_resolve.comp"),
-      prefixSum_(owner, PrefixSum::Of::SetBits),
+      prefixSum_(owner, PrefixSum::Input::SetBits),
       visibilityProbe_(owner),
       merge_(owner) {}
 

@@ -9,7 +9,7 @@ SvoCollapse::SvoCollapse(ProgramOwner& owner)
       copyMasks_(owner, "svo_collapse.comp", {{"MASKS", "1"}}),
       copyNodes_(owner, "svo_collapse.comp", {{"WORDS", "1"}}),
       fillTable_(owner, "svo_collapse_table.comp"),
-      prefixSum_(owner, PrefixSum::Of::SetBits) {}
+      prefixSum_(owner, PrefixSum::Input::SetBits) {}
 
 void SvoCollapse::run(CommandStream& stream, RadianceVoxels& radiance) const {
     // Mark uniform nodes, bottom-up.

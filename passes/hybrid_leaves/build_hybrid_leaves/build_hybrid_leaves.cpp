@@ -144,7 +144,7 @@ class BuildHybridLeaves final : public Pass {
     Kernel sizeLists_{*this, "size_lists.comp"};
     Kernel classifyLeaves_{*this, "classify_leaves.comp"};
     Kernel sortLists_{*this, "sort_lists.comp"};
-    PrefixSum prefixSum_{*this, PrefixSum::Of::Values}, bitPrefixSum_{*this, PrefixSum::Of::SetBits};
+    PrefixSum prefixSum_{*this, PrefixSum::Input::Uints}, bitPrefixSum_{*this, PrefixSum::Input::SetBits};
     LeafGrids leafGrids_{*this, params_.write, bitPrefixSum_};
     RegionMerge regionMerge_{*this};
     std::optional<LeafUpdateCache> updateCache_;  ///< Where surfaces move.

@@ -205,7 +205,7 @@ void GatherMirror::record(PassContext& context) {
     if (!hybridTracer_) return;
     context.report("mirror rays that hit cells of grids", double(cellHitCount_));
     if (continuesAsCones()) context.report("mirror rays that went on as cones", double(coneCount_));
-    context.voxelCounts.push_back(&hybridTracer_->counts());
+    context.visitCounts.push_back(&hybridTracer_->counts());
 }
 
 void GatherMirror::updateFaceIrradiance(PassContext& context) {

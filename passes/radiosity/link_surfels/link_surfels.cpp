@@ -115,7 +115,7 @@ void LinkSurfels::packSurfels(PassContext& context) const {
                      {voxels,
                       {"SortedRef", byVoxel.sorted.ref()},
                       {"PackedRef", byVoxel.packed.ref()},
-                      {"lists", byVoxel.lists},
+                      {"surfelRanges", byVoxel.ranges},
                       {"voxels", voxels.voxelCount}});
 }
 
@@ -153,7 +153,7 @@ void LinkSurfels::linkHits(PassContext& context, const Surfels::Chunk& chunk, Su
                           {"hits", hits_},
                           {"occluded", occluded_},
                           {"SortedRef", byVoxel.sorted.ref()},
-                          {"lists", byVoxel.lists},
+                          {"surfelRanges", byVoxel.ranges},
                           {"LinksRef", links.links.ref()},
                           {"unlinkedHits", unlinkedHits_},
                           {"firstSurfel", chunk.firstIndex + firstInChunk},
@@ -178,7 +178,7 @@ void LinkSurfels::packMeanDistances(PassContext& context, const LargeBuffer& inv
     context.dispatch(packMeanDistances_, voxels,
                      {{"InverseDistancesRef", inverseDistances.ref()},
                       {"PackedRef", byVoxel.packed.ref()},
-                      {"lists", byVoxel.lists},
+                      {"surfelRanges", byVoxel.ranges},
                       {"voxels", voxels}});
     context.stream.finish();
 }

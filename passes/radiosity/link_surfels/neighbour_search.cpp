@@ -22,7 +22,7 @@ uint64_t pairsOnFlatSurfaces(uint64_t points, uint32_t voxels) {
 NeighbourSearch::NeighbourSearch(ProgramOwner& owner)
     : count_(owner, "list_neighbours.comp", {{"COUNT", "1"}}),
       list_(owner, "list_neighbours.comp"),
-      prefixSum_(owner, PrefixSum::Of::Values) {}
+      prefixSum_(owner, PrefixSum::Input::Uints) {}
 
 float NeighbourSearch::run(CommandStream& stream, const SurfaceVoxels& voxels, uint64_t points,
                            const SurfelsByVoxel& surfels, SurfelNeighbours& neighbours) const {
@@ -41,7 +41,7 @@ float NeighbourSearch::run(CommandStream& stream, const SurfaceVoxels& voxels, u
     stream.dispatch(list_, count,
                     {voxels,
                      {"SortedRef", surfels.sorted.ref()},
-                     {"lists", surfels.lists},
+                     {"surfelRanges", surfels.ranges},
                      {"begins", neighbours.begins},
                      {"PackedRef", surfels.packed.ref()},
                      {"PairsRef", neighbours.pairs.ref()},
@@ -60,7 +60,7 @@ uint64_t NeighbourSearch::countPairs(CommandStream& stream, const SurfaceVoxels&
     stream.dispatch(count_, count,
                     {voxels,
                      {"SortedRef", surfels.sorted.ref()},
-                     {"lists", surfels.lists},
+                     {"surfelRanges", surfels.ranges},
                      {"counts", neighbours.begins},
                      {"largest", largest},
                      {"count", count},

@@ -72,7 +72,7 @@ void GatherSurfels::record(PassContext& context) {
                          {context.scene,
                           context[gbuffer_],
                           context[voxels_],
-                          {"lists", context[surfels_].lists},
+                          {"surfelRanges", context[surfels_].ranges},
                           {"VoxelFluxRef", irradiance.indirect.ref()},
                           {"voxelArea", irradiance.area},
                           {"LitRef", context[light_].lit.ref()},

@@ -147,7 +147,7 @@ void DirectShadowRays::record(PassContext& context) {
     }
     if (voxelTracer_) {
         context.extraRays += tracer->raysTraced() - raysBefore;
-        context.voxelCounts.push_back(&voxelTracer_->march().counts());
+        context.visitCounts.push_back(&voxelTracer_->march().counts());
     }
 }
 

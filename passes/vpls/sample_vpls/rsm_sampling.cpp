@@ -14,7 +14,7 @@ constexpr float kUnits = 1u << 30;
 RsmSampling::RsmSampling(ProgramOwner& owner)
     : computeWeights_(owner, "rsm_texel_weights.comp"),
       sampleTexels_(owner, "rsm_sample_texels.comp"),
-      prefixSum_(owner, PrefixSum::Of::Values) {}
+      prefixSum_(owner, PrefixSum::Input::Uints) {}
 
 void RsmSampling::plan(PassPlan& plan, const Rsm& rsm) {
     uint32_t views = 0;
