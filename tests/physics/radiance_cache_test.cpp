@@ -65,14 +65,13 @@ TEST(RadianceCache, KeepsTheEnergyOfALitSphere) {
 TEST(RadianceCache, ConvergesToTheReference) {
     // With eight times the paths and cells a quarter as large error falls. What is left is noise of 1024
     // gather rays a pixel and of the reference.
-    const ImageF& truth = pathTraced("cornell", "{lights: point}", 4096, 8, 16, 16);
+    const ImageF& truth = pathTraced("cornell", "{lights: point}", 4096, 8);
     double before = 1e9, ratio = 0;
     for (const std::string cache : {"rays_per_image: 4096, cell_size: 0.4", "rays_per_image: 32768, cell_size: 0.1",
                                     "rays_per_image: 262144, cell_size: 0.025"}) {
         Chain chain("cornell", "{lights: point}",
                     graphYaml({"gbuffer, samples_per_pixel_edge: 4", "trace_gather_rays, rays_per_block: 64",
-                               "update_radiance_cache, bounces: 7, " + cache, "gather_rays, source: radiance_cache"}),
-                    16, 16);
+                               "update_radiance_cache, bounces: 7, " + cache, "gather_rays, source: radiance_cache"}));
         const ImageF image = chain.image("indirect");
         const double error = squaredError(image, truth);
         ratio = mean(image) / mean(truth);
