@@ -11,9 +11,8 @@ class AmbientOcclusion final : public Pass {
  public:
     static constexpr const char* kName = "ambient_occlusion";
     static constexpr const char* kHelp =
-        "Indirect light from a constant: 'ambient' arrives from each direction in which a ray hits nothing\n"
-        "within 'radius'.\n"
-        "Biased: no light is carried from surface to surface. Noisy by: rays. Lambert surfaces only.\n"
+        "Gathers constant light from the directions in which rays hit nothing within 'radius'. "
+        "Biased: no light is carried from surface to surface. Noisy by: rays. Lambert surfaces only. "
         "Source: Zhukov et al. 1998.";
     struct Params {
         uint32_t rays = 16;

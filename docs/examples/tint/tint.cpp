@@ -7,7 +7,7 @@ class Tint final : public Pass {
  public:
     static constexpr const char* kName = "tint";
     static constexpr const char* kHelp =
-        "Multiplies an image by a colour.\n"
+        "Multiplies an image by a colour. "
         "Exact: no bias, no noise. Source: the template of docs/writing-a-pass.md.";
     struct Params {
         glm::vec3 color{1.0f};
