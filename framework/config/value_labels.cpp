@@ -24,7 +24,7 @@ std::vector<const Value*> entriesOf(const Value& value) {
 
 /// The member that names an entry, or nullptr.
 const Value::Member* namingMember(const Value& entry) {
-    static const std::set<std::string> naming{"pass", "builtin", "file", "directional", "point", "spot"};
+    static const std::set<std::string> naming{"builtin", "file", "directional", "point", "spot"};
     for (const Value::Member& member : entry.members)
         if (naming.contains(member.key) && member.value.isScalar()) return &member;
     return nullptr;
@@ -66,6 +66,87 @@ MemberNames differences(const std::vector<Value>& values, const std::vector<size
     return names;
 }
 
+/// Passes that change an image of indirect light, and what they make of it.
+const std::map<std::string, std::string>& imageFilters() {
+    static const std::map<std::string, std::string> words{{"accumulate", "accumulated"},
+                                                          {"filter_irradiance", "filtered"}};
+    return words;
+}
+
+/// A pass of a chain: its name and its parameters as texts, e.g. "spp 4". Inputs are parameters, too.
+struct ChainPass {
+    std::string name;
+    std::vector<std::string> parameters;
+    bool operator==(const ChainPass&) const = default;
+};
+
+struct Chain {
+    std::string main;                   ///< The last pass that is no image filter, or else the last one.
+    std::vector<std::string> filtered;  ///< What the passes after it do.
+    std::vector<ChainPass> passes;      ///< The main pass, then the others from the last one to the first.
+    std::vector<std::string> details;   ///< What may tell the chain from others, in the order of need.
+    size_t shown = 0;                   ///< Number of details in the label.
+
+    std::string label() const {
+        std::string text = main;
+        for (size_t d = 0; d < std::min(shown, details.size()); ++d) text += ", " + details[d];
+        for (const std::string& word : filtered) text += ", " + word;
+        return text;
+    }
+};
+
+ChainPass chainPass(const Value& entry) {
+    if (entry.isScalar()) return {entry.scalar, {}};
+    ChainPass pass;
+    for (const auto& [key, value] : entry.members) {
+        if (key == "pass")
+            pass.name = value.scalar;
+        else if (key == "inputs" && value.isMap())
+            for (const auto& [port, source] : value.members)
+                pass.parameters.push_back(port + " " + source.text());
+        else if (key != "id")
+            pass.parameters.push_back(key + " " + value.text());
+    }
+    return pass;
+}
+
+Chain chainOf(const Value& value) {
+    Chain chain;
+    for (const Value& entry : value.isList() ? value.items : std::vector{value})
+        chain.passes.insert(chain.passes.begin(), chainPass(entry));
+    const auto isFilter = [](const ChainPass& pass) { return imageFilters().contains(pass.name); };
+    auto main = std::ranges::find_if_not(chain.passes, isFilter);
+    if (main == chain.passes.end()) main = chain.passes.begin();
+    for (auto filter = chain.passes.begin(); filter != main; ++filter)
+        chain.filtered.insert(chain.filtered.begin(), imageFilters().at(filter->name));
+    if (main != chain.passes.end()) {
+        chain.main = main->name;
+        std::rotate(chain.passes.begin(), main, main + 1);
+    }
+    return chain;
+}
+
+/// Sets the details of chains with the same main pass.
+void setDetails(const std::vector<Chain*>& chains) {
+    const auto isInAll = [&](const auto& isIn) {
+        return std::ranges::all_of(
+            chains, [&](const Chain* chain) { return std::ranges::any_of(chain->passes, isIn); });
+    };
+    for (Chain* chain : chains) {
+        for (const ChainPass& pass : chain->passes) {
+            if (!isInAll([&](const ChainPass& other) { return other.name == pass.name; }) &&
+                !imageFilters().contains(pass.name))
+                chain->details.push_back(pass.name);
+            for (const std::string& parameter : pass.parameters)
+                if (!isInAll([&](const ChainPass& other) {
+                        return other.name == pass.name && std::ranges::count(other.parameters, parameter) > 0;
+                    }))
+                    chain->details.push_back(parameter);
+            if (&pass == &chain->passes.front()) chain->shown = std::min<size_t>(chain->details.size(), 1);
+        }
+    }
+}
+
 std::map<std::string, std::vector<size_t>> groupsOf(const std::vector<std::string>& labels) {
     std::map<std::string, std::vector<size_t>> groups;
     for (size_t i = 0; i < labels.size(); ++i) groups[labels[i]].push_back(i);
@@ -73,6 +154,35 @@ std::map<std::string, std::vector<size_t>> groupsOf(const std::vector<std::strin
 }
 
 }  // namespace
+
+std::vector<std::string> chainLabels(const std::vector<Value>& values) {
+    std::vector<Chain> chains;
+    std::map<std::string, std::vector<Chain*>> byMain;
+    for (const Value& value : values) chains.push_back(chainOf(value));
+    for (Chain& chain : chains) byMain[chain.main].push_back(&chain);
+    for (const auto& [main, group] : byMain) setDetails(group);
+
+    const auto labelsOf = [&] {
+        std::vector<std::string> labels;
+        for (const Chain& chain : chains) labels.push_back(chain.label());
+        return labels;
+    };
+    std::vector<std::string> labels = labelsOf();
+    for (bool isChanged = true; isChanged;) {
+        isChanged = false;
+        for (const auto& [text, group] : groupsOf(labels))
+            for (const size_t i : group)
+                if (group.size() > 1 && chains[i].shown < chains[i].details.size()) {
+                    ++chains[i].shown;
+                    isChanged = true;
+                }
+        labels = labelsOf();
+    }
+    for (const auto& [text, group] : groupsOf(labels))
+        if (group.size() > 1)
+            for (const size_t i : group) labels[i] = values[i].text();
+    return labels;
+}
 
 std::vector<std::string> valueLabels(const std::vector<Value>& values) {
     std::vector<std::string> labels;

@@ -55,7 +55,7 @@ void removeDuplicates(Study& study) {
     std::vector<std::map<std::string, Value>> values(keys.size());  // Values of each axis by label.
     for (size_t a = 0; a < keys.size(); ++a) {
         const Value& axis = study.experiment.sweep.members[a].value;
-        const std::vector<std::string> labels = sweepLabels(axis);
+        const std::vector<std::string> labels = sweepLabels(keys[a], axis);
         std::vector<Value> all = sweepValues(axis);
         for (size_t i = 0; i < labels.size(); ++i) values[a].emplace(labels[i], std::move(all[i]));
     }
@@ -72,7 +72,7 @@ void removeDuplicates(Study& study) {
             reasons[a] = why;
         }
         if (!unique.insert(variant.values).second) return true;
-        variant.name = names.next(variant.values);
+        names.name(variant);
         return false;
     });
     for (size_t a = 0; a < keys.size(); ++a)

@@ -209,7 +209,7 @@ TEST_F(RunTest, ComposedScenesHaveReferencesOfTheirOwn) {
     EXPECT_EQ(Truth::runs, 4);
     EXPECT_EQ(run(sweep).ok, 4u);
     EXPECT_EQ(Truth::runs, 4);
-    EXPECT_EQ(cell("add-plane_override-null", "scene.add"), "plane");
+    EXPECT_EQ(cell("add-plane-override-null", "scene.add"), "plane");
 }
 
 TEST_F(RunTest, ChainsOfPassesRunInPlaceOfOne) {

@@ -60,7 +60,7 @@ TEST_F(RunTest, ColumnsAreTheDocumentedOnes) {
     run("sweep: {constant.value: [1]}\n");
     // Every metric, the ends of its interval right after it; the total light's, then the indirect light's.
     std::string expected =
-        "variant,status,error,device,tracer,constant.value,build_ms,frame_ms_median,frame_ms_p05,"
+        "variant,name,status,error,device,tracer,constant.value,build_ms,frame_ms_median,frame_ms_p05,"
         "frame_ms_p95,memory_bytes,peak_bytes,rays";
     for (const std::string light : {",", ",indirect_"})
         for (const Metric& metric : metrics()) {

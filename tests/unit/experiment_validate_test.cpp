@@ -49,7 +49,7 @@ TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
         registry);
     std::vector<std::string> names;
     for (const Variant& variant : wired.variants) names.push_back(variant.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"b-constant", "b-veil_value-4", "b-veil_value-5"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"constant", "veil, value 4", "veil, value 5"}));
     EXPECT_EQ(wired.variants[0].values, (std::vector<std::string>{"constant", "-"}));
 
     // A whole pass neither, where nothing of what stands in its place runs
@@ -62,7 +62,7 @@ TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
         registry);
     names.clear();
     for (const Variant& variant : swapped.variants) names.push_back(variant.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"b-constant", "a-x_b-veil", "a-y_b-constant", "a-y_b-veil"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"constant", "x, veil", "y, constant", "y, veil"}));
 
     // One that changes nothing anywhere is a mistake; an image that is written over is told first
     expectError(
@@ -242,6 +242,7 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     VariantResult r;
     r.ok = true;
     r.variant = "odd \"name\" \xc3\xa9\n";
+    r.name = "odd, 1";
     r.sweepValues = {"1", "[2, 3]"};
     r.session = "2026-01-01T10:00:00Z";
     r.buildMs = 1.0 / 3;
@@ -255,6 +256,7 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     const VariantInputs inputs{{"seed", "3"}, {"graph", "{a: \"b\"}"}};
     const auto [back, backInputs] = parseResultJson(resultJson(r, inputs));
     EXPECT_EQ(back.variant, r.variant);
+    EXPECT_EQ(back.name, r.name);
     EXPECT_EQ(back.sweepValues, r.sweepValues);
     EXPECT_EQ(back.session, r.session);
     EXPECT_EQ(back.buildMs, r.buildMs);
