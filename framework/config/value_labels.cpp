@@ -84,14 +84,19 @@ struct Chain {
     std::string main;                   ///< The last pass that is no image filter, or else the last one.
     std::vector<std::string> filtered;  ///< What the passes after it do.
     std::vector<ChainPass> passes;      ///< The main pass, then the others from the last one to the first.
-    std::vector<std::string> details;   ///< What may tell the chain from others, in the order of need.
-    size_t shown = 0;                   ///< Number of details in the label.
+    std::vector<std::string> hidden;    ///< What differs from chains with this main pass, in this order.
+    std::vector<std::string> shown;     ///< Of these, what the label has.
 
     std::string label() const {
         std::string text = main;
-        for (size_t d = 0; d < std::min(shown, details.size()); ++d) text += ", " + details[d];
+        for (const std::string& detail : shown) text += ", " + detail;
         for (const std::string& word : filtered) text += ", " + word;
         return text;
+    }
+    bool hides(const std::string& detail) const { return std::ranges::count(hidden, detail) > 0; }
+    void show(std::vector<std::string>::iterator detail) {
+        shown.push_back(*detail);
+        hidden.erase(detail);
     }
 };
 
@@ -126,25 +131,37 @@ Chain chainOf(const Value& value) {
     return chain;
 }
 
-/// Sets the details of chains with the same main pass.
-void setDetails(const std::vector<Chain*>& chains) {
+/// Finds what differs among chains with the same main pass, and shows the first of its parameters.
+void findDetails(const std::vector<Chain*>& chains) {
     const auto isInAll = [&](const auto& isIn) {
-        return std::ranges::all_of(
-            chains, [&](const Chain* chain) { return std::ranges::any_of(chain->passes, isIn); });
+        return std::ranges::all_of(chains,
+                                   [&](const Chain* c) { return std::ranges::any_of(c->passes, isIn); });
     };
-    for (Chain* chain : chains) {
+    for (Chain* chain : chains)
         for (const ChainPass& pass : chain->passes) {
-            if (!isInAll([&](const ChainPass& other) { return other.name == pass.name; }) &&
-                !imageFilters().contains(pass.name))
-                chain->details.push_back(pass.name);
+            const auto isSame = [&](const ChainPass& other) { return other.name == pass.name; };
+            if (!imageFilters().contains(pass.name) && !isInAll(isSame)) chain->hidden.push_back(pass.name);
             for (const std::string& parameter : pass.parameters)
                 if (!isInAll([&](const ChainPass& other) {
-                        return other.name == pass.name && std::ranges::count(other.parameters, parameter) > 0;
+                        return isSame(other) && std::ranges::count(other.parameters, parameter) > 0;
                     }))
-                    chain->details.push_back(parameter);
-            if (&pass == &chain->passes.front()) chain->shown = std::min<size_t>(chain->details.size(), 1);
+                    chain->hidden.push_back(parameter);
+            if (&pass == &chain->passes.front() && !chain->hidden.empty()) chain->show(chain->hidden.begin());
         }
-    }
+}
+
+/// Shows one more detail of each chain that not all of these have. @return whether there was any.
+bool showMore(const std::vector<Chain*>& chains) {
+    const auto isInAll = [&](const std::string& detail) {
+        return std::ranges::all_of(chains, [&](const Chain* chain) { return chain->hides(detail); });
+    };
+    std::vector<std::pair<Chain*, std::vector<std::string>::iterator>> found;
+    for (Chain* chain : chains)
+        if (const auto detail = std::ranges::find_if_not(chain->hidden, isInAll);
+            detail != chain->hidden.end())
+            found.emplace_back(chain, detail);
+    for (const auto& [chain, detail] : found) chain->show(detail);
+    return !found.empty();
 }
 
 std::map<std::string, std::vector<size_t>> groupsOf(const std::vector<std::string>& labels) {
@@ -160,24 +177,17 @@ std::vector<std::string> chainLabels(const std::vector<Value>& values) {
     std::map<std::string, std::vector<Chain*>> byMain;
     for (const Value& value : values) chains.push_back(chainOf(value));
     for (Chain& chain : chains) byMain[chain.main].push_back(&chain);
-    for (const auto& [main, group] : byMain) setDetails(group);
+    for (const auto& [main, group] : byMain) findDetails(group);
 
-    const auto labelsOf = [&] {
-        std::vector<std::string> labels;
-        for (const Chain& chain : chains) labels.push_back(chain.label());
-        return labels;
-    };
-    std::vector<std::string> labels = labelsOf();
-    for (bool isChanged = true; isChanged;) {
-        isChanged = false;
-        for (const auto& [text, group] : groupsOf(labels))
-            for (const size_t i : group)
-                if (group.size() > 1 && chains[i].shown < chains[i].details.size()) {
-                    ++chains[i].shown;
-                    isChanged = true;
-                }
-        labels = labelsOf();
+    std::vector<std::string> labels;
+    for (bool isDone = false; !isDone;) {
+        isDone = true;
+        std::map<std::string, std::vector<Chain*>> byLabel;
+        for (Chain& chain : chains) byLabel[chain.label()].push_back(&chain);
+        for (const auto& [text, group] : byLabel)
+            if (group.size() > 1 && showMore(group)) isDone = false;
     }
+    for (const Chain& chain : chains) labels.push_back(chain.label());
     for (const auto& [text, group] : groupsOf(labels))
         if (group.size() > 1)
             for (const size_t i : group) labels[i] = values[i].text();

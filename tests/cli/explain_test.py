@@ -54,7 +54,7 @@ class Explain(CommandTest):
         cheap = ("trace.rays_per_block=1", "inject.rays_per_light=1000", "image.width=8")
         self.explain(*cheap)
         page = self.bytes("out", "explain.html")
-        shutil.rmtree(self.path("out", "images", "explained-gather"))
+        shutil.rmtree(self.path("out", "images", "gather"))
         done = self.expect(0, "explain", "room.yaml", "--tracer", "embree", "--out", "out", "--resume",
                            *(word for change in cheap for word in ("--set", change)))
         self.assertIn("6 of 7 variants were finished already", done.stdout)
@@ -72,8 +72,8 @@ class Usage(CommandTest):
         self.expect(0, "explain", "room.yaml", "--dry-run", "--variant", "8")
         self.expect(2, "explain", "room.yaml", "--dry-run", "--variant", "6")
         listed = self.expect(0, "explain", "room.yaml", "--dry-run", "--variant", "resolution-8").stdout
-        for name in ("as-it-is", "injection", "gather", "injection-gather", "injection-gather-voxelization-upsampling"):
-            self.assertIn(f"explained-{name}", listed)
+        for name in ("as it is", "injection", "gather", "injection + gather", "injection + gather + voxelization + upsampling"):
+            self.assertIn(name, listed)
 
     def test_what_has_no_counterpart_is_refused(self):
         self.write("room.yaml", CONFIG.replace("  - {pass: gather_rays, id: indirect}", "  - {pass: gather_rays, id: indirect}\n  - {pass: accumulate}"))

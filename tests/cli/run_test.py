@@ -11,7 +11,7 @@ import unittest
 
 from support import PROGRAM, TINY, CommandTest
 
-COST_COLUMNS = ["variant", "status", "error", "device", "tracer", "voxelize.resolution", "build_ms",
+COST_COLUMNS = ["variant", "name", "status", "error", "device", "tracer", "voxelize.resolution", "build_ms",
                 "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays"]
 PASS_COLUMNS = ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes",
                 "scratch_bytes", "dispatches", "host_waits", "host_bytes"]
@@ -59,7 +59,7 @@ class Results(Run):
     def test_files(self):
         done = self.run_tiny("out", "--validate", "--aovs")
         self.assertIn("report.html", done.stdout)
-        self.assertRegex(done.stdout, r"resolution-8: build [\d.]+ ms, frame [\d.]+ ms, indirect nRMSE [\d.]+ \(total [\d.]+\), ")
+        self.assertRegex(done.stdout, r"resolution 8: build [\d.]+ ms, frame [\d.]+ ms, indirect nRMSE [\d.]+ \(total [\d.]+\), ")
         manifest = self.json("out", "manifest.json")
         self.assertTrue(manifest["validation"])
         self.assertEqual([metric["name"] for metric in manifest["metrics"]], self.metrics())
@@ -94,7 +94,7 @@ class Results(Run):
             "indirect": dict.fromkeys(VARIANTS, ["inject.rays_per_light"]),
             "final": dict.fromkeys(VARIANTS, ["inject.rays_per_light", "direct_shadow_rays.light_samples"])})
         page = self.bytes("out", "report.html").decode()
-        self.assertIn("resolution-16", page)
+        self.assertIn("resolution 16", page)
         self.assertIn("Bias and noise are not told apart: set measure.second_seed: true.", page)
         self.assertNotRegex(page, r"(src|href)=[\"']https?:")
 

@@ -66,5 +66,5 @@ WARNINGS = {
                                       "measure.masks.floor: it selects every pixel, so that its scores are those of the whole image"),
     "a variant that needs more memory": (
         SWEEP + "measure: {frames: 2", "sweep:\n  voxelize.resolution: [16, 1024]\nmeasure: {memory_limit_mb: 40, frames: 2", 21,
-        "too few for 1 of 2 variants: resolution-1024 takes at least"),
+        "too few for 1 of 2 variants: resolution 1024 takes at least"),
 }
