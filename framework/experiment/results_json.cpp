@@ -137,7 +137,7 @@ std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text)
         VariantResult r;
         r.ok = true;
         r.variant = json.at("variant").get<std::string>();
-        r.name = json.at("name").get<std::string>();
+        r.name = json.value("name", r.variant);
         r.device = json.at("device").get<std::string>();
         r.tracer = json.at("tracer").get<std::string>();
         r.sweepValues = json.at("sweep_values").get<std::vector<std::string>>();

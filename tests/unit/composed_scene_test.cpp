@@ -220,9 +220,9 @@ TEST_F(RunTest, ChainsOfPassesRunInPlaceOfOne) {
             "sweep:\n  c: [constant, [witness, {pass: constant, value: 0.5}]]\n",
         "fake.yaml");
     EXPECT_EQ(runExperiment(experiment, options(), registry()).ok, 2u);
-    EXPECT_NEAR(std::stod(cell("c-witness-constant", "nrmse")), 0.5, 1e-6);
-    EXPECT_CONTAINS(readTextFile(root_ / "out" / "passes.csv"), "c-witness-constant,witness,build,");
-    EXPECT_CONTAINS(readTextFile(root_ / "out" / "passes.csv"), "c-witness-constant,c,frame,");
+    EXPECT_NEAR(std::stod(cell("constant-value-0.5", "nrmse")), 0.5, 1e-6);
+    EXPECT_CONTAINS(readTextFile(root_ / "out" / "passes.csv"), "constant-value-0.5,witness,build,");
+    EXPECT_CONTAINS(readTextFile(root_ / "out" / "passes.csv"), "constant-value-0.5,c,frame,");
 }
 
 TEST(ComposedSceneLoader, WarnsOfAdditionsInAnotherUnit) {

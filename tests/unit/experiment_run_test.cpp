@@ -372,7 +372,7 @@ TEST_F(RunTest, DryRunRendersNothing) {
     testing::internal::CaptureStdout();
     EXPECT_EQ(run("sweep: {constant.megabytes: [0, 64]}\n", o).exitStatus(), 0);
     const std::string text = testing::internal::GetCapturedStdout();
-    EXPECT_CONTAINS(text, "megabytes-64");
+    EXPECT_CONTAINS(text, "megabytes 64");
     EXPECT_CONTAINS(text, "64.0 MiB");
     EXPECT_EQ(Constant::runs, 0);
     EXPECT_FALSE(fs::exists(root_ / "out"));

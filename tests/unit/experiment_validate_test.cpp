@@ -208,10 +208,11 @@ TEST(Results, CsvQuotesByRfc4180) {
 
     VariantResult failed;
     failed.variant = "v";
+    failed.name = "v, w";
     failed.error = "x, \"y\"";
     failed.sweepValues = {"[1, 2]"};
     const std::string text = resultsCsv({failed}, {"a.b"}, {});
-    EXPECT_CONTAINS(text, "v,failed,\"x, \"\"y\"\"\",,,\"[1, 2]\",,,,,,,");
+    EXPECT_CONTAINS(text, "v,\"v, w\",failed,\"x, \"\"y\"\"\",,,\"[1, 2]\",,,,,,,");
 }
 
 TEST(Results, NumbersKeepNineDigits) {
@@ -229,7 +230,7 @@ TEST(Results, MetricsThatWereNotAskedForStayEmpty) {
     MeasureSettings measure;
     measure.metrics = {"nrmse"};
     // Columns of scores: an empty one for each metric but one, and for the ends of intervals.
-    std::string expected = "v,ok,,,,0,0,0,0,0,0,0";
+    std::string expected = "v,,ok,,,,0,0,0,0,0,0,0";
     for (const std::string score : {"0.5", "0.75"})
         for (const Metric& metric : metrics()) {
             expected += "," + (std::string(metric.name) == "nrmse" ? score : "");
