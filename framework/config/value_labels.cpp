@@ -77,7 +77,6 @@ const std::map<std::string, std::string>& imageFilters() {
 struct ChainPass {
     std::string name;
     std::vector<std::string> parameters;
-    bool operator==(const ChainPass&) const = default;
 };
 
 struct Chain {
@@ -93,7 +92,6 @@ struct Chain {
         for (const std::string& word : filtered) text += ", " + word;
         return text;
     }
-    bool hides(const std::string& detail) const { return std::ranges::count(hidden, detail) > 0; }
     void show(std::vector<std::string>::iterator detail) {
         shown.push_back(*detail);
         hidden.erase(detail);
@@ -133,35 +131,40 @@ Chain chainOf(const Value& value) {
 
 /// Finds what differs among chains with the same main pass, and shows the first of its parameters.
 void findDetails(const std::vector<Chain*>& chains) {
-    const auto isInAll = [&](const auto& isIn) {
-        return std::ranges::all_of(chains,
-                                   [&](const Chain* c) { return std::ranges::any_of(c->passes, isIn); });
-    };
+    std::map<std::string, size_t> counts;  // Of the chains with a pass, "name", or a parameter, "name.spp 4".
+    for (const Chain* chain : chains) {
+        std::set<std::string> texts;
+        for (const ChainPass& pass : chain->passes) {
+            texts.insert(pass.name);
+            for (const std::string& parameter : pass.parameters) texts.insert(pass.name + "." + parameter);
+        }
+        for (const std::string& text : texts) ++counts[text];
+    }
     for (Chain* chain : chains)
         for (const ChainPass& pass : chain->passes) {
-            const auto isSame = [&](const ChainPass& other) { return other.name == pass.name; };
-            if (!imageFilters().contains(pass.name) && !isInAll(isSame)) chain->hidden.push_back(pass.name);
+            if (!imageFilters().contains(pass.name) && counts[pass.name] < chains.size())
+                chain->hidden.push_back(pass.name);
             for (const std::string& parameter : pass.parameters)
-                if (!isInAll([&](const ChainPass& other) {
-                        return isSame(other) && std::ranges::count(other.parameters, parameter) > 0;
-                    }))
-                    chain->hidden.push_back(parameter);
+                if (counts[pass.name + "." + parameter] < chains.size()) chain->hidden.push_back(parameter);
             if (&pass == &chain->passes.front() && !chain->hidden.empty()) chain->show(chain->hidden.begin());
         }
 }
 
 /// Shows one more detail of each chain that not all of these have. @return whether there was any.
 bool showMore(const std::vector<Chain*>& chains) {
-    const auto isInAll = [&](const std::string& detail) {
-        return std::ranges::all_of(chains, [&](const Chain* chain) { return chain->hides(detail); });
-    };
-    std::vector<std::pair<Chain*, std::vector<std::string>::iterator>> found;
-    for (Chain* chain : chains)
-        if (const auto detail = std::ranges::find_if_not(chain->hidden, isInAll);
-            detail != chain->hidden.end())
-            found.emplace_back(chain, detail);
-    for (const auto& [chain, detail] : found) chain->show(detail);
-    return !found.empty();
+    std::map<std::string, size_t> counts;
+    for (const Chain* chain : chains)
+        for (const std::string& detail : std::set(chain->hidden.begin(), chain->hidden.end()))
+            ++counts[detail];
+    bool isAny = false;
+    for (Chain* chain : chains) {
+        const auto detail = std::ranges::find_if(
+            chain->hidden, [&](const std::string& text) { return counts[text] < chains.size(); });
+        if (detail == chain->hidden.end()) continue;
+        chain->show(detail);
+        isAny = true;
+    }
+    return isAny;
 }
 
 std::map<std::string, std::vector<size_t>> groupsOf(const std::vector<std::string>& labels) {

@@ -168,10 +168,10 @@ class Validate(CommandTest):
             "sweep:\n  voxelize.resolution: [8, 16]\n", sweep))
         self.assertEqual(self.expect(0, "validate", "same.yaml").stderr, "")
         warnings = self.expect(0, "validate", "same.yaml", "--set", "reference.bounces=4").stderr
-        for method in ("lookup", "more-cones", "cache", "vpls", "mirrors", "paths"):
-            self.assertIn(f"(gather_irradiance-{method})", warnings)
+        for method in ("lookup", "more cones", "cache", "vpls", "mirrors", "paths"):
+            self.assertIn(f"({method})", warnings)
         self.assertIn("same.yaml:8: indirect light has 3 bounces, the reference's 4: write 'bounces: 3' in 'inject', or "
-                      "'bounces: 3' in the reference (gather_irradiance-rays and 2 more)", warnings)
+                      "'bounces: 3' in the reference (rays and 2 more)", warnings)
 
     def test_names_in_scenes(self):
         scene = "{builtin: cornell}"
