@@ -40,10 +40,9 @@ class Names:
 
 
 def names_of(results: Results) -> Names:
-    """Numbers in the order of the table. A variant without a name is called by its id."""
+    """Numbers in the order of the table."""
     variants = list(results.variants["variant"])
-    named = list(results.variants.get("name", variants))
-    return Names({variant: str(i) for i, variant in enumerate(variants, 1)}, dict(zip(variants, named)))
+    return Names({variant: str(i) for i, variant in enumerate(variants, 1)}, dict(zip(variants, results.variants["name"])))
 
 
 def families_of(results: Results, names: Names) -> list[Family]:

@@ -70,6 +70,8 @@ class Results(Run):
         self.assertIn("nrmse_low", scores)
         self.assertEqual(self.header("out", "passes.csv"), PASS_COLUMNS)
         rows = self.rows("out", "results.csv")
+        self.assertEqual([row["name"] for row in rows], ["resolution 8", "resolution 16"])
+        self.assertEqual(manifest["names"], dict(zip(VARIANTS, ["resolution 8", "resolution 16"])))
         self.assertEqual([row["variant"] for row in rows], VARIANTS)
         self.assertEqual([row["voxelize.resolution"] for row in rows], ["8", "16"])
         self.assertEqual({row["status"] for row in rows}, {"ok"})
