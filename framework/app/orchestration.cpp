@@ -22,16 +22,12 @@ CLI::App* addOrchestrationCommand(CLI::App& app, const std::string& name, const 
     return command;
 }
 
-CLI::Option* addText(CLI::App& command, const std::string& name, const std::string& type,
-                     const std::string& help) {
+CLI::Option* addText(CLI::App& command, const std::string& name, const std::string& type, const std::string& help) {
     return command.add_option(name, help)->type_name(type);
 }
 
-CLI::Option* addTexts(CLI::App& command, const std::string& name, const std::string& type,
-                      const std::string& help) {
-    return addText(command, name, type, help)
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+CLI::Option* addTexts(CLI::App& command, const std::string& name, const std::string& type, const std::string& help) {
+    return addText(command, name, type, help)->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
 /// Without it CLI11's overloads are ambiguous for a literal.
@@ -39,8 +35,7 @@ void addFlag(CLI::App& command, const std::string& name, const std::string& help
     command.add_flag(name, help);
 }
 
-CLI::Option* addCount(CLI::App& command, const std::string& name, const std::string& help,
-                      int most = 1 << 16) {
+CLI::Option* addCount(CLI::App& command, const std::string& name, const std::string& help, int most = 1 << 16) {
     return addText(command, name, "N", help)->check(CLI::Range(1, most));
 }
 
@@ -63,8 +58,7 @@ void addPartOptions(CLI::App& command) {
              "How many parts each reference's samples are divided into. "
              "Default: one for each of --cores, else 1.",
              1 << 20);
-    addFlag(command, "--untimed",
-            "Times don't matter: variants share machines, and a warning on the page says so.");
+    addFlag(command, "--untimed", "Times don't matter: variants share machines, and a warning on the page says so.");
     addCount(command, "--threads", "Threads of each part that shares a machine.")->default_str("1");
     addText(command, "--retries", "N", "How often a part that failed is tried again.")
         ->check(CLI::Range(0, 1 << 16))
@@ -88,23 +82,19 @@ void addTuneCommand(CLI::App& app, int&) {
                                                  "small images first, the best of them at the config's own.",
                                                  values);
     addConfig(command);
-    addTexts(
-        command, "--target", "NAME=VALUE",
-        "Column of results.csv and the value to meet, as in indirect_relmse=0.02. May be given many times.")
+    addTexts(command, "--target", "NAME=VALUE",
+             "Column of results.csv and the value to meet, as in indirect_relmse=0.02. May be given many times.")
         ->required();
-    addText(command, "--minimize", "TEXT",
-            "What is to be cheap: ms or rays (of one build and one frame) or bytes.")
+    addText(command, "--minimize", "TEXT", "What is to be cheap: ms or rays (of one build and one frame) or bytes.")
         ->check(CLI::IsMember({"ms", "rays", "bytes"}))
         ->default_str("ms");
     addTexts(command, "--vary", "ID.PARAMETER",
              "A pass's parameter that is searched besides the sweep, over halves and doubles of its value, "
              "as in gather.rays. May be given many times.");
-    addText(command, "--budget", "FLOAT",
-            "What trials may cost, in variants of mean cost; 0: a fifth of the sweep.")
+    addText(command, "--budget", "FLOAT", "What trials may cost, in variants of mean cost; 0: a fifth of the sweep.")
         ->check(CLI::NonNegativeNumber)
         ->default_str("0");
-    addFlag(command, "--every",
-            "Run the whole sweep, too, and compare: how good the choice is, what it saved.");
+    addFlag(command, "--every", "Run the whole sweep, too, and compare: how good the choice is, what it saved.");
     addFlag(command, "--resume", "Keep the trials that an earlier search finished.");
     addDeviceOptions(command, values->run);
     addText(command, "--out", "DIR", "Folder of trials; default results/tune_<experiment>.");
@@ -113,12 +103,11 @@ void addTuneCommand(CLI::App& app, int&) {
 
 void addExplainCommand(CLI::App& app, int&) {
     const auto values = std::make_shared<UnusedValues>();
-    CLI::App& command =
-        *addOrchestrationCommand(app, "explain",
-                                 "Say where a config's error comes from: "
-                                 "render it with each stage swapped for an exact counterpart, "
-                                 "and give each its part of the error of the indirect light.",
-                                 values);
+    CLI::App& command = *addOrchestrationCommand(app, "explain",
+                                                 "Say where a config's error comes from: "
+                                                 "render it with each stage swapped for an exact counterpart, "
+                                                 "and give each its part of the error of the indirect light.",
+                                                 values);
     addConfig(command);
     addText(command, "--variant", "NAME",
             "Which variant of the config's sweep is explained, "
@@ -135,9 +124,7 @@ void addStabilityCommand(CLI::App& app, int&) {
                                  "run each in scenes that provoke one failure each (leaks, lost energy, "
                                  "flicker ...), and hold every result against its limit.",
                                  values);
-    addText(command, "METHOD", "TEXT", "Methods of the matrix; all by default.")
-        ->expected(1, -1)
-        ->allow_extra_args();
+    addText(command, "METHOD", "TEXT", "Methods of the matrix; all by default.")->expected(1, -1)->allow_extra_args();
     addTexts(command, "--scenario", "NAME",
              "Run this scene of the matrix, and the first of its profile. May be given many times.");
     addText(command, "--config", "CONFIG",
@@ -148,9 +135,8 @@ void addStabilityCommand(CLI::App& app, int&) {
             "and say which of them lowers each error; "
             "they stand next to the matrix, in a file that ends in _remedies.json.");
     addConfigOptions(command, *values);
-    addRunOptions(
-        command, values->run,
-        "Folder of the tables and of a results folder for each profile; default results/stability.");
+    addRunOptions(command, values->run,
+                  "Folder of the tables and of a results folder for each profile; default results/stability.");
 }
 
 void addSweepCommand(CLI::App& app, int&) {
@@ -161,9 +147,7 @@ void addSweepCommand(CLI::App& app, int&) {
         "or wherever a profile of Snakemake says. Started again, it goes on with what is left.",
         values);
     addConfig(command);
-    addText(command, "SNAKEMAKE", "TEXT", "After --: more options for Snakemake.")
-        ->expected(1, -1)
-        ->allow_extra_args();
+    addText(command, "SNAKEMAKE", "TEXT", "After --: more options for Snakemake.")->expected(1, -1)->allow_extra_args();
     addText(command, "--out", "DIR", "Results folder; default results/<experiment>.");
     addExecutorOptions(command);
     addPartOptions(command);
@@ -175,11 +159,10 @@ void addSweepCommand(CLI::App& app, int&) {
 }
 
 void addParetoCommand(CLI::App& app, int&) {
-    CLI::App& command =
-        *addOrchestrationCommand(app, "pareto",
-                                 "Chart the methods of many runs, speed against accuracy: "
-                                 "which are on the front, scene by scene, which are beaten everywhere, "
-                                 "and what each saves over filtered path tracing.");
+    CLI::App& command = *addOrchestrationCommand(app, "pareto",
+                                                 "Chart the methods of many runs, speed against accuracy: "
+                                                 "which are on the front, scene by scene, which are beaten everywhere, "
+                                                 "and what each saves over filtered path tracing.");
     addText(command, "RESULTS", "DIR", "Results folders of runs, also of several machines.")
         ->required()
         ->expected(1, -1)

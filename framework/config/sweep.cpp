@@ -29,9 +29,7 @@ void checkPath(const std::string& path, const TextLocation& where) {
     const std::string first = path.substr(0, path.find('.'));
     if (std::ranges::count(fixed, first) > 0)
         throw UsageError(
-            where,
-            "sweep: '{}' is the same for all variants; sweep over a pass, scene, image, seed or tracer",
-            path);
+            where, "sweep: '{}' is the same for all variants; sweep over a pass, scene, image, seed or tracer", path);
 }
 
 /// Whether an axis' values are passes or chains of passes.
@@ -42,8 +40,8 @@ bool isPassPath(const std::string& path) {
 std::string fileSafe(const std::string& text) {
     std::string safe;
     for (const char c : text) {
-        const bool isPlain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                             c == '_' || c == '.' || c == '-';
+        const bool isPlain = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+                             c == '.' || c == '-';
         if (isPlain)
             safe += c;
         else if (safe.empty() || safe.back() != '-')
@@ -68,8 +66,8 @@ std::vector<Axis> readAxes(const Experiment& experiment) {
         for (size_t i = 0; i < list.members.size(); ++i)
             for (size_t j = 0; j < i; ++j)
                 if (list.members[i].value == list.members[j].value)
-                    throw UsageError(list.members[i].value.where, "sweep.{}: '{}' and '{}' are the same",
-                                     path, list.members[j].key, list.members[i].key);
+                    throw UsageError(list.members[i].value.where, "sweep.{}: '{}' and '{}' are the same", path,
+                                     list.members[j].key, list.members[i].key);
     }
     for (Axis& axis : axes)
         if (labels[axis.label] > 1) axis.label = axis.path;
@@ -101,8 +99,7 @@ void setValue(Value& config, const Axis& axis, size_t chosen) {
 /// Configs without sweep and with replaced passes, shared by variants that differ only in other values.
 class BaseConfigs {
  public:
-    BaseConfigs(const Experiment& experiment, const std::vector<Axis>& axes)
-        : axes_(axes), plain_(experiment.config) {
+    BaseConfigs(const Experiment& experiment, const std::vector<Axis>& axes) : axes_(axes), plain_(experiment.config) {
         plain_.erase("sweep");
     }
 
@@ -171,8 +168,7 @@ void selectSweepValues(Value& config, const std::vector<std::string>& choices) {
         Value* sweep = config.find("sweep");
         Value* axis = sweep ? sweep->find(path) : nullptr;
         std::vector<std::string> names;
-        for (const auto& member : sweep ? sweep->members : std::vector<Value::Member>())
-            names.push_back(member.key);
+        for (const auto& member : sweep ? sweep->members : std::vector<Value::Member>()) names.push_back(member.key);
         if (!axis) throw UsageError("--only: the sweep has no axis '{}'{}", path, didYouMean(path, names));
         const std::vector<std::string> labels = sweepLabels(path, *axis);
         for (const std::string& value : values)
@@ -246,8 +242,7 @@ void VariantNames::name(SweepPoint& variant) {
 
     // Keys of two axes may be equal, and so may different names after fileSafe()
     variant.name = name;
-    for (int copy = 2; !names_.insert(variant.name).second; ++copy)
-        variant.name = fmt::format("{} ({})", name, copy);
+    for (int copy = 2; !names_.insert(variant.name).second; ++copy) variant.name = fmt::format("{} ({})", name, copy);
     const std::string id = shortened(fileSafe(variant.name));
     variant.id = id;
     for (int copy = 2; !ids_.insert(variant.id).second; ++copy) variant.id = fmt::format("{}-{}", id, copy);

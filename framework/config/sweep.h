@@ -10,10 +10,10 @@ namespace voxray {
 
 /// One point of the sweep.
 struct SweepPoint {
-    std::string name;  ///< Unique, e.g. "resolution 64, gather_cones, cones 16".
-    std::string id;    ///< The name as a file name, unique too: "resolution-64-gather_cones-cones-16".
+    std::string name;                 ///< Unique, e.g. "resolution 64, gather_cones, cones 16".
+    std::string id;                   ///< The name as a file name, unique too: "resolution-64-gather_cones-cones-16".
     std::vector<std::string> values;  ///< Label of each axis' value, in the order of sweepKeys().
-    Value config;  ///< The experiment's config with this variant's values and without sweep.
+    Value config;                     ///< The experiment's config with this variant's values and without sweep.
     Setup setup;
 };
 

@@ -46,8 +46,7 @@ std::string label(const Value& entry, size_t number, const MemberNames& shownMem
 std::string label(const Value& value, const MemberNames& shownMembers) {
     std::string text;
     const std::vector<const Value*> entries = entriesOf(value);
-    for (size_t e = 0; e < entries.size(); ++e)
-        text += (e ? " + " : "") + label(*entries[e], e, shownMembers);
+    for (size_t e = 0; e < entries.size(); ++e) text += (e ? " + " : "") + label(*entries[e], e, shownMembers);
     return text;
 }
 
@@ -105,8 +104,7 @@ ChainPass chainPass(const Value& entry) {
         if (key == "pass")
             pass.name = value.scalar;
         else if (key == "inputs" && value.isMap())
-            for (const auto& [port, source] : value.members)
-                pass.parameters.push_back(port + " " + source.text());
+            for (const auto& [port, source] : value.members) pass.parameters.push_back(port + " " + source.text());
         else if (key != "id")
             pass.parameters.push_back(key + " " + value.text());
     }
@@ -154,12 +152,11 @@ void findDetails(const std::vector<Chain*>& chains) {
 bool showMore(const std::vector<Chain*>& chains) {
     std::map<std::string, size_t> counts;
     for (const Chain* chain : chains)
-        for (const std::string& detail : std::set(chain->hidden.begin(), chain->hidden.end()))
-            ++counts[detail];
+        for (const std::string& detail : std::set(chain->hidden.begin(), chain->hidden.end())) ++counts[detail];
     bool isAny = false;
     for (Chain* chain : chains) {
-        const auto detail = std::ranges::find_if(
-            chain->hidden, [&](const std::string& text) { return counts[text] < chains.size(); });
+        const auto detail =
+            std::ranges::find_if(chain->hidden, [&](const std::string& text) { return counts[text] < chains.size(); });
         if (detail == chain->hidden.end()) continue;
         chain->show(detail);
         isAny = true;

@@ -62,8 +62,7 @@ Json entryJson(const ReferenceRecord& r, const Value& pass) {
 void setReferences(Json& manifest, const std::vector<ReferenceEntry>& references) {
     std::map<std::string, Json> variants;  // Names by hash of their reference.
     for (const auto& [variant, inputs] : manifest["inputs"].items())
-        variants.try_emplace(inputs.at("reference").get<std::string>(), Json::array())
-            .first->second.push_back(variant);
+        variants.try_emplace(inputs.at("reference").get<std::string>(), Json::array()).first->second.push_back(variant);
     manifest["references"] = Json::array();
     for (const ReferenceEntry& reference : references) {
         Json entry = Json::parse(reference.text);
@@ -75,8 +74,7 @@ void setReferences(Json& manifest, const std::vector<ReferenceEntry>& references
     if (references.empty()) return;
     Json first = manifest["references"][0];
     for (const char* key : {"flip_exposures", "baselines"}) manifest[key] = first[key];
-    for (const char* key : {"flip_exposures", "indirect_flip_exposures", "baselines", "variants"})
-        first.erase(key);
+    for (const char* key : {"flip_exposures", "indirect_flip_exposures", "baselines", "variants"}) first.erase(key);
     manifest["reference"] = std::move(first);
 }
 
@@ -207,9 +205,8 @@ std::vector<ReferenceEntry> referencesIn(const fs::path& images) {
             entries.push_back({folder, json["hash"].get<std::string>(), std::move(text)});
     }
     // reference, reference.2, ..., reference.10
-    std::ranges::sort(entries, {}, [](const ReferenceEntry& entry) {
-        return std::pair(entry.folder.size(), entry.folder);
-    });
+    std::ranges::sort(entries, {},
+                      [](const ReferenceEntry& entry) { return std::pair(entry.folder.size(), entry.folder); });
     return entries;
 }
 
@@ -230,8 +227,7 @@ Json parseManifest(const std::string& text) {
 
 std::string manifestDifference(const Json& first, const Json& second) {
     for (const char* key : {"voxray_version", "commit", "config", "inputs"})
-        if (std::string text = firstDifference(first.at(key), second.at(key), key); !text.empty())
-            return text;
+        if (std::string text = firstDifference(first.at(key), second.at(key), key); !text.empty()) return text;
     return {};
 }
 
@@ -241,9 +237,9 @@ Sessions sessionsOf(const std::vector<VariantResult>& results) {
     return sessions;
 }
 
-std::string mergedManifest(Json first, const std::vector<ReferenceEntry>& references,
-                           const Sessions& sessions, const std::vector<std::string>& warnings,
-                           const std::vector<std::string>& notes, bool isWhole) {
+std::string mergedManifest(Json first, const std::vector<ReferenceEntry>& references, const Sessions& sessions,
+                           const std::vector<std::string>& warnings, const std::vector<std::string>& notes,
+                           bool isWhole) {
     const std::string finished = isWhole ? utcNow() : "";
     setOutcome(first, {finished, sessions, references, warnings, notes});
     return textOf(first);

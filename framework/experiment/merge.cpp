@@ -43,8 +43,7 @@ std::vector<Source> readSources(const std::vector<fs::path>& folders) {
         } catch (const Error& error) {
             throw UsageError("{}: {}", file.string(), error.what());
         }
-        const std::string what =
-            sources.empty() ? "" : manifestDifference(sources[0].manifest, source.manifest);
+        const std::string what = sources.empty() ? "" : manifestDifference(sources[0].manifest, source.manifest);
         if (!what.empty())
             throw UsageError("{} and {} can't be merged: {}", sources[0].path.string(), path.string(), what);
         sources.push_back(std::move(source));
@@ -61,9 +60,8 @@ bool isSameFolder(const fs::path& a, const fs::path& b) {
 void checkTarget(const std::vector<Source>& sources, const fs::path& out) {
     const auto isOut = [&](const Source& source) { return isSameFolder(source.path, out); };
     if (fs::exists(out / "manifest.json") && std::ranges::none_of(sources, isOut))
-        throw UsageError(
-            "{}: holds results already: choose another --out, or name it among the folders to merge",
-            out.string());
+        throw UsageError("{}: holds results already: choose another --out, or name it among the folders to merge",
+                         out.string());
 }
 
 void copyImages(const fs::path& from, const ResultsFolder& target, const std::string& name) {
@@ -104,8 +102,8 @@ std::vector<Found> findVariants(const std::vector<Source>& sources, std::vector<
         for (const Source& source : sources) {
             if (!fs::exists(source.path / "images" / name / "result.json")) continue;
             if (from && !isSameFolder(from->path, source.path))
-                throw UsageError("{} and {} can't be merged: both hold '{}'", from->path.string(),
-                                 source.path.string(), name);
+                throw UsageError("{} and {} can't be merged: both hold '{}'", from->path.string(), source.path.string(),
+                                 name);
             from = &source;
         }
         if (!from) {
@@ -129,8 +127,7 @@ struct Failure {
 
 /// The part whose failure is the reason that a variant has no result: its own or one of its reference.
 /// @param hash that of its reference.
-std::optional<Failure> failureOf(const std::string& name, const std::string& hash,
-                                 const std::vector<Source>& sources) {
+std::optional<Failure> failureOf(const std::string& name, const std::string& hash, const std::vector<Source>& sources) {
     const std::string whole = ReferenceParts::id(hash, {});
     const std::string reference = whole.substr(0, whole.rfind('.') + 1);
     std::optional<Failure> failure;
@@ -211,18 +208,15 @@ std::vector<std::string> differences(const std::vector<VariantResult>& rows) {
     std::set<std::string> devices;
     for (const VariantResult& row : rows) devices.insert(row.device + " with " + row.tracer);
     if (devices.size() < 2) return {};
-    return {fmt::format("the variants ran on {}: compare times within one of them alone",
-                        fmt::join(devices, ", "))};
+    return {fmt::format("the variants ran on {}: compare times within one of them alone", fmt::join(devices, ", "))};
 }
 
 }  // namespace
 
-RunSummary mergeResults(const std::vector<fs::path>& folders, const fs::path& out,
-                        const RunOptions& options) {
+RunSummary mergeResults(const std::vector<fs::path>& folders, const fs::path& out, const RunOptions& options) {
     std::vector<Source> sources = readSources(folders);
     checkTarget(sources, out);
-    const Experiment experiment =
-        readExperiment(parseYaml(sources[0].manifest.at("config").dump(), "manifest.json"));
+    const Experiment experiment = readExperiment(parseYaml(sources[0].manifest.at("config").dump(), "manifest.json"));
     std::vector<std::string> missing;
     std::vector<Found> found = findVariants(sources, missing);
 
@@ -254,8 +248,7 @@ RunSummary mergeResults(const std::vector<fs::path>& folders, const fs::path& ou
         fmt::print(stderr, "voxray: warning: {}\n", text);
         if (std::ranges::count(warnings, text) == 0) warnings.push_back(text);
     }
-    for (const std::string& name : missing)
-        fmt::print(stderr, "voxray: warning: there is no result of '{}'\n", name);
+    for (const std::string& name : missing) fmt::print(stderr, "voxray: warning: there is no result of '{}'\n", name);
     const std::vector<std::string> notes = textsOf(sources, "notes");
     target.writeText("manifest.json", mergedManifest(std::move(sources[0].manifest), target.references(),
                                                      sessionsOf(rows), warnings, notes, missing.empty()));

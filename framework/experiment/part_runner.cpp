@@ -16,15 +16,14 @@ namespace {
 /// differ, are before those of the whole image.
 std::string outcome(const VariantResult& r) {
     if (!r.ok) return fmt::format("{}: failed: {}", r.name, r.error);
-    std::string line =
-        fmt::format("{}: build {:.1f} ms, frame {:.1f} ms", r.name, r.buildMs, r.frameMs.median);
+    std::string line = fmt::format("{}: build {:.1f} ms, frame {:.1f} ms", r.name, r.buildMs, r.frameMs.median);
     for (const Metric& metric : metrics().first(2)) {
         const auto total = r.scores.find(metric.name);
         if (total == r.scores.end()) continue;
         const auto indirect = r.scores.find(std::string(kLightPrefixes[1]) + metric.name);
-        line += indirect == r.scores.end() ? fmt::format(", {} {:.4g}", metric.label, total->second)
-                                           : fmt::format(", indirect {} {:.4g} (total {:.4g})", metric.label,
-                                                         indirect->second, total->second);
+        line += indirect == r.scores.end()
+                    ? fmt::format(", {} {:.4g}", metric.label, total->second)
+                    : fmt::format(", indirect {} {:.4g} (total {:.4g})", metric.label, indirect->second, total->second);
     }
     return line;
 }
@@ -39,8 +38,7 @@ PartRunner::PartRunner(PreparedExperiment& prepared, const ResultsFolder& folder
         warnings_.emplace_back(
             "variants ran next to other work on the same machine (--untimed): their times tell nothing");
     else if (workerThreads() < cores && !prepared.options().part.starts_with("reference."))
-        warnings_.push_back(
-            fmt::format("variants ran on {} of {} threads (--threads)", workerThreads(), cores));
+        warnings_.push_back(fmt::format("variants ran on {} of {} threads (--threads)", workerThreads(), cores));
 }
 
 std::string PartRunner::referenceFolder(const std::string& hash) const {
@@ -64,8 +62,7 @@ std::string PartRunner::referenceFolder(const std::string& hash) const {
 
 bool PartRunner::hasReferenceImages(const Variant& variant) const {
     const std::string& hash = variant.referenceHash;
-    return hash.empty() ||
-           std::ranges::any_of(references_, [&](const ReferenceEntry& r) { return r.hash == hash; });
+    return hash.empty() || std::ranges::any_of(references_, [&](const ReferenceEntry& r) { return r.hash == hash; });
 }
 
 void PartRunner::dropReferences() {
@@ -80,8 +77,8 @@ const PreparedReference* PartRunner::referenceOf(const Variant& variant, Progres
 
     Session& session = prepared_.session();
     std::vector<PixelSelection> masks = session.selectPixels(prepared_.study(), variant.setup, 0);
-    const ReferenceImages& images = session.reference(prepared_.study(), variant.setup,
-                                                      [&](double fraction) { progress.update(fraction); });
+    const ReferenceImages& images =
+        session.reference(prepared_.study(), variant.setup, [&](double fraction) { progress.update(fraction); });
 
     const std::vector<float>& radiance = images.final.mean.data;
     if (std::ranges::all_of(radiance, [](float value) { return value == 0; }))
@@ -174,8 +171,8 @@ VariantImages PartRunner::render(Variant& variant, const PreparedReference* refe
             return FrameReference{session.frameReference(prepared_.study(), variant.setup, number, update),
                                   session.selectPixels(prepared_.study(), variant.setup, number)};
         };
-    return renderVariant(variant, prepared_.study(), session, reference, referenceOfFrame,
-                         prepared_.options().aovs, update);
+    return renderVariant(variant, prepared_.study(), session, reference, referenceOfFrame, prepared_.options().aovs,
+                         update);
 }
 
 void PartRunner::runReference(const Part& part, Progress& progress) {
@@ -183,9 +180,8 @@ void PartRunner::runReference(const Part& part, Progress& progress) {
     const Variant& variant = prepared_.variants()[part.variant];
     RenderedPart rendered;
     try {
-        rendered =
-            prepared_.session().referencePart(prepared_.study(), variant.setup, part.frame, part.samples,
-                                              [&](double fraction) { progress.update(fraction); });
+        rendered = prepared_.session().referencePart(prepared_.study(), variant.setup, part.frame, part.samples,
+                                                     [&](double fraction) { progress.update(fraction); });
     } catch (const Error&) {
         prepared_.session().stream().discard();
         if (interruptRequested()) throw Interrupted();
@@ -208,8 +204,7 @@ void PartRunner::printWarnings(Progress& progress) {
 
 size_t PartRunner::printValidationMessages(Progress& progress) {
     const std::vector<std::string> messages = prepared_.session().device().validationMessages();
-    for (; messages_ < messages.size(); ++messages_)
-        progress.warn("Vulkan validation: " + messages[messages_]);
+    for (; messages_ < messages.size(); ++messages_) progress.warn("Vulkan validation: " + messages[messages_]);
     return messages_;
 }
 

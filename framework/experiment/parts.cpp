@@ -65,10 +65,8 @@ PartNeed partNeedOf(const Part& part, PreparedExperiment& prepared, Forecaster& 
         // Total and indirect light of two halves, in double
         const uint64_t pixels = uint64_t(variant.setup.image.width) * variant.setup.image.height;
         const uint64_t spp = referenceSamples(prepared);
-        return {pixels * 4 * 3 * sizeof(double),
-                pixels * (part.samples.end(spp) - part.samples.first(spp)),
-                "paths",
-                {}};
+        return {
+            pixels * 4 * 3 * sizeof(double), pixels * (part.samples.end(spp) - part.samples.first(spp)), "paths", {}};
     }
     const Forecast forecast = forecaster.forecast(variant);
     return {peakBytes(forecast.memory) + estimatedBytes(forecast.memory) + forecast.sceneBytes,
@@ -111,16 +109,14 @@ void print(const Forecast& forecast) {
         const PassMemory& memory = forecast.memory[i];
         fmt::print("  {:24} {:6} {:10.1f} MiB", forecast.passes[i].id,
                    forecast.passes[i].phase == Phase::Build ? "build" : "frame", double(memory.bytes) / kMiB);
-        if (memory.scratchBytes > 0)
-            fmt::print(" and {:.1f} MiB of scratch", double(memory.scratchBytes) / kMiB);
+        if (memory.scratchBytes > 0) fmt::print(" and {:.1f} MiB of scratch", double(memory.scratchBytes) / kMiB);
         if (memory.estimatedBytes > 0)
             fmt::print(", about {:.1f} MiB more by the scene's size", double(memory.estimatedBytes) / kMiB);
         fmt::print("\n");
         persistent += memory.bytes + memory.estimatedBytes;
     }
-    fmt::print("  {:24} {:6} {:10.1f} MiB, {:.1f} MiB with the largest scratch; the scene {:.1f} MiB\n",
-               "sum", "", double(persistent) / kMiB,
-               double(peakBytes(forecast.memory) + estimatedBytes(forecast.memory)) / kMiB,
+    fmt::print("  {:24} {:6} {:10.1f} MiB, {:.1f} MiB with the largest scratch; the scene {:.1f} MiB\n", "sum", "",
+               double(persistent) / kMiB, double(peakBytes(forecast.memory) + estimatedBytes(forecast.memory)) / kMiB,
                double(forecast.sceneBytes) / kMiB);
 }
 
@@ -129,8 +125,8 @@ void print(const Forecast& forecast) {
 std::vector<Part> partsOf(PreparedExperiment& prepared, uint32_t referenceParts) {
     if (!prepared.experiment().reference.isNull() && referenceParts > referenceSamples(prepared))
         throw UsageError(prepared.experiment().reference.where,
-                         "reference.spp: {} samples a pixel can't be divided into {} parts",
-                         referenceSamples(prepared), referenceParts);
+                         "reference.spp: {} samples a pixel can't be divided into {} parts", referenceSamples(prepared),
+                         referenceParts);
     std::vector<Part> references, variants;
     Part merge;
     std::set<std::string> listed;
@@ -142,21 +138,19 @@ std::vector<Part> partsOf(PreparedExperiment& prepared, uint32_t referenceParts)
         variant.writes = "images/" + all[v].id + "/result.json";
         variant.variant = v;
         for (const uint32_t frame : referenceFrames(prepared, all[v].setup)) {
-            const std::string hash =
-                prepared.session().referenceHashOf(prepared.study(), all[v].setup, frame);
+            const std::string hash = prepared.session().referenceHashOf(prepared.study(), all[v].setup, frame);
             const std::vector<std::string> ids = idsOf(hash, referenceParts);
             variant.after.insert(variant.after.end(), ids.begin(), ids.end());
             if (!listed.insert(hash).second) continue;
             for (uint32_t i = 0; i < referenceParts; ++i)
-                references.push_back(
-                    {Part::Kind::Reference,
-                     ids[i],
-                     {},
-                     std::string(ReferenceParts::kFolder) + "/" + ids[i] + ReferenceParts::kEnding,
-                     v,
-                     hash,
-                     frame,
-                     {i, referenceParts}});
+                references.push_back({Part::Kind::Reference,
+                                      ids[i],
+                                      {},
+                                      std::string(ReferenceParts::kFolder) + "/" + ids[i] + ReferenceParts::kEnding,
+                                      v,
+                                      hash,
+                                      frame,
+                                      {i, referenceParts}});
         }
         merge.after.push_back(variant.id);
         variants.push_back(std::move(variant));
@@ -176,9 +170,8 @@ Part partNamed(PreparedExperiment& prepared, const std::string& id) {
         ids.push_back(part.id);
     }
     const std::string near = nearest(id, ids);
-    throw UsageError(
-        "--part: this experiment has no part '{}'{}", id,
-        near.empty() ? "; './voxray jobs' lists them" : fmt::format("; did you mean '{}'?", near));
+    throw UsageError("--part: this experiment has no part '{}'{}", id,
+                     near.empty() ? "; './voxray jobs' lists them" : fmt::format("; did you mean '{}'?", near));
 }
 
 std::vector<std::string> missingBefore(const Part& part, PreparedExperiment& prepared) {
@@ -214,8 +207,8 @@ Forecast Forecaster::forecast(Variant& variant) {
 
 size_t printForecasts(PreparedExperiment& prepared) {
     const size_t count = prepared.variants().size();
-    fmt::print("{}: {} variant{} on {}\n", prepared.experiment().setup.general.name, count,
-               count == 1 ? "" : "s", prepared.session().device().info().name);
+    fmt::print("{}: {} variant{} on {}\n", prepared.experiment().setup.general.name, count, count == 1 ? "" : "s",
+               prepared.session().device().info().name);
     size_t failed = 0;
     Forecaster forecaster(prepared);
     for (Variant& variant : prepared.variants()) {
@@ -226,8 +219,7 @@ size_t printForecasts(PreparedExperiment& prepared) {
         print(forecast);
         failed += forecast.error.empty() ? 0 : 1;
     }
-    fmt::print(
-        "What passes count on the device (voxels, surfels ...) is estimated, or counted while they run.\n");
+    fmt::print("What passes count on the device (voxels, surfels ...) is estimated, or counted while they run.\n");
     return failed;
 }
 

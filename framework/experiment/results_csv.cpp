@@ -106,13 +106,12 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
 
     std::string text = csvLine(header);
     for (const VariantResult& r : results) {
-        std::vector<std::string> fields{r.variant, r.name,   r.ok ? "ok" : "failed",
-                                        r.error,   r.device, r.tracer};
+        std::vector<std::string> fields{r.variant, r.name, r.ok ? "ok" : "failed", r.error, r.device, r.tracer};
         append(fields, r.sweepValues);
         if (r.ok)
             append(fields, {numberText(r.buildMs), numberText(r.frameMs.median), numberText(r.frameMs.p05),
-                            numberText(r.frameMs.p95), std::to_string(r.memoryBytes),
-                            std::to_string(r.peakBytes), std::to_string(r.rays)});
+                            numberText(r.frameMs.p95), std::to_string(r.memoryBytes), std::to_string(r.peakBytes),
+                            std::to_string(r.rays)});
         else
             append(fields, std::vector<std::string>(kCostColumns.size()));
         append(fields, scoreFields(columns, r.scores, measure));
@@ -122,17 +121,15 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
 }
 
 std::string passesCsv(const std::vector<VariantResult>& results) {
-    std::string text =
-        csvLine({"variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps",
-                 "memory_bytes", "scratch_bytes", "dispatches", "host_waits", "host_bytes"});
+    std::string text = csvLine({"variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps",
+                                "memory_bytes", "scratch_bytes", "dispatches", "host_waits", "host_bytes"});
     for (const VariantResult& r : results)
         for (const PassCost& p : r.passes)
-            text +=
-                csvLine({r.variant, p.id, nameOf(p.phase), numberText(p.milliseconds.median),
-                         numberText(p.milliseconds.p05), numberText(p.milliseconds.p95),
-                         std::to_string(p.rays), std::to_string(p.voxelSteps), std::to_string(p.memoryBytes),
-                         std::to_string(p.scratchBytes), std::to_string(p.work.dispatches),
-                         std::to_string(p.work.waits), std::to_string(p.work.hostBytes)});
+            text += csvLine({r.variant, p.id, nameOf(p.phase), numberText(p.milliseconds.median),
+                             numberText(p.milliseconds.p05), numberText(p.milliseconds.p95), std::to_string(p.rays),
+                             std::to_string(p.voxelSteps), std::to_string(p.memoryBytes),
+                             std::to_string(p.scratchBytes), std::to_string(p.work.dispatches),
+                             std::to_string(p.work.waits), std::to_string(p.work.hostBytes)});
     return text;
 }
 
@@ -140,8 +137,7 @@ std::string valuesCsv(const std::vector<VariantResult>& results) {
     std::string text = csvLine({"variant", "pass", "name", "frame", "value"});
     for (const VariantResult& r : results)
         for (const ReportedValue& v : r.values)
-            text += csvLine(
-                {r.variant, v.pass, v.name, v.frame ? std::to_string(*v.frame) : "", numberText(v.value)});
+            text += csvLine({r.variant, v.pass, v.name, v.frame ? std::to_string(*v.frame) : "", numberText(v.value)});
     return text;
 }
 
@@ -152,9 +148,8 @@ std::string framesCsv(const std::vector<VariantResult>& results, const MeasureSe
     for (const std::string light : kLightPrefixes)
         for (const char* name : {"afterglow", "frames_lit"})
             if (std::ranges::any_of(results, [&](const VariantResult& r) {
-                    return std::ranges::any_of(r.frames, [&](const FrameScores& frame) {
-                        return frame.scores.contains(light + name);
-                    });
+                    return std::ranges::any_of(
+                        r.frames, [&](const FrameScores& frame) { return frame.scores.contains(light + name); });
                 }))
                 columns.push_back({light + name, ""});
     std::vector<std::string> header{"variant", "frame"};

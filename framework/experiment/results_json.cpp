@@ -163,14 +163,13 @@ std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text)
         for (const Json& v : json.at("values")) {
             std::optional<uint32_t> frame;
             if (v.contains("frame")) frame = v.at("frame").get<uint32_t>();
-            r.values.push_back({v.at("pass").get<std::string>(), v.at("name").get<std::string>(), frame,
-                                v.at("value").get<double>()});
+            r.values.push_back(
+                {v.at("pass").get<std::string>(), v.at("name").get<std::string>(), frame, v.at("value").get<double>()});
         }
         for (const Json& frame : json.at("frames"))
             r.frames.push_back({frame.at("frame").get<uint32_t>(), scoresFrom(frame.at("scores"))});
         VariantInputs inputs;
-        for (const auto& [name, value] : json.at("inputs").items())
-            inputs.emplace_back(name, value.get<std::string>());
+        for (const auto& [name, value] : json.at("inputs").items()) inputs.emplace_back(name, value.get<std::string>());
         return {r, inputs};
     } catch (const nlohmann::json::exception& error) {
         throw Error("broken result: {}", error.what());

@@ -74,8 +74,7 @@ void Run::execute() {
     writeTables();
     if (!options.report || summary_.ok + summary_.failed == 0) return;
     if (summary_.interrupted && !options.quiet)
-        fmt::print(stderr,
-                   "voxray: stopped; making the report of what is finished (Ctrl-C again ends that, too)\n");
+        fmt::print(stderr, "voxray: stopped; making the report of what is finished (Ctrl-C again ends that, too)\n");
     try {
         makeReport(options.sourceRoot, folder_.path());
     } catch (const Error& error) {
@@ -110,8 +109,7 @@ void Run::loadFinished() {
     }
     if (summary_.resumed == 0) parts_.dropReferences();
     if (!prepared_.options().quiet && summary_.resumed > 0)
-        fmt::print("{} of {} variants were finished already\n", summary_.resumed,
-                   prepared_.variants().size());
+        fmt::print("{} of {} variants were finished already\n", summary_.resumed, prepared_.variants().size());
 }
 
 void Run::renderMissing() {
@@ -173,22 +171,19 @@ std::string Run::buildKey(const Variant& variant) {
 std::vector<std::string> Run::timingWarnings() {
     std::vector<TimedVariant> timed;
     for (const Variant& variant : prepared_.variants())
-        if (variant.result)
-            timed.push_back({&*variant.result, buildKey(variant), isSteady(prepared_, variant)});
+        if (variant.result) timed.push_back({&*variant.result, buildKey(variant), isSteady(prepared_, variant)});
     return timingOutliers(timed);
 }
 
 /// Whether a part was finished earlier with the same inputs.
-bool isFinished(const Part& part, PreparedExperiment& prepared, const ResultsFolder& folder,
-                const PartRunner& parts) {
+bool isFinished(const Part& part, PreparedExperiment& prepared, const ResultsFolder& folder, const PartRunner& parts) {
     if (part.kind == Part::Kind::Reference) return ReferenceParts(folder.path()).has(part.hash, part.samples);
     const Variant& variant = prepared.variants()[part.variant];
     return folder.finished(variant.id, prepared.inputsOf(variant)) && parts.hasReferenceImages(variant);
 }
 
 /// Renders one part into a folder that may have others.
-void runPart(const Part& part, PreparedExperiment& prepared, const ResultsFolder& folder,
-             RunSummary& summary) {
+void runPart(const Part& part, PreparedExperiment& prepared, const ResultsFolder& folder, RunSummary& summary) {
     const bool isResumed = prepared.options().resume;
     const ProcessLock lock =
         folder.lockPart(part.id, isResumed ? ProcessLock::IfHeld::Wait : ProcessLock::IfHeld::Refuse);
@@ -240,8 +235,7 @@ RunSummary executePart(PreparedExperiment& prepared, RunSummary summary) {
         folder.claim(manifest);
         if (part.kind != Part::Kind::Merge) runPart(part, prepared, folder, summary);
     }
-    return part.kind == Part::Kind::Merge ? mergeResults({summary.out}, summary.out, prepared.options())
-                                          : summary;
+    return part.kind == Part::Kind::Merge ? mergeResults({summary.out}, summary.out, prepared.options()) : summary;
 }
 
 /// Prints variants and their memory without running them.
@@ -259,8 +253,8 @@ RunSummary runExperiment(Study study, const RunOptions& options) {
     const InterruptScope interruptScope;
     RunSummary summary;
     summary.total = options.part.empty() ? study.variants.size() : 0;
-    summary.out = options.out.empty() ? std::filesystem::path("results") / study.experiment.setup.general.name
-                                      : options.out;
+    summary.out =
+        options.out.empty() ? std::filesystem::path("results") / study.experiment.setup.general.name : options.out;
     try {
         PreparedExperiment prepared(std::move(study), options);
         if (options.dryRun) {

@@ -28,8 +28,7 @@ std::string idInChain(const Value& pass, bool isLast, const std::string& id) {
 bool isChainCulled(const Variant& variant, const std::string& id, const Value& value) {
     const std::vector<Value> chain = value.isList() ? value.items : std::vector{value};
     for (size_t i = 0; i < chain.size(); ++i)
-        if (std::ranges::count(variant.culledPasses, idInChain(chain[i], i + 1 == chain.size(), id)) == 0)
-            return false;
+        if (std::ranges::count(variant.culledPasses, idInChain(chain[i], i + 1 == chain.size(), id)) == 0) return false;
     return true;
 }
 
@@ -40,8 +39,7 @@ std::string whyWithoutEffect(const Variant& variant, const std::string& axis, co
     const size_t dot = axis.find('.');
     const std::string id = axis.substr(0, dot);
     const bool isPass = dot == std::string::npos;
-    if (isChainCulled(variant, id, isPass ? chosen : Value()))
-        return fmt::format("no image depends on '{}'", id);
+    if (isChainCulled(variant, id, isPass ? chosen : Value())) return fmt::format("no image depends on '{}'", id);
     for (const UnusedSetting& unused : variant.unused)
         if (unused.name == axis) return unused.why;
     return {};
@@ -78,8 +76,7 @@ void removeDuplicates(Study& study) {
     for (size_t a = 0; a < keys.size(); ++a)
         if (std::ranges::all_of(study.variants, [&](const auto& v) { return v.values[a] == kNoValue; })) {
             if (const std::string id = overwrittenPass(study); !id.empty())
-                throw UsageError("{} (sweep.{} changes nothing: {})", whyNeverRun(study, id), keys[a],
-                                 reasons[a]);
+                throw UsageError("{} (sweep.{} changes nothing: {})", whyNeverRun(study, id), keys[a], reasons[a]);
             throw UsageError(study.experiment.sweep.members[a].value.where,
                              "sweep.{}: changes nothing in any variant: {}", keys[a], reasons[a]);
         }
@@ -95,8 +92,8 @@ Value checkedReference(const Study& study) {
     for (const std::string& port : referencePorts())
         if (std::ranges::none_of(kind.ports, [&](const PortDoc& p) { return p.output && p.name == port; }))
             throw UsageError(experiment.reference.where,
-                             "reference: '{}' renders no reference: it writes no '{}'; use path_trace",
-                             kind.name, port);
+                             "reference: '{}' renders no reference: it writes no '{}'; use path_trace", kind.name,
+                             port);
     kind.create(experiment.reference, "reference");
     Value resolved = study.referenceGraph().resolved();
     // The reference's noise is computed from two halves of its samples
@@ -105,8 +102,7 @@ Value checkedReference(const Study& study) {
                          "reference.spp: 2 or more, best a power of two, as in spp: 64: "
                          "from its two halves comes the reference's noise");
     if (const Value* light = experiment.reference.find("light"); light && light->scalar != "all")
-        throw UsageError(light->where,
-                         "reference.light: 'all', or left out: direct and indirect light are compared");
+        throw UsageError(light->where, "reference.light: 'all', or left out: direct and indirect light are compared");
     return resolved;
 }
 
@@ -115,8 +111,7 @@ Value checkedReference(const Study& study) {
 Variant::Variant(SweepPoint point, const Registry& registry)
     : SweepPoint(std::move(point)), graph(registry, setup.graph) {
     if (!graph.writes(kComparedImage))
-        throw UsageError(setup.graph.where,
-                         "graph: no pass writes '{}', the image that is compared; these can: {}",
+        throw UsageError(setup.graph.where, "graph: no pass writes '{}', the image that is compared; these can: {}",
                          kComparedImage, fmt::join(registry.writersOf(kComparedImage), ", "));
     for (const char* part : kPartsOfLight) graph.checkReadsLast(kComparedImage, part);
     unused = graph.unused();
@@ -167,8 +162,7 @@ std::map<std::string, size_t> cullCounts(const Study& study) {
 
 bool runsSomewhere(const Study& study, const std::string& id) {
     return std::ranges::any_of(study.variants, [&](const Variant& variant) {
-        return std::ranges::any_of(variant.resolved.items,
-                                   [&](const Value& pass) { return passId(pass) == id; });
+        return std::ranges::any_of(variant.resolved.items, [&](const Value& pass) { return passId(pass) == id; });
     });
 }
 

@@ -45,8 +45,8 @@ MeasureSettings untimed(MeasureSettings measure) {
 }
 
 /// Plans, prepares and measures a graph on the variant's scene, then frees its memory.
-Measurement runGraph(Graph graph, const Setup& setup, uint64_t seed, const MeasureSettings& measure,
-                     Session& session, const std::function<void(double)>& progress,
+Measurement runGraph(Graph graph, const Setup& setup, uint64_t seed, const MeasureSettings& measure, Session& session,
+                     const std::function<void(double)>& progress,
                      const std::function<void(const Graph&, const Frame&, uint32_t)>& afterFrame) {
     SceneOnDevice& scene = session.scene(setup);
     const Frame frame = frameOf(setup, scene.prepared, seed);
@@ -54,9 +54,7 @@ Measurement runGraph(Graph graph, const Setup& setup, uint64_t seed, const Measu
     graph.prepare(frame, session.device(), session.compiler(), session.stream());
     GraphTarget target{frame, session.device(), session.stream(), *scene.tracer, scene.gpu, {}};
     if (changesInTime(setup.scene, !scene.prepared.state.scene->animation.empty()))
-        target.goToFrame = [&](Frame& moved, int fromCompared) {
-            session.goToFrame(setup, moved, fromCompared);
-        };
+        target.goToFrame = [&](Frame& moved, int fromCompared) { session.goToFrame(setup, moved, fromCompared); };
     return measureGraph(graph, target, measure, progress,
                         [&](const Frame& now, uint32_t number) { afterFrame(graph, now, number); });
 }
@@ -65,16 +63,14 @@ Measurement runGraph(Graph graph, const Setup& setup, uint64_t seed, const Measu
 std::vector<float> downloadTexels(Device& device, CommandStream& stream, const Image& image) {
     const ImageDesc& desc = image.desc();
     const uint64_t values = uint64_t(desc.extent.x) * desc.extent.y * 4;
-    const Buffer buffer(device, image.name() + " readback", values / 4 * texelBytes(desc.format),
-                        MemoryKind::Readback);
+    const Buffer buffer(device, image.name() + " readback", values / 4 * texelBytes(desc.format), MemoryKind::Readback);
     stream.copy(image, buffer);
     if (desc.format == VK_FORMAT_R32G32B32A32_SFLOAT) return stream.readAs<float>(buffer, values);
     if (desc.format != VK_FORMAT_R16G16B16A16_SFLOAT)
         throw Error("image '{}' is neither RGBA32F nor RGBA16F and can't be an AOV", image.name());
     std::vector<float> texels;
     texels.reserve(values);
-    for (const uint16_t half : stream.readAs<uint16_t>(buffer, values))
-        texels.push_back(glm::unpackHalf1x16(half));
+    for (const uint16_t half : stream.readAs<uint16_t>(buffer, values)) texels.push_back(glm::unpackHalf1x16(half));
     return texels;
 }
 
@@ -96,8 +92,7 @@ class ChannelWriter {
     AovImage& to_;
 };
 
-void writeFramePreviews(const std::filesystem::path& folder, const VariantImages& images,
-                        float exposureStops) {
+void writeFramePreviews(const std::filesystem::path& folder, const VariantImages& images, float exposureStops) {
     if (images.laterFrames.empty()) return;
     std::filesystem::create_directories(folder);
     const auto write = [&](uint32_t frame, const ImageF& final, const std::optional<ImageF>& indirect) {
@@ -114,8 +109,8 @@ void writeFramePreviews(const std::filesystem::path& folder, const VariantImages
 /// `id` and `material_id`, the indices of the mesh instance and the material in the scene (-1 for none).
 /// @param origin of the frame's coordinates; it is added to the layer P.
 /// @throws Error if a resource's AOVs differ in size or have another format.
-std::vector<AovImage> downloadAovs(const Graph& graph, const Frame& frame, const glm::vec3& origin,
-                                   Device& device, CommandStream& stream) {
+std::vector<AovImage> downloadAovs(const Graph& graph, const Frame& frame, const glm::vec3& origin, Device& device,
+                                   CommandStream& stream) {
     std::vector<AovImage> images;
     for (const auto& [pass, aovs] : graph.aovs()) {
         const glm::uvec3 extent = aovs[0].image->desc().extent;
@@ -133,9 +128,8 @@ std::vector<AovImage> downloadAovs(const Graph& graph, const Frame& frame, const
             const std::vector<float> texels = downloadTexels(device, stream, *aov.image);
             for (size_t c = 0; c < aov.channels.size(); ++c) {
                 const float offset = aov.channels[c].starts_with("P.") && c < 3 ? origin[int(c)] : 0.0f;
-                writer.add(aov.channels[c], [&](size_t i) {
-                    return texels[i * 4 + c] + (hits[i].instance >= 0 ? offset : 0.0f);
-                });
+                writer.add(aov.channels[c],
+                           [&](size_t i) { return texels[i * 4 + c] + (hits[i].instance >= 0 ? offset : 0.0f); });
             }
         }
         writer.add("Z", [&](size_t i) { return hits[i].depth; });
@@ -153,8 +147,7 @@ uint64_t graphRuns(const Experiment& experiment) {
     return uint64_t(runsOf(measure) + (withSecond ? runsOf(untimed(measure)) : 0));
 }
 
-VariantImages renderVariant(Variant& variant, const Study& study, Session& session,
-                            const PreparedReference* reference,
+VariantImages renderVariant(Variant& variant, const Study& study, Session& session, const PreparedReference* reference,
                             const std::function<FrameReference(uint32_t)>& referenceOf, bool withAovs,
                             const std::function<void(double)>& progress) {
     const MeasureSettings& measure = study.experiment.measure;
@@ -181,9 +174,7 @@ VariantImages renderVariant(Variant& variant, const Study& study, Session& sessi
         runGraph(
             study.graphOf(variant), variant.setup, seed + 1, untimed(measure), session,
             [&](double part) { progress(firstPart + (1 - firstPart) * part); },
-            [&](const Graph& graph, const Frame&, uint32_t number) {
-                second = downloadFrame(graph, number, session);
-            });
+            [&](const Graph& graph, const Frame&, uint32_t number) { second = downloadFrame(graph, number, session); });
     result.tracer = session.tracerName(variant.setup);
     result.buildMs = m.buildMs;
     result.frameMs = m.frameMs;
@@ -197,15 +188,14 @@ VariantImages renderVariant(Variant& variant, const Study& study, Session& sessi
 
     if (reference) {
         const float stops = variant.setup.image.exposureStops;
-        ScoredFrame first =
-            scoreFrame(frames[0], reference->images, reference->masks, reference->record, stops);
+        ScoredFrame first = scoreFrame(frames[0], reference->images, reference->masks, reference->record, stops);
         images.flip = std::move(first.flip);
         images.indirectFlip = std::move(first.indirectFlip);
         result.scores = first.scores;
         if (second) scoreSeeds(frames[0], *second, reference->images, result.scores);
         if (measure.compareEvery > 0)
-            scoreSequence(frames, *reference, first.scores, referenceOf, stops,
-                          firstLightOff(variant.setup.scene), result);
+            scoreSequence(frames, *reference, first.scores, referenceOf, stops, firstLightOff(variant.setup.scene),
+                          result);
     }
     images.final = std::move(frames[0].final);
     images.indirect = std::move(frames[0].indirect);
@@ -220,13 +210,11 @@ VariantImages renderVariant(Variant& variant, const Study& study, Session& sessi
     return images;
 }
 
-void writeVariantImages(const std::filesystem::path& folder, const VariantImages& images,
-                        float exposureStops) {
+void writeVariantImages(const std::filesystem::path& folder, const VariantImages& images, float exposureStops) {
     writeExr(folder / "final.exr", images.final);
     writePng(folder / "final.png", preview(images.final, exposureStops));
     if (images.flip) writePng(folder / "flip.png", *images.flip);
-    for (const AovImage& aov : images.aovs)
-        writeExr(folder / ("aovs." + aov.pass + ".exr"), aov.image, aov.channels);
+    for (const AovImage& aov : images.aovs) writeExr(folder / ("aovs." + aov.pass + ".exr"), aov.image, aov.channels);
     writeFramePreviews(folder / "frames", images, exposureStops);
     if (!images.indirect) return;
     writeExr(folder / "indirect.exr", *images.indirect);

@@ -87,29 +87,16 @@ void pathTraceRival(benchmark::State& state, const std::string& scene) {
         state.SetLabel(name);
         const ImageSettings& image = config.setup.image;
         const int64_t bounces = config.reference.find("bounces")->asInteger("reference.bounces");
-        renderSeeds(
-            state, prepared,
-            {.width = image.width, .height = image.height, .spp = kSpp, .bounces = uint32_t(bounces)});
+        renderSeeds(state, prepared,
+                    {.width = image.width, .height = image.height, .spp = kSpp, .bounces = uint32_t(bounces)});
     } catch (const Error& error) {
         state.SkipWithError(error.what());
     }
 }
 
-BENCHMARK(pathTraceCornell)
-    ->Arg(0)
-    ->Arg(8)
-    ->Arg(64)
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->Iterations(4);
-BENCHMARK_CAPTURE(pathTraceRival, cornell, "cornell")
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->Iterations(4);
-BENCHMARK_CAPTURE(pathTraceRival, sponza, "sponza.glb")
-    ->Unit(benchmark::kMillisecond)
-    ->UseRealTime()
-    ->Iterations(4);
+BENCHMARK(pathTraceCornell)->Arg(0)->Arg(8)->Arg(64)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(4);
+BENCHMARK_CAPTURE(pathTraceRival, cornell, "cornell")->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(4);
+BENCHMARK_CAPTURE(pathTraceRival, sponza, "sponza.glb")->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(4);
 BENCHMARK_CAPTURE(pathTraceRival, dining_room, "dining-room.glb")
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()

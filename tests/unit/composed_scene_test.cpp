@@ -16,9 +16,8 @@ using namespace voxray::fakes;
 namespace {
 
 SceneSettings settingsOf(const std::string& rest) {
-    return parseExperiment(
-               "name: x\nscene:\n  builtin: cornell\n  lights: point\n" + rest + "graph: [{pass: a}]\n",
-               "x.yaml")
+    return parseExperiment("name: x\nscene:\n  builtin: cornell\n  lights: point\n" + rest + "graph: [{pass: a}]\n",
+                           "x.yaml")
         .setup.scene;
 }
 
@@ -56,8 +55,7 @@ TEST(ComposedSceneLoader, AddsOverridesAndKeepsItsCamera) {
                    "    - {builtin: cornell, lights: spot, boxes: false, transform: {translate: [9, 0, 0]}}\n"
                    "  override:\n    grey: {roughness: 0.25}\n    spheres: {base_color: 0.5}\n"));
     const PreparedScene spheres = loader.prepare(
-        parseExperiment("name: x\nscene: {builtin: spheres, count: 2}\ngraph: [{pass: a}]\n", "x")
-            .setup.scene);
+        parseExperiment("name: x\nscene: {builtin: spheres, count: 2}\ngraph: [{pass: a}]\n", "x").setup.scene);
     EXPECT_GT(composed.state.geometry.triangles.size(),
               plain.state.geometry.triangles.size() + spheres.state.geometry.triangles.size());
     EXPECT_EQ(composed.camera.position, plain.camera.position);
@@ -76,9 +74,8 @@ TEST(ComposedSceneLoader, AddsOverridesAndKeepsItsCamera) {
     EXPECT_EQ(materialOf(composed, "spheres").baseColor, glm::vec4(0.5f, 0.5f, 0.5f, 1));
     EXPECT_EQ(materialOf(plain, "grey").roughness, 1);
 
-    EXPECT_TRUE(
-        loader.prepare(settingsOf("  keep_file_lights: false\n  add: [{builtin: cornell, lights: spot}]\n"))
-            .state.lights.empty());
+    EXPECT_TRUE(loader.prepare(settingsOf("  keep_file_lights: false\n  add: [{builtin: cornell, lights: spot}]\n"))
+                    .state.lights.empty());
 }
 
 TEST(ComposedSceneLoader, AScenesOwnTransformTakesItsCameraAlongAndNothingOfTheConfig) {
@@ -151,9 +148,8 @@ TEST(ComposedSceneLoader, LambertLeavesWhatTheConfigSays) {
 TEST(ComposedSceneLoader, AddedAnimationsPlay) {
     SceneLoader loader({});
     const auto at = [](const char* time) {
-        return settingsOf(
-            std::string("  time_step: 0.5\n  time: ") + time +
-            "\n  add: [{builtin: spheres, count: 2, transform: {translate: [0, 1, 0], scale: 0.5}}]\n");
+        return settingsOf(std::string("  time_step: 0.5\n  time: ") + time +
+                          "\n  add: [{builtin: spheres, count: 2, transform: {translate: [0, 1, 0], scale: 0.5}}]\n");
     };
     PreparedScene moved = loader.prepare(at("0"));
     const PreparedScene there = loader.prepare(at("1.5"));
@@ -167,12 +163,10 @@ TEST(ComposedSceneLoader, KeysTellCompositionsApart) {
     std::set<std::string> keys;
     size_t count = 0;
     for (const char* rest :
-         {"", "  transform: {scale: 2}\n", "  transform: {translate: [0, 1, 0]}\n",
-          "  add: [{builtin: plane}]\n", "  add: [{builtin: plane, albedo: 0.25}]\n",
-          "  add: [{builtin: plane}, {builtin: plane}]\n",
+         {"", "  transform: {scale: 2}\n", "  transform: {translate: [0, 1, 0]}\n", "  add: [{builtin: plane}]\n",
+          "  add: [{builtin: plane, albedo: 0.25}]\n", "  add: [{builtin: plane}, {builtin: plane}]\n",
           "  add: [{builtin: plane, transform: {scale: 2}}]\n",
-          "  add: [{builtin: plane, transform: {translate: [0, 1, 0]}}]\n",
-          "  add: [{builtin: plane, material: {}}]\n",
+          "  add: [{builtin: plane, transform: {translate: [0, 1, 0]}}]\n", "  add: [{builtin: plane, material: {}}]\n",
           "  add: [{builtin: plane, material: {roughness: 0.5}}]\n", "  override: {grey: {roughness: 0.5}}\n",
           "  override: {grey: {specular: 1}}\n", "  override: {red: {specular: 1}}\n"}) {
         keys.insert(loader.key(settingsOf(rest)));
@@ -214,11 +208,11 @@ TEST_F(RunTest, ComposedScenesHaveReferencesOfTheirOwn) {
 
 TEST_F(RunTest, ChainsOfPassesRunInPlaceOfOne) {
     const std::string graph = "graph: [{pass: constant, id: c}]\n";
-    const Experiment experiment = parseExperiment(
-        "name: fake\nscene: {builtin: cornell, lights: point}\nimage: {width: 8, height: 4}\n" + graph +
-            "reference: {pass: truth}\nmeasure: {frames: 3, warmup: 1}\n"
-            "sweep:\n  c: [constant, [witness, {pass: constant, value: 0.5}]]\n",
-        "fake.yaml");
+    const Experiment experiment =
+        parseExperiment("name: fake\nscene: {builtin: cornell, lights: point}\nimage: {width: 8, height: 4}\n" + graph +
+                            "reference: {pass: truth}\nmeasure: {frames: 3, warmup: 1}\n"
+                            "sweep:\n  c: [constant, [witness, {pass: constant, value: 0.5}]]\n",
+                        "fake.yaml");
     EXPECT_EQ(runExperiment(experiment, options(), registry()).ok, 2u);
     EXPECT_NEAR(std::stod(cell("constant-value-0.5", "nrmse")), 0.5, 1e-6);
     EXPECT_CONTAINS(readTextFile(root_ / "out" / "passes.csv"), "constant-value-0.5,witness,build,");
@@ -241,13 +235,11 @@ TEST(ComposedSceneLoader, WarnsOfAdditionsInAnotherUnit) {
     EXPECT_TRUE(saidOf("{builtin: plane, transform: {scale: 1000}}").empty()) << "a ground has any size";
     EXPECT_TRUE(saidOf(room("translate: [340, 0, 0]")).empty());
 
-    const std::vector<std::string> said =
-        saidOf(room("scale: 101") + ", " + room("scale: 2") + ", " + room("scale: 0.0099") + ", " +
-               room("translate: [0, 0, -350]"));
+    const std::vector<std::string> said = saidOf(room("scale: 101") + ", " + room("scale: 2") + ", " +
+                                                 room("scale: 0.0099") + ", " + room("translate: [0, 0, -350]"));
     ASSERT_EQ(said.size(), 3u);
-    EXPECT_CONTAINS(
-        said[0],
-        "x.yaml:5: scene.add[0]: 'white_room' is 350 m across, the scene that it is added to 3.46 m");
+    EXPECT_CONTAINS(said[0],
+                    "x.yaml:5: scene.add[0]: 'white_room' is 350 m across, the scene that it is added to 3.46 m");
     EXPECT_CONTAINS(said[0], "transform: {scale: 1.01}");
     EXPECT_CONTAINS(said[1], "scene.add[2]: ");
     EXPECT_CONTAINS(said[1], "transform: {scale: 0.99}");
@@ -279,8 +271,7 @@ TEST_F(SceneSize, AdviceNamesWhatTheLargestPartGrowsWith) {
     auto scene = std::make_shared<Scene>(*prepared.state.scene);
     for (const uint32_t width : {512u, 2048u})
         scene->textures.push_back({fmt::format("bark {}", width), width, 512,
-                                   std::vector<uint8_t>(size_t(width) * 512 * 4), true, Wrap::Repeat,
-                                   Wrap::Repeat});
+                                   std::vector<uint8_t>(size_t(width) * 512 * 4), true, Wrap::Repeat, Wrap::Repeat});
     prepared.state.scene = scene;
     EXPECT_CONTAINS(sceneSizeAdvice(row, prepared.state),
                     ": make its textures smaller; the largest is 'bark 2048' of 2048 x 512, or take");
@@ -292,8 +283,7 @@ TEST_F(SceneSize, AdviceNamesWhatTheLargestPartGrowsWith) {
 TEST_F(SceneSize, ASceneThatTheDeviceHasNoRoomForIsToldWithAdvice) {
     Session session({}, test::sourceRoot(), {});
     const voxray::Setup setup =
-        parseExperiment("name: x\nscene: {builtin: cornell, subdivide: 4}\ngraph: [{pass: a}]\n", "x.yaml")
-            .setup;
+        parseExperiment("name: x\nscene: {builtin: cornell, subdivide: 4}\ngraph: [{pass: a}]\n", "x.yaml").setup;
     const uint64_t limit = session.device().memoryLimitBytes();
     session.device().setMemoryLimitBytes(session.device().memoryUsedBytes() + 1024);
     const std::string error = errorOf([&] { session.scene(setup); });

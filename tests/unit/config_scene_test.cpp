@@ -60,8 +60,7 @@ TEST(ComposedScene, TheScenesOwnTransformIsRead) {
 }
 
 TEST(ComposedScene, OverridesHoldWhatIsGivenAlone) {
-    const SceneSettings scene =
-        read("  override:\n    grey: {roughness: 0.5, emission: 3}\n    red: {metallic: 1}\n");
+    const SceneSettings scene = read("  override:\n    grey: {roughness: 0.5, emission: 3}\n    red: {metallic: 1}\n");
     ASSERT_EQ(scene.overrides.size(), 2u);
     EXPECT_EQ(scene.overrides[0].material, "grey");
     EXPECT_EQ(scene.overrides[0].change.keys, (std::vector<std::string>{"roughness", "emission"}));
@@ -75,17 +74,15 @@ TEST(ComposedScene, ErrorsNamePlaceAndNearestWord) {
     expectError("  add: [{file: a.glb}, {transform: {scale: 2}}]\n",
                 {"demo.yaml:5: ", "scene.add[1]: needs 'file' or 'builtin'"});
     expectError("  add: [{file: a.glb, builtin: plane}]\n", {"scene.add[0]: both 'file' and 'builtin'"});
-    expectError(
-        "  add:\n    - file: a.glb\n      transfrom: {scale: 2}\n",
-        {"demo.yaml:7: ", "scene.add[0]: unknown parameter 'transfrom'", "did you mean 'transform'?"});
+    expectError("  add:\n    - file: a.glb\n      transfrom: {scale: 2}\n",
+                {"demo.yaml:7: ", "scene.add[0]: unknown parameter 'transfrom'", "did you mean 'transform'?"});
     expectError("  add: [{file: a.glb, transform: {rotate: 3}}]\n",
                 {"demo.yaml:5: ", "scene.add[0].transform: unknown parameter 'rotate'", "rotate_deg"});
     expectError("  add: [{file: a.glb, transform: {scale: [1, 0, 1]}}]\n",
                 {"demo.yaml:5: ", "scene.add[0].transform.scale: 0 leaves nothing"});
     expectError("  add: [{file: a.glb, material: {roughnes: 0}}]\n",
                 {"demo.yaml:5: ", "scene.add[0].material", "did you mean 'roughness'?"});
-    expectError("  add: [{file: a.glb, material: {metallic: 2}}]\n",
-                {"demo.yaml:5: ", "out of range [0, 1]"});
+    expectError("  add: [{file: a.glb, material: {metallic: 2}}]\n", {"demo.yaml:5: ", "out of range [0, 1]"});
     expectError("  override: [grey]\n", {"demo.yaml:5: ", "scene.override: expected a map"});
     expectError("  override: {grey: {}}\n", {"demo.yaml:5: ", "scene.override.grey: expected settings"});
     expectError("  override: {grey: {base_colour: 1}}\n",

@@ -55,8 +55,8 @@ TEST(Sweep, CartesianProductInFileOrder) {
 }
 
 TEST(Sweep, ParameterReachesSwappedPassWhateverTheOrder) {
-    for (const char* sweep : {"  inject.write: [max]\n  inject: [inject_rsm]\n",
-                              "  inject: [inject_rsm]\n  inject.write: [max]\n"}) {
+    for (const char* sweep :
+         {"  inject.write: [max]\n  inject: [inject_rsm]\n", "  inject: [inject_rsm]\n  inject.write: [max]\n"}) {
         const auto variants = expand(sweep);
         EXPECT_EQ(variants[0].setup.graph.items[1].text(), "{pass: inject_rsm, id: inject, write: max}");
     }
@@ -76,8 +76,7 @@ TEST(Sweep, ChainReplacesOnePassAndItsLastKeepsTheId) {
     EXPECT_CONTAINS(sweepError("  inject: [[]]\n"), "demo.yaml:7: inject: a chain needs at least one pass");
     EXPECT_CONTAINS(sweepError("  inject: [[[a]]]\n"), "demo.yaml:7: inject: expected a pass");
     EXPECT_CONTAINS(sweepError("  inject: [[{id: a}, b]]\n"), "demo.yaml:7: inject: expected a pass");
-    EXPECT_CONTAINS(sweepError("  inject: [[{pass: a, id: image}, b]]\n"),
-                    "demo.yaml:7: graph: the id 'image'");
+    EXPECT_CONTAINS(sweepError("  inject: [[{pass: a, id: image}, b]]\n"), "demo.yaml:7: graph: the id 'image'");
 }
 
 TEST(Sweep, AParameterOfAChainsPassVariesVariantsThatHaveIt) {
@@ -87,14 +86,12 @@ TEST(Sweep, AParameterOfAChainsPassVariesVariantsThatHaveIt) {
         "  voxelize.resolution: [32, 64]\n");
     std::vector<std::string> names;
     for (const SweepPoint& variant : variants) names.push_back(variant.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"inject_rsm, resolution 32", "inject_rsm, resolution 64",
-                                               "inject_voxel_rays, count 10, resolution 32",
-                                               "inject_voxel_rays, count 10, resolution 64",
-                                               "inject_voxel_rays, count 20, resolution 32",
-                                               "inject_voxel_rays, count 20, resolution 64"}));
+    EXPECT_EQ(names, (std::vector<std::string>{
+                         "inject_rsm, resolution 32", "inject_rsm, resolution 64",
+                         "inject_voxel_rays, count 10, resolution 32", "inject_voxel_rays, count 10, resolution 64",
+                         "inject_voxel_rays, count 20, resolution 32", "inject_voxel_rays, count 20, resolution 64"}));
     EXPECT_EQ(variants[0].values, (std::vector<std::string>{"inject_rsm", "-", "32"}));
-    EXPECT_EQ(variants[0].setup.graph.text(),
-              "[{pass: voxelize, resolution: 32}, {pass: inject_rsm, id: inject}]");
+    EXPECT_EQ(variants[0].setup.graph.text(), "[{pass: voxelize, resolution: 32}, {pass: inject_rsm, id: inject}]");
     EXPECT_EQ(variants[4].setup.graph.items[1].text(), "{pass: place_surfels, count: 20}");
 
     // A pass that no variant has is a mistake
@@ -106,8 +103,7 @@ TEST(Sweep, AParameterOfAChainsPassVariesVariantsThatHaveIt) {
 TEST(Sweep, LabelsTellWhatDiffers) {
     const auto labels = [](const std::string& list) {
         std::vector<std::string> texts;
-        for (const SweepPoint& variant : expand("  inject: " + list + "\n"))
-            texts.push_back(variant.values[0]);
+        for (const SweepPoint& variant : expand("  inject: " + list + "\n")) texts.push_back(variant.values[0]);
         return texts;
     };
     using Texts = std::vector<std::string>;
@@ -118,8 +114,7 @@ TEST(Sweep, LabelsTellWhatDiffers) {
               (Texts{"a, noise x", "a, noise y"}));
 
     // A chain is named by its last pass, or by the one that a filter follows
-    EXPECT_EQ(labels("[[{pass: a, n: 1}, b], [{pass: a, n: 2}, b], [b, {pass: a}]]"),
-              (Texts{"b, n 1", "b, n 2", "a"}));
+    EXPECT_EQ(labels("[[{pass: a, n: 1}, b], [{pass: a, n: 2}, b], [b, {pass: a}]]"), (Texts{"b, n 1", "b, n 2", "a"}));
     EXPECT_EQ(labels("[[a, b], [a, c, b], [a, c, d]]"), (Texts{"b", "b, c", "d"}));
     EXPECT_EQ(labels("[gather_cones, {pass: path_trace, spp: 1}, {pass: path_trace, spp: 4}, "
                      "[{pass: path_trace, spp: 4}, filter_irradiance], "
@@ -171,8 +166,7 @@ TEST(Sweep, ConfigAxes) {
 TEST(Sweep, NamesWithDotsAreOneKey) {
     const auto variantsOf = [](const std::string& overrides, const std::string& axis) {
         return expandSweep(parseExperiment("name: demo\nscene: {builtin: cornell, override: {" + overrides +
-                                               "}}\ngraph: [{pass: voxelize}]\nsweep: {" + axis +
-                                               ": [0, 1]}\n",
+                                               "}}\ngraph: [{pass: voxelize}]\nsweep: {" + axis + ": [0, 1]}\n",
                                            "demo.yaml"));
     };
     // In quotes anywhere; without them where the config has the name already, the longest of several
@@ -217,11 +211,9 @@ TEST(Sweep, NamesAreSafeAndUnique) {
 }
 
 TEST(Sweep, Errors) {
-    EXPECT_CONTAINS(sweepError("  reference.spp: [1, 2]\n"),
-                    "demo.yaml:7: sweep: 'reference.spp' is the same");
+    EXPECT_CONTAINS(sweepError("  reference.spp: [1, 2]\n"), "demo.yaml:7: sweep: 'reference.spp' is the same");
     EXPECT_CONTAINS(sweepError("  voxelise.resolution: [1]\n"), "did you mean 'voxelize'?");
-    EXPECT_CONTAINS(sweepError("  image.widht: [1]\n"),
-                    "demo.yaml:7: image: unknown parameter 'widht'; did you mean");
+    EXPECT_CONTAINS(sweepError("  image.widht: [1]\n"), "demo.yaml:7: image: unknown parameter 'widht'; did you mean");
     EXPECT_CONTAINS(sweepError("  voxelize.resolution: [64, 64]\n"), "appears twice");
     std::string many = "[0";
     for (int i = 1; i < 200; ++i) many += ", " + std::to_string(i);

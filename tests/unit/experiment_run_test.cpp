@@ -27,11 +27,10 @@ TEST_F(RunTest, WritesResultsWithTheScoresOfClosedForms) {
 
     // Files
     const fs::path out = root_ / "out";
-    for (const char* name : {"final.exr", "indirect.exr", "final.png", "indirect.png", "flip.png",
-                             "indirect_flip.png", "result.json"})
-        EXPECT_TRUE(fs::exists(out / "images" / "value-0.5" / name)) << name;
     for (const char* name :
-         {"final.exr", "indirect.exr", "final.png", "indirect.png", "final_a.exr", "indirect_b.exr"})
+         {"final.exr", "indirect.exr", "final.png", "indirect.png", "flip.png", "indirect_flip.png", "result.json"})
+        EXPECT_TRUE(fs::exists(out / "images" / "value-0.5" / name)) << name;
+    for (const char* name : {"final.exr", "indirect.exr", "final.png", "indirect.png", "final_a.exr", "indirect_b.exr"})
         EXPECT_TRUE(fs::exists(out / "images" / "reference" / name)) << name;
     EXPECT_EQ(readImage(out / "images" / "value-0.5" / "final.exr").data[0], 0.5f);
     EXPECT_CONTAINS(readTextFile(out / "passes.csv"), "value-0.5,constant,frame,");
@@ -74,8 +73,8 @@ TEST_F(RunTest, ColumnsAreTheDocumentedOnes) {
 }
 
 TEST_F(RunTest, NoiseOfTheReferenceIsTakenOffOrIsAFloor) {
-    const Experiment noisy = parseExperiment(config("sweep: {constant.value: [1, 0.5]}\n"), "fake.yaml",
-                                             {"", {"reference.noise=0.25"}});
+    const Experiment noisy =
+        parseExperiment(config("sweep: {constant.value: [1, 0.5]}\n"), "fake.yaml", {"", {"reference.noise=0.25"}});
     EXPECT_EQ(runExperiment(noisy, options(), registry()).exitStatus(), 0);
 
     // (0.5 - 0.75) (0.5 - 1.25); for a perfect image the product is negative and counts as 0
@@ -154,16 +153,14 @@ TEST_F(RunTest, ReferenceIsCachedByWhatItDependsOn) {
 
     // Another seed, size, camera or sample count is another reference
     int runs = 1;
-    for (const char* change :
-         {"seed=3", "image.width=9", "scene.camera={position: [0, 1, 3], target: [0, 1, 0]}",
-          "reference.spp=5", "scene.materials=lambert", "scene.environment=0.5"}) {
+    for (const char* change : {"seed=3", "image.width=9", "scene.camera={position: [0, 1, 3], target: [0, 1, 0]}",
+                               "reference.spp=5", "scene.materials=lambert", "scene.environment=0.5"}) {
         runExperiment(parseExperiment(config(""), "fake.yaml", {"", {change}}), options(), registry());
         EXPECT_EQ(Truth::runs, ++runs) << change;
     }
 
     // What the graph does is not part of it, and a damaged cache is rendered again
-    runExperiment(parseExperiment(config(""), "fake.yaml", {"", {"constant.value=2"}}), options(),
-                  registry());
+    runExperiment(parseExperiment(config(""), "fake.yaml", {"", {"constant.value=2"}}), options(), registry());
     EXPECT_EQ(Truth::runs, runs);
     for (const auto& entry : fs::recursive_directory_iterator(root_ / "cache" / "references"))
         if (entry.path().filename() == "final_a.exr") std::ofstream(entry.path()) << "broken";
@@ -189,10 +186,9 @@ TEST_F(RunTest, TheCameraMovesFromFrameToFrame) {
 TEST_F(RunTest, SurfacesAndLightsMoveFromFrameToFrame) {
     const auto runWith = [&](const std::string& scene) {
         Witness::sights.clear();
-        const std::string text =
-            "name: fake\nscene: {builtin: cornell, " + scene +
-            "}\nimage: {width: 8, height: 4}\ngraph: [{pass: witness}, {pass: constant}]\n"
-            "reference: {pass: truth}\nmeasure: {frames: 2, warmup: 1}\n";
+        const std::string text = "name: fake\nscene: {builtin: cornell, " + scene +
+                                 "}\nimage: {width: 8, height: 4}\ngraph: [{pass: witness}, {pass: constant}]\n"
+                                 "reference: {pass: truth}\nmeasure: {frames: 2, warmup: 1}\n";
         EXPECT_EQ(runExperiment(parseExperiment(text, "fake.yaml"), options(), registry()).exitStatus(), 0);
         return Witness::sights;
     };
@@ -244,10 +240,9 @@ TEST_F(RunTest, VariantsOfOneSceneBeginInTheComparedFrame) {
 }
 
 TEST_F(RunTest, LightThatLosesItsDirectionIsNamed) {
-    const RunSummary summary =
-        runExperiment(parseExperiment(config(""), "fake.yaml",
-                                      {"", {"scene.lights=[{directional: [0, -1, 0], move: [0, 1, 0]}]"}}),
-                      options(), registry());
+    const RunSummary summary = runExperiment(
+        parseExperiment(config(""), "fake.yaml", {"", {"scene.lights=[{directional: [0, -1, 0], move: [0, 1, 0]}]"}}),
+        options(), registry());
     EXPECT_EQ(summary.exitStatus(), 1);
     EXPECT_CONTAINS(cell("default", "error"), "config light 0: 'move' leaves it without a direction");
 }
@@ -284,9 +279,7 @@ TEST_F(RunTest, ResumeRepeatsNothingThatWasFinished) {
 }
 
 TEST_F(RunTest, VariantsTellTheSessionThatMeasuredThem) {
-    const auto manifest = [&] {
-        return nlohmann::json::parse(readTextFile(root_ / "out" / "manifest.json"));
-    };
+    const auto manifest = [&] { return nlohmann::json::parse(readTextFile(root_ / "out" / "manifest.json")); };
     run("sweep: {constant.value: [1, 0.5]}\n");
     const auto first = manifest();
     ASSERT_EQ(first["sessions"].size(), 1u);
@@ -379,8 +372,8 @@ TEST_F(RunTest, DryRunRendersNothing) {
 }
 
 TEST_F(RunTest, MissingSceneFileSaysWhereItLooked) {
-    const Experiment e = parseExperiment("name: x\nscene: {file: absent.glb}\ngraph: [{pass: constant}]\n",
-                                         (root_ / "x.yaml").string());
+    const Experiment e =
+        parseExperiment("name: x\nscene: {file: absent.glb}\ngraph: [{pass: constant}]\n", (root_ / "x.yaml").string());
     RunOptions o = options();
     o.scenes = root_ / "scenes";
     EXPECT_CONTAINS(errorOf<UsageError>([&] { runExperiment(e, o, registry()); }),
@@ -390,8 +383,7 @@ TEST_F(RunTest, MissingSceneFileSaysWhereItLooked) {
 TEST_F(RunTest, CameraAndBuiltinErrorsNameTheNearestWord) {
     const auto errorWith = [&](const std::string& assignment) {
         return errorOf<UsageError>([&] {
-            runExperiment(parseExperiment(config(""), "fake.yaml", {"", {assignment}}), options(),
-                          registry());
+            runExperiment(parseExperiment(config(""), "fake.yaml", {"", {assignment}}), options(), registry());
         });
     };
     EXPECT_CONTAINS(errorWith("scene.builtin=cornel"), "did you mean 'cornell'?");

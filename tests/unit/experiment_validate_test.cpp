@@ -42,33 +42,32 @@ TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
     // Of two passes that write the image the last one counts, unless it reads the first one's
     Registry registry = fakes::registry();
     registry.add<Veil>();
-    const auto wired = makeStudy(
-        parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: a}\n"
-                        "  - {pass: constant, id: b}\nsweep: {b: [constant, veil], a.value: [4, 5]}\n",
-                        "x.yaml"),
-        registry);
+    const auto wired =
+        makeStudy(parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: a}\n"
+                                  "  - {pass: constant, id: b}\nsweep: {b: [constant, veil], a.value: [4, 5]}\n",
+                                  "x.yaml"),
+                  registry);
     std::vector<std::string> names;
     for (const Variant& variant : wired.variants) names.push_back(variant.name);
     EXPECT_EQ(names, (std::vector<std::string>{"constant", "veil, value 4", "veil, value 5"}));
     EXPECT_EQ(wired.variants[0].values, (std::vector<std::string>{"constant", "-"}));
 
     // A whole pass neither, where nothing of what stands in its place runs
-    const auto swapped = makeStudy(
-        parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: a}\n"
-                        "  - {pass: constant, id: b}\nsweep:\n  a: {x: {pass: constant, value: 4}, y: "
-                        "[layers, constant]}\n"
-                        "  b: [constant, veil]\n",
-                        "x.yaml"),
-        registry);
+    const auto swapped =
+        makeStudy(parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: a}\n"
+                                  "  - {pass: constant, id: b}\nsweep:\n  a: {x: {pass: constant, value: 4}, y: "
+                                  "[layers, constant]}\n"
+                                  "  b: [constant, veil]\n",
+                                  "x.yaml"),
+                  registry);
     names.clear();
     for (const Variant& variant : swapped.variants) names.push_back(variant.name);
     EXPECT_EQ(names, (std::vector<std::string>{"constant", "x, veil", "y, constant", "y, veil"}));
 
     // One that changes nothing anywhere is a mistake; an image that is written over is told first
-    expectError(
-        "graph:\n  - {pass: constant, id: unseen}\n  - {pass: constant}\nsweep:\n  unseen.value: [1, 2]\n",
-        {"x.yaml:4: ", "'unseen' is never run: 'constant', after it, writes 'final' too",
-         "(sweep.unseen.value changes nothing: no image depends on 'unseen')"});
+    expectError("graph:\n  - {pass: constant, id: unseen}\n  - {pass: constant}\nsweep:\n  unseen.value: [1, 2]\n",
+                {"x.yaml:4: ", "'unseen' is never run: 'constant', after it, writes 'final' too",
+                 "(sweep.unseen.value changes nothing: no image depends on 'unseen')"});
 }
 
 TEST(Validate, AValueWhosePassNeverRunsIsRefusedWhereAnothersRuns) {
@@ -78,12 +77,10 @@ TEST(Validate, AValueWhosePassNeverRunsIsRefusedWhereAnothersRuns) {
         "constant:\n    "
         "- constant\n    "
         "- [{pass: constant, id: other}, layers]\n",
-        {"x.yaml:8: ", "sweep.constant: 'layers' is never run",
-         "'constant' in its place writes 'final', 'indirect'"});
+        {"x.yaml:8: ", "sweep.constant: 'layers' is never run", "'constant' in its place writes 'final', 'indirect'"});
     // Values that have names
-    expectError(
-        "graph:\n  - {pass: constant, id: c}\nsweep:\n  c: {whole: constant, part: [constant, layers]}\n",
-        {"x.yaml:6: ", "sweep.c: 'layers' is never run"});
+    expectError("graph:\n  - {pass: constant, id: c}\nsweep:\n  c: {whole: constant, part: [constant, layers]}\n",
+                {"x.yaml:6: ", "sweep.c: 'layers' is never run"});
     // Different passes that are read
     makeStudy(parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: layers, id: l}\n"
                               "  - {pass: constant}\nsweep: {l: [layers, witness]}\n",
@@ -97,8 +94,7 @@ TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
     expectError("graph:\n  - {pass: constant, value: 1000}\n", {"x.yaml:4: ", "out of range"});
     expectError("graph:\n  - {pass: constant, value: high}\n", {"x.yaml:4: ", "expected a number"});
     expectError("graph:\n  - {pass: constant}\n  - {pass: relay}\n", {"x.yaml:5: ", "missing port 'extra'"});
-    expectError("graph:\n  - {pass: constant}\n  - {pass: constant}\n",
-                {"x.yaml:5: ", "two passes have the id"});
+    expectError("graph:\n  - {pass: constant}\n  - {pass: constant}\n", {"x.yaml:5: ", "two passes have the id"});
     expectError(
         "graph:\n  - {pass: constant}\n  - {pass: relay, id: a, inputs: {extra: b}}\n"
         "  - {pass: relay, id: b, inputs: {extra: a}}\n",
@@ -122,9 +118,8 @@ TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
         {"x.yaml:8: ", "two passes have the id 'witness'"});
     expectError("graph:\n  - {pass: constnat}\nsweep:\n  constant.value: [1]\n",
                 {"x.yaml:4: ", "unknown pass 'constnat'", "did you mean 'constant'?"});
-    expectError(
-        "graph:\n  - {pass: constant, id: c}\nsweep:\n  c: [constant, {pass: constnat}]\n  c.value: [1]\n",
-        {"x.yaml:6: ", "unknown pass 'constnat'", "did you mean 'constant'?"});
+    expectError("graph:\n  - {pass: constant, id: c}\nsweep:\n  c: [constant, {pass: constnat}]\n  c.value: [1]\n",
+                {"x.yaml:6: ", "unknown pass 'constnat'", "did you mean 'constant'?"});
     // Inputs of a pass that no variant runs as it is written
     const auto expectInputError = [](const std::string& input, std::initializer_list<const char*> parts) {
         expectError("graph:\n  - {pass: witness}\n  - {pass: constant, id: c, inputs: {" + input +
@@ -138,8 +133,7 @@ TEST(Validate, GraphErrorsNameFileLineAndNearestWord) {
     expectInputError("testimoni: witness", {"x.yaml:5: ", "did you mean 'testimony'?"});
     expectError("graph:\n  - {pass: constant}\nreference: {pass: truth, ssp: 3}\n",
                 {"x.yaml:5: ", "did you mean 'spp'?"});
-    expectError("graph:\n  - {pass: constant}\nreference: {pass: constant}\n",
-                {"x.yaml:5: ", "writes no 'sums'"});
+    expectError("graph:\n  - {pass: constant}\nreference: {pass: constant}\n", {"x.yaml:5: ", "writes no 'sums'"});
     expectError("graph:\n  - {pass: relay, inputs: {extra: relay}}\n", {"x.yaml:4: "});
 }
 
@@ -166,8 +160,7 @@ TEST(Validate, MotionIsRefusedWhereItHasNoEffectInAnyVariant) {
 
     // A single frame
     const std::string single = "measure: {frames: 1, warmup: 0}";
-    const std::string camera =
-        "builtin: cornell, camera: {position: [0, 1, 3], target: [0, 1, 0], move: [0, 0, 1]}";
+    const std::string camera = "builtin: cornell, camera: {position: [0, 1, 3], target: [0, 1, 0], move: [0, 0, 1]}";
     EXPECT_CONTAINS(refusal("builtin: spheres, time_step: 0.1", single),
                     "scene.time_step: no effect: there is one frame");
     EXPECT_CONTAINS(refusal(camera, single), "x.yaml:2: scene.camera.move: no effect");

@@ -67,9 +67,7 @@ TEST(UnusedSettings, ShadowMapsAreForAllPointsAndTakeNoSamples) {
                "  - {pass: trace_gather_rays}\n  - {pass: inject_voxel_rays, id: inject, " +
                inject + "}\n  - {pass: gather_rays}\n  - {pass: direct_shadow_rays}\n  - {pass: composite}\n";
     };
-    const auto message = [&](const std::string& inject) {
-        return errorOf<UsageError>([&] { wired(graph(inject)); });
-    };
+    const auto message = [&](const std::string& inject) { return errorOf<UsageError>([&] { wired(graph(inject)); }); };
     EXPECT_EQ(message("points: gather_hits, direct: shadow_maps"),
               "x.yaml:8: inject.direct: no effect with points: gather_hits; only with points: all; "
               "leave it out");
@@ -79,11 +77,10 @@ TEST(UnusedSettings, ShadowMapsAreForAllPointsAndTakeNoSamples) {
     EXPECT_EQ(message("direct: shadow_maps, light_samples: 4"),
               "x.yaml:8: inject.light_samples: no effect with direct: shadow_maps, points: all; "
               "only with direct: shadow_rays or points: gather_hits; leave it out");
-    EXPECT_EQ(
-        namesOf(wired(graph("points: all") + "sweep: {inject.points: [all, gather_hits], inject.direct: "
-                                             "[shadow_rays, shadow_maps]}\n"))
-            .size(),
-        3u);
+    EXPECT_EQ(namesOf(wired(graph("points: all") + "sweep: {inject.points: [all, gather_hits], inject.direct: "
+                                                   "[shadow_rays, shadow_maps]}\n"))
+                  .size(),
+              3u);
 }
 
 TEST(UnusedSettings, OfGatherRaysGoWithTheirSource) {
@@ -96,19 +93,18 @@ TEST(UnusedSettings, OfGatherRaysGoWithTheirSource) {
     const auto message = [&](const std::string& gather) {
         return errorOf<UsageError>([&] { wired(graph("update_radiance_cache", gather)); });
     };
-    EXPECT_EQ(
-        message("source: radiance_cache, direct_at_hits: shadow_rays"),
-        "x.yaml:9: gather_rays.direct_at_hits: no effect with source: radiance_cache; only with source: "
-        "voxels; leave it out");
+    EXPECT_EQ(message("source: radiance_cache, direct_at_hits: shadow_rays"),
+              "x.yaml:9: gather_rays.direct_at_hits: no effect with source: radiance_cache; only with source: "
+              "voxels; leave it out");
     EXPECT_EQ(message("min_samples: 4"),
               "x.yaml:9: gather_rays.min_samples: no effect with source: voxels; only with source: "
               "radiance_cache; leave it out");
 
     // Whether merged voxels hold direct light is for merge_voxels to say
     wired(graph("merge_voxels", "source: merged_voxels, near_field_cells: 0, light_samples: 4"));
-    EXPECT_CONTAINS(errorOf<UsageError>([&] {
-                        wired(graph("update_radiance_cache",
-                                    "source: radiance_cache, near_field_cells: 0, light_samples: 4"));
-                    }),
-                    "x.yaml:9: gather_rays.light_samples: no effect with");
+    EXPECT_CONTAINS(
+        errorOf<UsageError>([&] {
+            wired(graph("update_radiance_cache", "source: radiance_cache, near_field_cells: 0, light_samples: 4"));
+        }),
+        "x.yaml:9: gather_rays.light_samples: no effect with");
 }

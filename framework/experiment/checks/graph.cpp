@@ -79,8 +79,7 @@ void checkPassNames(const Experiment& experiment, const Registry& registry) {
             if (passId(entry) == path) {
                 checkNestedAxis(entry, path, values, registry);
                 for (const Value& value : sweepValues(values)) {
-                    if (value.isScalar() &&
-                        value.scalar.find_first_not_of("0123456789.") == std::string::npos)
+                    if (value.isScalar() && value.scalar.find_first_not_of("0123456789.") == std::string::npos)
                         throw UsageError(value.where,
                                          "sweep.{0}: '{1}' is no pass: "
                                          "to vary a parameter of '{0}', write {0}.PARAMETER: {2}",
@@ -90,8 +89,7 @@ void checkPassNames(const Experiment& experiment, const Registry& registry) {
             }
 }
 
-void checkOwnValues(const Experiment& experiment, const std::vector<Variant>& variants,
-                    const Registry& registry) {
+void checkOwnValues(const Experiment& experiment, const std::vector<Variant>& variants, const Registry& registry) {
     for (const Value& entry : experiment.setup.graph.items) {
         if (!entry.find("pass")) continue;
         checkEntry(registry, entry);
@@ -108,8 +106,7 @@ void checkSwaps(const Study& study) {
         if (std::ranges::none_of(study.experiment.setup.graph.items, isOfAxis)) continue;
         const auto isRun = [&](const std::string& label) {
             return std::ranges::any_of(study.variants, [&](const Variant& variant) {
-                return variant.values[a] == label &&
-                       std::ranges::count(variant.culledPasses, axes[a].key) == 0;
+                return variant.values[a] == label && std::ranges::count(variant.culledPasses, axes[a].key) == 0;
             });
         };
         const std::vector<std::string> labels = sweepLabels(axes[a].key, axes[a].value);
@@ -146,9 +143,7 @@ std::string overwrittenPass(const Study& study) {
             const std::string id = passId(entry);
             if (!idle.contains(id) || std::ranges::count(variant.culledPasses, id) == 0) continue;
             const PassKind& kind = study.registry->require(entry.find("pass")->scalar, entry.where);
-            const auto isImage = [](const PortDoc& port) {
-                return port.output && port.name == kComparedImage;
-            };
+            const auto isImage = [](const PortDoc& port) { return port.output && port.name == kComparedImage; };
             if (std::ranges::any_of(kind.ports, isImage)) return id;
         }
     return {};
