@@ -6,11 +6,12 @@ set -euo pipefail
 list=$(dirname "$(readlink -f "$0")")/packages.txt
 include_folders=(/usr/include /usr/local/include /usr/include/*-linux-gnu)
 vulkan_folders=(/usr/share/vulkan /etc/vulkan /usr/local/share/vulkan)
+data_folders=(/usr/share /usr/lib /usr/local/lib)
 
 # Whether version $1 is at least $2.
 at_least() { [ "$(printf '%s\n%s\n' "$2" "$1" | sort -V | head -n 1)" = "$2" ]; }
 
-# Prints what was found. $1: kind of probe, $2: name, $3: smallest version of a command; of headers any that follows.
+# Prints what was found. $1: kind of probe, $2: name, $3: smallest version of a command; of headers and files any that follows.
 probe() {
   local folder found version header
   case $1 in
@@ -22,9 +23,11 @@ probe() {
       echo "$found ${BASH_REMATCH[0]}"
       at_least "${BASH_REMATCH[0]}" "$3"
       ;;
-    header)
+    header|file)
+      local folders=("${include_folders[@]}")
+      [ "$1" = file ] && folders=("${data_folders[@]}")
       for header in "${@:2}"; do
-        for folder in "${include_folders[@]}"; do
+        for folder in "${folders[@]}"; do
           [ -e "$folder/$header" ] && { echo "$folder/$header"; return 0; }
         done
       done

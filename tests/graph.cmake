@@ -13,6 +13,6 @@ voxray_tests(regions
 file(GLOB CHAIN_TESTS CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR}
   gpu/*_test.cpp physics/*_test.cpp ../docs/examples/ambient_occlusion/*.cpp ../docs/examples/mutual_visibility/*.cpp)
 list(REMOVE_ITEM CHAIN_TESTS ${REGION_TESTS} ${PATH_TRACE_TESTS})
-voxray_tests(chain SHARDS 12
+voxray_tests(chain SHARDS 6
   SOURCES ${CHAIN_TESTS} support/brick_octree_count.cpp support/watched_device.cpp
   DEPENDS voxray_experiment voxray_passes)

@@ -68,8 +68,7 @@ void printJson(const std::vector<Row>& rows, const CompareOptions& options, cons
         Value scores = Value::map();
         for (const Metric& metric : metrics())
             for (const char* end : {"", kLow, kHigh})
-                if (const auto score = row.scores.find(std::string(metric.name) + end);
-                    score != row.scores.end())
+                if (const auto score = row.scores.find(std::string(metric.name) + end); score != row.scores.end())
                     scores.set(score->first, number(score->second));
         out.set(row.name == "test" ? "scores" : row.name, std::move(scores));
     }
@@ -99,8 +98,8 @@ LayeredImage readGiven(const std::filesystem::path& path, const std::string& lay
     try {
         LayeredImage read = readLayerOrOnly(path, layer);
         if (read.layerCount > 1 && !read.layer.empty())
-            fmt::print(stderr, "voxray: {}: layer '{}' of {} is compared\n", path.string(),
-                       oneLine(read.layer), read.layerCount);
+            fmt::print(stderr, "voxray: {}: layer '{}' of {} is compared\n", path.string(), oneLine(read.layer),
+                       read.layerCount);
         return read;
     } catch (const Error& error) {
         throw UsageError("{}", error.what());
@@ -118,16 +117,16 @@ std::vector<ImageF> readHalves(const std::filesystem::path& path, const ImageF& 
     }
     for (const std::filesystem::path& half : paths) halves.push_back(readGiven(half, "").image);
     double difference = 0, sum = 0;
-    const bool fits = std::ranges::all_of(
-        halves, [&](const ImageF& half) { return half.data.size() == reference.data.size(); });
+    const bool fits =
+        std::ranges::all_of(halves, [&](const ImageF& half) { return half.data.size() == reference.data.size(); });
     for (size_t i = 0; fits && i < reference.data.size(); ++i) {
         const double mean = 0.5 * (double(halves[0].data[i]) + double(halves[1].data[i]));
         difference += std::abs(mean - double(reference.data[i]));
         sum += std::abs(double(reference.data[i]));
     }
     if (!fits || difference > 1e-5 * sum)
-        throw Error("{} isn't the mean of {} and {}, which are named like its halves: rename them",
-                    path.string(), paths[0].filename().string(), paths[1].filename().string());
+        throw Error("{} isn't the mean of {} and {}, which are named like its halves: rename them", path.string(),
+                    paths[0].filename().string(), paths[1].filename().string());
     return halves;
 }
 
@@ -140,8 +139,7 @@ bool isPreview(const std::filesystem::path& file) {
 
 void compare(const CompareOptions& options) {
     for (const std::filesystem::path& file : {options.test, options.reference})
-        if (!std::filesystem::exists(file))
-            throw UsageError("no file '{}'{}", file.string(), didYouMeanFile(file));
+        if (!std::filesystem::exists(file)) throw UsageError("no file '{}'{}", file.string(), didYouMeanFile(file));
     const LayeredImage given = readGiven(options.test, options.layer);
     const LayeredImage wanted = readGiven(options.reference, options.layer);
     if (!options.layer.empty() && given.layer.empty() && wanted.layer.empty())
@@ -149,9 +147,8 @@ void compare(const CompareOptions& options) {
     const ImageF& test = given.image;
     const ImageF& reference = wanted.image;
     if (test.width != reference.width || test.height != reference.height)
-        throw UsageError("{} is {}x{} and {} is {}x{}: images to compare are of one size",
-                         options.test.string(), test.width, test.height, options.reference.string(),
-                         reference.width, reference.height);
+        throw UsageError("{} is {}x{} and {} is {}x{}: images to compare are of one size", options.test.string(),
+                         test.width, test.height, options.reference.string(), reference.width, reference.height);
 
     // All rows have the same exposures, which depend only on the reference
     ScoreOptions scoring;
@@ -165,8 +162,7 @@ void compare(const CompareOptions& options) {
                              {"black", score({blackLike(reference), reference, scoring, halves})},
                              {"constant", score({constantLike(reference), reference, scoring, halves})}};
     if (halves)
-        rows.push_back(
-            {"noise", noiseFloors({halves->a, reference, scoring}, {halves->b, reference, scoring})});
+        rows.push_back({"noise", noiseFloors({halves->a, reference, scoring}, {halves->b, reference, scoring})});
     if (!options.flipMap.empty()) writePng(options.flipMap, comparison.flip.map);
 
     for (const std::filesystem::path& file : {options.test, options.reference})
@@ -187,8 +183,7 @@ void compare(const CompareOptions& options) {
 
 void addCompareCommand(CLI::App& app, int&) {
     CLI::App* command = app.add_subcommand(
-        "compare",
-        "Metrics of an image against a reference, with a black and a constant image's next to them.");
+        "compare", "Metrics of an image against a reference, with a black and a constant image's next to them.");
     auto options = std::make_shared<CompareOptions>();
     command->add_option("TEST", options->test, "Image to compare (EXR, HDR, PNG, JPEG).")->required();
     command
@@ -197,16 +192,14 @@ void addCompareCommand(CLI::App& app, int&) {
                      "its noise is taken off nRMSE and relMSE, which then have 95 % confidence intervals.")
         ->required();
     command->add_flag("--json", options->json, "Print JSON.");
-    command->add_option(
-        "--layer", options->layer,
-        "Layer of EXR files that have several, as in View.Combined, or its last word. "
-        "Without: plain R, G, B, else the one called Combined, Beauty, RGBA, RGB, Color or Final.");
+    command->add_option("--layer", options->layer,
+                        "Layer of EXR files that have several, as in View.Combined, or its last word. "
+                        "Without: plain R, G, B, else the one called Combined, Beauty, RGBA, RGB, Color or Final.");
     command->add_option("--flip-map", options->flipMap, "Write the HDR-FLIP error map to this PNG.")
         ->check(endsWith(".png"));
     command
-        ->add_option(
-            "--exposure", options->exposureStops,
-            "Stops by which the previews are brightened before FLIP (LDR), SSIM and PSNR. Default 0.")
+        ->add_option("--exposure", options->exposureStops,
+                     "Stops by which the previews are brightened before FLIP (LDR), SSIM and PSNR. Default 0.")
         ->check(CLI::Range(-32.0f, 32.0f));
     command->callback([options] { compare(*options); });
 }

@@ -47,8 +47,7 @@ inline bool isSceneFile(const std::filesystem::path& what) {
 inline CLI::Validator endsWith(const std::string& ending) {
     return CLI::Validator(
         [ending](const std::string& name) {
-            return name.ends_with(ending) ? std::string()
-                                          : fmt::format("'{}' does not end in {}", name, ending);
+            return name.ends_with(ending) ? std::string() : fmt::format("'{}' does not end in {}", name, ending);
         },
         "");
 }
@@ -56,8 +55,7 @@ inline CLI::Validator endsWith(const std::string& ending) {
 /// Common options of all commands that use a device.
 inline void addDeviceOptions(CLI::App& command, RunOptions& options) {
     command
-        .add_option("--device", options.deviceName,
-                    "Part of a Vulkan device's name; default: the best that qualifies.")
+        .add_option("--device", options.deviceName, "Part of a Vulkan device's name; default: the best that qualifies.")
         ->type_name("NAME");
     command
         .add_option("--tracer", options.tracer,

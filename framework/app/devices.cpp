@@ -43,8 +43,8 @@ void printDevices() {
 }  // namespace
 
 void addDevicesCommand(CLI::App& app, int&) {
-    CLI::App* command = app.add_subcommand(
-        "devices", "List Vulkan devices, their features and the ray tracers that each can run.");
+    CLI::App* command =
+        app.add_subcommand("devices", "List Vulkan devices, their features and the ray tracers that each can run.");
     command->callback([] { printDevices(); });
 }
 

@@ -28,9 +28,8 @@ struct ExportArguments : ConfigArguments {
 void exportScene(const ExportArguments& arguments) {
     const std::vector<std::string> builtin = builtinSceneNames();
     if (isSceneFile(arguments.file) || std::ranges::count(builtin, arguments.file.string()) > 0)
-        throw UsageError(
-            "{0}: export-scene takes a config; './voxray scene {0} --write-config OUT.yaml' writes one",
-            arguments.file.string());
+        throw UsageError("{0}: export-scene takes a config; './voxray scene {0} --write-config OUT.yaml' writes one",
+                         arguments.file.string());
     const Experiment experiment = loadExperiment(arguments.file, arguments.config);
     SceneLoader loader(sceneFolders(arguments.scenes, sourceRoot(), arguments.file));
     const PreparedScene scene = loader.prepare(experiment.setup.scene);
@@ -40,16 +39,15 @@ void exportScene(const ExportArguments& arguments) {
                          "scene.environment: glTF can't carry one: "
                          "leave it out of the file with --set scene.environment=none");
     exportGlb(scene.state, arguments.target);
-    fmt::print("{}: {} triangles, {} lights\n", arguments.target.string(),
-               scene.state.geometry.triangles.size(), scene.state.lights.size());
+    fmt::print("{}: {} triangles, {} lights\n", arguments.target.string(), scene.state.geometry.triangles.size(),
+               scene.state.lights.size());
 }
 
 }  // namespace
 
 void addExportSceneCommand(CLI::App& app, int&) {
     CLI::App* command = app.add_subcommand(
-        "export-scene",
-        "Write what a config renders, camera and lights included, as glTF. Sweeps are left out.");
+        "export-scene", "Write what a config renders, camera and lights included, as glTF. Sweeps are left out.");
     auto arguments = std::make_shared<ExportArguments>();
     command->add_option("CONFIG", arguments->file, "Config file.")->required();
     command->add_option("OUT.glb", arguments->target, "File to write.")->required()->check(endsWith(".glb"));

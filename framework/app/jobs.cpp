@@ -35,10 +35,10 @@ void claimForParts(const PreparedExperiment& prepared, const std::filesystem::pa
 
 void addJobsCommand(CLI::App& app, int&) {
     auto arguments = std::make_shared<JobsArguments>();
-    CLI::App* command = app.add_subcommand(
-        "jobs",
-        "List the parts of an experiment for an engine that runs them: what each comes after, "
-        "the memory and cost that are predicted. 'voxray run CONFIG --part ID --out DIR' does one.");
+    CLI::App* command =
+        app.add_subcommand("jobs",
+                           "List the parts of an experiment for an engine that runs them: what each comes after, "
+                           "the memory and cost that are predicted. 'voxray run CONFIG --part ID --out DIR' does one.");
     command->add_option("CONFIG", arguments->file, "Config file.")->required();
     command->add_flag("--json", arguments->json, "Print JSON.");
     command

@@ -31,8 +31,7 @@ void checkCommandName(const CLI::App& app, const std::string& word) {
         if (command->get_name() == word) return;
         names.push_back(command->get_name());
     }
-    if (word == "test" || word == "bench")
-        throw UsageError("'{0}' is a command of the launcher: ./voxray {0}", word);
+    if (word == "test" || word == "bench") throw UsageError("'{0}' is a command of the launcher: ./voxray {0}", word);
     if (word.ends_with(".yaml") || word.ends_with(".yml"))
         throw UsageError("unknown command '{0}'; to render a config, write: voxray run {0}", word);
     throw UsageError("unknown command '{}'{}", word, didYouMean(word, names));

@@ -42,8 +42,8 @@ void addMergeCommand(CLI::App& app, int& status) {
     RunOptions& options = arguments->options;
     CLI::App* command = app.add_subcommand(
         "merge",
-        "Put results of one experiment that lie in many folders together, such as its parts, "
-        "and make the report. Folders that differ in config, scene or version are refused.");
+        "Put results of one experiment that lie in many folders together, such as its parts, and make the report. "
+        "Folders that differ in config, scene or version are refused.");
     command->add_option("DIR", arguments->folders, "Results folders.")->required();
     command->add_option("--out", options.out, "Folder of all results: a new one, or one of the others.")
         ->required()

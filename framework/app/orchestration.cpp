@@ -55,8 +55,7 @@ void addExecutorOptions(CLI::App& command) {
 
 void addPartOptions(CLI::App& command) {
     addCount(command, "--reference-parts",
-             "How many parts each reference's samples are divided into. "
-             "Default: one for each of --cores, else 1.",
+             "How many parts each reference's samples are divided into. Default: one for each of --cores, else 1.",
              1 << 20);
     addFlag(command, "--untimed", "Times don't matter: variants share machines, and a warning on the page says so.");
     addCount(command, "--threads", "Threads of each part that shares a machine.")->default_str("1");
@@ -110,8 +109,8 @@ void addExplainCommand(CLI::App& app, int&) {
                                                  values);
     addConfig(command);
     addText(command, "--variant", "NAME",
-            "Which variant of the config's sweep is explained, "
-            "by its name in results.csv or the end of it, as in lookup for cornell-lookup.");
+            "Which variant of the config's sweep is explained, by its name in results.csv or the end of it, "
+            "as in lookup for cornell-lookup.");
     addConfigOptions(command, *values);
     addRunOptions(command, values->run, "Results folder; default results/explain_<experiment>.");
 }
@@ -120,19 +119,16 @@ void addStabilityCommand(CLI::App& app, int&) {
     const auto values = std::make_shared<UnusedValues>();
     CLI::App& command =
         *addOrchestrationCommand(app, "stability",
-                                 "Show where methods fail: "
-                                 "run each in scenes that provoke one failure each (leaks, lost energy, "
-                                 "flicker ...), and hold every result against its limit.",
+                                 "Show where methods fail: run each in scenes that provoke one failure each (leaks, "
+                                 "lost energy, flicker ...), and hold every result against its limit.",
                                  values);
     addText(command, "METHOD", "TEXT", "Methods of the matrix; all by default.")->expected(1, -1)->allow_extra_args();
     addTexts(command, "--scenario", "NAME",
              "Run this scene of the matrix, and the first of its profile. May be given many times.");
     addText(command, "--config", "CONFIG",
-            "The matrix, its limits next to it in a .csv of the same name; "
-            "default configs/stability/matrix.yaml.");
+            "The matrix, its limits next to it in a .csv of the same name; default configs/stability/matrix.yaml.");
     addFlag(command, "--remedies",
-            "Run what fails again with finer settings, one kind at a time, "
-            "and say which of them lowers each error; "
+            "Run what fails again with finer settings, one kind at a time, and say which of them lowers each error; "
             "they stand next to the matrix, in a file that ends in _remedies.json.");
     addConfigOptions(command, *values);
     addRunOptions(command, values->run,
@@ -169,10 +165,14 @@ void addParetoCommand(CLI::App& app, int&) {
         ->allow_extra_args();
     addText(command, "--out", "FILE.html", "The page; a table with all numbers gets its name and .csv.")
         ->default_str("pareto.html");
-    addText(command, "--error", "TEXT", "Metric that methods are compared by.")->default_str("nrmse");
+    addText(command, "--error", "TEXT", "Metric that the page shows first and that figures are of.")
+        ->default_str("nrmse");
     addText(command, "--light", "TEXT", "indirect or total.")
         ->check(CLI::IsMember({"indirect", "total"}))
         ->default_str("indirect");
+    addFlag(command, "--no-images", "Leave out images and error maps, for a smaller page.");
+    addText(command, "--figures", "DIR",
+            "Folder for figures of a paper: the matrix and each scene's chart as SVG and PDF, with their data.");
 }
 
 }  // namespace voxray

@@ -23,8 +23,8 @@ Value stringValue(const std::string& word) {
 
 /// The value that was given for an option, else its default; null if there is none.
 Value valueOf(const CLI::Option& option) {
-    const bool isList = option.get_items_expected_max() > 1 ||
-                        option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
+    const bool isList =
+        option.get_items_expected_max() > 1 || option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
     if (option.get_items_expected_max() == 0) return Value::fromScalar(option.count() > 0 ? "true" : "false");
     if (isList) {
         Value list = Value::list();
@@ -41,8 +41,7 @@ void runOrchestration(const CLI::App& command) {
     Value options = Value::map();
     for (const CLI::Option* option : command.get_options())
         if (option != command.get_help_ptr())
-            options.set(option->get_lnames().empty() ? option->get_name() : option->get_lnames()[0],
-                        valueOf(*option));
+            options.set(option->get_lnames().empty() ? option->get_name() : option->get_lnames()[0], valueOf(*option));
     std::vector<std::string> words{kPython,
                                    "-B",
                                    (sourceRoot() / "framework/orchestration").string(),

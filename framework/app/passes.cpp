@@ -48,8 +48,7 @@ void printList(const Registry& registry, bool withExperiments) {
         }
     }
     fmt::print("\nvoxray passes NAME tells a pass's ports and parameters.\n");
-    if (!withExperiments)
-        fmt::print("voxray passes --experiments adds those that measure for experiments.\n");
+    if (!withExperiments) fmt::print("voxray passes --experiments adds those that measure for experiments.\n");
 }
 
 /// Prints a name and its description in two columns.
@@ -71,8 +70,7 @@ void printPorts(const PassKind& kind, bool outputs) {
 
 std::string rangeOf(const ParameterDoc& parameter) {
     if (!parameter.choices.empty()) return fmt::format("{}", fmt::join(parameter.choices, " | "));
-    if (!parameter.min.empty())
-        return fmt::format("{} from {} to {}", parameter.type, parameter.min, parameter.max);
+    if (!parameter.min.empty()) return fmt::format("{} from {} to {}", parameter.type, parameter.min, parameter.max);
     return parameter.type;
 }
 
@@ -85,8 +83,7 @@ void printPass(const PassKind& kind) {
     fmt::print("\nParameters:\n");
     for (const ParameterDoc& parameter : kind.parameters) {
         const std::string defaults = parameter.defaults.empty() ? "''" : parameter.defaults;
-        printEntry(parameter.name,
-                   fmt::format("{} Default {}; {}.", parameter.help, defaults, rangeOf(parameter)));
+        printEntry(parameter.name, fmt::format("{} Default {}; {}.", parameter.help, defaults, rangeOf(parameter)));
     }
     if (kind.parameters.empty()) fmt::print("  none\n");
 }

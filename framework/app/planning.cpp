@@ -18,7 +18,7 @@ Study loadStudy(const std::filesystem::path& file, const ConfigOptions& options,
     allOptions.only.clear();
     const Study all = makeStudy(loadExperiment(file, allOptions), registry);
     for (const auto& [id, count] : cullCounts(study))
-        if (runsSomewhere(all, id)) study.deselected.push_back(id);
+        if (runsSomewhere(all, id)) study.excludedPasses.push_back(id);
     return study;
 }
 
@@ -28,10 +28,9 @@ void planExperiment(const std::filesystem::path& file, const ConfigArguments& ar
     registerPasses(registry);
     options.scenes = arguments.scenes;
     options.sourceRoot = sourceRoot();
-    options.preview = pathTracedPreview;
+    options.tracePreview = pathTracedPreview;
     PreparedExperiment prepared(loadStudy(file, arguments.config, registry), options);
-    for (const std::string& warning : prepared.warnings())
-        fmt::print(stderr, "voxray: warning: {}\n", warning);
+    for (const std::string& warning : prepared.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     use(prepared);
 }
 

@@ -22,11 +22,10 @@ namespace voxray {
 
 void printSummary(const RunSummary& summary, const RunOptions& options) {
     if (options.dryRun) return;
-    if (!summary.reportError.empty())
-        fmt::print(stderr, "voxray: error: no report: {}\n", summary.reportError);
+    if (!summary.reportError.empty()) fmt::print(stderr, "voxray: error: no report: {}\n", summary.reportError);
     if (summary.validationMessages > 0)
-        fmt::print(stderr, "voxray: error: the Vulkan validation layer has {} message{}\n",
-                   summary.validationMessages, summary.validationMessages == 1 ? "" : "s");
+        fmt::print(stderr, "voxray: error: the Vulkan validation layer has {} message{}\n", summary.validationMessages,
+                   summary.validationMessages == 1 ? "" : "s");
     if (summary.interrupted)
         fmt::print(stderr, "voxray: interrupted; finished variants are kept in {}, --resume goes on\n",
                    summary.out.string());
@@ -75,7 +74,7 @@ int run(const RunArguments& arguments) {
         RunOptions options = arguments.options;
         options.scenes = arguments.scenes;
         options.sourceRoot = sourceRoot();
-        options.preview = pathTracedPreview;
+        options.tracePreview = pathTracedPreview;
         if (experiments.size() > 1 && !options.out.empty()) options.out /= nameOf(i);
         const RunSummary summary = runExperiment(std::move(experiments[i]), options);
         printSummary(summary, options);
@@ -94,9 +93,8 @@ void addRunCommand(CLI::App& app, int& status) {
     RunOptions& options = arguments->options;
     command->add_option("CONFIG", arguments->configs, "Config files.")->required();
     addConfigOptions(*command, *arguments);
-    addRunOptions(
-        *command, options,
-        "Results folder; default results/<experiment>. With many configs, each gets a folder in it.");
+    addRunOptions(*command, options,
+                  "Results folder; default results/<experiment>. With many configs, each gets a folder in it.");
     command->add_flag("--aovs", options.aovs,
                       "Write what passes offer to look at in frame 0 (position, normals, albedo, depth, "
                       "ids) into aovs.PASS.exr of each variant.");
@@ -118,8 +116,7 @@ void addRunCommand(CLI::App& app, int& status) {
         ->type_name("N")
         ->check(CLI::Range(1u, 1u << 16));
     command->add_flag("--validate", options.validation,
-                      "Turn Vulkan's validation layer on: "
-                      "its messages are printed and fail the run (exit status 1). "
+                      "Turn Vulkan's validation layer on: its messages are printed and fail the run (exit status 1). "
                       "Times are then not the method's.");
     command->callback([arguments, &status] { status = run(*arguments); });
 }

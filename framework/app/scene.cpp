@@ -54,8 +54,7 @@ void checkName(const std::string& name, const std::vector<std::filesystem::path>
     for (const auto& [stem, file] : files) names.push_back(stem);
     const std::string near = files.contains(name) ? name : nearest(name, names);
     if (near.empty()) throw UsageError("no built-in scene '{}'{}", name, didYouMean(name, names));
-    throw UsageError("no built-in scene '{}'; did you mean '{}'?", name,
-                     files.contains(near) ? files.at(near) : near);
+    throw UsageError("no built-in scene '{}'; did you mean '{}'?", name, files.contains(near) ? files.at(near) : near);
 }
 
 /// Settings for the scene of a config, a scene file, or a built-in scene.
@@ -94,8 +93,7 @@ bool printLights(const SceneState& state) {
     const bool hasEnvironment = environment.radiance != glm::vec3(0.0f);
     const auto uses = materialUses(state);
     size_t emissive = 0;
-    for (size_t i = 0; i < uses.size(); ++i)
-        emissive += emits(state.scene->materials[i]) && uses[i].first > 0;
+    for (size_t i = 0; i < uses.size(); ++i) emissive += emits(state.scene->materials[i]) && uses[i].first > 0;
     fmt::print("lights: {} punctual, {} emissive material{}, {} environment\n", state.lights.size(), emissive,
                emissive == 1 ? "" : "s", hasEnvironment ? "an" : "no");
     for (const Light& light : state.lights) {
@@ -122,8 +120,8 @@ void printMaterials(const SceneState& state) {
                "area, m²", "base color", "metallic", "roughness");
     for (size_t i = 0; i < uses.size(); ++i) {
         const Material& m = state.scene->materials[i];
-        fmt::print("  {:32} {:10} {:10.3g}  {:22} {:8.2g} {:9.2g}{}{}\n", m.name, uses[i].second,
-                   uses[i].first, bracketed(glm::vec3(m.baseColor)), m.metallic, m.roughness,
+        fmt::print("  {:32} {:10} {:10.3g}  {:22} {:8.2g} {:9.2g}{}{}\n", m.name, uses[i].second, uses[i].first,
+                   bracketed(glm::vec3(m.baseColor)), m.metallic, m.roughness,
                    m.baseColorTexture.texture >= 0 ? ", textured" : "",
                    emits(m) ? ", emits " + bracketed(m.emission) + " W/(m² sr)" : "");
     }
@@ -135,8 +133,7 @@ void printObjects(const Scene& scene) {
     std::vector<std::string> names = objectNames(scene);
     const size_t more = names.size() - std::min(names.size(), kListed);
     names.resize(names.size() - more);
-    fmt::print("objects: {}{}\n",
-               names.empty() ? "none has a name" : fmt::format("'{}'", fmt::join(names, "', '")),
+    fmt::print("objects: {}{}\n", names.empty() ? "none has a name" : fmt::format("'{}'", fmt::join(names, "', '")),
                more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
@@ -171,14 +168,12 @@ void writeConfig(const std::filesystem::path& file, const SceneSource& source, c
                                                                               : "builtin: " + source.builtin,
                                              .camera = yamlOf(camera),
                                              .light = light}));
-    fmt::print("{0}: a config of this scene; './voxray run {0}' renders it and makes a report\n",
-               file.string());
+    fmt::print("{0}: a config of this scene; './voxray run {0}' renders it and makes a report\n", file.string());
 }
 
 void describe(const SceneArguments& arguments) {
     if (!arguments.newConfig.empty() && isConfig(arguments.what))
-        throw UsageError("--write-config writes a config of a scene; {} is a config",
-                         arguments.what.string());
+        throw UsageError("--write-config writes a config of a scene; {} is a config", arguments.what.string());
     const auto folders = sceneFolders(arguments.scenes, sourceRoot(), arguments.what);
     SceneSettings settings = settingsOf(arguments, folders);
 
@@ -193,10 +188,10 @@ void describe(const SceneArguments& arguments) {
 
     const glm::vec3 size = g.boundsMax - g.boundsMin;
     const size_t objects = scene.state.scene->instances.size();
-    fmt::print("{}: {} triangles in {} object{}, {} textures\n", arguments.what.string(), g.triangles.size(),
-               objects, objects == 1 ? "" : "s", scene.state.scene->textures.size());
-    fmt::print("bounds: {} to {}, {:.4g} x {:.4g} x {:.4g} m\n", bracketed(g.boundsMin),
-               bracketed(g.boundsMax), size.x, size.y, size.z);
+    fmt::print("{}: {} triangles in {} object{}, {} textures\n", arguments.what.string(), g.triangles.size(), objects,
+               objects == 1 ? "" : "s", scene.state.scene->textures.size());
+    fmt::print("bounds: {} to {}, {:.4g} x {:.4g} x {:.4g} m\n", bracketed(g.boundsMin), bracketed(g.boundsMax), size.x,
+               size.y, size.z);
     fmt::print("cameras: {}\n", original.cameras.size());
     for (const Camera& camera : original.cameras)
         fmt::print("  '{}'  {}\n", camera.name, yamlOf(settingsOf(camera, g, tracer)));
@@ -219,19 +214,19 @@ void describe(const SceneArguments& arguments) {
         fmt::print("{}:\n  {}\n", hasCamera ? "another camera, which sees more" : "a camera to begin with",
                    yamlOf(view.camera));
         if (!view.light.empty())
-            fmt::print("{}; write under 'scene'\n  {}\n",
-                       hasLight ? "no light is seen from there" : "nothing shines", view.light);
+            fmt::print("{}; write under 'scene'\n  {}\n", hasLight ? "no light is seen from there" : "nothing shines",
+                       view.light);
         if (!hasCamera) scene.camera = cameraOf(view.camera);
-        const bool isSeenWithLight = hasCamera && !hasLight && !view.light.empty() &&
-                                     seesLight(withEnvironment(scene.state), tracer, suggested);
+        const bool isSeenWithLight =
+            hasCamera && !hasLight && !view.light.empty() && seesLight(withEnvironment(scene.state), tracer, suggested);
         if (!isSeen) light = view.light;
         if (!isSeen && (!hasCamera || !hasLight)) lamp = view.lamp;
         if (!isSeen && !isSeenWithLight) suggested = view.camera;
     }
     for (const std::string& warning : loader.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     if (!arguments.picture.empty())
-        writePicture(scene.state, tracer, scene.camera, hasLight, lamp,
-                     isSeen || (!hasCamera && light.empty()), arguments.picture);
+        writePicture(scene.state, tracer, scene.camera, hasLight, lamp, isSeen || (!hasCamera && light.empty()),
+                     arguments.picture);
     if (!arguments.newConfig.empty()) writeConfig(arguments.newConfig, settings.source, suggested, light);
 }
 

@@ -42,8 +42,7 @@ std::pair<CameraSettings, ViewStats> best(const SceneState& state, const EmbreeS
     std::ranges::sort(order);
     if (order.size() > kMaxPathTraced) order.resize(kMaxPathTraced);
     for (const auto& [score, i] : order)
-        if (const ViewStats stats = measureView(state, tracer, cameras[i]);
-            stats.score() > found.second.score())
+        if (const ViewStats stats = measureView(state, tracer, cameras[i]); stats.score() > found.second.score())
             found = {cameras[i], stats};
     return found;
 }
@@ -73,8 +72,7 @@ Light lampFor(const SceneState& state, const EmbreeScene& tracer, const CameraSe
     lit.lights = {lamp};
     const PathTraceOptions options{.width = 32, .height = 18, .spp = 16, .bounces = 8};
     const ImageF image = pathTrace(lit, tracer, cameraOf(camera), options).total;
-    const double mean =
-        std::accumulate(image.data.begin(), image.data.end(), 0.0) / double(image.data.size());
+    const double mean = std::accumulate(image.data.begin(), image.data.end(), 0.0) / double(image.data.size());
     if (mean > 0 && stats.filled > 0) lamp.intensity *= float(kPreviewRadiance * double(stats.filled) / mean);
     return lamp;
 }
@@ -118,8 +116,7 @@ CameraSettings settingsOf(const Camera& camera, const Geometry& geometry, const 
     settings.position = camera.position;
     float distance = std::max(0.1f * glm::length(geometry.boundsMax - geometry.boundsMin),
                               glm::dot(center - camera.position, camera.forward));
-    const Hit hit =
-        tracer.closestHit({camera.position, 0, camera.forward, std::numeric_limits<float>::infinity()});
+    const Hit hit = tracer.closestHit({camera.position, 0, camera.forward, std::numeric_limits<float>::infinity()});
     if (hit.triangle != Hit::kMiss && distance > 10 * hit.t && hit.t > 0) distance = hit.t;
     settings.target = camera.position + distance * camera.forward;
     settings.up = camera.up;
@@ -133,8 +130,8 @@ std::string yamlOf(const CameraSettings& camera) {
     const bool isUpright = camera.up.y > 0 && std::abs(right.y) < 1e-3f * glm::length(right);
     const std::string up = isUpright ? "" : ", up: " + triple(camera.up, kPrecision);
     const float step = kPrecision * glm::length(forward);
-    return fmt::format("camera: {{position: {}, target: {}{}, fov_deg: {:.4g}}}",
-                       triple(camera.position, step), triple(camera.target, step), up, camera.fovDegrees);
+    return fmt::format("camera: {{position: {}, target: {}{}, fov_deg: {:.4g}}}", triple(camera.position, step),
+                       triple(camera.target, step), up, camera.fovDegrees);
 }
 
 }  // namespace voxray

@@ -51,7 +51,7 @@ struct ConfigCheck {
 /// warning is reported once, with the first profile that has it.
 /// @throws UsageError for the first error.
 void validate(const std::filesystem::path& config, const ConfigOptions& options, SceneLoader& loader,
-              ViewChecks& views, const Registry& registry, ConfigCheck& outcome) {
+              CameraViewChecks& views, const Registry& registry, ConfigCheck& outcome) {
     std::vector<std::string> profiles{options.profile};
     if (options.profile.empty())
         for (const std::string& name : profileNames(config)) profiles.push_back(name);
@@ -66,9 +66,8 @@ void validate(const std::filesystem::path& config, const ConfigOptions& options,
             if (reported.insert(warning).second)
                 outcome.messages += fmt::format("voxray: warning: {}{}\n", warning, under);
         const size_t variants = study.variants.size();
-        verdict +=
-            fmt::format("{}{}: valid, {} variant{}\n", config.string(),
-                        profile.empty() ? "" : " --profile " + profile, variants, variants == 1 ? "" : "s");
+        verdict += fmt::format("{}{}: valid, {} variant{}\n", config.string(),
+                               profile.empty() ? "" : " --profile " + profile, variants, variants == 1 ? "" : "s");
     }
     outcome.verdict = std::move(verdict);
 }
@@ -112,7 +111,7 @@ int validateAll(const ValidateArguments& arguments) {
     std::atomic<size_t> next = 0;
     const auto work = [&] {
         SceneLoader loader({});
-        ViewChecks views(pathTracedPreview);
+        CameraViewChecks views(pathTracedPreview);
         for (size_t group = next++; group < groups.size(); group = next++)
             for (const size_t i : groups[group]) {
                 const std::filesystem::path& config = arguments.configs[i];
@@ -136,8 +135,8 @@ int validateAll(const ValidateArguments& arguments) {
 }  // namespace
 
 void addValidateCommand(CLI::App& app, int& status) {
-    CLI::App* command = app.add_subcommand(
-        "validate", "Check configs and all their profiles, scenes included, without rendering.");
+    CLI::App* command =
+        app.add_subcommand("validate", "Check configs and all their profiles, scenes included, without rendering.");
     auto arguments = std::make_shared<ValidateArguments>();
     command->add_option("CONFIG", arguments->configs, "Config files.")->required();
     addConfigOptions(*command, *arguments);

@@ -20,8 +20,8 @@ namespace {
 
 constexpr uint32_t kWidth = 32, kHeight = 18;  ///< Resolution of views.
 constexpr int kRays = 200;                     ///< In all directions.
-constexpr float kEnclosed = 0.7f;    ///< Fraction of them that hits front sides in an enclosed point.
-constexpr size_t kMaxInstances = 6;  ///< Number of instances with cameras of their own.
+constexpr float kEnclosed = 0.7f;              ///< Fraction of them that hits front sides in an enclosed point.
+constexpr size_t kMaxInstances = 6;            ///< Number of instances with cameras of their own.
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -99,8 +99,7 @@ float ViewStats::score() const {
     return std::sqrt(std::min(1.0f, 2 * filled)) * fronts * (1 - near) * (0.01f + lit);
 }
 
-ViewStats measureGeometry(const SceneState& state, const EmbreeScene& tracer,
-                          const CameraSettings& settings) {
+ViewStats measureGeometry(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& settings) {
     const CameraRays rays = cameraRays(cameraOf(settings), kWidth, kHeight);
     std::vector<float> distances;
     ViewStats stats;
@@ -150,8 +149,7 @@ std::vector<CameraSettings> cameraCandidates(const SceneState& state, const Embr
             cameras.push_back(lookingFrom(center + 0.8f * along, center));
         for (const float up : {0.4f, 1.5f, -0.4f})
             for (int i = 0; i < 8; ++i) {
-                const float angle = float(i) * glm::quarter_pi<float>(), c = std::cos(angle),
-                            s = std::sin(angle);
+                const float angle = float(i) * glm::quarter_pi<float>(), c = std::cos(angle), s = std::sin(angle);
                 cameras.push_back(outside(box, {0.6f * c - s, up, 0.6f * s + c}));
             }
         addInside(box, cameras);

@@ -91,8 +91,8 @@ constexpr Field<Owner, T> field(const char* name, T Owner::*member, const char* 
     return {name, member, help, T{}, T{}, false};
 }
 template <typename Owner, typename T>
-constexpr Field<Owner, T> field(const char* name, T Owner::*member, const char* help,
-                                std::type_identity_t<T> min, std::type_identity_t<T> max) {
+constexpr Field<Owner, T> field(const char* name, T Owner::*member, const char* help, std::type_identity_t<T> min,
+                                std::type_identity_t<T> max) {
     return {name, member, help, min, max, true};
 }
 /// A parameter with a list of values: field("block", &Params::block, "...", {1, 2, 4, 8}).

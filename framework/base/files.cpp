@@ -68,8 +68,7 @@ std::vector<uint8_t> readFile(const fs::path& path) {
     std::ifstream in(path, std::ios::binary);
     if (!in) {
         const int reason = errno;
-        throw Error("{}: {}{}", path.string(), std::strerror(reason),
-                    reason == ENOENT ? didYouMeanFile(path) : "");
+        throw Error("{}: {}{}", path.string(), std::strerror(reason), reason == ENOENT ? didYouMeanFile(path) : "");
     }
     std::vector<uint8_t> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
     if (in.bad()) throw Error("{}: read failed", path.string());
@@ -92,9 +91,8 @@ void writeFileAtomically(const fs::path& path, const std::function<void(const fs
     std::error_code code;
     if (path.has_parent_path()) fs::create_directories(path.parent_path(), code);
     if (code) throw Error("{}: {}", path.parent_path().string(), code.message());
-    const fs::path temporary =
-        path.parent_path() /
-        fs::path("." + path.stem().string() + "." + randomNumber() + ".tmp" + path.extension().string());
+    const fs::path temporary = path.parent_path() / fs::path("." + path.stem().string() + "." + randomNumber() +
+                                                             ".tmp" + path.extension().string());
     try {
         write(temporary);
         syncPath(temporary);
@@ -149,8 +147,7 @@ std::string whyNotWritable(const fs::path& folder) {
 
 fs::path cacheFolder() {
     if (const char* folder = std::getenv("VOXRAY_CACHE"); folder && *folder) return folder;
-    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder)
-        return fs::path(folder) / "voxray";
+    if (const char* folder = std::getenv("XDG_CACHE_HOME"); folder && *folder) return fs::path(folder) / "voxray";
     if (const char* home = std::getenv("HOME"); home && *home) return fs::path(home) / ".cache" / "voxray";
     return fs::temp_directory_path() / "voxray-cache";
 }

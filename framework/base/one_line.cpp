@@ -35,8 +35,8 @@ Character firstCharacter(std::string_view text) {
 /// Unicode control characters, line separators and marks of writing direction.
 bool isControl(uint32_t code) {
     const auto within = [&](uint32_t first, uint32_t last) { return code >= first && code <= last; };
-    return code < 0x20 || within(0x7f, 0x9f) || code == 0x61c || within(0x200e, 0x200f) ||
-           within(0x2028, 0x202e) || within(0x2066, 0x2069) || code == 0xfeff;
+    return code < 0x20 || within(0x7f, 0x9f) || code == 0x61c || within(0x200e, 0x200f) || within(0x2028, 0x202e) ||
+           within(0x2066, 0x2069) || code == 0xfeff;
 }
 
 bool isSpace(char c) {

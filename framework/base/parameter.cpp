@@ -30,9 +30,8 @@ std::string textOf(const T& value) {
 glm::vec3 readTriple(const Value& value, const std::string& what) {
     if (value.isScalar() && !value.isNumber()) {
         const std::string linear = linearTriple(value.scalar);
-        throw UsageError(
-            value.where, "{}: expected a number, not '{}', or three{}", what, value.scalar,
-            linear.empty() ? ", as in [1, 1, 1]" : fmt::format(": write {}, its linear values", linear));
+        throw UsageError(value.where, "{}: expected a number, not '{}', or three{}", what, value.scalar,
+                         linear.empty() ? ", as in [1, 1, 1]" : fmt::format(": write {}, its linear values", linear));
     }
     if (value.isScalar()) return glm::vec3(float(value.asNumber(what)));
     if (!value.isList() || value.items.size() != 3)
@@ -73,8 +72,7 @@ class PlainType final : public ParameterType {
 
     void read(void* target, const Value& value, const std::string& what) const override {
         if (isVector_ && value.isScalar())
-            throw UsageError(value.where, "{}: expected three numbers, as in [0, 1, 0], not '{}'", what,
-                             value.scalar);
+            throw UsageError(value.where, "{}: expected three numbers, as in [0, 1, 0], not '{}'", what, value.scalar);
         const T read = parse(value, what);
         if (isRanged_) checkRange(read, min_, max_, value, what);
         if (!allowed_.empty() && std::ranges::find(allowed_, read) == allowed_.end())
@@ -166,10 +164,8 @@ class ChoiceType final : public ParameterType {
 }  // namespace
 
 template <typename T>
-std::shared_ptr<const ParameterType> parameterType(T min, T max, bool isRanged, std::vector<T> allowed,
-                                                   bool isVector) {
-    return std::make_shared<PlainType<T>>(std::move(min), std::move(max), isRanged, std::move(allowed),
-                                          isVector);
+std::shared_ptr<const ParameterType> parameterType(T min, T max, bool isRanged, std::vector<T> allowed, bool isVector) {
+    return std::make_shared<PlainType<T>>(std::move(min), std::move(max), isRanged, std::move(allowed), isVector);
 }
 
 std::shared_ptr<const ParameterType> choiceType(std::vector<std::pair<uint32_t, std::string>> names) {

@@ -32,8 +32,7 @@ class ParameterType {
 
 /// Defined for bool, the integers, float, double, glm::vec3 and std::string (parameter.cpp).
 template <typename T>
-std::shared_ptr<const ParameterType> parameterType(T min, T max, bool isRanged, std::vector<T> allowed,
-                                                   bool isVector);
+std::shared_ptr<const ParameterType> parameterType(T min, T max, bool isRanged, std::vector<T> allowed, bool isVector);
 
 /// An enum of 32 bits by its names.
 std::shared_ptr<const ParameterType> choiceType(std::vector<std::pair<uint32_t, std::string>> names);
@@ -63,8 +62,7 @@ using Schema = std::vector<Parameter>;
 namespace schema_detail {
 
 template <typename T>
-std::shared_ptr<const ParameterType> typeOf(T min, T max, bool isRanged, std::vector<T> allowed,
-                                            bool isVector) {
+std::shared_ptr<const ParameterType> typeOf(T min, T max, bool isRanged, std::vector<T> allowed, bool isVector) {
     if constexpr (std::is_enum_v<T>) {
         static_assert(sizeof(T) == sizeof(uint32_t));
         std::vector<std::pair<uint32_t, std::string>> names;
@@ -116,11 +114,8 @@ const Schema& schemaOf() {
     static const Schema schema = [] {
         Schema parameters;
         const P params;
-        std::apply(
-            [&](auto... fields) {
-                (schema_detail::addParameter(parameters, params, std::move(fields)), ...);
-            },
-            P::schema());
+        std::apply([&](auto... fields) { (schema_detail::addParameter(parameters, params, std::move(fields)), ...); },
+                   P::schema());
         return parameters;
     }();
     return schema;

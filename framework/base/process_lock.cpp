@@ -29,14 +29,13 @@ struct flock wholeFile(ProcessLock::Kind kind) {
 bool isCurrent(int descriptor, const std::filesystem::path& file) {
     struct stat open {
     }, named{};
-    return ::fstat(descriptor, &open) == 0 && ::stat(file.c_str(), &named) == 0 &&
-           open.st_ino == named.st_ino && open.st_dev == named.st_dev;
+    return ::fstat(descriptor, &open) == 0 && ::stat(file.c_str(), &named) == 0 && open.st_ino == named.st_ino &&
+           open.st_dev == named.st_dev;
 }
 
 }  // namespace
 
-ProcessLock::ProcessLock(std::filesystem::path file, Kind kind, const std::filesystem::path& what,
-                         IfHeld ifHeld)
+ProcessLock::ProcessLock(std::filesystem::path file, Kind kind, const std::filesystem::path& what, IfHeld ifHeld)
     : file_(std::move(file)) {
     constexpr int kTries = 100;
     constexpr std::chrono::milliseconds kPause(100);
@@ -57,18 +56,16 @@ ProcessLock::ProcessLock(std::filesystem::path file, Kind kind, const std::files
         if (isHeld && ifHeld == IfHeld::Wait) {
             if (interruptRequested()) throw Interrupted();
             if (!std::exchange(isAnnounced, true))
-                fmt::print(stderr, "voxray: {}: waiting for process {}, which is writing there\n",
-                           what.string(), lock.l_pid);
+                fmt::print(stderr, "voxray: {}: waiting for process {}, which is writing there\n", what.string(),
+                           lock.l_pid);
             std::this_thread::sleep_for(kPause);
             attempt = -1;  // The limit is for files that are removed and created again.
         } else if (isHeld && lock.l_type != F_UNLCK) {
             throw UsageError(
-                "{}: process {} is writing results there; "
-                "wait until it ends or choose another folder with --out",
+                "{}: process {} is writing results there; wait until it ends or choose another folder with --out",
                 what.string(), lock.l_pid);
         }
-        if (!isLocked && !isHeld)
-            throw Error("{}: cannot be locked: {}", file_.string(), std::strerror(reason));
+        if (!isLocked && !isHeld) throw Error("{}: cannot be locked: {}", file_.string(), std::strerror(reason));
     }
     throw Error("{}: cannot be locked: other processes take it again and again", file_.string());
 }

@@ -71,8 +71,7 @@ void Progress::draw(double fraction) {
     std::string left;
     if (counted_ > 0 || fraction > 0.05) {
         const double perStep = counted_ > 0 ? countedSeconds_ / double(counted_) : elapsed / fraction;
-        const double current =
-            fraction > 0.05 ? elapsed / fraction - elapsed : std::max(0.0, perStep - elapsed);
+        const double current = fraction > 0.05 ? elapsed / fraction - elapsed : std::max(0.0, perStep - elapsed);
         const size_t later = steps_ > done_ + 1 ? steps_ - done_ - 1 : 0;
         left = ", " + durationText(current + perStep * double(later)) + " left";
     }

@@ -19,8 +19,7 @@ std::string conditionsText(const Schema& schema, const Parameter& parameter) {
     std::vector<std::string> texts;
     for (const Parameter::Condition& condition : parameter.conditions)
         texts.push_back(fmt::format("{}{}{}", parameterAt(schema, condition.offset).name,
-                                    condition.isOneOf ? ": " : " other than ",
-                                    fmt::join(condition.values, " | ")));
+                                    condition.isOneOf ? ": " : " other than ", fmt::join(condition.values, " | ")));
     return fmt::format("{}", fmt::join(texts, " or "));
 }
 
@@ -29,8 +28,7 @@ std::string exampleOf(const Schema& schema, const void* defaults) {
     std::vector<std::string> entries;
     for (const Parameter& parameter : schema) {
         const std::string value = parameter.type->text(parameter.of(defaults));
-        if (!value.empty() && entries.size() < 2)
-            entries.push_back(fmt::format("{}: {}", parameter.name, value));
+        if (!value.empty() && entries.size() < 2) entries.push_back(fmt::format("{}: {}", parameter.name, value));
     }
     return entries.empty() ? "" : fmt::format(", as in {{{}}}", fmt::join(entries, ", "));
 }
@@ -66,8 +64,7 @@ void readParams(const Schema& schema, void* params, const Value& map, const std:
 
 Value writeParams(const Schema& schema, const void* params) {
     Value map = Value::map();
-    for (const Parameter& parameter : schema)
-        map.set(parameter.name, parameter.type->value(parameter.of(params)));
+    for (const Parameter& parameter : schema) map.set(parameter.name, parameter.type->value(parameter.of(params)));
     return map;
 }
 
@@ -105,8 +102,7 @@ std::vector<ParameterDoc> describeParams(const Schema& schema, const void* defau
                          parameter.isLessNoise,
                          {}};
         for (const Parameter::Condition& condition : parameter.conditions)
-            doc.conditions.push_back(
-                {parameterAt(schema, condition.offset).name, condition.values, condition.isOneOf});
+            doc.conditions.push_back({parameterAt(schema, condition.offset).name, condition.values, condition.isOneOf});
         if (parameter.isLessNoise) doc.help += " Larger: less noise.";
         if (const std::string needs = conditionsText(schema, parameter); !needs.empty())
             doc.help += " Only with " + needs + ".";

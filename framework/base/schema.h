@@ -12,10 +12,10 @@ namespace voxray {
 /// Documentation of a parameter, for help pages and JSON Schema.
 struct ParameterDoc {
     std::string name;
-    std::string type;      ///< "boolean", "integer", "number", "string", "choice", "rgb", "vector"
-    std::string help;      ///< Includes its conditions, and whether it lowers noise.
-    std::string defaults;  ///< Default as YAML text.
-    std::string min, max;  ///< Empty without a range.
+    std::string type;                  ///< "boolean", "integer", "number", "string", "choice", "rgb", "vector"
+    std::string help;                  ///< Includes its conditions, and whether it lowers noise.
+    std::string defaults;              ///< Default as YAML text.
+    std::string min, max;              ///< Empty without a range.
     std::vector<std::string> choices;  ///< The only values; empty: any of the type and range.
     bool isLessNoise = false;          ///< Larger values lower the pass's noise.
     /// Values of another parameter: one of them, or none of them.

@@ -62,9 +62,7 @@ std::string didYouMeanFile(const std::filesystem::path& name, const std::filesys
         names.push_back(entry.path().filename().string());
     std::ranges::sort(names);
     const std::string suggestion = nearest(name.filename().string(), names);
-    return suggestion.empty()
-               ? ""
-               : fmt::format("; did you mean '{}'?", (name.parent_path() / suggestion).string());
+    return suggestion.empty() ? "" : fmt::format("; did you mean '{}'?", (name.parent_path() / suggestion).string());
 }
 
 std::string didYouMean(std::string_view word, std::span<const std::string> candidates) {

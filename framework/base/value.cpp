@@ -43,8 +43,7 @@ std::string hyphenAdvice(const Value& value) {
 
 /// "; a space is missing before '#'" for a comment that was read as part of the value, else "".
 std::string commentAdvice(const Value& value) {
-    const bool isComment =
-        value.isScalar() && !value.quoted && value.scalar.find('#', 1) != std::string::npos;
+    const bool isComment = value.isScalar() && !value.quoted && value.scalar.find('#', 1) != std::string::npos;
     return isComment ? "; a space is missing before '#'" : "";
 }
 
@@ -92,9 +91,8 @@ void checkLeadingZero(const Value& value, std::string_view what) {
     const size_t digits = std::min(value.scalar.find_first_not_of('0', sign), value.scalar.size() - 1);
     const bool isDigits = value.scalar.find_first_not_of("0123456789", sign) == std::string::npos;
     if (isDigits && digits > sign)
-        throw UsageError(value.where, "{}: '{}' begins with a zero: write {}{}", what,
-                         oneLine(value.scalar, kShown), value.scalar.substr(0, sign),
-                         value.scalar.substr(digits));
+        throw UsageError(value.where, "{}: '{}' begins with a zero: write {}{}", what, oneLine(value.scalar, kShown),
+                         value.scalar.substr(0, sign), value.scalar.substr(digits));
 }
 
 void writeJson(const Value& value, int indent, int depth, std::string& out) {
@@ -118,8 +116,7 @@ void writeJson(const Value& value, int indent, int depth, std::string& out) {
         case Value::Kind::Map:
             out += "{";
             for (size_t i = 0; i < value.members.size(); ++i) {
-                out +=
-                    (i ? "," : "") + newline + quotedJson(value.members[i].key) + (indent < 0 ? ":" : ": ");
+                out += (i ? "," : "") + newline + quotedJson(value.members[i].key) + (indent < 0 ? ":" : ": ");
                 writeJson(value.members[i].value, indent, depth + 1, out);
             }
             out += (value.members.empty() ? "" : lastNewline) + "}";
@@ -175,8 +172,7 @@ bool Value::asBool(std::string_view what) const {
         if (scalar == "true") return true;
         if (scalar == "false") return false;
     }
-    throw UsageError(where, "{}: expected true or false, not {}{}", what, describe(*this),
-                     commentAdvice(*this));
+    throw UsageError(where, "{}: expected true or false, not {}{}", what, describe(*this), commentAdvice(*this));
 }
 
 int64_t Value::asInteger(std::string_view what) const {
@@ -185,12 +181,11 @@ int64_t Value::asInteger(std::string_view what) const {
         checkLeadingZero(*this, what);
         return number;
     }
-    if (isScalar() && !quoted && !scalar.empty() &&
-        scalar.find_first_not_of("0123456789") == std::string::npos)
+    if (isScalar() && !quoted && !scalar.empty() && scalar.find_first_not_of("0123456789") == std::string::npos)
         throw UsageError(where, "{}: {} is out of range, at most {}", what, scalar,
                          std::numeric_limits<int64_t>::max());
-    throw UsageError(where, "{}: expected a whole number, not {}{}{}{}", what, describe(*this),
-                     digitsAdvice(*this), hyphenAdvice(*this), commentAdvice(*this));
+    throw UsageError(where, "{}: expected a whole number, not {}{}{}{}", what, describe(*this), digitsAdvice(*this),
+                     hyphenAdvice(*this), commentAdvice(*this));
 }
 
 bool Value::isNumber() const {

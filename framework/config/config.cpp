@@ -15,14 +15,13 @@ void checkName(const Value& config, const std::string& name) {
     const Value* entry = config.find("name");
     const TextLocation where = entry ? entry->where : config.where;
     if (name.empty()) throw UsageError(where, "name: an experiment needs a name");
-    const bool isPlain = name.size() <= 100 && name[0] != '.' && name[0] != '-' &&
-                         std::ranges::all_of(name, [](unsigned char c) {
-                             return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') ||
-                                    (c >= 'A' && c <= 'Z') || c == '_' || c == '-' || c == '.';
-                         });
+    const bool isPlain =
+        name.size() <= 100 && name[0] != '.' && name[0] != '-' && std::ranges::all_of(name, [](unsigned char c) {
+            return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '-' ||
+                   c == '.';
+        });
     if (!isPlain)
-        throw UsageError(where,
-                         "name: '{}' can't name a folder; use up to 100 letters, digits, '_', '-', '.'",
+        throw UsageError(where, "name: '{}' can't name a folder; use up to 100 letters, digits, '_', '-', '.'",
                          oneLine(name, 60));
 }
 
@@ -50,8 +49,7 @@ void checkGraph(const Value& graph) {
         if (id.find('.') != std::string::npos)
             throw UsageError(entry.where, "graph: the id '{}' must not contain a dot", id);
         if (id.find_first_of(" \t\n") != std::string::npos)
-            throw UsageError(entry.where, "graph: the id '{}' must not contain a blank; write '_' for it",
-                             id);
+            throw UsageError(entry.where, "graph: the id '{}' must not contain a blank; write '_' for it", id);
         const auto& keys = configKeys();
         if (std::ranges::count(keys, id) > 0)
             throw UsageError(entry.where, "graph: the id '{}' is a key of the config; choose another", id);
@@ -60,20 +58,18 @@ void checkGraph(const Value& graph) {
 
 void checkSweep(const Value& sweep) {
     if (!sweep.isMap())
-        throw UsageError(sweep.where,
-                         "sweep: expected a map of lists, as in {{voxelize.resolution: [64, 128]}}");
+        throw UsageError(sweep.where, "sweep: expected a map of lists, as in {{voxelize.resolution: [64, 128]}}");
     for (const auto& [path, values] : sweep.members)
         if (values.items.empty() && values.members.empty())
-            throw UsageError(
-                values.where,
-                "sweep.{}: expected a list of values, as in [64, 128], or a map of names and values", path);
+            throw UsageError(values.where,
+                             "sweep.{}: expected a list of values, as in [64, 128], or a map of names and values",
+                             path);
     // Reject a map that is a value instead of a map of names
     for (const auto& [path, values] : sweep.members)
         for (const char* key : {"pass", "builtin", "file"})
             if (values.find(key))
-                throw UsageError(values.where,
-                                 "sweep.{}: '{}' is part of a value: write it in a list, as in [{}]", path,
-                                 key, values.text());
+                throw UsageError(values.where, "sweep.{}: '{}' is part of a value: write it in a list, as in [{}]",
+                                 path, key, values.text());
 }
 
 /// Rejects top-level keys within a block, which are probably indented too far. A built-in scene may have a
@@ -85,8 +81,7 @@ void checkBlocks(const Value& config) {
         for (const auto& [key, value] : block ? block->members : std::vector<Value::Member>())
             if (std::ranges::count(keys, key) > 0 && !(value.isScalar() && block == config.find("scene")))
                 throw UsageError(value.where,
-                                 "{0}: '{1}' is a key of its own, next to '{0}': indent it as far as '{0}'",
-                                 name, key);
+                                 "{0}: '{1}' is a key of its own, next to '{0}': indent it as far as '{0}'", name, key);
     }
 }
 
@@ -108,21 +103,17 @@ void checkTopLevel(const Value& config) {
         const auto& keys = configKeys();
         if (std::ranges::count(keys, key) > 0) continue;
         if (const std::string path = pathOfKey(key); !path.empty())
-            throw UsageError(value.where, "unknown key '{}'; it stands in '{}'", key,
-                             path.substr(0, path.find('.')));
+            throw UsageError(value.where, "unknown key '{}'; it stands in '{}'", key, path.substr(0, path.find('.')));
         if (const std::string pass = passWith(config, key); !pass.empty())
             throw UsageError(value.where, "unknown key '{}'; it stands in the pass '{}'", key, pass);
         if (const std::string option = optionFor(key); !option.empty())
-            throw UsageError(value.where, "unknown key '{}'; it is said on the command line: {}", key,
-                             option);
+            throw UsageError(value.where, "unknown key '{}'; it is said on the command line: {}", key, option);
         throw UsageError(value.where, "unknown key '{}'{}", key, didYouMean(key, keys));
     }
     checkBlocks(config);
-    if (const Value* profiles = config.find("profiles");
-        profiles && !profiles->isMap() && !profiles->isNull())
-        throw UsageError(
-            profiles->where,
-            "profiles: expected a map of named overrides, as in {{small: {{image: {{width: 160}}}}}}");
+    if (const Value* profiles = config.find("profiles"); profiles && !profiles->isMap() && !profiles->isNull())
+        throw UsageError(profiles->where,
+                         "profiles: expected a map of named overrides, as in {{small: {{image: {{width: 160}}}}}}");
 }
 
 bool hasReference(const Value& config) {
@@ -148,8 +139,8 @@ void checkEmptyBlocks(const Value& root, const Value& config) {
         if (const Value* value = measure->find(key);
             value && !value->isNull() && value->scalar != "false" && value->scalar != "0")
             throw UsageError(value->where,
-                             "measure.{}: no effect without a 'reference' to compare with; "
-                             "add one, as in reference: {{pass: path_trace, spp: 64}}, or leave it out",
+                             "measure.{}: no effect without a 'reference' to compare with; add one, as in reference: "
+                             "{{pass: path_trace, spp: 64}}, or leave it out",
                              key);
 }
 
@@ -157,8 +148,7 @@ void checkEmptyBlocks(const Value& root, const Value& config) {
 /// parameters.
 bool hasValue(const Value& config, const std::string& path, const Value& value) {
     const Value* written = valueAt(config, path);
-    if (!written || path.find('.') != std::string::npos || !written->find("pass"))
-        return written && *written == value;
+    if (!written || path.find('.') != std::string::npos || !written->find("pass")) return written && *written == value;
     Value existing = *written, swapped = value.isScalar() ? Value::map() : value;
     if (value.isScalar()) swapped.set("pass", value);
     existing.erase("id");
@@ -192,8 +182,8 @@ Value readConfig(const std::filesystem::path& path) {
     if (ending == ".glb" || ending == ".gltf")
         throw UsageError(
             "{0}: a scene, not a config; "
-            "'./voxray scene {0} --write-config {1}' writes one that compares methods in it, "
-            "with a camera, see docs/tutorial.md",
+            "'./voxray scene {0} --write-config {1}' writes one that compares methods in it, with a camera, "
+            "see docs/tutorial.md",
             path.string(), path.stem().string() + ".yaml");
     return readYaml(path);
 }
@@ -259,8 +249,7 @@ Experiment readExperiment(Value config) {
             throw UsageError(
                 file ? file->where : reference->where,
                 "reference: expected a map with 'pass', as in {{pass: path_trace, spp: 64}}{}",
-                file ? fmt::format("; './voxray compare final.exr {}' compares a result with a picture",
-                                   file->text())
+                file ? fmt::format("; './voxray compare final.exr {}' compares a result with a picture", file->text())
                      : "");
         }
         experiment.reference = *reference;
@@ -269,8 +258,7 @@ Experiment readExperiment(Value config) {
     return experiment;
 }
 
-Experiment parseExperiment(const std::string& yaml, const std::string& fileName,
-                           const ConfigOptions& options) {
+Experiment parseExperiment(const std::string& yaml, const std::string& fileName, const ConfigOptions& options) {
     return readWithOptions(parseYaml(yaml, fileName), options);
 }
 

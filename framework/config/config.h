@@ -39,8 +39,7 @@ struct ConfigOptions {
 /// @throws UsageError with file, line and the nearest valid word.
 Experiment loadExperiment(const std::filesystem::path& path, const ConfigOptions& options = {});
 /// Reads a config from text; `fileName` is for messages.
-Experiment parseExperiment(const std::string& yaml, const std::string& fileName,
-                           const ConfigOptions& options = {});
+Experiment parseExperiment(const std::string& yaml, const std::string& fileName, const ConfigOptions& options = {});
 /// Reads a config with all overrides applied.
 Experiment readExperiment(Value config);
 

@@ -13,22 +13,19 @@ namespace {
 /// Reads masks, whose names become part of names of columns and files.
 std::vector<MaskSettings> readMasks(const Value& map) {
     if (!map.isMap())
-        throw UsageError(
-            map.where,
-            "measure.masks: expected a map of conditions by name, as in {{floor: {{material: stone}}}}");
+        throw UsageError(map.where,
+                         "measure.masks: expected a map of conditions by name, as in {{floor: {{material: stone}}}}");
     std::vector<MaskSettings> masks;
     for (const auto& [name, conditions] : map.members) {
-        const bool isPlain =
-            !name.empty() && name.size() <= 50 && std::ranges::all_of(name, [](unsigned char c) {
-                return std::isalnum(c) || c == '_' || c == '-';
-            });
+        const bool isPlain = !name.empty() && name.size() <= 50 && std::ranges::all_of(name, [](unsigned char c) {
+            return std::isalnum(c) || c == '_' || c == '-';
+        });
         if (!isPlain)
             throw UsageError(conditions.where,
-                             "measure.masks: '{}' can't name a mask; use up to 50 letters, digits, '_', '-'",
-                             name);
+                             "measure.masks: '{}' can't name a mask; use up to 50 letters, digits, '_', '-'", name);
         if (!conditions.isMap() || conditions.members.empty())
-            throw UsageError(conditions.where,
-                             "measure.masks.{}: expected conditions, as in {{material: stone}}", name);
+            throw UsageError(conditions.where, "measure.masks.{}: expected conditions, as in {{material: stone}}",
+                             name);
         MaskSettings mask = readParams<MaskSettings>(conditions, "measure.masks." + name);
         mask.name = name;
         mask.where = conditions.where;
@@ -53,8 +50,8 @@ MeasureSettings readMeasureSettings(const Value& map) {
     MeasureSettings measure = readParams<MeasureSettings>(map, "measure", {"masks", "metrics"});
     if (measure.compareEvery > 0 && comparedFrames(measure) < 3)
         throw UsageError(map.find("compare_every")->where,
-                         "measure.compare_every: {} compares {} of {} frames; "
-                         "temporal error needs at least 3: raise 'frames'",
+                         "measure.compare_every: {} compares {} of {} frames; temporal error needs at least 3: "
+                         "raise 'frames'",
                          measure.compareEvery, comparedFrames(measure), measure.frames);
     if (const Value* masks = map.find("masks"); masks && !masks->isNull()) measure.masks = readMasks(*masks);
     const Value* list = map.find("metrics");
@@ -62,8 +59,7 @@ MeasureSettings readMeasureSettings(const Value& map) {
         measure.metrics = metricNames();
         return measure;
     }
-    if (!list->isList())
-        throw UsageError(list->where, "measure.metrics: expected a list, as in [flip, relmse]");
+    if (!list->isList()) throw UsageError(list->where, "measure.metrics: expected a list, as in [flip, relmse]");
     const std::vector<std::string> names = metricNames();
     if (list->items.empty())
         throw UsageError(list->where, "measure.metrics: an empty list; leave it out to have all of {}",
@@ -71,8 +67,7 @@ MeasureSettings readMeasureSettings(const Value& map) {
     for (const Value& item : list->items) {
         const std::string name = item.asString("measure.metrics");
         if (std::ranges::count(names, name) == 0)
-            throw UsageError(item.where, "measure.metrics: unknown metric '{}'{}", name,
-                             didYouMean(name, names));
+            throw UsageError(item.where, "measure.metrics: unknown metric '{}'{}", name, didYouMean(name, names));
         if (std::ranges::count(measure.metrics, name) > 0)
             throw UsageError(item.where, "measure.metrics: '{}' appears twice", name);
         measure.metrics.push_back(name);

@@ -18,8 +18,7 @@ std::string takeKey(const Value& parent, std::string_view& path) {
     size_t length = isQuoted ? quote + 1 : std::min(path.find('.'), path.size());
     if (!isQuoted)
         for (const auto& [key, value] : parent.members)
-            if (key.size() > length && path.starts_with(key) &&
-                (path.size() == key.size() || path[key.size()] == '.'))
+            if (key.size() > length && path.starts_with(key) && (path.size() == key.size() || path[key.size()] == '.'))
                 length = key.size();
     const std::string key(isQuoted ? path.substr(1, quote - 1) : path.substr(0, length));
     path.remove_prefix(std::min(length + 1, path.size()));
@@ -48,8 +47,7 @@ void setNested(Value& parent, const std::string& key, const Value& value, Merge 
 }
 
 /// Sets the value at a dotted path below `root`. Missing maps are created.
-void setAtPath(Value& root, std::string_view path, const std::string& fullPath, const Value& value,
-               Merge merge) {
+void setAtPath(Value& root, std::string_view path, const std::string& fullPath, const Value& value, Merge merge) {
     if (path.ends_with('.')) throw UsageError(value.where, "'{}': a path must not end in a dot", fullPath);
     Value* parent = &root;
     std::string key = takeKey(root, path);
@@ -63,8 +61,8 @@ void setAtPath(Value& root, std::string_view path, const std::string& fullPath, 
         if (!child->isMap())
             throw UsageError(value.where, "{}: '{}' is {}, which has no keys{}", fullPath, key, child->text(),
                              child->isList()
-                                 ? fmt::format("; give it as a whole: "
-                                               "in a sweep write a list of lists, as in {}: [[...], [...]]",
+                                 ? fmt::format("; give it as a whole: in a sweep write a list of lists, as in {}: "
+                                               "[[...], [...]]",
                                                fullPath.substr(0, fullPath.size() - path.size() - 1))
                                  : "");
         parent = child;
@@ -77,8 +75,7 @@ Value passEntry(const Value& value, const std::string& path) {
     if (value.isMap() && value.find("pass")) return value;
     if (!value.isScalar())
         throw UsageError(value.where,
-                         "{}: expected a pass, which is its name or a map with 'pass', or a list of passes",
-                         path);
+                         "{}: expected a pass, which is its name or a map with 'pass', or a list of passes", path);
     Value entry = Value::map();
     entry.where = value.where;
     entry.set("pass", value);
@@ -100,8 +97,8 @@ void swapPass(Value& graph, size_t index, const Value& value, const std::string&
     graph.items.insert(graph.items.begin() + ptrdiff_t(index), chain.begin(), chain.end() - 1);
 }
 
-void overridePass(Value& graph, size_t index, const std::string& subpath, const std::string& path,
-                  const Value& value, Merge merge) {
+void overridePass(Value& graph, size_t index, const std::string& subpath, const std::string& path, const Value& value,
+                  Merge merge) {
     const bool isSwap = subpath.empty() && (merge == Merge::Replace || !value.isMap() || value.find("pass"));
     if (isSwap) {
         swapPass(graph, index, value, path);
@@ -129,8 +126,7 @@ std::string nearestPath(const Value& config, const std::string& path, const std:
         for (const auto& [key, value] : entry.members)
             if (word == key || word == passId(entry) + "_" + key)
                 return fmt::format("; did you mean '{}.{}'?", passId(entry), key);
-    if (const std::string path = pathOfKey(word); !path.empty())
-        return fmt::format("; did you mean '{}'?", path);
+    if (const std::string path = pathOfKey(word); !path.empty()) return fmt::format("; did you mean '{}'?", path);
     return didYouMean(word, candidates);
 }
 
@@ -224,8 +220,7 @@ void applyOverride(Value& config, const std::string& path, const Value& value, M
     const std::string first = path.substr(0, dot);
     const std::string subpath = dot == std::string::npos ? std::string() : path.substr(dot + 1);
     if (first == "sweep") return overrideSweep(config, subpath, value);
-    if (first == "profiles")
-        throw UsageError(value.where, "'{}': profiles can't be changed by an override", path);
+    if (first == "profiles") throw UsageError(value.where, "'{}': profiles can't be changed by an override", path);
 
     // The path of a pass or its parameter
     std::vector<std::string> candidates(configKeys());
@@ -257,8 +252,7 @@ void applyProfile(Value& config, const std::string& name) {
                          names.empty() ? "; this config has none" : didYouMean(name, names));
     }
     if (!profile->isMap())
-        throw UsageError(profile->where,
-                         "profiles.{}: expected a map of overrides, as in {{image.width: 160}}", name);
+        throw UsageError(profile->where, "profiles.{}: expected a map of overrides, as in {{image.width: 160}}", name);
     const Value overrides = *profile;
     for (const auto& [path, value] : overrides.members) {
         for (const char* required : {"name", "scene", "graph"})

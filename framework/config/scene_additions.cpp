@@ -10,8 +10,7 @@ const std::vector<std::string> kAdditionKeys{"transform", "material"};
 
 SceneAddition readAddition(const Value& entry, const std::string& owner) {
     if (!entry.isMap())
-        throw UsageError(entry.where, "{}: expected a map such as {{file: dragon.glb}} or {{builtin: plane}}",
-                         owner);
+        throw UsageError(entry.where, "{}: expected a map such as {{file: dragon.glb}} or {{builtin: plane}}", owner);
     SceneAddition addition;
     addition.source = readSceneSource(entry, owner, kAdditionKeys);
     if (const Value* transform = entry.find("transform"))
@@ -33,8 +32,7 @@ std::string SceneSource::name() const {
     return file.empty() ? builtin : std::filesystem::path(file).stem().string();
 }
 
-SceneSource readSceneSource(const Value& map, const std::string& owner,
-                            const std::vector<std::string>& otherKeys) {
+SceneSource readSceneSource(const Value& map, const std::string& owner, const std::vector<std::string>& otherKeys) {
     const bool isBuiltin = map.find("builtin") != nullptr;
     const auto isOneOf = [](const std::vector<std::string>& keys, const std::string& key) {
         return std::ranges::count(keys, key) > 0;
@@ -84,21 +82,18 @@ std::vector<SceneAddition> readSceneAdditions(const Value& list) {
 
 std::vector<MaterialOverride> readMaterialOverrides(const Value& map) {
     if (!map.isMap() && !map.isNull())
-        throw UsageError(
-            map.where,
-            "scene.override: expected a map of materials by name, as in {{floor: {{roughness: 0}}}}");
+        throw UsageError(map.where,
+                         "scene.override: expected a map of materials by name, as in {{floor: {{roughness: 0}}}}");
     std::vector<MaterialOverride> overrides;
     for (const auto& [name, settings] : map.members) {
         const std::string owner = "scene.override." + name;
         if (!settings.isMap() || settings.members.empty())
-            throw UsageError(settings.where, "{}: expected settings of a material, as in {{roughness: 0}}",
-                             owner);
+            throw UsageError(settings.where, "{}: expected settings of a material, as in {{roughness: 0}}", owner);
         for (const auto& [key, value] : settings.members)
             if (value.isMap())
                 throw UsageError(value.where,
                                  "{0}: no setting of a material is called '{1}'; "
-                                 "in a path a name with dots stands in double quotes: "
-                                 "scene.override.\"{2}.{1}\"",
+                                 "in a path a name with dots stands in double quotes: scene.override.\"{2}.{1}\"",
                                  owner, key, name);
         MaterialOverride change{name, {readParams<MaterialSettings>(settings, owner), {}}, settings.where};
         for (const auto& member : settings.members) change.change.keys.push_back(member.key);

@@ -22,8 +22,7 @@ struct SceneSource {
     static constexpr auto schema() {
         return std::tuple{
             field("file", &SceneSource::file, "A .glb or .gltf file, looked for in the scene folders."),
-            field("builtin", &SceneSource::builtin,
-                  "A built-in scene; its own parameters stand next to it.")};
+            field("builtin", &SceneSource::builtin, "A built-in scene; its own parameters stand next to it.")};
     }
 
     /// The file's name without folder and extension, or the built-in scene's name.
@@ -32,8 +31,7 @@ struct SceneSource {
 
 /// Reads the source in a map: `file`, or `builtin` with all keys except `otherKeys` as parameters.
 /// @throws UsageError for an unknown key next to a file, and unless exactly one of the two is given.
-SceneSource readSceneSource(const Value& map, const std::string& owner,
-                            const std::vector<std::string>& otherKeys);
+SceneSource readSceneSource(const Value& map, const std::string& owner, const std::vector<std::string>& otherKeys);
 
 /// Reads `transform` of a scene or of an addition. @throws UsageError also for a scale of 0.
 Placement readPlacement(const Value& map, const std::string& owner);

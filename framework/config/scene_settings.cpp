@@ -19,8 +19,8 @@ glm::vec3 direction(const glm::vec3& vector, const Value& source, const std::str
 
 /// Rejects names of a light's properties in other tools, with those of Voxray.
 void checkLightKeys(const Value& entry, const std::string& what) {
-    constexpr std::array<std::string_view, 9> kStrengths{
-        "power", "color", "colour", "lumens", "lumen", "strength", "watts", "radiance", "brightness"};
+    constexpr std::array<std::string_view, 9> kStrengths{"power",    "color", "colour",   "lumens",    "lumen",
+                                                         "strength", "watts", "radiance", "brightness"};
     const bool isDirectional = entry.find("directional") != nullptr;
     for (const auto& [key, value] : entry.members) {
         if (std::ranges::count(kStrengths, key) > 0)
@@ -32,8 +32,8 @@ void checkLightKeys(const Value& entry, const std::string& what) {
                              isDirectional ? "'directional' is the way that its light travels"
                              : entry.find("spot")
                                  ? "write direction: [x, y, z], the target less the light's place"
-                                 : "a point light shines all round; "
-                                   "write spot in place of point, and direction: [x, y, z]");
+                                 : "a point light shines all round; write spot in place of point, and direction: "
+                                   "[x, y, z]");
     }
 }
 
@@ -41,8 +41,7 @@ void checkLightKeys(const Value& entry, const std::string& what) {
 ConfigLight readLight(const Value& entry, size_t index) {
     const std::string what = fmt::format("scene.lights[{}]", index);
     if (!entry.isMap())
-        throw UsageError(entry.where, "{}: expected a map such as {{point: [0, 1, 0], intensity: [5, 5, 5]}}",
-                         what);
+        throw UsageError(entry.where, "{}: expected a map such as {{point: [0, 1, 0], intensity: [5, 5, 5]}}", what);
     const std::vector<std::string> kinds{"directional", "point", "spot"};
     if (std::ranges::count_if(kinds, [&](const std::string& kind) { return entry.find(kind); }) > 1)
         throw UsageError(entry.where, "{}: a light has one of the keys directional, point and spot", what);
@@ -78,12 +77,11 @@ ConfigLight readLight(const Value& entry, size_t index) {
         light.outerConeAngle = glm::radians(p.outerDegrees);
     } else {
         const std::string first = entry.members.empty() ? std::string() : entry.members[0].key;
-        throw UsageError(
-            entry.where, "{}: not a type of light: '{}'{}{}", what, first, didYouMean(first, kinds),
-            nearest(first, kinds).empty() ? "; as in {point: [0, 2, 0], intensity: 5}; "
-                                            "to let a surface shine, write override: {MATERIAL: {emission: "
-                                            "5}}"
-                                          : "");
+        throw UsageError(entry.where, "{}: not a type of light: '{}'{}{}", what, first, didYouMean(first, kinds),
+                         nearest(first, kinds).empty()
+                             ? "; as in {point: [0, 2, 0], intensity: 5}; "
+                               "to let a surface shine, write override: {MATERIAL: {emission: 5}}"
+                             : "");
     }
     return read;
 }
@@ -95,8 +93,7 @@ void readCamera(const Value& value, SceneSettings& settings) {
         return;
     }
     if (!value.isMap())
-        throw UsageError(value.where,
-                         "scene.camera: expected a camera's name, or a map with position and target");
+        throw UsageError(value.where, "scene.camera: expected a camera's name, or a map with position and target");
     settings.camera = readParams<CameraSettings>(value, "scene.camera");
     for (const char* key : {"position", "target"})
         if (!value.find(key)) throw UsageError(value.where, "scene.camera: '{}' is missing", key);
@@ -124,9 +121,8 @@ void readEnvironment(const Value& value, SceneSettings& settings) {
         environment = readParams<EnvironmentSettings>(value, "scene.environment");
         const Value* scale = value.find("scale");
         if (environment.map.empty())
-            throw UsageError(
-                value.where, "scene.environment: 'map' is missing, as in {{map: sky.exr, scale: 2}}{}",
-                scale ? fmt::format("; for a radiance alone write environment: {}", scale->text()) : "");
+            throw UsageError(value.where, "scene.environment: 'map' is missing, as in {{map: sky.exr, scale: 2}}{}",
+                             scale ? fmt::format("; for a radiance alone write environment: {}", scale->text()) : "");
     } else if (value.isScalar() && value.scalar == "none" && !value.quoted) {
         environment.scale = glm::vec3(0.0f);
     } else {
@@ -134,11 +130,10 @@ void readEnvironment(const Value& value, SceneSettings& settings) {
         const bool isNumber = value.isList() || value.isNumber() || !linearTriple(value.scalar).empty();
         const bool isFile = value.isScalar() && value.scalar.find('.') != std::string::npos;
         if (!isNumber && !isFile)
-            throw UsageError(
-                value.where,
-                "scene.environment: "
-                "expected none, a radiance as in 0.5 or [1, 1, 1], or a map as in sky.exr, not '{}'",
-                value.text());
+            throw UsageError(value.where,
+                             "scene.environment: "
+                             "expected none, a radiance as in 0.5 or [1, 1, 1], or a map as in sky.exr, not '{}'",
+                             value.text());
         if (isNumber)
             readParam(environment, &EnvironmentSettings::scale, value, "scene.environment");
         else
@@ -172,8 +167,8 @@ void readRegion(const Value& value, SceneSettings& settings) {
 /// Keys of all scenes besides the source.
 std::vector<std::string> sceneKeys() {
     std::vector<std::string> keys = fieldNames<SceneOptions>();
-    keys.insert(keys.end(), {"camera", "lights", "environment", "moving_spheres", "region", "transform",
-                             "add", "override", "hide"});
+    keys.insert(keys.end(), {"camera", "lights", "environment", "moving_spheres", "region", "transform", "add",
+                             "override", "hide"});
     return keys;
 }
 
@@ -192,12 +187,11 @@ std::string pathOfKey(const std::string& key) {
 
 SceneSettings readSceneSettings(const Value& map) {
     if (!map.isMap())
-        throw UsageError(map.where,
-                         "scene: expected a map such as {{builtin: cornell}} or {{file: sponza.glb}}");
+        throw UsageError(map.where, "scene: expected a map such as {{builtin: cornell}} or {{file: sponza.glb}}");
     if (const Value* lights = map.find("lights"); lights && lights->isScalar() && lights->scalar == "none")
         throw UsageError(lights->where,
-                         "scene.lights: for none of its punctual lights write 'keep_file_lights: false'; "
-                         "'override: {{MATERIAL: {{emission: 0}}}}' puts out a surface that shines");
+                         "scene.lights: for none of its punctual lights write 'keep_file_lights: false'; 'override: "
+                         "{{MATERIAL: {{emission: 0}}}}' puts out a surface that shines");
     SceneSettings settings;
     settings.where = map.where;
     settings.source = readSceneSource(map, "scene", sceneKeys());
@@ -214,11 +208,9 @@ SceneSettings readSceneSettings(const Value& map) {
             settings.movingSpheres = readParams<MovingSpheres>(value, "scene.moving_spheres");
         } else if (key == "lights" && !settings.source.builtinParameters.find(key)) {
             if (!value.isList())
-                throw UsageError(
-                    value.where,
-                    "scene.lights: expected a list of lights, as in [{{point: [0, 1, 0], intensity: 5}}]");
-            for (size_t i = 0; i < value.items.size(); ++i)
-                settings.lights.push_back(readLight(value.items[i], i));
+                throw UsageError(value.where,
+                                 "scene.lights: expected a list of lights, as in [{{point: [0, 1, 0], intensity: 5}}]");
+            for (size_t i = 0; i < value.items.size(); ++i) settings.lights.push_back(readLight(value.items[i], i));
         } else if (key == "transform") {
             if (!value.isNull()) settings.placement = readPlacement(value, "scene.transform");
         } else if (key == "add") {
@@ -236,8 +228,8 @@ SceneSettings readSceneSettings(const Value& map) {
         lights && lights->isList() && lights->items.empty() && settings.options.keepFileLights)
         throw UsageError(lights->where,
                          "scene.lights: an empty list adds no light to the scene's own, which stay: "
-                         "leave it out, or write 'keep_file_lights: false' next to it; 'override: "
-                         "{{MATERIAL: {{emission: 0}}}}' puts out a surface that shines");
+                         "leave it out, or write 'keep_file_lights: false' next to it; 'override: {{MATERIAL: "
+                         "{{emission: 0}}}}' puts out a surface that shines");
     return settings;
 }
 

@@ -9,6 +9,7 @@
 #include "base/schema.h"
 #include "base/value.h"
 #include "config/scene_additions.h"
+#include "image/tone.h"
 #include "scene/moving_spheres.h"
 #include "scene/scene.h"
 #include "trace/ray_tracer.h"
@@ -18,9 +19,15 @@ namespace voxray {
 
 template <>
 struct EnumNames<TracerKind> {
-    static constexpr std::array names{
-        std::pair{TracerKind::Auto, "auto"}, std::pair{TracerKind::RayQuery, "ray_query"},
-        std::pair{TracerKind::RayPipeline, "ray_pipeline"}, std::pair{TracerKind::Embree, "embree"}};
+    static constexpr std::array names{std::pair{TracerKind::Auto, "auto"}, std::pair{TracerKind::RayQuery, "ray_query"},
+                                      std::pair{TracerKind::RayPipeline, "ray_pipeline"},
+                                      std::pair{TracerKind::Embree, "embree"}};
+};
+
+template <>
+struct EnumNames<ToneCurve> {
+    static constexpr std::array names{std::pair{ToneCurve::Srgb, "srgb"},
+                                      std::pair{ToneCurve::PbrNeutral, "pbr_neutral"}};
 };
 
 enum class MaterialMode { AsIs, Lambert };
@@ -49,8 +56,7 @@ struct GeneralSettings {
         return std::tuple{
             field("name", &GeneralSettings::name,
                   "Name of the experiment and of its results folder: letters, digits, '_', '-', '.'."),
-            field("seed", &GeneralSettings::seed, "Seed of all random numbers.", uint64_t(0),
-                  uint64_t(INT64_MAX)),
+            field("seed", &GeneralSettings::seed, "Seed of all random numbers.", uint64_t(0), uint64_t(INT64_MAX)),
             field("tracer", &GeneralSettings::tracer,
                   "Ray-tracing backend; auto takes the GPU's where it has one, else Embree.")};
     }
@@ -61,12 +67,16 @@ struct ImageSettings {
     uint32_t width = 640;
     uint32_t height = 360;
     float exposureStops = 0;
+    ToneCurve tone = ToneCurve::Srgb;
     static constexpr auto schema() {
         return std::tuple{
             field("width", &ImageSettings::width, "Width in pixels.", 1u, 8192u),
             field("height", &ImageSettings::height, "Height in pixels.", 1u, 8192u),
             field("exposure_stops", &ImageSettings::exposureStops,
-                  "Exposure of previews and LDR metrics: radiance is scaled by 2^stops.", -30.0f, 30.0f)};
+                  "Exposure of previews and LDR metrics: radiance is scaled by 2^stops.", -30.0f, 30.0f),
+            field("tone", &ImageSettings::tone,
+                  "Tone curve of previews: srgb clips to white, pbr_neutral (Khronos) compresses highlights. "
+                  "Metrics don't depend on it.")};
     }
 };
 
@@ -81,12 +91,11 @@ struct MaskSettings {
     static constexpr auto schema() {
         return std::tuple{
             field("material", &MaskSettings::material, "Name of the surface's material; empty: any."),
-            field("object", &MaskSettings::object,
-                  "Name of its mesh or of the node that places it; empty: any."),
-            field("min_metallic", &MaskSettings::minMetallic,
-                  "Smallest metallic value at the point, texture included.", 0.0f, 1.0f),
-            field("max_roughness", &MaskSettings::maxRoughness,
-                  "Largest roughness at the point, texture included.", 0.0f, 1.0f)};
+            field("object", &MaskSettings::object, "Name of its mesh or of the node that places it; empty: any."),
+            field("min_metallic", &MaskSettings::minMetallic, "Smallest metallic value at the point, texture included.",
+                  0.0f, 1.0f),
+            field("max_roughness", &MaskSettings::maxRoughness, "Largest roughness at the point, texture included.",
+                  0.0f, 1.0f)};
     }
 };
 
@@ -101,25 +110,24 @@ struct MeasureSettings {
     std::vector<std::string> metrics;  ///< A subset of metricNames().
     std::vector<MaskSettings> masks;
     static constexpr auto schema() {
-        return std::tuple{
-            field("frames", &MeasureSettings::frames,
-                  "Number of timed frames. The first one is compared with the reference.", 1u, 100000u),
-            field("warmup", &MeasureSettings::warmup,
-                  "Number of frames before the measured ones, which are not timed.", 0u, 100000u),
-            field("compare_every", &MeasureSettings::compareEvery,
-                  "0: frame 0 alone is compared with a reference. n: every n-th measured frame is, "
-                  "each with the reference of its own time, and temporal error is reported.",
-                  0u, 100000u),
-            field("build_repeats", &MeasureSettings::buildRepeats,
-                  "Timed runs of the build passes, after one that is not timed. "
-                  "0: that first one is timed, with all that only a first run takes.",
-                  0u, 1000u),
-            field("second_seed", &MeasureSettings::secondSeed,
-                  "Render each variant once more with other random numbers, not timed: "
-                  "splits its error into bias and noise."),
-            field("memory_limit_mb", &MeasureSettings::memoryLimitMb,
-                  "Device memory in MiB that a graph may take; 0: what the device has.", uint64_t(0),
-                  uint64_t(1) << 24)};
+        return std::tuple{field("frames", &MeasureSettings::frames,
+                                "Number of timed frames. The first one is compared with the reference.", 1u, 100000u),
+                          field("warmup", &MeasureSettings::warmup,
+                                "Number of frames before the measured ones, which are not timed.", 0u, 100000u),
+                          field("compare_every", &MeasureSettings::compareEvery,
+                                "0: frame 0 alone is compared with a reference. n: every n-th measured frame is, "
+                                "each with the reference of its own time, and temporal error is reported.",
+                                0u, 100000u),
+                          field("build_repeats", &MeasureSettings::buildRepeats,
+                                "Timed runs of the build passes, after one that is not timed. "
+                                "0: that first one is timed, with all that only a first run takes.",
+                                0u, 1000u),
+                          field("second_seed", &MeasureSettings::secondSeed,
+                                "Render each variant once more with other random numbers, not timed: "
+                                "splits its error into bias and noise."),
+                          field("memory_limit_mb", &MeasureSettings::memoryLimitMb,
+                                "Device memory in MiB that a graph may take; 0: what the device has.", uint64_t(0),
+                                uint64_t(1) << 24)};
     }
 };
 
@@ -145,13 +153,11 @@ struct SceneOptions {
                   "Keep the scene's own punctual lights; false leaves those of `lights` alone. "
                   "Emissive surfaces always stay."),
             field("materials", &SceneOptions::materials,
-                  "as_is, or lambert: drop specular, metal and transmission of what scenes bring, "
-                  "keep base colour and emission."),
+                  "as_is, or lambert: "
+                  "drop specular, metal and transmission of what scenes bring, keep base colour and emission."),
             field("subdivide", &SceneOptions::subdivide,
-                  "Splits every triangle in four in place, so often: the same surfaces of more triangles.",
-                  0u, 4u),
-            field("time", &SceneOptions::time, "Time of the compared frame in the animation, seconds.", 0.0,
-                  1e6),
+                  "Splits every triangle in four in place, so often: the same surfaces of more triangles.", 0u, 4u),
+            field("time", &SceneOptions::time, "Time of the compared frame in the animation, seconds.", 0.0, 1e6),
             field("time_step", &SceneOptions::timeStep,
                   "Seconds of animation from one frame to the next; 0: everything stands still. "
                   "Warm-up frames lead up to `time`; the animation repeats after its last key.",
@@ -209,15 +215,15 @@ struct DirectionalLightSettings {
     glm::vec3 move{0.0f};
     uint32_t offAt = 0;
     static constexpr auto schema() {
-        return std::tuple{vectorField("directional", &DirectionalLightSettings::direction,
-                                      "Direction in which the light travels, of any length but 0."),
-                          field("irradiance", &DirectionalLightSettings::irradiance,
-                                "Irradiance on a surface that faces the light, W/m².", glm::vec3(0.0f),
-                                glm::vec3(kMaxLight)),
-                          vectorField("move", &DirectionalLightSettings::move,
-                                      "Added to the direction from one frame to the next; "
-                                      "in the compared frame it shines along `directional`."),
-                          lightOffField(&DirectionalLightSettings::offAt)};
+        return std::tuple{
+            vectorField("directional", &DirectionalLightSettings::direction,
+                        "Direction in which the light travels, of any length but 0."),
+            field("irradiance", &DirectionalLightSettings::irradiance,
+                  "Irradiance on a surface that faces the light, W/m².", glm::vec3(0.0f), glm::vec3(kMaxLight)),
+            vectorField("move", &DirectionalLightSettings::move,
+                        "Added to the direction from one frame to the next; "
+                        "in the compared frame it shines along `directional`."),
+            lightOffField(&DirectionalLightSettings::offAt)};
     }
 };
 struct PointLightSettings {
@@ -226,12 +232,11 @@ struct PointLightSettings {
     glm::vec3 move{0.0f};
     uint32_t offAt = 0;
     static constexpr auto schema() {
-        return std::tuple{
-            vectorField("point", &PointLightSettings::position, "Position of the light, metres."),
-            field("intensity", &PointLightSettings::intensity, "Radiant intensity, W/sr.", glm::vec3(0.0f),
-                  glm::vec3(kMaxLight)),
-            vectorField("move", &PointLightSettings::move, kLightMoveHelp),
-            lightOffField(&PointLightSettings::offAt)};
+        return std::tuple{vectorField("point", &PointLightSettings::position, "Position of the light, metres."),
+                          field("intensity", &PointLightSettings::intensity, "Radiant intensity, W/sr.",
+                                glm::vec3(0.0f), glm::vec3(kMaxLight)),
+                          vectorField("move", &PointLightSettings::move, kLightMoveHelp),
+                          lightOffField(&PointLightSettings::offAt)};
     }
 };
 struct SpotLightSettings {
@@ -245,10 +250,9 @@ struct SpotLightSettings {
     static constexpr auto schema() {
         return std::tuple{
             vectorField("spot", &SpotLightSettings::position, "Position of the light, metres."),
-            vectorField("direction", &SpotLightSettings::direction,
-                        "Direction of its axis, of any length but 0."),
-            field("intensity", &SpotLightSettings::intensity, "Radiant intensity on the axis, W/sr.",
-                  glm::vec3(0.0f), glm::vec3(kMaxLight)),
+            vectorField("direction", &SpotLightSettings::direction, "Direction of its axis, of any length but 0."),
+            field("intensity", &SpotLightSettings::intensity, "Radiant intensity on the axis, W/sr.", glm::vec3(0.0f),
+                  glm::vec3(kMaxLight)),
             field("inner_deg", &SpotLightSettings::innerDegrees,
                   "Angle from the axis, in degrees, up to which it has its full intensity.", 0.0f, 90.0f),
             field("outer_deg", &SpotLightSettings::outerDegrees,
@@ -264,22 +268,20 @@ struct EnvironmentSettings {
     std::string layer;
     glm::vec3 scale{1.0f};
     static constexpr auto schema() {
-        return std::tuple{
-            field("map", &EnvironmentSettings::map, "An equirectangular EXR or HDR file, row 0 at +Y."),
-            field("layer", &EnvironmentSettings::layer,
-                  "Layer of an EXR map that has several, or the last word of its name."),
-            field("scale", &EnvironmentSettings::scale,
-                  "Multiplies the map. A radiance alone, W/(m² sr), stands in place of both keys.",
-                  glm::vec3(0.0f), glm::vec3(kMaxLight))};
+        return std::tuple{field("map", &EnvironmentSettings::map, "An equirectangular EXR or HDR file, row 0 at +Y."),
+                          field("layer", &EnvironmentSettings::layer,
+                                "Layer of an EXR map that has several, or the last word of its name."),
+                          field("scale", &EnvironmentSettings::scale,
+                                "Multiplies the map. A radiance alone, W/(m² sr), stands in place of both keys.",
+                                glm::vec3(0.0f), glm::vec3(kMaxLight))};
     }
 };
 
 /// A light of the config, in the compared frame.
 struct ConfigLight {
     Light light;
-    glm::vec3 move{
-        0.0f};           ///< Change in each frame of its position, m, or of a directional light's direction.
-    uint32_t offAt = 0;  ///< First frame in which it is off; 0: never.
+    glm::vec3 move{0.0f};  ///< Change in each frame of its position, m, or of a directional light's direction.
+    uint32_t offAt = 0;    ///< First frame in which it is off; 0: never.
     TextLocation where;
 };
 
@@ -301,7 +303,7 @@ struct SceneSettings {
     std::optional<CameraSettings> camera;
     std::vector<ConfigLight> lights;
     std::optional<MovingSpheres> movingSpheres;
-    std::optional<RegionSettings> region;  ///< Bounds of voxels and directional light; empty: the scene's.
+    std::optional<RegionSettings> region;            ///< Bounds of voxels and directional light; empty: the scene's.
     std::optional<EnvironmentSettings> environment;  ///< Empty: that of the source.
     TextLocation where, cameraWhere, environmentWhere, regionWhere;
 };

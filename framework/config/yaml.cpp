@@ -40,8 +40,7 @@ class Converter {
                 value.scalar = node.Scalar();
                 value.quoted = node.Tag() == "!";
                 if (value.quoted && hasSeveralLines(node.Mark()))
-                    throw UsageError(where,
-                                     "a text in quotes goes on in the next line: is a quote left open?");
+                    throw UsageError(where, "a text in quotes goes on in the next line: is a quote left open?");
                 break;
             case YAML::NodeType::Sequence:
                 value.kind = Value::Kind::List;
@@ -78,8 +77,7 @@ class Converter {
         std::unordered_set<std::string> keys;
         std::vector<Value> merged;
         for (const auto& entry : node) {
-            const TextLocation where =
-                entry.first.Mark().is_null() ? value.where : locate(entry.first.Mark());
+            const TextLocation where = entry.first.Mark().is_null() ? value.where : locate(entry.first.Mark());
             if (!entry.first.IsScalar()) throw UsageError(where, "a key must be a word");
             const std::string& key = entry.first.Scalar();
             if (!keys.insert(key).second) throw UsageError(where, "'{}' appears twice in the same map", key);
@@ -130,8 +128,7 @@ Value parseYaml(const std::string& text, const std::string& fileName) {
     try {
         const std::vector<YAML::Node> documents = YAML::LoadAll(text);
         if (documents.size() > 1)
-            throw UsageError(converter.locate(documents[1].Mark()),
-                             "a second document; one file holds one config");
+            throw UsageError(converter.locate(documents[1].Mark()), "a second document; one file holds one config");
         if (documents.empty()) return converter.convert(YAML::Node(), 0, {fileName, 1});
         return converter.convert(documents[0], 0, {fileName, 1});
     } catch (const YAML::Exception& error) {

@@ -65,8 +65,7 @@ std::optional<YamlFault> otherSpace(const std::string& text) {
     std::string line;
     for (int number = 1; std::getline(lines, line); ++number)
         for (const WhiteSpace& space : kOtherSpaces)
-            if (line.find(space.bytes) != std::string::npos &&
-                line.find(space.bytes) == line.find_first_not_of(' '))
+            if (line.find(space.bytes) != std::string::npos && line.find(space.bytes) == line.find_first_not_of(' '))
                 return YamlFault{number, fmt::format("{} in the indentation; YAML takes spaces", space.name)};
     return {};
 }
@@ -80,22 +79,20 @@ std::optional<YamlFault> indentation(const std::vector<Line>& lines) {
     if (lines.size() < 2 || lines.back().key.empty() || lines.back().isEntry()) return {};
     const Line &line = lines.back(), &before = lines[lines.size() - 2];
     if (before.hasValue && line.indent > before.inner)
-        return YamlFault{line.number,
-                         fmt::format("'{}' is indented unlike '{}' in line {}, which has its value: "
-                                     "indent it as far, by {}",
-                                     line.key, before.key, before.number, spaces(before.inner))};
+        return YamlFault{line.number, fmt::format("'{}' is indented unlike '{}' in line {}, which has its value: "
+                                                  "indent it as far, by {}",
+                                                  line.key, before.key, before.number, spaces(before.inner))};
 
     // A key below the dash of a list entry, or between the dash and its contents
     const auto above = std::find_if(lines.rbegin() + 1, lines.rend(),
                                     [&](const Line& previous) { return previous.indent <= line.indent; });
     if (above == lines.rend() || !above->isEntry() || line.indent >= above->inner) return {};
     if (line.key == above->key)
-        return YamlFault{line.number, fmt::format("a dash is missing before '{0}', as in line {1}: "
-                                                  "write '- {0}: ...'",
+        return YamlFault{line.number, fmt::format("a dash is missing before '{0}', as in line {1}: write '- {0}: ...'",
                                                   line.key, above->number)};
     const bool isTop = std::ranges::count(configKeys(), line.key) > 0;
-    return YamlFault{line.number, fmt::format("'{}' is indented unlike what the dash "
-                                              "in line {} begins with: indent it by {}{}",
+    return YamlFault{line.number, fmt::format("'{}' is indented unlike what the dash in line {} begins with: "
+                                              "indent it by {}{}",
                                               line.key, above->number, spaces(isTop ? 0 : above->inner),
                                               isTop ? ", as the config's other keys" : "")};
 }
@@ -133,8 +130,7 @@ std::string hintOf(const std::string& message) {
         {"illegal map value", "is a ':' missing in the line before?"}};
     for (const auto& [text, hint] : hints)
         if (message == text) return "; " + hint;
-    if (message.starts_with("unknown escape character"))
-        return "; write paths with '/', or between single quotes";
+    if (message.starts_with("unknown escape character")) return "; write paths with '/', or between single quotes";
     return {};
 }
 
@@ -177,15 +173,15 @@ std::string afterComment(const std::string& text, const OpenBrace& open) {
     std::string line;
     for (int number = 1; number <= open.line; ++number) std::getline(lines, line);
     const size_t comment = line.find(" #");
-    const bool takesEnd = comment != std::string::npos &&
-                          line.find(open.brace == '{' ? '}' : ']', comment) != std::string::npos;
+    const bool takesEnd =
+        comment != std::string::npos && line.find(open.brace == '{' ? '}' : ']', comment) != std::string::npos;
     return takesEnd ? "; what follows '#' there is a comment" : "";
 }
 
 /// Whether the parser stopped within braces.
 bool isOfBraces(const std::string& message) {
-    constexpr std::array<std::string_view, 3> kMessages{
-        "end of map flow not found", "end of sequence flow not found", "illegal block entry"};
+    constexpr std::array<std::string_view, 3> kMessages{"end of map flow not found", "end of sequence flow not found",
+                                                        "illegal block entry"};
     return std::ranges::count(kMessages, message) > 0;
 }
 
@@ -195,8 +191,7 @@ YamlFault yamlFault(const std::string& text, int line, const std::string& messag
     if (const auto fault = otherSpace(text)) return *fault;
     if (const auto open = isOfBraces(message) ? openBrace(text, line) : std::nullopt)
         return {open->line,
-                fmt::format("the '{}' in this line is not closed: "
-                            "a '{}' is missing, or a comma before line {}{}",
+                fmt::format("the '{}' in this line is not closed: a '{}' is missing, or a comma before line {}{}",
                             open->brace, open->brace == '{' ? '}' : ']', line, afterComment(text, *open))};
     const std::vector<Line> lines = linesUpTo(text, line);
     const bool isThere = !lines.empty() && lines.back().number == line;

@@ -77,9 +77,8 @@ Value parameterSchema(const ParameterDoc& doc) {
         // An extension of JSON Schema that editors ignore and `voxray explain` uses
         Value conditions = Value::list();
         for (const ParameterDoc::Condition& condition : doc.conditions)
-            conditions.items.push_back(
-                object({{"parameter", text(condition.parameter)},
-                        {condition.isOneOf ? "in" : "not_in", listOf(condition.values)}}));
+            conditions.items.push_back(object({{"parameter", text(condition.parameter)},
+                                               {condition.isOneOf ? "in" : "not_in", listOf(condition.values)}}));
         schema.set("x-only-with", conditions);
     }
     if (isTriple)
@@ -93,8 +92,7 @@ Value parameterSchema(const ParameterDoc& doc) {
 
 Value mapSchema(const std::vector<ParameterDoc>& docs, Value properties = Value::map()) {
     for (const ParameterDoc& doc : docs) properties.set(doc.name, parameterSchema(doc));
-    return object(
-        {{"type", text("object")}, {"properties", properties}, {"additionalProperties", literal("false")}});
+    return object({{"type", text("object")}, {"properties", properties}, {"additionalProperties", literal("false")}});
 }
 
 Value withRequired(Value schema, const std::vector<std::string>& keys) {
@@ -108,21 +106,18 @@ Value passSchema(const PassKind& kind) {
     properties.set("id", object({{"type", text("string")},
                                  {"description", text("Name in this graph; by default the pass's own.")}}));
     for (const PortInfo& port : kind.ports)
-        if (!port.output)
-            inputs.set(port.name, object({{"type", text("string")}, {"description", text(port.help)}}));
-    properties.set("inputs",
-                   object({{"type", text("object")},
-                           {"properties", inputs},
-                           {"additionalProperties", literal("false")},
-                           {"description", text("Port: the id of the pass that writes it, or id.port.")}}));
+        if (!port.output) inputs.set(port.name, object({{"type", text("string")}, {"description", text(port.help)}}));
+    properties.set("inputs", object({{"type", text("object")},
+                                     {"properties", inputs},
+                                     {"additionalProperties", literal("false")},
+                                     {"description", text("Port: the id of the pass that writes it, or id.port.")}}));
     return withRequired(mapSchema(kind.parameters, properties), {"pass"});
 }
 
 /// Adds the properties of a scene's source, which include the parameters of all built-in scenes.
 void addSource(Value& schema) {
     Value& properties = *schema.find("properties");
-    for (const ParameterDoc& doc : describeParams<SceneSource>())
-        properties.set(doc.name, parameterSchema(doc));
+    for (const ParameterDoc& doc : describeParams<SceneSource>()) properties.set(doc.name, parameterSchema(doc));
     properties.find("builtin")->set("enum", listOf(builtinSceneNames()));
     for (const std::string& name : builtinSceneNames())
         for (const ParameterDoc& doc : describeBuiltinScene(name))
@@ -155,10 +150,10 @@ Value sceneSchema() {
                     withRequired(mapSchema(describeParams<PointLightSettings>()), {"point"}),
                     withRequired(mapSchema(describeParams<SpotLightSettings>()), {"spot"})};
     const Value string = object({{"type", text("string")}});
-    const Value lightList = object(
-        {{"type", text("array")},
-         {"items", object({{"oneOf", lights}})},
-         {"description", text("Added to the scene's own; a word is the built-in scene's parameter.")}});
+    const Value lightList =
+        object({{"type", text("array")},
+                {"items", object({{"oneOf", lights}})},
+                {"description", text("Added to the scene's own; a word is the built-in scene's parameter.")}});
 
     Value schema = mapSchema(describeParams<SceneOptions>());
     Value& properties = *schema.find("properties");
@@ -167,9 +162,8 @@ Value sceneSchema() {
     properties.set("region", withRequired(mapSchema(describeParams<RegionSettings>()), {"min", "max"}));
     properties.set("camera", anyOf({string, camera}));
     properties.set("lights", anyOf({string, lightList}));
-    properties.set("environment",
-                   anyOf({string, rgbSchema(),
-                          withRequired(mapSchema(describeParams<EnvironmentSettings>()), {"map"})}));
+    properties.set("environment", anyOf({string, rgbSchema(),
+                                         withRequired(mapSchema(describeParams<EnvironmentSettings>()), {"map"})}));
     properties.set("add", object({{"type", text("array")},
                                   {"items", additionSchema()},
                                   {"description", text("Scenes that are added to this one.")}}));
@@ -193,8 +187,7 @@ Value configJsonSchema(const Registry& registry) {
     const Value pass = object({{"oneOf", passes}});
 
     Value properties = Value::map();
-    for (const ParameterDoc& doc : describeParams<GeneralSettings>())
-        properties.set(doc.name, parameterSchema(doc));
+    for (const ParameterDoc& doc : describeParams<GeneralSettings>()) properties.set(doc.name, parameterSchema(doc));
     properties.set("scene", sceneSchema());
     properties.set("image", mapSchema(describeParams<ImageSettings>()));
     Value metrics = Value::map();
@@ -203,21 +196,19 @@ Value configJsonSchema(const Registry& registry) {
                                    {"minItems", literal("1")},
                                    {"uniqueItems", literal("true")},
                                    {"description", text("Metrics that are written; all by default.")}}));
-    metrics.set("masks",
-                object({{"type", text("object")},
-                        {"additionalProperties", mapSchema(describeParams<MaskSettings>())},
-                        {"description", text("Name: conditions. Pixels that are scored on their own.")}}));
+    metrics.set("masks", object({{"type", text("object")},
+                                 {"additionalProperties", mapSchema(describeParams<MaskSettings>())},
+                                 {"description", text("Name: conditions. Pixels that are scored on their own.")}}));
     properties.set("measure", mapSchema(describeParams<MeasureSettings>(), metrics));
     properties.set("graph", object({{"type", text("array")}, {"items", pass}, {"minItems", literal("1")}}));
     properties.set("reference", anyOf({object({{"type", text("null")}}), pass}));
-    properties.set("sweep",
-                   object({{"type", text("object")},
-                           {"minProperties", literal("1")},
-                           {"additionalProperties",
-                            anyOf({object({{"type", text("array")}, {"minItems", literal("1")}}),
-                                   object({{"type", text("object")}, {"minProperties", literal("1")}})})},
-                           {"description",
-                            text("Path: values, or names with values; all combinations are rendered.")}}));
+    properties.set(
+        "sweep",
+        object({{"type", text("object")},
+                {"minProperties", literal("1")},
+                {"additionalProperties", anyOf({object({{"type", text("array")}, {"minItems", literal("1")}}),
+                                                object({{"type", text("object")}, {"minProperties", literal("1")}})})},
+                {"description", text("Path: values, or names with values; all combinations are rendered.")}}));
     properties.set("profiles", object({{"type", text("object")},
                                        {"additionalProperties", object({{"type", text("object")}})},
                                        {"description", text("Name: overrides that --profile applies.")}}));

@@ -144,6 +144,7 @@ std::string manifestJson(const ManifestData& data) {
     const ImageSettings& image = experiment.setup.image;
     json["image"] = {{"width", image.width}, {"height", image.height}};
     json["exposure_stops"] = image.exposureStops;
+    json["tone"] = enumName(image.tone);
     Value measure = writeParams(experiment.measure);
     json["measure"] = Json::parse(measure.json());
     json["measure"]["metrics"] = experiment.measure.metrics;

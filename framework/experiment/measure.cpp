@@ -49,8 +49,7 @@ PassSample timeOnHost(CommandStream& stream, const std::function<void()>& work) 
     stream.finish();
     PassSample sample;
     sample.work = stream.counts() - before;
-    sample.milliseconds =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    sample.milliseconds = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     return sample;
 }
 
@@ -85,8 +84,7 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
                          const std::function<void(double)>& progress,
                          const std::function<void(const Frame&, uint32_t)>& afterFrame) {
     const double runsOfFrame = target.goToFrame ? 2 : 1;
-    const double steps =
-        1 + settings.buildRepeats + runsOfFrame * (double(settings.warmup) + settings.frames);
+    const double steps = 1 + settings.buildRepeats + runsOfFrame * (double(settings.warmup) + settings.frames);
     double done = 0;
     Frame frame = target.frame;
     frame.progress = [&](double part) {
@@ -95,8 +93,8 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
     };
     const auto run = [&](Phase phase, uint32_t frameIndex, bool checkFinite) {
         if (interruptRequested()) throw Interrupted();
-        auto samples = graph.run(phase, frame, target.device, target.stream, target.tracer, target.scene,
-                                 frameIndex, checkFinite);
+        auto samples =
+            graph.run(phase, frame, target.device, target.stream, target.tracer, target.scene, frameIndex, checkFinite);
         if (interruptRequested()) throw Interrupted();
         progress(++done / steps);
         return samples;
@@ -162,8 +160,7 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
         for (const Graph::PassInfo& pass : passes) nextFrame += pass.phase == Phase::Build;
     for (size_t i = 0; i < passes.size(); ++i) {
         const bool isBuild = passes[i].phase == Phase::Build;
-        addCost(isBuild ? build.cost(nextBuild++) : frames.cost(nextFrame++), passes[i].id, passes[i].phase,
-                memory[i]);
+        addCost(isBuild ? build.cost(nextBuild++) : frames.cost(nextFrame++), passes[i].id, passes[i].phase, memory[i]);
         if (isBuild && target.goToFrame) addCost(frames.cost(nextUpdate++), passes[i].id, Phase::Frame, {});
     }
     result.peakBytes = peakBytes(memory);

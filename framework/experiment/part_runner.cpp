@@ -97,10 +97,9 @@ void PartRunner::writeReference(const Variant& variant, Progress& progress) {
     references_ = folder_.references();  // Another process may have written it.
     if (hasReferenceImages(variant)) return;
     const ReferenceRecord& record = reference_->record;
-    const float stops = variant.setup.image.exposureStops;
     const std::string text = referenceJson(record, prepared_.manifest().referencePass);
     folder_.writeImages(record.folder, [&](const std::filesystem::path& path) {
-        writeReferenceImages(path, *reference_, stops);
+        writeReferenceImages(path, *reference_, variant.setup.image);
         writeFileAtomically(path / "reference.json", text);
     });
     references_ = folder_.references();
@@ -154,7 +153,7 @@ bool PartRunner::runVariant(Variant& variant, Progress& progress) {
     if (failure.empty()) {
         const VariantInputs inputs = prepared_.inputsOf(variant);
         folder_.writeImages(variant.id, [&](const std::filesystem::path& path) {
-            writeVariantImages(path, images, variant.setup.image.exposureStops);
+            writeVariantImages(path, images, variant.setup.image);
             writeFileAtomically(path / "result.json", resultJson(*variant.result, inputs));
         });
     }

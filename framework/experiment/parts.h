@@ -11,7 +11,7 @@ namespace voxray {
 struct Part {
     enum class Kind { Reference, Variant, Merge };
     Kind kind = Kind::Merge;
-    std::string id;  ///< Unique, valid as a file name, the same whenever the parts are listed.
+    std::string id;                  ///< Unique, valid as a file name, the same whenever the parts are listed.
     std::vector<std::string> after;  ///< Ids of the parts that it depends on.
     std::string writes;              ///< The file in the results folder that exists when the part is done.
     size_t variant = 0;              ///< Index of the variant, or of the first one with this reference.

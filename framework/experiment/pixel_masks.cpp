@@ -24,8 +24,7 @@ struct MaskCondition {
 
 /// Names of the mesh and of the node of an instance.
 std::array<std::string, 2> namesOf(const Instance& instance, const Scene& scene) {
-    return {scene.meshes[instance.mesh].name,
-            instance.node >= 0 ? scene.nodes[size_t(instance.node)].name : ""};
+    return {scene.meshes[instance.mesh].name, instance.node >= 0 ? scene.nodes[size_t(instance.node)].name : ""};
 }
 
 MaskCondition conditionOf(const MaskSettings& mask, const Scene& scene) {
@@ -40,11 +39,11 @@ MaskCondition conditionOf(const MaskSettings& mask, const Scene& scene) {
                                       std::ranges::count(namesOf(instance, scene), mask.object) > 0);
     const auto lacks = [](const std::vector<bool>& chosen) { return std::ranges::count(chosen, true) == 0; };
     if (lacks(condition.materials))
-        throw UsageError(mask.where, "measure.masks.{}: the scene has no material '{}'{}", mask.name,
-                         mask.material, didYouMean(mask.material, materials));
+        throw UsageError(mask.where, "measure.masks.{}: the scene has no material '{}'{}", mask.name, mask.material,
+                         didYouMean(mask.material, materials));
     if (lacks(condition.instances))
-        throw UsageError(mask.where, "measure.masks.{}: the scene has no object '{}'{}", mask.name,
-                         mask.object, didYouMean(mask.object, objectNames(scene)));
+        throw UsageError(mask.where, "measure.masks.{}: the scene has no object '{}'{}", mask.name, mask.object,
+                         didYouMean(mask.object, objectNames(scene)));
     return condition;
 }
 
@@ -52,8 +51,7 @@ bool isMet(const MaskCondition& condition, const SceneState& state, const Hit& h
     if (hit.triangle == Hit::kMiss) return false;
     const Geometry& geometry = state.geometry;
     const uint32_t number = geometry.triangleMaterials[hit.triangle];
-    if (!condition.materials[number] || !condition.instances[instanceOf(geometry, hit.triangle)])
-        return false;
+    if (!condition.materials[number] || !condition.instances[instanceOf(geometry, hit.triangle)]) return false;
 
     // Metallic and roughness at the hit
     const Material& material = state.scene->materials[number];
@@ -63,9 +61,8 @@ bool isMet(const MaskCondition& condition, const SceneState& state, const Hit& h
         const glm::vec4 texCoords =
             interpolate(geometry.attributes[corners.x].texCoords, geometry.attributes[corners.y].texCoords,
                         geometry.attributes[corners.z].texCoords, hit.u, hit.v);
-        const glm::vec4 texel =
-            sampleTexture(state.scene->textures[size_t(texture)],
-                          textureCoordinates(material.metallicRoughnessTexture, texCoords));
+        const glm::vec4 texel = sampleTexture(state.scene->textures[size_t(texture)],
+                                              textureCoordinates(material.metallicRoughnessTexture, texCoords));
         roughness *= texel.g;
         metallic *= texel.b;
     }
@@ -89,8 +86,7 @@ bool isMetSomewhere(const MaskCondition& condition, const SceneState& state) {
 
 /// Calls body(x, y, hit) for each pixel of an image, with the hit at its center. Rows run in parallel.
 template <typename Body>
-void forEachPixel(const SceneState& state, const Camera& camera, uint32_t width, uint32_t height,
-                  const Body& body) {
+void forEachPixel(const SceneState& state, const Camera& camera, uint32_t width, uint32_t height, const Body& body) {
     const EmbreeScene scene(state);
     const CameraRays rays = cameraRays(camera, width, height);
     parallelRanges(height, 4, [&](size_t begin, size_t end) {
@@ -98,9 +94,8 @@ void forEachPixel(const SceneState& state, const Camera& camera, uint32_t width,
             for (uint32_t x = 0; x < width; ++x) {
                 const glm::vec3 direction =
                     rays.direction((float(x) + 0.5f) / float(width), (float(y) + 0.5f) / float(height));
-                body(
-                    x, uint32_t(y),
-                    scene.closestHit({rays.origin, 0.0f, direction, std::numeric_limits<float>::infinity()}));
+                body(x, uint32_t(y),
+                     scene.closestHit({rays.origin, 0.0f, direction, std::numeric_limits<float>::infinity()}));
             }
     });
 }
@@ -131,20 +126,19 @@ std::vector<PixelSelection> selectPixels(const std::vector<MaskSettings>& masks,
     }
 
     // The two rows of sub-pixels of a row of pixels may be processed by different threads, which only write 0
-    forEachPixel(state, camera, width * kSubPixels, height * kSubPixels,
-                 [&](uint32_t x, uint32_t y, const Hit& hit) {
-                     const size_t pixel = size_t(y / kSubPixels) * width + x / kSubPixels;
-                     for (size_t m = 0; m < masks.size(); ++m)
-                         if (!isMet(conditions[m], state, hit))
-                             std::atomic_ref(selections[m].pixels[pixel]).store(0, std::memory_order_relaxed);
-                 });
+    forEachPixel(state, camera, width * kSubPixels, height * kSubPixels, [&](uint32_t x, uint32_t y, const Hit& hit) {
+        const size_t pixel = size_t(y / kSubPixels) * width + x / kSubPixels;
+        for (size_t m = 0; m < masks.size(); ++m)
+            if (!isMet(conditions[m], state, hit))
+                std::atomic_ref(selections[m].pixels[pixel]).store(0, std::memory_order_relaxed);
+    });
     for (PixelSelection& selection : selections)
         selection.count = size_t(std::ranges::count(selection.pixels, uint8_t(1)));
     return selections;
 }
 
-Diagnostics maskWarnings(const std::vector<MaskSettings>& masks,
-                         const std::vector<PixelSelection>& selections, const SceneState& state) {
+Diagnostics maskWarnings(const std::vector<MaskSettings>& masks, const std::vector<PixelSelection>& selections,
+                         const SceneState& state) {
     Diagnostics found;
     for (size_t m = 0; m < masks.size(); ++m) {
         const std::string name = "measure.masks." + masks[m].name;
@@ -154,10 +148,9 @@ Diagnostics maskWarnings(const std::vector<MaskSettings>& masks,
                                  ? "what meets its conditions is out of sight, or fills no whole pixel"
                                  : "no surface of the scene meets all of its conditions"});
         if (selections[m].count == selections[m].pixels.size())
-            found.push_back(
-                {masks[m].where,
-                 name + ": it selects every pixel, so that its scores are those of the whole image:",
-                 "write a condition that some of what is in view does not meet, or leave it out"});
+            found.push_back({masks[m].where,
+                             name + ": it selects every pixel, so that its scores are those of the whole image:",
+                             "write a condition that some of what is in view does not meet, or leave it out"});
     }
     return found;
 }
@@ -166,8 +159,7 @@ std::string maskKey(const std::string& sceneKey, const ImageSettings& image) {
     return fmt::format("{} {} {}", sceneKey, image.width, image.height);
 }
 
-std::vector<PrimaryHit> primaryHits(const SceneState& state, const Camera& camera, uint32_t width,
-                                    uint32_t height) {
+std::vector<PrimaryHit> primaryHits(const SceneState& state, const Camera& camera, uint32_t width, uint32_t height) {
     std::vector<PrimaryHit> hits(size_t(width) * height);
     forEachPixel(state, camera, width, height, [&](uint32_t x, uint32_t y, const Hit& hit) {
         PrimaryHit& primary = hits[size_t(y) * width + x];

@@ -36,8 +36,8 @@ std::vector<PixelSelection> selectPixels(const std::vector<MaskSettings>& masks,
 
 /// Warns of masks that select no pixel of an image or all of them.
 /// @param selections of these masks, as selectPixels() returns them.
-Diagnostics maskWarnings(const std::vector<MaskSettings>& masks,
-                         const std::vector<PixelSelection>& selections, const SceneState& state);
+Diagnostics maskWarnings(const std::vector<MaskSettings>& masks, const std::vector<PixelSelection>& selections,
+                         const SceneState& state);
 
 /// Selections of a config's masks in the compared frame, by maskKey().
 using MaskSelections = std::map<std::string, std::vector<PixelSelection>>;
@@ -52,7 +52,6 @@ struct PrimaryHit {
     int32_t material = -1;  ///< Index into Scene::materials; -1: none.
 };
 /// Primary hits of all pixels, row by row.
-std::vector<PrimaryHit> primaryHits(const SceneState& state, const Camera& camera, uint32_t width,
-                                    uint32_t height);
+std::vector<PrimaryHit> primaryHits(const SceneState& state, const Camera& camera, uint32_t width, uint32_t height);
 
 }  // namespace voxray

@@ -22,8 +22,7 @@ namespace {
 void applyTracerOption(Study& study, const std::string& name) {
     if (name.empty()) return;
     Experiment& experiment = study.experiment;
-    if (experiment.sweep.find("tracer"))
-        throw UsageError("--tracer {}: this config sweeps over the tracer", name);
+    if (experiment.sweep.find("tracer")) throw UsageError("--tracer {}: this config sweeps over the tracer", name);
     Value value = Value::map();
     value.set("tracer", Value::fromScalar(name));
     value.find("tracer")->where = {"--tracer", 0};
@@ -35,9 +34,8 @@ void applyTracerOption(Study& study, const std::string& name) {
 /// Whether no pass of the experiment needs Vulkan.
 bool runsOnHost(const Study& study) {
     const auto needsNoDevice = [&](const Graph& graph) {
-        return std::ranges::none_of(graph.passes(), [&](const Graph::PassInfo& pass) {
-            return study.registry->find(pass.kind)->needsDevice;
-        });
+        return std::ranges::none_of(
+            graph.passes(), [&](const Graph::PassInfo& pass) { return study.registry->find(pass.kind)->needsDevice; });
     };
     return std::ranges::all_of(study.variants, needsNoDevice, &Variant::graph) &&
            (study.reference.isNull() || needsNoDevice(study.referenceGraph()));
@@ -77,9 +75,8 @@ class VariantWarnings {
     }
     void appendTo(std::vector<std::string>& lines) const {
         for (const auto& [text, names] : variants_)
-            lines.push_back(names.size() == 1
-                                ? fmt::format("{} ({})", text, names[0])
-                                : fmt::format("{} ({} and {} more)", text, names[0], names.size() - 1));
+            lines.push_back(names.size() == 1 ? fmt::format("{} ({})", text, names[0])
+                                              : fmt::format("{} ({} and {} more)", text, names[0], names.size() - 1));
     }
 
  private:
@@ -90,22 +87,22 @@ class VariantWarnings {
 /// once.
 class Planner {
  public:
-    Planner(Study& study, SceneLoader& loader, ViewChecks& views, const DeviceInfo& device)
-        : unusedMotion(study.experiment.measure),
+    Planner(Study& study, SceneLoader& loader, CameraViewChecks& viewChecks, const DeviceInfo& device)
+        : unusedMotionSettings(study.experiment.measure),
           study_(study),
           loader_(loader),
-          views_(views),
+          viewChecks_(viewChecks),
           device_(device),
           reference_(study, device) {}
 
-    /// @param storesMemory whether Variant::memory is set.
+    /// @param storesMemory store the planned memory in the variant.
     void plan(Variant& variant, bool storesMemory) {
         if (variant.sceneKey.empty()) variant.sceneKey = loader_.key(variant.setup.scene);
         const PreparedScene& scene = loader_.prepareCached(variant.setup.scene, variant.sceneKey);
         const bool isNewScene = variant.sceneKey != key_;
         if (isNewScene) checkScene(variant, scene);
         selectPixels(variant, scene);
-        unusedMotion.add(variant, *scene.state.scene);
+        unusedMotionSettings.add(variant, *scene.state.scene);
         try {
             const Frame frame = frameOf(variant.setup, scene, variant.setup.general.seed);
             std::vector<PassMemory> memory = variant.graph.plan(frame, device_, kNoMemoryLimit);
@@ -116,8 +113,8 @@ class Planner {
                                          scene,
                                          isNewScene,
                                          loader_,
-                                         *lightRays_,
-                                         metallicFraction_,
+                                         *shadowRayCost_,
+                                         visibleMetalFraction_,
                                          hasReference ? &reference_.graphFor(frame, key_) : nullptr};
             Diagnostics found;
             for (const Check<PlannedVariant> check : kVariantChecks) check(planned, found);
@@ -129,15 +126,15 @@ class Planner {
     }
 
     VariantWarnings warnings;
-    UnusedMotion unusedMotion;
+    UnusedMotionSettings unusedMotionSettings;
 
  private:
     void checkScene(const Variant& variant, const PreparedScene& scene) {
         key_ = variant.sceneKey;
-        lightRays_.emplace(scene.state);
+        shadowRayCost_.emplace(scene.state);
         checkMaskNames(study_.experiment.measure.masks, *scene.state.scene);
-        const ViewCheck& view = views_.of(variant.setup, key_, scene);
-        metallicFraction_ = view.metallicFraction;
+        const ViewCheck& view = viewChecks_.of(variant.setup, key_, scene);
+        visibleMetalFraction_ = view.visibleMetalFraction;
         warnings.add(view.found, variant);
     }
 
@@ -148,33 +145,32 @@ class Planner {
         const ImageSettings& image = variant.setup.image;
         const auto [selections, isNew] = study_.masks.try_emplace(maskKey(key_, image));
         if (!isNew) return;
-        selections->second =
-            voxray::selectPixels(masks, scene.state, scene.camera, image.width, image.height);
+        selections->second = voxray::selectPixels(masks, scene.state, scene.camera, image.width, image.height);
         warnings.add(maskWarnings(masks, selections->second, scene.state), variant);
     }
 
     Study& study_;
     SceneLoader& loader_;
-    ViewChecks& views_;
+    CameraViewChecks& viewChecks_;
     const DeviceInfo& device_;
     ReferencePlan reference_;
-    // State of the last scene
+    // Of the most recently checked scene
     std::string key_;
-    std::optional<LightRays> lightRays_;
-    double metallicFraction_ = 0;
+    std::optional<ShadowRayCost> shadowRayCost_;
+    double visibleMetalFraction_ = 0;
 };
 
 }  // namespace
 
-void planVariants(Study& study, SceneLoader& loader, ViewChecks& views, const DeviceInfo& device,
-                  std::optional<size_t> only) {
-    Planner planner(study, loader, views, device);
+void planVariants(Study& study, SceneLoader& loader, CameraViewChecks& viewChecks, const DeviceInfo& device,
+                  std::optional<size_t> onlyVariant) {
+    Planner planner(study, loader, viewChecks, device);
     const std::span<Variant> all(study.variants);
-    for (Variant& variant : only ? all.subspan(*only, 1) : all) {
+    for (Variant& variant : onlyVariant ? all.subspan(*onlyVariant, 1) : all) {
         if (interruptRequested()) throw Interrupted();
-        planner.plan(variant, !only);
+        planner.plan(variant, !onlyVariant);
     }
-    if (!only) planner.unusedMotion.refuse();
+    if (!onlyVariant) planner.unusedMotionSettings.throwIfAny();
 
     study.warnings = study.experiment.warnings;
     Diagnostics found;
@@ -189,20 +185,20 @@ PreparedExperiment::PreparedExperiment(Study study, const RunOptions& options)
     DeviceOptions device;
     device.name = options_.deviceName;
     device.validation = options_.validation;
-    device.isHost = device.name.empty() && !device.validation && runsOnHost(study_) &&
-                    !whyNoDevice(listDevices()).empty();
+    const auto hasUsableDevice = [] { return whyNoDevice(listDevices()).empty(); };
+    device.isHost = device.name.empty() && !device.validation && runsOnHost(study_) && !hasUsableDevice();
     session_.emplace(device, options_.sourceRoot,
                      sceneFolders(options_.scenes, options_.sourceRoot, study_.experiment.file));
 
-    // Checks every scene with its parameters and files before anything is rendered
+    // key(), referenceHashOf() and tracerName() throw for invalid settings, so they are called first
     for (Variant& variant : study_.variants) {
         variant.sceneKey = session_->loader().key(variant.setup.scene);
         variant.referenceHash = session_->referenceHashOf(study_, variant.setup);
         session_->tracerName(variant.setup);
     }
     recordInputs();
-    ViewChecks views(options_.preview);
-    planVariants(study_, session_->loader(), views, session_->device().info(), selectedVariant());
+    CameraViewChecks viewChecks(options_.tracePreview);
+    planVariants(study_, session_->loader(), viewChecks, session_->device().info(), selectedVariant());
 }
 
 std::optional<size_t> PreparedExperiment::selectedVariant() {
@@ -218,10 +214,8 @@ void PreparedExperiment::recordInputs() {
     for (const auto& [id, count] : cullCounts(study_))
         if (runsSomewhere(study_, id)) culledIds.push_back(fmt::format("'{}' in {}", id, count));
     if (!culledIds.empty())
-        manifest_.notes.push_back(
-            fmt::format("passes without a use are left out: {} of {} variants: "
-                        "no image that is compared depends on them there",
-                        fmt::join(culledIds, ", "), study_.variants.size()));
+        manifest_.notes.push_back(fmt::format("left out, because no compared image depends on them: {} of {} variants",
+                                              fmt::join(culledIds, ", "), study_.variants.size()));
     if (!study_.reference.isNull()) manifest_.referencePass = study_.reference.items[0];
     manifest_.device = session_->device().info();
     manifest_.requestedDevice = options_.deviceName;

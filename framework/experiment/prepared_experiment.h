@@ -13,13 +13,13 @@ namespace voxray {
 /// Prepares the scene of each variant, plans its graph and the reference's on it and does all checks
 /// (checks/checks.h), so that mistakes are reported before anything is rendered. The memory of the device is
 /// not checked. Sets Study::warnings and masks, Variant::sceneKey and memory.
-/// @param only index of a single variant to plan; checks of all variants together are skipped, and no memory
+/// @param onlyVariant index of a single variant to plan; checks of all variants together are skipped, and no memory
 /// is set.
 /// @throws UsageError with file and line: for a scene as SceneLoader::prepare(); for parameters that a pass
 /// rejects; if all variants exceed the config's limit of memory; for settings of the scene that have no
 /// effect in any variant.
-void planVariants(Study& study, SceneLoader& loader, ViewChecks& views, const DeviceInfo& device,
-                  std::optional<size_t> only = std::nullopt);
+void planVariants(Study& study, SceneLoader& loader, CameraViewChecks& viewChecks, const DeviceInfo& device,
+                  std::optional<size_t> onlyVariant = std::nullopt);
 
 /// An experiment that was planned and checked on a device: the input of a run and of each of its parts.
 class PreparedExperiment {

@@ -76,8 +76,7 @@ std::string contentOf(const std::string& hash, const RenderedPart& rendered) {
 RenderedPart readPart(const fs::path& file, const std::string& hash, uint32_t width, uint32_t height) {
     const std::string text = readTextFile(file);
     const std::string_view content = text, body = content.substr(std::min(kDigits, content.size()));
-    if (Hasher().add(body.data(), body.size()).hex() != content.substr(0, kDigits))
-        throw Error("it is damaged");
+    if (Hasher().add(body.data(), body.size()).hex() != content.substr(0, kDigits)) throw Error("it is damaged");
     const size_t line = body.find('\n');
     const auto head = nlohmann::json::parse(body.substr(0, line));
     if (head.at("hash").get<std::string>() != hash || head.at("width").get<uint32_t>() != width ||
@@ -179,8 +178,7 @@ bool ReferenceCache::has(const std::string& hash) const {
     return fs::exists(folder_ / hash / "reference.json", code);
 }
 
-std::optional<ReferenceImages> ReferenceCache::load(const std::string& hash, uint32_t width,
-                                                    uint32_t height) const {
+std::optional<ReferenceImages> ReferenceCache::load(const std::string& hash, uint32_t width, uint32_t height) const {
     if (!has(hash)) return {};
     const fs::path folder = folder_ / hash;
     try {
@@ -189,13 +187,11 @@ std::optional<ReferenceImages> ReferenceCache::load(const std::string& hash, uin
         reference.cached = true;
         for (const Half& half : kHalves) {
             ImageF image = readImage(folder / (std::string(half.name) + ".exr"));
-            if (image.width != width || image.height != height || image.channels != 3 || !isFinite(image))
-                return {};
+            if (image.width != width || image.height != height || image.channels != 3 || !isFinite(image)) return {};
             half.of(reference) = std::move(image);
         }
         setMeans(reference);
-        reference.seconds =
-            nlohmann::json::parse(readTextFile(folder / "reference.json")).at("seconds").get<double>();
+        reference.seconds = nlohmann::json::parse(readTextFile(folder / "reference.json")).at("seconds").get<double>();
         return reference;
     } catch (const std::exception&) {
         // A damaged reference is rendered again
@@ -233,8 +229,7 @@ bool ReferenceParts::has(const std::string& hash, const SamplePart& part) const 
     return fs::exists(file(hash, part), code);
 }
 
-void ReferenceParts::store(const std::string& hash, const SamplePart& part,
-                           const RenderedPart& rendered) const {
+void ReferenceParts::store(const std::string& hash, const SamplePart& part, const RenderedPart& rendered) const {
     writeFileAtomically(file(hash, part), contentOf(hash, rendered));
 }
 

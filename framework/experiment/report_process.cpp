@@ -45,8 +45,7 @@ ScriptEnd runScript(const std::string& script, const std::string& argument) {
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     pid_t child = 0;
-    const int failure =
-        ::posix_spawn(&child, kPython, &actions, &attributes, const_cast<char* const*>(words), environ);
+    const int failure = ::posix_spawn(&child, kPython, &actions, &attributes, const_cast<char* const*>(words), environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     ::close(ends[1]);
@@ -76,8 +75,8 @@ void makeReport(const std::filesystem::path& sourceRoot, const std::filesystem::
         const ScriptEnd end = runScript(script, results.string());
         if (end.status != 0) throw Error("{}", end.lastLine);
     } catch (const Error& error) {
-        throw Error("report: {}; the results are kept; make it later with {} {} {}", error.what(), kPython,
-                    script, results.string());
+        throw Error("report: {}; the results are kept; make it later with {} {} {}", error.what(), kPython, script,
+                    results.string());
     }
 }
 

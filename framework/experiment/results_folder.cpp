@@ -30,8 +30,8 @@ Json jsonOf(const PartRecord& record) {
 /// @throws nlohmann::json::exception.
 PartRecord recordFrom(const Json& json) {
     const auto text = [&](const char* key) { return json.at(key).get<std::string>(); };
-    return {json.at("warnings").get<std::vector<std::string>>(), text("error"), text("device"),
-            text("tracer"), text("session")};
+    return {json.at("warnings").get<std::vector<std::string>>(), text("error"), text("device"), text("tracer"),
+            text("session")};
 }
 
 /// Replaces exceptions of the standard library by a Failure that says what to do.
@@ -50,8 +50,7 @@ void orError(const fs::path& path, const Work& work) {
 /// "bounces: 2" and "bounces: 3" of longer graphs.
 std::pair<std::string, std::string> differingParts(const std::string& a, const std::string& b) {
     const size_t shorter = std::min(a.size(), b.size());
-    size_t same =
-        size_t(std::mismatch(a.begin(), a.begin() + ptrdiff_t(shorter), b.begin()).first - a.begin());
+    size_t same = size_t(std::mismatch(a.begin(), a.begin() + ptrdiff_t(shorter), b.begin()).first - a.begin());
     const size_t entry = same == 0 ? std::string::npos : a.find_last_of("{[,", same - 1);
     same = entry == std::string::npos ? 0 : a.find_first_not_of(' ', entry + 1);
     size_t end = 0;  // Number of equal characters at the end.
@@ -63,17 +62,14 @@ std::pair<std::string, std::string> differingParts(const std::string& a, const s
 
 }  // namespace
 
-ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, FolderUse use,
-                             ProcessLock::IfHeld ifHeld)
+ResultsFolder::ResultsFolder(fs::path path, const std::string& experiment, FolderUse use, ProcessLock::IfHeld ifHeld)
     : path_(std::move(path)) {
     const bool isPart = use == FolderUse::Part;
     orError<UsageError>(path_, [&] {
-        if (fs::exists(path_) && !fs::is_directory(path_))
-            throw UsageError("{}: is not a folder", path_.string());
+        if (fs::exists(path_) && !fs::is_directory(path_)) throw UsageError("{}: is not a folder", path_.string());
         if (fs::exists(path_)) checkOwner(experiment);
         fs::create_directories(path_ / "images");
-        lock_.emplace(path_ / kLock, isPart ? ProcessLock::Kind::Shared : ProcessLock::Kind::Exclusive, path_,
-                      ifHeld);
+        lock_.emplace(path_ / kLock, isPart ? ProcessLock::Kind::Shared : ProcessLock::Kind::Exclusive, path_, ifHeld);
         checkOwner(experiment);  // Again, since another process may have used it before the lock.
     });
     if (isPart) return;
@@ -107,8 +103,8 @@ void ResultsFolder::claim(const ManifestData& manifest) const {
     if (identityIn(text) == identityOf(manifest)) return;
     const std::string what = manifestDifference(parseManifest(text), parseManifest(manifestJson(manifest)));
     if (!what.empty())
-        throw UsageError("{}: holds parts of another experiment: {}; choose another folder with --out",
-                         path_.string(), what);
+        throw UsageError("{}: holds parts of another experiment: {}; choose another folder with --out", path_.string(),
+                         what);
 }
 
 void ResultsFolder::checkOwner(const std::string& experiment) const {
@@ -116,17 +112,15 @@ void ResultsFolder::checkOwner(const std::string& experiment) const {
     if (fs::exists(manifest)) {
         const std::string name = experimentIn(readTextFile(manifest));
         if (name != experiment)
-            throw UsageError(
-                "{}: holds the results of another experiment, '{}'; choose another folder with --out",
-                path_.string(), name);
+            throw UsageError("{}: holds the results of another experiment, '{}'; choose another folder with --out",
+                             path_.string(), name);
         return;
     }
     for (const auto& entry : fs::directory_iterator(path_))
         if (const fs::path name = entry.path().filename();
             name != "images" && name != kLock && !isTemporaryName(entry.path()))
-            throw UsageError(
-                "{}: is not empty and holds no results of Voxray; choose another folder with --out",
-                path_.string());
+            throw UsageError("{}: is not empty and holds no results of Voxray; choose another folder with --out",
+                             path_.string());
     if (fs::exists(path_ / "images") && !fs::is_empty(path_ / "images"))
         throw UsageError("{}: is not empty and holds no results of Voxray; choose another folder with --out",
                          path_.string());
@@ -151,8 +145,7 @@ void ResultsFolder::removeReferences() const {
         if (entry.path().filename().string().starts_with("reference")) fs::remove_all(entry.path());
 }
 
-std::optional<VariantResult> ResultsFolder::finished(const std::string& variant,
-                                                     const VariantInputs& inputs) const {
+std::optional<VariantResult> ResultsFolder::finished(const std::string& variant, const VariantInputs& inputs) const {
     const fs::path file = path_ / "images" / variant / "result.json";
     std::error_code code;
     if (!fs::exists(file, code)) return {};
@@ -167,12 +160,10 @@ std::optional<VariantResult> ResultsFolder::finished(const std::string& variant,
                     "choose another folder with --out or leave out --resume",
                     path_.string(), variant, name, before, now);
             }
-    throw UsageError("{}: '{}' was run by another version of Voxray; leave out --resume", path_.string(),
-                     variant);
+    throw UsageError("{}: '{}' was run by another version of Voxray; leave out --resume", path_.string(), variant);
 }
 
-void ResultsFolder::writeImages(const std::string& name,
-                                const std::function<void(const fs::path&)>& write) const {
+void ResultsFolder::writeImages(const std::string& name, const std::function<void(const fs::path&)>& write) const {
     const fs::path folder = path_ / "images" / name;
     orError(folder, [&] { writeFolderAtomically(folder, write); });
 }

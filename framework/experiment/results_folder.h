@@ -46,8 +46,7 @@ class ResultsFolder {
     std::optional<VariantResult> finished(const std::string& variant, const VariantInputs& inputs) const;
 
     /// Writes images/<name>: `write` fills a temporary folder, which then replaces the old one.
-    void writeImages(const std::string& name,
-                     const std::function<void(const std::filesystem::path&)>& write) const;
+    void writeImages(const std::string& name, const std::function<void(const std::filesystem::path&)>& write) const;
 
     /// The references whose images exist, in the order of their folders' names.
     std::vector<ReferenceEntry> references() const;

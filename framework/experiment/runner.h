@@ -21,9 +21,9 @@ struct RunOptions {
     bool aovs = false;        ///< Write AOVs of frame 0 with each variant's images.
     bool report = true;       ///< Make report.html at the end.
     std::string part;         ///< Do only this part of the experiment (parts.h); empty: all of them.
-    bool untimed = false;  ///< Other parts run on the same machine: a warning says that times are unreliable.
+    bool untimed = false;     ///< Other parts run on the same machine: a warning says that times are unreliable.
     std::filesystem::path sourceRoot;
-    Preview preview;  ///< Renders previews for checks of each view; empty: no such checks.
+    Preview tracePreview;  ///< Path traces previews on the host for checks of each view; empty: no such checks.
 };
 
 struct RunSummary {

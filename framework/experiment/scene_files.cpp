@@ -43,8 +43,7 @@ auto readAt(const TextLocation& where, const Read& read) {
 
 /// The path of a file in the first folder that has it; absolute names are returned as they are.
 /// @throws UsageError at `where` with the folders that were searched.
-fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& folders,
-                       const TextLocation& where) {
+fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& folders, const TextLocation& where) {
     if (const auto path = lookUp(name, folders)) return *path;
     const bool isAbsolute = fs::path(name).is_absolute();
     std::vector<std::string> searched;
@@ -57,9 +56,8 @@ fs::path findSceneFile(const std::string& name, const std::vector<fs::path>& fol
         if (advice.empty()) advice = didYouMeanFile(name, folder);
     }
     if (advice.empty())
-        advice = name.starts_with("~/") ? "; '~' stands for no folder here: write the whole path"
-                 : name.find('$') != std::string::npos
-                     ? "; '$' stands for no variable here: write the whole path"
+        advice = name.starts_with("~/")                ? "; '~' stands for no folder here: write the whole path"
+                 : name.find('$') != std::string::npos ? "; '$' stands for no variable here: write the whole path"
                  : name.find('\\') != std::string::npos
                      ? "; write paths with '/'"
                      : "; name its folder with --scenes DIR or VOXRAY_SCENES, see docs/scenes.md";
@@ -92,8 +90,7 @@ void checkBuiltin(const SceneSource& source, const std::vector<fs::path>& folder
 /// @throws UsageError if the extension of the file is not one of glTF.
 void checkFormat(const SceneSource& source) {
     const std::string ending = fs::path(source.file).extension().string();
-    for (const char* unsupported :
-         {".obj", ".fbx", ".blend", ".dae", ".ply", ".stl", ".usd", ".usdz", ".pbrt"})
+    for (const char* unsupported : {".obj", ".fbx", ".blend", ".dae", ".ply", ".stl", ".usd", ".usdz", ".pbrt"})
         if (ending == unsupported)
             throw UsageError(source.where, "{}.file: '{}' is no glTF: export it as .glb", source.owner,
                              oneLine(source.file, 200));
@@ -105,8 +102,7 @@ void checkMapFormat(const SceneSettings& settings) {
     const std::string ending = fs::path(settings.environment->map).extension().string();
     for (const char* ldr : {".png", ".jpg", ".jpeg", ".webp", ".tga", ".bmp"})
         if (ending == ldr)
-            throw UsageError(settings.environmentWhere,
-                             "scene.environment: '{}' holds no radiance: take an .exr file",
+            throw UsageError(settings.environmentWhere, "scene.environment: '{}' holds no radiance: take an .exr file",
                              oneLine(settings.environment->map, 200));
 }
 
@@ -116,8 +112,7 @@ std::vector<fs::path> sceneFolders(const fs::path& scenesOption, const fs::path&
                                    const fs::path& configFile) {
     std::vector<fs::path> folders;
     if (!scenesOption.empty()) folders.push_back(scenesOption);
-    if (const char* variable = std::getenv("VOXRAY_SCENES"); variable && *variable)
-        folders.push_back(variable);
+    if (const char* variable = std::getenv("VOXRAY_SCENES"); variable && *variable) folders.push_back(variable);
     if (!sourceRoot.empty()) folders.push_back((sourceRoot / ".." / "shared" / "scenes").lexically_normal());
     if (!configFile.empty()) folders.push_back(configFile.has_parent_path() ? configFile.parent_path() : ".");
     std::vector<fs::path> unique;
@@ -142,8 +137,7 @@ void checkRadiance(const ImageF& map, const std::filesystem::path& path) {
     const size_t pixel = first / 3;
     throw Error(
         "{}: its pixel in column {} and row {}, from the upper left, is ({}, {}, {}), "
-        "and {} of its {} values are negative or not finite: radiance is neither; "
-        "repair it in an image editor{}",
+        "and {} of its {} values are negative or not finite: radiance is neither; repair it in an image editor{}",
         path.string(), pixel % map.width, pixel / map.width, map.data[3 * pixel], map.data[3 * pixel + 1],
         map.data[3 * pixel + 2], bad, map.data.size(),
         std::isinf(map.data[first]) ? "; half floats end at 65504, save a sun in 32 bits" : "");
@@ -213,15 +207,10 @@ std::string SceneLoader::key(const SceneSettings& settings) {
     camera.erase("move");
     hasher.add(settings.camera ? camera.text() : "");
     for (const auto& [light, move, offAt, where] : settings.lights) {
-        hasher.addPlain(light.type)
-            .addPlain(light.intensity)
-            .addPlain(light.position)
-            .addPlain(light.direction);
+        hasher.addPlain(light.type).addPlain(light.intensity).addPlain(light.position).addPlain(light.direction);
         hasher.addPlain(light.innerConeAngle).addPlain(light.outerConeAngle);
     }
-    hasher.add(settings.environment
-                   ? fmt::format("{}", writeParams(*settings.environment).find("scale")->text())
-                   : "");
+    hasher.add(settings.environment ? fmt::format("{}", writeParams(*settings.environment).find("scale")->text()) : "");
     if (const auto map = loadMap(settings)) {
         hasher.addPlain(map->width).addPlain(map->height);
         hasher.add(map->data.data(), map->data.size() * sizeof(float));

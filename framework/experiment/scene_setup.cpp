@@ -53,14 +53,13 @@ Camera chooseCamera(const SceneSettings& settings, const SceneState& state, cons
                          "name another or give one by position and target",
                          settings.cameraName);
     if (names.empty()) {
-        throw UsageError(settings.where,
-                         "scene: it has no {}camera{}; './voxray scene {}' gives one that sees it, "
-                         "to write as in camera: {{position: [0, 1, 4], target: [0, 1, 0], fov_deg: 60}}",
-                         orthographic.empty() ? "" : "perspective ",
-                         orthographic.empty()
-                             ? ""
-                             : " ('" + orthographic[0] + "' is orthographic, which Voxray does not render)",
-                         settings.source.builtin.empty() ? settings.where.file : settings.source.builtin);
+        throw UsageError(
+            settings.where,
+            "scene: it has no {}camera{}; './voxray scene {}' gives one that sees it, "
+            "to write as in camera: {{position: [0, 1, 4], target: [0, 1, 0], fov_deg: 60}}",
+            orthographic.empty() ? "" : "perspective ",
+            orthographic.empty() ? "" : " ('" + orthographic[0] + "' is orthographic, which Voxray does not render)",
+            settings.source.builtin.empty() ? settings.where.file : settings.source.builtin);
     }
     throw UsageError(settings.cameraWhere, "scene.camera: no camera '{}'{}", settings.cameraName,
                      didYouMean(settings.cameraName, names));
@@ -113,8 +112,7 @@ void hideObjects(const SceneSettings& settings, Scene& scene) {
         for (const Instance& instance : scene.instances)
             for (std::string& name : namesOfInstance(scene, instance)) names.insert(std::move(name));
         if (hide(scene, hidden.name) == 0)
-            throw UsageError(hidden.where, "scene.hide: the scene has no node, mesh or material '{}'{}",
-                             hidden.name,
+            throw UsageError(hidden.where, "scene.hide: the scene has no node, mesh or material '{}'{}", hidden.name,
                              didYouMean(hidden.name, std::vector<std::string>(names.begin(), names.end())));
     }
     if (scene.instances.empty())
@@ -160,9 +158,8 @@ std::shared_ptr<const Scene> SceneLoader::compose(const SceneSettings& settings)
         return settings.options.materials == MaterialMode::Lambert ? withLambertMaterials(*scene) : scene;
     };
     std::shared_ptr<const Scene> scene = loadInMode(settings.source);
-    if (!settings.placement && settings.additions.empty() && settings.overrides.empty() &&
-        settings.hidden.empty() && !settings.environment && !settings.movingSpheres &&
-        settings.options.subdivide == 0)
+    if (!settings.placement && settings.additions.empty() && settings.overrides.empty() && settings.hidden.empty() &&
+        !settings.environment && !settings.movingSpheres && settings.options.subdivide == 0)
         return scene;
 
     auto composed = settings.placement ? std::make_shared<Scene>(placedScene(*scene, *settings.placement))

@@ -30,9 +30,8 @@ double meanOf(const ImageF& image) {
 
 void addScores(Scores& all, const std::string& light, const Comparison& comparison,
                const std::vector<PixelSelection>& masks) {
-    forEachRegion(masks, [&](const std::string& region, PixelMask mask) {
-        add(all, light, score(comparison, mask), region);
-    });
+    forEachRegion(masks,
+                  [&](const std::string& region, PixelMask mask) { add(all, light, score(comparison, mask), region); });
 }
 
 }  // namespace
@@ -50,8 +49,7 @@ PreparedReference prepareReference(ReferenceImages images, std::vector<PixelSele
     r.indirectExposures = flipExposures(ref.indirect.mean);
     for (const PixelSelection& mask : reference.masks)
         r.maskFractions[mask.name] = double(mask.count) / double(ref.final.mean.pixelCount());
-    const auto addLight = [&](const std::string& prefix, const ReferenceLight& light,
-                              const FlipExposures& exposures) {
+    const auto addLight = [&](const std::string& prefix, const ReferenceLight& light, const FlipExposures& exposures) {
         const ScoreOptions options{image.exposureStops, exposures};
         const ImageF black = blackLike(light.mean), constant = constantLike(light.mean);
         addScores(r.black, prefix, {black, light.mean, options, light.halves()}, reference.masks);
@@ -67,8 +65,7 @@ PreparedReference prepareReference(ReferenceImages images, std::vector<PixelSele
 }
 
 ScoredFrame scoreFrame(const FrameImages& test, const ReferenceImages& reference,
-                       const std::vector<PixelSelection>& masks, const ReferenceRecord& pinned,
-                       float exposureStops) {
+                       const std::vector<PixelSelection>& masks, const ReferenceRecord& pinned, float exposureStops) {
     ScoredFrame scored;
     const auto addLight = [&](const std::string& light, const ImageF& image, const ReferenceLight& right,
                               const FlipExposures& exposures) {
@@ -78,17 +75,14 @@ ScoredFrame scoreFrame(const FrameImages& test, const ReferenceImages& reference
     };
     scored.flip = addLight(kTotal, test.final, reference.final, pinned.exposures);
     if (test.indirect)
-        scored.indirectFlip =
-            addLight(kIndirect, *test.indirect, reference.indirect, pinned.indirectExposures);
+        scored.indirectFlip = addLight(kIndirect, *test.indirect, reference.indirect, pinned.indirectExposures);
     return scored;
 }
 
-void scoreSeeds(const FrameImages& first, const FrameImages& second, const ReferenceImages& reference,
-                Scores& scores) {
+void scoreSeeds(const FrameImages& first, const FrameImages& second, const ReferenceImages& reference, Scores& scores) {
     add(scores, kTotal, seedScores(first.final, second.final, reference.final.halves()), "");
     if (first.indirect && second.indirect)
-        add(scores, kIndirect, seedScores(*first.indirect, *second.indirect, reference.indirect.halves()),
-            "");
+        add(scores, kIndirect, seedScores(*first.indirect, *second.indirect, reference.indirect.halves()), "");
 }
 
 void scoreAfterglow(std::span<const FrameMeans> means, uint32_t offAt, const std::string& light,
@@ -110,9 +104,9 @@ void scoreAfterglow(std::span<const FrameMeans> means, uint32_t offAt, const std
     }
 }
 
-void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReference& reference,
-                   const Scores& first, const std::function<FrameReference(uint32_t)>& referenceOf,
-                   float exposureStops, std::optional<uint32_t> lightOff, VariantResult& result) {
+void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReference& reference, const Scores& first,
+                   const std::function<FrameReference(uint32_t)>& referenceOf, float exposureStops,
+                   std::optional<uint32_t> lightOff, VariantResult& result) {
     TemporalError total, indirect;
     std::vector<FrameMeans> totalMeans, indirectMeans;
     for (const FrameImages& test : frames) {
@@ -122,8 +116,7 @@ void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReferen
         const auto& masks = frameReference ? frameReference->masks : reference.masks;
         result.frames.push_back({test.frame, first});
         if (test.frame > 0)
-            result.frames.back().scores =
-                scoreFrame(test, right, masks, reference.record, exposureStops).scores;
+            result.frames.back().scores = scoreFrame(test, right, masks, reference.record, exposureStops).scores;
         total.add(test.final, right.final.halves());
         if (test.indirect) indirect.add(*test.indirect, right.indirect.halves());
         totalMeans.push_back({meanOf(test.final), meanOf(right.final.mean)});

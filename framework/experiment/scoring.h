@@ -38,14 +38,12 @@ struct ScoredFrame {
 /// Scores both lights on the whole image and under each mask that selects a pixel.
 /// @param pinned has the exposures: those of frame 0 are used for all frames.
 ScoredFrame scoreFrame(const FrameImages& test, const ReferenceImages& reference,
-                       const std::vector<PixelSelection>& masks, const ReferenceRecord& pinned,
-                       float exposureStops);
+                       const std::vector<PixelSelection>& masks, const ReferenceRecord& pinned, float exposureStops);
 
 /// Splits the error of frame 0 into bias and noise, for total and indirect light, and stores them in
 /// `scores`.
 /// @param first, second the frame with two seeds.
-void scoreSeeds(const FrameImages& first, const FrameImages& second, const ReferenceImages& reference,
-                Scores& scores);
+void scoreSeeds(const FrameImages& first, const FrameImages& second, const ReferenceImages& reference, Scores& scores);
 
 /// The reference of a measured frame and the pixels that masks select there.
 struct FrameReference {
@@ -75,8 +73,8 @@ void scoreAfterglow(std::span<const FrameMeans> means, uint32_t offAt, const std
 /// `result.scores`.
 /// @param first the scores of frame 0. @param referenceOf returns the reference of another frame; empty: all
 /// frames share the prepared one. @param lightOff the frame in which a light is switched off, if any.
-void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReference& reference,
-                   const Scores& first, const std::function<FrameReference(uint32_t)>& referenceOf,
-                   float exposureStops, std::optional<uint32_t> lightOff, VariantResult& result);
+void scoreSequence(const std::vector<FrameImages>& frames, const PreparedReference& reference, const Scores& first,
+                   const std::function<FrameReference(uint32_t)>& referenceOf, float exposureStops,
+                   std::optional<uint32_t> lightOff, VariantResult& result);
 
 }  // namespace voxray

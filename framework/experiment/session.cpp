@@ -101,8 +101,8 @@ std::vector<PassMemory> Session::plan(Graph& graph, const Frame& frame, uint64_t
 
 std::string Session::referenceHashOf(const Study& study, const Setup& setup, uint32_t number) {
     if (study.reference.isNull()) return {};
-    const std::string first = referenceHash(loader_.key(setup.scene), study.reference, setup.image,
-                                            referenceSeed(setup.general.seed));
+    const std::string first =
+        referenceHash(loader_.key(setup.scene), study.reference, setup.image, referenceSeed(setup.general.seed));
     if (number == 0 || isStatic(setup.scene)) return first;
 
     // Motion has no influence on frame 0
@@ -162,10 +162,9 @@ ReferenceImages Session::frameReference(const Study& study, const Setup& setup, 
     return rendered;
 }
 
-RenderedPart Session::referencePart(const Study& study, const Setup& setup, uint32_t number,
-                                    SamplePart samples, const std::function<void(double)>& progress) {
-    if (const auto cached =
-            cache_.load(referenceHashOf(study, setup, number), setup.image.width, setup.image.height))
+RenderedPart Session::referencePart(const Study& study, const Setup& setup, uint32_t number, SamplePart samples,
+                                    const std::function<void(double)>& progress) {
+    if (const auto cached = cache_.load(referenceHashOf(study, setup, number), setup.image.width, setup.image.height))
         return partOf(*cached);
     return renderPart(study, setup, number, samples, progress);
 }
@@ -178,8 +177,7 @@ RenderedPart Session::renderPart(const Study& study, const Setup& setup, uint32_
     Graph graph = study.referenceGraph();
     plan(graph, frame, 0);
     graph.prepare(frame, device_, compiler_, stream_);
-    return renderReference(graph, {frame, device_, stream_, *onDevice.tracer, onDevice.gpu, {}}, number,
-                           progress);
+    return renderReference(graph, {frame, device_, stream_, *onDevice.tracer, onDevice.gpu, {}}, number, progress);
 }
 
 std::vector<std::string> Session::warnings() const {

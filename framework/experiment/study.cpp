@@ -18,13 +18,14 @@ std::vector<std::string> comparedPorts() {
     return {kComparedImage, kIndirectImage};
 }
 
-/// The id of a pass in a chain that replaces the pass `id`: its last pass gets that id.
+/// The id of a pass in a chain, the list of passes given as one swept value. A swept value may replace pass `id` by
+/// several passes. The last of them takes over `id`.
 std::string idInChain(const Value& pass, bool isLast, const std::string& id) {
     return isLast ? id : pass.isMap() ? passId(pass) : pass.scalar;
 }
 
 /// Whether all passes of a chain that replaces `id` are culled in a variant.
-/// @param value null: the pass itself.
+/// @param value what replaces the pass; null if nothing does.
 bool isChainCulled(const Variant& variant, const std::string& id, const Value& value) {
     const std::vector<Value> chain = value.isList() ? value.items : std::vector{value};
     for (size_t i = 0; i < chain.size(); ++i)
@@ -32,29 +33,29 @@ bool isChainCulled(const Variant& variant, const std::string& id, const Value& v
     return true;
 }
 
-/// Why an axis of the sweep has no effect in a variant: no image depends on its pass, or its parameter is
+/// Why a swept parameter (an axis of the sweep) has no effect in a variant: no image depends on its pass, or it is
 /// unused because of other parameters. Empty if it has an effect.
-/// @param chosen the variant's value of the axis.
-std::string whyWithoutEffect(const Variant& variant, const std::string& axis, const Value& chosen) {
-    const size_t dot = axis.find('.');
-    const std::string id = axis.substr(0, dot);
+/// @param chosen the variant's value of the parameter.
+std::string whyWithoutEffect(const Variant& variant, const std::string& parameter, const Value& chosen) {
+    const size_t dot = parameter.find('.');
+    const std::string id = parameter.substr(0, dot);
     const bool isPass = dot == std::string::npos;
     if (isChainCulled(variant, id, isPass ? chosen : Value())) return fmt::format("no image depends on '{}'", id);
     for (const UnusedSetting& unused : variant.unused)
-        if (unused.name == axis) return unused.why;
+        if (unused.name == parameter) return unused.why;
     return {};
 }
 
-/// Removes variants that differ from others only in axes without effect.
-/// @throws UsageError with file and line for an axis that has no effect in any variant; if the reason may be
-/// a pass that overwrites the image of another one, that is reported instead.
+/// Removes variants that differ from others only in swept parameters without effect.
+/// @throws UsageError with file and line for a parameter that has no effect in any variant. If a pass overwrites
+/// another's image, that error is reported, as the likely cause.
 void removeDuplicates(Study& study) {
     const std::vector<std::string> keys = sweepKeys(study.experiment);
-    std::vector<std::map<std::string, Value>> values(keys.size());  // Values of each axis by label.
+    std::vector<std::map<std::string, Value>> values(keys.size());  // Values of each swept parameter by label.
     for (size_t a = 0; a < keys.size(); ++a) {
-        const Value& axis = study.experiment.sweep.members[a].value;
-        const std::vector<std::string> labels = sweepLabels(keys[a], axis);
-        std::vector<Value> all = sweepValues(axis);
+        const Value& swept = study.experiment.sweep.members[a].value;
+        const std::vector<std::string> labels = sweepLabels(keys[a], swept);
+        std::vector<Value> all = sweepValues(swept);
         for (size_t i = 0; i < labels.size(); ++i) values[a].emplace(labels[i], std::move(all[i]));
     }
     std::set<std::vector<std::string>> unique;
@@ -63,7 +64,7 @@ void removeDuplicates(Study& study) {
     std::erase_if(study.variants, [&](Variant& variant) {
         for (size_t a = 0; a < keys.size(); ++a) {
             const auto chosen = values[a].find(variant.values[a]);
-            if (chosen == values[a].end()) continue;  // The variant has no value of the axis.
+            if (chosen == values[a].end()) continue;  // The variant has no value of the parameter.
             const std::string why = whyWithoutEffect(variant, keys[a], chosen->second);
             if (why.empty()) continue;
             variant.values[a] = kNoValue;
@@ -99,10 +100,12 @@ Value checkedReference(const Study& study) {
     // The reference's noise is computed from two halves of its samples
     if (const Value* spp = experiment.reference.find("spp"); spp && spp->asInteger("reference.spp") < 2)
         throw UsageError(spp->where,
-                         "reference.spp: 2 or more, best a power of two, as in spp: 64: "
-                         "from its two halves comes the reference's noise");
+                         "reference.spp: must be at least 2, best a power of two (e.g. 64): "
+                         "noise is the difference of the two halves");
     if (const Value* light = experiment.reference.find("light"); light && light->scalar != "all")
-        throw UsageError(light->where, "reference.light: 'all', or left out: direct and indirect light are compared");
+        throw UsageError(
+            light->where,
+            "reference.light: must be 'all' or left out, because the reference needs direct and indirect light");
     return resolved;
 }
 
@@ -113,7 +116,7 @@ Variant::Variant(SweepPoint point, const Registry& registry)
     if (!graph.writes(kComparedImage))
         throw UsageError(setup.graph.where, "graph: no pass writes '{}', the image that is compared; these can: {}",
                          kComparedImage, fmt::join(registry.writersOf(kComparedImage), ", "));
-    for (const char* part : kPartsOfLight) graph.checkReadsLast(kComparedImage, part);
+    for (const char* part : kPartsOfLight) graph.checkReadsLastWriter(kComparedImage, part);
     unused = graph.unused();
     culledPasses = graph.cullUnused(comparedPorts());
     resolved = graph.resolved();
@@ -140,15 +143,15 @@ Study makeStudy(Experiment experiment, const Registry& registry) {
     Study study;
     study.registry = &registry;
     for (SweepPoint& point : expandSweep(experiment)) {
-        checkLightsGoOff(point.setup.scene, experiment.measure);
+        checkLightSwitchTimes(point.setup.scene, experiment.measure);
         study.variants.emplace_back(std::move(point), registry);
     }
-    checkOwnValues(experiment, study.variants, registry);
+    checkUnsweptConfig(experiment, study.variants, registry);
     study.experiment = std::move(experiment);
     study.reference = checkedReference(study);
-    checkSwaps(study);
+    checkSweptPasses(study);
     removeDuplicates(study);
-    checkIsNotOverwritten(study);
+    checkNoImageIsOverwritten(study);
     refuseUnusedParameters(study);
     return study;
 }

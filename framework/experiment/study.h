@@ -19,14 +19,19 @@ inline constexpr const char* kIndirectImage = "indirect";
 /// Names of the ports whose sum is the compared image.
 inline constexpr const char* kPartsOfLight[] = {"direct", kIndirectImage};
 
+// An Experiment is a parsed config. makeStudy() expands its sweep into a Study, which needs no scene. A
+// PreparedExperiment is a Study that was planned and checked on its scenes and a device.
+
 /// One combination of the sweep's values. Its members are set step by step: the graph by makeStudy(), memory
 /// by planVariants(), the reference by PreparedExperiment, the result by the run.
 struct Variant : SweepPoint {
     /// Makes the graph and connects its ports. @throws UsageError with file and line.
     Variant(SweepPoint point, const Registry& registry);
 
-    Graph graph;     ///< Only passes that the compared images depend on. It has state and is run once.
-    Value resolved;  ///< Config of the graph including all default values.
+    /// Holds only passes that the compared images depend on. A graph has state, so it is run once; graphOf() makes
+    /// another.
+    Graph graph;
+    Value resolved;                         ///< Config tree of the graph including all default values.
     std::vector<std::string> culledPasses;  ///< Ids.
     /// For each compared image: the parameters that lower its noise (Graph::noiseParameters()).
     std::map<std::string, std::vector<std::string>> noiseParameters;
@@ -46,9 +51,9 @@ struct Variant : SweepPoint {
 struct Study {
     Experiment experiment;
     std::vector<Variant> variants;
-    Value reference;  ///< Graph of the reference including all default values; null if there is none.
-    /// Ids of passes that run only in variants that --only excludes. They are not reported as unused.
-    std::vector<std::string> deselected;
+    Value reference;  ///< Config tree of the reference's graph including all default values; null if there is none.
+    /// With --only: ids of passes that no selected variant runs, but others do. They are not reported as unused.
+    std::vector<std::string> excludedPasses;
     const Registry* registry = nullptr;  ///< Must outlive the study.
 
     // Set by planVariants()
@@ -63,9 +68,10 @@ struct Study {
 
 /// Expands the sweep, makes the graphs of all variants and of the reference, and checks them. Needs no device
 /// and no scene file.
-/// @throws UsageError with file and line: for an invalid graph; for a swept pass that no image depends on,
-/// while another value of the same axis is used; for a pass that overwrites the compared image of an earlier
-/// pass without reading any of its outputs.
+/// @throws UsageError with file and line
+/// - for an invalid graph;
+/// - for a value of a swept parameter that is a pass on which no image depends, while another value's pass is used;
+/// - for a pass that overwrites the compared image of an earlier pass without reading any of its outputs.
 Study makeStudy(Experiment experiment, const Registry& registry);
 
 /// Number of variants in which each pass is culled, by id.

@@ -92,13 +92,18 @@ class ChannelWriter {
     AovImage& to_;
 };
 
-void writeFramePreviews(const std::filesystem::path& folder, const VariantImages& images, float exposureStops) {
+ImageF previewOf(const ImageF& image, const ImageSettings& settings) {
+    return preview(image, settings.exposureStops, settings.tone);
+}
+
+void writeFramePreviews(const std::filesystem::path& folder, const VariantImages& images,
+                        const ImageSettings& settings) {
     if (images.laterFrames.empty()) return;
     std::filesystem::create_directories(folder);
     const auto write = [&](uint32_t frame, const ImageF& final, const std::optional<ImageF>& indirect) {
         const std::string end = "." + std::to_string(frame) + ".png";
-        writePng(folder / ("final" + end), preview(final, exposureStops));
-        if (indirect) writePng(folder / ("indirect" + end), preview(*indirect, exposureStops));
+        writePng(folder / ("final" + end), previewOf(final, settings));
+        if (indirect) writePng(folder / ("indirect" + end), previewOf(*indirect, settings));
     };
     write(0, images.final, images.indirect);
     for (const FrameImages& later : images.laterFrames) write(later.frame, later.final, later.indirect);
@@ -210,26 +215,27 @@ VariantImages renderVariant(Variant& variant, const Study& study, Session& sessi
     return images;
 }
 
-void writeVariantImages(const std::filesystem::path& folder, const VariantImages& images, float exposureStops) {
+void writeVariantImages(const std::filesystem::path& folder, const VariantImages& images,
+                        const ImageSettings& settings) {
     writeExr(folder / "final.exr", images.final);
-    writePng(folder / "final.png", preview(images.final, exposureStops));
+    writePng(folder / "final.png", previewOf(images.final, settings));
     if (images.flip) writePng(folder / "flip.png", *images.flip);
     for (const AovImage& aov : images.aovs) writeExr(folder / ("aovs." + aov.pass + ".exr"), aov.image, aov.channels);
-    writeFramePreviews(folder / "frames", images, exposureStops);
+    writeFramePreviews(folder / "frames", images, settings);
     if (!images.indirect) return;
     writeExr(folder / "indirect.exr", *images.indirect);
-    writePng(folder / "indirect.png", preview(*images.indirect, exposureStops));
+    writePng(folder / "indirect.png", previewOf(*images.indirect, settings));
     if (images.indirectFlip) writePng(folder / "indirect_flip.png", *images.indirectFlip);
 }
 
 void writeReferenceImages(const std::filesystem::path& folder, const PreparedReference& reference,
-                          float exposureStops) {
+                          const ImageSettings& settings) {
     const ReferenceImages& images = reference.images;
     const auto writeLight = [&](const std::string& name, const ReferenceLight& light) {
         writeExr(folder / (name + ".exr"), light.mean);
         writeExr(folder / (name + "_a.exr"), light.a);
         writeExr(folder / (name + "_b.exr"), light.b);
-        writePng(folder / (name + ".png"), preview(light.mean, exposureStops));
+        writePng(folder / (name + ".png"), previewOf(light.mean, settings));
     };
     writeLight("final", images.final);
     writeLight("indirect", images.indirect);

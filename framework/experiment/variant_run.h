@@ -31,17 +31,16 @@ uint64_t graphRuns(const Experiment& experiment);
 /// @param reference of frame 0; nullptr: no scores. @param referenceOf returns the references of other
 /// frames; empty: all frames share one. @param withAovs whether AOVs of frame 0 are downloaded.
 /// @throws Error, Interrupted; validation messages are errors.
-VariantImages renderVariant(Variant& variant, const Study& study, Session& session,
-                            const PreparedReference* reference,
+VariantImages renderVariant(Variant& variant, const Study& study, Session& session, const PreparedReference* reference,
                             const std::function<FrameReference(uint32_t)>& referenceOf, bool withAovs,
                             const std::function<void(double)>& progress);
 
 /// Writes final, indirect and the FLIP maps as EXR and PNG into a folder, AOVs as EXR, and previews of all
 /// compared frames of a sequence into its folder `frames`.
 void writeVariantImages(const std::filesystem::path& folder, const VariantImages& images,
-                        float exposureStops);
+                        const ImageSettings& settings);
 /// Writes a reference's images, their halves and its masks.
 void writeReferenceImages(const std::filesystem::path& folder, const PreparedReference& reference,
-                          float exposureStops);
+                          const ImageSettings& settings);
 
 }  // namespace voxray

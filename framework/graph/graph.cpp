@@ -61,23 +61,21 @@ uint64_t estimatedBytes(const std::vector<PassMemory>& passes) {
 std::vector<Graph::PassInfo> Graph::passes() const {
     std::vector<PassInfo> infos;
     for (const GraphNode& node : nodes_)
-        infos.push_back(
-            {node.id, node.kind, node.phase, node.pass->warmupFrames(), node.where, node.lightRays});
+        infos.push_back({node.id, node.kind, node.phase, node.pass->warmupFrames(), node.where, node.lightRays});
     return infos;
 }
 
-void Graph::checkReadsLast(const std::string& output, const std::string& input) const {
+void Graph::checkReadsLastWriter(const std::string& output, const std::string& input) const {
     const GraphNode *writer = lastWriter(nodes_, input), *reader = lastWriter(nodes_, output);
     if (!writer || !reader) return;
     const std::optional<size_t> port = inputNamed(*reader, input);
     const Value* inputs = reader->resolved.find("inputs");
     if (!port || (inputs && inputs->find(input))) return;
     if (reader->resources[*port] == writer->resources[*outputNamed(*writer, input)]) return;
-    throw UsageError(
-        writer->where,
-        "{0}: writes '{1}', but that is not what '{2}' reads, so '{3}' lacks what it brings: put '{0}' "
-        "right before '{2}', or choose with inputs of '{2}'",
-        writer->id, input, reader->id, output);
+    throw UsageError(writer->where,
+                     "{0}: writes '{1}', but that is not what '{2}' reads, so '{3}' lacks what it brings: "
+                     "put '{0}' right before '{2}', or choose with inputs of '{2}'",
+                     writer->id, input, reader->id, output);
 }
 
 std::vector<Graph::Input> Graph::unboundInputs(const std::string& portName) const {
@@ -91,8 +89,7 @@ std::vector<Graph::Input> Graph::unboundInputs(const std::string& portName) cons
 
 std::string Graph::whyCulled(const std::string& id) const {
     const auto pass = std::ranges::find(nodes_, id, &GraphNode::id);
-    std::string why =
-        "no pass reads what it writes, and no image that is compared depends on it: leave it out";
+    std::string why = "no pass reads what it writes, and no image that is compared depends on it: leave it out";
     for (size_t p = pass->ports.size(); p-- > 0;) {
         const std::string& port = pass->ports[p].name;
         if (!pass->ports[p].output) continue;
@@ -100,9 +97,8 @@ std::string Graph::whyCulled(const std::string& id) const {
             return std::ranges::count(node.resources, pass->resources[p]) > 0;
         };
         const auto reader = std::find_if(pass + 1, nodes_.end(), isBound);
-        const auto laterWriter = std::find_if(pass + 1, nodes_.end(), [&](const GraphNode& node) {
-            return outputNamed(node, port).has_value();
-        });
+        const auto laterWriter = std::find_if(
+            pass + 1, nodes_.end(), [&](const GraphNode& node) { return outputNamed(node, port).has_value(); });
         if (reader != nodes_.end())
             why = fmt::format("'{}' reads it, but no image that is compared depends on that", reader->id);
         else if (laterWriter == nodes_.end())
@@ -114,9 +110,8 @@ std::string Graph::whyCulled(const std::string& id) const {
                 "take one of the two out, or write 'inputs: {{{1}: {2}}}' in what shall read it",
                 laterWriter->id, port, id);
         else
-            why = fmt::format(
-                "'{}', after it, writes '{}' too, and the last one counts: take one of the two out",
-                laterWriter->id, port);
+            why = fmt::format("'{}', after it, writes '{}' too, and the last one counts: take one of the two out",
+                              laterWriter->id, port);
     }
     return UsageError(pass->where, "'{}' is never run: {}", id, why).what();
 }
@@ -144,8 +139,7 @@ std::vector<std::string> Graph::noiseParameters(const std::string& portName) con
     const Needed needed = neededFor(nodes_, {portName});
     for (size_t n = 0; n < nodes_.size(); ++n)
         if (needed.nodes[n])
-            for (const std::string& name : nodes_[n].noiseParameters)
-                paths.push_back(nodes_[n].id + "." + name);
+            for (const std::string& name : nodes_[n].noiseParameters) paths.push_back(nodes_[n].id + "." + name);
     return paths;
 }
 
@@ -182,8 +176,7 @@ bool Graph::writes(const std::string& portName) const {
 const Resource* Graph::find(const std::string& portName, std::type_index type) const {
     const Resource* found = nullptr;
     for (const GraphNode& node : nodes_)
-        if (const auto p = outputNamed(node, portName); p && node.ports[*p].type == type)
-            found = node.resources[*p];
+        if (const auto p = outputNamed(node, portName); p && node.ports[*p].type == type) found = node.resources[*p];
     return found;
 }
 

@@ -64,7 +64,7 @@ class Graph {
 
     /// Checks that the last writer of `output` reads the last one written of `input`, unless its `inputs`
     /// choose another. @throws UsageError with file and line: a pass writes `input` too late.
-    void checkReadsLast(const std::string& output, const std::string& input) const;
+    void checkReadsLastWriter(const std::string& output, const std::string& input) const;
 
     /// An input of a pass, by the pass and the port.
     struct Input {
@@ -98,8 +98,7 @@ class Graph {
     /// the measured time). @throws Error naming the pass, also one that runs out of memory.
     /// @return a sample by pass of that phase, in the order of passes().
     std::vector<PassSample> run(Phase phase, const Frame& frame, Device& device, CommandStream& stream,
-                                RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex,
-                                bool checkFinite);
+                                RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex, bool checkFinite);
 
     /// AOVs of all resources, by the id of the pass that wrote them.
     std::vector<std::pair<std::string, std::vector<Aov>>> aovs() const;

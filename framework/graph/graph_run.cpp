@@ -30,14 +30,12 @@ void updateVersions(GraphNode& node, bool outputsUnchanged) {
     if (!outputsUnchanged)
         for (const std::unique_ptr<Resource>& output : node.outputs) ++output->version;
     node.seenVersions.emplace();
-    for (const Resource* resource : node.resources)
-        node.seenVersions->push_back(resource ? resource->version : 0);
+    for (const Resource* resource : node.resources) node.seenVersions->push_back(resource ? resource->version : 0);
 }
 
 bool reads(const GraphNode& reader, const GraphNode& writer) {
-    return std::ranges::any_of(writer.outputs, [&](const auto& output) {
-        return std::ranges::count(reader.resources, output.get()) > 0;
-    });
+    return std::ranges::any_of(
+        writer.outputs, [&](const auto& output) { return std::ranges::count(reader.resources, output.get()) > 0; });
 }
 
 /// Advice for a pass that takes too much memory: its integer parameters and those of the passes that it
@@ -45,8 +43,7 @@ bool reads(const GraphNode& reader, const GraphNode& writer) {
 std::string sizeAdvice(const std::vector<GraphNode>& nodes, const GraphNode& node) {
     std::string paths;
     const auto add = [&](const GraphNode& other) {
-        for (const std::string& parameter : other.sizeParameters)
-            paths += fmt::format("{}.{}, ", other.id, parameter);
+        for (const std::string& parameter : other.sizeParameters) paths += fmt::format("{}.{}, ", other.id, parameter);
     };
     add(node);
     for (const GraphNode& writer : nodes)
@@ -81,15 +78,13 @@ std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device
     }
     if (const uint64_t peak = peakBytes(memory); peak > memoryLimitBytes)
         throw Error(largestPass->where,
-                    "the graph needs {:.1f} MiB, the limit is {:.1f} MiB; the largest part is {} with {:.1f} "
-                    "MiB: {}",
-                    double(peak) / kMiB, double(memoryLimitBytes) / kMiB, largest,
-                    double(largestBytes) / kMiB, sizeAdvice(nodes_, *largestPass));
+                    "the graph needs {:.1f} MiB, the limit is {:.1f} MiB; the largest part is {} with {:.1f} MiB: {}",
+                    double(peak) / kMiB, double(memoryLimitBytes) / kMiB, largest, double(largestBytes) / kMiB,
+                    sizeAdvice(nodes_, *largestPass));
     return memory;
 }
 
-void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler,
-                    CommandStream& stream) {
+void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler, CommandStream& stream) {
     const MemoryLimit limit(device, memoryLimitBytes_, 0);
     finiteCheck_ = std::make_unique<FiniteCheck>(device);
     if (!device.isHost()) {
@@ -107,12 +102,11 @@ void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& co
 }
 
 std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& device, CommandStream& stream,
-                                   RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex,
-                                   bool checkFinite) {
+                                   RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex, bool checkFinite) {
     /// Timestamps and counters of a pass, which are read when all passes have run.
     struct Pending {
         uint32_t begin, end;
-        std::vector<const Buffer*> voxelCounts;
+        std::vector<const Buffer*> visitCounts;
     };
     std::vector<PassSample> samples;
     std::vector<Pending> pending;  ///< One per sample.
@@ -126,8 +120,8 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         const uint64_t raysBefore = tracer.raysTraced();
 
         // Device timestamps; host work of the Embree backend falls between them.
-        PassContext context(*node.pass, node.resources, node.seenVersions, frame, device, stream, tracer,
-                            scene, black_, frameIndex);
+        PassContext context(*node.pass, node.resources, node.seenVersions, frame, device, stream, tracer, scene, black_,
+                            frameIndex);
         const StreamCounts before = stream.counts();
         uint32_t begin = 0, end = 0;
         const auto record = [&] {
@@ -147,19 +141,19 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         for (const PassContext::Value& value : sample.reported)
             if (!std::isfinite(value.value))
                 throw Error("pass '{}' reported {} as '{}'", node.id, value.value, value.name);
-        pending.push_back({begin, end, std::move(context.voxelCounts)});
+        pending.push_back({begin, end, std::move(context.visitCounts)});
         if (checkFinite) checkFiniteOutputs(node, stream);
     }
     stream.finish();
     for (size_t i = 0; i < samples.size(); ++i) {
         samples[i].milliseconds = stream.millisecondsBetween(pending[i].begin, pending[i].end);
         uint64_t visits = 0;
-        for (const Buffer* counts : pending[i].voxelCounts) {
+        for (const Buffer* counts : pending[i].visitCounts) {
             const std::vector<uint64_t> stepsAndVisits = stream.readAs<uint64_t>(*counts, 2);
             samples[i].voxelSteps += stepsAndVisits[0];
             visits += stepsAndVisits[1];
         }
-        if (!pending[i].voxelCounts.empty()) samples[i].reported.push_back({"voxel visits", double(visits)});
+        if (!pending[i].visitCounts.empty()) samples[i].reported.push_back({"voxel visits", double(visits)});
     }
     return samples;
 }

@@ -39,11 +39,9 @@ void bindIndexResources(const std::vector<GraphNode>& nodes) {
             const auto index = inputNamed(node, port);
             const Resource* read = index ? node.resources[*index] : nullptr;
             if (!read || !resource->indexResource || read == resource->indexResource) continue;
-            const std::string expected = writerOf(nodes, resource->indexResource),
-                              actual = writerOf(nodes, read);
+            const std::string expected = writerOf(nodes, resource->indexResource), actual = writerOf(nodes, read);
             throw UsageError(node.where,
-                             "{0}: "
-                             "'{1}' of '{2}' belongs to the {3} of '{4}', but {0} reads those of '{5}': "
+                             "{0}: '{1}' of '{2}' belongs to the {3} of '{4}', but {0} reads those of '{5}': "
                              "write 'inputs: {{{3}: {4}}}' here, or put '{5}' before '{2}'",
                              node.id, node.ports[p].name, writerOf(nodes, resource), port, expected, actual);
         }

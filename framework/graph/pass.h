@@ -58,8 +58,8 @@ inline ImageDesc frameImageDesc(const Frame& frame) {
 /// Given to Pass::plan: describes buffers and images (MemoryPlan), before any memory is allocated.
 class PassPlan : public PortAccess, public MemoryPlan {
  public:
-    PassPlan(const PortOwner& owner, const std::vector<Resource*>& resources, const Frame& f,
-             const DeviceInfo& d, Phase p)
+    PassPlan(const PortOwner& owner, const std::vector<Resource*>& resources, const Frame& f, const DeviceInfo& d,
+             Phase p)
         : PortAccess(owner, resources), frame(f), device(d), phase(p) {}
     const Frame& frame;
     const DeviceInfo& device;
@@ -90,8 +90,8 @@ class PassContext : public PortAccess {
     /// @param seenVersions of the resources when the pass recorded last; empty in its first run
     /// @param black a texel, for inputs that nothing writes
     PassContext(const PortOwner& owner, const std::vector<Resource*>& resources,
-                const std::optional<std::vector<uint64_t>>& seenVersions, const Frame& f, Device& d,
-                CommandStream& s, RayTracer& t, const GpuScene& g, const Image& black, uint32_t index)
+                const std::optional<std::vector<uint64_t>>& seenVersions, const Frame& f, Device& d, CommandStream& s,
+                RayTracer& t, const GpuScene& g, const Image& black, uint32_t index)
         : PortAccess(owner, resources),
           frame(f),
           device(d),
@@ -139,7 +139,7 @@ class PassContext : public PortAccess {
     uint64_t extraRays = 0;
     /// Counters of voxel marches (shaders/voxel_march), read when all passes have run: two 64-bit numbers,
     /// steps and words read. They become the pass's voxel_steps and the value "voxel visits".
-    std::vector<const Buffer*> voxelCounts;
+    std::vector<const Buffer*> visitCounts;
 
     struct Value {
         std::string name;

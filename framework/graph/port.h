@@ -85,9 +85,7 @@ template <typename T>
 class Out : public Port {
  public:
     Out(PortOwner& owner, std::string name, std::string help, bool isPresent = true)
-        : Port(owner,
-               {std::move(name), std::move(help), true, false, typeid(T),
-                []() -> Resource* { return new T(); }},
+        : Port(owner, {std::move(name), std::move(help), true, false, typeid(T), []() -> Resource* { return new T(); }},
                isPresent) {}
 };
 
@@ -114,9 +112,7 @@ class PortAccess {
     }
 
  protected:
-    Resource* bound(const Port& port) const {
-        return port.index_ < 0 ? nullptr : resources_[size_t(port.index_)];
-    }
+    Resource* bound(const Port& port) const { return port.index_ < 0 ? nullptr : resources_[size_t(port.index_)]; }
     Resource& required(const Port& port) const;
 
     const PortOwner& owner_;

@@ -65,8 +65,8 @@ std::vector<PortDoc> portsOf(const PassType& type) {
             for (size_t v = 0; v < choice.values.size(); ++v)
                 if (contains(choice.ports[v], port)) having.push_back(choice.values[v]);
             if (having.empty() || having.size() == choice.values.size()) continue;
-            doc.with += fmt::format("{}{}: {}", doc.with.empty() ? "" : ", or ", choice.parameter,
-                                    fmt::join(having, " | "));
+            doc.with +=
+                fmt::format("{}{}: {}", doc.with.empty() ? "" : ", or ", choice.parameter, fmt::join(having, " | "));
         }
     }
     return docs;
@@ -101,8 +101,8 @@ size_t addRegistered(Registry& registry, std::string_view folder, const std::str
 void Registry::add(const char* name, const std::string& family, const char* help, bool needsDevice,
                    const PassType& type) {
     if (find(name)) throw Error("two passes are called '{}': give one another kName", name);
-    kinds_.push_back({name, family, help, describeParams(*type.schema, type.defaults().get()), portsOf(type),
-                      needsDevice, type});
+    kinds_.push_back(
+        {name, family, help, describeParams(*type.schema, type.defaults().get()), portsOf(type), needsDevice, type});
 }
 
 void Registry::renamed(std::string oldName, std::string advice) {
@@ -119,9 +119,8 @@ std::vector<std::string> Registry::writersOf(const std::string& port) const {
     std::vector<std::string> writers;
     for (const PassKind& kind : kinds_) {
         const auto has = [&](bool output) {
-            return std::ranges::any_of(kind.ports, [&](const PortDoc& p) {
-                return p.name == port && p.output == output && !p.optional;
-            });
+            return std::ranges::any_of(
+                kind.ports, [&](const PortDoc& p) { return p.name == port && p.output == output && !p.optional; });
         };
         if (has(true) && !has(false)) writers.push_back(kind.name);
     }

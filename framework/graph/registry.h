@@ -67,8 +67,7 @@ class Registry {
                     return make<P>(*static_cast<const typename P::Params*>(p));
                 }));
         else
-            add(P::kName, family, P::kHelp, needsDevice,
-                typeOf<NoParams>([](const void*) { return make<P>(); }));
+            add(P::kName, family, P::kHelp, needsDevice, typeOf<NoParams>([](const void*) { return make<P>(); }));
     }
 
     /// An old name, and advice for errors: renamed("gather_all", "gather with 'light: all'").
@@ -86,15 +85,13 @@ class Registry {
     template <typename Params>
     static PassType typeOf(std::unique_ptr<Pass> (*make)(const void*)) {
         return {&schemaOf<Params>(),
-                [] { return PassType::Params(new Params, [](void* p) { delete static_cast<Params*>(p); }); },
-                make};
+                [] { return PassType::Params(new Params, [](void* p) { delete static_cast<Params*>(p); }); }, make};
     }
     template <typename P, typename... Params>
     static std::unique_ptr<Pass> make(const Params&... params) {
         return std::make_unique<P>(params...);
     }
-    void add(const char* name, const std::string& family, const char* help, bool needsDevice,
-             const PassType& type);
+    void add(const char* name, const std::string& family, const char* help, bool needsDevice, const PassType& type);
 
     std::vector<PassKind> kinds_;
     std::map<std::string, std::string> renamed_;

@@ -31,8 +31,8 @@ std::vector<std::string> idsOf(const std::vector<GraphNode>& nodes) {
 }
 
 /// @throws UsageError for an unknown parameter that another pass of the graph has.
-void checkParameters(const Registry& registry, const PassKind& kind, const Value& entry,
-                     const std::string& id, const Value& passList) {
+void checkParameters(const Registry& registry, const PassKind& kind, const Value& entry, const std::string& id,
+                     const Value& passList) {
     const auto has = [](const PassKind& k, const std::string& name) {
         return std::ranges::count(k.parameters, name, &ParameterDoc::name) > 0;
     };
@@ -45,8 +45,7 @@ void checkParameters(const Registry& registry, const PassKind& kind, const Value
             std::vector<std::string> names;
             for (const ParameterDoc& doc : kind.parameters) names.push_back(doc.name);
             throw UsageError(value.where, "{}: unknown parameter '{}', which '{}' has; one of: {}", id, key,
-                             otherKind->name,
-                             names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
+                             otherKind->name, names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
         }
     }
 }
@@ -104,8 +103,8 @@ Source explicitSource(const std::vector<GraphNode>& nodes, const GraphNode& read
         std::vector<std::string> outputs;
         for (const PortInfo& p : nodes[n].ports)
             if (p.output) outputs.push_back(p.name);
-        throw UsageError(reference.where, "{}.inputs.{}: '{}' writes no '{}'{}", reader.id, port.name, id,
-                         portName, didYouMean(portName, outputs));
+        throw UsageError(reference.where, "{}.inputs.{}: '{}' writes no '{}'{}", reader.id, port.name, id, portName,
+                         didYouMean(portName, outputs));
     }
     throw UsageError(reference.where, "{}.inputs.{}: no pass has the id '{}'{}", reader.id, port.name, id,
                      didYouMean(id, idsOf(nodes)));
@@ -119,12 +118,11 @@ std::optional<Source> implicitSource(const std::vector<GraphNode>& nodes, size_t
     if (port.optional) return {};
     for (size_t n = reader + 1; n < nodes.size(); ++n)
         if (outputNamed(nodes[n], port.name))
-            throw UsageError(nodes[reader].where,
-                             "{}: reads '{}', which '{}' writes only later; move '{}' up", nodes[reader].id,
-                             port.name, nodes[n].id, nodes[n].id);
+            throw UsageError(nodes[reader].where, "{}: reads '{}', which '{}' writes only later; move '{}' up",
+                             nodes[reader].id, port.name, nodes[n].id, nodes[n].id);
     const std::vector<std::string> writers = registry.writersOf(port.name);
-    throw UsageError(nodes[reader].where, "{}: missing port '{}' ({}); no pass before it writes it{}",
-                     nodes[reader].id, port.name, port.help,
+    throw UsageError(nodes[reader].where, "{}: missing port '{}' ({}); no pass before it writes it{}", nodes[reader].id,
+                     port.name, port.help,
                      writers.empty() ? "" : fmt::format("; these can: {}", fmt::join(writers, ", ")));
 }
 
@@ -144,8 +142,8 @@ void checkInputKeys(const std::vector<GraphNode>& nodes, const GraphNode& node, 
     for (const PortInfo& port : node.ports)
         if (!port.output) names.push_back(port.name);
     if (!inputs.isMap())
-        throw UsageError(inputs.where, "{}.inputs: expected a map of ports and ids{}; its ports are {}",
-                         node.id, exampleOfInputs(nodes, names, inputs), fmt::join(names, ", "));
+        throw UsageError(inputs.where, "{}.inputs: expected a map of ports and ids{}; its ports are {}", node.id,
+                         exampleOfInputs(nodes, names, inputs), fmt::join(names, ", "));
     for (const auto& [key, value] : inputs.members)
         if (std::find(names.begin(), names.end(), key) == names.end())
             throw UsageError(value.where, "{}.inputs: '{}' is not an input of {}{}", node.id, key, node.kind,
@@ -207,8 +205,7 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
         nodes.push_back(readNode(registry, entry, passList));
         for (size_t n = 0; n + 1 < nodes.size(); ++n)
             if (nodes[n].id == nodes.back().id)
-                throw UsageError(entry.where, "graph: two passes have the id '{}'; give one another 'id'",
-                                 nodes[n].id);
+                throw UsageError(entry.where, "graph: two passes have the id '{}'; give one another 'id'", nodes[n].id);
     }
 
     // A pass owns its outputs. Only the last output of a name can be read from outside the graph.
@@ -249,8 +246,8 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
     // Readers of frame passes are frame passes.
     const std::vector<size_t> order = topologicalOrder(nodes, dependencies);
     for (const size_t n : order) {
-        const bool readsFrame = std::ranges::any_of(
-            dependencies[n], [&](size_t writer) { return nodes[writer].phase == Phase::Frame; });
+        const bool readsFrame =
+            std::ranges::any_of(dependencies[n], [&](size_t writer) { return nodes[writer].phase == Phase::Frame; });
         nodes[n].phase = readsFrame ? Phase::Frame : nodes[n].pass->phase();
     }
 

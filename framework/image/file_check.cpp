@@ -39,9 +39,8 @@ void checkPng(std::span<const uint8_t> bytes, const std::string& name) {
         if (bytes.size() - offset - 12 < length) break;
         const auto typeAndData = bytes.subspan(offset + 4, 4 + length);
         const std::string_view type(reinterpret_cast<const char*>(typeAndData.data()), 4);
-        const bool isNamed = std::all_of(type.begin(), type.end(), [](char c) {
-            return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
-        });
+        const bool isNamed = std::all_of(type.begin(), type.end(),
+                                         [](char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); });
         if (!isNamed) throw Error("{}: is broken: a chunk has no name", name);
         const bool isCritical = (typeAndData[0] & 0x20) == 0;
         if (isCritical && crc(typeAndData) != bigEndian(&bytes[offset + 8 + length]))
@@ -62,8 +61,7 @@ bool startsWith(std::span<const uint8_t> bytes, std::string_view magic, size_t o
 
 bool hasJpegEnd(std::span<const uint8_t> bytes) {
     static constexpr uint8_t endOfImage[] = {0xff, 0xd9};
-    return std::find_end(bytes.begin(), bytes.end(), std::begin(endOfImage), std::end(endOfImage)) !=
-           bytes.end();
+    return std::find_end(bytes.begin(), bytes.end(), std::begin(endOfImage), std::end(endOfImage)) != bytes.end();
 }
 
 bool isWebp(std::span<const uint8_t> bytes) {
@@ -75,8 +73,7 @@ std::string adviceFor(std::span<const uint8_t> bytes) {
         return ", but KTX2: store it as PNG (KTX-Software: ktx extract --transcode rgba8 IN.ktx2 OUT.png)";
     for (const auto& [magic, offset, format] :
          {std::tuple{"DDS ", 0, "DDS"}, {"ftypavif", 4, "AVIF"}, {"GIF8", 0, "GIF"}, {"BM", 0, "BMP"}})
-        if (startsWith(bytes, magic, size_t(offset)))
-            return fmt::format(", but {}: store it as PNG or JPEG", format);
+        if (startsWith(bytes, magic, size_t(offset))) return fmt::format(", but {}: store it as PNG or JPEG", format);
     return "";
 }
 
@@ -91,8 +88,7 @@ bool isPng(std::span<const uint8_t> bytes) {
 
 void checkIntegrity(std::span<const uint8_t> bytes, const std::string& name) {
     if (isPng(bytes)) checkPng(bytes, name);
-    if (isJpeg(bytes) && !hasJpegEnd(bytes))
-        throw Error("{}: is broken or truncated: its end is missing", name);
+    if (isJpeg(bytes) && !hasJpegEnd(bytes)) throw Error("{}: is broken or truncated: its end is missing", name);
 }
 
 }  // namespace voxray

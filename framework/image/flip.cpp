@@ -164,8 +164,7 @@ Plane strength(const Plane& alongX, const Plane& alongY) {
 
 // @param linearRgb(x, y) is the linear display colour of a pixel, in [0, 1].
 template <typename LinearRgb>
-FilteredImage filterImage(uint32_t width, uint32_t height, const Filters& filters,
-                          const LinearRgb& linearRgb) {
+FilteredImage filterImage(uint32_t width, uint32_t height, const Filters& filters, const LinearRgb& linearRgb) {
     Planes opponent = {Plane(width, height), Plane(width, height), Plane(width, height)};
     parallelRows(height, [&](size_t y) {
         for (size_t x = 0; x < width; ++x) {
@@ -191,30 +190,26 @@ FilteredImage filterImage(uint32_t width, uint32_t height, const Filters& filter
     Plane& grey = opponent[0];
     for (double& value : grey.data) value = (value + 16) / 116;
     const Plane blurredX = filterX(grey, filters.gauss);
-    result.edge =
-        strength(filterY(filterX(grey, filters.edge), filters.gauss), filterY(blurredX, filters.edge));
-    result.point =
-        strength(filterY(filterX(grey, filters.point), filters.gauss), filterY(blurredX, filters.point));
+    result.edge = strength(filterY(filterX(grey, filters.edge), filters.gauss), filterY(blurredX, filters.edge));
+    result.point = strength(filterY(filterX(grey, filters.point), filters.gauss), filterY(blurredX, filters.point));
     return result;
 }
 
 // Error of each pixel from the filtered images.
 Plane difference(const FilteredImage& test, const FilteredImage& reference) {
-    const double largest =
-        std::pow(hyab(huntLabFromRgb({0, 1, 0}), huntLabFromRgb({0, 0, 1})), colourExponent);
+    const double largest = std::pow(hyab(huntLabFromRgb({0, 1, 0}), huntLabFromRgb({0, 0, 1})), colourExponent);
     const double knee = colourKnee * largest;
     Plane out(test.edge.width, test.edge.height);
     parallelRows(out.height, [&](size_t y) {
         const auto colourAt = [y](const FilteredImage& image, size_t x) {
-            return glm::dvec3(image.colour[0].row(y)[x], image.colour[1].row(y)[x],
-                              image.colour[2].row(y)[x]);
+            return glm::dvec3(image.colour[0].row(y)[x], image.colour[1].row(y)[x], image.colour[2].row(y)[x]);
         };
         for (size_t x = 0; x < out.width; ++x) {
             // Colour difference, small ones mapped to [0, 0.95].
             const double distance = std::pow(hyab(colourAt(test, x), colourAt(reference, x)), colourExponent);
-            const double colour = distance < knee ? distance / knee * colourKneeValue
-                                                  : colourKneeValue + (distance - knee) / (largest - knee) *
-                                                                          (1 - colourKneeValue);
+            const double colour = distance < knee
+                                      ? distance / knee * colourKneeValue
+                                      : colourKneeValue + (distance - knee) / (largest - knee) * (1 - colourKneeValue);
 
             // Feature difference amplifies it.
             const double feature = std::max(std::abs(test.edge.row(y)[x] - reference.edge.row(y)[x]),
@@ -254,8 +249,7 @@ ErrorMap flipLdr(const ImageF& testDisplay, const ImageF& referenceDisplay, doub
     return errorMapOf(difference(filter(testDisplay), filter(referenceDisplay)));
 }
 
-ErrorMap flipHdr(const ImageF& test, const ImageF& reference, const FlipExposures& exposures,
-                 double pixelsPerDegree) {
+ErrorMap flipHdr(const ImageF& test, const ImageF& reference, const FlipExposures& exposures, double pixelsPerDegree) {
     checkPair(test, reference);
     if (exposures.count < 1 || !(exposures.start <= exposures.stop) || !std::isfinite(exposures.start) ||
         !std::isfinite(std::exp2(exposures.stop)))
@@ -272,13 +266,11 @@ ErrorMap flipHdr(const ImageF& test, const ImageF& reference, const FlipExposure
         const auto filter = [&](const ImageF& image) {
             return filterImage(image.width, image.height, filters, [&](size_t x, size_t y) {
                 const float* p = image.pixel(uint32_t(x), uint32_t(y));
-                return glm::dvec3(aces(scale * double(p[0])), aces(scale * double(p[1])),
-                                  aces(scale * double(p[2])));
+                return glm::dvec3(aces(scale * double(p[0])), aces(scale * double(p[1])), aces(scale * double(p[2])));
             });
         };
         const Plane error = difference(filter(test), filter(reference));
-        for (size_t k = 0; k < error.data.size(); ++k)
-            largest.data[k] = std::max(largest.data[k], error.data[k]);
+        for (size_t k = 0; k < error.data.size(); ++k) largest.data[k] = std::max(largest.data[k], error.data[k]);
     }
     return errorMapOf(largest);
 }

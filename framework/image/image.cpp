@@ -30,12 +30,11 @@ std::string reasonOr(const std::string& message) {
 void checkSpec(const OIIO::ImageSpec& spec, const std::string& name) {
     if (spec.deep) throw Error("{}: is a deep image; store it flat", name);
     if (spec.width <= 0 || spec.height <= 0 || spec.depth > 1 || spec.nchannels <= 0)
-        throw Error("{}: is not a picture ({} x {} x {}, {} channels)", name, spec.width, spec.height,
-                    spec.depth, spec.nchannels);
-    if (uint64_t(spec.width) * uint64_t(spec.height) > maxPixels ||
-        std::max(spec.width, spec.height) > maxSide)
-        throw Error("{}: {} x {} pixels are too many: at most {}, and {} on a side", name, spec.width,
-                    spec.height, maxPixels, maxSide);
+        throw Error("{}: is not a picture ({} x {} x {}, {} channels)", name, spec.width, spec.height, spec.depth,
+                    spec.nchannels);
+    if (uint64_t(spec.width) * uint64_t(spec.height) > maxPixels || std::max(spec.width, spec.height) > maxSide)
+        throw Error("{}: {} x {} pixels are too many: at most {}, and {} on a side", name, spec.width, spec.height,
+                    maxPixels, maxSide);
 }
 
 // Reads in strips and allocates as they arrive, so that a small file with a huge size costs no memory.
@@ -53,11 +52,11 @@ std::vector<T> readPixels(OIIO::ImageInput& input, const std::string& name, int 
         const int end = spec.y + std::min(row + strip, spec.height);
         const size_t offset = values.size();
         values.resize(offset + rowValues * size_t(end - begin));
-        const bool read = spec.tile_width > 0
-                              ? input.read_tiles(part, 0, spec.x, spec.x + spec.width, begin, end, spec.z,
-                                                 spec.z + 1, firstChannel, lastChannel, type, &values[offset])
-                              : input.read_scanlines(part, 0, begin, end, spec.z, firstChannel, lastChannel,
-                                                     type, &values[offset]);
+        const bool read =
+            spec.tile_width > 0
+                ? input.read_tiles(part, 0, spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1, firstChannel,
+                                   lastChannel, type, &values[offset])
+                : input.read_scanlines(part, 0, begin, end, spec.z, firstChannel, lastChannel, type, &values[offset]);
         if (!read) throw Error("{}: is broken or truncated: {}", name, reasonOr(input.geterror()));
     }
     return values;
@@ -78,8 +77,8 @@ void checkChannels(const fs::path& path, const ImageF& image) {
 void checkWritable(const fs::path& path, const ImageF& image) {
     if (image.width == 0 || image.height == 0) throw Error("{}: the image is empty", path.string());
     if (image.data.size() != image.pixelCount() * image.channels)
-        throw Error("{}: {} values do not fill {} x {} pixels of {} channels", path.string(),
-                    image.data.size(), image.width, image.height, image.channels);
+        throw Error("{}: {} values do not fill {} x {} pixels of {} channels", path.string(), image.data.size(),
+                    image.width, image.height, image.channels);
 }
 
 // Reports a full disk, which libraries don't.
@@ -95,8 +94,7 @@ void writeWhole(const fs::path& path, const char* format, const OIIO::ImageSpec&
         const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(format);
         if (!out) throw Error("{}: no writer for {}: {}", path.string(), format, reasonOr(OIIO::geterror()));
         if (!out->open(temporary.string(), spec) || !out->write_image(type, values) || !out->close())
-            throw Error("{}: {}; {} MiB are free there", path.string(), reasonOr(out->geterror()),
-                        freeMiB(path));
+            throw Error("{}: {}; {} MiB are free there", path.string(), reasonOr(out->geterror()), freeMiB(path));
     });
 }
 
@@ -111,15 +109,14 @@ LayeredImage readLayer(const fs::path& path, const std::string& wanted) {
         const OIIO::ImageSpec config = openOptions();
         const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(name, &config);
         if (!input)
-            throw Error("{}: is no image that Voxray reads (EXR, HDR, PNG or JPEG); OpenImageIO says: {}",
-                        name, reasonOr(OIIO::geterror()));
+            throw Error("{}: is no image that Voxray reads (EXR, HDR, PNG or JPEG); OpenImageIO says: {}", name,
+                        reasonOr(OIIO::geterror()));
         const bool exr = std::string_view(input->format_name()) == "openexr";
         if (!exr && !wanted.empty()) throw Error("{}: it has no layers; only EXR files have", name);
         const std::vector<Layer> layers = exr ? layersOf(*input) : std::vector<Layer>();
         Layer layer;
         if (exr) layer = chooseLayer(layers, wanted, name);
-        if (!input->seek_subimage(layer.part, 0))
-            throw Error("{}: is broken: {}", name, reasonOr(input->geterror()));
+        if (!input->seek_subimage(layer.part, 0)) throw Error("{}: is broken: {}", name, reasonOr(input->geterror()));
         const OIIO::ImageSpec spec = input->spec();
         checkSpec(spec, name);
         if (!exr) layer.channels = spec.nchannels >= 3 ? std::vector{0, 1, 2} : std::vector{0};
@@ -155,10 +152,7 @@ ImageF readImage(const fs::path& path) {
 }
 
 DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name) {
-    const char* format = isPng(encoded)    ? "png"
-                         : isJpeg(encoded) ? "jpeg"
-                         : isWebp(encoded) ? "webp"
-                                           : nullptr;
+    const char* format = isPng(encoded) ? "png" : isJpeg(encoded) ? "jpeg" : isWebp(encoded) ? "webp" : nullptr;
     if (format == nullptr) throw Error("{}: is neither PNG, JPEG nor WebP{}", name, adviceFor(encoded));
     std::vector<uint8_t> completed;
     if (isJpeg(encoded) && !hasJpegEnd(encoded)) {
@@ -177,13 +171,11 @@ DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name) {
         const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
         if (!input) throw Error("{}: no reader: {}", name, reasonOr(OIIO::geterror()));
         OIIO::ImageSpec opened;
-        if (!input->open(name, opened, config))
-            throw Error("{}: is broken: {}", name, reasonOr(input->geterror()));
+        if (!input->open(name, opened, config)) throw Error("{}: is broken: {}", name, reasonOr(input->geterror()));
         const OIIO::ImageSpec spec = input->spec();
         checkSpec(spec, name);
         const int channels = std::min(spec.nchannels, 4);
-        const std::vector<uint8_t> values =
-            readPixels<uint8_t>(*input, name, 0, channels, OIIO::TypeDesc::UINT8);
+        const std::vector<uint8_t> values = readPixels<uint8_t>(*input, name, 0, channels, OIIO::TypeDesc::UINT8);
         if (!completed.empty() && input->has_error())
             throw Error("{}: is broken or truncated: {}", name, reasonOr(input->geterror()));
 
@@ -238,16 +230,14 @@ void writePng(const fs::path& path, const ImageF& display) {
         }
         bytes[i] = uint8_t(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
     }
-    OIIO::ImageSpec spec(int(display.width), int(display.height), int(display.channels),
-                         OIIO::TypeDesc::UINT8);
+    OIIO::ImageSpec spec(int(display.width), int(display.height), int(display.channels), OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
     writeWhole(path, "png", spec, OIIO::TypeDesc::UINT8, bytes.data());
 }
 
 std::vector<uint8_t> encodePng(const DecodedImage& image) {
     if (image.width == 0 || image.height == 0 || image.rgba.size() != size_t(image.width) * image.height * 4)
-        throw Error("a picture of {} x {} with {} bytes can't be a PNG", image.width, image.height,
-                    image.rgba.size());
+        throw Error("a picture of {} x {} with {} bytes can't be a PNG", image.width, image.height, image.rgba.size());
     std::vector<unsigned char> file;
     OIIO::Filesystem::IOVecOutput writer(file);
     OIIO::Filesystem::IOProxy* proxy = &writer;
@@ -256,18 +246,23 @@ std::vector<uint8_t> encodePng(const DecodedImage& image) {
     spec.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create("png");
     if (!out) throw Error("no writer for png: {}", reasonOr(OIIO::geterror()));
-    if (!out->open("memory.png", spec) || !out->write_image(OIIO::TypeDesc::UINT8, image.rgba.data()) ||
-        !out->close())
+    if (!out->open("memory.png", spec) || !out->write_image(OIIO::TypeDesc::UINT8, image.rgba.data()) || !out->close())
         throw Error("a PNG can't be made: {}", reasonOr(out->geterror()));
     return file;
 }
 
-ImageF preview(const ImageF& linear, float exposureStops) {
+ImageF preview(const ImageF& linear, float exposureStops, ToneCurve tone) {
     ImageF display = linear;
     const double scale = std::exp2(double(exposureStops));
-    parallelRanges(display.data.size(), 1 << 14, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i)
-            display.data[i] = float(srgbEncode(std::clamp(double(display.data[i]) * scale, 0.0, 1.0)));
+    parallelRanges(display.pixelCount(), 1 << 13, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            float* pixel = &display.data[i * display.channels];
+            std::array<double, 3> color;
+            for (uint32_t c = 0; c < 3; ++c) color[c] = pixel[std::min(c, display.channels - 1)] * scale;
+            if (tone == ToneCurve::PbrNeutral) color = pbrNeutral(color);
+            for (uint32_t c = 0; c < display.channels; ++c)
+                pixel[c] = float(srgbEncode(std::clamp(color[c], 0.0, 1.0)));
+        }
     });
     return display;
 }

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "image/tone.h"
+
 namespace voxray {
 
 /// A float image: linear Rec.709 radiance, interleaved channels, row 0 at the top.
@@ -59,14 +61,14 @@ std::vector<uint8_t> encodePng(const DecodedImage& image);
 /// @throws Error if the image is empty or has neither 1 nor 3 channels, or the file cannot be written.
 void writeExr(const std::filesystem::path& path, const ImageF& image);
 /// The same with channels of any names: "P.X" is the channel X of the layer P.
-void writeExr(const std::filesystem::path& path, const ImageF& image,
-              const std::vector<std::string>& channelNames);
+void writeExr(const std::filesystem::path& path, const ImageF& image, const std::vector<std::string>& channelNames);
 
 /// Writes an 8-bit PNG of encoded display values, clamped to [0, 1], atomically.
 /// @throws Error as writeExr(), and if a value is NaN.
 void writePng(const std::filesystem::path& path, const ImageF& display);
 
-/// Preview: scales by 2^exposure, clamps to [0, 1], applies the sRGB transfer function.
-ImageF preview(const ImageF& linear, float exposureStops);
+/// Preview: scales by 2^exposure, applies the tone curve, clamps to [0, 1], applies the sRGB transfer
+/// function. @param linear has 1 or 3 channels
+ImageF preview(const ImageF& linear, float exposureStops, ToneCurve tone = ToneCurve::Srgb);
 
 }  // namespace voxray

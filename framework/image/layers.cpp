@@ -32,8 +32,7 @@ std::string lastWord(const std::string& layer) {
 using ChannelNumbers = std::vector<std::pair<std::string, int>>;
 
 int numberOf(const ChannelNumbers& channels, const char* name) {
-    const auto found =
-        std::find_if(channels.begin(), channels.end(), [&](const auto& c) { return c.first == name; });
+    const auto found = std::find_if(channels.begin(), channels.end(), [&](const auto& c) { return c.first == name; });
     return found == channels.end() ? -1 : found->second;
 }
 
@@ -56,8 +55,7 @@ Layer layerOf(const ChannelNumbers& channels) {
     return layer;
 }
 
-void addLayers(const OIIO::ImageSpec& spec, int part, const std::string& partName,
-               std::vector<Layer>& layers) {
+void addLayers(const OIIO::ImageSpec& spec, int part, const std::string& partName, std::vector<Layer>& layers) {
     std::map<std::string, ChannelNumbers> groups;
     for (int c = 0; c < spec.nchannels; ++c) {
         const auto [layer, channel] = splitName(spec.channelnames[size_t(c)]);
@@ -106,8 +104,7 @@ Layer chooseLayer(const std::vector<Layer>& layers, const std::string& wanted, c
         std::vector<Layer> found;
         std::copy_if(layers.begin(), layers.end(), std::back_inserter(found),
                      [&](const Layer& layer) { return lastWord(layer.name) == lowerCase(wanted); });
-        if (found.size() != 1)
-            refuse(layers, file, fmt::format("{} layers are called '{}'", found.size(), wanted));
+        if (found.size() != 1) refuse(layers, file, fmt::format("{} layers are called '{}'", found.size(), wanted));
         return found[0];
     }
 

@@ -91,8 +91,7 @@ ImageF blackLike(const ImageF& reference) {
 ImageF constantLike(const ImageF& reference) {
     // Mean of each channel.
     std::vector<double> mean(reference.channels);
-    for (size_t i = 0; i < reference.data.size(); ++i)
-        mean[i % reference.channels] += double(reference.data[i]);
+    for (size_t i = 0; i < reference.data.size(); ++i) mean[i % reference.channels] += double(reference.data[i]);
     for (double& value : mean) value /= double(reference.pixelCount());
 
     // The same everywhere.

@@ -49,8 +49,7 @@ Plane filterY(const Plane& in, const Kernel& kernel) {
         double* to = out.row(y);
         for (size_t k = 0; k < kernel.size(); ++k) {
             const double weight = kernel[k];
-            const int64_t row =
-                std::clamp<int64_t>(int64_t(y) + int64_t(k) - radius, 0, int64_t(in.height) - 1);
+            const int64_t row = std::clamp<int64_t>(int64_t(y) + int64_t(k) - radius, 0, int64_t(in.height) - 1);
             const double* from = in.row(size_t(row));
             for (size_t x = 0; x < in.width; ++x) to[x] += weight * from[x];
         }

@@ -28,8 +28,7 @@ struct SampleSums {
     std::vector<double> data;  ///< Row by row, 3 channels, W/(m² sr).
 
     SampleSums() = default;
-    SampleSums(uint32_t w, uint32_t h, uint64_t n)
-        : width(w), height(h), samples(n), data(size_t(w) * h * 3) {}
+    SampleSums(uint32_t w, uint32_t h, uint64_t n) : width(w), height(h), samples(n), data(size_t(w) * h * 3) {}
 
     double* pixel(uint32_t x, uint32_t y) { return &data[(size_t(y) * width + x) * 3]; }
 

@@ -21,17 +21,12 @@ constexpr Metric kMetrics[] = {
     {{"flip", "HDR-FLIP", "", Better::Lower,
       "what an eye sees when flipping between the images, over a range of exposures; 0 to 1", false},
      [](const Comparison& c, PixelMask mask) { return Estimate(c.flip.meanUnder(mask)); }},
-    {{"flip_ldr", "LDR-FLIP", "", Better::Lower,
-      "what an eye sees when flipping between the previews; 0 to 1", false},
+    {{"flip_ldr", "LDR-FLIP", "", Better::Lower, "what an eye sees when flipping between the previews; 0 to 1", false},
      [](const Comparison& c, PixelMask mask) { return Estimate(c.flipLdr.meanUnder(mask)); }},
     {{"ssim", "SSIM", "", Better::Higher, "structural similarity of the previews' luma; at most 1", false},
-     [](const Comparison& c, PixelMask mask) {
-         return Estimate(ssim(c.testDisplay, c.referenceDisplay, mask));
-     }},
+     [](const Comparison& c, PixelMask mask) { return Estimate(ssim(c.testDisplay, c.referenceDisplay, mask)); }},
     {{"psnr_db", "PSNR", "dB", Better::Higher, "peak signal-to-noise ratio of the previews, peak 1", false},
-     [](const Comparison& c, PixelMask mask) {
-         return Estimate(psnr(c.testDisplay, c.referenceDisplay, mask));
-     }},
+     [](const Comparison& c, PixelMask mask) { return Estimate(psnr(c.testDisplay, c.referenceDisplay, mask)); }},
     {{"mean_ratio", "mean ratio", "", Better::CloserToOne,
       "mean of the image over mean of the reference; 1 keeps the energy", false},
      [](const Comparison& c, PixelMask mask) { return Estimate(meanRatio(c.test, c.reference, mask)); }},

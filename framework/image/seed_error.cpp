@@ -20,8 +20,7 @@ std::span<const MetricInfo> seedMetrics() {
     return kSeedMetrics;
 }
 
-Scores seedScores(const ImageF& first, const ImageF& second, const ReferenceHalves& reference,
-                  PixelMask mask) {
+Scores seedScores(const ImageF& first, const ImageF& second, const ReferenceHalves& reference, PixelMask mask) {
     for (const ImageF* image : {&second, &reference.a, &reference.b}) checkPair(first, *image);
     const double mean = 0.5 * (meanValue(reference.a, mask) + meanValue(reference.b, mask));
     std::vector<double> bias(first.pixelCount()), noise(first.pixelCount());
@@ -32,8 +31,7 @@ Scores seedScores(const ImageF& first, const ImageF& second, const ReferenceHalv
     }
     Scores scores;
     const auto addRoot = [&](const MetricInfo& metric, const std::vector<double>& squares) {
-        addScore(scores, metric.name,
-                 rootOf(meanOverTiles(squares, first.width, first.height, mask), unitScale(mean)));
+        addScore(scores, metric.name, rootOf(meanOverTiles(squares, first.width, first.height, mask), unitScale(mean)));
     };
     addRoot(kSeedMetrics[0], bias);
     addRoot(kSeedMetrics[1], noise);

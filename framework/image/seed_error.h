@@ -18,7 +18,6 @@ std::span<const MetricInfo> seedMetrics();
 
 /// seedMetrics() with their intervals. @param first, second images of one size, the reference's.
 /// @throws Error as the metrics (metrics.h).
-Scores seedScores(const ImageF& first, const ImageF& second, const ReferenceHalves& reference,
-                  PixelMask mask = {});
+Scores seedScores(const ImageF& first, const ImageF& second, const ReferenceHalves& reference, PixelMask mask = {});
 
 }  // namespace voxray

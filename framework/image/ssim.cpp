@@ -59,8 +59,8 @@ double ssim(const ImageF& testDisplay, const ImageF& referenceDisplay, PixelMask
             const double varianceX = meanXX.row(y)[x] - x1 * x1;
             const double varianceR = meanRR.row(y)[x] - r1 * r1;
             const double covariance = meanXR.row(y)[x] - x1 * r1;
-            rowSum += (2 * x1 * r1 + c1) * (2 * covariance + c2) /
-                      ((x1 * x1 + r1 * r1 + c1) * (varianceX + varianceR + c2));
+            rowSum +=
+                (2 * x1 * r1 + c1) * (2 * covariance + c2) / ((x1 * x1 + r1 * r1 + c1) * (varianceX + varianceR + c2));
         }
         return rowSum;
     });

@@ -8,8 +8,7 @@ namespace {
 
 constexpr MetricInfo kTemporalMetrics[] = {
     {"temporal_nrmse", "temporal nRMSE", "", Better::Lower,
-     "root of the mean squared difference of successive frames' errors, in units of the reference's mean",
-     true},
+     "root of the mean squared difference of successive frames' errors, in units of the reference's mean", true},
     {"temporal_bias", "temporal bias", "", Better::Lower,
      "the part of it that is the same from each frame to the next: error that builds up, as lag does", true},
     {"temporal_flicker", "flicker", "", Better::Lower,

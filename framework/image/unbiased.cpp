@@ -18,8 +18,7 @@ Estimate mapped(const Estimate& from, const F& f) {
 
 /// Mean of f(test value, value of half a, value of half b), images multiplied by `scale`.
 template <typename F>
-Estimate meanOf(const ImageF& test, const ReferenceHalves& reference, PixelMask mask, double scale,
-                const F& f) {
+Estimate meanOf(const ImageF& test, const ReferenceHalves& reference, PixelMask mask, double scale, const F& f) {
     std::vector<double> errors(test.pixelCount());
     parallelRows(test.height, [&](size_t y) {
         for (size_t pixel = y * test.width; pixel < (y + 1) * test.width; ++pixel)
@@ -45,9 +44,8 @@ Estimate rootOf(const Estimate& meanSquare, double scale) {
 
 Estimate nRmse(const ImageF& test, const ReferenceHalves& reference, PixelMask mask) {
     const double scale = scaleOf(test, reference, mask);
-    return rootOf(
-        meanOf(test, reference, mask, scale, [](double x, double a, double b) { return (x - a) * (x - b); }),
-        1);
+    return rootOf(meanOf(test, reference, mask, scale, [](double x, double a, double b) { return (x - a) * (x - b); }),
+                  1);
 }
 
 Estimate relMse(const ImageF& test, const ReferenceHalves& reference, PixelMask mask) {

@@ -46,7 +46,7 @@ def assignments(plan: dict, variant: dict, swaps: Swaps) -> list[str]:
     config["graph"] = [{"pass": next(iter(swaps.graphs.values()))[-1]["pass"], "id": AXIS}]
     config["sweep"] = {AXIS: swaps.graphs}
     limit = plan["config"].get("measure", {}).get("memory_limit_mb", 0)
-    config["measure"] = {"frames": 1, "warmup": 0, "memory_limit_mb": limit}
+    config["measure"] = {"frames": 1, "warmup": 0, "build_repeats": 0, "memory_limit_mb": limit}
 
     # A map would be merged into the one that is there
     words = []

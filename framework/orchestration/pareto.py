@@ -14,8 +14,9 @@ from report.results import ReportError
 def main(_: Program, options: SimpleNamespace) -> int:
     page = Path(options.out)
     try:
-        table = pareto_page.write(page, [Path(folder) for folder in options.results], options.error, options.light)
+        table = pareto_page.write(page, [Path(folder) for folder in options.results], options.error, options.light,
+                                  with_images=not options.no_images, figures_to=Path(options.figures) if options.figures else None)
     except ReportError as error:
         raise UsageError(f"pareto: {error}") from error
-    print(f"{page}\n{table}")
+    print(page, table, *([options.figures] if options.figures else []), sep="\n")
     return 0

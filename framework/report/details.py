@@ -74,11 +74,22 @@ def picture(results: Results, folder: str, name: str, embed: Callable, warnings:
     return _or_warning(lambda: embed(path), warnings) if path else None
 
 
+def photo(results: Results, folder: str, light: str, has_floats: bool, warnings: list[str]) -> images.Picture | None:
+    """A folder's image under a light, with its radiance as half floats where it has them and they are wanted."""
+    name = IMAGES[light][0]
+    preview = picture(results, folder, name, images.embed, warnings)
+    exr = results.image(folder, name.replace(".png", ".exr")) if preview and has_floats else None
+    return exr and _or_warning(lambda: images.with_floats(preview, exr), warnings) or preview
+
+
 def variants(results: Results, lights: list[str], colors: dict[str, str], names: Names, anchors: dict[str, str],
-             warnings: list[str]) -> list[Variant]:
-    """All variants of `results`. Films are of the light that the page shows first."""
+             with_floats: set[str], warnings: list[str]) -> list[Variant]:
+    """All variants of `results`. Films are of the light that the page shows first.
+
+    @param with_floats Folders whose images are embedded as half floats, too.
+    """
     passes = dict(list(results.passes.groupby("variant", sort=False)))
-    return [_variant(results, row, passes.get(row["variant"]), lights, colors, names, anchors, warnings)
+    return [_variant(results, row, passes.get(row["variant"]), lights, colors, names, anchors, with_floats, warnings)
             for row in results.variants.to_dict("records")]
 
 
@@ -135,12 +146,12 @@ def _or_warning(make: Callable, warnings: list[str]) -> images.Picture | None:
 
 
 def _variant(results: Results, row: Mapping, passes: pd.DataFrame | None, lights: list[str], colors: dict[str, str],
-             names: Names, anchors: dict[str, str], warnings: list[str]) -> Variant:
+             names: Names, anchors: dict[str, str], with_floats: set[str], warnings: list[str]) -> Variant:
     name = row["variant"]
     if row["status"] != "ok":
         return Variant(names.numbers[name], names.short[name], name, anchors[name], [],
                        row["error"] or f"status is '{row['status']}', with no error text", [])
-    views = [View(light, picture(results, name, IMAGES[light][0], images.embed, warnings),
+    views = [View(light, photo(results, name, light, name in with_floats, warnings),
                   picture(results, name, IMAGES[light][1], images.embed_error, warnings),
                   _film(results, name, light, warnings) if light == lights[-1] else None)
              for light in lights]

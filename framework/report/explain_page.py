@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from matplotlib.figure import Figure
 from PIL import Image
 
 from report import explain, images, pages, text
@@ -15,7 +14,6 @@ from report.images import Picture
 from report.load import load
 from report.results import IMAGES, Results
 from report.style import CATEGORY_COLORS
-from report.svg import PLACEHOLDERS, drawing, to_svg
 
 _SIGNED_COLORS = "RdBu_r"  # blue: the stage takes light away, red: it adds light
 _SMALL = 0.1  # of the whole error: a rest that needs no word
@@ -28,6 +26,18 @@ class Shown:
     picture: Picture
     title: str
     note: str
+
+
+@dataclass(frozen=True)
+class Step:
+    """A bar of a waterfall. left, width, and the ends and the mean of its stage's part over all orders: % of the track."""
+
+    name: str
+    share: str
+    color: str
+    left: float
+    width: float
+    orders: list[float] | None
 
 
 def write(directory: Path) -> str:
@@ -48,7 +58,7 @@ def render(results: Results, rendered: Images, explained: list[Explained]) -> st
     return pages.render(
         "explain.html.j2", name=str(config.get("name", "")).removeprefix("explain_"),
         sentences=[line for one in explained for line in _sentences(one)],
-        charts=[_waterfall(one, f"waterfall-{i}") for i, one in enumerate(explained)],
+        waterfalls=[(one.label, _waterfall(one)) for one in explained],
         tables=[(one.label, _rows(one)) for one in explained],
         stages=[(stage.name, ", ".join(stage.changes), ", ".join(stage.needs), stage.cure)
                 for stage in (part.stage for part in explained[0].parts)],
@@ -98,34 +108,21 @@ def _rows(one: Explained) -> list[tuple[str, ...]]:
     return rows + [("rest", percent(one.rest), f"{percent(one.rest_low)} to {percent(one.rest_high)}", percent(1 - total), "")]
 
 
-def _waterfall(one: Explained, chart_id: str) -> str:
-    """Bars from the whole error down, a stage each; a dot and a line stand for its part over all orders."""
+def _waterfall(one: Explained) -> list[Step]:
+    """From the whole error down, a stage each."""
+    shares = [1.0, *(part.share for part in one.parts), one.rest]
+    levels = np.array([1.0, *(1.0 - np.cumsum([0.0, *shares[1:]]))])  # where each bar begins; the last one's end
+    ends = np.array([0.0, *levels[2:]])
+    ranges = [None, *((levels[i + 1] - part.most, levels[i + 1] - part.mean, levels[i + 1] - part.least) for i, part in enumerate(one.parts)), None]
+    drawn = [0.0, *levels, *(value for orders in ranges if orders for value in orders)]
+    low, width = min(drawn), max(drawn) - min(drawn)
+
+    def position(value: float) -> float:
+        return 100 * (value - low) / width
     names = ["whole", *(part.stage.name for part in one.parts), "rest"]
-    with drawing():
-        figure = Figure(figsize=(5.4, 3.4), dpi=72)
-        axes = figure.add_axes((0.11, 0.2, 0.87, 0.72))
-        level, titles = 1.0, []
-        for i, (name, share) in enumerate(zip(names, [1.0, *(part.share for part in one.parts), one.rest])):
-            top, bottom = (1.0, 0.0) if i == 0 else (level, level - share)
-            color = PLACEHOLDERS["muted" if i == 0 or name == "rest" else CATEGORY_COLORS[(i - 1) % len(CATEGORY_COLORS)]]
-            bar = axes.bar(i, 100 * (top - bottom), bottom=100 * bottom, width=0.62, color=color)[0]
-            bar.set_gid(f"{chart_id}-point-{i}")
-            titles.append(f"{name}: {percent(share)} of {one.label}")
-            axes.text(i, 100 * max(top, bottom) + 2, percent(share), ha="center", va="bottom", color=PLACEHOLDERS["fg"])
-            if i > 0:
-                axes.plot([i - 1.31 + 0.62, i + 0.31], [100 * level] * 2, color=PLACEHOLDERS["muted"], linewidth=0.8)
-                level = bottom
-        for i, part in enumerate(one.parts, 1):
-            start = 1.0 - sum(before.share for before in one.parts[:i - 1])
-            ends = [100 * (start - value) for value in (part.least, part.mean, part.most)]
-            axes.plot([i + 0.2] * 2, [ends[0], ends[2]], color=PLACEHOLDERS["fg"], linewidth=1.2)
-            axes.plot(i + 0.2, ends[1], "o", color=PLACEHOLDERS["fg"], markersize=4)
-        axes.axhline(0, color=PLACEHOLDERS["muted"], linewidth=0.8)
-        axes.set_xticks(range(len(names)), names, rotation=20, ha="right")
-        axes.set_ylabel(f"% of {one.label}")
-        axes.margins(y=0.12)
-        axes.spines[["top", "right"]].set_visible(False)
-        return to_svg(figure, chart_id, f"Parts of {one.label}", titles)
+    colors = ["muted", *(CATEGORY_COLORS[i % len(CATEGORY_COLORS)] for i in range(len(one.parts))), "muted"]
+    return [Step(name, percent(share), color, position(min(begin, end)), 100 * abs(end - begin) / width, [position(value) for value in orders] if orders else None)
+            for name, share, color, begin, end, orders in zip(names, shares, colors, levels, ends, ranges)]
 
 
 def _scale(rendered: Images) -> float:

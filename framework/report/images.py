@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import io
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import matplotlib
 import numpy as np
 from PIL import Image, UnidentifiedImageError
 
+from report import half_floats
 from report.pages import data_uri
 from report.results import ReportError
 
 ERROR_COLORS = "magma"  # as FLIP's authors show it: black is no error, light yellow is the largest
+LUMINANCE_COLORS = "viridis"
+SIGNED_ERROR_COLORS = "RdBu_r"  # blue is too dark, white is right, red is too bright
 
 
 @dataclass(frozen=True)
@@ -23,12 +26,22 @@ class Picture:
     uri: str
     width: int
     height: int
+    floats: str = ""  # its radiance, as half_floats.encode() makes it
+    luminance: tuple[float, float] | None = None  # range of the radiance's luminance
 
 
 def embed(path: Path) -> Picture:
     """The PNG as it is. @throws ReportError where it is no PNG."""
     data = path.read_bytes()
     return Picture(data_uri(data), *open_png(path, data).size)
+
+
+def with_floats(picture: Picture, exr: Path) -> Picture:
+    """The preview with the radiance of its EXR file. @throws ReportError where that cannot be read."""
+    rgb = half_floats.read(exr)
+    if rgb.shape[:2] != (picture.height, picture.width):
+        raise ReportError(f"{exr}: has another size than its preview")
+    return replace(picture, floats=half_floats.encode(rgb), luminance=half_floats.luminance_range(rgb))
 
 
 def embed_error(path: Path) -> Picture:

@@ -6,7 +6,7 @@
     const expose = (stops) => set({ exposure: String(Number(state.exposure) + stops) });
     const brighter = () => expose(1), darker = () => expose(-1);
     const shortcuts = {
-        f: page.flip, s: () => set({ show: "slider" }), d: () => set({ show: "difference" }), l: () => next("light"), z: () => next("zoom"),
+        f: page.flip, s: () => set({ show: "slider" }), e: () => set({ show: "error" }), c: () => next("colors"), l: () => next("light"), z: () => next("zoom"),
         "+": brighter, "=": brighter, "-": darker, "/": () => filter?.focus(),
     };
     document.addEventListener("keydown", (event) => {

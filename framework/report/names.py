@@ -56,7 +56,10 @@ def families_of(results: Results, names: Names) -> list[Family]:
 
 
 def _common(members: list[str], names: Names) -> str:
-    # The words that the members' names begin with.
-    words = [names.short[name].split() for name in members]
-    common = os.path.commonprefix(words) if len(members) > 1 else words[0]
-    return " ".join(common).rstrip(",:+ ") or names.short[members[0]]
+    return common_words([names.short[name] for name in members]) or names.short[members[0]]
+
+
+def common_words(names: list[str]) -> str:
+    """The words that all names begin with."""
+    words = [name.split() for name in names]
+    return " ".join(os.path.commonprefix(words)).rstrip(",:+ ")

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import json
+import math
 
-from report import bars, charts, details, images, pages, parts, style, table, text, values
+import numpy as np
+
+from report import bars, charts, details, images, pages, parts, selection, style, table, text, values
 from report.names import Names, families_of, names_of
-from report.results import IMAGES, Metric, Results, folder_of, section
-from report.selection import selected
+from report.results import IMAGES, Metric, Results, folder_of, number, section
 from report.setting import setting_of
 from report.summary import summary, unfinished
 
-_SCRIPTS = ("state.js", "table.js", "viewer.js", "pair.js", "keys.js")  # in the order in which they run
+_SCRIPTS = ("d3", "tables.js", "chart.js", "state.js", "table.js", "pixels.js", "shade.js", "layer.js", "readout.js", "viewer.js", "pair.js",
+            "report_charts.js", "keys.js")  # in the order in which they run
 _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's row numbers
 _MAX_NAMED_POINTS = 12
 _MAX_LISTED = 12  # variants that a note names
@@ -30,13 +33,20 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
     lights = results.lights()
     names = names_of(results)
     families = families_of(results, names)
-    shown = results.only(selected(results, lights, names, wanted or []))
+    shown = results.only(selection.selected(results, lights, names, wanted or []))
+    with_floats = selection.with_floats(results, lights, list(shown.variants["variant"]))
     anchors = _anchors(names, shown)
     styles, legends, curves = style.variant_styles(results, families)
     colors = style.pass_colors(results)
     columns = table.columns_of(results, lights)
-    chart_groups, not_drawn = _charts(results, lights, styles, names, anchors, curves)
-    variants = details.variants(shown, lights, colors, names, anchors, warnings)
+    labels = _point_labels(results, names)
+    drawn, not_drawn = charts.error_charts(results, lights)
+    sequence = parts.sequence(results, shown, lights, styles, names, anchors)
+    value_charts = values.value_charts(shown, results)
+    chart_data = {"charts": [*drawn, *(sequence.charts if sequence else ()), *value_charts],
+                  **charts.variants(results, styles, names, labels, anchors, curves)}
+    variants = details.variants(shown, lights, colors, names, anchors, with_floats, warnings)
+    reference = _reference(results, lights, with_floats, warnings)
     thumbnails = details.thumbnails(shown, lights, variants)
     manifest = _manifest_of(results, shown)
     return pages.render(
@@ -46,17 +56,17 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
         columns=columns, metrics=[*results.metrics, *_split(results, columns)],
         rows=table.variant_rows(results, columns, names, anchors),
         baselines=table.baseline_rows(results, columns), noises=table.noise_rows(results, columns),
-        charts=chart_groups, not_drawn=not_drawn, legends=legends, markers=style.MARKERS, pass_colors=colors,
-        joined=bool(curves), unlabelled=any(chart.unlabelled for group in chart_groups for chart in group["charts"]),
-        dots=max((chart.dots for group in chart_groups for chart in group["charts"]), default=0),
+        charts=chart_data["charts"], chart_data=pages.json_text(chart_data) if chart_data["charts"] else "",
+        error_charts=len(drawn), value_charts=len(value_charts), not_drawn=_listed(not_drawn, names), legends=legends,
+        markers=style.MARKERS, pass_colors=colors, joined=bool(curves), numbered=labels is names.numbers,
         thumbnails=thumbnails, leads=details.leads(shown, lights, variants, thumbnails),
-        overviews=_overviews(results, lights, styles, names, anchors, curves), pictured=_pictured(results, lights, variants),
+        pictured=_pictured(results, lights, variants),
         regions=parts.regions(results, lights, names, anchors,
                               lambda folder, name: details.picture(results, folder, name, images.embed, warnings)),
-        sequence=parts.sequence(results, shown, lights, styles, names, anchors),
+        sequence=sequence,
         values=values.value_table(shown, names),
-        value_charts=values.value_charts(shown, styles, names),
-        bars=bars.bar_groups(shown, colors, names, anchors), reference=_reference(results, lights, warnings),
+        bars=bars.bar_groups(shown, colors, names, anchors), reference=reference,
+        viewer=_viewer(results, variants, reference),
         variants=variants, max_rows=_MAX_ROWS, left_out=len(results.variants) - len(variants),
         error_gradient=images.gradient(images.ERROR_COLORS), provenance=_provenance(results),
         config=text.yaml_like(results.manifest["config"]) if results.manifest.get("config") else "",
@@ -86,31 +96,10 @@ def _point_labels(results: Results, names: Names) -> dict[str, str]:
     return names.short if is_legible else names.numbers
 
 
-def _overviews(results: Results, lights, styles, names, anchors, curves) -> dict[str, charts.Chart]:
-    """The chart next to the first images, by light: the first error against the time of one frame."""
-    labels = _point_labels(results, names)
-    drawn = {light: charts.cost_error_chart(results, metric, light, False, styles, labels, anchors, f"overview-{light}", curves, names)
-             for light in lights for metric in results.metrics[:1]}
-    return {light: chart for light, chart in drawn.items() if chart}
-
-
-def _charts(results: Results, lights, styles, names, anchors, curves) -> tuple[list[dict], list[str]]:
-    labels = _point_labels(results, names)
-    groups, not_drawn = [], set()
-    for light in lights:
-        for with_build in (False, True):
-            drawn = []
-            for metric in results.metrics[:3]:
-                time = "total" if with_build else "frame"
-                chart = charts.cost_error_chart(results, metric, light, with_build, styles, labels, anchors,
-                                                f"{light}-{time}-{metric.key}", curves, names)
-                if chart:
-                    drawn.append(chart)
-                    not_drawn.update(f"{names.full(name)} ({metric.label}, {light})" for name in chart.not_drawn)
-            if drawn:
-                groups.append({"light": light, "time": time, "charts": drawn, "numbered": labels is names.numbers})
-    more = len(not_drawn) - _MAX_LISTED
-    return groups, sorted(not_drawn)[:_MAX_LISTED] + ([f"and {more} more"] if more > 0 else [])
+def _listed(not_drawn: set[tuple[str, str]], names: Names) -> list[str]:
+    listed = sorted(f"{names.full(name)} ({what})" for name, what in not_drawn)
+    more = len(listed) - _MAX_LISTED
+    return listed[:_MAX_LISTED] + ([f"and {more} more"] if more > 0 else [])
 
 
 def _pictured(results: Results, lights, variants: list[details.Variant]) -> list[tuple[str, str]]:
@@ -122,13 +111,26 @@ def _pictured(results: Results, lights, variants: list[details.Variant]) -> list
                     if any(view.image for view in variant.views)]
 
 
-def _reference(results: Results, lights, warnings) -> dict:
+def _viewer(results: Results, variants: list[details.Variant], reference: dict) -> dict:
+    """How the viewers show radiance at first, and their false colors: `low` and `high` are the powers of ten between which
+    the luminances of all half-float images lie."""
+    pictures = [view.image for variant in variants for view in variant.views] + [view["picture"] for view in reference["views"]]
+    ranges = [picture.luminance for picture in pictures if picture and picture.luminance]
+    low, high = (np.log10([edge[i] for edge in ranges] or [1]) for i in (0, 1))
+    first = math.floor(low.min())
+    stops = number(results.manifest.get("exposure_stops"))
+    return {"tone": "pbr_neutral" if results.manifest.get("tone") == "pbr_neutral" else "srgb",
+            "stops": stops if math.isfinite(stops) else 0, "low": first, "high": max(math.ceil(high.max()), first + 1),
+            "luminance": images.gradient(images.LUMINANCE_COLORS, 33), "error": images.gradient(images.SIGNED_ERROR_COLORS, 33)}
+
+
+def _reference(results: Results, lights, with_floats, warnings) -> dict:
     records = results.references()
     facts = [(key.replace("_", " "), text.figures(value) if isinstance(value, float) else text.plain(value))
              for key, value in records[0].items()]
     folders = list(dict.fromkeys(folder_of(record) for record in records))
     views = [{"folder": folder, "light": light,
-              "picture": details.picture(results, folder, IMAGES[light][0], images.embed, warnings)}
+              "picture": details.photo(results, folder, light, folder in with_floats, warnings)}
              for folder in folders for light in lights]
     if not any(view["picture"] for view in views):
         warnings.append("The reference's image is missing, so variants cannot be compared with it by eye.")

@@ -1,31 +1,22 @@
 "use strict";
 // Two images side by side, and the zoom of all images.
 (() => {
-    for (const side of ["left", "right"]) {
+    const { state, onChange } = page;
+    const sides = ["left", "right"];
+    const imageOn = (side) => document.getElementById(`${state[side]}-${state.light}`);
+    const nameOn = (side) => document.querySelector(`select[name="${side}"]`).selectedOptions[0].textContent;
+    for (const side of sides) {
         const stage = document.querySelector(`.stage[data-side="${side}"]`);
         if (!stage) continue;
-        const image = new Image();
-        image.className = "photo";
-        stage.firstElementChild.append(image);
-        page.onChange([side, "light"], () => {
-            const source = document.getElementById(`${page.state[side]}-${page.state.light}`);
-            image.hidden = !source;
-            if (!source) return;
-            image.src = source.src;
-            image.alt = source.alt;
-            stage.style.aspectRatio = `${source.getAttribute("width")} / ${source.getAttribute("height")}`;
+        page.addLayer(stage, () => [imageOn(side)]);
+        page.addReadout(stage, () => sides.map((each) => [nameOn(each), imageOn(each)]));
+        onChange([side, "light"], () => {
+            const image = imageOn(side);
+            if (!image) return;
+            const ratio = `${image.getAttribute("width")} / ${image.getAttribute("height")}`;
+            for (const element of [stage, stage.firstElementChild]) element.style.aspectRatio = ratio;
         });
     }
-
-    // Pixels are shown as squares where they are enlarged, and averaged where they are reduced.
-    function sharpen() {
-        for (const image of document.querySelectorAll(".canvas img, .single img, .film img")) {
-            if (image.clientWidth) image.classList.toggle("sharp", image.clientWidth >= image.naturalWidth);
-        }
-    }
-    page.onChange(["zoom", "light"], sharpen);
-    addEventListener("resize", sharpen);
-    addEventListener("load", sharpen);
 
     // Zoomed images move together, by the part of the way that they have.
     const stages = [...document.querySelectorAll(".stage")];

@@ -1,264 +1,267 @@
-"""Methods of many runs, scene by scene: which are on the Pareto front, which are beaten everywhere, what they save."""
+"""What methods of many runs cost and how wrong they are, scene by scene, and how much faster one is than another at equal error."""
 
 from __future__ import annotations
 
 import math
-import statistics
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 
-from report.equal_error import Reached, time_to_reach
-from report.ranking import beaten_by, pareto_front
-from report.results import LIGHTS, Metric, Results, interval_of, number, section
-from report.setting import scene_of
+import numpy as np
+import pandas as pd
 
-TRACED = "path_trace"
-RIVAL = {TRACED, "filter_irradiance"}  # passes of what a user would pick instead
-_OTHER_METHODS = ("inject_", "gather_", "sample_")  # what their passes begin with
-_EVERYWHERE = {"gbuffer", "voxelize", "composite"}  # passes that tell nothing of a method
-_LAYOUT = "layout"  # the parameter that makes two methods of the same passes
+from report.methods import Method
+from report.ranking import all_beaten, pareto_front
+from report.results import LIGHTS, Metric, Results, interval_ends, section
+from report.setting import scenes_of as names_of_scenes
+
 # Build passes whose results do not depend on light; all others run again where it is new
 _LIGHT_INDEPENDENT = {"voxelize", "voxelize_clipmap", "voxelize_octree", "voxelize_packed", "place_surfels", "link_surfels",
                       "cluster_voxels", "find_patches", "cluster_visibility", "build_hybrid_leaves"}
 COSTS = {"frame": "time of one frame, ms", "frame + light": "time of one frame with its light injected, ms",
          "build + frame": "time of build + one frame, ms", "memory": "device memory, bytes", "rays": "rays traced",
          "voxel steps": "voxels that rays traversed"}
-TIMES = ("frame", "frame + light", "build + frame")  # these can't be compared between machines, counts can
+CHARTED = tuple(COSTS)[:4]
+_ERRORS = ("nrmse", "relmse", "flip", "ssim")
+_LEAST = 1e-12  # what stands for an error of 0 on a logarithmic axis
 
 
 @dataclass(frozen=True)
-class Measured:
-    """A variant: its costs by COSTS, its error and the ends of the error's interval."""
+class Error:
+    """A metric that is 0 for a perfect image."""
 
-    method: str
-    spp: int  # samples a pixel of filtered path tracing, 0 for all else
-    machine: str
-    label: str
-    costs: dict[str, float]
-    error: float
-    low: float
-    high: float
-    is_worse_than_nothing: bool  # than a black or a constant image
-    scores: dict[str, float]  # of every metric of the run
+    metric: Metric
 
     @property
-    def is_rival(self) -> bool:
-        return self.spp > 0
+    def label(self) -> str:
+        return f"1 − {self.metric.label}" if self.metric.better == "high" else self.metric.label
+
+    def of(self, table: pd.DataFrame, light: str) -> np.ndarray:
+        """Value and ends of the interval of each row; shape (3, rows)."""
+        column = LIGHTS[light] + self.metric.key
+        low, high = interval_ends(table, column)
+        ends = (table[column], low, high) if self.metric.better == "low" else (1 - table[column], 1 - high, 1 - low)
+        return np.array(ends, dtype=float)
 
 
-@dataclass(frozen=True)
-class Factor:
-    """A method over filtered path tracing with some samples a pixel: by how much, and what the intervals of both errors
-    make of it. NaN where the method does not get there."""
-
-    rival: Measured
-    value: float
-    low: float
-    high: float
-
-    @property
-    def is_significant(self) -> bool:
-        """Whether the intervals leave no doubt on which side of 1 it lies."""
-        return self.low > 1 or self.high < 1
+def errors_of(run: Results, wanted: str) -> list[Error]:
+    """The errors that methods are compared by, `wanted` among them where the run has it."""
+    return [Error(metric) for metric in run.metrics
+            if metric.key in _ERRORS or metric.key == wanted and metric.better == "low"]
 
 
 @dataclass
 class Scene:
-    """What was compared with one reference."""
+    """The variants that were compared with one reference on one machine.
+
+    methods: the index of each variant's; labels: their names; costs: shape (COSTS, variants); errors: value and ends of the
+    95 % interval, shape (errors, 3, variants); usable: whether both are above 0 and the image is better than a black and a
+    constant one, shape (COSTS, errors, variants); pictures: the run and the folder of each variant's images.
+    """
 
     name: str
-    run: str  # the first one that shows it
-    measured: list[Measured] = field(default_factory=list)
+    machine: str
+    methods: np.ndarray
+    labels: list[str]
+    costs: np.ndarray
+    errors: np.ndarray
+    usable: np.ndarray
+    pictures: list[tuple[Results, str]]
 
-    def methods(self) -> list[str]:
-        return list(dict.fromkeys(m.method for m in self.measured))
+    def front(self, chosen: np.ndarray, cost: int, error: int, end: int = 0) -> np.ndarray:
+        """The chosen variants that no other of them beats, by rising cost. `end` of the interval: 0 value, 1 low, 2 high"""
+        indices = np.flatnonzero(chosen & self.usable[cost, error])
+        return indices[pareto_front(list(zip(self.costs[cost, indices].tolist(), self.errors[error, end, indices].tolist())))]
 
-    def on_each_machine(self) -> list[tuple[str, str]]:
-        """(method, machine), those of filtered path tracing left out."""
-        return list(dict.fromkeys((m.method, m.machine) for m in self.measured if not m.is_rival))
+    def curve(self, front: np.ndarray, cost: int, error: int, end: int = 0) -> tuple[np.ndarray, np.ndarray]:
+        """Costs and errors of a front."""
+        return self.costs[cost, front], self.errors[error, end, front]
 
-    def rivals(self, machine: str, cost: str) -> list[Measured]:
-        """The variants of filtered path tracing that no other of them beats, by rising cost."""
-        own = [m for m in self.measured if m.is_rival and m.machine == machine and m.costs[cost] > 0 and m.error > 0]
-        return [own[i] for i in pareto_front([(m.costs[cost], m.error) for m in own])]
+    def fronts(self, cost: int, error: int) -> dict[int, np.ndarray]:
+        """Each method's own front."""
+        found = {int(method): self.front(self.methods == method, cost, error) for method in np.unique(self.methods)}
+        return {method: front for method, front in found.items() if len(front)}
 
-    def of(self, method: str, machine: str, cost: str) -> list[Measured]:
-        """A method's variants on one machine."""
-        return [m for m in self.measured
-                if (m.method, m.machine) == (method, machine) and m.costs[cost] > 0 and m.error > 0]
+    def front_of_all(self, cost: int, error: int) -> np.ndarray:
+        return self.front(np.ones(len(self.labels), dtype=bool), cost, error)
 
 
-def scenes_of(runs: list[Results], metric: Metric, light: str) -> list[Scene]:
-    """The variants of all runs, by what they are compared with: references of one hash are one image.
+def scenes_of(runs: list[Results], members: list[dict[str, int]], errors: list[Error], light: str) -> list[Scene]:
+    """The variants of all runs that have an error, by what they are compared with (references of one hash are one image) and
+    by machine, for times of two machines don't compare. `members`: see methods_of()."""
+    groups: dict[tuple[str, str], list[Scene]] = {}
+    named: dict[tuple[str, str], tuple[str, str]] = {}
+    for run, of in zip(runs, members):
+        table = run.ok
+        costs = _costs(run, table)
+        values, is_worse = np.full((len(errors), 3, len(table)), np.nan), np.zeros((len(errors), len(table)), dtype=bool)
+        for i, error in enumerate(errors):
+            if any(metric.key == error.metric.key for metric in run.metrics):
+                values[i] = error.of(table, light)
+                is_worse[i] = table["variant"].isin(list(all_beaten(run, error.metric, LIGHTS[light] + error.metric.key)))
+        is_known = (costs > 0) & np.isfinite(costs)
+        usable = is_known[:, None] & ((values[:, 0] > 0) & np.isfinite(values[:, 0]) & ~is_worse)[None]
+        scene_names = dict(zip(run.variants["variant"], names_of_scenes(run)))
+        machine = str(run.manifest.get("device", ""))
+        rows: dict[tuple[str, str], list[int]] = {}
+        for row, variant in enumerate(table["variant"]):
+            if np.isfinite(values[:, 0, row]).any():
+                key = (str((run.reference_of(variant) or {}).get("hash")), machine)
+                rows.setdefault(key, []).append(row)
+                named.setdefault(key, (scene_names[variant], _run_name(run)))
+        for key, indices in rows.items():
+            names = [table["variant"].iloc[row] for row in indices]
+            groups.setdefault(key, []).append(Scene(
+                named[key][0], machine, np.array([of[name] for name in names]), names, costs[:, indices], values[:, :, indices],
+                usable[:, :, indices], [(run, name) for name in names]))
+    scenes = [_joined(parts) for parts in groups.values()]
+    names = _unique_names([(*named[key], key[1]) for key in groups])
+    return [replace(scene, name=name) for scene, name in zip(scenes, names)]
 
-    A method is named by the passes that not every variant of all runs has.
+
+@dataclass(frozen=True)
+class SpeedUps:
+    """The cost of each rival over each method's at equal error: at the error of each variant on the rival's front by time of a
+    frame, what the rival costs for as little error over what the method costs; of the errors that it reaches the (geometric)
+    median.
+
+    factors: value, its ends by the intervals of both errors and how many errors were reached, shape (rivals, CHARTED, errors,
+        scenes, methods, 4); value NaN where none is. count: errors of the rival, 0 where it was not measured, shape (rivals,
+        CHARTED, errors, scenes). Where the method's cheapest variant has less error already, that one's cost counts.
     """
-    column = LIGHTS[light] + metric.key
-    graphs = [(run, row, _passes(run, row["variant"])) for run in runs for _, row in run.ok.iterrows()
-              if not math.isnan(number(row.get(column)))]
-    shared = set.intersection(*(set(names) for *_, names in graphs)) if graphs else set()
-    scenes: dict[str, Scene] = {}
-    for run, row, names in graphs:
-        reference = run.reference_of(row["variant"]) or {}
-        scene = scenes.setdefault(str(reference.get("hash")), Scene(scene_of(run, row), _run_name(run)))
-        own = [name for name in names if name not in shared | _EVERYWHERE]
-        scene.measured.append(Measured(
-            " + ".join(own) or "all", _samples_of_rival(run, row["variant"]), str(run.manifest.get("device", "")), row["variant"], _costs(run, row),
-            row[column], *interval_of(row, column), bool(beaten_by(run, metric, column, row)),
-            {other.key: row[LIGHTS[light] + other.key] for other in run.metrics}))
-    return _with_unique_names(list(scenes.values()))
+
+    rivals: list[int]
+    factors: np.ndarray
+    count: np.ndarray
+
+    def medians(self, measured: np.ndarray) -> np.ndarray:
+        """Over the scenes in which both were measured, shape (rivals, CHARTED, errors, methods); an error that is never
+        reached counts as slower than all. `measured`: whether each scene has each method."""
+        is_compared = measured[None, None, None] & (self.count[..., None] > 0)
+        value = np.where(is_compared, np.nan_to_num(self.factors[..., 0]), np.nan)
+        with np.errstate(all="ignore"):
+            found = np.exp(_nanmedian(np.log(value), axis=3))
+        return np.where(found > 0, found, np.nan)
 
 
-def speed_ups(scene: Scene, cost: str) -> dict[str, list[Factor]]:
-    """By method: for each variant of filtered path tracing on its own front, its cost over what the method costs for as
-    little error. Where the method's cheapest variant has less error already, that one's cost counts: the factor is at least
-    so much."""
-    found: dict[str, list[Factor]] = {}
-    for method, machine in scene.on_each_machine():
-        variants = scene.of(method, machine, cost)
-        for rival in scene.rivals(machine, cost) if variants else []:
-            value, low, high = (_factor(rival.costs[cost], wanted, [(m.costs[cost], error(m)) for m in variants])
-                                for wanted, error in ((rival.error, lambda m: m.error), (rival.low, lambda m: m.high),
-                                                      (rival.high, lambda m: m.low)))
+def speed_ups(scenes: list[Scene], methods: list[Method], rivals: list[int], error_count: int) -> SpeedUps:
+    factors = np.full((len(rivals), len(CHARTED), error_count, len(scenes), len(methods), 4), np.nan)
+    factors[..., 3] = 0
+    count = np.zeros(factors.shape[:4], dtype=int)
+    for s, scene in enumerate(scenes):
+        for cost, error in np.ndindex(len(CHARTED), error_count):
+            fronts = scene.fronts(cost, error)
+            compared = [(i, rival) for i, rival in enumerate(rivals) if rival in fronts]
+            if not compared:
+                continue
+            # Memory does not rise with accuracy, so that its own front would have few errors
+            targets = [scene.front((scene.methods == rival) & scene.usable[cost, error], 0, error) for _, rival in compared]
+            begins = np.cumsum([0, *map(len, targets)])
+            value, low, high = scene.errors[error][:, np.concatenate(targets)]
+            spent = np.concatenate([_log_cost_at(scene.errors[error, 0, target], *scene.curve(fronts[rival], cost, error))
+                                    for (_, rival), target in zip(compared, targets)])
+            present, logs = list(fronts), []
+            # At an end: the one's least error against the other's largest
+            for errors, end in ((value, 0), (low, 2), (high, 1)):
+                limits = [scene.front(scene.methods == method, cost, error, end) for method in present]
+                logs.append(spent - np.array([_log_cost_at(errors, *scene.curve(front, cost, error, end)) for front in limits]))
+            is_reached = ~np.isnan(logs[0])
             # An end that is not reached leaves it open whether the method gets there at all
-            found.setdefault(method, []).append(Factor(rival, value, 0.0 if math.isnan(low) else low,
-                                                       0.0 if math.isnan(high) else high))
-    return found
+            logs[1], logs[2] = np.where(np.isnan(logs[1]), -np.inf, logs[1]), np.where(np.isnan(logs[2]), np.inf, logs[2])
+            logs = np.where(is_reached, logs, np.nan)
+            for (i, _), begin, end in zip(compared, begins, begins[1:]):
+                count[i, cost, error, s] = end - begin
+                factors[i, cost, error, s, present, :3] = np.exp(_nanmedian(logs[..., begin:end], axis=2)).T
+                factors[i, cost, error, s, present, 3] = is_reached[:, begin:end].sum(axis=1)
+    return SpeedUps(rivals, factors, count)
 
 
-def median_speed_ups(scenes: list[Scene], cost: str) -> dict[str, tuple[float, float, int, int]]:
-    """By method, over all scenes: median and least factor over filtered path tracing at equal error, how many of its errors
-    the method reached, and how many there are. Errors that it did not reach are in neither factor."""
-    factors: dict[str, list[float]] = {}
-    for scene in scenes:
-        for method, entries in speed_ups(scene, cost).items():
-            factors.setdefault(method, []).extend(factor.value for factor in entries)
-    table = {}
-    for method, all_of in factors.items():
-        reached = [factor for factor in all_of if not math.isnan(factor)]
-        table[method] = (statistics.median(reached) if reached else math.nan, min(reached, default=math.nan),
-                         len(reached), len(all_of))
-    return table
-
-
-def best_at(views: list[Scene], cost: str, samples: tuple[int, ...]) -> tuple[str, Factor] | None:
-    """The method other than path tracing whose least factor over filtered path tracing is largest, and that factor. Factors
-    are those at all of `samples` a pixel in all views, which show one scene by several metrics. None where no method reaches
-    all errors."""
-    by_view = [speed_ups(scene, cost) for scene in views]
-    known = {}
-    for method in dict.fromkeys(method for found in by_view for method in found if TRACED not in method):
-        own = [[factor for factor in found.get(method, []) if factor.rival.spp in samples] for found in by_view]
-        factors = [factor for of_view in own for factor in of_view]
-        if all({factor.rival.spp for factor in of_view} == set(samples) for of_view in own) and not any(math.isnan(f.value) for f in factors):
-            known[method] = min(factors, key=lambda factor: factor.value)
-    return max(known.items(), key=lambda entry: entry[1].value, default=None)
-
-
-def best_point(scene: Scene, cost: str) -> tuple[Measured, Reached, list[Measured]] | None:
-    """The most accurate of the variants that cost no more than filtered path tracing at their error, what path tracing costs
-    for that error, and the variants whose intervals overlap its own."""
+def errors_at_equal_cost(scene: Scene, rival: int, method: int, cost: int, error: int) -> list[tuple[float, float, float]]:
+    """For each variant on the rival's own front the least error that the method has at no more cost, over that variant's, and
+    its ends; nothing where the method has no variant as cheap."""
+    front = scene.front(scene.methods == method, cost, error)
     found = []
-    for m in scene.measured:
-        rivals = [(r.costs[cost], r.error) for r in scene.rivals(m.machine, cost)]
-        if TRACED in m.method or not (m.error > 0 and rivals):
-            continue
-        reached = time_to_reach(m.error, rivals)
-        if reached.bound == ">" or 0 < m.costs[cost] <= reached.milliseconds:
-            found.append((m, reached))
-    if not found:
-        return None
-    best, reached = min(found, key=lambda entry: entry[0].error)
-    return best, reached, [m for m, _ in found if m is not best and m.low <= best.high]
-
-
-def errors_at_equal_time(scene: Scene, cost: str) -> dict[str, list[Factor]]:
-    """By method: for each variant of filtered path tracing on its own front, the least error that the method has at no more
-    cost, over that variant's; NaN where the method has no variant as cheap."""
-    found: dict[str, list[Factor]] = {}
-    for method, machine in scene.on_each_machine():
-        for rival in scene.rivals(machine, cost):
-            cheap = [m for m in scene.of(method, machine, cost) if m.costs[cost] <= rival.costs[cost]]
-            own = min(cheap, key=lambda m: m.error, default=None)
-            ends = (math.nan, 0.0, math.inf) if own is None else (
-                own.error / rival.error, own.low / rival.high if rival.high > 0 else 0.0,
-                own.high / rival.low if rival.low > 0 else math.inf)
-            found.setdefault(method, []).append(Factor(rival, *ends))
+    for r in scene.front(scene.methods == rival, cost, error):
+        cheap = front[scene.costs[cost, front] <= scene.costs[cost, r]]
+        if len(cheap):
+            (value, low, high), (of, of_low, of_high) = scene.errors[error, :, cheap[-1]], scene.errors[error, :, r]
+            found.append((value / of, low / of_high, high / of_low if of_low > 0 else math.inf))
     return found
 
 
-def on_front(scenes: list[Scene], cost: str) -> dict[str, int]:
-    """In how many scenes each method is on the Pareto front of cost and upper end of the error, most first. A front is of
-    the variants of one machine that are better than a black and a constant image."""
-    counts: dict[str, int] = {}
-    for scene in scenes:
-        usable = [m for m in scene.measured if m.costs[cost] > 0 and m.error > 0 and not m.is_worse_than_nothing]
-        by_machine = [[m for m in usable if m.machine == machine] for machine in dict.fromkeys(m.machine for m in usable)]
-        for method in dict.fromkeys(own[i].method for own in by_machine
-                                    for i in pareto_front([(m.costs[cost], m.high) for m in own])):
-            counts[method] = counts.get(method, 0) + 1
-    return dict(sorted(counts.items(), key=lambda entry: -entry[1]))
+def best_point(scene: Scene, rival: int, rejected: set[int], cost: int, error: int) -> tuple[int, float, str, list[int]] | None:
+    """The most accurate variant that costs no more than the rival at its error, by methods that are not rejected; what the
+    rival costs for that error, "<" where its cheapest variant has less and ">" where none has as little; and the variants as
+    good within the intervals."""
+    front = scene.front(scene.methods == rival, cost, error)
+    found = np.flatnonzero(scene.usable[cost, error] & ~np.isin(scene.methods, list(rejected)))
+    if not len(front) or not len(found):
+        return None
+    costs, errors = scene.curve(front, cost, error)
+    spent = np.exp(_log_cost_at(scene.errors[error, 0, found], costs, errors))
+    found, spent = (values[np.isnan(spent) | (scene.costs[cost, found] <= spent)] for values in (found, spent))
+    if not len(found):
+        return None
+    i = int(np.argmin(scene.errors[error, 0, found]))
+    best, bound = found[i], "<" if errors[0] < scene.errors[error, 0, found[i]] else ""
+    ties = [int(other) for other in found if other != best and scene.errors[error, 1, other] <= scene.errors[error, 2, best]]
+    return int(best), *((costs[-1], ">") if np.isnan(spent[i]) else (spent[i], bound)), ties
 
 
-def dominated(scenes: list[Scene], cost: str) -> list[str]:
-    """Methods that are surely beaten in every scene that they were measured in: each of their variants costs no less
-    than another method's whose error's interval lies below theirs."""
-    methods = dict.fromkeys(method for scene in scenes for method in scene.methods())
-    return [method for method in methods
-            if all(_is_beaten(scene, m, cost) for scene in scenes for m in scene.measured if m.method == method)]
+def beaten_methods(scenes: list[Scene], methods: list[Method], cost: int, error: int) -> list[int]:
+    """Methods that are surely beaten in every scene: each of their variants is worse than a black or a constant image, or
+    costs no less than one of another method whose error's interval lies below its own."""
+    def is_beaten(scene: Scene, method: int) -> bool:
+        rivals = scene.front(scene.methods != method, cost, error, 2)
+        costs, highs = scene.costs[cost, rivals], scene.errors[error, 2, rivals]
+        members = np.flatnonzero((scene.methods == method) & scene.usable[cost, error])
+        cheaper = np.searchsorted(costs, scene.costs[cost, members], side="right")
+        return bool(((cheaper > 0) & (highs[cheaper - 1] < scene.errors[error, 1, members])).all()) if len(rivals) else not len(members)
+    present = [[scene for scene in scenes if method in scene.methods] for method in range(len(methods))]
+    return [method for method, those in enumerate(present) if those and all(is_beaten(scene, method) for scene in those)]
 
 
-def _is_beaten(scene: Scene, own: Measured, cost: str) -> bool:
-    return own.is_worse_than_nothing or any(
-        other.method != own.method and (cost not in TIMES or other.machine == own.machine)
-        and 0 < other.costs[cost] <= own.costs[cost] and other.high < own.low for other in scene.measured)
+def _log_cost_at(errors: np.ndarray, costs: np.ndarray, reached: np.ndarray) -> np.ndarray:
+    """Logarithm of the cost of each error, interpolated on a front, logarithm over logarithm; that of the cheapest variant
+    where it has less error already, NaN where none has as little."""
+    reached = np.maximum(reached, _LEAST)
+    with np.errstate(all="ignore"):
+        found = np.interp(-np.log(np.maximum(errors, 0)), -np.log(reached), np.log(costs))
+    return np.where(errors < reached[-1], np.nan, found)
 
 
-def _factor(spent: float, error: float, points: list[tuple[float, float]]) -> float:
-    usable = [point for point in points if point[1] > 0]
-    reached = time_to_reach(error, usable) if error > 0 and usable else None
-    return math.nan if reached is None or reached.bound == ">" else spent / reached.milliseconds
+def _nanmedian(values: np.ndarray, axis: int) -> np.ndarray:
+    """np.nanmedian() that takes −∞ and says nothing of slices without a number."""
+    ordered, count = np.sort(values, axis), (~np.isnan(values)).sum(axis, keepdims=True)
+    middle = [np.take_along_axis(ordered, np.maximum(index, 0), axis) for index in ((count - 1) // 2, count // 2)]
+    return np.where(count > 0, (middle[0] + middle[1]) / 2, np.nan).squeeze(axis)
 
 
-def _samples_of_rival(run: Results, variant: str) -> int:
-    graph = run.graph_of(variant)
-    kinds = [str(entry.get("pass")) for entry in graph]
-    if not RIVAL <= set(kinds) or any(kind.startswith(_OTHER_METHODS) for kind in kinds):
-        return 0
-    return int(next(entry.get("spp", 1) for entry in graph if entry.get("pass") == TRACED))
+def _costs(run: Results, table: pd.DataFrame) -> np.ndarray:
+    passes = run.passes
+    keys = pd.Series(list(zip(passes["variant"], passes["pass"])), index=passes.index, dtype=object)
+    is_again = keys.isin(set(keys[passes["phase"] == "frame"]))
+    is_lit = (passes["phase"] == "build") & ~passes["kind"].isin(_LIGHT_INDEPENDENT) & ~is_again
+
+    def total(rows: pd.DataFrame, column: str) -> pd.Series:
+        sums = rows.groupby("variant")[column].sum() if column in rows and len(rows) else pd.Series(dtype=float)
+        return table["variant"].map(sums).fillna(0.0)
+    frame = table["frame_ms_median"]
+    return np.array([frame, frame + total(passes[is_lit], "ms_median"), frame + table["build_ms"], table["memory_bytes"],
+                     table["rays"], total(passes, "voxel_steps")], dtype=float)
 
 
-def _passes(run: Results, variant: str) -> list[str]:
-    # Each once, those of several layouts with theirs.
-    return list(dict.fromkeys(f"{entry.get('pass')} ({entry[_LAYOUT]})" if _LAYOUT in entry else str(entry.get("pass"))
-                              for entry in run.graph_of(variant)))
+def _joined(parts: list[Scene]) -> Scene:
+    arrays = {key: np.concatenate([getattr(part, key) for part in parts], axis=-1) for key in ("methods", "costs", "errors", "usable")}
+    return replace(parts[0], labels=[label for part in parts for label in part.labels],
+                   pictures=[picture for part in parts for picture in part.pictures], **arrays)
 
 
-def _light_ms(run: Results, variant: str) -> float:
-    """Time of the build passes that run again where light is new; 0 where they run in each frame already."""
-    own = run.passes[run.passes["variant"] == variant]
-    again = set(own.loc[own["phase"] == "frame", "pass"])
-    lit = (own["phase"] == "build") & ~own["kind"].isin(_LIGHT_INDEPENDENT) & ~own["pass"].isin(again)
-    return float(own.loc[lit, "ms_median"].sum())
-
-
-def _costs(run: Results, row) -> dict[str, float]:
-    steps = run.passes.loc[run.passes["variant"] == row["variant"], "voxel_steps"].sum()
-    return {"frame": row["frame_ms_median"], "frame + light": row["frame_ms_median"] + _light_ms(run, row["variant"]),
-            "build + frame": row["frame_ms_median"] + row["build_ms"],
-            "memory": row["memory_bytes"], "rays": row["rays"], "voxel steps": float(steps)}
-
-
-def _with_unique_names(scenes: list[Scene]) -> list[Scene]:
-    # The same scene may have several references: other cameras, lights, sizes. Then the run's name goes with it.
-    names = [scene.name for scene in scenes]
-    for scene in scenes:
-        if names.count(scene.name) > 1:
-            scene.name = f"{scene.name} ({scene.run})"
-    names = [scene.name for scene in scenes]
-    for i, scene in enumerate(scenes):
-        if names.count(scene.name) > 1:
-            scene.name += f" {names[:i + 1].count(names[i])}"
-    return scenes
+def _unique_names(keys: list[tuple[str, str, str]]) -> list[str]:
+    """Of (scene, run, machine). The same scene may have several references: other cameras, lights, sizes."""
+    names = [scene for scene, *_ in keys]
+    for i in (2, 1):
+        names = [f"{name} ({key[i]})" if len({other[i] for other, same in zip(keys, names) if same == name}) > 1 else name
+                 for key, name in zip(keys, names)]
+    return [f"{name} {names[:i + 1].count(name)}" if names.count(name) > 1 else name for i, name in enumerate(names)]
 
 
 def _run_name(run: Results) -> str:

@@ -1,224 +1,252 @@
-"""The page of `voxray pareto`: charts of cost against error, a scene each, and what methods save."""
+"""The page of `voxray pareto`: a matrix of methods by scenes, a chart of cost against error for each scene, and tables."""
 
 from __future__ import annotations
 
-import math
+import io
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
-from matplotlib.figure import Figure
+import numpy as np
+from PIL import Image
 
-from report import pages, pareto, text
-from report.charts import set_up_axis
+from report import figures, images, methods, pages, pareto, text
 from report.load import load
-from report.pareto import COSTS, TRACED, Factor, Measured, Scene
-from report.ranking import pareto_front
-from report.results import Metric, ReportError, Results
-from report.style import CATEGORY_COLORS, MARKERS, Style
-from report.svg import PLACEHOLDERS, drawing, to_svg
+from report.pareto import CHARTED, COSTS, Error, Scene
+from report.results import IMAGES, ReportError, Results
+from report.style import MARKERS
 
-_SAMPLES = (4, 16)  # of filtered path tracing, at whose errors the best method is looked for
+_SCRIPTS = ("d3", "tables.js", "matrix.js", "chart.js", "pareto.js")
+_WORST_OF = ("nrmse", "relmse")  # the error that shows least gain counts
+_NEEDS = {"frame": "Still light (time of a frame)", "frame + light": "Light that changes (frame and its light)",
+          "build + frame": "Surfaces that move (build and frame)"}
+_SHORT = {"frame": "frame", "frame + light": "frame + its light", "build + frame": "build + frame", "memory": "memory"}
+_UNITS = np.array([[1], [1], [1], [2**20]])  # of costs in charts: ms, MiB
 _MAX_ON_FRONT = 3  # methods that are named
-_WORST_OF = ("nrmse", "relmse")  # the metric that shows least gain counts
-_QUALITY = ("ssim", "nrmse", "relmse", "mean_ratio")
-CHARTED = (*pareto.TIMES, "memory")
+_MAX_CELLS = 10000  # of the matrix with one cost and error, over all rivals
+_MAX_PICTURES = 300  # variants; of more, those on a front
+_WIDTH, _JPEG_QUALITY = 320, 85  # of pictures, pixels
 
 
-def write(page: Path, folders: list[Path], error: str, light: str) -> Path:
-    """Makes the page, and next to it a table of the same name. @return the table
-    @throws ReportError where there are no results with that metric"""
-    runs = [load(folder) for folder in folders]
-    usable = {metric.key: metric for metric in runs[0].metrics if metric.better == "low"}
-    if error not in usable:
-        raise ReportError(f"--error: '{error}' is none of {', '.join(usable)}")
-    metric, table = usable[error], page.with_suffix(".csv")
-    rows = list(csv_lines(runs, metric, light))
-    if len(rows) < 2:
-        raise ReportError(f"no variant has {metric.label} of the {light} light")
-    pages.write_whole(page, render(runs, metric, light))
-    pages.write_whole(table, pages.csv_text(rows))
+def write(page: Path, folders: list[Path], error: str, light: str, with_images: bool = True, figures_to: Path | None = None) -> Path:
+    """Makes the page, next to it a table of the same name, and figures for a paper. @return the table
+    @throws ReportError where there are no results with that error"""
+    compared = Comparison.of([load(folder) for folder in folders], error, light)
+    table = page.with_suffix(".csv")
+    pages.write_whole(page, render(compared, with_images))
+    pages.write_whole(table, pages.csv_text(csv_lines(compared)))
+    if figures_to:
+        figures.write(figures_to, compared)
     return table
 
 
-def render(runs: list[Results], metric: Metric, light: str) -> str:
+@dataclass
+class Comparison:
+    """Methods and scenes of several runs; errors[first] is the one that is shown first."""
+
+    runs: list[Results]
+    light: str
+    errors: list[Error]
+    first: int
+    methods: list[methods.Method]
+    scenes: list[Scene]
+
+    @staticmethod
+    def of(runs: list[Results], error: str, light: str) -> Comparison:
+        errors = pareto.errors_of(runs[0], error)
+        keys = [found.metric.key for found in errors]
+        if error not in keys:
+            raise ReportError(f"--error: '{error}' is none of {', '.join(keys)}")
+        listed, members = methods.methods_of(runs)
+        first = keys.index(error)
+        scenes = pareto.scenes_of(runs, members, errors, light)
+        if not any(np.isfinite(scene.errors[first, 0]).any() for scene in scenes):
+            raise ReportError(f"no variant has {errors[first].label} of the {light} light")
+        return Comparison(runs, light, errors, first, listed, scenes)
+
+    @cached_property
+    def measured(self) -> np.ndarray:
+        """Whether each scene has each method, shape (scenes, methods)."""
+        return np.array([np.isin(np.arange(len(self.methods)), scene.methods) for scene in self.scenes])
+
+    @cached_property
+    def speed_ups(self) -> pareto.SpeedUps:
+        order = sorted(range(len(self.methods)), key=lambda i: (not self.methods[i].is_rival, -self.measured[:, i].sum()))
+        return pareto.speed_ups(self.scenes, self.methods, order[:max(1, _MAX_CELLS // self.measured.size)], len(self.errors))
+
+    @property
+    def rival(self) -> int | None:
+        """Filtered path tracing, where it was measured."""
+        return next((i for i, method in enumerate(self.methods) if method.is_rival), None)
+
+
+def render(compared: Comparison, with_images: bool = True) -> str:
     """The whole page, self-contained."""
-    scenes = pareto.scenes_of(runs, metric, light)
-    worst = [other for other in runs[0].metrics if other.key in _WORST_OF]
-    both = [pareto.scenes_of(runs, other, light) for other in worst]
-    methods = list(dict.fromkeys(method for scene in scenes for method in scene.methods()))
-    styles = {method: Style(CATEGORY_COLORS[i % len(CATEGORY_COLORS)], list(MARKERS)[i % len(MARKERS)])
-              for i, method in enumerate(methods)}
-    rivalled = _with_rival(scenes)
-    charts = [(scene.name, [chart for c, cost in enumerate(CHARTED)
-                            if (chart := _chart(scene, cost, metric, light, styles, f"scene{s}-{c}"))])
-              for s, scene in enumerate(scenes)]
-    return pages.render(
-        "pareto.html.j2", metric=metric, light=light, charts=charts,
-        legend=list(styles.items()), markers=MARKERS, tables=[(cost, _savings(rivalled, cost)) for cost in pareto.TIMES],
-        equal_time=_equal_time(rivalled, "frame"), best_points=_best_points(rivalled), gains=_gains(scenes, both),
-        worst_of=_WORST_OF, scene_names=[scene.name for scene in rivalled], words={cost: _words_of(cost) for cost in pareto.TIMES},
-        sentences=[*(said for cost in pareto.TIMES for said in _winners(scenes, both, cost)), *_not_reached(scenes, both, worst),
-                   *_not_ranked(scenes, both), *_without_error(runs, metric, light),
-                   *(said for cost in pareto.TIMES for said in _beaten(scenes, cost))],
-        runs=[str(run.directory) for run in runs])
+    pictures = _pictures(compared) if with_images else [{} for _ in compared.scenes]
+    return pages.render("pareto.html.j2", scripts=_SCRIPTS, data=pages.json_text(_data(compared)), pictures=pages.json_text(pictures),
+                        sentences=sentences(compared), has_rival=compared.rival is not None, notes=_notes(compared), light=compared.light,
+                        runs=[str(run.directory) for run in compared.runs])
 
 
-def csv_lines(runs: list[Results], metric: Metric, light: str):
-    """Every variant of all runs: scene, method, machine, variant, costs, error and its interval."""
-    yield ["scene", "method", "machine", "variant", *COSTS, metric.key, f"{metric.key}_low", f"{metric.key}_high"]
-    for scene in pareto.scenes_of(runs, metric, light):
-        for m in scene.measured:
-            yield [scene.name, m.method, m.machine, m.label, *(f"{m.costs[cost]:.9g}" for cost in COSTS),
-                   *(f"{value:.9g}" for value in (m.error, m.low, m.high))]
+def csv_lines(compared: Comparison):
+    """Every variant of all runs: scene, method, machine, variant, costs, errors and their intervals."""
+    order = sorted(range(len(compared.errors)), key=lambda i: i != compared.first)
+    keys = ["one_minus_ssim" if error.metric.key == "ssim" else error.metric.key for error in compared.errors]
+    yield ["scene", "method", "machine", "variant", *COSTS, *(f"{keys[i]}{end}" for i in order for end in ("", "_low", "_high"))]
+    for scene in compared.scenes:
+        for i, label in enumerate(scene.labels):
+            numbers = [*scene.costs[:, i], *scene.errors[order, :, i].ravel()]
+            yield [scene.name, compared.methods[scene.methods[i]].name, scene.machine, label, *(f"{value:.9g}" for value in numbers)]
 
 
-def _with_rival(scenes: list[Scene]) -> list[Scene]:
-    """The scenes in which filtered path tracing was measured."""
-    return [scene for scene in scenes if any(m.is_rival for m in scene.measured)]
+def sentences(compared: Comparison) -> list[str]:
+    """What to take for still light, light that changes and surfaces that move, and where nothing beats path tracing."""
+    worst = [i for i, error in enumerate(compared.errors) if error.metric.key in _WORST_OF]
+    if compared.rival is None or not worst:
+        return _most_on_fronts(compared)
+    lines, losses = [], {}
+    for cost, need in _NEEDS.items():
+        wins: dict[str, list[str]] = {}  # by method: scenes
+        for s, scene in enumerate(compared.scenes):
+            found = _winner(compared, s, CHARTED.index(cost), worst)
+            if found and found[1][2] >= 1:
+                method, (value, low, high, _) = found
+                wins.setdefault(method, []).append(f"{scene.name} ({'' if low > 1 else '≈ '}{text.figures(value, 2)}×)")
+            elif compared.measured[s, compared.rival]:
+                losses.setdefault(_SHORT[cost], []).append(scene.name)
+        if wins:
+            listed = [f"{method} in {', '.join(names)}" for method, names in sorted(wins.items(), key=lambda entry: -len(entry[1]))]
+            lines.append(f"{need}: take {'; '.join(listed)}.")
+    if losses:
+        every = sum(compared.measured[:, compared.rival])
+        listed = [f"by {cost} in {'every scene' if len(names) == every > 1 else ', '.join(names)}" for cost, names in losses.items()]
+        lines.append(f"Nothing beats filtered path tracing: {'; '.join(listed)}.")
+    return lines
 
 
-def _savings(scenes: list[Scene], cost: str) -> list[tuple[str, ...]]:
-    """Rows: method, range of factors in each scene, median, how often it reached the error."""
-    rows = []
-    by_scene = [pareto.speed_ups(scene, cost) for scene in scenes]
-    for method, (median, _, reached, of) in pareto.median_speed_ups(scenes, cost).items():
-        cells = [_range(own.get(method, [])) for own in by_scene]
-        rows.append((method, *cells, text.figures(median, 2), f"{reached} of {of}"))
-    return rows
-
-
-def _ranked(scenes: list[Scene], views: list[list[Scene]]) -> list[tuple[Scene, ...]]:
-    """The scenes in which the fastest method is looked for, each by several metrics."""
-    return [own for scene, *own in zip(scenes, *views) if not _why_not_ranked(scene, own)]
-
-
-def _why_not_ranked(scene: Scene, views: list[Scene]) -> str:
-    """Why no method is looked for at the errors of filtered path tracing with _SAMPLES; "" where one is."""
-    machines = list(dict.fromkeys(m.machine for m in scene.measured if m.is_rival))
-    if not machines:
-        return "no variant of path_trace with filter_irradiance was measured to compare with"
-    spps = {m.spp for m in scene.measured if m.is_rival}
-    if not spps >= set(_SAMPLES):
-        return f"filtered path tracing was measured with {text.joined(sorted(spps))} samples a pixel, and {text.joined(_SAMPLES)} are needed"
-    if not any(m.machine in machines and TRACED not in m.method for m in scene.measured):
-        return "no other method was measured on the machine of filtered path tracing"
-    if not views:
-        return f"none of {text.joined(_WORST_OF)} was measured"
-    if not all({m.spp for machine in machines for m in view.rivals(machine, "frame")} >= set(_SAMPLES) for view in views):
-        return f"more samples a pixel did not lower the error of filtered path tracing, of {text.joined(_SAMPLES)}"
-    return ""
-
-
-def _not_ranked(scenes: list[Scene], views: list[list[Scene]]) -> list[str]:
-    reasons: dict[str, list[str]] = {}  # scenes by why
-    for scene, *own in zip(scenes, *views):
-        if reason := _why_not_ranked(scene, own):
-            reasons.setdefault(reason, []).append(scene.name)
-    return [f"Not ranked, for {reason}: {', '.join(names)}." for reason, names in reasons.items()]
-
-
-def _without_error(runs: list[Results], metric: Metric, light: str) -> list[str]:
-    names = [str(run.directory) for run in runs if not pareto.scenes_of([run], metric, light)]
-    return [f"Not shown, for no variant has {metric.label} of the {light} light: {', '.join(names)}."] if names else []
-
-
-def _not_reached(scenes: list[Scene], views: list[list[Scene]], metrics: list[Metric]) -> list[str]:
-    """Names the ranked scenes in which no method reaches the errors at any cost."""
-    names = [own[0].name for own in _ranked(scenes, views) if pareto.best_at(own, "frame", _SAMPLES) is None]
-    errors = f"{'both errors' if len(metrics) == 2 else 'the error'} ({text.joined([metric.label for metric in metrics])})"
-    return [f"No method reaches {errors} of filtered path tracing with {text.joined(_SAMPLES)} samples a pixel, so none is called fastest there: "
-            f"{', '.join(names)}."] if names else []
-
-
-def _winners(scenes: list[Scene], views: list[list[Scene]], cost: str) -> list[str]:
-    """A sentence on who wins by a time: at the errors of filtered path tracing, or else who is on the front."""
-    wins: dict[str, list[str]] = {}  # by method: scenes
-    for scene in _ranked(scenes, views):
-        if (found := pareto.best_at(scene, cost, _SAMPLES)) is None:
-            continue
-        method, factor = found
-        who = "filtered path tracing itself" if factor.high < 1 else method if factor.is_significant else "open"
-        wins.setdefault(who, []).append(scene[0].name + ("" if factor.high < 1 else f" {_range([factor])}×"))
-    if wins:
-        listed = [f"{who} ({', '.join(names)})" for who, names in sorted(wins.items(), key=lambda entry: -len(entry[1]))]
-        return [f"By the time of {_words_of(cost)}, fastest at the errors of filtered path tracing with {text.joined(_SAMPLES)} samples a pixel: "
-                f"{'; '.join(listed)}."]
-    front = list(pareto.on_front(scenes, cost).items())[:_MAX_ON_FRONT]
-    told = "; ".join(f"{method} ({count} of {len(scenes)} scene{'s' * (len(scenes) > 1)})" for method, count in front)
-    return [f"By the time of {_words_of(cost)}, most often on the Pareto front: {told}."] if told else []
-
-
-def _beaten(scenes: list[Scene], cost: str) -> list[str]:
-    beaten = pareto.dominated(scenes, cost)
-    return [f"By the time of {_words_of(cost)}, beaten in every scene by another method: {'; '.join(beaten)}."] if beaten else []
-
-
-def _gains(scenes: list[Scene], views: list[list[Scene]]) -> list[tuple[str, str, str, str]]:
-    """A row for each scene and time: the factor of the method that gains most, and the method. No row where no method
-    reaches the errors."""
-    rows = []
-    for scene in _ranked(scenes, views):
-        for cost in pareto.TIMES:
-            if found := pareto.best_at(scene, cost, _SAMPLES):
-                rows.append((scene[0].name, _words_of(cost), _range([found[1]]), found[0]))
-    return rows
-
-
-def _words_of(cost: str) -> str:
-    return COSTS[cost].split(",")[0].removeprefix("time of ")
-
-
-def _best_points(scenes: list[Scene]) -> list[tuple[str, ...]]:
-    """For each scene its most accurate variant that is no slower than filtered path tracing at its error."""
-    rows = []
-    for scene in scenes:
-        if (found := pareto.best_point(scene, "frame")) is None:
-            continue
-        best, reached, ties = found
-        rows.append((scene.name, best.label + (f" (≈ {len(ties)} more)" if ties else ""), text.figures(best.costs["frame"]),
-                     f"never; its slowest {text.figures(reached.milliseconds)}" if reached.bound == ">" else
-                     reached.bound + text.figures(reached.milliseconds),
-                     *(text.figures(best.scores.get(key, math.nan)) for key in _QUALITY)))
-    return rows
-
-
-def _equal_time(scenes: list[Scene], cost: str) -> list[tuple[str, ...]]:
-    by_scene = [pareto.errors_at_equal_time(scene, cost) for scene in scenes]
-    methods = dict.fromkeys(method for own in by_scene for method in own)
-    return [(method, *(_range(own.get(method, [])) for own in by_scene)) for method in methods]
-
-
-def _range(factors: list[Factor]) -> str:
-    """Least to greatest; "≈" before it where intervals leave open whether one of them is above or below 1."""
-    known = [factor for factor in factors if not math.isnan(factor.value)]
-    if not known:
-        return "–"
-    low, high = (text.figures(end(factor.value for factor in known), 2) for end in (min, max))
-    part = "" if len(known) == len(factors) else f" ({len(known)} of {len(factors)})"
-    return ("" if all(factor.is_significant for factor in known) else "≈ ") + (low if low == high else f"{low}–{high}") + part
-
-
-def _chart(scene: Scene, cost: str, metric: Metric, light: str, styles: dict[str, Style], chart_id: str) -> str | None:
-    points: list[Measured] = [m for m in scene.measured if 0 < m.costs[cost] < math.inf and 0 < m.error < math.inf]
-    if not points:
+def _winner(compared: Comparison, scene: int, cost: int, worst: list[int]) -> tuple[str, np.ndarray] | None:
+    """The method whose lower speed-up by several errors is largest, and that cell of the matrix. Methods that reach less than
+    half of the rival's errors do not count, and neither do those that trace paths."""
+    cells = compared.speed_ups.factors[0, cost, worst, scene]
+    is_reached = 2 * cells[..., 3] >= np.maximum(compared.speed_ups.count[0, cost, worst, scene], 1)[:, None]
+    value = np.where(is_reached, cells[..., 0], np.nan).min(axis=0)
+    value[[method.traces_paths for method in compared.methods]] = np.nan
+    if np.isnan(value).all():
         return None
-    with drawing():
-        figure = Figure(figsize=(5.0, 3.7), dpi=72)
-        axes = figure.add_axes((0.14, 0.13, 0.84, 0.85))
-        set_up_axis(axes.xaxis, [m.costs[cost] for m in points])
-        set_up_axis(axes.yaxis, [m.error for m in points] + [m.high for m in points])
-        axes.set_xlabel(COSTS[cost])
-        axes.set_ylabel(f"{metric.label}, {light} light (lower is better)")
-        front = [points[i] for i in pareto_front([(m.costs[cost], m.high) for m in points])]
-        axes.step([m.costs[cost] for m in front], [m.high for m in front], where="post", color=PLACEHOLDERS["muted"],
-                  linewidth=1.2)
-        for method in scene.methods():
-            line = sorted((m.costs[cost], m.error) for m in points if m.method == method)
-            axes.plot(*zip(*line), color=PLACEHOLDERS[styles[method].color], linewidth=1.0, alpha=0.5) if line else None
-        for i, m in enumerate(points):
-            ink = PLACEHOLDERS[styles[m.method].color]
-            axes.plot([m.costs[cost]] * 2, [max(m.low, axes.get_ylim()[0]), m.high], color=ink, linewidth=1.0)
-            dot = axes.plot(m.costs[cost], m.error, styles[m.method].marker, color=ink, markersize=6,
-                            markeredgecolor=PLACEHOLDERS["card"], markeredgewidth=0.8, zorder=3)[0]
-            dot.set_gid(f"{chart_id}-point-{i}")
-        titles = [f"{m.label}, {m.method}: {m.costs[cost]:.3g}, {m.error:.3g}" for m in points]
-        return to_svg(figure, chart_id, f"{scene.name}: {metric.label} against {COSTS[cost]}", titles)
+    best = int(np.nanargmax(value))
+    return compared.methods[best].name, cells[int(cells[:, best, 0].argmin()), best]
+
+
+def _most_on_fronts(compared: Comparison) -> list[str]:
+    counts = _on_fronts(compared)
+    most = sorted(counts, key=lambda method: -counts[method])[:_MAX_ON_FRONT]
+    of = f"of {len(compared.scenes)} scene{'s' * (len(compared.scenes) > 1)}"
+    listed = "; ".join(f"{compared.methods[method].name} ({counts[method]} {of})" for method in most)
+    return [f"By the time of one frame, most often on the Pareto front: {listed}."] if listed else []
+
+
+def _on_fronts(compared: Comparison) -> dict[int, int]:
+    counts: dict[int, int] = {}
+    for scene in compared.scenes:
+        for method in set(scene.methods[scene.front_of_all(0, compared.first)].tolist()):
+            counts[method] = counts.get(method, 0) + 1
+    return counts
+
+
+def _notes(compared: Comparison) -> list[str]:
+    label, rival = compared.errors[compared.first].label, compared.rival
+    without = [scene.name for s, scene in enumerate(compared.scenes) if rival is None or not compared.measured[s, rival]]
+    shown = {id(run) for scene in compared.scenes for run, _ in scene.pictures}
+    unseen = [str(run.directory) for run in compared.runs if id(run) not in shown]
+    return [sentence for sentence, names in (
+        (f"Without filtered path tracing (path_trace and filter_irradiance) to compare with: {', '.join(without)}.", without),
+        (f"Not shown, for no variant has {label} of the {compared.light} light: {', '.join(unseen)}.", unseen)) if names]
+
+
+def _data(compared: Comparison) -> dict:
+    """What the page's script shows."""
+    styles = methods.styles_of(compared.methods)
+    found = compared.speed_ups
+    counts = found.count[..., None] * np.broadcast_to(compared.measured, (*found.count.shape[:3], *compared.measured.shape))
+    return {
+        "light": compared.light, "error": compared.first, "rivals": found.rivals, "count": found.count,
+        "costs": [{"key": cost, "name": _SHORT[cost], "label": COSTS[cost].replace("bytes", "MiB")} for cost in CHARTED],
+        "errors": [{"key": error.metric.key, "name": error.label} for error in compared.errors],
+        "methods": [{"name": method.name, "chain": " + ".join(method.chain), "color": style.color, "mark": MARKERS[style.marker]}
+                    for method, style in zip(compared.methods, styles)],
+        # null: not measured, 0: no error is reached
+        "factors": _nested(found.factors, counts), "medians": found.medians(compared.measured),
+        "scenes": [{"name": scene.name, "method": scene.methods, "label": scene.labels, "cost": scene.costs[:len(CHARTED)] / _UNITS, "error": scene.errors,
+                    "fronts": [[scene.fronts(cost, error) for error in range(len(compared.errors))] for cost in range(len(CHARTED))],
+                    "front": [[scene.front_of_all(cost, error) for error in range(len(compared.errors))] for cost in range(len(CHARTED))]}
+                   for scene in compared.scenes],
+        "tables": [_method_table(compared), *_rival_tables(compared)]}
+
+
+def _nested(factors: np.ndarray, counts: np.ndarray) -> list | None | int:
+    if counts.ndim == 0:
+        return None if not counts else 0 if not factors[3] else [*factors[:3], int(factors[3])]
+    return [_nested(*parts) for parts in zip(factors, counts)]
+
+
+def _method_table(compared: Comparison) -> dict:
+    fronts = _on_fronts(compared)
+    beaten = {cost: set(pareto.beaten_methods(compared.scenes, compared.methods, CHARTED.index(cost), compared.first)) for cost in _NEEDS}
+    variants = np.bincount(np.concatenate([scene.methods for scene in compared.scenes]), minlength=len(compared.methods))
+    return {"title": "Methods and their passes", "note": "Beaten: in every scene each variant is worse than a black or a constant image, or "
+            "another method costs no more and its error's interval lies below.",
+            "head": ["method", "passes", "variants", "scenes with it on the front", "beaten everywhere by"],
+            "rows": [[method.name, " + ".join(method.chain), int(variants[i]), fronts.get(i, 0),
+                      ", ".join(_SHORT[cost] for cost, those in beaten.items() if i in those)] for i, method in enumerate(compared.methods)]}
+
+
+def _rival_tables(compared: Comparison) -> list[dict]:
+    rival, error = compared.rival, compared.first
+    if rival is None:
+        return []
+    label, traced = compared.errors[error].label, {i for i, method in enumerate(compared.methods) if method.traces_paths}
+    best, equal = [], []
+    for scene in compared.scenes:
+        if found := pareto.best_point(scene, rival, traced, 0, error):
+            i, spent, bound, ties = found
+            best.append([scene.name, scene.labels[i], len(ties), scene.costs[0, i], "never" if bound == ">" else spent, *scene.errors[:, 0, i]])
+        for m in np.unique(scene.methods):
+            ratios = pareto.errors_at_equal_cost(scene, rival, m, 0, error)
+            if ratios and m != rival:
+                values = [ratio[0] for ratio in ratios]
+                is_open = any(low <= 1 <= high for _, low, high in ratios)
+                equal.append([compared.methods[m].name, scene.name, min(values), max(values), len(values), "≈" if is_open else ""])
+    return [{"title": "Most accurate variant that is no slower than filtered path tracing at its error",
+             "note": "ties: other variants whose intervals reach this one's error. never: path tracing has no variant of as little error.",
+             "head": ["scene", "variant", "ties", "frame, ms", "path tracing, ms", *(error.label for error in compared.errors)], "rows": best},
+            {"title": f"{label} at equal time of a frame", "note": "The least error in no more time than filtered path tracing takes, over that "
+             "one's; below 1 the method is more accurate. ≈: the intervals leave that open.",
+             "head": ["method", "scene", "least", "greatest", "of times", "open"], "rows": equal}]
+
+
+def _pictures(compared: Comparison) -> list[dict]:
+    """By scene: the reference, and image and error map of variants by their index."""
+    everything = sum(len(scene.labels) for scene in compared.scenes) <= _MAX_PICTURES
+    final, error_map = IMAGES[compared.light]
+    found = []
+    for scene in compared.scenes:
+        fronts = {i for cost, error in np.ndindex(len(CHARTED), len(compared.errors)) for i in scene.front_of_all(cost, error).tolist()}
+        run, variant = scene.pictures[0]
+        uris = {"reference": [_jpeg(run, run.reference_folder(variant) or "", final)]}
+        for i in range(len(scene.labels)) if everything else sorted(fronts):
+            uris[str(i)] = [_jpeg(*scene.pictures[i], final), _jpeg(*scene.pictures[i], error_map, is_map=True)]
+        found.append({key: pair for key, pair in uris.items() if pair[0]})
+    return found
+
+
+def _jpeg(run: Results, folder: str, name: str, is_map: bool = False) -> str:
+    path = run.image(folder, name)
+    if not path:
+        return ""
+    image = images.open_png(path).convert("L" if is_map else "RGB")
+    image.thumbnail((_WIDTH, 10 * _WIDTH))
+    if is_map:
+        image = Image.fromarray(images.colors(images.ERROR_COLORS, np.asarray(image, dtype=int)))
+    out = io.BytesIO()
+    image.save(out, "JPEG", quality=_JPEG_QUALITY)
+    return pages.data_uri(out.getvalue(), "image/jpeg")

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from report import images, table, text
-from report.line_chart import line_chart
+from report.charts import frame_chart
 from report.names import Names
 from report.results import LIGHTS, Results, folder_of, number, section
 from report.style import Style
@@ -25,18 +25,12 @@ class Region:
 
 
 @dataclass(frozen=True)
-class LightChart:
-    light: str
-    svg: str
-
-
-@dataclass(frozen=True)
 class Sequence:
     """Scores over the compared frames: a table of temporal error, and charts over frames."""
 
     columns: list[table.Column]
     rows: list[table.Row]
-    charts: list[LightChart]
+    charts: list[dict]
 
 
 def regions(results: Results, lights: list[str], names: Names, anchors: dict[str, str],
@@ -70,6 +64,5 @@ def sequence(results: Results, shown: Results, lights: list[str], styles: dict[s
             key = LIGHTS[light] + metric.key
             rows = shown.frames[shown.frames[key].notna() & shown.frames["variant"].isin(styles)]
             if rows["frame"].nunique() > 1:
-                charts.append(LightChart(light, line_chart(rows, key, f"{metric.label}, {light} light", styles, names,
-                                                           f"frames-{light}-{metric.key}")))
+                charts.append(frame_chart(rows, key, f"{metric.label}, {light} light", results, light))
     return Sequence(columns, table.variant_rows(results, columns, names, anchors), charts)

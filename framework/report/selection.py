@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable
 
+from report import half_floats
 from report.comparisons import comparisons
 from report.film import film_bytes
 from report.names import Names
@@ -12,6 +14,7 @@ from report.results import IMAGES, LIGHTS, ReportError, Results, folder_of, inte
 
 FRONT, ALL = "front", "all"
 _MAX_BYTES = 50e6  # of images and rows in a page: charts and the text of some hundred variants take less than 10 MB
+_MAX_FLOAT_BYTES = 25e6  # of half floats in a page
 _ROW_BYTES = 2500  # of a variant's row and its points
 _MAX_VARIANTS = 500
 _TEXT_BYTES = 4 / 3  # of a byte in base64
@@ -55,6 +58,36 @@ def front_of(results: Results, lights: list[str]) -> list[str]:
     return sorted((name for name, count in counts.items() if count), key=lambda name: -counts[name])
 
 
+def with_floats(results: Results, lights: list[str], shown: list[str]) -> set[str]:
+    """The folders whose images the page has as half floats: those of the references and of all shown variants where they fit,
+    else of those on a Pareto front, as many as fit."""
+    references = {folder_of(record) for record in results.references()}
+    left = min(_MAX_FLOAT_BYTES, _bytes_left(results, lights) - sum(_bytes(results, name, lights) for name in shown))
+    left -= sum(_float_bytes(results, folder, lights) for folder in references)
+    if left < 0:
+        return set()
+    sizes = {name: _float_bytes(results, name, lights) for name in shown}
+    all_fit = sum(sizes.values()) <= left
+    return references | set(shown if all_fit else _fitting((name for name in front_of(results, lights) if name in sizes), sizes.get, left))
+
+
+def _float_bytes(results: Results, folder: str, lights: list[str]) -> float:
+    """About what the half floats of a folder's images take in the page."""
+    paths = [results.image(folder, IMAGES[light][0].replace(".png", ".exr")) for light in lights]
+    return _TEXT_BYTES * half_floats.BYTES_OF_EXR * sum(path.stat().st_size for path in paths if path)
+
+
+def _fitting(names: Iterable[str], bytes_of: Callable[[str], float], left: float) -> list[str]:
+    """The first names that fit into the bytes left."""
+    chosen = []
+    for name in names:
+        left -= bytes_of(name)
+        if left < 0:
+            break
+        chosen.append(name)
+    return chosen
+
+
 def _bytes_left(results: Results, lights: list[str]) -> float:
     """What the images of variants may take."""
     references = sum(_bytes(results, folder_of(record), lights) for record in results.references())
@@ -68,13 +101,7 @@ def _all_fit(results: Results, lights: list[str]) -> bool:
 
 def _that_fit(results: Results, lights: list[str]) -> list[str]:
     """The variants that are on most fronts, as many as fit."""
-    left, chosen = _bytes_left(results, lights), []
-    for name in front_of(results, lights)[:_MAX_VARIANTS]:
-        left -= _bytes(results, name, lights)
-        if left < 0:
-            break
-        chosen.append(name)
-    return chosen
+    return _fitting(front_of(results, lights)[:_MAX_VARIANTS], lambda name: _bytes(results, name, lights), _bytes_left(results, lights))
 
 
 def _bytes(results: Results, folder: str, lights: list[str]) -> float:

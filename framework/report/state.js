@@ -3,8 +3,8 @@
 // so that one place can be compared across variants, and it is kept in the address (#light=total&split=30).
 const page = (() => {
     const root = document.documentElement;
-    const onRoot = ["light", "show", "zoom", "time", "exposure"]; // style.css goes by them
-    const maxDarker = -4, maxBrighter = 6; // stops
+    const onRoot = ["light", "show", "zoom", "time", "colors"]; // style.css goes by them
+    const maxStops = 10;
 
     // Controls by the key that they choose; radio buttons are one control.
     const controls = new Map();
@@ -15,9 +15,9 @@ const page = (() => {
         return (controls.get(key) ?? []).flatMap((control) =>
             control.options ? [...control.options].map((option) => option.value) : [control.value]);
     }
-    const choices = Object.fromEntries(["light", "show", "zoom", "time", "against", "left", "right"].map((key) => [key, valuesOf(key)]));
+    const choices = Object.fromEntries(["light", "show", "zoom", "time", "against", "left", "right", "colors"].map((key) => [key, valuesOf(key)]));
     const defaults = {
-        light: root.dataset.light, show: "slider", zoom: "1", time: "frame", split: "50", exposure: "0", filter: "", against: "",
+        light: root.dataset.light, show: "slider", zoom: "1", time: "frame", split: "50", exposure: "0", colors: root.dataset.colors, filter: "", against: "",
         left: choices.left[0] ?? "", right: choices.right[1] ?? choices.right[0] ?? "",
     };
     const state = { ...defaults };
@@ -25,7 +25,7 @@ const page = (() => {
 
     function isValid(key, value) {
         if (key === "split") return value !== "" && Number(value) >= 0 && Number(value) <= 100;
-        if (key === "exposure") return value !== "" && Number(value) >= maxDarker && Number(value) <= maxBrighter;
+        if (key === "exposure") return value !== "" && Math.abs(Number(value)) <= maxStops;
         return key === "filter" || (choices[key]?.includes(value) ?? false);
     }
 

@@ -34,8 +34,8 @@
 
     // What leads to a variant or shows it, by the number of its row.
     const elsewhere = new Map();
-    for (const element of document.querySelectorAll(".thumbnail, .chart a, article[id]")) {
-        const number = numberOf(element.id || element.getAttribute("href") || element.getAttribute("xlink:href") || "");
+    for (const element of document.querySelectorAll(".thumbnail, article[id]")) {
+        const number = numberOf(element.id || element.getAttribute("href"));
         elsewhere.set(number, [...(elsewhere.get(number) ?? []), element]);
     }
 
@@ -68,9 +68,11 @@
     page.showRows = () => {
         const tests = page.state.filter.toLowerCase().split(/\s+/).filter((word) => word).map(testOf);
         let kept = 0;
+        page.matching = new Set();
         for (const row of [...table.tBodies[0].rows]) {
             const isKept = tests.every((test) => test(row));
             kept += isKept;
+            if (isKept) page.matching.add(numberOf(row.id));
             row.hidden = !isKept || kept > limit;
             for (const element of elsewhere.get(numberOf(row.id)) ?? []) element.classList.toggle("filtered", !isKept);
         }

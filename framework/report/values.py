@@ -7,10 +7,9 @@ from dataclasses import dataclass
 import pandas as pd
 
 from report import text
-from report.line_chart import line_chart
+from report.charts import frame_chart
 from report.names import Names
 from report.results import Results
-from report.style import Style
 
 
 @dataclass(frozen=True)
@@ -35,14 +34,14 @@ def value_table(results: Results, names: Names) -> ValueTable | None:
     return ValueTable([f"{part}: {name}" for part, name in keys], rows)
 
 
-def value_charts(results: Results, styles: dict[str, Style], names: Names) -> list[str]:
-    """A chart for each value that changes from frame to frame in some variant: one line for each variant."""
-    series = results.values[results.values["frame"].notna()]
+def value_charts(shown: Results, results: Results) -> list[dict]:
+    """A chart for each value that changes from frame to frame in some variant: one line for each variant that is shown."""
+    series = shown.values[shown.values["frame"].notna()]
     charts = []
-    for i, (part, name) in enumerate(_keys(series)):
+    for part, name in _keys(series):
         rows = series[(series["pass"] == part) & (series["name"] == name)]
         if rows.groupby("variant")["value"].nunique().max() > 1:
-            charts.append(line_chart(rows, "value", f"{part}: {name}", styles, names, f"values-{i}"))
+            charts.append(frame_chart(rows, "value", f"{part}: {name}", results))
     return charts
 
 

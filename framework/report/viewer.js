@@ -1,8 +1,9 @@
 "use strict";
-// Viewers: a variant's image with another one over it, by a slider, in turns or as their difference.
+// Viewers: a variant's image with another one over it, by a slider, in turns or as its error.
 (() => {
     const { state, set, onChange } = page;
     const viewers = [...document.querySelectorAll(".viewer")];
+    const nameOfOther = () => (state.against ? document.querySelector('select[name="against"]').selectedOptions[0].textContent : "reference");
 
     // The image to lay over a variant's: its reference, or the same light of the variant that is chosen for all.
     function otherOf(viewer) {
@@ -14,27 +15,18 @@
         figure.append(tag);
         return tag;
     }
-    function layOver(viewer) {
-        const other = otherOf(viewer);
-        viewer.classList.toggle("alone", !other);
-        const overlay = viewer.querySelector(".ref");
-        if (other) overlay.src = other.src;
-        else overlay.removeAttribute("src");
-    }
 
     for (const viewer of viewers) {
         const canvas = viewer.firstElementChild;
-        const overlay = new Image();
-        overlay.className = "photo ref";
-        overlay.alt = "";
+        const image = canvas.querySelector(".photo");
+        page.addLayer(viewer, () => [image, state.show === "error" ? otherOf(viewer) : null]);
+        page.addLayer(viewer, () => [otherOf(viewer)], "ref");
         const line = document.createElement("div");
         line.className = "line";
-        canvas.append(overlay, line);
+        canvas.append(line);
         addTag(viewer.parentElement, "left").textContent = "variant";
         addTag(viewer.parentElement, "right");
-        for (const [name, value] of Object.entries({ role: "slider", tabindex: "0", "aria-valuemin": "0", "aria-valuemax": "100" })) {
-            viewer.setAttribute(name, value);
-        }
+        page.addReadout(viewer, () => [["variant", image], [nameOfOther(), otherOf(viewer)]]);
 
         const moveTo = (event) => {
             const box = canvas.getBoundingClientRect();
@@ -53,47 +45,18 @@
         });
         viewer.addEventListener("pointerup", page.writeAddress);
         viewer.addEventListener("dragstart", (event) => event.preventDefault());
-        viewer.addEventListener("keydown", (event) => {
-            const steps = { ArrowLeft: -2, ArrowRight: 2, PageDown: -10, PageUp: 10, Home: -100, End: 100 };
-            if (!(event.key in steps) || event.shiftKey || event.ctrlKey || event.metaKey || event.altKey) return;
-            event.preventDefault();
-            set({ show: "slider", split: String(Math.min(100, Math.max(0, Number(state.split) + steps[event.key]))) });
-        });
     }
     page.flip = () => set({ show: state.show === "variant" ? "other" : "variant" });
-
-    // Overlays get their images where the page is looked at: a page may have hundreds.
-    const inSight = new Set();
-    const watcher = new IntersectionObserver((entries) => {
-        for (const { target, isIntersecting } of entries) {
-            if (!isIntersecting || inSight.has(target)) continue;
-            inSight.add(target);
-            layOver(target);
-        }
-    }, { rootMargin: "1000px" });
-    for (const viewer of viewers) watcher.observe(viewer);
     onChange(["against"], () => {
-        inSight.forEach(layOver);
-        const name = document.querySelector('select[name="against"]')?.selectedOptions[0].textContent;
-        for (const tag of document.querySelectorAll(".tag.right")) tag.textContent = state.against ? name : "reference";
-    });
-    onChange(["split"], () => {
-        for (const viewer of viewers) viewer.setAttribute("aria-valuenow", Math.round(Number(state.split)));
+        for (const viewer of viewers) viewer.classList.toggle("alone", !otherOf(viewer));
+        for (const tag of document.querySelectorAll(".tag.right")) tag.textContent = nameOfOther();
     });
 
-    // Exposure, of previews: sRGB to linear radiance and back. What a preview clips stays clipped.
-    const toLinear = (v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
-    const toDisplay = (v) => (v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055);
-    onChange(["exposure"], () => {
-        const stops = Number(state.exposure);
-        const values = Array.from({ length: 256 }, (_, i) => toDisplay(Math.min(1, toLinear(i / 255) * 2 ** stops)).toFixed(5));
-        for (const curve of document.querySelectorAll("#exposure feFuncR, #exposure feFuncG, #exposure feFuncB")) {
-            curve.setAttribute("type", stops === 0 ? "identity" : "table");
-            curve.setAttribute("tableValues", values.join(" "));
-        }
-        const stated = document.querySelector(".stops");
-        if (stated) stated.textContent = `${stops > 0 ? "+" : ""}${stops}`;
-    });
+    for (const stage of document.querySelectorAll(".single-view")) {
+        const image = stage.querySelector(".photo");
+        page.addLayer(stage, () => [image]);
+        page.addReadout(stage, () => [["reference", image]]);
+    }
 
     // Small copies of images that stand elsewhere on the page.
     for (const link of document.querySelectorAll(".copy")) {

@@ -93,16 +93,15 @@ std::vector<glm::mat4> nodeToWorld(const Scene& scene, double timeSeconds) {
         assert(parent < int32_t(i));
         world[i] = parent < 0 ? localMatrix(nodes[i]) : world[size_t(parent)] * localMatrix(nodes[i]);
         if (!isFinite(world[i]))
-            throw Error("{}: the transform of node {} '{}' is not finite at {} s; correct it in the file",
-                        scene.name, i, nodes[i].name, timeSeconds);
+            throw Error("{}: the transform of node {} '{}' is not finite at {} s; correct it in the file", scene.name,
+                        i, nodes[i].name, timeSeconds);
     }
     return world;
 }
 
 double loopedTime(const Scene& scene, double timeSeconds) {
     double end = 0;
-    for (const AnimationChannel& channel : scene.animation)
-        end = std::max(end, double(channel.timesSeconds.back()));
+    for (const AnimationChannel& channel : scene.animation) end = std::max(end, double(channel.timesSeconds.back()));
     if (!(end > 0)) return 0;
     const double time = std::fmod(timeSeconds, end);
     return time < 0 ? time + end : time;

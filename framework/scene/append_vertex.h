@@ -26,8 +26,7 @@ uint32_t appendVertex(Mesh& mesh, uint32_t corner, const Mean& mean) {
     if (!mesh.normals.empty()) mesh.normals.back() = normalizedOrZero(mesh.normals.back());
     append(mesh.tangents);
     if (!mesh.tangents.empty())
-        mesh.tangents.back() =
-            glm::vec4(normalizedOrZero(glm::vec3(mesh.tangents.back())), mesh.tangents[corner].w);
+        mesh.tangents.back() = glm::vec4(normalizedOrZero(glm::vec3(mesh.tangents.back())), mesh.tangents[corner].w);
     append(mesh.texCoords0);
     append(mesh.texCoords1);
     append(mesh.colors);

@@ -6,15 +6,13 @@ namespace voxray {
 enum class FurnaceShape { Sphere, Box };
 template <>
 struct EnumNames<FurnaceShape> {
-    static constexpr std::array names{std::pair{FurnaceShape::Sphere, "sphere"},
-                                      std::pair{FurnaceShape::Box, "box"}};
+    static constexpr std::array names{std::pair{FurnaceShape::Sphere, "sphere"}, std::pair{FurnaceShape::Box, "box"}};
 };
 
 enum class PlaneLight { Point, Spot, Directional };
 template <>
 struct EnumNames<PlaneLight> {
-    static constexpr std::array names{std::pair{PlaneLight::Point, "point"},
-                                      std::pair{PlaneLight::Spot, "spot"},
+    static constexpr std::array names{std::pair{PlaneLight::Point, "point"}, std::pair{PlaneLight::Spot, "spot"},
                                       std::pair{PlaneLight::Directional, "directional"}};
 };
 
@@ -26,10 +24,9 @@ struct Furnace {
     float emission = 1.0f;
     FurnaceShape shape = FurnaceShape::Sphere;
     static constexpr auto schema() {
-        return std::tuple{
-            field("albedo", &Furnace::albedo, "Albedo of all surfaces.", 0.0f, 1.0f),
-            field("emission", &Furnace::emission, "Radiance of all surfaces, W/(m² sr).", 0.0f, 1e6f),
-            field("shape", &Furnace::shape, "Sphere of 1 m radius or box of 2 m side.")};
+        return std::tuple{field("albedo", &Furnace::albedo, "Albedo of all surfaces.", 0.0f, 1.0f),
+                          field("emission", &Furnace::emission, "Radiance of all surfaces, W/(m² sr).", 0.0f, 1e6f),
+                          field("shape", &Furnace::shape, "Sphere of 1 m radius or box of 2 m side.")};
     }
 };
 
@@ -51,9 +48,8 @@ struct WhiteRoom {
     float albedo = 0.8f;
     float intensity = 1.0f;
     static constexpr auto schema() {
-        return std::tuple{
-            field("albedo", &WhiteRoom::albedo, "Albedo of all walls.", 0.0f, 1.0f),
-            field("intensity", &WhiteRoom::intensity, "Intensity of the point light, W/sr.", 0.0f, 1e6f)};
+        return std::tuple{field("albedo", &WhiteRoom::albedo, "Albedo of all walls.", 0.0f, 1.0f),
+                          field("intensity", &WhiteRoom::intensity, "Intensity of the point light, W/sr.", 0.0f, 1e6f)};
     }
 };
 
@@ -78,8 +74,7 @@ struct QuadLight {
     static constexpr auto schema() {
         return std::tuple{
             field("light_size", &QuadLight::lightSize, "Side of the square light, m.", 0.01f, 100.0f),
-            field("receiver_size", &QuadLight::receiverSize, "Side of the square receiver, m.", 0.01f,
-                  100.0f),
+            field("receiver_size", &QuadLight::receiverSize, "Side of the square receiver, m.", 0.01f, 100.0f),
             field("distance", &QuadLight::distance, "Distance between light and receiver, m.", 0.01f, 100.0f),
             field("radiance", &QuadLight::radiance, "Radiance of the light, W/(m² sr).", 0.0f, 1e6f),
             field("albedo", &QuadLight::albedo, "Albedo of the receiver.", 0.0f, 1.0f)};
@@ -107,12 +102,12 @@ struct Plane {
     float height = 1.0f;
     float intensity = 1.0f;
     static constexpr auto schema() {
-        return std::tuple{field("light", &Plane::light, "The light over the plane."),
-                          field("albedo", &Plane::albedo, "Albedo of the plane.", 0.0f, 1.0f),
-                          field("height", &Plane::height,
-                                "Height of a point or spot light over the plane, m.", 0.01f, 100.0f),
-                          field("intensity", &Plane::intensity,
-                                "Intensity of the light, W/sr; of the directional one, W/m².", 0.0f, 1e6f)};
+        return std::tuple{
+            field("light", &Plane::light, "The light over the plane."),
+            field("albedo", &Plane::albedo, "Albedo of the plane.", 0.0f, 1.0f),
+            field("height", &Plane::height, "Height of a point or spot light over the plane, m.", 0.01f, 100.0f),
+            field("intensity", &Plane::intensity, "Intensity of the light, W/sr; of the directional one, W/m².", 0.0f,
+                  1e6f)};
     }
 };
 
@@ -142,8 +137,7 @@ std::shared_ptr<const Scene> make(const Plane& params) {
 }  // namespace
 
 std::vector<BuiltinScene> closedFormScenes() {
-    return {builtinScene<Furnace>(), builtinScene<WhiteRoom>(), builtinScene<QuadLight>(),
-            builtinScene<Plane>()};
+    return {builtinScene<Furnace>(), builtinScene<WhiteRoom>(), builtinScene<QuadLight>(), builtinScene<Plane>()};
 }
 
 }  // namespace voxray

@@ -25,8 +25,7 @@ struct Clutter {
 /// Furniture of boards and legs of equal thickness round a point of the floor, rotated about +Y.
 class Furniture {
  public:
-    Furniture(SceneBuilder& builder, const glm::vec3& origin, float angleRadians, float thickness,
-              uint32_t material)
+    Furniture(SceneBuilder& builder, const glm::vec3& origin, float angleRadians, float thickness, uint32_t material)
         : builder_(builder), origin_(origin), angle_(angleRadians), t_(thickness), material_(material) {}
 
     void table(const glm::vec3& size) {
@@ -57,8 +56,7 @@ class Furniture {
  private:
     void legs(const glm::vec3& size, float height) {
         for (const float x : {-0.5f, 0.5f})
-            for (const float z : {-0.5f, 0.5f})
-                addBox({x * (size.x - t_), 0, z * (size.z - t_)}, {t_, height, t_});
+            for (const float z : {-0.5f, 0.5f}) addBox({x * (size.x - t_), 0, z * (size.z - t_)}, {t_, height, t_});
     }
 
     /// A box on `base`, in the furniture's space.
@@ -88,8 +86,7 @@ std::shared_ptr<const Scene> make(const Clutter& params) {
     UniformRandom uniform(params.seed);
     std::array<uint32_t, columns * rows> cells;
     for (uint32_t i = 0; i < cells.size(); ++i) cells[i] = i;
-    for (uint32_t i = uint32_t(cells.size()) - 1; i > 0; --i)
-        std::swap(cells[i], cells[uniform.below(i + 1)]);
+    for (uint32_t i = uint32_t(cells.size()) - 1; i > 0; --i) std::swap(cells[i], cells[uniform.below(i + 1)]);
 
     for (uint32_t i = 0; i < params.count; ++i) {
         const glm::vec2 cell(cells[i] % columns, cells[i] / columns);

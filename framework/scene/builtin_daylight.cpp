@@ -40,17 +40,15 @@ struct WindowRoom {
     float sunAzimuthDegrees = 25;
     static constexpr auto schema() {
         return std::tuple{
-            field("wall_thickness", &WindowRoom::wallThickness, "Thickness of walls and roof, m.", 0.01f,
-                  1.0f),
+            field("wall_thickness", &WindowRoom::wallThickness, "Thickness of walls and roof, m.", 0.01f, 1.0f),
             field("sill", &WindowRoom::sill,
                   "How far the sill's board juts out of the wall on either side, m; 0: no sill.", 0.0f, 0.5f),
-            field("slats", &WindowRoom::slats, "Number of slats of the blind in the window; 0: no blind.", 0u,
-                  200u),
+            field("slats", &WindowRoom::slats, "Number of slats of the blind in the window; 0: no blind.", 0u, 200u),
             field("slat_width", &WindowRoom::slatWidth, "Width of a slat, m.", 0.005f, 0.2f),
             field("slat_tilt_deg", &WindowRoom::slatTiltDegrees,
                   "Tilt of the slats, outer edges down, degrees: 0 horizontal, 90 closed.", -90.0f, 90.0f),
-            field("ground_distance", &WindowRoom::groundDistance,
-                  "Depth of the ground outside below the floor, m.", 0.0f, 20.0f),
+            field("ground_distance", &WindowRoom::groundDistance, "Depth of the ground outside below the floor, m.",
+                  0.0f, 20.0f),
             field("sun_elevation_deg", &WindowRoom::sunElevationDegrees,
                   "Elevation of the sun above the horizon, degrees.", 1.0f, 89.0f),
             field("sun_azimuth_deg", &WindowRoom::sunAzimuthDegrees,
@@ -92,10 +90,8 @@ std::shared_ptr<const Scene> make(const WindowRoom& params) {
     const glm::vec2 footMin(outerMin.x, outerMin.z), footMax(outerMax.x, outerMax.z);
     const glm::vec2 half(23);
     b.band("ground", horizontal(outerMin.y, footMin, footMax), horizontal(outerMin.y, -half, half), ground);
-    b.band("ground's edge", horizontal(outerMin.y, -half, half), horizontal(outerMin.y - 0.5f, -half, half),
-           ground);
-    b.quad("ground's bottom", {-half.x, outerMin.y - 0.5f, -half.y}, {2 * half.x, 0, 0}, {0, 0, 2 * half.y},
-           ground);
+    b.band("ground's edge", horizontal(outerMin.y, -half, half), horizontal(outerMin.y - 0.5f, -half, half), ground);
+    b.quad("ground's bottom", {-half.x, outerMin.y - 0.5f, -half.y}, {2 * half.x, 0, 0}, {0, 0, 2 * half.y}, ground);
 
     // The sill's board covers the reveal's lower side, which lies 1 cm below the board's top.
     if (params.sill > 0)
@@ -113,9 +109,9 @@ std::shared_ptr<const Scene> make(const WindowRoom& params) {
 
     const float elevation = glm::radians(params.sunElevationDegrees);
     const float azimuth = glm::radians(params.sunAzimuthDegrees);
-    b.directionalLight({std::cos(elevation) * std::sin(azimuth), -std::sin(elevation),
-                        -std::cos(elevation) * std::cos(azimuth)},
-                       glm::vec3(20.0f));
+    b.directionalLight(
+        {std::cos(elevation) * std::sin(azimuth), -std::sin(elevation), -std::cos(elevation) * std::cos(azimuth)},
+        glm::vec3(20.0f));
     b.scene().environment.radiance = {1.0f, 1.25f, 1.6f};
     b.camera({-2.2f, 1.6f, -1.7f}, {0.6f, 1.0f, 2}, 70);
     return b.finish();
@@ -127,12 +123,12 @@ struct ShellRoom {
     float overhang = 2.0f;
     ShellLight light = ShellLight::Outside;
     static constexpr auto schema() {
-        return std::tuple{field("wall_thickness", &ShellRoom::wallThickness,
-                                "Thickness of walls, floor slab and roof, m.", 0.001f, 1.0f),
-                          field("overhang", &ShellRoom::overhang,
-                                "How far floor slab and ceiling extend beyond the walls, m.", 0.1f, 20.0f),
-                          field("light", &ShellRoom::light,
-                                "The sun outside (20 W/m²), or a point light inside (2 W/sr).")};
+        return std::tuple{
+            field("wall_thickness", &ShellRoom::wallThickness, "Thickness of walls, floor slab and roof, m.", 0.001f,
+                  1.0f),
+            field("overhang", &ShellRoom::overhang, "How far floor slab and ceiling extend beyond the walls, m.", 0.1f,
+                  20.0f),
+            field("light", &ShellRoom::light, "The sun outside (20 W/m²), or a point light inside (2 W/sr).")};
     }
 };
 

@@ -13,13 +13,13 @@ struct Spheres {
     bool moving = true;
     float period = 8.0f;
     static constexpr auto schema() {
-        return std::tuple{field("count", &Spheres::count, "Number of spheres.", 1u, 4096u),
-                          field("radius", &Spheres::radius, "Radius of the spheres, m.", 0.01f, 2.0f),
-                          field("seed", &Spheres::seed, "Seed of paths and colours."),
-                          field("moving", &Spheres::moving,
-                                "Whether the spheres move; otherwise they stay where they start."),
-                          field("period", &Spheres::period,
-                                "Duration of one round, after which the spheres stop, s.", 0.1f, 3600.0f)};
+        return std::tuple{
+            field("count", &Spheres::count, "Number of spheres.", 1u, 4096u),
+            field("radius", &Spheres::radius, "Radius of the spheres, m.", 0.01f, 2.0f),
+            field("seed", &Spheres::seed, "Seed of paths and colours."),
+            field("moving", &Spheres::moving, "Whether the spheres move; otherwise they stay where they start."),
+            field("period", &Spheres::period, "Duration of one round, after which the spheres stop, s.", 0.1f,
+                  3600.0f)};
     }
 };
 
@@ -37,8 +37,8 @@ std::shared_ptr<const Scene> make(const Spheres& params) {
     std::array<uint32_t, colorCount> meshes;
     for (uint32_t& mesh : meshes) {
         const glm::vec3 albedo(uniform(0.1f, 0.8f), uniform(0.1f, 0.8f), uniform(0.1f, 0.8f));
-        mesh = b.mesh(sphereMesh("sphere", glm::vec3(0.0f), params.radius, 3, b.lambert("sphere", albedo),
-                                 false, true));
+        mesh =
+            b.mesh(sphereMesh("sphere", glm::vec3(0.0f), params.radius, 3, b.lambert("sphere", albedo), false, true));
     }
 
     // Each sphere has its ellipse, height, phase and direction.

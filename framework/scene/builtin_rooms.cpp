@@ -8,16 +8,14 @@ namespace voxray {
 enum class CornellLight { Area, Point, Spot, Sun };
 template <>
 struct EnumNames<CornellLight> {
-    static constexpr std::array names{
-        std::pair{CornellLight::Area, "area"}, std::pair{CornellLight::Point, "point"},
-        std::pair{CornellLight::Spot, "spot"}, std::pair{CornellLight::Sun, "sun"}};
+    static constexpr std::array names{std::pair{CornellLight::Area, "area"}, std::pair{CornellLight::Point, "point"},
+                                      std::pair{CornellLight::Spot, "spot"}, std::pair{CornellLight::Sun, "sun"}};
 };
 
 enum class ThinWallView { Lit, Dark };
 template <>
 struct EnumNames<ThinWallView> {
-    static constexpr std::array names{std::pair{ThinWallView::Lit, "lit"},
-                                      std::pair{ThinWallView::Dark, "dark"}};
+    static constexpr std::array names{std::pair{ThinWallView::Lit, "lit"}, std::pair{ThinWallView::Dark, "dark"}};
 };
 
 namespace {
@@ -27,10 +25,9 @@ struct Cornell {
     CornellLight lights = CornellLight::Area;
     bool boxes = true;
     static constexpr auto schema() {
-        return std::tuple{
-            field("lights", &Cornell::lights,
-                  "Quad below the ceiling, point or spot light there, or sun through the open front."),
-            field("boxes", &Cornell::boxes, "Whether the two boxes stand in the room.")};
+        return std::tuple{field("lights", &Cornell::lights,
+                                "Quad below the ceiling, point or spot light there, or sun through the open front."),
+                          field("boxes", &Cornell::boxes, "Whether the two boxes stand in the room.")};
     }
 };
 
@@ -69,9 +66,9 @@ struct StillLife {
     static constexpr const char* name = "still_life";
     float glow = 9.0f;
     static constexpr auto schema() {
-        return std::tuple{field(
-            "glow", &StillLife::glow,
-            "Red radiance of the glowing ball, W/(m² sr); green and blue are proportional.", 0.0f, 1e6f)};
+        return std::tuple{field("glow", &StillLife::glow,
+                                "Red radiance of the glowing ball, W/(m² sr); green and blue are proportional.", 0.0f,
+                                1e6f)};
     }
 };
 
@@ -102,9 +99,9 @@ struct ThinWall {
     float thickness = 0.05f;
     ThinWallView view = ThinWallView::Dark;
     static constexpr auto schema() {
-        return std::tuple{field("thickness", &ThinWall::thickness,
-                                "Thickness of the wall between the rooms, m.", 0.001f, 1.0f),
-                          field("view", &ThinWall::view, "The room that the camera stands in.")};
+        return std::tuple{
+            field("thickness", &ThinWall::thickness, "Thickness of the wall between the rooms, m.", 0.001f, 1.0f),
+            field("view", &ThinWall::view, "The room that the camera stands in.")};
     }
 };
 
@@ -185,8 +182,8 @@ std::shared_ptr<const Scene> make(const MirrorRow& params) {
 }  // namespace
 
 std::vector<BuiltinScene> roomScenes() {
-    return {builtinScene<Cornell>(), builtinScene<StillLife>(), builtinScene<ThinWall>(),
-            builtinScene<MirrorRoom>(), builtinScene<MirrorRow>()};
+    return {builtinScene<Cornell>(), builtinScene<StillLife>(), builtinScene<ThinWall>(), builtinScene<MirrorRoom>(),
+            builtinScene<MirrorRow>()};
 }
 
 }  // namespace voxray

@@ -17,9 +17,7 @@ struct CameraRays {
 
     /// Direction through the image point (x, y), 0 to 1; (0, 0) is the upper left corner. Its component along
     /// `forward` is 1.
-    glm::vec3 direction(float x, float y) const {
-        return forward + (2.0f * x - 1.0f) * right + (1.0f - 2.0f * y) * up;
-    }
+    glm::vec3 direction(float x, float y) const { return forward + (2.0f * x - 1.0f) * right + (1.0f - 2.0f * y) * up; }
 };
 
 inline CameraRays cameraRays(const Camera& camera, uint32_t width, uint32_t height) {

@@ -10,8 +10,7 @@ Node nodeOf(const Placement& placement, const std::string& name) {
     const glm::vec3 angles = glm::radians(placement.rotateDegrees);
     return {.name = name,
             .translation = placement.translate,
-            .rotation = glm::angleAxis(angles.z, glm::vec3(0, 0, 1)) *
-                        glm::angleAxis(angles.y, glm::vec3(0, 1, 0)) *
+            .rotation = glm::angleAxis(angles.z, glm::vec3(0, 0, 1)) * glm::angleAxis(angles.y, glm::vec3(0, 1, 0)) *
                         glm::angleAxis(angles.x, glm::vec3(1, 0, 0)),
             .scale = placement.scale};
 }
@@ -27,8 +26,8 @@ uint32_t addMaterials(Scene& scene, const Scene& added) {
     const uint32_t firstMaterial = uint32_t(scene.materials.size());
     scene.textures.insert(scene.textures.end(), added.textures.begin(), added.textures.end());
     for (Material material : added.materials) {
-        for (TextureRef* ref : {&material.baseColorTexture, &material.metallicRoughnessTexture,
-                                &material.normalTexture, &material.emissiveTexture})
+        for (TextureRef* ref : {&material.baseColorTexture, &material.metallicRoughnessTexture, &material.normalTexture,
+                                &material.emissiveTexture})
             if (ref->texture >= 0) ref->texture += firstTexture;
         scene.materials.push_back(std::move(material));
     }
@@ -67,8 +66,8 @@ void addScene(Scene& scene, const Scene& added, const Placement& placement, cons
         scene.skins.push_back(std::move(skin));
     }
     for (const Instance& instance : added.instances)
-        scene.instances.push_back({firstMesh + instance.mesh, numberOf(instance.node),
-                                   instance.skin < 0 ? -1 : firstSkin + instance.skin});
+        scene.instances.push_back(
+            {firstMesh + instance.mesh, numberOf(instance.node), instance.skin < 0 ? -1 : firstSkin + instance.skin});
 
     // Lights; those without a node are in the added scene's world space
     for (Light light : added.lights) {

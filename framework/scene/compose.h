@@ -11,18 +11,17 @@ struct Placement {
     glm::vec3 rotateDegrees{0.0f};
     glm::vec3 scale{1.0f};
     static constexpr auto schema() {
-        return std::tuple{
-            field("translate", &Placement::translate, "Position of the scene's origin, m.", glm::vec3(-1e6f),
-                  glm::vec3(1e6f))
-                .asVector(),
-            field("rotate_deg", &Placement::rotateDegrees,
-                  "Rotation about the axes X, Y and Z, in this order, degrees, "
-                  "counter-clockwise seen from the axis' end.",
-                  glm::vec3(-360.0f), glm::vec3(360.0f))
-                .asVector(),
-            field("scale", &Placement::scale,
-                  "Factor of lengths, one for all axes or one per axis; negative ones mirror. Not 0.",
-                  glm::vec3(-1e6f), glm::vec3(1e6f))};
+        return std::tuple{field("translate", &Placement::translate, "Position of the scene's origin, m.",
+                                glm::vec3(-1e6f), glm::vec3(1e6f))
+                              .asVector(),
+                          field("rotate_deg", &Placement::rotateDegrees,
+                                "Rotation about the axes X, Y and Z, in this order, degrees, "
+                                "counter-clockwise seen from the axis' end.",
+                                glm::vec3(-360.0f), glm::vec3(360.0f))
+                              .asVector(),
+                          field("scale", &Placement::scale,
+                                "Factor of lengths, one for all axes or one per axis; negative ones mirror. Not 0.",
+                                glm::vec3(-1e6f), glm::vec3(1e6f))};
     }
 };
 

@@ -36,21 +36,19 @@ Geometry allocate(const Scene& scene) {
     geometry.instances.reserve(scene.instances.size());
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[instance.mesh];
-        geometry.instances.push_back({uint32_t(triangles), uint32_t(mesh.triangles.size()),
-                                      uint32_t(vertices), uint32_t(mesh.positions.size())});
+        geometry.instances.push_back({uint32_t(triangles), uint32_t(mesh.triangles.size()), uint32_t(vertices),
+                                      uint32_t(mesh.positions.size())});
         vertices += mesh.positions.size();
         triangles += mesh.triangles.size();
         if (vertices > maxCount || triangles > maxCount)
-            throw Error("{}: its instances have more than 2^31 vertices or triangles; use fewer instances",
-                        scene.name);
+            throw Error("{}: its instances have more than 2^31 vertices or triangles; use fewer instances", scene.name);
     }
-    const uint64_t bytes = vertices * (sizeof(glm::vec3) + sizeof(VertexAttributes)) +
-                           triangles * (sizeof(glm::uvec3) + sizeof(uint32_t));
+    const uint64_t bytes =
+        vertices * (sizeof(glm::vec3) + sizeof(VertexAttributes)) + triangles * (sizeof(glm::uvec3) + sizeof(uint32_t));
     const uint64_t memory = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE));
     if (bytes > memory)
-        throw Error(
-            "{}: {} vertices and {} triangles need {} MiB, this machine has {} MiB; use fewer instances",
-            scene.name, vertices, triangles, bytes >> 20, memory >> 20);
+        throw Error("{}: {} vertices and {} triangles need {} MiB, this machine has {} MiB; use fewer instances",
+                    scene.name, vertices, triangles, bytes >> 20, memory >> 20);
     geometry.positions.resize(vertices);
     geometry.attributes.resize(vertices);
     geometry.triangles.resize(triangles);
@@ -82,27 +80,23 @@ glm::mat4 blended(const Mesh& mesh, const std::vector<glm::mat4>& joints, size_t
     glm::mat4 sum(0.0f);
     for (const SkinWeights& set : mesh.skinWeights)
         for (int i = 0; i < 4; ++i)
-            if (const float weight = set.weights[vertex][i]; weight > 0)
-                sum += weight * joints[set.joints[vertex][i]];
+            if (const float weight = set.weights[vertex][i]; weight > 0) sum += weight * joints[set.joints[vertex][i]];
     return sum;
 }
 
 /// @param transformOf gives a vertex's VertexTransform.
 template <typename TransformOf>
-void transformVertices(const Mesh& mesh, const InstanceRange& range, const TransformOf& transformOf,
-                       Geometry& out) {
+void transformVertices(const Mesh& mesh, const InstanceRange& range, const TransformOf& transformOf, Geometry& out) {
     parallelRanges(mesh.positions.size(), grain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             const VertexTransform& transform = transformOf(i);
-            out.positions[range.firstVertex + i] =
-                glm::vec3(transform.world * glm::vec4(mesh.positions[i], 1.0f));
+            out.positions[range.firstVertex + i] = glm::vec3(transform.world * glm::vec4(mesh.positions[i], 1.0f));
             VertexAttributes& a = out.attributes[range.firstVertex + i];
-            if (!mesh.normals.empty())
-                a.normal = directionOr(transform.normalMatrix * mesh.normals[i], {0, 1, 0});
+            if (!mesh.normals.empty()) a.normal = directionOr(transform.normalMatrix * mesh.normals[i], {0, 1, 0});
             if (!mesh.tangents.empty()) {
                 const glm::vec4 t = mesh.tangents[i];
-                a.tangent = glm::vec4(directionOr(transform.linear * glm::vec3(t), {1, 0, 0}),
-                                      transform.mirrored ? -t.w : t.w);
+                a.tangent =
+                    glm::vec4(directionOr(transform.linear * glm::vec3(t), {1, 0, 0}), transform.mirrored ? -t.w : t.w);
             }
             if (!mesh.texCoords0.empty()) {
                 a.texCoords.x = mesh.texCoords0[i].x;
@@ -133,9 +127,7 @@ void transformInstance(const Scene& scene, const Instance& instance, const std::
     const Mesh& mesh = scene.meshes[instance.mesh];
     if (instance.skin >= 0) {
         const auto joints = jointMatrices(scene.skins[size_t(instance.skin)], world);
-        const auto transformOf = [&](size_t vertex) {
-            return VertexTransform(blended(mesh, joints, vertex));
-        };
+        const auto transformOf = [&](size_t vertex) { return VertexTransform(blended(mesh, joints, vertex)); };
         transformVertices(mesh, range, transformOf, out);
     } else {
         const VertexTransform transform(instance.node < 0 ? glm::mat4(1.0f) : world[size_t(instance.node)]);
@@ -161,8 +153,7 @@ void checkCoordinates(const glm::vec3& p, const Scene& scene, const Instance& in
 }
 
 /// Bounds of an instance's vertices. @throws Error as checkCoordinates()
-Box boundsOf(const Geometry& geometry, const InstanceRange& range, const Scene& scene,
-             const Instance& instance) {
+Box boundsOf(const Geometry& geometry, const InstanceRange& range, const Scene& scene, const Instance& instance) {
     Box box = Box::empty();
     for (uint32_t i = range.firstVertex; i < range.firstVertex + range.vertexCount; ++i) {
         const glm::vec3& p = geometry.positions[i];
@@ -181,8 +172,7 @@ void findBounds(const Scene& scene, Geometry& geometry) {
         Box box = boundsOf(geometry, range, scene, scene.instances[i]);
         if (range.moves) {
             box = sweptBounds(scene, scene.instances[i]);
-            for (const glm::vec3& corner : {box.min, box.max})
-                checkCoordinates(corner, scene, scene.instances[i]);
+            for (const glm::vec3& corner : {box.min, box.max}) checkCoordinates(corner, scene, scene.instances[i]);
         }
         geometry.region.include(box);
     }
@@ -194,8 +184,7 @@ void findBounds(const Scene& scene, Geometry& geometry) {
 glm::vec3 axisOf(const Scene& scene, const glm::mat4& world, const glm::vec3& axis, const std::string& what) {
     const glm::vec3 direction = directionOr(glm::mat3(world) * axis, glm::vec3(0.0f));
     if (direction == glm::vec3(0.0f))
-        throw Error("{}: {} has no direction, because its node is scaled by 0; correct the scale", scene.name,
-                    what);
+        throw Error("{}: {} has no direction, because its node is scaled by 0; correct the scale", scene.name, what);
     return direction;
 }
 
@@ -260,8 +249,7 @@ SceneState evaluate(std::shared_ptr<const Scene> scenePointer, double timeSecond
 }
 
 uint32_t instanceOf(const Geometry& geometry, uint32_t triangle) {
-    const auto next =
-        std::ranges::upper_bound(geometry.instances, triangle, {}, &InstanceRange::firstTriangle);
+    const auto next = std::ranges::upper_bound(geometry.instances, triangle, {}, &InstanceRange::firstTriangle);
     return uint32_t(next - geometry.instances.begin()) - 1;
 }
 

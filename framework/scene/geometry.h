@@ -79,8 +79,7 @@ struct SceneState {
 /// Evaluates nodes and animation at `timeSeconds` and flattens all instances into one list of world-space
 /// triangles. @throws Error if a coordinate exceeds kMaxPosition, or the vertex or triangle count exceeds
 /// 2^31.
-SceneState evaluate(std::shared_ptr<const Scene> scene, double timeSeconds,
-                    Playback playback = Playback::Frozen);
+SceneState evaluate(std::shared_ptr<const Scene> scene, double timeSeconds, Playback playback = Playback::Frozen);
 
 /// The instance that a triangle belongs to.
 uint32_t instanceOf(const Geometry& geometry, uint32_t triangle);

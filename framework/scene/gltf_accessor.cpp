@@ -40,10 +40,9 @@ Elements locate(const GltfFile& file, int viewIndex, int64_t byteOffset, size_t 
     if (view.byteOffset > buffer.data.size() || view.byteLength > buffer.data.size() - view.byteOffset)
         file.fail("bufferView {} ends outside of its buffer", viewIndex);
     const size_t stride = strided && view.byteStride > 0 ? view.byteStride : elementBytes;
-    const bool inside =
-        byteOffset >= 0 && elementBytes <= view.byteLength &&
-        size_t(byteOffset) <= view.byteLength - elementBytes &&
-        (count == 0 || count - 1 <= (view.byteLength - elementBytes - size_t(byteOffset)) / stride);
+    const bool inside = byteOffset >= 0 && elementBytes <= view.byteLength &&
+                        size_t(byteOffset) <= view.byteLength - elementBytes &&
+                        (count == 0 || count - 1 <= (view.byteLength - elementBytes - size_t(byteOffset)) / stride);
     if (!inside)
         file.fail("{}: {} elements of {} bytes end outside of bufferView {}, which has {} bytes", what, count,
                   elementBytes, viewIndex, view.byteLength);
@@ -102,13 +101,13 @@ void checkIndexType(const GltfFile& file, int type) {
 /// Calls visit(index, bytes) for all elements of the buffer and of the sparse part; others are zeros.
 /// @throws Error if an element is out of bounds.
 template <typename Visit>
-void visitElements(const GltfFile& file, const tinygltf::Accessor& accessor, size_t elementBytes,
-                   const char* what, const Visit& visit) {
+void visitElements(const GltfFile& file, const tinygltf::Accessor& accessor, size_t elementBytes, const char* what,
+                   const Visit& visit) {
     if (accessor.bufferView >= 0) {
         if (accessor.byteOffset > size_t(std::numeric_limits<int64_t>::max()))
             file.fail("{}: byteOffset {} is too big", what, accessor.byteOffset);
-        const Elements elements = locate(file, accessor.bufferView, int64_t(accessor.byteOffset),
-                                         accessor.count, elementBytes, true, what);
+        const Elements elements =
+            locate(file, accessor.bufferView, int64_t(accessor.byteOffset), accessor.count, elementBytes, true, what);
         for (size_t i = 0; i < accessor.count; ++i) visit(i, elements.at(i));
     }
     if (!accessor.sparse.isSparse) return;
@@ -132,28 +131,27 @@ void visitElements(const GltfFile& file, const tinygltf::Accessor& accessor, siz
 void checkCount(GltfFile& file, const tinygltf::Accessor& accessor, size_t elementBytes, const char* what) {
     if (accessor.bufferView < 0) {
         if (accessor.count > maxZeros)
-            file.fail("{}: {} elements without a buffer; at most {} are allowed", what, accessor.count,
-                      maxZeros);
+            file.fail("{}: {} elements without a buffer; at most {} are allowed", what, accessor.count, maxZeros);
         return;
     }
     const tinygltf::BufferView& view = file.at(file.model().bufferViews, accessor.bufferView, "bufferView");
     const size_t step = view.byteStride > 0 ? view.byteStride : elementBytes;
     if (accessor.count > view.byteLength / step + 1)
-        file.fail("{}: {} elements don't fit in bufferView {} of {} bytes", what, accessor.count,
-                  accessor.bufferView, view.byteLength);
+        file.fail("{}: {} elements don't fit in bufferView {} of {} bytes", what, accessor.count, accessor.bufferView,
+                  view.byteLength);
 }
 
 }  // namespace
 
-AccessorValues readAccessor(GltfFile& file, int index, uint32_t minComponents, uint32_t maxComponents,
-                            const char* what, bool forceNormalized) {
+AccessorValues readAccessor(GltfFile& file, int index, uint32_t minComponents, uint32_t maxComponents, const char* what,
+                            bool forceNormalized) {
     const tinygltf::Accessor& accessor = file.at(file.model().accessors, index, "accessor");
     AccessorValues values;
     values.count = accessor.count;
     values.components = componentCount(file, accessor.type, what);
     if (values.components < minComponents || values.components > maxComponents)
-        file.fail("{} has {} components per element, {} to {} are expected", what, values.components,
-                  minComponents, maxComponents);
+        file.fail("{} has {} components per element, {} to {} are expected", what, values.components, minComponents,
+                  maxComponents);
     const uint32_t bytes = componentBytes(file, accessor.componentType);
     checkCount(file, accessor, bytes * values.components, what);
     file.reserve(values.count, sizeof(float) * values.components);
@@ -161,8 +159,7 @@ AccessorValues readAccessor(GltfFile& file, int index, uint32_t minComponents, u
     const bool normalized = accessor.normalized || forceNormalized;
     visitElements(file, accessor, bytes * values.components, what, [&](size_t i, const uint8_t* element) {
         for (uint32_t c = 0; c < values.components; ++c)
-            values.data[i * values.components + c] =
-                loadFloat(element + c * bytes, accessor.componentType, normalized);
+            values.data[i * values.components + c] = loadFloat(element + c * bytes, accessor.componentType, normalized);
     });
     return values;
 }
@@ -176,9 +173,8 @@ std::vector<uint32_t> readIndices(GltfFile& file, int index) {
     checkCount(file, accessor, bytes, what);
     file.reserve(accessor.count, sizeof(uint32_t));
     std::vector<uint32_t> indices(accessor.count);
-    visitElements(file, accessor, bytes, what, [&](size_t i, const uint8_t* element) {
-        indices[i] = loadIndex(element, accessor.componentType);
-    });
+    visitElements(file, accessor, bytes, what,
+                  [&](size_t i, const uint8_t* element) { indices[i] = loadIndex(element, accessor.componentType); });
     return indices;
 }
 

@@ -37,8 +37,7 @@ void readKeys(GltfFile& file, const tinygltf::AnimationSampler& sampler, Animati
     const bool rotation = channel.property == AnimatedProperty::Rotation;
     const bool cubic = channel.interpolation == Interpolation::CubicSpline;
     const uint32_t components = rotation ? 4 : 3;
-    const AccessorValues values =
-        readAccessor(file, sampler.output, components, components, "animation values");
+    const AccessorValues values = readAccessor(file, sampler.output, components, components, "animation values");
     const size_t expected = channel.timesSeconds.size() * (cubic ? 3 : 1);
     if (values.count != expected) file.fail("{}: {} values for {} keys", what, values.count, expected);
     file.reserve(values.count, sizeof(glm::vec4));
@@ -47,8 +46,7 @@ void readKeys(GltfFile& file, const tinygltf::AnimationSampler& sampler, Animati
         glm::vec4& value = channel.values[i];
         for (uint32_t c = 0; c < 4; ++c) {
             value[int(c)] = values.get(i, c);
-            if (!(std::abs(value[int(c)]) <= float(maxNumber)))
-                file.fail("{}: value {} is not finite", what, i);
+            if (!(std::abs(value[int(c)]) <= float(maxNumber))) file.fail("{}: value {} is not finite", what, i);
         }
         if (!rotation || (cubic && i % 3 != 1)) continue;
         const float length = glm::length(value);
@@ -86,8 +84,7 @@ void readAnimations(GltfFile& file, const std::vector<int>& fileNodes, Scene& sc
                 continue;
             }
             if (scene.nodes[channel.node].matrix) {
-                file.warn("{}: node {} has a matrix, which can't be animated; left out", what,
-                          source.target_node);
+                file.warn("{}: node {} has a matrix, which can't be animated; left out", what, source.target_node);
                 continue;
             }
             if (!animated.insert({channel.node, channel.property}).second) {

@@ -35,12 +35,10 @@ int versionPart(std::string_view version, bool minor) {
 
 void checkVersion(const json& root) {
     const auto asset = root.find("asset");
-    if (asset == root.end() || !asset->is_object() || !asset->contains("version") ||
-        !(*asset)["version"].is_string())
+    if (asset == root.end() || !asset->is_object() || !asset->contains("version") || !(*asset)["version"].is_string())
         throw Error("it has no asset.version, so it is not glTF 2.0 (glTF 1.0 may lack it: convert it)");
     const std::string version = (*asset)["version"];
-    if (!version.starts_with("2."))
-        throw Error("glTF version '{}' is not supported; convert it to glTF 2.0", version);
+    if (!version.starts_with("2.")) throw Error("glTF version '{}' is not supported; convert it to glTF 2.0", version);
     const auto entry = asset->find("minVersion");
     if (entry == asset->end()) return;
     const std::string least = entry->is_string() ? entry->get<std::string>() : entry->dump();
@@ -59,8 +57,7 @@ std::vector<std::string> unknownExtensions(const json& root, const char* key) {
     for (const json& item : *entry) {
         if (!item.is_string()) throw Error("'{}' has an entry that is not a string", key);
         const std::string name = item;
-        if (std::find(supportedExtensions.begin(), supportedExtensions.end(), name) ==
-            supportedExtensions.end())
+        if (std::find(supportedExtensions.begin(), supportedExtensions.end(), name) == supportedExtensions.end())
             unknown.push_back(name);
     }
     return unknown;
@@ -77,8 +74,7 @@ void checkViews(const json& root) {
         const uint64_t offset = unsignedMember(views[i], "byteOffset", what, 0);
         const uint64_t length = unsignedMember(views[i], "byteLength", what);
         if (offset > size || length > size - offset)
-            throw Error("{}: bytes {} + {} end outside of buffer {}, which has {}", what, offset, length,
-                        buffer, size);
+            throw Error("{}: bytes {} + {} end outside of buffer {}, which has {}", what, offset, length, buffer, size);
     }
 }
 
@@ -90,8 +86,8 @@ std::vector<std::string> checkGltf(const json& root) {
         throw Error("it requires the extension {}, which Voxray does not support; export it without",
                     fmt::join(unknown, ", "));
     std::vector<std::string> leftOut = unknownExtensions(root, "extensionsUsed");
-    for (const char* key : {"accessors", "animations", "cameras", "images", "materials", "meshes", "nodes",
-                            "samplers", "scenes", "skins", "textures"})
+    for (const char* key : {"accessors", "animations", "cameras", "images", "materials", "meshes", "nodes", "samplers",
+                            "scenes", "skins", "textures"})
         objects(root, key);
     checkViews(root);
     return leftOut;

@@ -90,8 +90,7 @@ std::vector<uint8_t> viewBytes(const json& root, const GltfBuffers& buffers, uin
     const uint64_t offset = unsignedMember(views[index], "byteOffset", what, 0);
     const uint64_t length = unsignedMember(views[index], "byteLength", what);
     const uint64_t buffer = unsignedMember(views[index], "buffer", what);
-    if (buffer >= buffers.size() || offset > buffers[buffer].size() ||
-        length > buffers[buffer].size() - offset)
+    if (buffer >= buffers.size() || offset > buffers[buffer].size() || length > buffers[buffer].size() - offset)
         throw Error("{} ends outside of its buffer", what);
     const auto begin = buffers[buffer].begin() + int64_t(offset);
     return {begin, begin + int64_t(length)};

@@ -15,13 +15,12 @@ void addTargets(GltfFile& file, const tinygltf::Primitive& primitive, const std:
     if (values.empty()) return;
     for (size_t t = 0; t < std::min(primitive.targets.size(), weights.size()); ++t) {
         const auto entry = primitive.targets[t].find(name);
-        const float weight =
-            checkedFloat(file, weights[t], -maxNumber, maxNumber, what + ": weight of a morph target");
+        const float weight = checkedFloat(file, weights[t], -maxNumber, maxNumber, what + ": weight of a morph target");
         if (entry == primitive.targets[t].end() || weight == 0) continue;
         const AccessorValues target = readAccessor(file, entry->second, 3, 3, name);
         if (target.count != values.size())
-            file.fail("{}: {} of morph target {} has {} elements for {} positions", what, name, t,
-                      target.count, values.size());
+            file.fail("{}: {} of morph target {} has {} elements for {} positions", what, name, t, target.count,
+                      values.size());
         for (size_t i = 0; i < values.size(); ++i)
             for (uint32_t c = 0; c < 3; ++c) values[i][int(c)] += weight * target.get(i, c);
     }
@@ -56,20 +55,19 @@ void addMorphTargets(GltfFile& file, const tinygltf::Primitive& primitive, const
     addTargets(file, primitive, weights, "TANGENT", mesh.tangents, what);
 }
 
-void readSkinWeights(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& mesh,
-                     const std::string& what) {
+void readSkinWeights(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& mesh, const std::string& what) {
     const size_t count = mesh.positions.size();
     for (int set = 0;; ++set) {
         const auto joints = primitive.attributes.find(fmt::format("JOINTS_{}", set));
         const auto weights = primitive.attributes.find(fmt::format("WEIGHTS_{}", set));
         if (joints == primitive.attributes.end() || weights == primitive.attributes.end()) break;
         const AccessorValues jointValues = readAccessor(file, joints->second, 4, 4, "JOINTS");
-        const bool fractions = file.at(file.model().accessors, weights->second, "accessor").componentType !=
-                               TINYGLTF_COMPONENT_TYPE_FLOAT;
+        const bool fractions =
+            file.at(file.model().accessors, weights->second, "accessor").componentType != TINYGLTF_COMPONENT_TYPE_FLOAT;
         const AccessorValues weightValues = readAccessor(file, weights->second, 4, 4, "WEIGHTS", fractions);
         if (jointValues.count != count || weightValues.count != count)
-            file.fail("{}: {} JOINTS and {} WEIGHTS for {} positions", what, jointValues.count,
-                      weightValues.count, count);
+            file.fail("{}: {} JOINTS and {} WEIGHTS for {} positions", what, jointValues.count, weightValues.count,
+                      count);
         file.reserve(count, sizeof(glm::uvec4) + sizeof(glm::vec4));
         SkinWeights& out = mesh.skinWeights.emplace_back();
         out.joints.resize(count);
@@ -102,16 +100,14 @@ int32_t SkinReader::skin(int index) {
     for (const int joint : source.joints) {
         const int32_t node = file_.at(sceneNodes_, joint, "node");
         if (node < 0) {
-            file_.warn("{}: joint node {} is not in the scene; meshes are placed by their nodes", what,
-                       joint);
+            file_.warn("{}: joint node {} is not in the scene; meshes are placed by their nodes", what, joint);
             return skins_[index] = -1;
         }
         skin.joints.push_back(uint32_t(node));
     }
     skin.inverseBindMatrices.assign(skin.joints.size(), glm::mat4(1.0f));
     if (source.inverseBindMatrices >= 0) {
-        const AccessorValues matrices =
-            readAccessor(file_, source.inverseBindMatrices, 16, 16, "inverseBindMatrices");
+        const AccessorValues matrices = readAccessor(file_, source.inverseBindMatrices, 16, 16, "inverseBindMatrices");
         if (matrices.count < skin.joints.size())
             file_.fail("{}: {} inverseBindMatrices for {} joints", what, matrices.count, skin.joints.size());
         for (size_t j = 0; j < skin.joints.size(); ++j)
@@ -129,8 +125,7 @@ void SkinReader::check(const Mesh& mesh, int32_t skin, const std::string& what) 
         for (size_t v = 0; v < set.joints.size(); ++v)
             for (int i = 0; i < 4; ++i)
                 if (set.weights[v][i] > 0 && set.joints[v][i] >= count)
-                    file_.fail("{}: mesh '{}' has joint {}, its skin has {}", what, mesh.name,
-                               set.joints[v][i], count);
+                    file_.fail("{}: mesh '{}' has joint {}, its skin has {}", what, mesh.name, set.joints[v][i], count);
 }
 
 }  // namespace voxray

@@ -16,8 +16,7 @@ void addMorphTargets(GltfFile& file, const tinygltf::Primitive& primitive, const
                      Mesh& mesh, const std::string& what);
 
 /// Reads all pairs JOINTS_n and WEIGHTS_n; weights are normalized to sum to 1. @throws Error
-void readSkinWeights(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& mesh,
-                     const std::string& what);
+void readSkinWeights(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& mesh, const std::string& what);
 
 /// Reads the file's skins into the scene's, once each.
 class SkinReader {

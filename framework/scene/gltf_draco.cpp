@@ -139,8 +139,7 @@ void expandPrimitive(json& root, json& primitive, GltfBuffers& buffers, const Re
         accessor["count"] = mesh.num_points();
         accessor.erase("sparse");
         primitive["attributes"][name] = addAccessor(
-            root, buffers, attributeBytes(mesh, *attribute, unsignedMember(accessor, "componentType", name)),
-            accessor);
+            root, buffers, attributeBytes(mesh, *attribute, unsignedMember(accessor, "componentType", name)), accessor);
     }
 }
 

@@ -47,8 +47,7 @@ tinygltf::Node nodeFacing(const std::string& name, const glm::vec3& position, co
     tinygltf::Node node;
     node.name = name;
     node.translation = numbers(position);
-    for (const double component : {q.x, q.y, q.z, q.w})
-        node.rotation.push_back(std::clamp(component, -1.0, 1.0));
+    for (const double component : {q.x, q.y, q.z, q.w}) node.rotation.push_back(std::clamp(component, -1.0, 1.0));
     return node;
 }
 
@@ -116,9 +115,8 @@ void GltfWriter::addTexture(const Texture& texture) {
     image.bufferView = addView(png.data(), png.size(), 0);
     model_.images.push_back(std::move(image));
     tinygltf::Sampler sampler;
-    sampler.magFilter = sampler.minFilter = texture.filter == TexelFilter::Nearest
-                                                ? TINYGLTF_TEXTURE_FILTER_NEAREST
-                                                : TINYGLTF_TEXTURE_FILTER_LINEAR;
+    sampler.magFilter = sampler.minFilter =
+        texture.filter == TexelFilter::Nearest ? TINYGLTF_TEXTURE_FILTER_NEAREST : TINYGLTF_TEXTURE_FILTER_LINEAR;
     sampler.wrapS = wrapMode(texture.wrapU);
     sampler.wrapT = wrapMode(texture.wrapV);
     model_.samplers.push_back(std::move(sampler));
@@ -165,23 +163,18 @@ void GltfWriter::addMaterials(const Scene& scene) {
         out.emissiveTexture = textureInfo<tinygltf::TextureInfo>(m.emissiveTexture);
         out.doubleSided = m.doubleSided;
         if (m.alphaMode == AlphaMode::Mask) out.alphaCutoff = double(m.alphaCutoff);
-        out.alphaMode = m.alphaMode == AlphaMode::Mask    ? "MASK"
-                        : m.alphaMode == AlphaMode::Blend ? "BLEND"
-                                                          : "OPAQUE";
+        out.alphaMode = m.alphaMode == AlphaMode::Mask ? "MASK" : m.alphaMode == AlphaMode::Blend ? "BLEND" : "OPAQUE";
 
         // emissiveFactor is at most 1; the strength has the rest.
-        const double strength =
-            std::max({1.0, double(m.emission.x), double(m.emission.y), double(m.emission.z)});
+        const double strength = std::max({1.0, double(m.emission.x), double(m.emission.y), double(m.emission.z)});
         out.emissiveFactor = numbers(glm::dvec3(m.emission) / strength);
         if (strength > 1)
-            extend(out.extensions, "KHR_materials_emissive_strength",
-                   {{"emissiveStrength", number(strength)}});
+            extend(out.extensions, "KHR_materials_emissive_strength", {{"emissiveStrength", number(strength)}});
         if (m.specular != 1 || m.specularColor != glm::vec3(1))
             extend(out.extensions, "KHR_materials_specular",
                    {{"specularFactor", number(m.specular)}, {"specularColorFactor", array(m.specularColor)}});
         if (m.transmission > 0)
-            extend(out.extensions, "KHR_materials_transmission",
-                   {{"transmissionFactor", number(m.transmission)}});
+            extend(out.extensions, "KHR_materials_transmission", {{"transmissionFactor", number(m.transmission)}});
         if (m.ior != 1.5f) extend(out.extensions, "KHR_materials_ior", {{"ior", number(m.ior)}});
         model_.materials.push_back(std::move(out));
     }
@@ -291,8 +284,7 @@ std::string GltfWriter::glb() {
                     model_.buffers[0].data.size() >> 20);
     std::ostringstream out;
     tinygltf::TinyGLTF writer;
-    if (!writer.WriteGltfSceneToStream(&model_, out, false, true))
-        throw Error("the scene can't be written as .glb");
+    if (!writer.WriteGltfSceneToStream(&model_, out, false, true)) throw Error("the scene can't be written as .glb");
     return std::move(out).str();
 }
 

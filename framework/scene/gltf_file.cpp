@@ -82,9 +82,7 @@ void GltfFile::parse(const std::vector<uint8_t>& bytes, const std::filesystem::p
     GltfBuffers buffers = readBuffers(container, folder);
     images_ = readImages(container.root, buffers, folder);
     for (const std::string& line : repairGltf(container.root)) warn("{}", line);
-    const ReserveMemory counted = [this](uint64_t count, uint64_t bytesEach) {
-        countMemory(count, bytesEach);
-    };
+    const ReserveMemory counted = [this](uint64_t count, uint64_t bytesEach) { countMemory(count, bytesEach); };
     expandMeshopt(container.root, buffers, counted);
     expandDraco(container.root, buffers, counted);
 
@@ -103,8 +101,7 @@ void GltfFile::reserve(uint64_t count, uint64_t bytesEach) {
 void GltfFile::countMemory(uint64_t count, uint64_t bytesEach) {
     const uint64_t limit = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE)) / 2;
     if (count > (limit - std::min(limit, reservedBytes_)) / bytesEach)
-        throw Error("it needs more than {} MiB, half of this machine's memory; use a smaller scene",
-                    limit >> 20);
+        throw Error("it needs more than {} MiB, half of this machine's memory; use a smaller scene", limit >> 20);
     reservedBytes_ += count * bytesEach;
 }
 

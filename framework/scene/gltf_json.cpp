@@ -98,11 +98,9 @@ json parse(std::string_view text) {
     // Some exporters pad with zeros.
     while (text.ends_with('\0')) text.remove_suffix(1);
     if (text.empty()) throw Error("it is empty");
-    const std::string_view first =
-        text.substr(std::min(text.find_first_not_of("\xEF\xBB\xBF \t\r\n"), text.size()));
+    const std::string_view first = text.substr(std::min(text.find_first_not_of("\xEF\xBB\xBF \t\r\n"), text.size()));
     if (!first.starts_with('{') && !first.starts_with('['))
-        throw Error(
-            "it is no glTF: it begins neither with 'glTF', as .glb files do, nor with '{{', as JSON does");
+        throw Error("it is no glTF: it begins neither with 'glTF', as .glb files do, nor with '{{', as JSON does");
     checkDepth(text);
     try {
         json root = json::parse(withValidUtf8(text));

@@ -22,8 +22,7 @@ GltfContainer openGltf(std::span<const uint8_t> file);
 const nlohmann::json& objects(const nlohmann::json& object, const char* key);
 
 /// A non-negative integer member. @throws Error if it has another type, or is missing without a default.
-uint64_t unsignedMember(const nlohmann::json& object, const char* key, const std::string& what,
-                        int64_t fallback = -1);
+uint64_t unsignedMember(const nlohmann::json& object, const char* key, const std::string& what, int64_t fallback = -1);
 
 /// A member of an extension of an object, or nullptr.
 const nlohmann::json* extensionOf(const nlohmann::json& object, const char* extension);

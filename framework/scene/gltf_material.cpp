@@ -43,13 +43,12 @@ TexelFilter MaterialReader::filter(const tinygltf::Sampler& sampler) {
         case TINYGLTF_TEXTURE_FILTER_NEAREST_MIPMAP_LINEAR:
             return TexelFilter::Nearest;
         default:
-            file_.fail("texture filters {} and {}: one is not of glTF's", sampler.magFilter,
-                       sampler.minFilter);
+            file_.fail("texture filters {} and {}: one is not of glTF's", sampler.magFilter, sampler.minFilter);
     }
 }
 
-TextureRef MaterialReader::texture(int index, int texCoord, const tinygltf::ExtensionMap& extensions,
-                                   bool srgb, const std::string& what) {
+TextureRef MaterialReader::texture(int index, int texCoord, const tinygltf::ExtensionMap& extensions, bool srgb,
+                                   const std::string& what) {
     TextureRef ref;
     if (index < 0) return ref;
     const tinygltf::Model& model = file_.model();
@@ -70,14 +69,11 @@ TextureRef MaterialReader::texture(int index, int texCoord, const tinygltf::Exte
     }
 
     // One texture per image, encoding and sampler.
-    const auto [entry, added] = textures_.try_emplace({source.source, srgb, wrapU, wrapV, texelFilter},
-                                                      int32_t(scene_.textures.size()));
+    const auto [entry, added] =
+        textures_.try_emplace({source.source, srgb, wrapU, wrapV, texelFilter}, int32_t(scene_.textures.size()));
     if (added) {
-        scene_.textures.push_back({.name = shortLine(image.name),
-                                   .srgb = srgb,
-                                   .wrapU = wrapU,
-                                   .wrapV = wrapV,
-                                   .filter = texelFilter});
+        scene_.textures.push_back(
+            {.name = shortLine(image.name), .srgb = srgb, .wrapU = wrapU, .wrapV = wrapV, .filter = texelFilter});
         images_.push_back(source.source);
     }
     ref.texture = entry->second;
@@ -93,8 +89,7 @@ TextureRef MaterialReader::texture(int index, int texCoord, const tinygltf::Exte
     readExtension(file_, what, extensions, textureTransform, "texCoord", 0, 1e6, set);
     const float c = std::cos(rotation);
     const float s = std::sin(rotation);
-    ref.transform = {glm::vec3(c * scale.x, s * scale.y, offset.x),
-                     glm::vec3(-s * scale.x, c * scale.y, offset.y)};
+    ref.transform = {glm::vec3(c * scale.x, s * scale.y, offset.x), glm::vec3(-s * scale.x, c * scale.y, offset.y)};
     if (set == 0 || set == 1)
         ref.texCoord = uint32_t(set);
     else
@@ -126,18 +121,14 @@ Material MaterialReader::read(int index) {
     m.metallic = clampedFloat(file_, pbr.metallicFactor, 0, 1, what + ": metallicFactor");
     m.roughness = clampedFloat(file_, pbr.roughnessFactor, 0, 1, what + ": roughnessFactor");
     readExtension(file_, what, source.extensions, specular, "specularFactor", 0, 1, m.specular);
-    readExtensionVector(file_, what, source.extensions, specular, "specularColorFactor", 0, maxNumber,
-                        m.specularColor);
+    readExtensionVector(file_, what, source.extensions, specular, "specularColorFactor", 0, maxNumber, m.specularColor);
     readExtension(file_, what, source.extensions, transmission, "transmissionFactor", 0, 1, m.transmission);
     m.ior = readIor(source, what);
     float strength = 1;
-    readExtension(file_, what, source.extensions, emissiveStrength, "emissiveStrength", 0, maxNumber,
-                  strength);
-    readVector(file_, source.emissiveFactor, m.emission, 0, maxNumber, what + ": emissiveFactor",
-               clampedFloat);
+    readExtension(file_, what, source.extensions, emissiveStrength, "emissiveStrength", 0, maxNumber, strength);
+    readVector(file_, source.emissiveFactor, m.emission, 0, maxNumber, what + ": emissiveFactor", clampedFloat);
     for (int i = 0; i < 3; ++i)
-        m.emission[i] =
-            clampedFloat(file_, double(m.emission[i]) * strength, 0, maxNumber, what + ": emission");
+        m.emission[i] = clampedFloat(file_, double(m.emission[i]) * strength, 0, maxNumber, what + ": emission");
     m.doubleSided = source.doubleSided;
 
     // Alpha.
@@ -165,8 +156,8 @@ Material MaterialReader::read(int index) {
     // Unsupported properties.
     if (isPane(m))
         file_.warn(
-            "{}: {} makes it a pane: light passes it straight, times its colour, "
-            "and nothing is reflected or bent; 'materials: lambert' makes it opaque",
+            "{}: {} makes it a pane: light passes it straight, times its colour, and nothing is reflected or bent; "
+            "'materials: lambert' makes it opaque",
             what, transmission);
     else if (m.transmission > 0)
         file_.warn("{}: {} is rendered as opaque: it emits, or transmits less than half", what, transmission);
@@ -181,8 +172,7 @@ Material MaterialReader::read(int index) {
 }
 
 uint32_t MaterialReader::material(int index) {
-    const auto [entry, added] =
-        materials_.try_emplace(std::max(index, -1), uint32_t(scene_.materials.size()));
+    const auto [entry, added] = materials_.try_emplace(std::max(index, -1), uint32_t(scene_.materials.size()));
     if (added) scene_.materials.push_back(read(index));
     return entry->second;
 }
@@ -197,8 +187,8 @@ void MaterialReader::decodeTextures() {
     parallelRanges(images.size(), 1, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end && !interruptRequested(); ++i) {
             const EncodedImage& image = file_.images()[size_t(images[i])];
-            const std::string name = shortLine(
-                fmt::format("image {} '{}'", images[i], image.name.empty() ? image.uri : image.name));
+            const std::string name =
+                shortLine(fmt::format("image {} '{}'", images[i], image.name.empty() ? image.uri : image.name));
             try {
                 if (!image.fault.empty()) throw Error("{}: {}", name, image.fault);
                 decoded[i] = decodeImage(image.bytes, name.c_str());

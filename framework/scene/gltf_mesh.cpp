@@ -16,14 +16,13 @@ constexpr size_t bytesPerVertex = 3 * sizeof(glm::vec4) + 3 * sizeof(glm::vec3);
 
 /// Reads an attribute, if present. @throws Error if it differs in length from the positions.
 template <typename Vector>
-void readAttribute(GltfFile& file, const tinygltf::Primitive& primitive, const char* name,
-                   uint32_t minComponents, uint32_t maxComponents, float fallback, std::vector<Vector>& out,
-                   size_t vertexCount, const std::string& what) {
+void readAttribute(GltfFile& file, const tinygltf::Primitive& primitive, const char* name, uint32_t minComponents,
+                   uint32_t maxComponents, float fallback, std::vector<Vector>& out, size_t vertexCount,
+                   const std::string& what) {
     const auto entry = primitive.attributes.find(name);
     if (entry == primitive.attributes.end()) return;
     const bool fractions = std::string_view(name) == "COLOR_0";
-    const AccessorValues values =
-        readAccessor(file, entry->second, minComponents, maxComponents, name, fractions);
+    const AccessorValues values = readAccessor(file, entry->second, minComponents, maxComponents, name, fractions);
     if (values.count != vertexCount)
         file.fail("{}: {} has {} elements for {} positions", what, name, values.count, vertexCount);
     file.reserve(values.count, sizeof(Vector));
@@ -53,23 +52,19 @@ std::vector<glm::uvec3> trianglesOf(GltfFile& file, int mode, const std::vector<
     std::vector<glm::uvec3> triangles;
     const size_t count = indices.size();
     if (mode == TINYGLTF_MODE_TRIANGLES) {
-        if (count % 3 != 0)
-            file.warn("{}: {} indices are not whole triangles; the rest is left out", what, count);
+        if (count % 3 != 0) file.warn("{}: {} indices are not whole triangles; the rest is left out", what, count);
         triangles.reserve(count / 3);
-        for (size_t i = 0; i + 2 < count; i += 3)
-            triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+        for (size_t i = 0; i + 2 < count; i += 3) triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
     } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
         for (size_t i = 0; i + 2 < count; ++i)
             triangles.push_back({indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2]});
     } else {
-        for (size_t i = 0; i + 2 < count; ++i)
-            triangles.push_back({indices[i + 1], indices[i + 2], indices[0]});
+        for (size_t i = 0; i + 2 < count; ++i) triangles.push_back({indices[i + 1], indices[i + 2], indices[0]});
     }
     return triangles;
 }
 
-void readTriangles(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& mesh,
-                   const std::string& what) {
+void readTriangles(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& mesh, const std::string& what) {
     // Without indices, vertices in order.
     std::vector<uint32_t> indices;
     if (primitive.indices >= 0) {
@@ -87,8 +82,8 @@ void readTriangles(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& m
 }
 
 /// Reads all attributes, with morph targets applied.
-void readAttributes(GltfFile& file, const tinygltf::Primitive& primitive,
-                    const std::vector<double>& morphWeights, Mesh& mesh, const std::string& what) {
+void readAttributes(GltfFile& file, const tinygltf::Primitive& primitive, const std::vector<double>& morphWeights,
+                    Mesh& mesh, const std::string& what) {
     const size_t count = mesh.positions.size();
     readAttribute(file, primitive, "TEXCOORD_0", 2, 2, 0, mesh.texCoords0, count, what);
     readAttribute(file, primitive, "TEXCOORD_1", 2, 2, 0, mesh.texCoords1, count, what);
@@ -122,9 +117,8 @@ void completeNormals(GltfFile& file, const Material& material, Mesh& mesh, const
 
 }  // namespace
 
-Mesh readPrimitive(GltfFile& file, const tinygltf::Primitive& primitive,
-                   const std::vector<double>& morphWeights, const Material& material,
-                   const std::string& what) {
+Mesh readPrimitive(GltfFile& file, const tinygltf::Primitive& primitive, const std::vector<double>& morphWeights,
+                   const Material& material, const std::string& what) {
     Mesh mesh;
     if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
         file.fail("{}: mode {} is not one of glTF's", what, primitive.mode);
@@ -154,11 +148,10 @@ Mesh readPrimitive(GltfFile& file, const tinygltf::Primitive& primitive,
     // Texture coordinates and colours are repaired.
     if (replaceNonFinite(mesh.texCoords0, 0) + replaceNonFinite(mesh.texCoords1, 0) > 0)
         file.warn("{}: texture coordinates that are not finite are taken as 0", what);
-    if (replaceNonFinite(mesh.colors, 1) > 0)
-        file.warn("{}: colours that are not finite are taken as 1", what);
+    if (replaceNonFinite(mesh.colors, 1) > 0) file.warn("{}: colours that are not finite are taken as 1", what);
     if (const size_t others = limitColors(mesh, material); others > 0)
-        file.warn("{}: COLOR_0 of {} vertices is limited, so that it is from 0 to 1 times baseColorFactor",
-                  what, others);
+        file.warn("{}: COLOR_0 of {} vertices is limited, so that it is from 0 to 1 times baseColorFactor", what,
+                  others);
     completeNormals(file, material, mesh, what);
     return mesh;
 }

@@ -14,8 +14,7 @@ namespace voxray {
 /// @param what names the primitive in messages
 /// @throws Error for indices outside of the vertices, positions that are not finite, attributes of unequal
 /// length.
-Mesh readPrimitive(GltfFile& file, const tinygltf::Primitive& primitive,
-                   const std::vector<double>& morphWeights, const Material& material,
-                   const std::string& what);
+Mesh readPrimitive(GltfFile& file, const tinygltf::Primitive& primitive, const std::vector<double>& morphWeights,
+                   const Material& material, const std::string& what);
 
 }  // namespace voxray

@@ -37,15 +37,13 @@ std::vector<uint8_t> decoded(const json& view, const GltfBuffers& buffers, const
     const uint64_t length = unsignedMember(source, "byteLength", kMeshopt);
     const uint64_t stride = unsignedMember(source, "byteStride", kMeshopt);
     const uint64_t count = unsignedMember(source, "count", kMeshopt);
-    if (buffer >= buffers.size() || offset > buffers[buffer].size() ||
-        length > buffers[buffer].size() - offset)
+    if (buffer >= buffers.size() || offset > buffers[buffer].size() || length > buffers[buffer].size() - offset)
         throw Error("its compressed bytes end outside of buffer {}", buffer);
     const std::string mode = textMember(source, "mode", "");
     const bool vertices = mode == "ATTRIBUTES";
     if (!vertices && mode != "TRIANGLES" && mode != "INDICES")
         throw Error("mode '{}' is not one of {}'s", mode, kMeshopt);
-    const bool strideFits =
-        vertices ? stride > 0 && stride % 4 == 0 && stride <= 256 : stride == 2 || stride == 4;
+    const bool strideFits = vertices ? stride > 0 && stride % 4 == 0 && stride <= 256 : stride == 2 || stride == 4;
     if (!strideFits || (mode == "TRIANGLES" && count % 3 != 0))
         throw Error("{} elements of {} bytes can't be of mode {}", count, stride, mode);
     if (count > unsignedMember(view, "byteLength", "it") / stride)

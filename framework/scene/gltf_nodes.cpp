@@ -30,18 +30,15 @@ Node readNode(GltfFile& file, int index, int32_t parent) {
     node.parent = parent;
     const std::string what = fmt::format("node {} '{}'", index, node.name);
     if (!source.matrix.empty()) {
-        if (source.matrix.size() != 16)
-            file.fail("{}: its matrix has {} numbers", what, source.matrix.size());
+        if (source.matrix.size() != 16) file.fail("{}: its matrix has {} numbers", what, source.matrix.size());
         glm::mat4 m;
         for (int i = 0; i < 16; ++i)
-            m[i / 4][i % 4] =
-                checkedFloat(file, source.matrix[size_t(i)], -maxNumber, maxNumber, what + ": matrix");
+            m[i / 4][i % 4] = checkedFloat(file, source.matrix[size_t(i)], -maxNumber, maxNumber, what + ": matrix");
         node.matrix = m;
         return node;
     }
     glm::vec4 rotation(0, 0, 0, 1);
-    readVector(file, source.translation, node.translation, -maxNumber, maxNumber, what + ": translation",
-               checkedFloat);
+    readVector(file, source.translation, node.translation, -maxNumber, maxNumber, what + ": translation", checkedFloat);
     readVector(file, source.scale, node.scale, -maxNumber, maxNumber, what + ": scale", checkedFloat);
     readVector(file, source.rotation, rotation, -1.01, 1.01, what + ": rotation", checkedFloat);
     const float length = glm::length(rotation);
@@ -78,8 +75,7 @@ void readCamera(GltfFile& file, const tinygltf::Node& node, int32_t nodeIndex, S
         return;
     }
     const double fov = source.perspective.yfov;
-    if (!(fov > 0 && fov < 3.1415))
-        file.fail("camera '{}': yfov is {} radians; expected 0 to 3.14", camera.name, fov);
+    if (!(fov > 0 && fov < 3.1415)) file.fail("camera '{}': yfov is {} radians; expected 0 to 3.14", camera.name, fov);
     camera.verticalFovRadians = float(fov);
     scene.cameras.push_back(std::move(camera));
 }
@@ -107,10 +103,8 @@ void readLight(GltfFile& file, const tinygltf::Node& node, int32_t nodeIndex, Sc
         light.intensity[i] =
             clampedFloat(file, double(light.intensity[i]) * intensity, 0, maxNumber, what + ": intensity");
     if (light.type == LightType::Spot) {
-        light.outerConeAngle =
-            clampedFloat(file, source.spot.outerConeAngle, 0, 1.5708, what + ": outerConeAngle");
-        light.innerConeAngle =
-            clampedFloat(file, source.spot.innerConeAngle, 0, 1.5708, what + ": innerConeAngle");
+        light.outerConeAngle = clampedFloat(file, source.spot.outerConeAngle, 0, 1.5708, what + ": outerConeAngle");
+        light.innerConeAngle = clampedFloat(file, source.spot.innerConeAngle, 0, 1.5708, what + ": innerConeAngle");
         if (light.innerConeAngle > light.outerConeAngle) {
             file.warn("{}: innerConeAngle is wider than outerConeAngle; both are taken as the latter", what);
             light.innerConeAngle = light.outerConeAngle;
@@ -147,13 +141,10 @@ std::vector<int> readNodes(GltfFile& file, Scene& scene) {
     return fileNodes;
 }
 
-std::vector<int32_t> readInstanceNodes(GltfFile& file, const tinygltf::Node& source, int32_t node,
-                                       Scene& scene) {
-    const tinygltf::Value* attributes =
-        extensionMember(source.extensions, "EXT_mesh_gpu_instancing", "attributes");
+std::vector<int32_t> readInstanceNodes(GltfFile& file, const tinygltf::Node& source, int32_t node, Scene& scene) {
+    const tinygltf::Value* attributes = extensionMember(source.extensions, "EXT_mesh_gpu_instancing", "attributes");
     if (attributes == nullptr) return {node};
-    const std::string what =
-        fmt::format("node '{}': EXT_mesh_gpu_instancing", scene.nodes[size_t(node)].name);
+    const std::string what = fmt::format("node '{}': EXT_mesh_gpu_instancing", scene.nodes[size_t(node)].name);
     const AccessorValues translations = instanceAttribute(file, *attributes, "TRANSLATION", 3);
     const AccessorValues rotations = instanceAttribute(file, *attributes, "ROTATION", 4);
     const AccessorValues scales = instanceAttribute(file, *attributes, "SCALE", 3);

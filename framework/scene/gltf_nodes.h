@@ -24,7 +24,6 @@ void readCamera(GltfFile& file, const tinygltf::Node& source, int32_t node, Scen
 void readLight(GltfFile& file, const tinygltf::Node& source, int32_t node, Scene& scene);
 
 /// Nodes of a mesh's instances: the node itself, or nodes added below it for EXT_mesh_gpu_instancing.
-std::vector<int32_t> readInstanceNodes(GltfFile& file, const tinygltf::Node& source, int32_t node,
-                                       Scene& scene);
+std::vector<int32_t> readInstanceNodes(GltfFile& file, const tinygltf::Node& source, int32_t node, Scene& scene);
 
 }  // namespace voxray

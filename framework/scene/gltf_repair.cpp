@@ -33,8 +33,8 @@ void dropChannelsWithoutNode(json& root, Lines& warnings) {
             if (target != channels[c].end() && target->is_object() && target->contains("node"))
                 kept.push_back(channels[c]);
             else
-                warnings.push_back(fmt::format("animation {} '{}': channel {} has no target node; left out",
-                                               a, nameOf(animations[a]), c));
+                warnings.push_back(fmt::format("animation {} '{}': channel {} has no target node; left out", a,
+                                               nameOf(animations[a]), c));
         }
         animations[a]["channels"] = std::move(kept);
     }

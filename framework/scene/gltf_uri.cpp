@@ -85,8 +85,7 @@ fs::path findUri(const std::string& uri, const fs::path& folder) {
     for (std::string name : {percentDecoded(uri), uri})
         for (const bool backslashes : {true, false}) {
             if (!backslashes) std::replace(name.begin(), name.end(), '\\', '/');
-            if (name.empty() || leavesFolder(name))
-                throw Error("uri '{}' is not a file below the scene's folder", uri);
+            if (name.empty() || leavesFolder(name)) throw Error("uri '{}' is not a file below the scene's folder", uri);
             std::error_code ignored;
             const fs::path path = folder / fs::path(name).lexically_normal();
             if (found.empty() && fs::is_regular_file(path, ignored)) found = path;

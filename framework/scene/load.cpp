@@ -68,8 +68,8 @@ std::vector<bool> hiddenNodes(GltfFile& file, const std::vector<int>& fileNodes,
     std::vector<bool> hidden(fileNodes.size());
     for (size_t i = 0; i < fileNodes.size(); ++i) {
         const int32_t parent = scene.nodes[i].parent;
-        const tinygltf::Value* visible = extensionMember(file.model().nodes[size_t(fileNodes[i])].extensions,
-                                                         "KHR_node_visibility", "visible");
+        const tinygltf::Value* visible =
+            extensionMember(file.model().nodes[size_t(fileNodes[i])].extensions, "KHR_node_visibility", "visible");
         const bool isHidden = visible != nullptr && visible->IsBool() && !visible->Get<bool>();
         if (isHidden) file.warn("node '{}': KHR_node_visibility hides it; left out", scene.nodes[i].name);
         hidden[i] = isHidden || (parent >= 0 && hidden[size_t(parent)]);
@@ -84,8 +84,7 @@ std::string emptyCause(const GltfFile& file, bool hasMeshes) {
     if (hasMeshes && !file.warnings().empty()) return file.warnings().back();
     const size_t number = size_t(std::max(model.defaultScene, 0));
     if (number >= model.scenes.size()) return "none of its nodes has a mesh";
-    return fmt::format("none of the nodes of scene {} '{}' has a mesh{}", number,
-                       shortLine(model.scenes[number].name),
+    return fmt::format("none of the nodes of scene {} '{}' has a mesh{}", number, shortLine(model.scenes[number].name),
                        model.scenes.size() > 1 ? "; set \"scene\" in the file to another one" : "");
 }
 
@@ -116,9 +115,8 @@ std::shared_ptr<const Scene> load(const std::filesystem::path& path) {
                 scene->instances.push_back({range.first + m, instanceNode, skin});
     }
     if (scene->instances.empty()) {
-        const bool hasMeshes = std::any_of(fileNodes.begin(), fileNodes.end(), [&](int node) {
-            return file.model().nodes[size_t(node)].mesh >= 0;
-        });
+        const bool hasMeshes = std::any_of(fileNodes.begin(), fileNodes.end(),
+                                           [&](int node) { return file.model().nodes[size_t(node)].mesh >= 0; });
         file.fail("it has no triangles to render: {}", emptyCause(file, hasMeshes));
     }
     readAnimations(file, fileNodes, *scene);

@@ -19,18 +19,18 @@ struct MaterialSettings {
     bool doubleSided = false;
     static constexpr auto schema() {
         return std::tuple{
-            field("base_color", &MaterialSettings::baseColor,
-                  "Base colour, linear Rec.709; removes its texture.", glm::vec3(0.0f), glm::vec3(1.0f)),
+            field("base_color", &MaterialSettings::baseColor, "Base colour, linear Rec.709; removes its texture.",
+                  glm::vec3(0.0f), glm::vec3(1.0f)),
             field("metallic", &MaterialSettings::metallic,
                   "0: dielectric, 1: metal; removes the texture of metallic and roughness.", 0.0f, 1.0f),
             field("roughness", &MaterialSettings::roughness,
                   "0: mirror-like; removes the texture of metallic and roughness.", 0.0f, 1.0f),
             field("specular", &MaterialSettings::specular,
                   "Strength of a dielectric's reflection; 0 with metallic 0 is exactly Lambert.", 0.0f, 1.0f),
-            field("emission", &MaterialSettings::emission,
-                  "Emitted radiance, W/(m² sr); removes its texture.", glm::vec3(0.0f), glm::vec3(1e12f)),
-            field("normal_scale", &MaterialSettings::normalScale,
-                  "Strength of the normal map; 0: a smooth surface.", 0.0f, 100.0f),
+            field("emission", &MaterialSettings::emission, "Emitted radiance, W/(m² sr); removes its texture.",
+                  glm::vec3(0.0f), glm::vec3(1e12f)),
+            field("normal_scale", &MaterialSettings::normalScale, "Strength of the normal map; 0: a smooth surface.",
+                  0.0f, 100.0f),
             field("double_sided", &MaterialSettings::doubleSided, "Whether it emits on both sides.")};
     }
 };

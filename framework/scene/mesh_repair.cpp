@@ -140,8 +140,7 @@ void makeTangents(Mesh& mesh, uint32_t texCoordSet) {
     std::vector<TriangleTangent> tangents(mesh.triangles.size());
     for (size_t i = 0; i < mesh.triangles.size(); ++i) {
         tangents[i] = tangentOf(mesh, uv, mesh.triangles[i]);
-        for (int corner = 0; corner < 3; ++corner)
-            uses[mesh.triangles[i][corner]] |= tangents[i].mirrored ? 2 : 1;
+        for (int corner = 0; corner < 3; ++corner) uses[mesh.triangles[i][corner]] |= tangents[i].mirrored ? 2 : 1;
     }
     std::vector<uint32_t> source(mesh.positions.size());
     std::vector<uint32_t> copies(mesh.positions.size());
@@ -157,8 +156,7 @@ void makeTangents(Mesh& mesh, uint32_t texCoordSet) {
     gatherVertices(mesh, source);
     for (size_t i = 0; i < mesh.triangles.size(); ++i)
         if (tangents[i].mirrored)
-            for (int corner = 0; corner < 3; ++corner)
-                mesh.triangles[i][corner] = copies[mesh.triangles[i][corner]];
+            for (int corner = 0; corner < 3; ++corner) mesh.triangles[i][corner] = copies[mesh.triangles[i][corner]];
 
     // Sum triangles' tangents at vertices, and orthogonalize them to the normals.
     std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0));

@@ -8,10 +8,8 @@ void addMovingSpheres(Scene& scene, const MovingSpheres& spheres) {
     if (spheres.count == 0) return;
 
     // One shared mesh of 1280 triangles.
-    scene.materials.push_back({.name = "moving sphere",
-                               .baseColor = glm::vec4(spheres.albedo, 1.0f),
-                               .metallic = 0,
-                               .specular = 0});
+    scene.materials.push_back(
+        {.name = "moving sphere", .baseColor = glm::vec4(spheres.albedo, 1.0f), .metallic = 0, .specular = 0});
     const uint32_t mesh = uint32_t(scene.meshes.size());
     scene.meshes.push_back(sphereMesh("moving sphere", glm::vec3(0.0f), spheres.radius, 3,
                                       uint32_t(scene.materials.size() - 1), false, true));

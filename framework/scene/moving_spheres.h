@@ -24,12 +24,11 @@ struct MovingSpheres {
                 .asVector(),
             field("spacing", &MovingSpheres::spacing, "Distance between adjacent centers, m.", 0.0f, 1e4f),
             field("swing", &MovingSpheres::swing,
-                  "Vector that each moves from its center; then as far in the opposite direction, m.",
-                  glm::vec3(-1e4f), glm::vec3(1e4f))
+                  "Vector that each moves from its center; then as far in the opposite direction, m.", glm::vec3(-1e4f),
+                  glm::vec3(1e4f))
                 .asVector(),
             field("period", &MovingSpheres::period, "Duration of a whole oscillation, s.", 0.001f, 1e6f),
-            field("albedo", &MovingSpheres::albedo, "Albedo of all spheres.", glm::vec3(0.0f),
-                  glm::vec3(1.0f))};
+            field("albedo", &MovingSpheres::albedo, "Albedo of all spheres.", glm::vec3(0.0f), glm::vec3(1.0f))};
     }
 };
 

@@ -27,8 +27,7 @@ void dropUnusedTextures(Scene& panes) {
     }
     for (size_t i = 0; i < panes.textures.size(); ++i)
         if (!isRead[i])
-            panes.textures[i] = {
-                .name = panes.textures[i].name, .width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
+            panes.textures[i] = {.name = panes.textures[i].name, .width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
 }
 
 }  // namespace

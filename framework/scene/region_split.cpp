@@ -46,8 +46,7 @@ std::vector<Polygon> splitAtBox(const Polygon& triangle, const Box& box) {
     std::vector<Polygon> polygons;
     Polygon remaining = triangle;
     for (int axis = 0; axis < 3; ++axis)
-        for (const auto& [coordinate, sign] :
-             {std::pair(box.min[axis], 1.0), std::pair(box.max[axis], -1.0)}) {
+        for (const auto& [coordinate, sign] : {std::pair(box.min[axis], 1.0), std::pair(box.max[axis], -1.0)}) {
             auto [inside, outside] = cut(remaining, axis, double(coordinate), sign);
             polygons.push_back(std::move(outside));
             remaining = std::move(inside);
@@ -59,8 +58,8 @@ std::vector<Polygon> splitAtBox(const Polygon& triangle, const Box& box) {
 
 /// Adds a vertex of triangle `t` with barycentric weights `w`.
 uint32_t addVertex(Mesh& mesh, const glm::uvec3& t, const glm::vec3& w) {
-    return appendVertex(
-        mesh, t.x, [&](const auto& list) { return list[t.x] * w.x + list[t.y] * w.y + list[t.z] * w.z; });
+    return appendVertex(mesh, t.x,
+                        [&](const auto& list) { return list[t.x] * w.x + list[t.y] * w.y + list[t.z] * w.z; });
 }
 
 /// @param world positions of the mesh's vertices. @return whether anything was cut.
@@ -75,8 +74,7 @@ bool split(Mesh& mesh, const glm::vec3* world, const Box& box) {
         const glm::vec3 high = glm::max(world[t.x], glm::max(world[t.y], world[t.z]));
         const bool isInside =
             glm::all(glm::greaterThanEqual(low, box.min)) && glm::all(glm::lessThanEqual(high, box.max));
-        const bool isOutside =
-            glm::any(glm::lessThan(high, box.min)) || glm::any(glm::greaterThan(low, box.max));
+        const bool isOutside = glm::any(glm::lessThan(high, box.min)) || glm::any(glm::greaterThan(low, box.max));
         const std::vector<Polygon> polygons =
             isInside || isOutside ? std::vector<Polygon>() : splitAtBox(triangle, box);
         if (polygons.size() < 2) {
@@ -88,13 +86,9 @@ bool split(Mesh& mesh, const glm::vec3* world, const Box& box) {
             std::vector<uint32_t> corners;
             for (const Corner& corner : polygon) {
                 const glm::dvec3& w = corner.weights;
-                corners.push_back(w.x == 1   ? t.x
-                                  : w.y == 1 ? t.y
-                                  : w.z == 1 ? t.z
-                                             : addVertex(mesh, t, glm::vec3(w)));
+                corners.push_back(w.x == 1 ? t.x : w.y == 1 ? t.y : w.z == 1 ? t.z : addVertex(mesh, t, glm::vec3(w)));
             }
-            for (size_t i = 2; i < corners.size(); ++i)
-                triangles.emplace_back(corners[0], corners[i - 1], corners[i]);
+            for (size_t i = 2; i < corners.size(); ++i) triangles.emplace_back(corners[0], corners[i - 1], corners[i]);
         }
     }
     mesh.triangles = std::move(triangles);

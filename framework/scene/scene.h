@@ -132,7 +132,7 @@ struct Camera {
 
 /// Radiance from infinity.
 struct Environment {
-    glm::vec3 radiance{0.0f};  ///< Multiplies the map; the radiance itself without a map. W/(m² sr).
+    glm::vec3 radiance{0.0f};           ///< Multiplies the map; the radiance itself without a map. W/(m² sr).
     std::shared_ptr<const ImageF> map;  ///< Equirectangular, 3 channels, row 0 at +Y; u = 0.5 looks along -Z,
                                         ///< u grows towards +X.
 };

@@ -32,11 +32,8 @@ SceneBuilder::SceneBuilder(std::string name) : scene_(std::make_shared<Scene>())
 }
 
 uint32_t SceneBuilder::lambert(const std::string& name, const glm::vec3& albedo, const glm::vec3& emission) {
-    return material({.name = name,
-                     .baseColor = glm::vec4(albedo, 1.0f),
-                     .metallic = 0,
-                     .specular = 0,
-                     .emission = emission});
+    return material(
+        {.name = name, .baseColor = glm::vec4(albedo, 1.0f), .metallic = 0, .specular = 0, .emission = emission});
 }
 
 uint32_t SceneBuilder::material(Material material) {
@@ -62,8 +59,7 @@ void SceneBuilder::quad(const std::string& name, const glm::vec3& corner, const 
     place(mesh(std::move(m)));
 }
 
-void SceneBuilder::band(const std::string& name, const Corners& inner, const Corners& outer,
-                        uint32_t material) {
+void SceneBuilder::band(const std::string& name, const Corners& inner, const Corners& outer, uint32_t material) {
     Mesh m;
     m.name = name;
     m.material = material;
@@ -75,8 +71,8 @@ void SceneBuilder::band(const std::string& name, const Corners& inner, const Cor
     place(mesh(std::move(m)));
 }
 
-void SceneBuilder::box(const std::string& name, const glm::vec3& base, const glm::vec3& size,
-                       float angleRadians, uint32_t material) {
+void SceneBuilder::box(const std::string& name, const glm::vec3& base, const glm::vec3& size, float angleRadians,
+                       uint32_t material) {
     const float c = std::cos(angleRadians);
     const float s = std::sin(angleRadians);
     const glm::vec3 x = glm::vec3(c, 0, -s) * size.x;
@@ -96,8 +92,7 @@ void SceneBuilder::box(const std::string& name, const glm::vec3& base, const glm
     place(mesh(std::move(m)));
 }
 
-void SceneBuilder::room(const glm::vec3& min, const glm::vec3& max,
-                        const std::array<uint32_t, 6>& materials) {
+void SceneBuilder::room(const glm::vec3& min, const glm::vec3& max, const std::array<uint32_t, 6>& materials) {
     const glm::vec3 x(max.x - min.x, 0, 0);
     const glm::vec3 y(0, max.y - min.y, 0);
     const glm::vec3 z(0, 0, max.z - min.z);
@@ -197,10 +192,8 @@ Mesh sphereMesh(const std::string& name, const glm::vec3& center, float radius, 
     }
     for (const glm::uvec3& t : triangles) {
         const uint32_t first = uint32_t(mesh.positions.size());
-        const glm::vec3 normal =
-            glm::normalize(glm::cross(points[t.y] - points[t.x], points[t.z] - points[t.x]));
-        for (const uint32_t corner : {t.x, t.y, t.z})
-            mesh.positions.push_back(center + radius * points[corner]);
+        const glm::vec3 normal = glm::normalize(glm::cross(points[t.y] - points[t.x], points[t.z] - points[t.x]));
+        for (const uint32_t corner : {t.x, t.y, t.z}) mesh.positions.push_back(center + radius * points[corner]);
         mesh.normals.insert(mesh.normals.end(), 3, normal);
         mesh.triangles.push_back({first, first + 1, first + 2});
     }

@@ -12,15 +12,14 @@ class SceneBuilder {
     explicit SceneBuilder(std::string name);
 
     /// Lambert: metallic 0, specular 0, roughness 1.
-    uint32_t lambert(const std::string& name, const glm::vec3& albedo,
-                     const glm::vec3& emission = glm::vec3(0));
+    uint32_t lambert(const std::string& name, const glm::vec3& albedo, const glm::vec3& emission = glm::vec3(0));
     uint32_t material(Material material);
     uint32_t mesh(Mesh mesh);
     void place(uint32_t mesh, int32_t node = -1);
 
     /// A parallelogram with its front towards cross(edgeU, edgeV).
-    void quad(const std::string& name, const glm::vec3& corner, const glm::vec3& edgeU,
-              const glm::vec3& edgeV, uint32_t material);
+    void quad(const std::string& name, const glm::vec3& corner, const glm::vec3& edgeU, const glm::vec3& edgeV,
+              uint32_t material);
     using Corners = std::array<glm::vec3, 4>;
     /// Four quads between the edges of two quadrilaterals: a wall round a window, or walls between floor and
     /// ceiling. Fronts are towards cross(inner[1] - inner[0], outer[0] - inner[0]).
@@ -36,8 +35,8 @@ class SceneBuilder {
     void camera(const glm::vec3& position, const glm::vec3& target, float verticalFovDegrees,
                 const glm::vec3& up = {0, 1, 0});
     void pointLight(const glm::vec3& position, const glm::vec3& intensity);
-    void spotLight(const glm::vec3& position, const glm::vec3& direction, float innerDegrees,
-                   float outerDegrees, const glm::vec3& intensity);
+    void spotLight(const glm::vec3& position, const glm::vec3& direction, float innerDegrees, float outerDegrees,
+                   const glm::vec3& intensity);
     void directionalLight(const glm::vec3& direction, const glm::vec3& irradiance);
 
     Scene& scene() { return *scene_; }

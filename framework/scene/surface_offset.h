@@ -17,10 +17,8 @@ inline float pointOffset(const glm::vec3& position) {
 }
 
 /// From a triangle's plane.
-inline float planeOffset(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c,
-                         const glm::vec3& normal) {
-    return COORDINATE_ERROR *
-           glm::dot(glm::abs(normal), glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c))));
+inline float planeOffset(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& normal) {
+    return COORDINATE_ERROR * glm::dot(glm::abs(normal), glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c))));
 }
 
 }  // namespace voxray

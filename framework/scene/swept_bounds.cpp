@@ -71,8 +71,8 @@ Box swept(const Box& box, const Scene& scene, uint32_t index) {
     if (const auto& matrix = scene.nodes[index].matrix)
         return transformed(box, glm::mat3(*matrix), glm::vec3((*matrix)[3]));
     const NodeRange range = rangeOf(scene, index);
-    Box out = hullOf({box.min * range.scale.min, box.min * range.scale.max, box.max * range.scale.min,
-                      box.max * range.scale.max});
+    Box out = hullOf(
+        {box.min * range.scale.min, box.min * range.scale.max, box.max * range.scale.min, box.max * range.scale.max});
     if (range.rotation) {
         out = transformed(out, glm::mat3_cast(*range.rotation), glm::vec3(0.0f));
     } else {
@@ -113,8 +113,7 @@ std::vector<Box> jointHulls(const Mesh& mesh, const Skin& skin) {
 bool movesInTime(const Scene& scene, const Instance& instance) {
     if (instance.skin < 0) return nodeMoves(scene, instance.node);
     const std::vector<uint32_t>& joints = scene.skins[size_t(instance.skin)].joints;
-    return std::any_of(joints.begin(), joints.end(),
-                       [&](uint32_t joint) { return nodeMoves(scene, int32_t(joint)); });
+    return std::any_of(joints.begin(), joints.end(), [&](uint32_t joint) { return nodeMoves(scene, int32_t(joint)); });
 }
 
 Box sweptBounds(const Scene& scene, const Instance& instance) {

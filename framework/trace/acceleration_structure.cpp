@@ -15,12 +15,11 @@ void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR st
     destroy(device, structure, allocator);
 }
 
-AccelerationStructure::AccelerationStructure(Device& device, const char* name,
-                                             VkAccelerationStructureTypeKHR type, uint64_t bytes)
-    : buffer_(device, name, bytes, MemoryKind::Device,
-              VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR) {
-    auto create = structure<VkAccelerationStructureCreateInfoKHR>(
-        VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR);
+AccelerationStructure::AccelerationStructure(Device& device, const char* name, VkAccelerationStructureTypeKHR type,
+                                             uint64_t bytes)
+    : buffer_(device, name, bytes, MemoryKind::Device, VK_BUFFER_USAGE_ACCELERATION_STRUCTURE_STORAGE_BIT_KHR) {
+    auto create =
+        structure<VkAccelerationStructureCreateInfoKHR>(VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_CREATE_INFO_KHR);
     create.buffer = buffer_.handle();
     create.size = bytes;
     create.type = type;
@@ -56,19 +55,16 @@ VkAccelerationStructureBuildGeometryInfoKHR describe(const Build& build) {
 
 /// Builds a structure and waits, so that one scratch buffer exists at a time. Creates `result` if it is
 /// empty; otherwise rebuilds it in place, with the same number of primitives.
-void run(Device& device, CommandStream& stream, const char* name, const Build& build,
-         AccelerationStructure& result) {
+void run(Device& device, CommandStream& stream, const char* name, const Build& build, AccelerationStructure& result) {
     VkAccelerationStructureBuildGeometryInfoKHR info = describe(build);
     auto sizes = structure<VkAccelerationStructureBuildSizesInfoKHR>(
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_BUILD_SIZES_INFO_KHR);
     device.function<PFN_vkGetAccelerationStructureBuildSizesKHR>("vkGetAccelerationStructureBuildSizesKHR")(
         device.handle(), VK_ACCELERATION_STRUCTURE_BUILD_TYPE_DEVICE_KHR, &info, &build.primitives, &sizes);
-    if (!result.handle())
-        result = AccelerationStructure(device, name, build.type, sizes.accelerationStructureSize);
+    if (!result.handle()) result = AccelerationStructure(device, name, build.type, sizes.accelerationStructureSize);
 
     // The scratch address must be aligned.
-    const uint64_t alignment =
-        device.accelerationStructureProperties().minAccelerationStructureScratchOffsetAlignment;
+    const uint64_t alignment = device.accelerationStructureProperties().minAccelerationStructureScratchOffsetAlignment;
     const Buffer scratch(device, "acceleration structure scratch", sizes.buildScratchSize + alignment);
     info.dstAccelerationStructure = result.handle();
     info.scratchData.deviceAddress = (scratch.address() + alignment - 1) / alignment * alignment;
@@ -86,8 +82,7 @@ Build trianglesBuild(const Buffer& positions, uint32_t vertexCount, const Buffer
     build.geometry =
         structure<VkAccelerationStructureGeometryKHR>(VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_KHR);
     build.geometry.geometryType = VK_GEOMETRY_TYPE_TRIANGLES_KHR;
-    build.geometry.flags =
-        opaque ? VK_GEOMETRY_OPAQUE_BIT_KHR : VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
+    build.geometry.flags = opaque ? VK_GEOMETRY_OPAQUE_BIT_KHR : VK_GEOMETRY_NO_DUPLICATE_ANY_HIT_INVOCATION_BIT_KHR;
     auto& triangles = build.geometry.geometry.triangles;
     triangles = structure<VkAccelerationStructureGeometryTrianglesDataKHR>(
         VK_STRUCTURE_TYPE_ACCELERATION_STRUCTURE_GEOMETRY_TRIANGLES_DATA_KHR);
@@ -100,8 +95,7 @@ Build trianglesBuild(const Buffer& positions, uint32_t vertexCount, const Buffer
     return build;
 }
 
-void buildChunk(Device& device, CommandStream& stream, const TracingOrder& order, size_t chunk,
-                SceneStructure& scene) {
+void buildChunk(Device& device, CommandStream& stream, const TracingOrder& order, size_t chunk, SceneStructure& scene) {
     const uint32_t first = order.chunkFirst[chunk], count = order.chunkEnd(chunk) - first;
     const uint32_t vertexCount = uint32_t(scene.positions.bytes() / sizeof(glm::vec3));
     const Build build =
@@ -161,8 +155,7 @@ SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const 
     // A bottom-level structure for each chunk, and the top-level one.
     scene.opaqueCount = order.opaqueCount;
     scene.chunks.resize(order.chunkFirst.size());
-    for (size_t chunk = 0; chunk < scene.chunks.size(); ++chunk)
-        buildChunk(device, stream, order, chunk, scene);
+    for (size_t chunk = 0; chunk < scene.chunks.size(); ++chunk) buildChunk(device, stream, order, chunk, scene);
     buildTop(device, stream, scene);
     scene.chunkFirst = uploaded(device, stream, "acceleration structure chunks", order.chunkFirst);
     scene.triangleIds = uploaded(device, stream, "acceleration structure triangle numbers", order.triangles);
@@ -170,14 +163,13 @@ SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const 
     return scene;
 }
 
-void updateSceneStructure(Device& device, CommandStream& stream, const SceneState& state,
-                          const TracingOrder& order, SceneStructure& scene) {
+void updateSceneStructure(Device& device, CommandStream& stream, const SceneState& state, const TracingOrder& order,
+                          SceneStructure& scene) {
     const Geometry& geometry = state.geometry;
     for (const InstanceRange& range : movingInstanceRanges(geometry))
-        stream.upload(
-            scene.positions,
-            std::as_bytes(std::span(geometry.positions).subspan(range.firstVertex, range.vertexCount)),
-            range.firstVertex * sizeof(glm::vec3));
+        stream.upload(scene.positions,
+                      std::as_bytes(std::span(geometry.positions).subspan(range.firstVertex, range.vertexCount)),
+                      range.firstVertex * sizeof(glm::vec3));
     for (const TracingOrder::Range& range : order.moving) {
         const auto triangles = std::span(order.triangles).subspan(range.first, range.end - range.first);
         std::vector<glm::uvec3> corners;

@@ -20,8 +20,7 @@ void destroyAccelerationStructure(VkDevice device, VkAccelerationStructureKHR st
 class AccelerationStructure {
  public:
     AccelerationStructure() = default;
-    AccelerationStructure(Device& device, const char* name, VkAccelerationStructureTypeKHR type,
-                          uint64_t bytes);
+    AccelerationStructure(Device& device, const char* name, VkAccelerationStructureTypeKHR type, uint64_t bytes);
 
     VkAccelerationStructureKHR handle() const { return handle_; }
     VkDeviceAddress address() const { return address_; }
@@ -56,7 +55,7 @@ SceneStructure buildSceneStructure(Device& device, CommandStream& stream, const 
 
 /// Rebuilds the chunks of moving triangles and the top-level structure in place and waits. After
 /// `sortMoving`.
-void updateSceneStructure(Device& device, CommandStream& stream, const SceneState& state,
-                          const TracingOrder& order, SceneStructure& scene);
+void updateSceneStructure(Device& device, CommandStream& stream, const SceneState& state, const TracingOrder& order,
+                          SceneStructure& scene);
 
 }  // namespace voxray

@@ -16,8 +16,7 @@ void rejectAlphaCut(const RTCFilterFunctionNArguments* args) {
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0) continue;
         const uint32_t triangle = group.ids[RTCHitN_primID(args->hit, args->N, i)];
-        if (isCutAway(*group.state, triangle, RTCHitN_u(args->hit, args->N, i),
-                      RTCHitN_v(args->hit, args->N, i)))
+        if (isCutAway(*group.state, triangle, RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)))
             args->valid[i] = 0;
     }
 }
@@ -34,8 +33,7 @@ EmbreeBvh::~EmbreeBvh() {
     if (device) rtcReleaseDevice(device);
 }
 
-void EmbreeBvh::build(const SceneState& state, RTCBuildQuality staticQuality,
-                      RTCBuildQuality dynamicQuality) {
+void EmbreeBvh::build(const SceneState& state, RTCBuildQuality staticQuality, RTCBuildQuality dynamicQuality) {
     device = rtcNewDevice(nullptr);
     if (!device) throwEmbreeError("no device");
     rtcSetDeviceMemoryMonitorFunction(
@@ -85,8 +83,7 @@ void EmbreeBvh::attach(const Bvh& bvh, TriangleGroup& group, unsigned geomId, RT
     RTCGeometry mesh = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
 
     // Embree reads 16 bytes per vertex: its own buffers are padded for that.
-    if (!rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
-                                 vertices) ||
+    if (!rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), vertices) ||
         !rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3),
                                  group.ids.size())) {
         rtcReleaseGeometry(mesh);
@@ -114,8 +111,7 @@ void EmbreeBvh::fill(const Bvh& bvh, const TriangleGroup& group, unsigned geomId
     for (const InstanceRange& range : bvh.instances)
         positions = std::copy_n(geometry.positions.begin() + range.firstVertex, range.vertexCount, positions);
     for (size_t i = 0; i < group.ids.size(); ++i)
-        indices[i] =
-            geometry.triangles[group.ids[i]] - (group.vertexOffsets.empty() ? 0 : group.vertexOffsets[i]);
+        indices[i] = geometry.triangles[group.ids[i]] - (group.vertexOffsets.empty() ? 0 : group.vertexOffsets[i]);
     rtcUpdateGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0);
     rtcUpdateGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0);
     rtcCommitGeometry(mesh);

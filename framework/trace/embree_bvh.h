@@ -17,8 +17,7 @@ struct EmbreeBvh {
     /// Opaque or alpha-masked triangles. Embree's primitive i is the scene's triangle ids[i].
     struct TriangleGroup {
         std::vector<uint32_t> ids;
-        std::vector<uint32_t>
-            vertexOffsets;  ///< Scene's vertex index less Embree's, per primitive; empty: 0.
+        std::vector<uint32_t> vertexOffsets;  ///< Scene's vertex index less Embree's, per primitive; empty: 0.
         const SceneState* state = nullptr;
     };
 

@@ -116,10 +116,8 @@ struct EmbreeScene::Impl : EmbreeBvh {
             if (isActive(rays[i])) embree.occluded(staticBvh.scene, queries[i]);
         if (dynamicBvh.scene)
             for (size_t i = 0; i < rays.size(); ++i)
-                if (isActive(rays[i]) && queries[i].tfar >= 0.0f)
-                    embree.occluded(dynamicBvh.scene, queries[i]);
-        for (size_t i = 0; i < rays.size(); ++i)
-            results[i] = isActive(rays[i]) && queries[i].tfar < 0.0f ? 1u : 0u;
+                if (isActive(rays[i]) && queries[i].tfar >= 0.0f) embree.occluded(dynamicBvh.scene, queries[i]);
+        for (size_t i = 0; i < rays.size(); ++i) results[i] = isActive(rays[i]) && queries[i].tfar < 0.0f ? 1u : 0u;
     }
 
     void intersectPacket(std::span<const Ray> rays, std::span<Hit> hits, EmbreeQuery& embree) const {
@@ -149,8 +147,7 @@ struct EmbreeScene::Impl : EmbreeBvh {
                 if (query.tfar[k] < 0.0f) packet.active[k] = 0;
             embree.occluded(packet.active, dynamicBvh.scene, query);
         }
-        for (size_t k = 0; k < rays.size(); ++k)
-            results[k] = isActive(rays[k]) && query.tfar[k] < 0.0f ? 1u : 0u;
+        for (size_t k = 0; k < rays.size(); ++k) results[k] = isActive(rays[k]) && query.tfar[k] < 0.0f ? 1u : 0u;
     }
 
     /// Checks all rays of a stream and calls trace(first, count, embree) for packets of kSize, in parallel.
@@ -235,10 +232,8 @@ void EmbreeScene::closestHit(std::span<const Ray> rays, std::span<Hit> hits, Coh
         });
 }
 
-void EmbreeScene::occluded(std::span<const Ray> rays, std::span<uint32_t> results,
-                           Coherence coherence) const {
-    if (results.size() < rays.size())
-        throw Error("{} rays but room for {} results", rays.size(), results.size());
+void EmbreeScene::occluded(std::span<const Ray> rays, std::span<uint32_t> results, Coherence coherence) const {
+    if (results.size() < rays.size()) throw Error("{} rays but room for {} results", rays.size(), results.size());
     if (coherence == Coherence::Coherent)
         impl_->forEachPacket<kPacket>(rays, [&](size_t first, size_t count, EmbreeQuery& embree) {
             impl_->occludedPacket(rays.subspan(first, count), results.subspan(first, count), embree);

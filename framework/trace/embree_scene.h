@@ -39,8 +39,7 @@ class EmbreeScene {
     /// Streams of rays, on all cores. `results`: 1 if occluded between tMin and tMax.
     /// @throws Error with the index of the first ray, active or not, that is NaN, infinite (a tMax of +inf is
     /// allowed), beyond 1.8e18 m or has a negative tMin.
-    void closestHit(std::span<const Ray> rays, std::span<Hit> hits,
-                    Coherence coherence = Coherence::Incoherent) const;
+    void closestHit(std::span<const Ray> rays, std::span<Hit> hits, Coherence coherence = Coherence::Incoherent) const;
     void occluded(std::span<const Ray> rays, std::span<uint32_t> results,
                   Coherence coherence = Coherence::Incoherent) const;
 

@@ -33,15 +33,14 @@ void EmbreeTracer::trace(CommandStream& stream, const Buffer& rays, const Buffer
     }
 }
 
-void EmbreeTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
-                         uint32_t count, Coherence coherence) {
+void EmbreeTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
+                         Coherence coherence) {
     if (query == Query::ClosestHit)
         trace<Hit>(stream, rays, results, count,
                    [&](auto batchRays, auto hits) { scene_.closestHit(batchRays, hits, coherence); });
     else
-        trace<uint32_t>(stream, rays, results, count, [&](auto batchRays, auto occluded) {
-            scene_.occluded(batchRays, occluded, coherence);
-        });
+        trace<uint32_t>(stream, rays, results, count,
+                        [&](auto batchRays, auto occluded) { scene_.occluded(batchRays, occluded, coherence); });
 }
 
 void EmbreeTracer::updateStructure(CommandStream& stream) {

@@ -48,9 +48,8 @@ bool canEmit(const SceneState& state, uint32_t triangle) {
 glm::vec3 meanEmission(const SceneState& state, uint32_t triangle) {
     if (!canEmit(state, triangle)) return glm::vec3(0.0f);
     const Material& m = materialOf(state, triangle);
-    const bool isUniform =
-        m.alphaMode != AlphaMode::Mask ||
-        (m.baseColorTexture.texture < 0 && alphaRange(state, triangle).lowest >= alphaThreshold(m));
+    const bool isUniform = m.alphaMode != AlphaMode::Mask ||
+                           (m.baseColorTexture.texture < 0 && alphaRange(state, triangle).lowest >= alphaThreshold(m));
     if (isUniform && m.emissiveTexture.texture < 0) return m.emission;
     glm::vec3 sum(0.0f);
     for (uint32_t i = 0; i < kEdgePoints * kEdgePoints; ++i) {

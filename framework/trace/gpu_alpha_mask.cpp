@@ -36,8 +36,7 @@ class AlphaTexels {
     void append(const Texture& texture) {
         const uint64_t count = uint64_t(texture.width) * texture.height;
         if (texels_.size() + count >= NO_ALPHA_TEXTURE)
-            throw Error("texture '{}': alpha masks of more than 2^32 texels can't be traced on the GPU",
-                        texture.name);
+            throw Error("texture '{}': alpha masks of more than 2^32 texels can't be traced on the GPU", texture.name);
         for (uint64_t i = 0; i < count; ++i) texels_.push_back(texture.rgba[4 * i + 3]);
     }
 
@@ -47,8 +46,7 @@ class AlphaTexels {
 };
 
 template <typename T>
-Buffer uploadedUnlessEmpty(Device& device, CommandStream& stream, const char* name,
-                           const std::vector<T>& data) {
+Buffer uploadedUnlessEmpty(Device& device, CommandStream& stream, const char* name, const std::vector<T>& data) {
     if (data.empty()) return {};
     Buffer buffer(device, name, data.size() * sizeof(T));
     stream.upload(buffer, data);

@@ -22,8 +22,7 @@ struct GpuSceneGeometry {  // Device addresses, as in SceneGeometry of shaders/s
 
 static_assert(uint32_t(Wrap::Repeat) == WRAP_REPEAT && uint32_t(Wrap::ClampToEdge) == WRAP_CLAMP &&
               uint32_t(Wrap::MirroredRepeat) == WRAP_MIRROR);
-static_assert(uint32_t(TexelFilter::Linear) == FILTER_LINEAR &&
-              uint32_t(TexelFilter::Nearest) == FILTER_NEAREST);
+static_assert(uint32_t(TexelFilter::Linear) == FILTER_LINEAR && uint32_t(TexelFilter::Nearest) == FILTER_NEAREST);
 
 gpu::GpuTextureRef toGpu(const Scene& scene, const TextureRef& ref) {
     if (ref.texture < 0) return {NO_TEXTURE, ref.texCoord, ref.transform[0], ref.transform[1], 0, 0, 0};
@@ -74,8 +73,8 @@ std::vector<gpu::GpuEmitter> findEmitters(const SceneState& state) {
         const float radiance = luminance(meanEmission(state, t));
         if (!(radiance > 0)) continue;
         const glm::uvec3 v = g.triangles[t];
-        const float area = 0.5f * glm::length(glm::cross(g.positions[v.y] - g.positions[v.x],
-                                                         g.positions[v.z] - g.positions[v.x]));
+        const float area =
+            0.5f * glm::length(glm::cross(g.positions[v.y] - g.positions[v.x], g.positions[v.z] - g.positions[v.x]));
         if (!(area > 0)) continue;
         const bool doubleSided = state.scene->materials[g.triangleMaterials[t]].doubleSided;
         emitters.push_back({t, area, 0, 0});
@@ -113,8 +112,7 @@ ImageDesc describe(const Texture& texture) {
     return {.format = texture.srgb ? VK_FORMAT_R8G8B8A8_SRGB : VK_FORMAT_R8G8B8A8_UNORM,
             .extent = {texture.width, texture.height, 1},
             .mipLevels = uint32_t(std::bit_width(std::max(texture.width, texture.height))),
-            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
-                     VK_IMAGE_USAGE_TRANSFER_DST_BIT};
+            .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT};
 }
 
 Image uploadedTexture(Device& device, CommandStream& stream, const Texture& texture) {
@@ -163,10 +161,9 @@ uint64_t gpuEnvironmentBytes(const Environment& environment) {
 }
 
 std::vector<Binding> GpuScene::bindings() const {
-    return {
-        ifUsed({"sceneGeometry", geometry}), ifUsed({"sceneMaterials", materials}),
-        ifUsed({"sceneLights", lights}),     ifUsed({"sceneEmitters", emitters}),
-        ifUsed({"sceneTextures", textures}), ifUsed({"sceneEnvironment", environment, environmentSampler})};
+    return {ifUsed({"sceneGeometry", geometry}), ifUsed({"sceneMaterials", materials}),
+            ifUsed({"sceneLights", lights}),     ifUsed({"sceneEmitters", emitters}),
+            ifUsed({"sceneTextures", textures}), ifUsed({"sceneEnvironment", environment, environmentSampler})};
 }
 
 GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& state) {
@@ -179,16 +176,15 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
     scene.attributes = uploaded(device, stream, "scene attributes", g.attributes);
     scene.triangles = uploaded(device, stream, "scene triangles", g.triangles);
     scene.triangleMaterials = uploaded(device, stream, "scene triangle materials", g.triangleMaterials);
-    scene.geometry = uploaded(
-        device, stream, "scene geometry",
-        std::vector<GpuSceneGeometry>{{scene.positions.address(), scene.attributes.address(),
-                                       scene.triangles.address(), scene.triangleMaterials.address()}});
+    scene.geometry =
+        uploaded(device, stream, "scene geometry",
+                 std::vector<GpuSceneGeometry>{{scene.positions.address(), scene.attributes.address(),
+                                                scene.triangles.address(), scene.triangleMaterials.address()}});
     scene.triangleCount = uint32_t(g.triangles.size());
 
     // Materials and lights.
     std::vector<gpu::GpuMaterial> materials;
-    for (const Material& material : state.scene->materials)
-        materials.push_back(toGpu(*state.scene, material));
+    for (const Material& material : state.scene->materials) materials.push_back(toGpu(*state.scene, material));
     scene.materials = uploaded(device, stream, "scene materials", materials);
     scene.lightCount = uint32_t(state.lights.size());
     scene.lights = Buffer(device, "scene lights", std::max(1u, scene.lightCount) * sizeof(gpu::GpuLight));
@@ -201,8 +197,8 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
     // The environment.
     const ImageF environment = environmentImage(state.scene->environment);
     scene.environment = Image(device, "environment", {.extent = {environment.width, environment.height, 1}});
-    scene.environmentSampler = Sampler(device, Filter::Linear, VK_SAMPLER_ADDRESS_MODE_REPEAT,
-                                       VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
+    scene.environmentSampler =
+        Sampler(device, Filter::Linear, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
     stream.upload(scene.environment, std::as_bytes(std::span(environment.data)));
     scene.hasEnvironment = state.scene->environment.radiance != glm::vec3(0.0f);
 
@@ -213,15 +209,12 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
     const std::vector<Texture>& textures = state.scene->textures.empty() ? none : state.scene->textures;
     for (const Texture& texture : textures) {
         scene.images.push_back(uploadedTexture(device, stream, texture));
-        scene.samplers.emplace_back(device,
-                                    texture.filter == TexelFilter::Nearest ? Filter::Nearest : Filter::Linear,
+        scene.samplers.emplace_back(device, texture.filter == TexelFilter::Nearest ? Filter::Nearest : Filter::Linear,
                                     toVulkan(texture.wrapU), toVulkan(texture.wrapV));
     }
-    for (size_t i = 0; i < scene.images.size(); ++i)
-        entries.push_back({&scene.images[i], &scene.samplers[i]});
+    for (size_t i = 0; i < scene.images.size(); ++i) entries.push_back({&scene.images[i], &scene.samplers[i]});
     scene.textures = TextureArray(device, entries);
-    if (dimsLight(state))
-        scene.panes = std::make_unique<GpuScene>(makeGpuScene(device, stream, *state.panes));
+    if (dimsLight(state)) scene.panes = std::make_unique<GpuScene>(makeGpuScene(device, stream, *state.panes));
     stream.finish();
     return scene;
 }
@@ -230,8 +223,7 @@ void updateGpuScene(CommandStream& stream, const SceneState& state, GpuScene& sc
     if (stream.device().isHost()) return;
     const Geometry& g = state.geometry;
     const auto upload = [&](const Buffer& to, const auto& elements, uint32_t first, uint32_t count) {
-        stream.upload(to, std::as_bytes(std::span(elements).subspan(first, count)),
-                      first * sizeof(elements[0]));
+        stream.upload(to, std::as_bytes(std::span(elements).subspan(first, count)), first * sizeof(elements[0]));
     };
     for (const InstanceRange& run : movingInstanceRanges(g)) {
         upload(scene.positions, g.positions, run.firstVertex, run.vertexCount);

@@ -28,8 +28,8 @@ void GpuTracer::updateStructure(CommandStream& stream) {
     stream.finish();
 }
 
-void GpuTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
-                      uint32_t count, Coherence) {
+void GpuTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
+                      Coherence) {
     for (uint32_t first = 0; first < count; first += kRaysPerLaunch) {
         const uint32_t launched = std::min(kRaysPerLaunch, count - first);
         launch(stream, query == Query::Occluded, launched,

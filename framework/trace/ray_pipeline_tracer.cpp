@@ -15,8 +15,7 @@ RayPipelineTracer::RayPipelineTracer(Device& device, ShaderCompiler& compiler, c
     traceRays_ = device.function<PFN_vkCmdTraceRaysKHR>("vkCmdTraceRaysKHR");
 }
 
-RayPipelineTracer::Pipeline RayPipelineTracer::makePipeline(Device& device,
-                                                            std::span<const ShaderModule> modules,
+RayPipelineTracer::Pipeline RayPipelineTracer::makePipeline(Device& device, std::span<const ShaderModule> modules,
                                                             bool occluded) {
     Pipeline pipeline;
     pipeline.program = makeRayTracingProgram(device, modules, {{"kOccluded", occluded ? 1u : 0u}});
@@ -34,8 +33,7 @@ RayPipelineTracer::Pipeline RayPipelineTracer::makePipeline(Device& device,
     pipeline.table = Buffer(device, "shader binding table", (kGroups + 1) * recordBytes, MemoryKind::Upload,
                             VK_BUFFER_USAGE_SHADER_BINDING_TABLE_BIT_KHR);
     const uint64_t padding = (alignment - pipeline.table.address() % alignment) % alignment;
-    VkStridedDeviceAddressRegionKHR* regions[kGroups] = {&pipeline.rayGeneration, &pipeline.miss,
-                                                         &pipeline.hit};
+    VkStridedDeviceAddressRegionKHR* regions[kGroups] = {&pipeline.rayGeneration, &pipeline.miss, &pipeline.hit};
     for (uint32_t group = 0; group < kGroups; ++group) {
         const uint64_t offset = padding + group * recordBytes;
         std::memcpy(static_cast<std::byte*>(pipeline.table.mapped()) + offset, &handles[group * handleBytes],

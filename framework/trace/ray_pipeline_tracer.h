@@ -7,8 +7,7 @@ namespace voxray {
 /// Traces streams by ray-tracing pipelines (VK_KHR_ray_tracing_pipeline).
 class RayPipelineTracer final : public GpuTracer {
  public:
-    RayPipelineTracer(Device& device, ShaderCompiler& compiler, const SceneState& state,
-                      uint32_t trianglesPerChunk);
+    RayPipelineTracer(Device& device, ShaderCompiler& compiler, const SceneState& state, uint32_t trianglesPerChunk);
     std::string_view name() const override { return "ray_pipeline"; }
 
  private:

@@ -7,8 +7,7 @@ namespace voxray {
 /// Traces streams by ray queries in a compute shader (VK_KHR_ray_query).
 class RayQueryTracer final : public GpuTracer {
  public:
-    RayQueryTracer(Device& device, ShaderCompiler& compiler, const SceneState& state,
-                   uint32_t trianglesPerChunk);
+    RayQueryTracer(Device& device, ShaderCompiler& compiler, const SceneState& state, uint32_t trianglesPerChunk);
     std::string_view name() const override { return "ray_query"; }
 
  private:

@@ -11,18 +11,17 @@ namespace {
 
 void require(bool feature, const Device& device, const char* tracer, const char* extension) {
     if (!feature)
-        throw Error("tracer {} needs {}, which device '{}' lacks; use tracer auto or embree", tracer,
-                    extension, device.info().name);
+        throw Error("tracer {} needs {}, which device '{}' lacks; use tracer auto or embree", tracer, extension,
+                    device.info().name);
 }
 
 /// @throws Error if a stream's buffers are too small for `count` rays and results of `resultBytes` each.
 void checkStream(const Buffer& rays, const Buffer& results, uint64_t resultBytes, uint32_t count) {
     if (rays.bytes() < count * sizeof(Ray))
-        throw Error("buffer '{}' holds {} rays, {} are to be traced", rays.name(), rays.bytes() / sizeof(Ray),
-                    count);
+        throw Error("buffer '{}' holds {} rays, {} are to be traced", rays.name(), rays.bytes() / sizeof(Ray), count);
     if (results.bytes() < count * resultBytes)
-        throw Error("buffer '{}' has room for {} results of {} rays", results.name(),
-                    results.bytes() / resultBytes, count);
+        throw Error("buffer '{}' has room for {} results of {} rays", results.name(), results.bytes() / resultBytes,
+                    count);
 }
 
 }  // namespace

@@ -45,8 +45,8 @@ class RayTracer {
     virtual void updateStructure(CommandStream& stream) = 0;
     enum class Query { ClosestHit, Occluded };
     /// Buffer sizes are checked.
-    virtual void trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
-                       uint32_t count, Coherence coherence) = 0;
+    virtual void trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
+                       Coherence coherence) = 0;
 
  private:
     uint64_t raysTraced_ = 0;

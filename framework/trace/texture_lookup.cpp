@@ -18,8 +18,7 @@ const std::array<float, 256> kSrgbToLinear = [] {
 glm::vec4 texel(const Texture& texture, int32_t x, int32_t y) {
     const uint8_t* code = &texture.rgba[(size_t(y) * texture.width + size_t(x)) * 4];
     constexpr float kScale = 1.0f / 255.0f;
-    if (texture.srgb)
-        return {kSrgbToLinear[code[0]], kSrgbToLinear[code[1]], kSrgbToLinear[code[2]], code[3] * kScale};
+    if (texture.srgb) return {kSrgbToLinear[code[0]], kSrgbToLinear[code[1]], kSrgbToLinear[code[2]], code[3] * kScale};
     return glm::vec4(code[0], code[1], code[2], code[3]) * kScale;
 }
 
@@ -86,9 +85,8 @@ glm::vec4 sampleTexture(const Texture& texture, glm::vec2 uv) {
 glm::vec4 sampleTexture(const SceneState& state, const TextureRef& ref, uint32_t triangle, float u, float v) {
     const Geometry& g = state.geometry;
     const glm::uvec3 corners = g.triangles[triangle];
-    const glm::vec4 texCoords =
-        interpolate(g.attributes[corners.x].texCoords, g.attributes[corners.y].texCoords,
-                    g.attributes[corners.z].texCoords, u, v);
+    const glm::vec4 texCoords = interpolate(g.attributes[corners.x].texCoords, g.attributes[corners.y].texCoords,
+                                            g.attributes[corners.z].texCoords, u, v);
     return sampleTexture(state.scene->textures[size_t(ref.texture)], textureCoordinates(ref, texCoords));
 }
 

@@ -40,10 +40,9 @@ std::pair<std::span<uint32_t>, std::span<uint32_t>> halve(std::span<uint32_t> tr
     const glm::vec3 extent = high - low;
     const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : (extent.y >= extent.z ? 1 : 2);
     const size_t half = (triangles.size() + 1) / 2;
-    std::nth_element(triangles.begin(), triangles.begin() + ptrdiff_t(half), triangles.end(),
-                     [&](uint32_t a, uint32_t b) {
-                         return std::pair(centers[a][axis], a) < std::pair(centers[b][axis], b);
-                     });
+    std::nth_element(
+        triangles.begin(), triangles.begin() + ptrdiff_t(half), triangles.end(),
+        [&](uint32_t a, uint32_t b) { return std::pair(centers[a][axis], a) < std::pair(centers[b][axis], b); });
     return {triangles.first(half), triangles.subspan(half)};
 }
 
@@ -54,8 +53,7 @@ void sortAsTree(std::span<uint32_t> triangles, const std::vector<glm::vec3>& cen
         sortAsTree(halves.first, centers);
         sortAsTree(halves.second, centers);
     } else {
-        tbb::parallel_invoke([&] { sortAsTree(halves.first, centers); },
-                             [&] { sortAsTree(halves.second, centers); });
+        tbb::parallel_invoke([&] { sortAsTree(halves.first, centers); }, [&] { sortAsTree(halves.second, centers); });
     }
 }
 

@@ -11,8 +11,7 @@
 namespace voxray {
 namespace {
 
-constexpr VkMemoryPropertyFlags kHost =
-    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
 bool sharesMemory(const Device& device) {
     return device.properties().deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU ||
@@ -62,8 +61,8 @@ DeviceMemory allocateMemory(Device& device, const std::string& name, const VkMem
     if (const auto memory = pool.acquire(requirements.size, *type, addressable)) return *memory;
     auto flags = structure<VkMemoryAllocateFlagsInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO);
     flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
-    auto allocate = structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
-                                                    addressable ? &flags : nullptr);
+    auto allocate =
+        structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, addressable ? &flags : nullptr);
     allocate.allocationSize = requirements.size;
     allocate.memoryTypeIndex = *type;
     DeviceMemory memory{VK_NULL_HANDLE, requirements.size, *type, addressable};

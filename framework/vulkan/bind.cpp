@@ -36,8 +36,7 @@ bool isNumber(const Binding& binding) {
 const Binding* find(std::span<const Binding> given, std::string_view name, bool asNumber) {
     const Binding* found = nullptr;
     for (const Binding& binding : given)
-        if (binding.name == name && isNumber(binding) == asNumber &&
-            (!found || (found->optional && !binding.optional)))
+        if (binding.name == name && isNumber(binding) == asNumber && (!found || (found->optional && !binding.optional)))
             found = &binding;
     return found;
 }
@@ -51,14 +50,12 @@ std::string_view withoutUnderscore(std::string_view name) {
 void checkUses(const Program& program, std::span<const Binding> given) {
     std::vector<std::string> names, numbers;
     for (const ShaderBinding& shaderBinding : program.bindings()) names.push_back(shaderBinding.name);
-    for (const ShaderPushMember& member : program.pushMembers())
-        numbers.emplace_back(withoutUnderscore(member.name));
+    for (const ShaderPushMember& member : program.pushMembers()) numbers.emplace_back(withoutUnderscore(member.name));
     for (const Binding& binding : given) {
         const std::vector<std::string>& declared = isNumber(binding) ? numbers : names;
         if (!binding.optional && std::ranges::find(declared, binding.name) == declared.end())
-            throw Error("{}: there is no {} '{}'{}", program.name(),
-                        isNumber(binding) ? "push constant" : "binding", binding.name,
-                        didYouMean(binding.name, declared));
+            throw Error("{}: there is no {} '{}'{}", program.name(), isNumber(binding) ? "push constant" : "binding",
+                        binding.name, didYouMean(binding.name, declared));
         const auto isSame = [&](const Binding& other) {
             return other.name == binding.name && other.optional == binding.optional &&
                    isNumber(other) == isNumber(binding);
@@ -87,9 +84,8 @@ std::vector<std::byte> pushBlock(const Program& program, std::span<const Binding
         if (!found) throw Error("{}: push constant '{}' is not given", program.name(), member.name);
         const Number* number = std::get_if<Number>(&found->value);
         if (number->kind() != member.kind || number->bytes() != member.bytes)
-            throw Error("{}: push constant '{}' is {} of {} bytes, given is {} of {}", program.name(),
-                        member.name, kindName(member.kind), member.bytes, kindName(number->kind()),
-                        number->bytes());
+            throw Error("{}: push constant '{}' is {} of {} bytes, given is {} of {}", program.name(), member.name,
+                        kindName(member.kind), member.bytes, kindName(number->kind()), number->bytes());
         std::copy_n(number->data(), number->bytes(), block.begin() + member.offset);
     }
     return block;
@@ -113,8 +109,7 @@ class Writes {
             expect(shaderBinding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
             write.pBufferInfo = &buffers_.emplace_back(bufferInfo(shaderBinding, **buffer));
         } else if (const auto* image = std::get_if<const Image*>(&given.value)) {
-            if (!**image)
-                throw Error("{}: the image bound to '{}' is empty", program_.name(), shaderBinding.name);
+            if (!**image) throw Error("{}: the image bound to '{}' is empty", program_.name(), shaderBinding.name);
             const bool isSampled = shaderBinding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
             expect(shaderBinding, isSampled || given.sampler ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER
                                                              : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE);
@@ -125,8 +120,8 @@ class Writes {
             write.pImageInfo = &images_.emplace_back(sampler, view, VK_IMAGE_LAYOUT_GENERAL);
         } else if (const auto* structure = std::get_if<VkAccelerationStructureKHR>(&given.value)) {
             expect(shaderBinding, VK_DESCRIPTOR_TYPE_ACCELERATION_STRUCTURE_KHR);
-            write.pNext = &structures_.emplace_back(
-                VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR, nullptr, 1u, structure);
+            write.pNext = &structures_.emplace_back(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET_ACCELERATION_STRUCTURE_KHR,
+                                                    nullptr, 1u, structure);
         } else {
             refuse(shaderBinding);
         }
@@ -142,10 +137,8 @@ class Writes {
             throw Error(
                 "{}: buffer '{}' bound to '{}' holds {} bytes, but device '{}' binds at most {}; "
                 "use the buffer's address instead (GL_EXT_buffer_reference)",
-                program_.name(), buffer.name(), shaderBinding.name, buffer.bytes(), device_.info().name,
-                limit);
-        if (!buffer)
-            throw Error("{}: the buffer bound to '{}' is empty", program_.name(), shaderBinding.name);
+                program_.name(), buffer.name(), shaderBinding.name, buffer.bytes(), device_.info().name, limit);
+        if (!buffer) throw Error("{}: the buffer bound to '{}' is empty", program_.name(), shaderBinding.name);
         return {buffer.handle(), 0, VK_WHOLE_SIZE};
     }
 
@@ -153,8 +146,7 @@ class Writes {
         if (shaderBinding.set != 0 || shaderBinding.type != given) refuse(shaderBinding);
     }
     [[noreturn]] void refuse(const ShaderBinding& shaderBinding) const {
-        throw Error("{}: binding '{}' takes {}", program_.name(), shaderBinding.name,
-                    kindName(shaderBinding.type));
+        throw Error("{}: binding '{}' takes {}", program_.name(), shaderBinding.name, kindName(shaderBinding.type));
     }
 
     const Device& device_;
@@ -171,8 +163,7 @@ void CommandStream::bind(VkCommandBuffer buffer, const Program& program, std::sp
     checkUses(program, given);
     vkCmdBindPipeline(buffer, program.bindPoint(), program.pipeline());
     if (const std::vector<std::byte> block = pushBlock(program, given); !block.empty())
-        vkCmdPushConstants(buffer, program.layout(), program.stages(), 0, uint32_t(block.size()),
-                           block.data());
+        vkCmdPushConstants(buffer, program.layout(), program.stages(), 0, uint32_t(block.size()), block.data());
 
     // Set 0 is pushed; the texture array is a descriptor set.
     const std::vector<const Binding*> matched = matchBindings(program, given);

@@ -63,9 +63,8 @@ class Number {
 };
 
 template <typename T>
-concept IsNumber =
-    std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> && !std::derived_from<T, Buffer> &&
-    !std::derived_from<T, Image> && !std::same_as<T, TextureArray>;
+concept IsNumber = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T> && !std::derived_from<T, Buffer> &&
+                   !std::derived_from<T, Image> && !std::same_as<T, TextureArray>;
 
 /// A resource or a number for a name in a shader. An image binds as the shader declares it: as a storage
 /// image (mip `level`), or sampled by `sampler`, by default nearest and clamped to the edge.
@@ -78,8 +77,7 @@ struct Binding {
     bool optional = false;
 
     Binding(std::string_view n, const Buffer& b) : name(n), value(&b) {}
-    Binding(std::string_view n, const Image& i, uint32_t mipLevel = 0)
-        : name(n), value(&i), level(mipLevel) {}
+    Binding(std::string_view n, const Image& i, uint32_t mipLevel = 0) : name(n), value(&i), level(mipLevel) {}
     Binding(std::string_view n, const Image& i, const Sampler& s) : name(n), value(&i), sampler(&s) {}
     Binding(std::string_view n, const TextureArray& t) : name(n), value(&t) {}
     Binding(std::string_view n, VkAccelerationStructureKHR a) : name(n), value(a) {}
@@ -113,8 +111,7 @@ class Bindings {
         Entry(const T& resource) : bindings(resource.bindings()) {}
     };
     Bindings(std::initializer_list<Entry> entries) {
-        for (const Entry& entry : entries)
-            all_.insert(all_.end(), entry.bindings.begin(), entry.bindings.end());
+        for (const Entry& entry : entries) all_.insert(all_.end(), entry.bindings.begin(), entry.bindings.end());
     }
     const std::vector<Binding>& all() const { return all_; }
 

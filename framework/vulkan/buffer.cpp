@@ -17,8 +17,7 @@ constexpr int kUnwritten = 0xff;
 }  // namespace
 
 // Delegating first makes the destructor clean up where the rest throws.
-Buffer::Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind,
-               VkBufferUsageFlags extraUsage)
+Buffer::Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind, VkBufferUsageFlags extraUsage)
     : Buffer() {
     device_ = &device;
     name_ = std::move(name);
@@ -31,8 +30,8 @@ Buffer::Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind
         return;
     }
     if (const uint64_t limit = device.limits().bufferBytes; bytes > limit)
-        throw SizeError("buffer '{}' would hold {:.1f} MiB; device '{}' allows {:.1f} MiB in one buffer",
-                        name_, double(bytes) / kMiB, device.info().name, double(limit) / kMiB);
+        throw SizeError("buffer '{}' would hold {:.1f} MiB; device '{}' allows {:.1f} MiB in one buffer", name_,
+                        double(bytes) / kMiB, device.info().name, double(limit) / kMiB);
 
     auto create = structure<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
     create.size = bytes;

@@ -45,8 +45,7 @@ CommandStream::CommandStream(Device& device)
     allocate.commandBufferCount = 1;
     check(vkAllocateCommandBuffers(device_.handle(), &allocate, &commands_), "vkAllocateCommandBuffers");
     auto fenceInfo = structure<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
-    check(vkCreateFence(device_.handle(), &fenceInfo, nullptr, fence_.receive(device_.handle())),
-          "vkCreateFence");
+    check(vkCreateFence(device_.handle(), &fenceInfo, nullptr, fence_.receive(device_.handle())), "vkCreateFence");
 }
 
 VkCommandBuffer CommandStream::beginRecording() {
@@ -101,14 +100,13 @@ void CommandStream::discard() {
     timestamps_ = 0;
 }
 
-void CommandStream::dispatch(const Program& program, const Invocations& invocations,
-                             const Bindings& bindings) {
+void CommandStream::dispatch(const Program& program, const Invocations& invocations, const Bindings& bindings) {
     const glm::uvec3 groups = invocations.groups(program.localSize());
     if (groups.x == 0 || groups.y == 0 || groups.z == 0) return;
     const uint32_t* limit = device_.properties().limits.maxComputeWorkGroupCount;
     if (groups.x > limit[0] || groups.y > limit[1] || groups.z > limit[2])
-        throw Error("{}: {}x{}x{} work groups; device '{}' allows {}x{}x{} in one dispatch", program.name(),
-                    groups.x, groups.y, groups.z, device_.info().name, limit[0], limit[1], limit[2]);
+        throw Error("{}: {}x{}x{} work groups; device '{}' allows {}x{}x{} in one dispatch", program.name(), groups.x,
+                    groups.y, groups.z, device_.info().name, limit[0], limit[1], limit[2]);
     const VkCommandBuffer commands = recordAfterBarrier();
     bind(commands, program, bindings.all());
     vkCmdDispatch(commands, groups.x, groups.y, groups.z);
@@ -202,9 +200,9 @@ uint32_t CommandStream::timestamp() {
         auto create = structure<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
         create.queryType = VK_QUERY_TYPE_TIMESTAMP;
         create.queryCount = kTimestampsPerPool;
-        check(vkCreateQueryPool(device_.handle(), &create, nullptr,
-                                queryPools_.emplace_back().receive(device_.handle())),
-              "vkCreateQueryPool");
+        check(
+            vkCreateQueryPool(device_.handle(), &create, nullptr, queryPools_.emplace_back().receive(device_.handle())),
+            "vkCreateQueryPool");
     }
     const VkCommandBuffer commands = recordAfterBarrier();
     if (query == 0) vkCmdResetQueryPool(commands, queryPools_[pool], 0, kTimestampsPerPool);
@@ -216,13 +214,12 @@ double CommandStream::millisecondsBetween(uint32_t first, uint32_t second) const
     for (const uint32_t index : {first, second})
         if (index >= timestamps_) throw Error("there is no time stamp {}", index);
     if (device_.isHost())
-        return std::chrono::duration<double, std::milli>(hostTimestamps_[second] - hostTimestamps_[first])
-            .count();
+        return std::chrono::duration<double, std::milli>(hostTimestamps_[second] - hostTimestamps_[first]).count();
     const auto ticks = [&](uint32_t index) {
         uint64_t value = 0;
-        const VkResult result = vkGetQueryPoolResults(
-            device_.handle(), queryPools_[index / kTimestampsPerPool], index % kTimestampsPerPool, 1,
-            sizeof value, &value, sizeof value, VK_QUERY_RESULT_64_BIT);
+        const VkResult result =
+            vkGetQueryPoolResults(device_.handle(), queryPools_[index / kTimestampsPerPool], index % kTimestampsPerPool,
+                                  1, sizeof value, &value, sizeof value, VK_QUERY_RESULT_64_BIT);
         check(result, "reading a time stamp (is the stream finished?)");
         return value;
     };

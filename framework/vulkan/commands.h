@@ -61,13 +61,12 @@ class CommandStream {
     /// size, and for a binding that the program doesn't declare.
     void dispatch(const Program& program, const Invocations& invocations, const Bindings& bindings);
     /// Draws `vertexCount` vertices, `instanceCount` times.
-    void draw(const Program& program, const RasterTargets& targets, uint32_t vertexCount,
-              const Bindings& bindings, uint32_t instanceCount = 1);
+    void draw(const Program& program, const RasterTargets& targets, uint32_t vertexCount, const Bindings& bindings,
+              uint32_t instanceCount = 1);
 
     void fill(const Buffer& buffer, uint32_t word);           ///< The whole buffer.
     void clear(const Image& image, VkClearColorValue value);  ///< All levels.
-    void copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset = 0,
-              uint64_t toOffset = 0);
+    void copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset = 0, uint64_t toOffset = 0);
     void copy(const Image& from, const Buffer& to, uint32_t level = 0);  ///< One level, tightly packed.
     void copy(const Buffer& from, const Image& to, uint32_t level = 0);
     /// Generates mip levels by linear blits: a box filter where extents are even. 2D and 3D.
@@ -88,8 +87,7 @@ class CommandStream {
     /// Records Vulkan commands (of acceleration structures) between barriers.
     void record(const std::function<void(VkCommandBuffer)>& commands);
     /// The same with a program and its bindings bound first (vkCmdTraceRaysKHR).
-    void record(const Program& program, const Bindings& bindings,
-                const std::function<void(VkCommandBuffer)>& commands);
+    void record(const Program& program, const Bindings& bindings, const std::function<void(VkCommandBuffer)>& commands);
 
     /// Labels the following commands in captures, until the matching end.
     void beginLabel(const std::string& name);

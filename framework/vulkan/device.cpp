@@ -10,6 +10,7 @@
 
 #include "base/byte_units.h"
 #include "vulkan/memory_pool.h"
+#include "vulkan/program_cache.h"
 #include "vulkan/size_error.h"
 #include "vulkan/structure.h"
 #include "vulkan/support.h"
@@ -49,19 +50,19 @@ DeviceSupport choose(std::vector<DeviceSupport> devices, const std::string& want
 std::string whyNoDevice(const std::vector<DeviceInfo>& devices) {
     constexpr const char* kLavapipe = "Mesa's lavapipe, package mesa-vulkan-drivers, version 25 or later";
     if (devices.empty())
-        return fmt::format(
-            "no Vulkan device found; install a Vulkan driver (for a machine without a GPU: {})", kLavapipe);
+        return fmt::format("no Vulkan device found; install a Vulkan driver (for a machine without a GPU: {})",
+                           kLavapipe);
     std::vector<std::string> lacks;
     for (const DeviceInfo& device : devices) {
         if (device.missing.empty()) return {};
         lacks.push_back(fmt::format("'{}' lacks {}", device.name, join(device.missing)));
     }
-    return fmt::format("no Vulkan device qualifies: {}; a newer driver may have it, or {}",
-                       fmt::join(lacks, "; "), kLavapipe);
+    return fmt::format("no Vulkan device qualifies: {}; a newer driver may have it, or {}", fmt::join(lacks, "; "),
+                       kLavapipe);
 }
 
 Device::Device(std::unique_ptr<Instance> instance, bool hasValidation)
-    : instance_(std::move(instance)), hasValidation_(hasValidation) {}
+    : instance_(std::move(instance)), hasValidation_(hasValidation), programs_(std::make_unique<ProgramCache>()) {}
 
 // Delegating first makes the destructor clean up where the rest throws.
 Device::Device(const DeviceOptions& options)
@@ -80,6 +81,7 @@ Device::Device(const DeviceOptions& options)
 Device::~Device() {
     if (!handle_) return;
     vkDeviceWaitIdle(handle_);
+    programs_.reset();
     pool_.reset();
     vkDestroyDescriptorSetLayout(handle_, textureSetLayout_, nullptr);
     vkDestroySampler(handle_, texelSampler_, nullptr);
@@ -99,8 +101,7 @@ void Device::createDevice(const DeviceSupport& support) {
     queueInfo.pQueuePriorities = &priority;
     std::vector<const char*> extensions;
     for (const std::string& name : support.extensions) extensions.push_back(name.c_str());
-    auto create =
-        structure<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &support.features->core);
+    auto create = structure<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &support.features->core);
     create.queueCreateInfoCount = 1;
     create.pQueueCreateInfos = &queueInfo;
     create.enabledExtensionCount = uint32_t(extensions.size());
@@ -126,19 +127,16 @@ void Device::readProperties() {
     append(maintenance3, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES);
     append(maintenance4, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES);
     append(push, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PUSH_DESCRIPTOR_PROPERTIES_KHR);
-    if (info_.rayPipeline)
-        append(rayPipeline_, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR);
+    if (info_.rayPipeline) append(rayPipeline_, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_PROPERTIES_KHR);
     if (info_.rayQuery || info_.rayPipeline)
-        append(accelerationStructure_,
-               VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR);
+        append(accelerationStructure_, VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR);
     vkGetPhysicalDeviceProperties2(physical_, &chain);
     rayPipeline_.pNext = accelerationStructure_.pNext = nullptr;
     properties_ = chain.properties;
     const VkPhysicalDeviceLimits& limits = properties_.limits;
     limits_ = {maintenance4.maxBufferSize, maintenance3.maxMemoryAllocationSize, push.maxPushDescriptors,
-               std::min({kMaxTextures, limits.maxPerStageDescriptorSampledImages,
-                         limits.maxPerStageDescriptorSamplers, limits.maxDescriptorSetSampledImages,
-                         limits.maxDescriptorSetSamplers})};
+               std::min({kMaxTextures, limits.maxPerStageDescriptorSampledImages, limits.maxPerStageDescriptorSamplers,
+                         limits.maxDescriptorSetSampledImages, limits.maxDescriptorSetSamplers})};
 
     // The limit is the size of the largest device-local heap.
     vkGetPhysicalDeviceMemoryProperties(physical_, &memoryProperties_);
@@ -157,12 +155,11 @@ void Device::createTextureSetLayout() {
         VK_DESCRIPTOR_BINDING_PARTIALLY_BOUND_BIT | VK_DESCRIPTOR_BINDING_VARIABLE_DESCRIPTOR_COUNT_BIT;
     VkDescriptorSetLayoutBindingFlagsCreateInfo bindingFlags{
         VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_BINDING_FLAGS_CREATE_INFO, nullptr, 1, &flags};
-    auto create = structure<VkDescriptorSetLayoutCreateInfo>(
-        VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, &bindingFlags);
+    auto create =
+        structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, &bindingFlags);
     create.bindingCount = 1;
     create.pBindings = &binding;
-    check(vkCreateDescriptorSetLayout(handle_, &create, nullptr, &textureSetLayout_),
-          "vkCreateDescriptorSetLayout");
+    check(vkCreateDescriptorSetLayout(handle_, &create, nullptr, &textureSetLayout_), "vkCreateDescriptorSetLayout");
 }
 
 void Device::createTexelSampler() {
@@ -219,8 +216,8 @@ std::vector<std::string> Device::validationMessages() const {
 
 void Device::reserveMemory(uint64_t bytes, const std::string& name) {
     if (memoryUsed_ > memoryLimit_ || bytes > memoryLimit_ - memoryUsed_)
-        throw SizeError("'{}' needs {:.1f} MiB of device memory; {:.1f} MiB of at most {:.1f} MiB are in use",
-                        name, double(bytes) / kMiB, double(memoryUsed_) / kMiB, double(memoryLimit_) / kMiB);
+        throw SizeError("'{}' needs {:.1f} MiB of device memory; {:.1f} MiB of at most {:.1f} MiB are in use", name,
+                        double(bytes) / kMiB, double(memoryUsed_) / kMiB, double(memoryLimit_) / kMiB);
     memoryUsed_ += bytes;
     memoryPeak_ = std::max(memoryPeak_, memoryUsed_);
     memoryByResource_[name] += bytes;
@@ -250,8 +247,7 @@ void check(VkResult result, const char* what) {
                                 std::pair{VK_TIMEOUT, "VK_TIMEOUT"}};
     if (result == VK_SUCCESS) return;
     const auto known = std::ranges::find(kNames, result, [](const auto& entry) { return entry.first; });
-    throw Error("{} failed: {} ({})", what, known == kNames.end() ? "another VkResult" : known->second,
-                int(result));
+    throw Error("{} failed: {} ({})", what, known == kNames.end() ? "another VkResult" : known->second, int(result));
 }
 
 }  // namespace voxray

@@ -13,6 +13,7 @@ namespace voxray {
 
 class Instance;
 class MemoryPool;
+class ProgramCache;
 struct DeviceSupport;
 
 /// Features of a Vulkan device that Voxray uses.
@@ -37,7 +38,7 @@ std::vector<DeviceInfo> listDevices();
 std::string whyNoDevice(const std::vector<DeviceInfo>& devices);
 
 struct DeviceOptions {
-    std::string name;  ///< Substring of the device's name, case-insensitive; empty: the best that qualifies.
+    std::string name;         ///< Substring of the device's name, case-insensitive; empty: the best that qualifies.
     bool validation = false;  ///< Enables the Khronos validation layer.
     bool isHost = false;      ///< No Vulkan (Device::isHost()).
 };
@@ -74,9 +75,7 @@ class Device {
         uint32_t textures = 0;  ///< In a TextureArray.
     };
     const Limits& limits() const { return limits_; }
-    const VkPhysicalDeviceRayTracingPipelinePropertiesKHR& rayPipelineProperties() const {
-        return rayPipeline_;
-    }
+    const VkPhysicalDeviceRayTracingPipelinePropertiesKHR& rayPipelineProperties() const { return rayPipeline_; }
     const VkPhysicalDeviceAccelerationStructurePropertiesKHR& accelerationStructureProperties() const {
         return accelerationStructure_;
     }
@@ -118,6 +117,7 @@ class Device {
     void reserveMemory(uint64_t bytes, const std::string& name);
     void releaseMemory(uint64_t bytes, const std::string& name);
     MemoryPool& memoryPool() { return *pool_; }
+    ProgramCache& programCache() { return *programs_; }
     /// Bytes in use now, by resource name.
     const std::map<std::string, uint64_t>& memoryByResource() const { return memoryByResource_; }
 
@@ -148,6 +148,7 @@ class Device {
     uint64_t memoryLimit_ = 0, memoryUsed_ = 0, memoryPeak_ = 0;
     std::map<std::string, uint64_t> memoryByResource_;
     std::unique_ptr<MemoryPool> pool_;
+    std::unique_ptr<ProgramCache> programs_;
 };
 
 /// @throws Error with the name of the result unless it is VK_SUCCESS.

@@ -58,21 +58,20 @@ VkImageCreateInfo describe(const ImageDesc& desc) {
 
 void checkSupported(const Device& device, const std::string& name, const VkImageCreateInfo& create) {
     VkImageFormatProperties offered{};
-    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(
-        device.physical(), create.format, create.imageType, create.tiling, create.usage, 0, &offered);
+    const VkResult result = vkGetPhysicalDeviceImageFormatProperties(device.physical(), create.format, create.imageType,
+                                                                     create.tiling, create.usage, 0, &offered);
     if (result != VK_SUCCESS)
         throw Error("device '{}' can't make image '{}': format {} with usage {:#x}", device.info().name, name,
                     int(create.format), create.usage);
     const VkExtent3D &wanted = create.extent, &largest = offered.maxExtent;
     if (wanted.width > largest.width || wanted.height > largest.height || wanted.depth > largest.depth ||
         create.mipLevels > offered.maxMipLevels)
-        throw SizeError("image '{}' of {}x{}x{} texels and {} levels is over device '{}''s {}x{}x{} and {}",
-                        name, wanted.width, wanted.height, wanted.depth, create.mipLevels, device.info().name,
-                        largest.width, largest.height, largest.depth, offered.maxMipLevels);
+        throw SizeError("image '{}' of {}x{}x{} texels and {} levels is over device '{}''s {}x{}x{} and {}", name,
+                        wanted.width, wanted.height, wanted.depth, create.mipLevels, device.info().name, largest.width,
+                        largest.height, largest.depth, offered.maxMipLevels);
 }
 
-VkImageView makeView(const Device& device, VkImage image, const ImageDesc& desc, uint32_t level,
-                     uint32_t levels) {
+VkImageView makeView(const Device& device, VkImage image, const ImageDesc& desc, uint32_t level, uint32_t levels) {
     auto create = structure<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
     create.image = image;
     create.viewType = desc.extent.z > 1 ? VK_IMAGE_VIEW_TYPE_3D : VK_IMAGE_VIEW_TYPE_2D;

@@ -27,8 +27,7 @@ bool hasInstanceExtension(std::string_view name) {
     return std::ranges::any_of(extensions, [&](const auto& e) { return name == e.extensionName; });
 }
 
-VKAPI_ATTR VkBool32 VKAPI_CALL collectMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
-                                              VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL collectMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     auto& log = *static_cast<ValidationLog*>(user);
     const std::lock_guard lock(log.mutex);
@@ -59,8 +58,8 @@ Instance::Instance(bool validation) {
 
     // Messages of the validation layer go to the log.
     if (!validation) return;
-    auto messenger = structure<VkDebugUtilsMessengerCreateInfoEXT>(
-        VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
+    auto messenger =
+        structure<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
     messenger.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     // No performance messages: they object to the layout GENERAL, which is intended.

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/files.h"
 #include "base/parallel.h"
+#include "vulkan/program_cache.h"
 
 namespace voxray {
 namespace {
@@ -75,7 +77,7 @@ void PassProgram::specialize(const SpecializationConstants& constants) {
 
 PassProgram::operator const Program&() const {
     if (!program_) throw Error("{}: it is dispatched, but plan() left it out", files_.front());
-    return program_;
+    return *program_;
 }
 
 Kernel::Kernel(ProgramOwner& owner, std::string_view file, Defines defines, const char* sourceFile)
@@ -93,6 +95,13 @@ RasterPipeline::RasterPipeline(ProgramOwner& owner, const std::vector<std::strin
 void RasterPipeline::setState(RasterState state) {
     state_ = std::move(state);
     program_ = {};
+}
+
+void RasterPipeline::addState(Hasher& hash) const {
+    hash.addPlain(state_.colorFormats.size());
+    for (const VkFormat format : state_.colorFormats) hash.addPlain(format);
+    hash.addPlain(state_.depthFormat).addPlain(state_.depthCompare).addPlain(state_.cull);
+    hash.addPlain(state_.frontFace).addPlain(state_.writeColor);
 }
 
 Program RasterPipeline::make(Device& device, std::span<const ShaderModule> modules,
@@ -118,11 +127,17 @@ void compile(const std::vector<PassProgram*>& programs, Device& device, const Sh
     forEachInParallel(pending.size(), [&](size_t i) {
         PassProgram& program = *pending[i];
         std::vector<ShaderModule> stages;
+        Hasher hash;
         for (const std::string& file : program.files_) {
             const auto source = std::ranges::lower_bound(sources, Source{file, program.defines_});
-            stages.push_back(modules[size_t(source - sources.begin())]);
+            const ShaderModule& module = stages.emplace_back(modules[size_t(source - sources.begin())]);
+            hash.add(file).addPlain(module.spirv.size());
+            hash.add(module.spirv.data(), module.spirv.size() * sizeof(uint32_t));
         }
-        program.program_ = program.make(device, stages, program.constants_);
+        for (const auto& [name, value] : program.constants_) hash.add(name).addPlain(value);
+        program.addState(hash);
+        program.program_ =
+            device.programCache().get(hash.hex(), [&] { return program.make(device, stages, program.constants_); });
     });
 }
 

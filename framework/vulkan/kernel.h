@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 /// Programs as members of a pass, which register with it. The graph compiles those of all passes in parallel.
 namespace voxray {
 
+class Hasher;
 class PassProgram;
 
 /// Owner of programs: a pass, passed on to the classes that several passes share.
@@ -49,12 +51,14 @@ class PassProgram {
  protected:
     PassProgram(ProgramOwner& owner, std::vector<std::string> files, Defines defines);
 
-    Program program_;
+    std::shared_ptr<const Program> program_;  ///< Null until it is compiled.
 
  private:
     friend void compile(const std::vector<PassProgram*>&, Device&, const ShaderCompiler&);
     virtual Program make(Device& device, std::span<const ShaderModule> modules,
                          const SpecializationConstants& constants) const = 0;
+    /// Adds what the program depends on besides modules and constants.
+    virtual void addState(Hasher&) const {}
 
     ProgramOwner& owner_;
     std::vector<std::string> files_;  ///< Relative to the source root.
@@ -67,8 +71,7 @@ class PassProgram {
 class Kernel final : public PassProgram {
  public:
     /// @param file relative to the folder of `sourceFile`, or from "passes/" or "shaders/" on.
-    Kernel(ProgramOwner& owner, std::string_view file, Defines defines = {},
-           const char* sourceFile = __builtin_FILE());
+    Kernel(ProgramOwner& owner, std::string_view file, Defines defines = {}, const char* sourceFile = __builtin_FILE());
 
  private:
     Program make(Device& device, std::span<const ShaderModule> modules,
@@ -87,11 +90,13 @@ class RasterPipeline final : public PassProgram {
  private:
     Program make(Device& device, std::span<const ShaderModule> modules,
                  const SpecializationConstants& constants) const override;
+    void addState(Hasher& hash) const override;
 
     RasterState state_;
 };
 
-/// Compiles the used programs that aren't compiled yet, on all cores, shared shaders once.
+/// Compiles the used programs that aren't compiled yet, on all cores, shared shaders once. Programs that are
+/// equal to those of another graph of the device are shared with it.
 /// @throws Error of the first that fails, as ShaderCompiler::compile() and makeComputeProgram().
 void compile(const std::vector<PassProgram*>& programs, Device& device, const ShaderCompiler& compiler);
 

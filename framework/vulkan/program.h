@@ -111,8 +111,7 @@ class Program {
 using SpecializationConstants = std::map<std::string, uint32_t>;
 
 /// @throws Error if the shader uses an unsupported feature or kind of binding.
-Program makeComputeProgram(Device& device, const ShaderModule& module,
-                           const SpecializationConstants& constants = {});
+Program makeComputeProgram(Device& device, const ShaderModule& module, const SpecializationConstants& constants = {});
 
 /// Fixed state of a raster pipeline. Vertices are pulled from storage buffers: there are no vertex inputs.
 /// Viewport and scissor are dynamic; no blending.

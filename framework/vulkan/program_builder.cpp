@@ -16,14 +16,12 @@ ProgramBuilder::ProgramBuilder(Device& device, std::span<const ShaderModule> mod
         program_.name_ += (program_.name_.empty() ? "" : " + ") + module.file;
         program_.stages_ |= module.stage;
         program_.pushConstantBytes_ = std::max(program_.pushConstantBytes_, module.pushConstantBytes);
-        if (module.pushMembers.size() > program_.pushMembers_.size())
-            program_.pushMembers_ = module.pushMembers;
+        if (module.pushMembers.size() > program_.pushMembers_.size()) program_.pushMembers_ = module.pushMembers;
         if (module.stage == VK_SHADER_STAGE_COMPUTE_BIT) program_.localSize_ = module.localSize;
         mergeBindings(module);
     }
     for (const ShaderModule& module : modules)
-        if (!std::ranges::equal(module.pushMembers,
-                                std::span(program_.pushMembers_).first(module.pushMembers.size())))
+        if (!std::ranges::equal(module.pushMembers, std::span(program_.pushMembers_).first(module.pushMembers.size())))
             throw Error("{}: stages declare different push constants", program_.name_);
     makeLayout();
     makeStages(modules, constants);
@@ -35,8 +33,7 @@ void ProgramBuilder::mergeBindings(const ShaderModule& module) {
         if (known == program_.bindings_.end()) {
             program_.bindings_.push_back(binding);
             // Set 1 has only the textures.
-            program_.bindings_.back().binding =
-                binding.set == 0 ? uint32_t(program_.bindings_.size() - 1) : 0;
+            program_.bindings_.back().binding = binding.set == 0 ? uint32_t(program_.bindings_.size() - 1) : 0;
         } else if (known->set != binding.set || known->type != binding.type) {
             throw Error("{}: stages disagree on what '{}' is", program_.name_, binding.name);
         }
@@ -66,14 +63,13 @@ void ProgramBuilder::makeLayout() {
     if (pushed.size() > maxPushed)
         throw Error("{}: {} bindings in set 0; device '{}' allows {}", program_.name_, pushed.size(),
                     device_.info().name, maxPushed);
-    auto set =
-        structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
+    auto set = structure<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
     set.flags = VK_DESCRIPTOR_SET_LAYOUT_CREATE_PUSH_DESCRIPTOR_BIT_KHR;
     set.bindingCount = uint32_t(pushed.size());
     set.pBindings = pushed.data();
-    check(vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr,
-                                      program_.pushSetLayout_.receive(device_.handle())),
-          "vkCreateDescriptorSetLayout");
+    check(
+        vkCreateDescriptorSetLayout(device_.handle(), &set, nullptr, program_.pushSetLayout_.receive(device_.handle())),
+        "vkCreateDescriptorSetLayout");
 
     // Set 1: the scene's textures.
     const VkDescriptorSetLayout sets[] = {program_.pushSetLayout_, device_.textureSetLayout()};
@@ -87,8 +83,7 @@ void ProgramBuilder::makeLayout() {
     create.pSetLayouts = sets;
     create.pushConstantRangeCount = range.size > 0 ? 1 : 0;
     create.pPushConstantRanges = &range;
-    check(vkCreatePipelineLayout(device_.handle(), &create, nullptr,
-                                 program_.layout_.receive(device_.handle())),
+    check(vkCreatePipelineLayout(device_.handle(), &create, nullptr, program_.layout_.receive(device_.handle())),
           "vkCreatePipelineLayout");
 }
 
@@ -99,29 +94,24 @@ uint32_t ProgramBuilder::constantId(std::span<const ShaderModule> modules, const
             if (constant.name == name) return constant.id;
             names.push_back(constant.name);
         }
-    throw Error("{}: there is no specialization constant '{}'{}", program_.name_, name,
-                didYouMean(name, names));
+    throw Error("{}: there is no specialization constant '{}'{}", program_.name_, name, didYouMean(name, names));
 }
 
-void ProgramBuilder::makeStages(std::span<const ShaderModule> modules,
-                                const SpecializationConstants& constants) {
+void ProgramBuilder::makeStages(std::span<const ShaderModule> modules, const SpecializationConstants& constants) {
     for (const auto& [name, value] : constants) {
-        entries_.push_back(
-            {constantId(modules, name), uint32_t(values_.size() * sizeof(uint32_t)), sizeof(uint32_t)});
+        entries_.push_back({constantId(modules, name), uint32_t(values_.size() * sizeof(uint32_t)), sizeof(uint32_t)});
         values_.push_back(value);
     }
-    specialization_ = {uint32_t(entries_.size()), entries_.data(), values_.size() * sizeof(uint32_t),
-                       values_.data()};
+    specialization_ = {uint32_t(entries_.size()), entries_.data(), values_.size() * sizeof(uint32_t), values_.data()};
     for (const ShaderModule& module : modules) {
         auto create = structure<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
         const std::vector<uint32_t> spirv = numbered(module);
         create.codeSize = spirv.size() * sizeof(uint32_t);
         create.pCode = spirv.data();
-        check(vkCreateShaderModule(device_.handle(), &create, nullptr,
-                                   modules_.emplace_back().receive(device_.handle())),
-              "vkCreateShaderModule");
-        auto stage =
-            structure<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
+        check(
+            vkCreateShaderModule(device_.handle(), &create, nullptr, modules_.emplace_back().receive(device_.handle())),
+            "vkCreateShaderModule");
+        auto stage = structure<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
         stage.stage = module.stage;
         stage.module = modules_.back();
         stage.pName = "main";

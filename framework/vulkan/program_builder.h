@@ -14,8 +14,8 @@ namespace voxray {
 class ProgramBuilder {
  public:
     /// @throws Error if stages disagree on a binding, a constant is unknown, or limits are exceeded.
-    ProgramBuilder(Device& device, std::span<const ShaderModule> modules,
-                   const SpecializationConstants& constants, VkPipelineBindPoint bindPoint);
+    ProgramBuilder(Device& device, std::span<const ShaderModule> modules, const SpecializationConstants& constants,
+                   VkPipelineBindPoint bindPoint);
     ProgramBuilder(const ProgramBuilder&) = delete;
     ProgramBuilder& operator=(const ProgramBuilder&) = delete;
 

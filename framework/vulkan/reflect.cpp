@@ -26,15 +26,14 @@ class Reflection {
         context_.reset(context);
         spvc_parsed_ir ir = nullptr;
         check(spvc_context_parse_spirv(context, module.spirv.data(), module.spirv.size(), &ir));
-        check(spvc_context_create_compiler(context, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP,
-                                           &compiler_));
+        check(
+            spvc_context_create_compiler(context, SPVC_BACKEND_NONE, ir, SPVC_CAPTURE_MODE_TAKE_OWNERSHIP, &compiler_));
         spvc_set active = nullptr;
         check(spvc_compiler_get_active_interface_variables(compiler_, &active));
         check(spvc_compiler_create_shader_resources_for_active_variables(compiler_, &resources_, active));
     }
 
-    void addBindings(spvc_resource_type kind, VkDescriptorType type,
-                     std::vector<ShaderBinding>& bindings) const {
+    void addBindings(spvc_resource_type kind, VkDescriptorType type, std::vector<ShaderBinding>& bindings) const {
         for (const spvc_reflected_resource& resource : list(kind)) {
             // A block's instance name, else its type's name; a variable's name.
             std::string name = spvc_compiler_get_name(compiler_, resource.id);
@@ -87,8 +86,7 @@ class Reflection {
             check(spvc_compiler_type_struct_member_offset(compiler_, type, i, &members[i].offset));
             check(spvc_compiler_get_declared_struct_member_size(compiler_, type, i, &bytes));
             members[i].bytes = uint32_t(bytes);
-            members[i].kind =
-                kindOf(spvc_compiler_get_type_handle(compiler_, spvc_type_get_member_type(type, i)));
+            members[i].kind = kindOf(spvc_compiler_get_type_handle(compiler_, spvc_type_get_member_type(type, i)));
         }
         return members;
     }
@@ -106,16 +104,15 @@ class Reflection {
     glm::uvec3 localSize() const {
         glm::uvec3 size;
         for (unsigned axis = 0; axis < 3; ++axis)
-            size[int(axis)] = spvc_compiler_get_execution_mode_argument_by_index(
-                compiler_, SpvExecutionModeLocalSize, axis);
+            size[int(axis)] =
+                spvc_compiler_get_execution_mode_argument_by_index(compiler_, SpvExecutionModeLocalSize, axis);
         return size;
     }
 
  private:
     void check(spvc_result result) const {
         if (result != SPVC_SUCCESS)
-            throw Error("{}: can't reflect the shader: {}", file_,
-                        spvc_context_get_last_error_string(context_.get()));
+            throw Error("{}: can't reflect the shader: {}", file_, spvc_context_get_last_error_string(context_.get()));
     }
 
     std::span<const spvc_reflected_resource> list(spvc_resource_type kind) const {
@@ -130,8 +127,7 @@ class Reflection {
     }
 
     static NumberKind kindOf(spvc_type type) {
-        if (spvc_type_get_storage_class(type) == SpvStorageClassPhysicalStorageBuffer)
-            return NumberKind::Address;
+        if (spvc_type_get_storage_class(type) == SpvStorageClassPhysicalStorageBuffer) return NumberKind::Address;
         switch (spvc_type_get_basetype(type)) {
             case SPVC_BASETYPE_FP32:
                 return NumberKind::Float;
@@ -174,8 +170,7 @@ void reflect(ShaderModule& module) {
     for (const auto& [kind, type] : kinds) reflection.addBindings(kind, type, module.bindings);
     reflection.refuse(SPVC_RESOURCE_TYPE_UNIFORM_BUFFER, "a uniform buffer (use a readonly storage buffer)");
     reflection.refuse(SPVC_RESOURCE_TYPE_SEPARATE_IMAGE, "a separate image (use sampler2D or sampler3D)");
-    reflection.refuse(SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS,
-                      "a separate sampler (use sampler2D or sampler3D)");
+    reflection.refuse(SPVC_RESOURCE_TYPE_SEPARATE_SAMPLERS, "a separate sampler (use sampler2D or sampler3D)");
     reflection.refuse(SPVC_RESOURCE_TYPE_SUBPASS_INPUT, "a subpass input");
     module.pushConstantBytes = reflection.pushConstantBytes();
     module.pushMembers = reflection.pushMembers();

@@ -15,16 +15,14 @@ Sampler::Sampler(Device& device, Filter filter, VkSamplerAddressMode wrapU, VkSa
     create.addressModeV = wrapV;
     create.addressModeW = wrapV;
     create.maxLod = VK_LOD_CLAMP_NONE;
-    check(vkCreateSampler(device.handle(), &create, nullptr, handle_.receive(device.handle())),
-          "vkCreateSampler");
+    check(vkCreateSampler(device.handle(), &create, nullptr, handle_.receive(device.handle())), "vkCreateSampler");
 }
 
 TextureArray::TextureArray(Device& device, std::span<const Entry> entries) {
     const uint32_t count = uint32_t(entries.size());
     if (count == 0) throw Error("a texture array needs at least one texture");
     if (entries.size() > device.limits().textures)
-        throw Error("the scene has {} textures; at most {} are supported", entries.size(),
-                    device.limits().textures);
+        throw Error("the scene has {} textures; at most {} are supported", entries.size(), device.limits().textures);
 
     // A pool for one set of the array's length.
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, count};
@@ -37,8 +35,7 @@ TextureArray::TextureArray(Device& device, std::span<const Entry> entries) {
     const VkDescriptorSetLayout layout = device.textureSetLayout();
     VkDescriptorSetVariableDescriptorCountAllocateInfo length{
         VK_STRUCTURE_TYPE_DESCRIPTOR_SET_VARIABLE_DESCRIPTOR_COUNT_ALLOCATE_INFO, nullptr, 1, &count};
-    auto allocate =
-        structure<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, &length);
+    auto allocate = structure<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO, &length);
     allocate.descriptorPool = pool_;
     allocate.descriptorSetCount = 1;
     allocate.pSetLayouts = &layout;

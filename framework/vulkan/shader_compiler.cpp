@@ -183,8 +183,7 @@ ShaderModule ShaderCompiler::compile(const std::string& file, const Defines& def
 
     const bool cached = !cacheFolder_.empty();
     const std::filesystem::path path =
-        cached ? cacheFolder_ / "spirv" / (cacheKey(file, sources, defines) + ".spv")
-               : std::filesystem::path();
+        cached ? cacheFolder_ / "spirv" / (cacheKey(file, sources, defines) + ".spv") : std::filesystem::path();
     if (cached) module.spirv = readCached(path);
     if (module.spirv.empty()) {
         module.spirv = compileGlsl(file, stage, sources, defines);

@@ -49,9 +49,9 @@ const std::array kFeatures{
 
 constexpr const char* kRequiredExtension = VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
 
-const std::array kRayTracingExtensions{
-    VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME,
-    VK_KHR_RAY_QUERY_EXTENSION_NAME, VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME};
+const std::array kRayTracingExtensions{VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
+                                       VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME, VK_KHR_RAY_QUERY_EXTENSION_NAME,
+                                       VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME};
 
 bool contains(const std::vector<std::string>& list, const char* name) {
     return std::ranges::find(list, name) != list.end();
@@ -79,8 +79,7 @@ std::vector<std::string> chooseExtensions(const std::vector<std::string>& availa
 }
 
 /// Enables the wanted features that `available` has, and names the required ones that it lacks.
-std::unique_ptr<FeatureChain> chooseFeatures(FeatureChain& available,
-                                             const std::vector<std::string>& extensions,
+std::unique_ptr<FeatureChain> chooseFeatures(FeatureChain& available, const std::vector<std::string>& extensions,
                                              std::vector<std::string>& missing) {
     auto enabled = std::make_unique<FeatureChain>();
     for (const WantedFeature& feature : kFeatures) {
@@ -124,10 +123,8 @@ uint32_t filteredVolumeSide(VkPhysicalDevice physical) {
 DeviceSupport inspect(VkPhysicalDevice physical) {
     DeviceSupport support;
     support.physical = physical;
-    auto driver =
-        structure<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES);
-    auto properties =
-        structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver);
+    auto driver = structure<VkPhysicalDeviceDriverProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES);
+    auto properties = structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver);
     vkGetPhysicalDeviceProperties2(physical, &properties);
     DeviceInfo& info = support.info;
     info.name = properties.properties.deviceName;
@@ -215,8 +212,7 @@ std::vector<DeviceInfo> listDevices() {
     } catch (const Error&) {
         return infos;  // No Vulkan at all: the list is empty, as documented.
     }
-    for (DeviceSupport& support : inspectDevices(instance->handle()))
-        infos.push_back(std::move(support.info));
+    for (DeviceSupport& support : inspectDevices(instance->handle())) infos.push_back(std::move(support.info));
     return infos;
 }
 

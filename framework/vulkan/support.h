@@ -43,8 +43,7 @@ class Instance {
 
 /// All feature structures that Voxray uses, chained for a query or for device creation.
 struct FeatureChain {
-    VkPhysicalDeviceFeatures2 core =
-        structure<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+    VkPhysicalDeviceFeatures2 core = structure<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
     VkPhysicalDeviceVulkan11Features v11 =
         structure<VkPhysicalDeviceVulkan11Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES);
     VkPhysicalDeviceVulkan12Features v12 =
@@ -54,8 +53,8 @@ struct FeatureChain {
     VkPhysicalDeviceAccelerationStructureFeaturesKHR accelerationStructure =
         structure<VkPhysicalDeviceAccelerationStructureFeaturesKHR>(
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_FEATURES_KHR);
-    VkPhysicalDeviceRayQueryFeaturesKHR rayQuery = structure<VkPhysicalDeviceRayQueryFeaturesKHR>(
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR);
+    VkPhysicalDeviceRayQueryFeaturesKHR rayQuery =
+        structure<VkPhysicalDeviceRayQueryFeaturesKHR>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_QUERY_FEATURES_KHR);
     VkPhysicalDeviceRayTracingPipelineFeaturesKHR rayPipeline =
         structure<VkPhysicalDeviceRayTracingPipelineFeaturesKHR>(
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_RAY_TRACING_PIPELINE_FEATURES_KHR);

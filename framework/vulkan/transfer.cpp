@@ -44,8 +44,8 @@ std::byte* mappedBytes(const Buffer& buffer) {
 
 void checkRange(const Buffer& buffer, uint64_t offset, uint64_t bytes) {
     if (offset > buffer.bytes() || bytes > buffer.bytes() - offset)
-        throw Error("buffer '{}' holds {} bytes; {} at {} are out of range", buffer.name(), buffer.bytes(),
-                    bytes, offset);
+        throw Error("buffer '{}' holds {} bytes; {} at {} are out of range", buffer.name(), buffer.bytes(), bytes,
+                    offset);
 }
 
 VkOffset3D corner(glm::uvec3 size) {
@@ -58,10 +58,8 @@ CommandStream::Staged CommandStream::stage(std::span<const std::byte> data) {
     // Small data goes into the persistent buffer: on a GPU, an allocation takes longer than most passes.
     if (const uint64_t room = smallUploads_.bytes() - smallUploadBytes_; data.size() <= room) {
         const Staged staged{&smallUploads_, smallUploadBytes_};
-        std::memcpy(static_cast<std::byte*>(smallUploads_.mapped()) + staged.offset, data.data(),
-                    data.size());
-        const uint64_t aligned =
-            (data.size() + kStagingAlignment - 1) / kStagingAlignment * kStagingAlignment;
+        std::memcpy(static_cast<std::byte*>(smallUploads_.mapped()) + staged.offset, data.data(), data.size());
+        const uint64_t aligned = (data.size() + kStagingAlignment - 1) / kStagingAlignment * kStagingAlignment;
         smallUploadBytes_ += std::min(aligned, room);
         return staged;
     }
@@ -83,8 +81,7 @@ void CommandStream::clear(const Image& image, VkClearColorValue value) {
     vkCmdClearColorImage(recordAfterBarrier(), image.handle(), VK_IMAGE_LAYOUT_GENERAL, &value, 1, &range);
 }
 
-void CommandStream::copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset,
-                         uint64_t toOffset) {
+void CommandStream::copy(const Buffer& from, const Buffer& to, uint64_t bytes, uint64_t fromOffset, uint64_t toOffset) {
     checkRange(from, fromOffset, bytes);
     checkRange(to, toOffset, bytes);
     if (bytes == 0) return;
@@ -103,8 +100,7 @@ void CommandStream::copy(const Image& from, const Buffer& to, uint32_t level) {
         std::memcpy(to.mapped(), hostTexels(from, level), levelBytes(from.desc(), level));
         return;
     }
-    vkCmdCopyImageToBuffer(recordAfterBarrier(), from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1,
-                           &region);
+    vkCmdCopyImageToBuffer(recordAfterBarrier(), from.handle(), VK_IMAGE_LAYOUT_GENERAL, to.handle(), 1, &region);
 }
 
 void CommandStream::copy(const Buffer& from, const Image& to, uint32_t level) {
@@ -114,8 +110,7 @@ void CommandStream::copy(const Buffer& from, const Image& to, uint32_t level) {
         std::memcpy(hostTexels(to, level), from.mapped(), levelBytes(to.desc(), level));
         return;
     }
-    vkCmdCopyBufferToImage(recordAfterBarrier(), from.handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1,
-                           &region);
+    vkCmdCopyBufferToImage(recordAfterBarrier(), from.handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1, &region);
 }
 
 void CommandStream::makeMipLevels(const Image& image) {
@@ -125,8 +120,8 @@ void CommandStream::makeMipLevels(const Image& image) {
     constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT |
                                              VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
     if ((properties.optimalTilingFeatures & kNeeded) != kNeeded)
-        throw Error("image '{}': device '{}' has no linear blits of format {}", image.name(),
-                    device_.info().name, int(desc.format));
+        throw Error("image '{}': device '{}' has no linear blits of format {}", image.name(), device_.info().name,
+                    int(desc.format));
     for (uint32_t level = 1; level < desc.mipLevels; ++level) {
         VkImageBlit region{};
         region.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level - 1, 0, 1};
@@ -178,8 +173,8 @@ void CommandStream::upload(const Image& to, std::span<const std::byte> data, uin
         region.bufferOffset = staged.offset;
         (isVolume ? region.imageOffset.z : region.imageOffset.y) = int32_t(first);
         (isVolume ? region.imageExtent.depth : region.imageExtent.height) = count;
-        vkCmdCopyBufferToImage(recordAfterBarrier(), staged.buffer->handle(), to.handle(),
-                               VK_IMAGE_LAYOUT_GENERAL, 1, &region);
+        vkCmdCopyBufferToImage(recordAfterBarrier(), staged.buffer->handle(), to.handle(), VK_IMAGE_LAYOUT_GENERAL, 1,
+                               &region);
     }
 }
 

@@ -31,7 +31,7 @@ struct VoxelPatches : Resource {
     Buffer componentOfGroup;  ///< Component of each group, or NO_COMPONENT where its voxel has no cluster.
     /// After an update for moving surfaces: index of each group in the previous build, or NO_GROUP where its
     /// voxel has changed. Empty after a build from scratch.
-    Buffer previousGroups;
+    Buffer previousGroupIndex;
 
     /// The bindings of shaders that process the patches of cluster components.
     std::vector<Binding> componentBindings() const {
@@ -43,12 +43,12 @@ struct VoxelPatches : Resource {
     /// Frees the buffers.
     void clear() {
         surfels = {}, surfelIndex = {}, firstGroup = {}, groups = {}, materials = {}, firstNeighbour = {};
-        neighbours = {}, components = {}, memberGroups = {}, componentOfGroup = {}, previousGroups = {};
+        neighbours = {}, components = {}, memberGroups = {}, componentOfGroup = {}, previousGroupIndex = {};
     }
     uint64_t bytes() const {
-        return surfels.bytes() + surfelIndex.bytes() + firstGroup.bytes() + groups.bytes() +
-               materials.bytes() + firstNeighbour.bytes() + neighbours.bytes() + components.bytes() +
-               memberGroups.bytes() + componentOfGroup.bytes() + previousGroups.bytes();
+        return surfels.bytes() + surfelIndex.bytes() + firstGroup.bytes() + groups.bytes() + materials.bytes() +
+               firstNeighbour.bytes() + neighbours.bytes() + components.bytes() + memberGroups.bytes() +
+               componentOfGroup.bytes() + previousGroupIndex.bytes();
     }
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }
 };

@@ -16,8 +16,7 @@ void VoxelPointRays::plan(PassPlan& plan) {
     plan.scratchBuffer(occluded_, "visibility of points", kBatchRays * sizeof(uint32_t));
 }
 
-void VoxelPointRays::trace(PassContext& context, uint32_t voxels,
-                           const std::function<void(const Batch&)>& generate,
+void VoxelPointRays::trace(PassContext& context, uint32_t voxels, const std::function<void(const Batch&)>& generate,
                            const std::function<void(const Batch&)>& use) const {
     const uint32_t perBatch = kBatchRays / pointsPerVoxel_;
     for (uint32_t first = 0; first < voxels; first += perBatch) {

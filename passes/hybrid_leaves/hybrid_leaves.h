@@ -46,9 +46,7 @@ struct HybridLeaves : Resource {
     SurfaceVoxels masked;
 
     /// The voxels that leaves are indexed by. @param surface the surface voxels that they are built over.
-    const SurfaceVoxels& voxels(const SurfaceVoxels& surface) const {
-        return masked.occupancy ? masked : surface;
-    }
+    const SurfaceVoxels& voxels(const SurfaceVoxels& surface) const { return masked.occupancy ? masked : surface; }
     std::vector<Binding> bindings() const { return {ifUsed({"hybridLeaves", header})}; }
     uint64_t structureBytes() const {
         return header.bytes() + words.bytes() + masked.occupancy.bytes() + masked.rank.bytes();

@@ -12,8 +12,7 @@ constexpr uint32_t kRaysPerLaunch = 1u << 26;
 }  // namespace
 
 HybridTracer::HybridTracer(ProgramOwner& owner, HybridTraversal traversal)
-    : march_(owner,
-             traversal == HybridTraversal::Hierarchical ? VoxelTraversal::Bricks : VoxelTraversal::SvoVoxels),
+    : march_(owner, traversal == HybridTraversal::Hierarchical ? VoxelTraversal::Bricks : VoxelTraversal::SvoVoxels),
       closestHit_(owner, "hybrid_tracer.comp", march_.defines()),
       occluded_(owner, "hybrid_tracer.comp", march_.defines()) {}
 
@@ -34,8 +33,8 @@ void HybridTracer::begin(CommandStream& stream, const GpuScene& scene, const Sur
     maxWidth_ = maxWidth;
 }
 
-void HybridTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
-                         uint32_t count, Coherence) {
+void HybridTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
+                         Coherence) {
     if (starts_ && starts_->bytes() < count * sizeof(gpu::RayStart))
         throw Error("hybrid tracer: a buffer of the starts of {} rays is too small", count);
     for (uint32_t first = 0; first < count;) {

@@ -33,14 +33,14 @@ class HybridTracer final : public RayTracer {
     /// Sets voxels and leaves, and resets counts: before the first rays and after either has changed. All
     /// arguments must outlive the rays. Waits for the device where it builds the octree. @param maxWidth m:
     /// rays end where they are wider (HIT_IS_WIDE).
-    void begin(CommandStream& stream, const GpuScene& scene, const SurfaceVoxels& voxels,
-               const HybridLeaves& leaves, float maxWidth = std::numeric_limits<float>::infinity());
+    void begin(CommandStream& stream, const GpuScene& scene, const SurfaceVoxels& voxels, const HybridLeaves& leaves,
+               float maxWidth = std::numeric_limits<float>::infinity());
     /// For rays that start on surfaces or widen. @param starts a gpu::RayStart (hybrid_types.h) for each ray
     /// of the following calls, which it must outlive; null: rays without surface and width.
     void setStarts(const Buffer* starts) { starts_ = starts; }
     /// Of bricks or octree.
     size_t memoryBytes() const override { return march_.memoryBytes(); }
-    /// Steps and node visits (PassContext::voxelCounts), and ray-triangle tests, since begin(): 64 bits each.
+    /// Steps and node visits (PassContext::visitCounts), and ray-triangle tests, since begin(): 64 bits each.
     const Buffer& counts() const { return march_.counts(); }
     const Buffer& testCounts() const { return testCounts_; }
 

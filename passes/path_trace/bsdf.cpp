@@ -25,8 +25,7 @@ glm::vec3 sampleVisibleNormal(const glm::vec3& out, float alpha, float u, float 
 
 }  // namespace
 
-BsdfValue Bsdf::evaluateLayers(const glm::vec3& out, const glm::vec3& in, const glm::vec3& n,
-                               float cosIn) const {
+BsdfValue Bsdf::evaluateLayers(const glm::vec3& out, const glm::vec3& in, const glm::vec3& n, float cosIn) const {
     const float cosOut = std::max(glm::dot(n, out), 1e-5f);
     const glm::vec3 sum = out + in;
     const float length2 = glm::dot(sum, sum);

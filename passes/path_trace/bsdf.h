@@ -26,12 +26,11 @@ struct BsdfSample {
 /// Reflection at a point: a Lambert lobe under a GGX lobe, combined by Schlick's Fresnel term. All vectors
 /// are unit length and point away from the surface; `n` is the shading normal.
 struct Bsdf {
-    glm::vec3 diffuse{0.0f};  ///< Base color * (1 - metallic).
-    float alpha = 1.0f;       ///< Roughness squared.
-    glm::vec3 f0{0.0f};       ///< Specular reflectance at normal incidence, metal and dielectric mixed.
-    float f90 = 0.0f;         ///< The same at grazing incidence.
-    float dielectricF0 =
-        0.0f;  ///< Maximum component of the dielectric layer's f0, which attenuates diffuse light.
+    glm::vec3 diffuse{0.0f};    ///< Base color * (1 - metallic).
+    float alpha = 1.0f;         ///< Roughness squared.
+    glm::vec3 f0{0.0f};         ///< Specular reflectance at normal incidence, metal and dielectric mixed.
+    float f90 = 0.0f;           ///< The same at grazing incidence.
+    float dielectricF0 = 0.0f;  ///< Maximum component of the dielectric layer's f0, which attenuates diffuse light.
     float dielectricF90 = 0.0f;
 
     /// From a material's parameters, with textures multiplied in. `specular` and `specularColor` are those of
@@ -98,8 +97,7 @@ struct Bsdf {
     }
 
  private:
-    BsdfValue evaluateLayers(const glm::vec3& out, const glm::vec3& in, const glm::vec3& n,
-                             float cosIn) const;
+    BsdfValue evaluateLayers(const glm::vec3& out, const glm::vec3& in, const glm::vec3& n, float cosIn) const;
     BsdfSample sampleLayers(const glm::vec3& out, const Frame& frame, glm::vec2 u, float uLobe) const;
 };
 

@@ -20,8 +20,8 @@ uint32_t sampleCdf(const float* cdf, uint32_t count, float u, float& offset) {
 
 /// A texel of a map that repeats horizontally and is clamped vertically; x at least -width.
 glm::vec3 texelAt(const ImageF& map, int64_t x, int64_t y) {
-    const float* p = map.pixel(uint32_t((x + map.width) % map.width),
-                               uint32_t(std::clamp<int64_t>(y, 0, int64_t(map.height) - 1)));
+    const float* p =
+        map.pixel(uint32_t((x + map.width) % map.width), uint32_t(std::clamp<int64_t>(y, 0, int64_t(map.height) - 1)));
     return {p[0], p[1], p[2]};
 }
 
@@ -99,8 +99,7 @@ glm::vec3 EnvironmentLight::radiance(const glm::vec3& direction) const {
 
 float EnvironmentLight::texelPdf(uint32_t x, uint32_t y, float sinTheta) const {
     const float* cdf = &columnCdfs_[size_t(y) * (width_ + 1)];
-    const float density =
-        (cdf[x + 1] - cdf[x]) * float(width_) * (rowCdf_[y + 1] - rowCdf_[y]) * float(height_);
+    const float density = (cdf[x + 1] - cdf[x]) * float(width_) * (rowCdf_[y + 1] - rowCdf_[y]) * float(height_);
     return sinTheta > 0.0f ? density / (2.0f * kPi * kPi * sinTheta) : 0.0f;
 }
 

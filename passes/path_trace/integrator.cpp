@@ -37,8 +37,8 @@ struct Integrator::VertexSampler {
     float get1D(Dimension dimension) const { return sampler.get1D(vertex * kDimensions + dimension); }
 };
 
-Integrator::Integrator(const SceneState& state, const EmbreeScene& tracer, uint32_t bounces,
-                       Strategy strategy, PathLight light, ExpectedRays rays)
+Integrator::Integrator(const SceneState& state, const EmbreeScene& tracer, uint32_t bounces, Strategy strategy,
+                       PathLight light, ExpectedRays rays)
     : tracer_(tracer),
       surfaces_(state, rays),
       lights_(state, surfaces_),
@@ -127,20 +127,18 @@ bool Integrator::Path::shadeHit(const Hit& hit) {
         const EnvironmentLight& environment = integrator_.lights_.environment();
         if (countsHitLight && !environment.isBlack()) {
             const float weight =
-                isSpecularBounce_
-                    ? 1.0f
-                    : integrator_.hitWeight(bsdfPdf_, integrator_.lights_.environmentPdf(ray_.direction));
+                isSpecularBounce_ ? 1.0f
+                                  : integrator_.hitWeight(bsdfPdf_, integrator_.lights_.environmentPdf(ray_.direction));
             addHitLight(environment.radiance(ray_.direction), weight, hit.t);
         }
         return false;
     }
     const SurfaceTriangle triangle = integrator_.surfaces_.triangle(hit.triangle);
-    if (countsHitLight && triangle.light != kNoLight &&
-        integrator_.surfaces_.emitsTowards(triangle, -ray_.direction)) {
-        const float weight = isSpecularBounce_
-                                 ? 1.0f
-                                 : integrator_.hitWeight(
-                                       bsdfPdf_, integrator_.lights_.hitPdf(triangle, ray_.direction, hit.t));
+    if (countsHitLight && triangle.light != kNoLight && integrator_.surfaces_.emitsTowards(triangle, -ray_.direction)) {
+        const float weight =
+            isSpecularBounce_
+                ? 1.0f
+                : integrator_.hitWeight(bsdfPdf_, integrator_.lights_.hitPdf(triangle, ray_.direction, hit.t));
         addHitLight(integrator_.surfaces_.emission(hit.triangle, hit.u, hit.v), weight, hit.t);
     }
     if (vertex_ > integrator_.bounces_) return false;

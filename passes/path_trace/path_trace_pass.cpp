@@ -25,8 +25,7 @@ void upload(CommandStream& stream, const ImageF& source, const Image& target) {
 
 template <>
 struct EnumNames<PathLight> {
-    static constexpr std::array names{std::pair{PathLight::All, "all"},
-                                      std::pair{PathLight::Indirect, "indirect"}};
+    static constexpr std::array names{std::pair{PathLight::All, "all"}, std::pair{PathLight::Indirect, "indirect"}};
 };
 
 /// The reference path tracer (path_tracer.h) as a pass: with many samples the reference of all methods, with
@@ -36,10 +35,10 @@ class PathTracePass final : public Pass {
     static constexpr const char* kName = "path_trace";
     static constexpr bool kNeedsDevice = false;
     static constexpr const char* kHelp =
-        "Computes light by path tracing on the CPU with Embree. It uses next-event estimation, "
-        "multiple importance sampling and Owen-scrambled Sobol points. Unbiased for its number of bounces; "
-        "noisy by: spp. Writes total and indirect light, each also as two independent halves, "
-        "and irradiance at the G-buffer's texels for filter_irradiance.";
+        "Computes light by path tracing on the CPU with Embree. "
+        "It uses next-event estimation, multiple importance sampling and Owen-scrambled Sobol points. "
+        "Unbiased for its number of bounces; noisy by: spp. Writes total and indirect light, "
+        "each also as two independent halves, and irradiance at the G-buffer's texels for filter_irradiance.";
     struct Params {
         uint32_t spp = 64;
         uint32_t bounces = 8;
@@ -47,13 +46,12 @@ class PathTracePass final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("spp", &Params::spp, "Samples a pixel.", 1u, 1u << 20).lessNoise(),
-                field(
-                    "bounces", &Params::bounces,
-                    "Scattering events after direct light at the first hit; 0 is emission and direct light.",
-                    0u, 1024u),
+                field("bounces", &Params::bounces,
+                      "Scattering events after direct light at the first hit; 0 is emission and direct light.", 0u,
+                      1024u),
                 field("light", &Params::light,
-                      "all: all light. indirect: no emission and direct light at the first hit; "
-                      "another pass writes 'final'.")};
+                      "all: all light. "
+                      "indirect: no emission and direct light at the first hit; another pass writes 'final'.")};
         }
     };
 

@@ -36,8 +36,7 @@ class PinholeCamera {
 
     /// @param x and y in pixels from the image's upper left corner.
     Ray ray(float x, float y) const {
-        return {origin_, 0.0f, glm::normalize(corner_ + perX_ * x + perY_ * y),
-                std::numeric_limits<float>::infinity()};
+        return {origin_, 0.0f, glm::normalize(corner_ + perX_ * x + perY_ * y), std::numeric_limits<float>::infinity()};
     }
 
  private:
@@ -49,15 +48,14 @@ struct PixelSums {
     std::array<glm::dvec3, kBatches> batch{};
 
     /// Writes the mean over all samples, and over each batch.
-    void write(const std::array<uint32_t, kBatches>& sizes, uint32_t batches, uint32_t x, uint32_t y,
-               ImageF& mean, std::array<ImageF, kBatches>& halves) const {
+    void write(const std::array<uint32_t, kBatches>& sizes, uint32_t batches, uint32_t x, uint32_t y, ImageF& mean,
+               std::array<ImageF, kBatches>& halves) const {
         glm::dvec3 sum(0.0);
         uint32_t samples = 0;
         for (uint32_t b = 0; b < batches; ++b) {
             sum += batch[b];
             samples += sizes[b];
-            for (int c = 0; c < 3; ++c)
-                halves[b].pixel(x, y)[c] = float(batch[b][c] / std::max(sizes[b], 1u));
+            for (int c = 0; c < 3; ++c) halves[b].pixel(x, y)[c] = float(batch[b][c] / std::max(sizes[b], 1u));
         }
         for (int c = 0; c < 3; ++c) mean.pixel(x, y)[c] = float(sum[c] / samples);
     }
@@ -100,8 +98,7 @@ struct Packet {
         cameraSamples[size++] = sample;
     }
     void trace(const Integrator& integrator) {
-        integrator.trace(std::span(rays).first(size), std::span(samplers).first(size),
-                         std::span(samples).first(size));
+        integrator.trace(std::span(rays).first(size), std::span(samplers).first(size), std::span(samples).first(size));
     }
 };
 
@@ -188,13 +185,12 @@ struct RenderJob {
 
         for (uint32_t y = first.y; y < last.y; ++y)
             for (uint32_t x = first.x; x < last.x; ++x) {
-                const uint32_t pixel = hashOf(hashOf(uint32_t(options.seed), uint32_t(options.seed >> 32)),
-                                              y * options.width + x);
+                const uint32_t pixel =
+                    hashOf(hashOf(uint32_t(options.seed), uint32_t(options.seed >> 32)), y * options.width + x);
                 for (uint32_t batch = 0; batch < batches; ++batch) {
                     const uint32_t sequence = hashOf(pixel, batch);
                     for (uint32_t i = 0; i < batchSizes[batch] && !reporter.isStopped(); ++i) {
-                        packet.add(camera, {{x, y}, {}, batch},
-                                   SobolSampler(sequence, batchFirst[batch] + i));
+                        packet.add(camera, {{x, y}, {}, batch}, SobolSampler(sequence, batchFirst[batch] + i));
                         if (packet.size == Integrator::kPacket) trace();
                     }
                 }
@@ -221,13 +217,11 @@ struct RenderJob {
 PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
                        const PathTraceOptions& options, const ProgressCallback& progress, Strategy strategy) {
     const uint32_t width = options.width, height = options.height;
-    if (width == 0 || height == 0)
-        throw Error("path tracing: the image size {}x{} has no pixels", width, height);
+    if (width == 0 || height == 0) throw Error("path tracing: the image size {}x{} has no pixels", width, height);
     if (options.spp == 0) throw Error("path tracing: spp must be at least 1");
     const SamplePart& part = options.samples;
     const uint64_t first = part.first(options.spp), end = part.end(options.spp);
-    if (first == end)
-        throw Error("path tracing: {} samples can't be divided into {} parts", options.spp, part.parts);
+    if (first == end) throw Error("path tracing: {} samples can't be divided into {} parts", options.spp, part.parts);
 
     PathTraceResult result;
     result.total = result.indirect = ImageF(width, height, 3);
@@ -241,11 +235,8 @@ PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const
 
     // Divide samples among independent batches: of two the first takes odd numbers
     ProgressReporter reporter(progress, uint64_t(width) * height * (end - first));
-    RenderJob job{.integrator = integrator,
-                  .camera = pinhole,
-                  .options = options,
-                  .result = result,
-                  .reporter = reporter};
+    RenderJob job{
+        .integrator = integrator, .camera = pinhole, .options = options, .result = result, .reporter = reporter};
     job.batches = std::min(options.spp, kBatches);
     for (uint32_t b = 0; b < job.batches; ++b) {
         result.totalHalves[b] = result.indirectHalves[b] = ImageF(width, height, 3);

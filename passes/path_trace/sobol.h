@@ -88,8 +88,7 @@ class SobolSampler {
         const Uint4 scrambles = seeds * Uint4{0x2c1b3c6du, 0x2c1b3c6du, 0x7feb352du, 0x7feb352du} +
                                 Uint4{0x297a2d39u, 0x297a2d39u, 0x846ca68bu, 0x846ca68bu};
         const Uint4 bits = reverseBits(scrambleReversed(dimensions, scrambles));
-        return {glm::vec2(unitFloat(bits[0]), unitFloat(bits[2])),
-                glm::vec2(unitFloat(bits[1]), unitFloat(bits[3]))};
+        return {glm::vec2(unitFloat(bits[0]), unitFloat(bits[2])), glm::vec2(unitFloat(bits[1]), unitFloat(bits[3]))};
     }
 
     /// The first coordinate of get2D().

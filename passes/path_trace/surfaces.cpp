@@ -13,8 +13,7 @@ namespace {
 constexpr float kMinCosine = 1e-3f;
 
 bool readsTextures(const Material& m) {
-    return m.baseColorTexture.texture >= 0 || m.metallicRoughnessTexture.texture >= 0 ||
-           m.normalTexture.texture >= 0;
+    return m.baseColorTexture.texture >= 0 || m.metallicRoughnessTexture.texture >= 0 || m.normalTexture.texture >= 0;
 }
 
 /// World-space normal of a normal map; the interpolated one where map or tangent are degenerate.
@@ -31,8 +30,8 @@ glm::vec3 mapNormal(const glm::vec3& normal, const glm::vec4& tangent, const glm
 SurfaceTable::SurfaceTable(const SceneState& state, ExpectedRays rays) : state_(&state) {
     for (const Material& m : state.scene->materials)
         materials_.push_back(
-            {Bsdf::make(glm::vec3(m.baseColor), m.metallic, m.roughness, m.specular, m.specularColor, m.ior),
-             &m, m.emissiveTexture.texture >= 0 || m.alphaMode == AlphaMode::Mask});
+            {Bsdf::make(glm::vec3(m.baseColor), m.metallic, m.roughness, m.specular, m.specularColor, m.ior), &m,
+             m.emissiveTexture.texture >= 0 || m.alphaMode == AlphaMode::Mask});
     if (rays == ExpectedRays::Few) return;
 
     std::vector<SurfaceTriangle> triangles(triangleCount());
@@ -118,8 +117,7 @@ void SurfaceTable::applyTextures(const Hit& hit, SurfacePoint& point) const {
     point.shadingNormal = normal * sign;
 
     // BSDF: factors times textures times vertex color
-    glm::vec3 baseColor =
-        glm::vec3(m.baseColor) * glm::vec3(interpolate(a.color, b.color, c.color, hit.u, hit.v));
+    glm::vec3 baseColor = glm::vec3(m.baseColor) * glm::vec3(interpolate(a.color, b.color, c.color, hit.u, hit.v));
     if (m.baseColorTexture.texture >= 0) baseColor *= glm::vec3(lookUp(m.baseColorTexture, texCoords));
     float metallic = m.metallic, roughness = m.roughness;
     if (m.metallicRoughnessTexture.texture >= 0) {

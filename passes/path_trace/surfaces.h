@@ -49,9 +49,7 @@ class SurfaceTable {
     /// advance.
     explicit SurfaceTable(const SceneState& state, ExpectedRays rays = ExpectedRays::Many);
 
-    SurfaceTriangle triangle(uint32_t i) const {
-        return triangles_.empty() ? makeTriangle(i) : triangles_[i];
-    }
+    SurfaceTriangle triangle(uint32_t i) const { return triangles_.empty() ? makeTriangle(i) : triangles_[i]; }
     size_t triangleCount() const { return state_->geometry.triangles.size(); }
     /// Assigns a triangle to a patch of LightTable. Not thread-safe.
     void setLight(uint32_t triangle, uint32_t light);
@@ -65,17 +63,12 @@ class SurfaceTable {
         return m.emissionVaries ? texturedEmission(triangle, u, v) : m.source->emission;
     }
     /// Whether emission varies over the triangle.
-    bool emissionVaries(const SurfaceTriangle& triangle) const {
-        return materials_[triangle.material].emissionVaries;
-    }
+    bool emissionVaries(const SurfaceTriangle& triangle) const { return materials_[triangle.material].emissionVaries; }
     /// Whether it emits towards a unit `direction` that points away from it.
     bool emitsTowards(const SurfaceTriangle& triangle, const glm::vec3& direction) const {
-        return materials_[triangle.material].source->doubleSided ||
-               glm::dot(triangle.normal, direction) > 0.0f;
+        return materials_[triangle.material].source->doubleSided || glm::dot(triangle.normal, direction) > 0.0f;
     }
-    const Material& material(const SurfaceTriangle& triangle) const {
-        return *materials_[triangle.material].source;
-    }
+    const Material& material(const SurfaceTriangle& triangle) const { return *materials_[triangle.material].source; }
 
  private:
     struct MaterialData {

@@ -9,14 +9,14 @@ layout(scalar) readonly buffer SortedRef { SortedSurfels sorted; };
 layout(scalar) readonly buffer SortedIndicesRef { LargeUints sortedIndices; };
 readonly buffer Begins { uint data[]; } begins;
 readonly buffer Ends { uint data[]; } ends;
-writeonly buffer Lists { uvec2 data[]; } lists;
+writeonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;
 layout(push_constant) uniform Push { uint voxels; } push;
 
 void main() {
     const uint voxel = linearIndex();
     if (voxel >= push.voxels) return;
     const uint begin = begins.data[voxel], end = ends.data[voxel];
-    lists.data[voxel] = uvec2(begin, end);
+    surfelRanges.data[voxel] = uvec2(begin, end);
     // Insertion sort: lists are short
     for (uint i = begin; i < end; ++i) {
         const SortedSurfel s = sorted.data[i];

@@ -34,8 +34,7 @@ void visitTriangles(const Geometry& g, const Static& visitStatic, const Moving& 
 SurfaceAreas surfaceAreas(const Geometry& g) {
     SurfaceAreas areas;
     visitTriangles(
-        g, [&](uint32_t t) { areas.ofStatic += areaOf(g, t); },
-        [&](uint32_t t) { areas.ofMoving += areaOf(g, t); });
+        g, [&](uint32_t t) { areas.ofStatic += areaOf(g, t); }, [&](uint32_t t) { areas.ofMoving += areaOf(g, t); });
     return areas;
 }
 

@@ -14,9 +14,8 @@ void SurfelDirectLight::plan(PassPlan& plan, uint32_t maxSurfels) {
     paneTransmittance_.plan(plan, maxSurfels);
 }
 
-void SurfelDirectLight::measure(PassContext& context, const std::vector<LightSource>& sources,
-                                const Buffer& surfels, uint32_t count, uint32_t samples, uint32_t seed,
-                                const Buffer& direct) const {
+void SurfelDirectLight::measure(PassContext& context, const std::vector<LightSource>& sources, const Buffer& surfels,
+                                uint32_t count, uint32_t samples, uint32_t seed, const Buffer& direct) const {
     CommandStream& stream = context.stream;
     stream.fill(direct, 0);
     for (const LightSource& source : sources) {
@@ -35,11 +34,9 @@ void SurfelDirectLight::measure(PassContext& context, const std::vector<LightSou
                               {"seed", seed + source.kind}});
             context.tracer.occluded(stream, rays_, occluded_, count);
             paneTransmittance_.apply(context, rays_, contributions_, 4, count);
-            context.dispatch(accumulate_, count,
-                             {{"contributions", contributions_},
-                              {"occluded", occluded_},
-                              {"direct", direct},
-                              {"count", count}});
+            context.dispatch(
+                accumulate_, count,
+                {{"contributions", contributions_}, {"occluded", occluded_}, {"direct", direct}, {"count", count}});
         }
     }
 }

@@ -16,8 +16,8 @@ class SurfelDirectLight {
     /// @param maxSurfels in one call of measure().
     void plan(PassPlan& plan, uint32_t maxSurfels);
     /// Writes the irradiance of `count` surfels to `direct`, W/m², 4 floats each.
-    void measure(PassContext& context, const std::vector<LightSource>& sources, const Buffer& surfels,
-                 uint32_t count, uint32_t samples, uint32_t seed, const Buffer& direct) const;
+    void measure(PassContext& context, const std::vector<LightSource>& sources, const Buffer& surfels, uint32_t count,
+                 uint32_t samples, uint32_t seed, const Buffer& direct) const;
 
  private:
     Kernel generateRays_, accumulate_;

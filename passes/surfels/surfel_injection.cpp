@@ -45,8 +45,7 @@ void SurfelInjection::write(PassContext& context, const VoxelAccumulator& accumu
                       {"scale", accumulator.scale()}});
 }
 
-void SurfelInjection::finish(PassContext& context, const SurfaceVoxels& voxels,
-                             const VoxelIrradiance& irradiance) {
+void SurfelInjection::finish(PassContext& context, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance) {
     direct_->resolve(context.stream, voxels, irradiance.direct, irradiance.area);
     indirect_->resolve(context.stream, voxels, irradiance.indirect, irradiance.area);
     context.stream.finish();

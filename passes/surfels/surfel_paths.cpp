@@ -15,16 +15,15 @@ void SurfelPaths::plan(PassPlan& plan, uint32_t maxPaths, uint32_t lightSamples,
     directLight_.plan(plan, maxPaths);
     for (Kernel* kernel : {&init_, &extend_, &accumulate_}) kernel->compileIf(hasPaths);
     if (!hasPaths) return;
-    for (Buffer& vertices : vertices_)
-        plan.buffer(vertices, "ends of paths", uint64_t(maxPaths) * sizeof(gpu::Surfel));
+    for (Buffer& vertices : vertices_) plan.buffer(vertices, "ends of paths", uint64_t(maxPaths) * sizeof(gpu::Surfel));
     for (Buffer& rays : rays_) plan.buffer(rays, "path rays", uint64_t(maxPaths) * sizeof(Ray));
     plan.buffer(hits_, "path hits", uint64_t(maxPaths) * sizeof(Hit));
     plan.buffer(direct_, "direct irradiance at ends of paths", uint64_t(maxPaths) * 4 * sizeof(float));
     plan.buffer(counter_, "number of paths", sizeof(uint32_t));
 }
 
-void SurfelPaths::measureDirect(PassContext& context, const PathScene& scene, const Buffer& surfels,
-                                uint32_t count, uint32_t seed, const Buffer& direct) const {
+void SurfelPaths::measureDirect(PassContext& context, const PathScene& scene, const Buffer& surfels, uint32_t count,
+                                uint32_t seed, const Buffer& direct) const {
     directLight_.measure(context, scene.sources, surfels, count, lightSamples_, seed, direct);
 }
 
@@ -41,8 +40,7 @@ void SurfelPaths::init(PassContext& context, const Buffer& surfels, uint32_t cou
                       {"seed", seed + 0x51u}});
 }
 
-void SurfelPaths::extend(PassContext& context, const PathScene& scene, const Buffer& irradiance,
-                         Normals normals) {
+void SurfelPaths::extend(PassContext& context, const PathScene& scene, const Buffer& irradiance, Normals normals) {
     if (count_ == 0) return;
     CommandStream& stream = context.stream;
     seed_ += 0x9e3779b9u;
@@ -70,11 +68,9 @@ void SurfelPaths::extend(PassContext& context, const PathScene& scene, const Buf
 
 void SurfelPaths::accumulate(PassContext& context, const Buffer& vertices, uint32_t count,
                              const Buffer& vertexIrradiance, const Buffer& irradiance) const {
-    context.dispatch(accumulate_, count,
-                     {{"vertices", vertices},
-                      {"vertexIrradiance", vertexIrradiance},
-                      {"irradiance", irradiance},
-                      {"count", count}});
+    context.dispatch(
+        accumulate_, count,
+        {{"vertices", vertices}, {"vertexIrradiance", vertexIrradiance}, {"irradiance", irradiance}, {"count", count}});
 }
 
 }  // namespace voxray

@@ -27,8 +27,7 @@ class SurfelPaths {
                        uint32_t seed, const Buffer& direct) const;
 
     /// Starts a path at each of `count` surfels, and clears `irradiance`, 4 floats each.
-    void init(PassContext& context, const Buffer& surfels, uint32_t count, uint32_t seed,
-              const Buffer& irradiance);
+    void init(PassContext& context, const Buffer& surfels, uint32_t count, uint32_t seed, const Buffer& irradiance);
     /// The normals of vertices: shading normals, as light is reflected, or geometric ones, as it is written
     /// to voxels.
     enum class Normals { Shading, Geometric };
@@ -36,8 +35,8 @@ class SurfelPaths {
     void extend(PassContext& context, const PathScene& scene, const Buffer& irradiance,
                 Normals normals = Normals::Shading);
     /// Adds to `irradiance` what `count` vertices reflect of `vertexIrradiance` along their paths, W/m².
-    void accumulate(PassContext& context, const Buffer& vertices, uint32_t count,
-                    const Buffer& vertexIrradiance, const Buffer& irradiance) const;
+    void accumulate(PassContext& context, const Buffer& vertices, uint32_t count, const Buffer& vertexIrradiance,
+                    const Buffer& irradiance) const;
 
     /// The last vertices of the paths that survived, their number, and their direct irradiance.
     const Buffer& vertices() const { return vertices_[0]; }

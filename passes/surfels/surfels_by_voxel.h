@@ -16,7 +16,7 @@ struct SurfelsByVoxel : Resource {
 
     bool hasOccludedSurfels = false;  ///< Set in plan().
     uint32_t sortedCount = 0;
-    Buffer lists;               ///< By voxel: range [begin, end) of `sorted`; two uint32_t.
+    Buffer ranges;              ///< By voxel: a range [begin, end) of `sorted`; two uint32_t.
     LargeBuffer sorted;         ///< gpu::SortedSurfel each; within a voxel by ascending id.
     LargeBuffer packed;         ///< PackedSurfels (packed_surfel.glsl) in the same order; 8 bytes each.
     LargeBuffer sortedIndices;  ///< By surfel of Surfels: its index in `sorted`, or kNone; uint32_t.
@@ -26,7 +26,7 @@ struct SurfelsByVoxel : Resource {
 struct SurfelIrradiance : Resource {
     std::string indexedBy() const override { return "surfels_by_voxel"; }
 
-    LargeBuffer lit;  ///< LitSurfels (packed_surfel.glsl): indirect irradiance, W/m²; 12 bytes each.
+    LargeBuffer lit;             ///< LitSurfels (packed_surfel.glsl): indirect irradiance, W/m²; 12 bytes each.
     float relativeVariance = 0;  ///< Of a surfel's irradiance before smooth_surfels, roughly. Set in plan().
 };
 

@@ -18,9 +18,9 @@ struct BrickNode {
     uint firstChild;  // Index of the first of eight, in octant order x + 2 y + 4 z.
     uint brick;
     uint neighbor[6];  // In the same level: +x +y +z -x -y -z.
-    uint color;   // Of a leaf: mean over its fragments as RGBA8, their number in alpha; 0 without fragments.
-    uint normal;  // Likewise. Both are 0 where surface voxels hold the materials.
-    uint cell;    // Coordinates in its level, 10 bits each; the thesis stores its center.
+    uint color;        // Of a leaf: mean over its fragments as RGBA8, their number in alpha; 0 without fragments.
+    uint normal;       // Likewise. Both are 0 where surface voxels hold the materials.
+    uint cell;         // Coordinates in its level, 10 bits each; the thesis stores its center.
 };
 
 // The nodes of a level in the static section of the node pool, and in the dynamic section behind it.

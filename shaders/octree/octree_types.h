@@ -16,11 +16,10 @@ VOXRAY_SHARED_BEGIN
 struct OctreeShape {
     uvec3 resolution;  // Voxels of the grid.
     uint levels;
-    uint nodeCount;   // Of all levels, including NO_NODE.
-    uint firstLeaf;   // Index of the first leaf; leaves come last.
-    uint tableLevel;  // Finest level of the table.
-    uint
-        tableFirst[OCTREE_MAX_LEVELS + 1u];  // Index in the table of the first entry of level tableLevel + i.
+    uint nodeCount;                           // Of all levels, including NO_NODE.
+    uint firstLeaf;                           // Index of the first leaf; leaves come last.
+    uint tableLevel;                          // Finest level of the table.
+    uint tableFirst[OCTREE_MAX_LEVELS + 1u];  // Index in the table of the first entry of level tableLevel + i.
 };
 
 VOXRAY_SHARED_END

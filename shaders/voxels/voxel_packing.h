@@ -86,8 +86,7 @@ VOXRAY_SHARED_FUNCTION uvec2 packRgb(vec3 rgb) {
     if (largest < 4.8148248609680896e-35f) return uvec2(0u, 0u);
     const uint exponent = (floatBitsToUint(largest) + 0x400u) >> 23;  // After rounding.
     if (exponent == 255u) return uvec2(0x7f800000u, 0u);
-    const float unitsPerValue =
-        uintBitsToFloat((266u - exponent) << 23);  // The largest becomes 2^12 to 2^13.
+    const float unitsPerValue = uintBitsToFloat((266u - exponent) << 23);  // The largest becomes 2^12 to 2^13.
     const uint r = uint(max(rgb.x, 0.0f) * unitsPerValue + 0.5f);
     const uint g = uint(max(rgb.y, 0.0f) * unitsPerValue + 0.5f);
     const uint b = uint(max(rgb.z, 0.0f) * unitsPerValue + 0.5f);
@@ -128,14 +127,14 @@ VOXRAY_SHARED_FUNCTION PackedVoxelMaterial packMaterial(VoxelMaterial m) {
 }
 VOXRAY_SHARED_FUNCTION VoxelMaterial unpackMaterial(PackedVoxelMaterial p) {
     VoxelMaterial m;
-    m.albedo = vec3(unpackUnorm(lowerOf(p.words[0])), unpackUnorm(upperOf(p.words[0])),
-                    unpackUnorm(lowerOf(p.words[1])));
-    m.normal = vec3(unpackSnorm(upperOf(p.words[1])), unpackSnorm(lowerOf(p.words[2])),
-                    unpackSnorm(upperOf(p.words[2])));
-    m.unoccludedPositive = vec3(unpackArea(lowerOf(p.words[3])), unpackArea(lowerOf(p.words[4])),
-                                unpackArea(lowerOf(p.words[5])));
-    m.unoccludedNegative = vec3(unpackArea(upperOf(p.words[3])), unpackArea(upperOf(p.words[4])),
-                                unpackArea(upperOf(p.words[5])));
+    m.albedo =
+        vec3(unpackUnorm(lowerOf(p.words[0])), unpackUnorm(upperOf(p.words[0])), unpackUnorm(lowerOf(p.words[1])));
+    m.normal =
+        vec3(unpackSnorm(upperOf(p.words[1])), unpackSnorm(lowerOf(p.words[2])), unpackSnorm(upperOf(p.words[2])));
+    m.unoccludedPositive =
+        vec3(unpackArea(lowerOf(p.words[3])), unpackArea(lowerOf(p.words[4])), unpackArea(lowerOf(p.words[5])));
+    m.unoccludedNegative =
+        vec3(unpackArea(upperOf(p.words[3])), unpackArea(upperOf(p.words[4])), unpackArea(upperOf(p.words[5])));
     m.area = unpackArea(lowerOf(p.words[6]));
     m.emission = unpackRgb(uvec2(p.words[7], upperOf(p.words[6])));
     m.opacity = float(p.words[8] & 0xffu) / 16.0f;

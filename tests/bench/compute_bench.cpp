@@ -54,7 +54,7 @@ size_t compactOnHost(const std::vector<uint32_t>& words, std::vector<uint32_t>& 
 
 void computeScanOnDevice(benchmark::State& state) {
     OnDevice d;
-    const PrefixSum prefixSum(d.programs, PrefixSum::Of::SetBits);
+    const PrefixSum prefixSum(d.programs, PrefixSum::Input::SetBits);
     d.programs.compile();
     const Buffer before(d.device, "before", d.buffer.bytes());
     prefixSum.run(d.stream, d.buffer, before, kCount);  // The driver compiles programs when they first run.

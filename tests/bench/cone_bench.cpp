@@ -30,8 +30,8 @@ void splitTriangles(Geometry& geometry) {
     for (size_t t = 0; t < whole.size(); ++t) {
         const glm::uvec3 v = whole[t];
         const uint32_t ab = center(v.x, v.y), bc = center(v.y, v.z), ca = center(v.z, v.x);
-        for (const glm::uvec3 part : {glm::uvec3(v.x, ab, ca), glm::uvec3(ab, v.y, bc),
-                                      glm::uvec3(ca, bc, v.z), glm::uvec3(ab, bc, ca)}) {
+        for (const glm::uvec3 part :
+             {glm::uvec3(v.x, ab, ca), glm::uvec3(ab, v.y, bc), glm::uvec3(ca, bc, v.z), glm::uvec3(ab, bc, ca)}) {
             geometry.triangles.push_back(part);
             geometry.triangleMaterials.push_back(materials[t]);
         }
@@ -42,8 +42,7 @@ void splitTriangles(Geometry& geometry) {
 /// gather_cones in Sponza at 128³, the pass alone, with as many triangles as it has (1) or four times as many
 /// (4).
 void coneGather(benchmark::State& state) {
-    const auto scene =
-        std::make_shared<SceneState>(evaluate(loadGltf(test::scenesFolder() / "sponza.glb"), 0.0));
+    const auto scene = std::make_shared<SceneState>(evaluate(loadGltf(test::scenesFolder() / "sponza.glb"), 0.0));
     if (state.range(0) == 4) splitTriangles(scene->geometry);
     Camera camera;
     camera.position = {-9, 1.2f, -0.3f};
@@ -55,24 +54,17 @@ void coneGather(benchmark::State& state) {
     sun.direction = glm::normalize(glm::vec3(-0.12f, -1, -0.08f));
     sun.intensity = glm::vec3(10);
     scene->lights = {sun};
-    test::Chain chain(
-        scene,
-        test::graphYaml({"gbuffer", "voxelize, resolution: 128", "inject_light_rays, bounces: 1",
-                         "filter_voxels", "gather_cones, cones: 6"}),
-        96, 54, 1);
+    test::Chain chain(scene,
+                      test::graphYaml({"gbuffer", "voxelize, resolution: 128", "inject_light_rays, bounces: 1",
+                                       "filter_voxels", "gather_cones, cones: 6"}),
+                      96, 54, 1);
     for (auto _ : state) {
         chain.runFrameFrom(camera.position);
         state.SetIterationTime(chain.frameSamples.back().milliseconds * 1e-3);
     }
     state.counters["triangles"] = double(scene->geometry.triangles.size());
 }
-BENCHMARK(coneGather)
-    ->ArgName("split")
-    ->Arg(1)
-    ->Arg(4)
-    ->UseManualTime()
-    ->MinTime(4)
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK(coneGather)->ArgName("split")->Arg(1)->Arg(4)->UseManualTime()->MinTime(4)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace voxray

@@ -41,8 +41,7 @@ std::vector<Ray> incoherentRays(const Geometry& geometry) {
     const glm::vec3 size = geometry.boundsMax - geometry.boundsMin;
     std::vector<Ray> rays(kRays);
     for (Ray& ray : rays) {
-        for (int i = 0; i < 3; ++i)
-            ray.origin[i] = geometry.boundsMin[i] + size[i] * (0.2f + 0.6f * unit(random));
+        for (int i = 0; i < 3; ++i) ray.origin[i] = geometry.boundsMin[i] + size[i] * (0.2f + 0.6f * unit(random));
         const float z = 2 * unit(random) - 1, phi = 6.2831853f * unit(random), r = std::sqrt(1 - z * z);
         ray.direction = {r * std::cos(phi), r * std::sin(phi), z};
         ray.tMin = 0;
@@ -60,11 +59,11 @@ class BareScene {
         rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
         rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
         RTCGeometry mesh = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        std::memcpy(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                            sizeof(glm::vec3), geometry.positions.size()),
+        std::memcpy(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3),
+                                            geometry.positions.size()),
                     geometry.positions.data(), geometry.positions.size() * sizeof(glm::vec3));
-        std::memcpy(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                            sizeof(glm::uvec3), geometry.triangles.size()),
+        std::memcpy(rtcSetNewGeometryBuffer(mesh, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3),
+                                            geometry.triangles.size()),
                     geometry.triangles.data(), geometry.triangles.size() * sizeof(glm::uvec3));
         rtcSetGeometryBuildQuality(mesh, RTC_BUILD_QUALITY_HIGH);
         rtcCommitGeometry(mesh);
@@ -167,8 +166,8 @@ std::vector<Ray> cameraRays(const Geometry& geometry) {
     for (uint32_t i = 0; i < rays.size(); ++i) {
         const float x = 2 * (float(i % kWidth) + 0.5f) / kWidth - 1;
         const float y = 1 - 2 * (float(i / kWidth) + 0.5f) / kHeight;
-        rays[i] = {0.5f * (geometry.boundsMin + geometry.boundsMax), 0,
-                   glm::normalize(glm::vec3(1, up * y, right * x)), kInfinity};
+        rays[i] = {0.5f * (geometry.boundsMin + geometry.boundsMax), 0, glm::normalize(glm::vec3(1, up * y, right * x)),
+                   kInfinity};
     }
     return rays;
 }

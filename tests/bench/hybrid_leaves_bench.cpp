@@ -39,8 +39,7 @@ std::vector<Ray> mirrorRays(CommandStream& stream, RayTracer& tracer, const Scen
         if (hits[i].triangle == Hit::kMiss) continue;
         const glm::uvec3 t = geometry.triangles[hits[i].triangle];
         const glm::vec3 a = geometry.positions[t.x];
-        glm::vec3 normal =
-            glm::normalize(glm::cross(geometry.positions[t.y] - a, geometry.positions[t.z] - a));
+        glm::vec3 normal = glm::normalize(glm::cross(geometry.positions[t.y] - a, geometry.positions[t.z] - a));
         if (glm::dot(normal, rays[i].direction) > 0) normal = -normal;
         const glm::vec3 at = rays[i].origin + hits[i].t * rays[i].direction;
         reflected.push_back({at + 1e-4f * normal, 0, glm::reflect(rays[i].direction, normal), 1000});
@@ -53,8 +52,7 @@ std::vector<Ray> sorted(const std::vector<Ray>& rays, const Geometry& geometry) 
     const glm::vec3 scale = 1023.0f / (geometry.boundsMax - geometry.boundsMin);
     std::vector<std::pair<uint64_t, size_t>> keys;
     for (size_t i = 0; i < rays.size(); ++i) {
-        const glm::uvec3 cell(
-            glm::clamp((rays[i].origin - geometry.boundsMin) * scale, glm::vec3(0), glm::vec3(1023)));
+        const glm::uvec3 cell(glm::clamp((rays[i].origin - geometry.boundsMin) * scale, glm::vec3(0), glm::vec3(1023)));
         uint64_t key = 0;
         for (int axis = 0; axis < 3; ++axis) {
             key |= uint64_t(rays[i].direction[axis] < 0) << (30 + axis);
@@ -77,8 +75,7 @@ test::Chain& mirrorScene(const std::string& config, const std::string& more) {
     static std::map<std::string, std::unique_ptr<test::Chain>> chains;
     if (current != config) {
         chains.clear();
-        const std::filesystem::path file =
-            test::sourceRoot() / "configs/papers/seok2021" / (config + ".yaml");
+        const std::filesystem::path file = test::sourceRoot() / "configs/papers/seok2021" / (config + ".yaml");
         SceneLoader loader(sceneFolders({}, test::sourceRoot(), file));
         state = std::make_shared<SceneState>(loader.prepare(loadExperiment(file).setup.scene).state);
         current = config;
@@ -87,8 +84,7 @@ test::Chain& mirrorScene(const std::string& config, const std::string& more) {
     if (!chain) {
         std::erase_if(chains, [](const auto& other) { return !other.first.empty(); });
         chains[more] = std::make_unique<test::Chain>(
-            state, "[{pass: voxelize, resolution: 256, directions: 1, visibility_rays: 0}" + more + "]", 16,
-            16, 1);
+            state, "[{pass: voxelize, resolution: 256, directions: 1, visibility_rays: 0}" + more + "]", 16, 16, 1);
     }
     return *chains[more];
 }
@@ -99,9 +95,8 @@ test::Chain& mirrorScene(const std::string& config, const std::string& more) {
 /// than Embree's, of those that meet a triangle; memory by kind, and the build's time.
 void hybridLeaves(benchmark::State& state, const std::string& config) {
     test::Chain& without = mirrorScene(config, "");
-    test::Chain& chain =
-        mirrorScene(config, fmt::format(", {{pass: build_hybrid_leaves, primitives: {}, grid: {}}}",
-                                        state.range(0), state.range(1)));
+    test::Chain& chain = mirrorScene(config, fmt::format(", {{pass: build_hybrid_leaves, primitives: {}, grid: {}}}",
+                                                         state.range(0), state.range(1)));
     const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
     const HybridLeaves& leaves = *chain.graph().resource<HybridLeaves>("hybrid_leaves");
     ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
@@ -136,11 +131,9 @@ void hybridLeaves(benchmark::State& state, const std::string& config) {
         state.counters["differ_ppm"] = 1e6 * double(different) / double(std::max<size_t>(triangles, 1));
         tracers.emplace_back(name, std::move(tracer));
     }
-    tracers.emplace_back("embree",
-                         makeRayTracer(TracerKind::Embree, test::device(), compiler, chain.state()));
+    tracers.emplace_back("embree", makeRayTracer(TracerKind::Embree, test::device(), compiler, chain.state()));
     if (test::device().info().rayQuery)
-        tracers.emplace_back("ray_query",
-                             makeRayTracer(TracerKind::RayQuery, test::device(), compiler, chain.state()));
+        tracers.emplace_back("ray_query", makeRayTracer(TracerKind::RayQuery, test::device(), compiler, chain.state()));
 
     const Buffer in(test::device(), "rays", rays.size() * sizeof(Ray));
     const Buffer inSorted(test::device(), "sorted rays", in.bytes());
@@ -186,8 +179,8 @@ void hybridLeaves(benchmark::State& state, const std::string& config) {
 /// Capacities p and grids of m³.
 void manyLeaves(benchmark::internal::Benchmark* b) {
     b->ArgNames({"primitives", "grid"});
-    for (const auto& [p, m] : std::vector<std::pair<int, int>>{
-             {8, 8}, {8, 16}, {32, 8}, {32, 16}, {64, 16}, {128, 16}, {1 << 20, 16}})
+    for (const auto& [p, m] :
+         std::vector<std::pair<int, int>>{{8, 8}, {8, 16}, {32, 8}, {32, 16}, {64, 16}, {128, 16}, {1 << 20, 16}})
         b->Args({p, m});
 }
 void fewLeaves(benchmark::internal::Benchmark* b) {

@@ -51,8 +51,8 @@ void visitClearly(const test::Triangle& triangle, glm::ivec3 corner, int side, c
     if (!test::overlaps(triangle, glm::dvec3(corner) + half, half - kEpsilon)) return;
     if (side == 1) return visit(corner);
     for (int child = 0; child < 8; ++child)
-        visitClearly(triangle, corner + side / 2 * glm::ivec3(child & 1, child >> 1 & 1, child >> 2),
-                     side / 2, resolution, visit);
+        visitClearly(triangle, corner + side / 2 * glm::ivec3(child & 1, child >> 1 & 1, child >> 2), side / 2,
+                     resolution, visit);
 }
 
 /// Lists of all triangles in a scene's voxels at 128³ against an independent test on the host: pairs of a
@@ -60,8 +60,7 @@ void visitClearly(const test::Triangle& triangle, glm::ivec3 corner, int side, c
 /// clearly don't. `degenerate`: triangles whose area is lost in the voxelizer's rounding.
 void hybridListsMissing(benchmark::State& state, const std::string& file) {
     test::device();  // Made before the chain, so that it goes after it.
-    const auto scene =
-        std::make_shared<SceneState>(evaluate(loadGltf(test::scenesFolder() / (file + ".glb")), 0.0));
+    const auto scene = std::make_shared<SceneState>(evaluate(loadGltf(test::scenesFolder() / (file + ".glb")), 0.0));
     scene->cameras.emplace_back();
     test::Chain chain(scene,
                       "[{pass: voxelize, resolution: 128, directions: 1, visibility_rays: 0}, {pass: "
@@ -81,8 +80,7 @@ void hybridListsMissing(benchmark::State& state, const std::string& file) {
         for (uint32_t t = 0; t < triangles.size(); ++t) {
             for (int k = 0; k < 3; ++k)
                 triangles[t][size_t(k)] =
-                    (glm::dvec3(g.positions[g.triangles[t][k]]) - glm::dvec3(grid.origin)) /
-                    double(grid.voxelSize);
+                    (glm::dvec3(g.positions[g.triangles[t][k]]) - glm::dvec3(grid.origin)) / double(grid.voxelSize);
             // Twice what GridTriangle takes for lost (passes/common/triangle_voxelizer/grid_triangle.glsl)
             const glm::dvec3 e1 = triangles[t][1] - triangles[t][0], e2 = triangles[t][2] - triangles[t][0];
             if (glm::length(glm::cross(e1, e2)) <= 3.2e-6 * glm::length(e1) * glm::length(e2)) {
@@ -97,8 +95,7 @@ void hybridListsMissing(benchmark::State& state, const std::string& file) {
         }
         for (int i = 0; i < int(numbers.size()); ++i) {
             if (numbers[size_t(i)] == ~0u) continue;
-            const glm::dvec3 v(i % resolution.x, i / resolution.x % resolution.y,
-                               i / resolution.x / resolution.y);
+            const glm::dvec3 v(i % resolution.x, i / resolution.x % resolution.y, i / resolution.x / resolution.y);
             listed += lists[numbers[size_t(i)]].size();
             for (const uint32_t t : lists[numbers[size_t(i)]])
                 foreign += !test::overlaps(triangles[t], v + 0.5, 0.5 + kEpsilon);
@@ -112,11 +109,8 @@ void hybridListsMissing(benchmark::State& state, const std::string& file) {
     state.counters["foreign"] = double(foreign);
 }
 
-#define LISTS_OF(name, file)                          \
-    BENCHMARK_CAPTURE(hybridListsMissing, name, file) \
-        ->MeasureProcessCPUTime()                     \
-        ->Iterations(1)                               \
-        ->Unit(benchmark::kSecond)
+#define LISTS_OF(name, file) \
+    BENCHMARK_CAPTURE(hybridListsMissing, name, file)->MeasureProcessCPUTime()->Iterations(1)->Unit(benchmark::kSecond)
 LISTS_OF(sponza, "sponza");
 LISTS_OF(sibenik, "sibenik");
 LISTS_OF(conference, "conference");

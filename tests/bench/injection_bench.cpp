@@ -12,8 +12,7 @@ namespace {
 
 /// Sponza under a spot light as in configs/papers/magalhaes2020/output_resolution.yaml.
 std::unique_ptr<test::Chain> sponza(uint32_t width, uint32_t height) {
-    const auto scene =
-        std::make_shared<SceneState>(evaluate(loadGltf(test::scenesFolder() / "sponza.glb"), 0.0));
+    const auto scene = std::make_shared<SceneState>(evaluate(loadGltf(test::scenesFolder() / "sponza.glb"), 0.0));
     Camera camera;
     camera.position = {-9, 1.2f, -0.3f};
     camera.forward = glm::normalize(glm::vec3(9, 1.8f, 0.3f));
@@ -27,12 +26,11 @@ std::unique_ptr<test::Chain> sponza(uint32_t width, uint32_t height) {
     spot.innerConeAngle = glm::radians(30.0f);
     spot.outerConeAngle = glm::radians(45.0f);
     scene->lights = {spot};
-    return std::make_unique<test::Chain>(
-        scene,
-        test::graphYaml({"gbuffer", "voxelize, resolution: 128",
-                         "inject_light_rays, rays_per_light: 1048576, secondary: none",
-                         "gather_irradiance, light: direct", "composite"}),
-        width, height, 1);
+    return std::make_unique<test::Chain>(scene,
+                                         test::graphYaml({"gbuffer", "voxelize, resolution: 128",
+                                                          "inject_light_rays, rays_per_light: 1048576, secondary: none",
+                                                          "gather_irradiance, light: direct", "composite"}),
+                                         width, height, 1);
 }
 
 struct Cost {

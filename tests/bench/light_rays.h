@@ -37,8 +37,7 @@ inline LightRays lightRays(test::Chain& chain, size_t count) {
         const size_t texel = random() % positions.size();
         if (positions[texel].w == 0) continue;
         const gpu::Vpl& vpl = points[list[random() % vpls.activeCount]];
-        const glm::vec3 at(positions[texel]),
-            normal = glm::normalize(glm::vec3(glm::unpackHalf(normals[texel])));
+        const glm::vec3 at(positions[texel]), normal = glm::normalize(glm::vec3(glm::unpackHalf(normals[texel])));
         const glm::vec3 way = vpl.position - at;
         const double squared = glm::dot(way, way);
         const double cosines = double(glm::dot(normal, way)) * -double(glm::dot(vpl.normal, way));
@@ -57,12 +56,11 @@ inline std::unique_ptr<test::Chain> litScene(const std::string& scene, uint32_t 
     test::device();
     const std::filesystem::path file = test::sourceRoot() / "configs/generality" / (scene + ".yaml");
     SceneLoader loader(sceneFolders({}, test::sourceRoot(), file));
-    const auto prepared =
-        std::make_shared<SceneState>(loader.prepare(loadExperiment(file).setup.scene).state);
+    const auto prepared = std::make_shared<SceneState>(loader.prepare(loadExperiment(file).setup.scene).state);
     return std::make_unique<test::Chain>(
         prepared,
-        fmt::format("[{{pass: gbuffer}}, {{pass: voxelize, resolution: {}}}{}, {{pass: "
-                    "sample_vpls, vpls_per_bounce: 2048}}, {{pass: gather_vpls, visibility: none}}]",
+        fmt::format("[{{pass: gbuffer}}, {{pass: voxelize, resolution: {}}}{}, {{pass: sample_vpls, vpls_per_bounce: "
+                    "2048}}, {{pass: gather_vpls, visibility: none}}]",
                     resolution, more),
         96, 54, 1);
 }

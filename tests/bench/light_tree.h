@@ -71,8 +71,7 @@ class LightTree {
 
     /// Representatives are one child's, by flux: so the tree's sum is right on average.
     size_t build(size_t begin, size_t end, std::mt19937& random) {
-        Node n{points_[begin].position, points_[begin].position, points_[begin].flux, begin, 0, 0,
-               end - begin == 1};
+        Node n{points_[begin].position, points_[begin].position, points_[begin].flux, begin, 0, 0, end - begin == 1};
         for (size_t i = begin; i < end; ++i) {
             n.low = glm::min(n.low, points_[i].position);
             n.high = glm::max(n.high, points_[i].position);

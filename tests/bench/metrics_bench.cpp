@@ -13,8 +13,8 @@ ImageF waves(uint32_t width, uint32_t height, float shift) {
     for (uint32_t y = 0; y < height; ++y)
         for (uint32_t x = 0; x < width; ++x)
             for (uint32_t c = 0; c < 3; ++c)
-                image.pixel(x, y)[c] = std::pow(
-                    10.0f, 2 * std::sin(0.05f * float(x) + shift) * std::cos(0.03f * float(y * (c + 1))));
+                image.pixel(x, y)[c] =
+                    std::pow(10.0f, 2 * std::sin(0.05f * float(x) + shift) * std::cos(0.03f * float(y * (c + 1))));
     return image;
 }
 

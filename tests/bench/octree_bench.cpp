@@ -40,8 +40,7 @@ void octreeBuild(benchmark::State& state) {
     state.counters["grid_voxels"] = double(grid.x) * grid.y * grid.z;
     state.counters["MB"] = double(bytes) / 1e6;
     state.counters["bytes_per_voxel"] = double(bytes) / voxels.voxelCount;
-    state.counters["structure_bytes_per_voxel"] =
-        double(size.nodeBytes() + size.tableBytes()) / voxels.voxelCount;
+    state.counters["structure_bytes_per_voxel"] = double(size.nodeBytes() + size.tableBytes()) / voxels.voxelCount;
 }
 BENCHMARK(octreeBuild)
     ->ArgNames({"resolution", "directions"})

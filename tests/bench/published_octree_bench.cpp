@@ -33,9 +33,8 @@ void publishedOctree(benchmark::State& state) {
     const gpu::VoxelGrid grid = cubeRound(scene.geometry, uint32_t(state.range(0)));
     BrickOctreeCount count;
     for (auto _ : state)
-        count = countBrickOctree(state.range(1) == 0
-                                     ? metVoxels(scene.geometry, grid)
-                                     : rasterizedVoxels(scene.geometry, grid, uint32_t(state.range(1))),
+        count = countBrickOctree(state.range(1) == 0 ? metVoxels(scene.geometry, grid)
+                                                     : rasterizedVoxels(scene.geometry, grid, uint32_t(state.range(1))),
                                  state.range(2) == 1);
     for (size_t level = 0; level < count.levels.size(); ++level) {
         const BrickOctreeCount::Level& l = count.levels[level];

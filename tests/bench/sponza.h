@@ -19,8 +19,7 @@ inline test::Chain& sponza(uint32_t resolution, uint32_t directions = 6, const s
     static std::map<std::tuple<uint32_t, uint32_t, std::string>, std::unique_ptr<test::Chain>> chains;
     std::unique_ptr<test::Chain>& chain = chains[{resolution, directions, more}];
     if (chain) return *chain;
-    const auto scene =
-        std::make_shared<SceneState>(evaluate(loadGltf(test::scenesFolder() / "sponza.glb"), 0.0));
+    const auto scene = std::make_shared<SceneState>(evaluate(loadGltf(test::scenesFolder() / "sponza.glb"), 0.0));
     scene->cameras.emplace_back();
     Light sun;
     sun.type = LightType::Directional;

@@ -63,8 +63,8 @@ std::vector<Hit> closestHits(RayTracer& tracer, const std::vector<Ray>& rays) {
 }
 
 /// What blocks the parts of the ways that voxels look at, without the first `begin` and last `end` voxels.
-std::vector<Hit> voxelsBetween(const Disagreement& d, const std::vector<test::BetweenVoxels>& ways,
-                               float begin, float end) {
+std::vector<Hit> voxelsBetween(const Disagreement& d, const std::vector<test::BetweenVoxels>& ways, float begin,
+                               float end) {
     CommandStream stream(test::device());
     test::TestPrograms programs;
     VoxelTracer tracer(programs, VoxelTraversal::Bricks);
@@ -72,8 +72,7 @@ std::vector<Hit> voxelsBetween(const Disagreement& d, const std::vector<test::Be
     tracer.begin(stream, d.voxels);
     const float size = d.voxels.grid.voxelSize;
     std::vector<Ray> rays;
-    for (const test::BetweenVoxels& way : ways)
-        rays.push_back(between(way.from, way.to, begin * size, end * size));
+    for (const test::BetweenVoxels& way : ways) rays.push_back(between(way.from, way.to, begin * size, end * size));
     return closestHits(tracer, rays);
 }
 
@@ -88,8 +87,7 @@ void voxelErrorsByPlace(benchmark::State& state, const std::string& scene) {
     const EmbreeScene embree(d.chain->state());
     std::vector<test::BetweenVoxels> ways;
     for (auto _ : state) ways = test::betweenVoxels(d.voxels, d.rays.pairs);
-    const std::vector<Hit> offStart = voxelsBetween(d, ways, kNear, 0),
-                           offEnd = voxelsBetween(d, ways, 0, kNear),
+    const std::vector<Hit> offStart = voxelsBetween(d, ways, kNear, 0), offEnd = voxelsBetween(d, ways, 0, kNear),
                            offBoth = voxelsBetween(d, ways, kNear, kNear);
     size_t start = 0, end = 0, both = 0, along = 0, spread = 0, past = 0;
     size_t untraced = 0, nearStart = 0, nearEnd = 0, farSeen = 0;
@@ -124,9 +122,9 @@ void voxelErrorsByPlace(benchmark::State& state, const std::string& scene) {
     }
     for (const auto& [name, count] :
          {std::pair{"hidden_start", start}, std::pair{"hidden_end", end}, std::pair{"hidden_either", both},
-          std::pair{"hidden_along", along}, std::pair{"hidden_spread", spread},
-          std::pair{"hidden_past", past}, std::pair{"seen_untraced", untraced},
-          std::pair{"seen_start", nearStart}, std::pair{"seen_end", nearEnd}, std::pair{"seen_far", farSeen}})
+          std::pair{"hidden_along", along}, std::pair{"hidden_spread", spread}, std::pair{"hidden_past", past},
+          std::pair{"seen_untraced", untraced}, std::pair{"seen_start", nearStart}, std::pair{"seen_end", nearEnd},
+          std::pair{"seen_far", farSeen}})
         state.counters[name] = d.percent(count);
 }
 
@@ -158,8 +156,8 @@ void voxelsWithExactEnds(benchmark::State& state, const std::string& scene) {
             const float length = glm::distance(a, b), near = std::min(reach, length);
             const glm::vec3 direction = (b - a) / length;
             hidden[i] =
-                hits[i].triangle != Hit::kMiss || (near > 0 && (embree.occluded({a, 0, direction, near}) ||
-                                                                embree.occluded({b, 0, -direction, near})));
+                hits[i].triangle != Hit::kMiss ||
+                (near > 0 && (embree.occluded({a, 0, direction, near}) || embree.occluded({b, 0, -direction, near})));
         }
     }
     d.report(state, [&](size_t i) { return hidden[i] ? 0.0 : 1.0; });
@@ -167,8 +165,8 @@ void voxelsWithExactEnds(benchmark::State& state, const std::string& scene) {
 
 /// Leaves that list their triangles, up to so many, and hold grids of 16³ where there are more.
 void hybridLeafVisibility(benchmark::State& state, const std::string& scene) {
-    const Disagreement d(
-        scene, 256, fmt::format(", {{pass: build_hybrid_leaves, primitives: {}, grid: 16}}", state.range(0)));
+    const Disagreement d(scene, 256,
+                         fmt::format(", {{pass: build_hybrid_leaves, primitives: {}, grid: 16}}", state.range(0)));
     const HybridLeaves& leaves = *d.chain->graph().resource<HybridLeaves>("hybrid_leaves");
     CommandStream stream(test::device());
     const GpuScene scene_ = makeGpuScene(test::device(), stream, d.chain->state());
@@ -194,8 +192,7 @@ void hybridLeafVisibility(benchmark::State& state, const std::string& scene) {
     }
     const std::vector<uint32_t> hidden = stream.readAs<uint32_t>(out, kRays);
     d.report(state, [&](size_t i) { return hidden[i] ? 0.0 : 1.0; });
-    state.counters["leaves_KiB"] =
-        double(leaves.structureBytes() + leaves.listBytes() + leaves.gridBytes()) / 1024;
+    state.counters["leaves_KiB"] = double(leaves.structureBytes() + leaves.listBytes() + leaves.gridBytes()) / 1024;
 }
 
 /// Voxels that let light through in part: each voxel on the way takes what its surfaces cover of it as the
@@ -279,8 +276,7 @@ void voxelCascades(benchmark::State& state, const std::string& scene) {
                         to = (isNear(p.b) ? fineWays : coarseWays)[i].to;
         const float length = glm::distance(from, to);
         const glm::vec3 direction = length > 0 ? (to - from) / length : glm::vec3(0, 0, 1), off = from - eye;
-        const float half = -glm::dot(direction, off),
-                    root = half * half - glm::dot(off, off) + radius * radius;
+        const float half = -glm::dot(direction, off), root = half * half - glm::dot(off, off) + radius * radius;
         const float enters = root > 0 ? glm::clamp(half - std::sqrt(root), 0.0f, length) : length,
                     leaves = root > 0 ? glm::clamp(half + std::sqrt(root), 0.0f, length) : length;
         inside.push_back({from + enters * direction, 0, direction, leaves > enters ? leaves - enters : -1});
@@ -312,11 +308,7 @@ void voxelCascades(benchmark::State& state, const std::string& scene) {
         ->Arg(32);                                                                                  \
     BENCHMARK_CAPTURE(voxelCascades, scene, #scene)->ONCE;                                          \
     BENCHMARK_CAPTURE(voxelsThatBlockInPart, scene, #scene)->ONCE->ArgName("adds")->Arg(0)->Arg(1); \
-    BENCHMARK_CAPTURE(hybridLeafVisibility, scene, #scene)                                          \
-        ->ONCE->ArgName("primitives")                                                               \
-        ->Arg(8)                                                                                    \
-        ->Arg(64)                                                                                   \
-        ->Arg(1 << 20)
+    BENCHMARK_CAPTURE(hybridLeafVisibility, scene, #scene)->ONCE->ArgName("primitives")->Arg(8)->Arg(64)->Arg(1 << 20)
 VISIBILITY_ERRORS(sponza);
 VISIBILITY_ERRORS(sibenik);
 VISIBILITY_ERRORS(conference);

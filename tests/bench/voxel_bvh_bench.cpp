@@ -25,8 +25,7 @@ constexpr float kFar = 1e30f;
 /// triangles get. A ray that starts in a box meets it where it starts.
 class BoxScene {
  public:
-    BoxScene(const gpu::VoxelGrid& grid, const std::vector<glm::ivec3>& voxels)
-        : grid_(grid), voxels_(voxels) {
+    BoxScene(const gpu::VoxelGrid& grid, const std::vector<glm::ivec3>& voxels) : grid_(grid), voxels_(voxels) {
         device_ = rtcNewDevice(nullptr);
         scene_ = rtcNewScene(device_);
         rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
@@ -56,18 +55,9 @@ class BoxScene {
             for (size_t i = begin; i < end; ++i) {
                 const Ray& r = rays[i];
                 RTCRayHit query;
-                query.ray = {r.origin.x,
-                             r.origin.y,
-                             r.origin.z,
-                             r.tMin,
-                             r.direction.x,
-                             r.direction.y,
-                             r.direction.z,
-                             0.0f,
-                             r.tMax,
-                             0xffffffffu,
-                             0,
-                             0};
+                query.ray = {
+                    r.origin.x, r.origin.y,  r.origin.z, r.tMin, r.direction.x, r.direction.y, r.direction.z, 0.0f,
+                    r.tMax,     0xffffffffu, 0,          0};
                 query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
                 embree.intersect(scene_, query);
                 const bool isHit = query.hit.geomID != RTC_INVALID_GEOMETRY_ID;
@@ -77,9 +67,7 @@ class BoxScene {
     }
 
  private:
-    glm::vec3 corner(unsigned voxel) const {
-        return grid_.origin + grid_.voxelSize * glm::vec3(voxels_[voxel]);
-    }
+    glm::vec3 corner(unsigned voxel) const { return grid_.origin + grid_.voxelSize * glm::vec3(voxels_[voxel]); }
 
     static void bounds(const RTCBoundsFunctionArguments* args) {
         const auto& self = *static_cast<const BoxScene*>(args->geometryUserPtr);
@@ -143,8 +131,7 @@ void voxelBvh(benchmark::State& state, const char* file, glm::vec3 light) {
     test::device();  // Made before the chain, so that it goes after it.
     const auto scene = std::make_shared<SceneState>(evaluate(loadGltf(path), 0.0));
     scene->cameras.emplace_back();
-    test::Chain chain(scene,
-                      fmt::format("[{{pass: voxelize, visibility_rays: 0, resolution: {}}}]", state.range(0)),
+    test::Chain chain(scene, fmt::format("[{{pass: voxelize, visibility_rays: 0, resolution: {}}}]", state.range(0)),
                       16, 16, 1);
     const test::Voxels read(chain);
     std::vector<glm::ivec3> voxels;
@@ -191,20 +178,8 @@ void voxelBvhSibenik(benchmark::State& state) {
 void voxelBvhSponza(benchmark::State& state) {
     voxelBvh(state, "sponza.glb", {0, 6, 0});
 }
-BENCHMARK(voxelBvhSibenik)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseManualTime()
-    ->Iterations(7);
-BENCHMARK(voxelBvhSponza)
-    ->Arg(64)
-    ->Arg(128)
-    ->Arg(256)
-    ->Unit(benchmark::kMillisecond)
-    ->UseManualTime()
-    ->Iterations(7);
+BENCHMARK(voxelBvhSibenik)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(7);
+BENCHMARK(voxelBvhSponza)->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(7);
 
 }  // namespace
 }  // namespace voxray

@@ -21,15 +21,13 @@ class SurfacePoints {
     explicit SurfacePoints(const Geometry& geometry) : geometry_(geometry) {
         for (const glm::uvec3& t : geometry.triangles) {
             const glm::vec3 a = geometry.positions[t.x];
-            area_.push_back(
-                glm::length(glm::cross(geometry.positions[t.y] - a, geometry.positions[t.z] - a)));
+            area_.push_back(glm::length(glm::cross(geometry.positions[t.y] - a, geometry.positions[t.z] - a)));
         }
         pick_ = std::discrete_distribution<size_t>(area_.begin(), area_.end());
     }
     SurfacePoint next() {
         const glm::uvec3& t = geometry_.triangles[pick_(random_)];
-        const glm::vec3 a = geometry_.positions[t.x], b = geometry_.positions[t.y],
-                        c = geometry_.positions[t.z];
+        const glm::vec3 a = geometry_.positions[t.x], b = geometry_.positions[t.y], c = geometry_.positions[t.z];
         float u = uniform_(random_), v = uniform_(random_);
         if (u + v > 1) u = 1 - u, v = 1 - v;
         return {a + u * (b - a) + v * (c - a), glm::normalize(glm::cross(b - a, c - a))};
@@ -106,9 +104,7 @@ void voxelMarch(benchmark::State& state) {
     for (size_t walk = 0; walk < kWalks; ++walk)
         state.counters[std::string(EnumNames<VoxelTraversal>::names[walk].second) + "_Mrays_s"] =
             double(state.iterations()) * kRays / 1e6 / seconds[walk];
-    const auto over = [&](VoxelTraversal a, VoxelTraversal b) {
-        return seconds[size_t(b)] / seconds[size_t(a)];
-    };
+    const auto over = [&](VoxelTraversal a, VoxelTraversal b) { return seconds[size_t(b)] / seconds[size_t(a)]; };
     state.counters["bricks_over_bits"] = over(VoxelTraversal::Bricks, VoxelTraversal::Bits);
     state.counters["svo_over_svo_restart"] = over(VoxelTraversal::Svo, VoxelTraversal::SvoRestart);
 }

@@ -67,22 +67,19 @@ void vplRayOrder(benchmark::State& state) {
     const auto positions = chain->readImage<glm::vec4>(gbuffer.position);
     const auto normals = chain->readImage<glm::u16vec4>(gbuffer.geometricNormal);
     list.resize(kLights);
-    const glm::vec3 center =
-        voxels.grid.origin + 0.5f * voxels.grid.voxelSize * glm::vec3(voxels.grid.resolution);
+    const glm::vec3 center = voxels.grid.origin + 0.5f * voxels.grid.voxelSize * glm::vec3(voxels.grid.resolution);
     const auto octant = [&](uint32_t light) {
         const glm::vec3 way = points[light].position - center;
         return (way.x > 0 ? 1 : 0) + (way.y > 0 ? 2 : 0) + (way.z > 0 ? 4 : 0);
     };
     if (state.range(0) == 1 || state.range(0) == 2)
-        std::stable_sort(list.begin(), list.end(),
-                         [&](uint32_t a, uint32_t b) { return octant(a) < octant(b); });
+        std::stable_sort(list.begin(), list.end(), [&](uint32_t a, uint32_t b) { return octant(a) < octant(b); });
     std::vector<test::SurfacePair> pairs;
     for (size_t i = 0; i < kTexels * kLights; ++i) {
         const bool byTexel = state.range(0) == 2;
         const size_t texel = (byTexel ? i / kLights : i % kTexels) * positions.size() / kTexels;
         const gpu::Vpl& vpl = points[list[byTexel ? i % kLights : i / kTexels]];
-        const glm::vec3 at(positions[texel]),
-            normal = glm::normalize(glm::vec3(glm::unpackHalf(normals[texel])));
+        const glm::vec3 at(positions[texel]), normal = glm::normalize(glm::vec3(glm::unpackHalf(normals[texel])));
         if (positions[texel].w == 0 || glm::dot(normal, vpl.position - at) <= 0 ||
             glm::dot(vpl.normal, at - vpl.position) <= 0)
             pairs.push_back({at, normal, at, normal});

@@ -31,8 +31,7 @@ class OneBounce {
         const auto normals = chain_->readImage<glm::u16vec4>(gbuffer.geometricNormal);
         for (size_t i = 0; i < positions.size(); ++i)
             if (positions[i].w > 0)
-                seen_.push_back(
-                    {glm::vec3(positions[i]), glm::normalize(glm::vec3(glm::unpackHalf(normals[i]))), 0});
+                seen_.push_back({glm::vec3(positions[i]), glm::normalize(glm::vec3(glm::unpackHalf(normals[i]))), 0});
     }
 
     const std::vector<LightPoint>& seen() const { return seen_; }
@@ -74,8 +73,7 @@ class OneBounce {
             const float distance_ = glm::length(to);
             const double cosine = double(glm::dot(at.normal, to) / distance_);
             if (cosine <= 0 || embree_.occluded({raised(at), 0, to, isSun ? 1e6f : 1})) continue;
-            const double arrives =
-                double(light.intensity.y) * cosine / (isSun ? 1 : double(distance_ * distance_));
+            const double arrives = double(light.intensity.y) * cosine / (isSun ? 1 : double(distance_ * distance_));
             at.flux = 1;
             // The texel that the ray comes from is one of those tried
             double density = arriving(from, at, 0);
@@ -94,8 +92,7 @@ class OneBounce {
     double arriving(const LightPoint& texel, const LightPoint& from, double bound) const {
         const glm::dvec3 way = from.position - texel.position;
         const double squared = glm::dot(way, way);
-        const double cosines =
-            glm::dot(glm::dvec3(texel.normal), way) * -glm::dot(glm::dvec3(from.normal), way);
+        const double cosines = glm::dot(glm::dvec3(texel.normal), way) * -glm::dot(glm::dvec3(from.normal), way);
         if (glm::dot(glm::dvec3(texel.normal), way) <= 0 || cosines <= 0) return 0;
         return from.flux * cosines / (squared * kPi * std::max(squared, bound));
     }
@@ -157,10 +154,8 @@ std::vector<LightPoint> chosen(const OneBounce& scene, const std::vector<LightPo
             if (brought > 0 && scene.sees(texel, points[i])) brings[i] += brought;
         }
     const double sum = std::accumulate(brings.begin(), brings.end(), 0.0);
-    for (size_t i = 0; i < points.size(); ++i)
-        probabilities[i] = 0.9 * brings[i] / sum + 0.1 / double(points.size());
-    const Resampled kept =
-        systematicResampling(probabilities, uint32_t(count), double(random() % 1024) / 1024);
+    for (size_t i = 0; i < points.size(); ++i) probabilities[i] = 0.9 * brings[i] / sum + 0.1 / double(points.size());
+    const Resampled kept = systematicResampling(probabilities, uint32_t(count), double(random() % 1024) / 1024);
     std::vector<LightPoint> stay;
     for (size_t i = 0; i < kept.indices.size(); ++i) {
         stay.push_back(points[kept.indices[i]]);
@@ -200,8 +195,8 @@ void vplSchemes(benchmark::State& state, const std::string& name) {
             before += scene.rays;
             for (size_t i = 0; i < kTexels; ++i) {
                 scene.rays = 0;
-                const double found = tree ? tree->irradiance(scene, texels[i], kLights, 0.02)
-                                          : scene.irradiance(texels[i], points);
+                const double found =
+                    tree ? tree->irradiance(scene, texels[i], kLights, 0.02) : scene.irradiance(texels[i], points);
                 rays += scene.rays;
                 squared += (found - right[i]) * (found - right[i]);
                 sum += found;

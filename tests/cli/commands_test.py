@@ -28,7 +28,7 @@ class Usage(CommandTest):
         self.assertIn("validate", done.stderr)
 
     def test_unknown_command(self):
-        self.assertIn("did you mean 'passes'", self.expect(2, "pases").stderr)
+        self.assertIn("'passes'", self.expect(2, "pases").stderr)
 
     def test_unknown_option_and_missing_argument(self):
         self.assertIn("--jsn", self.expect(2, "compare", "a.png", "b.png", "--jsn").stderr)
@@ -67,16 +67,16 @@ class Passes(CommandTest):
 
     def test_ports_of_values(self):
         out = " ".join(self.expect(0, "passes", "sample_vpls").stdout.split())
-        self.assertIn("what lights see (with first: rsm)", out)
+        self.assertIn("(with first: rsm)", out)
         out = " ".join(self.expect(0, "passes", "gather_vpls").stdout.split())
-        self.assertIn("what occludes shadow rays (with visibility: hybrid_leaves)", out)
+        self.assertIn("(with visibility: hybrid_leaves)", out)
 
     def test_allowed_values(self):
         out = self.expect(0, "passes", "gather_cones").stdout
         self.assertRegex(" ".join(out.split()), r"cones Cones .* Default 16; 5 \| 6 \| 16 \| 36\.")
 
     def test_unknown(self):
-        self.assertIn("did you mean 'gbuffer'", self.expect(2, "passes", "gbufer").stderr)
+        self.assertIn("'gbuffer'", self.expect(2, "passes", "gbufer").stderr)
 
 
 class Devices(CommandTest):
@@ -119,38 +119,29 @@ class Devices(CommandTest):
 
 
 class Validate(CommandTest):
-    def bad(self, old, new, *words, line=None):
-        self.assertIn(old, TINY)
-        text = TINY.replace(old, new, 1)
-        self.write("bad.yaml", text)
-        line = line or text[:text.index(new)].count("\n") + 1
-        for command in (("validate", "bad.yaml"), ("run", "bad.yaml", "--out", "out")):
-            error = self.expect(2, *command).stderr
-            for word in (f"bad.yaml:{line}: ", *words):
-                self.assertIn(word, error)
-            self.assertFalse(os.path.exists(self.path("out")), "a bad config leaves no results folder")
-
     def test_good_config(self):
         self.write("tiny.yaml", TINY)
         out = self.expect(0, "validate", "tiny.yaml").stdout
         self.assertIn("tiny.yaml: valid, 2 variants", out)
         self.assertIn("--profile smaller: valid", out)
 
-    def test_unknown_keys(self):
-        self.bad("width: 32", "widht: 32", "'widht'", "did you mean 'width'")
-        self.bad("bounces: 2}\n  - {pass: direct", "bonces: 2}\n  - {pass: direct", "did you mean 'bounces'")
-
-    def test_unknown_pass(self):
-        self.bad("pass: composite", "pass: compsite", "did you mean 'composite'")
-
-    def test_wrong_type_and_range(self):
-        self.bad("rays_per_light: 4096", "rays_per_light: many", "rays_per_light")
-        self.bad("rays_per_light: 4096", "rays_per_light: 0", "out of range")
-        self.bad("[8, 16]", "[8, -16]", "resolution")
-        self.bad("seed: 7", 'seed: "7"', "in quotes")
-
-    def test_missing_port(self):
-        self.bad("  - {pass: gbuffer}\n", "", "direct_shadow_rays: missing port 'gbuffer'", line=8)
+    def test_a_run_refuses_what_validate_does(self):
+        """Of each stage of reading one; mistakes.py has the others."""
+        for old, new, line, name in (("  - {pass: gbuffer}", "\t- {pass: gbuffer}", 6, ""), ("width: 32", "widht: 32", 3, "'width'"),
+                                     ("pass: composite", "pass: compsite", 11, "'composite'"),
+                                     ("rays_per_light: 4096", "rays_per_light: 0", 8, "rays_per_light"),
+                                     ("[8, 16]", "[8, -16]", 14, "resolution"),
+                                     ("  - {pass: gbuffer}\n", "", 8, "direct_shadow_rays: missing port 'gbuffer'"),
+                                     ("{builtin: cornell}", "{builtin: cornell, camera: rear}", 2, "'rear'"),
+                                     ("{builtin: cornell}", "{file: nowhere.glb}", 2, "'nowhere.glb'"),
+                                     ("spp: 8", "spp: 1", 12, "reference.spp"),
+                                     ("inject_light_rays, id: inject, rays_per_light: 4096", "inject_rsm, id: inject", 8, "inject_rsm")):
+            self.assertIn(old, TINY)
+            self.write("bad.yaml", TINY.replace(old, new, 1))
+            error = self.expect(2, "run", "bad.yaml", "--out", "out").stderr
+            self.assertIn(f"bad.yaml:{line}: ", error)
+            self.assertIn(name, error)
+            self.assertFalse(os.path.exists(self.path("out")), "a bad config leaves no results folder")
 
     def test_bounces_are_counted_to_the_image(self):
         # Each brings three bounces: to what it looks up, and one more where it gathers from what reflects.
@@ -170,35 +161,13 @@ class Validate(CommandTest):
         warnings = self.expect(0, "validate", "same.yaml", "--set", "reference.bounces=4").stderr
         for method in ("lookup", "more cones", "cache", "vpls", "mirrors", "paths"):
             self.assertIn(f"({method})", warnings)
-        self.assertIn("same.yaml:8: indirect light has 3 bounces, the reference's 4: write 'bounces: 3' in 'inject', or "
-                      "'bounces: 3' in the reference (rays and 2 more)", warnings)
-
-    def test_names_in_scenes(self):
-        scene = "{builtin: cornell}"
-        for more, word in (("override: {floo: {roughness: 1}}", "no material 'floo'"),
-                           ("heigth: 3", "no parameter 'heigth'"),
-                           ("camera: rear", "no camera 'rear'")):
-            self.bad(scene, "{builtin: cornell, " + more + "}", word)
-        self.bad(scene, "{file: nowhere.glb}", "no file 'nowhere.glb'")
-
-    def test_what_passes_refuse(self):
-        self.bad("spp: 8", "spp: 1", "reference.spp: 2 or more")
-        self.bad("inject_light_rays, id: inject, rays_per_light: 4096", "inject_rsm, id: inject", "inject_rsm",
-                 "no single viewpoint")
-        self.bad("bounces: 2}\n  - {pass: direct", "secondary: none, write: max}\n  - {pass: direct",
-                 "merges irradiances")
+        self.assertRegex(warnings, r"same\.yaml:8: .*'bounces: 3'.*\(rays and 2 more\)")
 
     def test_profile_and_set(self):
         self.write("tiny.yaml", TINY)
         out = self.expect(0, "validate", "tiny.yaml", "--profile", "smaller", "--set", "sweep=null").stdout
         self.assertEqual(out, "tiny.yaml --profile smaller: valid, 1 variant\n")
-        self.assertIn("out of range", self.expect(2, "validate", "tiny.yaml", "--set", "image.width=0").stderr)
-
-    def test_bad_yaml(self):
-        self.bad("{width: 32, height: 24}", "{width: 32, height: 24", "bad YAML")
-
-    def test_tab(self):
-        self.bad("  - {pass: gbuffer}", "\t- {pass: gbuffer}", "a tab in the indentation", line=6)
+        self.assertIn("image.width", self.expect(2, "validate", "tiny.yaml", "--set", "image.width=0").stderr)
 
     def test_bytes_of_files_are_never_echoed(self):
         with open(self.path("noise.png"), "wb") as file:
@@ -302,8 +271,8 @@ class SceneCommand(CommandTest):
         self.assertIn(position, self.expect(0, "scene", "tiny.yaml").stdout)
 
     def test_unknown_scenes(self):
-        self.assertIn("did you mean 'cornell'", self.expect(2, "scene", "cornel").stderr)
-        self.assertIn("no file 'nowhere.glb'", self.expect(2, "scene", "nowhere.glb").stderr)
+        self.assertIn("'cornell'", self.expect(2, "scene", "cornel").stderr)
+        self.assertIn("'nowhere.glb'", self.expect(2, "scene", "nowhere.glb").stderr)
         self.expect(2, "scene", "nowhere.yaml")
 
 

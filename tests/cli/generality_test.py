@@ -47,7 +47,8 @@ class Generality(CommandTest):
     def test_no_cell_is_worse_than_recorded(self):
         recorded = read(TABLE)
         for scene in SCENES:
-            self.expect(0, "run", config(scene), "--profile", "ci", "--quiet", "--out", scene)
+            self.expect(0, "run", config(scene), "--profile", "ci", "--quiet", "--no-report", "--out", scene,
+                        "--set", "measure.build_repeats=0")
             found = cells(self.rows(scene, "results.csv"))
             expected = {(row["inject"], row["gather"]): row for row in recorded if row["scene"] == scene}
             self.assertEqual(set(found), set(expected), scene)

@@ -82,7 +82,7 @@ class Jobs(Parts):
         self.assertRegex(text, r"(?m)^reference\.[0-9a-f]{12}\.1-of-1: .* 6144 paths$")
         self.assertIn("variant.resolution-16: ", text)
         self.assertIn("8 samples", self.expect(2, "jobs", "tiny.yaml", "--reference-parts", "9").stderr)
-        self.assertIn("did you mean 'variant.resolution-8'",
+        self.assertIn("'variant.resolution-8'",
                       self.run_part("variant.resolution-9", status=2).stderr)
         self.run_part("merge", "--dry-run", status=2)
 
@@ -95,7 +95,7 @@ class Jobs(Parts):
 
 class RunParts(Parts):
     def test_any_order_two_at_a_time_equals_a_run(self):
-        self.expect(0, "run", "tiny.yaml", "--out", "whole")
+        self.expect(0, "run", "tiny.yaml", "--out", "whole", "--no-report")
         for seed, parts in ((1, "4"), (2, "1")):
             self.environment["VOXRAY_CACHE"] = self.path(f"cache-{seed}")
             out = f"parts-{seed}"
@@ -139,7 +139,7 @@ class RunParts(Parts):
 class Merge(Parts):
     def machines(self):
         """A folder for each variant, and one of a whole run."""
-        self.expect(0, "run", "tiny.yaml", "--out", "whole")
+        self.expect(0, "run", "tiny.yaml", "--out", "whole", "--no-report")
         for resolution in ("8", "16"):
             self.run_part(f"variant.resolution-{resolution}", out=f"machine-{resolution}")
 

@@ -1,4 +1,5 @@
 """`voxray run`, end to end, on a chain of seconds: its files, resuming, interruption, disks that refuse."""
+import functools
 import os
 import random
 import re
@@ -6,6 +7,7 @@ import resource
 import shutil
 import signal
 import subprocess
+import tempfile
 import time
 import unittest
 
@@ -18,7 +20,7 @@ PASS_COLUMNS = ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "ra
 VARIANTS = ["resolution-8", "resolution-16"]
 
 # As TINY, but each variant takes long enough to be interrupted.
-SLOW = TINY.replace("frames: 2", "frames: 150").replace("[8, 16]", "[8, 12, 16, 24]")
+SLOW = TINY.replace("frames: 2", "frames: 40").replace("[8, 16]", "[8, 12, 16, 24]")
 
 # The reference as a method: nothing of it runs on a device.
 PATHS = """\
@@ -33,10 +35,25 @@ measure: {frames: 2, warmup: 1}
 """
 
 
+@functools.cache
+def finished_run():
+    """A folder with a finished run of TINY in 'out'; made once, for copies of it."""
+    folder = tempfile.TemporaryDirectory(prefix="voxray-cli-")
+    with open(os.path.join(folder.name, "tiny.yaml"), "w", encoding="utf-8") as file:
+        file.write(TINY)
+    subprocess.run([PROGRAM, "run", "tiny.yaml", "--out", "out", "--no-report"], cwd=folder.name, check=True,
+                   capture_output=True)
+    return folder
+
+
 class Run(CommandTest):
-    def run_tiny(self, out="out", *more):
+    def run_tiny(self, out="out", *more, report=False):
         self.write("tiny.yaml", TINY)
-        return self.expect(0, "run", "tiny.yaml", "--out", out, *more)
+        return self.expect(0, "run", "tiny.yaml", "--out", out, *more, *([] if report else ["--no-report"]))
+
+    def copy_finished_run(self, out="out"):
+        self.write("tiny.yaml", TINY)
+        shutil.copytree(os.path.join(finished_run().name, "out"), self.path(out))
 
     def header(self, *parts):
         return self.bytes(*parts).split(b"\n")[0].decode().strip().split(",")
@@ -57,8 +74,9 @@ class Run(CommandTest):
 
 class Results(Run):
     def test_files(self):
-        done = self.run_tiny("out", "--validate", "--aovs")
+        done = self.run_tiny("out", "--validate", "--aovs", report=True)
         self.assertIn("report.html", done.stdout)
+        self.assertNotIn("replaces", done.stdout)
         self.assertRegex(done.stdout, r"resolution 8: build [\d.]+ ms, frame [\d.]+ ms, indirect nRMSE [\d.]+ \(total [\d.]+\), ")
         manifest = self.json("out", "manifest.json")
         self.assertTrue(manifest["validation"])
@@ -101,7 +119,7 @@ class Results(Run):
         self.assertNotRegex(page, r"(src|href)=[\"']https?:")
 
     def test_two_runs_are_bit_identical(self):
-        self.run_tiny("one")
+        self.copy_finished_run("one")
         self.run_tiny("two")
         kept = ["variant"] + [light + metric for light in ("", "indirect_") for metric in self.metrics()]
         one, two = ([[row[column] for column in kept] for row in self.rows(out, "results.csv")]
@@ -121,7 +139,7 @@ class Results(Run):
     def test_dry_run_warns_as_a_run_does(self):
         self.write("tiny.yaml", TINY.replace("builtin: cornell", "builtin: cornell, keep_file_lights: false"))
         words = "voxray: warning: tiny.yaml"
-        dry, said = (self.expect(0, "run", "tiny.yaml", "--out", "out", *more).stderr for more in (["--dry-run"], []))
+        dry, said = (self.expect(0, "run", "tiny.yaml", "--out", "out", *more).stderr for more in (["--dry-run"], ["--no-report"]))
         self.assertIn(words, dry)
         self.assertEqual([line for line in dry.splitlines() if words in line],
                          [line for line in said.splitlines() if words in line])
@@ -129,9 +147,9 @@ class Results(Run):
     def test_profile_and_set(self):
         self.run_tiny("out", "--profile", "smaller", "--set", "measure.frames=1")
         self.assertEqual(self.json("out", "manifest.json")["image"], {"width": 16, "height": 12})
-        self.assertIn("did you mean 'smaller'",
+        self.assertIn("'smaller'",
                       self.expect(2, "run", "tiny.yaml", "--profile", "smalller").stderr)
-        self.assertIn("did you mean", self.expect(2, "run", "tiny.yaml", "--set", "image.widht=3").stderr)
+        self.assertIn("'width'", self.expect(2, "run", "tiny.yaml", "--set", "image.widht=3").stderr)
 
     def test_build_timed_at_its_only_run(self):
         self.run_tiny("once", "--profile", "smaller", "--set", "measure.build_repeats=0")
@@ -156,7 +174,7 @@ class Results(Run):
     def test_failed_variant_keeps_the_others(self):
         # 512³ voxels don't fit into the limit, 8³ do.
         self.write("tiny.yaml", TINY.replace("[8, 16]", "[8, 512]").replace("warmup: 1", "warmup: 1, memory_limit_mb: 64"))
-        self.expect(1, "run", "tiny.yaml", "--out", "out")
+        self.expect(1, "run", "tiny.yaml", "--out", "out", "--no-report")
         rows = {row["variant"]: row for row in self.rows("out", "results.csv")}
         self.assertEqual(rows["resolution-8"]["status"], "ok")
         self.assertEqual(rows["resolution-512"]["status"], "failed")
@@ -167,7 +185,7 @@ class Results(Run):
 class WithoutVulkan(Run):
     def run_paths(self, out, *more):
         self.write("paths.yaml", PATHS)
-        return self.expect(0, "run", "paths.yaml", "--out", out, *more)
+        return self.expect(0, "run", "paths.yaml", "--out", out, "--no-report", *more)
 
     def test_paths_are_the_same_without_a_device(self):
         self.run_paths("with")
@@ -199,17 +217,17 @@ class Resume(Run):
                 if os.path.exists(self.marker(variant, out))}
 
     def test_nothing_twice(self):
-        self.run_tiny()
+        self.copy_finished_run()
         before = self.times()
         self.assertEqual(sorted(before), sorted(VARIANTS))
         self.run_tiny("out", "--resume")
         self.assertEqual(self.times(), before)
-        self.run_tiny()
+        self.assertIn("replaces 2 finished variants of an earlier run; --resume", self.run_tiny().stdout)
         self.assertTrue(all(self.times()[variant] > before[variant] for variant in VARIANTS))
 
     def test_two_runs_in_one_folder(self):
-        self.write("slow.yaml", SLOW.replace("frames: 150", "frames: 40"))
-        arguments = ("run", "slow.yaml", "--out", "out", "--quiet")
+        self.write("slow.yaml", SLOW)
+        arguments = ("run", "slow.yaml", "--out", "out", "--quiet", "--no-report")
 
         # While one writes the other is refused, with the number of the process
         first = self.start_until(lambda: os.path.exists(self.path("out", ".lock")), *arguments)
@@ -230,7 +248,7 @@ class Resume(Run):
             self.check_whole()
 
     def test_another_experiment_is_refused(self):
-        self.run_tiny()
+        self.copy_finished_run()
         self.write("tiny.yaml", TINY.replace("seed: 7", "seed: 8"))
         before = self.files("out")
         self.assertIn("seed", self.expect(2, "run", "tiny.yaml", "--out", "out", "--resume").stderr)
@@ -239,10 +257,6 @@ class Resume(Run):
         self.assertIn("another graph (rays_per_light: 4096, now rays_per_light: 8192)",
                       self.expect(2, "run", "tiny.yaml", "--out", "out", "--resume").stderr)
         self.assertEqual(self.files("out"), before)
-
-    def test_a_fresh_run_tells_what_it_replaces(self):
-        self.assertNotIn("replaces", self.run_tiny().stdout)
-        self.assertIn("replaces 2 finished variants of an earlier run; --resume would keep them", self.run_tiny().stdout)
 
     def interrupt(self, number, status):
         self.write("slow.yaml", SLOW)
@@ -257,7 +271,7 @@ class Resume(Run):
         return finished, said
 
     def finish(self, finished):
-        self.expect(0, "run", "slow.yaml", "--out", "out", "--resume")
+        self.expect(0, "run", "slow.yaml", "--out", "out", "--resume", "--no-report")
         self.assertEqual(len(self.rows("out", "results.csv")), 4)
         after = self.times()
         self.assertEqual({variant: after[variant] for variant in finished}, finished)
@@ -297,7 +311,18 @@ class Resume(Run):
         said = process.communicate()[1]
         self.assertEqual([row["status"] for row in self.rows("out", "results.csv")], ["ok"] * 2)
         self.assertEqual("voxray: ended\n" in said, signals == 2, said)
+        self.wait_for_group(process.pid)
         return process.returncode
+
+    def wait_for_group(self, group):
+        """Until all processes of a group are over."""
+        for _ in range(400):
+            try:
+                os.killpg(group, 0)
+            except ProcessLookupError:
+                return
+            time.sleep(0.05)
+        self.fail("the report's script outlasts its run by 20 s")
 
     def test_ctrl_c_while_the_report_is_made(self):
         self.assertEqual(self.interrupt_report(1), 130)
@@ -306,7 +331,6 @@ class Resume(Run):
 
     def test_ctrl_c_twice_while_the_report_is_made(self):
         self.assertEqual(self.interrupt_report(2), -signal.SIGINT)
-        time.sleep(6)  # The script would be done by now.
         self.assertFalse(os.path.exists(self.path("out", "report.html")))
         before = self.times()
         self.expect(0, "run", "tiny.yaml", "--out", "out", "--resume")
@@ -344,7 +368,7 @@ class Disk(Run):
         self.assertEqual([row["status"] for row in self.rows("out", "results.csv")], ["ok", "ok"])
 
     def test_full_disk_loses_no_finished_variant(self):
-        self.run_tiny()
+        self.copy_finished_run()
         before = {name: self.bytes("out", name) for name in self.files("out") if name.startswith("images/resolution-8/")}
         shutil.rmtree(self.path("out", "images", "resolution-16"))
         os.remove(self.path("out", "results.csv"))

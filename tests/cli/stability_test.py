@@ -75,12 +75,12 @@ class Stability(CommandTest):
         self.assertEqual(scenes, limited)
 
     def test_mistakes(self):
-        for words, part in ((["gather ray"], "no method 'gather ray'; did you mean 'gather rays'?"),
-                            (["--scenario", "furnance"], "no scenario 'furnance'; did you mean 'furnace'?"),
-                            (["--profile", "leek"], "no profile 'leek'; did you mean 'leak'?")):
+        for words, part in ((["gather ray"], "'gather rays'"),
+                            (["--scenario", "furnance"], "'furnace'"),
+                            (["--profile", "leek"], "'leak'")):
             self.assertIn(part, self.expect(2, "stability", "--dry-run", *words).stderr)
         plain = self.write("plain.yaml", "name: plain\nscene: {builtin: cornell}\ngraph: [{pass: path_trace, spp: 1}]\nprofiles: {a: {seed: 1}}\n")
-        self.assertIn("needs an axis 'scene'", self.expect(2, "stability", "--config", plain).stderr)
+        self.assertIn("'scene'", self.expect(2, "stability", "--config", plain).stderr)
 
 
     def test_remedies_run_what_fails_again(self):

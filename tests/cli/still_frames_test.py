@@ -28,7 +28,7 @@ sweep:
     accumulated: [{pass: sample_vpls, vpls_per_bounce: 16, bounces: 2}, gather_vpls, {pass: accumulate, history: 2}, filter_irradiance]
     gather rays: [{pass: trace_gather_rays, rays_per_block: 16, block: 8}, gather_rays, filter_irradiance]
     mirrors: [gather_irradiance, gather_mirror]
-measure: {frames: 2, warmup: 1}
+measure: {frames: 2, warmup: 1, build_repeats: 0}
 """
 
 

@@ -23,26 +23,25 @@ sweep:
     clusters, first: [place_surfels, {pass: cluster_voxels, initial: 500, assign: first}, find_patches,
                       {pass: cluster_visibility, rays: 32}, {pass: inject_clusters, direct: shadow_rays, bounces: 1},
                       gather_clusters, gather_irradiance]
-measure: {frames: 1, warmup: 0}
+measure: {frames: 1, warmup: 0, build_repeats: 0}
 """
 
 
 class Threads(CommandTest):
-    def test_one_two_and_five_give_the_same(self):
+    def test_one_and_five_give_the_same(self):
         self.write("threads.yaml", THREADS)
         images, values = [], []
-        for threads in ("1", "2", "5"):
+        for threads in ("1", "5"):
             self.environment["LP_NUM_THREADS"] = threads
             self.expect(0, "run", "threads.yaml", "--out", threads, "--no-report")
             names = [name for name in self.files(threads, "images") if name.endswith(".exr")]
             self.assertTrue(any(name.endswith("indirect.exr") for name in names), names)
             images.append({name: self.bytes(threads, "images", name) for name in names})
             values.append(self.rows(threads, "values.csv"))
-        for other in (1, 2):
-            self.assertEqual(sorted(images[0]), sorted(images[other]))
-            for name, data in images[0].items():
-                self.assertEqual(data, images[other][name], name)
-            self.assertEqual(values[0], values[other])
+        self.assertEqual(sorted(images[0]), sorted(images[1]))
+        for name, data in images[0].items():
+            self.assertEqual(data, images[1][name], name)
+        self.assertEqual(*values)
         self.assertTrue(any(row["name"] == "clusters" for row in values[0]), values[0][:3])
 
 

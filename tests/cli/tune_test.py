@@ -23,7 +23,7 @@ sweep:
   voxelize.resolution: [16, 32]
   inject.rays_per_light: [4096, 16384, 65536]
   trace.rays_per_block: [16, 32, 64, 128, 256, 512]
-measure: {frames: 1, warmup: 0}
+measure: {frames: 1, warmup: 0, build_repeats: 0}
 """
 
 
@@ -79,13 +79,13 @@ class Tune(CommandTest):
 
     def test_mistakes_are_told_before_anything_runs(self):
         for status, arguments, message in (
-                (2, ("--target", "indirect_relmse"), "expected NAME=VALUE"),
-                (2, ("--target", "nrms=0.2"), "did you mean 'nrmse'?"),
-                (2, ("--target", "nrmse=0"), "a target is above 0"),
-                (2, ("--target", "flip=0.1", "--vary", "trace.rays"), "did you mean 'rays_per_block'"),
-                (2, ("--target", "flip=0.1", "--vary", "tracer.rays"), "no pass 'tracer'"),
-                (2, ("--target", "flip=0.1", "--set", "reference=null"), "there is no 'reference'"),
-                (2, ("--target", "flip=0.1", "--set", "sweep.seed=[1, 2]"), "the sweep varies 'seed'")):
+                (2, ("--target", "indirect_relmse"), "NAME=VALUE"),
+                (2, ("--target", "nrms=0.2"), "'nrmse'"),
+                (2, ("--target", "nrmse=0"), "nrmse=0"),
+                (2, ("--target", "flip=0.1", "--vary", "trace.rays"), "'rays_per_block'"),
+                (2, ("--target", "flip=0.1", "--vary", "tracer.rays"), "'tracer'"),
+                (2, ("--target", "flip=0.1", "--set", "reference=null"), "'reference'"),
+                (2, ("--target", "flip=0.1", "--set", "sweep.seed=[1, 2]"), "'seed'")):
             self.assertIn(message, self.tune(status, *arguments).stderr)
             self.assertFalse(os.path.exists(self.path("out")), "a mistake leaves nothing")
 

@@ -20,8 +20,7 @@ struct BetweenVoxels {
     glm::vec3 from, to;
 };
 
-inline std::vector<BetweenVoxels> betweenVoxels(const SurfaceVoxels& voxels,
-                                                const std::vector<SurfacePair>& pairs) {
+inline std::vector<BetweenVoxels> betweenVoxels(const SurfaceVoxels& voxels, const std::vector<SurfacePair>& pairs) {
     CommandStream stream(device());
     TestPrograms programs;
     VoxelMarch march(programs, VoxelTraversal::Bricks);
@@ -31,23 +30,20 @@ inline std::vector<BetweenVoxels> betweenVoxels(const SurfaceVoxels& voxels,
     const Buffer in(device(), "pairs", pairs.size() * sizeof(SurfacePair)),
         out(device(), "answers", pairs.size() * sizeof(BetweenVoxels));
     stream.upload(in, pairs);
-    stream.dispatch(
-        kernel, pairs.size(),
-        {march, {"pairs", in}, {"answers", out}, {"grid", voxels.grid}, {"count", uint32_t(pairs.size())}});
+    stream.dispatch(kernel, pairs.size(),
+                    {march, {"pairs", in}, {"answers", out}, {"grid", voxels.grid}, {"count", uint32_t(pairs.size())}});
     return stream.readAs<BetweenVoxels>(out, pairs.size());
 }
 
 /// Whether voxels hide the points of each pair from each other: 1 or 0.
-inline std::vector<uint32_t> hiddenByVoxels(const SurfaceVoxels& voxels,
-                                            const std::vector<SurfacePair>& pairs) {
+inline std::vector<uint32_t> hiddenByVoxels(const SurfaceVoxels& voxels, const std::vector<SurfacePair>& pairs) {
     std::vector<uint32_t> hidden;
     for (const BetweenVoxels& between : betweenVoxels(voxels, pairs)) hidden.push_back(between.isHidden);
     return hidden;
 }
 
 /// Whether triangles do.
-inline std::vector<uint32_t> hiddenByTriangles(const SceneState& scene,
-                                               const std::vector<SurfacePair>& pairs) {
+inline std::vector<uint32_t> hiddenByTriangles(const SceneState& scene, const std::vector<SurfacePair>& pairs) {
     const EmbreeScene embree(scene);
     std::vector<uint32_t> hidden;
     for (const SurfacePair& p : pairs) {

@@ -1,19 +1,21 @@
 #pragma once
 
+#include <cstring>
 #include <functional>
+#include <map>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "config/yaml.h"
 #include "experiment/measure.h"
 #include "graph/graph.h"
-#include "passes/common/families.h"
-#include "scene/load.h"
+#include "tests/support/all_passes.h"
 #include "tests/support/device.h"
 #include "tests/support/graph_yaml.h"
 #include "tests/support/places.h"
+#include "tests/support/scenes.h"
 
 namespace voxray::test {
 
@@ -23,14 +25,12 @@ class Chain {
     Chain(const std::string& scene, const std::string& sceneParameters, const std::string& graphYaml,
           uint32_t width = 32, uint32_t height = 32, uint64_t seed = 1,
           const std::function<void(Registry&)>& addPasses = {}, std::optional<uint64_t> memoryLimitBytes = {})
-        : Chain(std::make_shared<SceneState>(
-                    evaluate(makeBuiltinScene(scene, parseYaml(sceneParameters, "scene")), 0.0)),
-                graphYaml, width, height, seed, addPasses, memoryLimitBytes) {}
+        : Chain(builtin(scene, sceneParameters), graphYaml, width, height, seed, addPasses, memoryLimitBytes) {}
 
     /// @param addPasses adds a test's own passes to those of the program.
     /// @param memoryLimitBytes of the graph; none: what the device has.
-    Chain(const std::shared_ptr<const SceneState>& state, const std::string& graphYaml, uint32_t width,
-          uint32_t height, uint64_t seed, const std::function<void(Registry&)>& addPasses = {},
+    Chain(const State& state, const std::string& graphYaml, uint32_t width = 32, uint32_t height = 32,
+          uint64_t seed = 1, const std::function<void(Registry&)>& addPasses = {},
           std::optional<uint64_t> memoryLimitBytes = {})
         : state_(std::make_shared<SceneState>(*state)),
           compiler_(test::sourceRoot(), test::shaderCache()),
@@ -42,21 +42,23 @@ class Chain {
         frame_.width = width;
         frame_.height = height;
         frame_.seed = seed;
-        Registry registry;
-        registerPasses(registry);
+        Registry registry = allPasses();
         if (addPasses) addPasses(registry);
         graph_ = std::make_unique<Graph>(registry, parseYaml(graphYaml, "graph"));
-        planned =
-            graph_->plan(frame_, device().info(), memoryLimitBytes.value_or(device().memoryLimitBytes()));
+        planned = graph_->plan(frame_, device().info(), memoryLimitBytes.value_or(device().memoryLimitBytes()));
         graph_->prepare(frame_, device(), compiler_, stream_);
-        buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
-        frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, 0, true);
+        buildSamples = run(Phase::Build);
+        frameSamples = run(Phase::Frame);
     }
+
+    Chain(const SceneState& state, const std::string& graphYaml, uint32_t width = 32, uint32_t height = 32,
+          uint64_t seed = 1)
+        : Chain(std::make_shared<SceneState>(state), graphYaml, width, height, seed) {}
 
     /// Another frame, seen from elsewhere.
     void runFrameFrom(const glm::vec3& cameraPosition) {
         frame_.camera.position = cameraPosition;
-        frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, 0, true);
+        frameSamples = run(Phase::Frame);
     }
 
     /// Frames 1 to `count`, which draw other random numbers than frame 0.
@@ -65,9 +67,7 @@ class Chain {
     }
 
     /// Frame `index`, which draws its own random numbers.
-    void runFrame(uint32_t index) {
-        frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, index, true);
-    }
+    void runFrame(uint32_t index) { frameSamples = run(Phase::Frame, index); }
 
     /// Changes the scene in place, takes over what the change says that it changed, and renders a frame.
     void update(const std::function<std::vector<Box>(SceneState&)>& change) {
@@ -75,21 +75,21 @@ class Chain {
         ++frame_.sceneVersion;
         updateGpuScene(stream_, *state_, scene_);
         tracer_->update(stream_);
-        updateSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
-        frameSamples = graph_->run(Phase::Frame, frame_, device(), stream_, *tracer_, scene_, 0, true);
+        updateSamples = run(Phase::Build);
+        frameSamples = run(Phase::Frame);
     }
 
     /// The build phase once more, with everything new.
     void rebuild() {
         frame_.changed.reset();
-        buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
+        buildSamples = run(Phase::Build);
     }
 
     /// The build phase once more with surfaces as they are: light is injected again.
     void relight() {
         frame_.changed.emplace();
         ++frame_.sceneVersion;
-        buildSamples = graph_->run(Phase::Build, frame_, device(), stream_, *tracer_, scene_, 0, true);
+        buildSamples = run(Phase::Build);
     }
 
     /// Another time of a scene that was evaluated as looping.
@@ -99,6 +99,11 @@ class Chain {
 
     const SceneState& state() const { return *state_; }
     const Graph& graph() const { return *graph_; }
+    /// What a pass wrote under this name.
+    template <typename T>
+    const T& get(const std::string& port) const {
+        return *graph_->resource<T>(port);
+    }
     /// What was written last under this name: three channels, without alpha.
     ImageF image(const std::string& port) { return downloadImage(device(), stream_, *graph_->image(port)); }
     template <typename T>
@@ -119,6 +124,10 @@ class Chain {
     std::vector<PassSample> buildSamples, updateSamples, frameSamples;
 
  private:
+    std::vector<PassSample> run(Phase phase, uint32_t index = 0) {
+        return graph_->run(phase, frame_, device(), stream_, *tracer_, scene_, index, true);
+    }
+
     std::shared_ptr<SceneState> state_;
     ShaderCompiler compiler_;
     CommandStream stream_;
@@ -128,6 +137,12 @@ class Chain {
     std::unique_ptr<Graph> graph_;
 };
 
+/// Moves a scene's first light, for Chain::update().
+inline std::vector<Box> moveLight(SceneState& state) {
+    state.lights.at(0).position.x += 0.4f;
+    return {};
+}
+
 /// What a pass reported under a name. @throws Error where it didn't.
 inline double reported(const PassSample& sample, const std::string& name) {
     for (const PassContext::Value& value : sample.reported)
@@ -135,11 +150,58 @@ inline double reported(const PassSample& sample, const std::string& name) {
     throw Error("no value '{}' was reported", name);
 }
 
+/// A graph run on a scene at one of its times.
+inline std::unique_ptr<Chain> chainAt(const std::shared_ptr<const Scene>& scene, double seconds,
+                                      const std::string& graphYaml) {
+    return std::make_unique<Chain>(evaluated(scene, seconds, Playback::Looping), graphYaml, 16, 16);
+}
+
+template <typename T>
+bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+inline constexpr double kPi = std::numbers::pi;
+
 /// Mean of all pixels and channels.
 inline double mean(const ImageF& image) {
     double sum = 0;
     for (const float value : image.data) sum += value;
     return sum / double(image.data.size());
+}
+
+/// Indirect light by the path tracer; of a built-in scene once in a program.
+inline ImageF pathTraced(const State& state, int samples, int bounces, uint32_t width = 32, uint32_t height = 32) {
+    const std::string pass = fmt::format("path_trace, spp: {}, bounces: {}", samples, bounces);
+    return Chain(state, graphYaml({pass}), width, height).image("indirect");
+}
+inline const ImageF& pathTraced(const std::string& scene, const std::string& parameters, int samples, int bounces,
+                                uint32_t width = 32, uint32_t height = 32) {
+    static std::map<std::string, ImageF> images;
+    ImageF& image = images[fmt::format("{} {} {} {} {} {}", scene, parameters, samples, bounces, width, height)];
+    if (image.data.empty()) image = pathTraced(builtin(scene, parameters), samples, bounces, width, height);
+    return image;
+}
+
+/// Mean difference of two images over the mean of the second.
+inline double meanDifference(const ImageF& a, const ImageF& b) {
+    double total = 0;
+    for (size_t i = 0; i < b.data.size(); ++i) total += std::abs(double(a.data[i]) - double(b.data[i]));
+    return total / double(b.data.size()) / mean(b);
+}
+
+/// Indirect light that a graph brings to the image of a scene.
+inline ImageF indirectLight(const std::string& scene, const std::string& parameters, const std::string& graphYaml,
+                            uint32_t width = 32, uint32_t height = 32) {
+    return Chain(scene, parameters, graphYaml, width, height).image("indirect");
+}
+inline double meanIndirect(const SceneState& state, const std::string& graphYaml, uint32_t width = 32,
+                           uint32_t height = 32) {
+    return mean(Chain(state, graphYaml, width, height).image("indirect"));
+}
+inline double meanIndirect(const std::string& scene, const std::string& parameters, const std::string& graphYaml,
+                           uint32_t width = 32, uint32_t height = 32) {
+    return mean(indirectLight(scene, parameters, graphYaml, width, height));
 }
 
 }  // namespace voxray::test

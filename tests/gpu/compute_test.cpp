@@ -35,11 +35,10 @@ class Compute : public VulkanTest {
 };
 
 TEST_F(Compute, PrefixSumsOfValuesAndOfSetBits) {
-    const PrefixSum ofValues(programs_, PrefixSum::Of::Values), ofBits(programs_, PrefixSum::Of::SetBits);
+    const PrefixSum ofUints(programs_, PrefixSum::Input::Uints), ofBits(programs_, PrefixSum::Input::SetBits);
     programs_.compile();
     for (const uint32_t count : kCounts) {
-        const std::vector<uint32_t> values = randomNumbers(count, 2000, count),
-                                    words = randomNumbers(count, 0, count);
+        const std::vector<uint32_t> values = randomNumbers(count, 2000, count), words = randomNumbers(count, 0, count);
         std::vector<uint32_t> sums(count), bits(count);
         std::exclusive_scan(values.begin(), values.end(), sums.begin(), 0u);
         uint32_t set = 0;
@@ -49,7 +48,7 @@ TEST_F(Compute, PrefixSumsOfValuesAndOfSetBits) {
         }
         CommandStream stream(device());
         const Buffer source = upload(stream, values), other = upload(stream, words);
-        EXPECT_EQ(ofValues.run(stream, source, source, count), sums.back() + values.back()) << count;
+        EXPECT_EQ(ofUints.run(stream, source, source, count), sums.back() + values.back()) << count;
         EXPECT_EQ(stream.readAs<uint32_t>(source, count), sums) << count;
         EXPECT_EQ(ofBits.run(stream, other, other, count), set) << count;
         EXPECT_EQ(stream.readAs<uint32_t>(other, count), bits) << count;

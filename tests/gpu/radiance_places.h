@@ -22,14 +22,20 @@ inline double weightError() {
 /// off by two weights' error of what lies round it, the light of a cone is a mean of samples.
 inline void expectSameLight(const ImageF& ours, const ImageF& sampled, const std::string& directions) {
     double squares = 0;
-    for (size_t i = 0; i < ours.data.size(); ++i)
-        squares += std::pow(double(sampled.data[i]) - ours.data[i], 2);
+    for (size_t i = 0; i < ours.data.size(); ++i) squares += std::pow(double(sampled.data[i]) - ours.data[i], 2);
     const double difference = std::sqrt(squares / double(ours.data.size())) / mean(ours);
     const double ratio = mean(sampled) / mean(ours);
-    std::printf("%s directions: mean ratio %.6f, root mean square difference %.2g of the mean\n",
-                directions.c_str(), ratio, difference);
+    std::printf("%s directions: mean ratio %.6f, root mean square difference %.2g of the mean\n", directions.c_str(),
+                ratio, difference);
     EXPECT_NEAR(ratio, 1.0, 2 * weightError());
     EXPECT_LT(difference, 2 * weightError());
+}
+
+/// The Cornell box, 2 m wide, seen from `camera`.
+inline State cornellFrom(const glm::vec3& camera) {
+    const auto state = builtin("cornell", "{lights: point}");
+    state->cameras.at(0).position = camera;
+    return state;
 }
 
 /// A place in the center of a layer across `axis`, as cones read it, in voxels of a level.
@@ -51,11 +57,17 @@ inline std::vector<LayerPlace> randomPlaces(const gpu::RadianceGrid& grid, size_
         p.axis = int(random() % 3);
         p.sign = random() % 2 ? 1.0f : -1.0f;
         const VoxelBox box = held(p.level);
-        for (int k = 0; k < 3; ++k)
-            p.voxels[k] = float(box.first[k]) + float(box.size[k] + 4) * uniform(random) - 2.5f;
+        for (int k = 0; k < 3; ++k) p.voxels[k] = float(box.first[k]) + float(box.size[k] + 4) * uniform(random) - 2.5f;
         p.voxels[p.axis] = std::floor(p.voxels[p.axis]);
     }
     return places;
+}
+
+/// Anywhere in the grid and up to two voxels outside.
+inline std::vector<LayerPlace> randomPlaces(const gpu::RadianceGrid& grid, size_t count) {
+    return randomPlaces(grid, count, [&](uint32_t level) {
+        return VoxelBox{glm::ivec3(0), levelResolution(grid.resolution, level)};
+    });
 }
 
 inline RadianceQuery queryAt(const gpu::RadianceGrid& grid, const LayerPlace& p, glm::vec3 voxels) {
@@ -65,11 +77,16 @@ inline RadianceQuery queryAt(const gpu::RadianceGrid& grid, const LayerPlace& p,
     return {grid.origin + voxel * (voxels + 0.5f), voxel, direction};
 }
 
+inline std::vector<RadianceQuery> queriesAt(const gpu::RadianceGrid& grid, const std::vector<LayerPlace>& places) {
+    std::vector<RadianceQuery> queries;
+    for (const LayerPlace& p : places) queries.push_back(queryAt(grid, p, p.voxels));
+    return queries;
+}
+
 /// Of each place the twelve voxels that a filter may read: two along each of the axes across, and the layers
 /// before and after, since a weight of 0 may be off as well.
 constexpr size_t kVoxelsRound = 12;
-inline std::vector<RadianceQuery> voxelsRound(const gpu::RadianceGrid& grid,
-                                              const std::vector<LayerPlace>& places) {
+inline std::vector<RadianceQuery> voxelsRound(const gpu::RadianceGrid& grid, const std::vector<LayerPlace>& places) {
     std::vector<RadianceQuery> queries;
     for (const LayerPlace& p : places) {
         const int u = (p.axis + 1) % 3, v = (p.axis + 2) % 3;
@@ -84,9 +101,21 @@ inline std::vector<RadianceQuery> voxelsRound(const gpu::RadianceGrid& grid,
     return queries;
 }
 
+/// Plans a graph for the Cornell box on a device whose filtered volumes may have `side` texels.
+inline void planWithVolumes(uint32_t side, const std::string& graph) {
+    const auto state = builtin("cornell", "{lights: point}");
+    Frame frame;
+    frame.scene = state.get();
+    frame.camera = state->cameras.at(0);
+    frame.width = frame.height = 8;
+    DeviceInfo info = device().info();
+    info.filteredVolumeSide = side;
+    Graph(allPasses(), parseYaml(graph, "graph")).plan(frame, info, device().memoryLimitBytes());
+}
+
 /// What minimumLevel() of passes/cones/radiance/radiance_clipmap.glsl answers.
-inline float minimumLevel(const ClipmapWindows& windows, const gpu::RadianceGrid& grid,
-                          const glm::vec3& camera, glm::vec3 position) {
+inline float minimumLevel(const ClipmapWindows& windows, const gpu::RadianceGrid& grid, const glm::vec3& camera,
+                          glm::vec3 position) {
     position = glm::clamp(position, grid.origin, grid.origin + grid.voxelSize * glm::vec3(grid.resolution));
     for (uint32_t level = 0; level < windows.firstWhole(); ++level) {
         const gpu::ClipmapWindow w = windows.window(level, camera);

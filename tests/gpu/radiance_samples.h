@@ -11,6 +11,10 @@
 
 namespace voxray::test {
 
+inline const RadianceVoxels& radiance(const Chain& chain) {
+    return chain.get<RadianceVoxels>("radiance");
+}
+
 /// A question to radiance voxels, as passes/cones/radiance/radiance_voxels.glsl takes it.
 struct RadianceQuery {
     glm::vec3 position;  ///< m
@@ -29,8 +33,7 @@ inline std::vector<RadianceQuery> randomQueries(const gpu::VoxelGrid& grid, size
     for (RadianceQuery& q : list) {
         for (int axis = 0; axis < 3; ++axis)
             q.position[axis] = grid.origin[axis] + extent[axis] * (1.2f * uniform(random) - 0.1f);
-        q.footprint =
-            grid.voxelSize * std::exp2(-1 + float(gridLevels(grid.resolution) + 1) * uniform(random));
+        q.footprint = grid.voxelSize * std::exp2(-1 + float(gridLevels(grid.resolution) + 1) * uniform(random));
         q.direction = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
     }
     return list;
@@ -50,12 +53,20 @@ inline std::vector<glm::vec4> sampleRadiance(const RadianceVoxels& radiance,
                     {radiance, {"queries", input}, {"answers", output}, {"count", uint32_t(queries.size())}});
     return stream.readAs<glm::vec4>(output, queries.size());
 }
+inline std::vector<glm::vec4> sampleRadiance(const Chain& chain, const std::vector<RadianceQuery>& queries) {
+    return sampleRadiance(radiance(chain), queries);
+}
+
+/// Samples everywhere in voxels with one direction.
+inline std::vector<glm::vec4> samplesOf(const Chain& chain) {
+    const gpu::RadianceGrid& g = radiance(chain).grid;
+    return sampleRadiance(chain, randomQueries({g.origin, g.voxelSize, g.resolution, 0, 1, 1024, {}}, 20000));
+}
 
 /// All that a layout stores, in one buffer or a texture, as words.
 inline std::vector<uint32_t> radianceContent(const RadianceVoxels& radiance) {
     CommandStream stream(device());
-    if (!radiance.texture)
-        return stream.readAs<uint32_t>(radiance.storage.at(0), radiance.storage[0].bytes() / 4);
+    if (!radiance.texture) return stream.readAs<uint32_t>(radiance.storage.at(0), radiance.storage[0].bytes() / 4);
     const uint64_t bytes = imageBytes(radiance.texture.desc());
     const Buffer texels(device(), "texels", bytes, MemoryKind::Readback);
     stream.copy(radiance.texture, texels);

@@ -37,8 +37,7 @@ class TraceBackends : public VulkanTest {
     }
 
     /// Fails unless all but a few rays in 10,000 (grazed edges) meet the same triangle at the same place.
-    static void expectSameHits(const std::vector<Hit>& expected, const std::vector<Hit>& hits,
-                               std::string_view name) {
+    static void expectSameHits(const std::vector<Hit>& expected, const std::vector<Hit>& hits, std::string_view name) {
         size_t differences = 0;
         for (size_t i = 0; i < expected.size(); ++i) {
             const Hit &a = expected[i], &b = hits[i];
@@ -171,8 +170,7 @@ TEST_F(TraceBackends, HitCloseToItsRayKeepsItsDigitsFarFromTheOrigin) {
 
 TEST_F(TraceBackends, InactiveRaysMiss) {
     const SceneState state = oneTriangle();
-    const std::vector<Ray> rays{{{0.25f, 0.25f, 2}, 1, {0, 0, -1}, 0.5f},
-                                {{0.25f, 0.25f, 2}, 0, {0, 0, -1}, -1}};
+    const std::vector<Ray> rays{{{0.25f, 0.25f, 2}, 1, {0, 0, -1}, 0.5f}, {{0.25f, 0.25f, 2}, 0, {0, 0, -1}, -1}};
     for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
         for (const Hit& hit : closestHits(*tracer, rays)) EXPECT_EQ(hit.triangle, Hit::kMiss);
@@ -190,7 +188,7 @@ TEST_F(TraceBackends, RaysThatAreNotFiniteMissOnTheGpuAndAreNamedByEmbree) {
     for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
         if (kind == TracerKind::Embree) {
-            EXPECT_CONTAINS(errorOf([&] { closestHits(*tracer, rays); }), "ray 0 of a stream of 6");
+            EXPECT_ERROR("ray 0 of a stream of 6", closestHits(*tracer, rays));
             continue;
         }
         for (const Hit& hit : closestHits(*tracer, rays)) EXPECT_EQ(hit.triangle, Hit::kMiss);
@@ -215,16 +213,14 @@ TEST_F(TraceBackends, EmptySceneIsMissed) {
 TEST_F(TraceBackends, DegenerateTrianglesAreMissed) {
     // Rays at the center of triangles that are a point or a line.
     SceneState state = oneTriangle();
-    state.geometry.positions = {{0.5f, 0.5f, 0}, {0.5f, 0.5f, 0}, {0.5f, 0.5f, 0},
-                                {0, 0, 1},       {1, 0, 1},       {0.5f, 0, 1}};
+    state.geometry.positions = {{0.5f, 0.5f, 0}, {0.5f, 0.5f, 0}, {0.5f, 0.5f, 0}, {0, 0, 1}, {1, 0, 1}, {0.5f, 0, 1}};
     state.geometry.attributes.resize(6);
     state.geometry.triangles = {{0, 1, 2}, {3, 4, 5}};
     state.geometry.triangleMaterials = {0, 0};
     const std::vector<Ray> rays{{{0.5f, 0.5f, 5}, 0, {0, 0, -1}, 10}, {{0.4f, 0, 5}, 0, {0, 0, -1}, 10}};
     for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
-        for (const Hit& hit : closestHits(*tracer, rays))
-            EXPECT_EQ(hit.triangle, Hit::kMiss) << tracer->name();
+        for (const Hit& hit : closestHits(*tracer, rays)) EXPECT_EQ(hit.triangle, Hit::kMiss) << tracer->name();
     }
 }
 
@@ -268,8 +264,8 @@ TEST_F(TraceBackends, SmallBuffersAreNamed) {
     CommandStream stream(device());
     for (TracerKind kind : tracerKinds(device())) {
         const std::unique_ptr<RayTracer> tracer = make(kind, state);
-        EXPECT_CONTAINS(errorOf([&] { tracer->closestHit(stream, rays, hits, 4); }), "'few rays'");
-        EXPECT_CONTAINS(errorOf([&] { tracer->closestHit(stream, more, hits, 4); }), "'few hits'");
+        EXPECT_ERROR("'few rays'", tracer->closestHit(stream, rays, hits, 4));
+        EXPECT_ERROR("'few hits'", tracer->closestHit(stream, more, hits, 4));
         tracer->closestHit(stream, rays, hits, 0);
         stream.finish();
     }

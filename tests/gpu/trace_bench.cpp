@@ -63,8 +63,7 @@ void compare(benchmark::State& state, const Workload& work, const std::vector<Hi
     double worst = 0, offPlane = 0, farT = 0;
     for (size_t i = 0; i < expected.size(); ++i) {
         const bool isMiss = expected[i].triangle == Hit::kMiss;
-        const double difference =
-            isMiss ? 0.0 : std::abs(double(hits[i].t) - expected[i].t) / double(expected[i].t);
+        const double difference = isMiss ? 0.0 : std::abs(double(hits[i].t) - expected[i].t) / double(expected[i].t);
         if (hits[i].triangle == expected[i].triangle) {
             ++same;
             worst = std::max(worst, difference);
@@ -96,8 +95,7 @@ void trace(benchmark::State& state, const std::string& file, TracerKind kind, bo
     try {
         const Workload& work = workload(file);
         tracer = makeRayTracer(kind, device, compiler, work.state);
-        const Buffer rays(device, "rays", kRays * sizeof(Ray)),
-            results(device, "results", kRays * sizeof(Hit));
+        const Buffer rays(device, "rays", kRays * sizeof(Ray)), results(device, "results", kRays * sizeof(Hit));
         CommandStream stream(device);
         stream.upload(rays, work.rays);
         stream.finish();
@@ -108,8 +106,7 @@ void trace(benchmark::State& state, const std::string& file, TracerKind kind, bo
                 tracer->closestHit(stream, rays, results, kRays);
             stream.finish();
         }
-        state.counters["rays/s"] =
-            benchmark::Counter(double(state.iterations()) * kRays, benchmark::Counter::kIsRate);
+        state.counters["rays/s"] = benchmark::Counter(double(state.iterations()) * kRays, benchmark::Counter::kIsRate);
         state.counters["MiB"] = double(tracer->memoryBytes()) / double(1 << 20);
         if (!occluded) compare(state, work, stream.readAs<Hit>(results, kRays));
     } catch (const Error& error) {

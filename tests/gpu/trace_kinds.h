@@ -15,8 +15,7 @@ inline std::vector<TracerKind> tracerKinds(const Device& device) {
     if (device.info().rayQuery) kinds.push_back(TracerKind::RayQuery);
     if (device.info().rayPipeline) kinds.push_back(TracerKind::RayPipeline);
     if (device.info().driver.find("llvmpipe") != std::string::npos) {
-        EXPECT_EQ(kinds.size(), 3u)
-            << "lavapipe without ray queries or ray pipelines: install Mesa 25 or later";
+        EXPECT_EQ(kinds.size(), 3u) << "lavapipe without ray queries or ray pipelines: install Mesa 25 or later";
     }
     return kinds;
 }

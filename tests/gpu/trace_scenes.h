@@ -16,9 +16,7 @@ namespace voxray {
 class TestRandom {
  public:
     explicit TestRandom(uint32_t seed) : engine_(seed) {}
-    float operator()(float low, float high) {
-        return std::uniform_real_distribution<float>(low, high)(engine_);
-    }
+    float operator()(float low, float high) { return std::uniform_real_distribution<float>(low, high)(engine_); }
     glm::vec3 vector(float low, float high) {
         const float x = (*this)(low, high), y = (*this)(low, high), z = (*this)(low, high);
         return {x, y, z};
@@ -79,8 +77,7 @@ inline SceneState triangleSoup(uint32_t count, float size, uint32_t seed) {
         const uint32_t first = 3 * t;
         if (t % 50 == 49) state.geometry.positions[first + 1] = state.geometry.positions[first];
         state.geometry.triangles.emplace_back(first, first + 1, first + 2);
-        state.geometry.triangleMaterials.push_back(
-            uint32_t(random(0, float(scene->materials.size()) - 0.001f)));
+        state.geometry.triangleMaterials.push_back(uint32_t(random(0, float(scene->materials.size()) - 0.001f)));
     }
     state.geometry.boundsMin = glm::vec3(-1 - size);
     state.geometry.boundsMax = glm::vec3(1 + size);

@@ -39,10 +39,9 @@ std::shared_ptr<const Scene> movingSoup() {
             scene->meshes.push_back(std::move(mesh));
         }
     using enum AnimatedProperty;
-    scene->animation = {
-        {0, Translation, Interpolation::Linear, {0, 1}, {{-0.4f, 0, 0, 0}, {0.4f, 0.3f, 0, 0}}},
-        {0, Rotation, Interpolation::Linear, {0, 1}, {{0, 0, 0, 1}, {0.6f, 0, 0, 0.8f}}},
-        {0, Scale, Interpolation::Linear, {0, 1}, {{1, 1, 1, 0}, {-1, 1, 1, 0}}}};
+    scene->animation = {{0, Translation, Interpolation::Linear, {0, 1}, {{-0.4f, 0, 0, 0}, {0.4f, 0.3f, 0, 0}}},
+                        {0, Rotation, Interpolation::Linear, {0, 1}, {{0, 0, 0, 1}, {0.6f, 0, 0, 0.8f}}},
+                        {0, Scale, Interpolation::Linear, {0, 1}, {{1, 1, 1, 0}, {-1, 1, 1, 0}}}};
     scene->lights.emplace_back();
     scene->lights[0].node = 0;
     return scene;
@@ -126,8 +125,8 @@ TEST_F(TraceUpdate, CoherentStreamsHitTheSame) {
         size_t different = 0, hitCount = 0;
         for (size_t i = 0; i < rays.size(); ++i) {
             hitCount += apart[i].triangle != Hit::kMiss;
-            different += apart[i].triangle != together[i].triangle ||
-                         (apart[i].triangle != Hit::kMiss) != (hidden[i] == 1);
+            different +=
+                apart[i].triangle != together[i].triangle || (apart[i].triangle != Hit::kMiss) != (hidden[i] == 1);
             if (apart[i].triangle != together[i].triangle) continue;
             if (apart[i].triangle == Hit::kMiss) {
                 EXPECT_EQ(together[i].t, apart[i].t) << tracer->name() << i;
@@ -173,8 +172,8 @@ TEST_F(TraceUpdate, SceneOnTheDeviceIsAsOneMadeAtThatTime) {
             ASSERT_EQ(a.bytes(), b.bytes());
             EXPECT_EQ(stream.read(a, a.bytes()), stream.read(b, b.bytes())) << a.name() << " at " << time;
         };
-        for (const auto buffer : {&GpuScene::positions, &GpuScene::attributes, &GpuScene::triangles,
-                                  &GpuScene::lights, &GpuScene::emitters})
+        for (const auto buffer : {&GpuScene::positions, &GpuScene::attributes, &GpuScene::triangles, &GpuScene::lights,
+                                  &GpuScene::emitters})
             expectSame(buffer);
     }
 }

@@ -61,14 +61,11 @@ TEST_F(VulkanCompute, NumbersGoByNameAndInvocationsMakeGroups) {
     const Buffer source(device(), "source", kCount * 4), target(device(), "target", kCount * 4);
     CommandStream stream(device());
     stream.upload(source, std::vector<uint32_t>(kCount, 2));
-    stream.dispatch(program, kCount,
-                    {{"source", source}, {"Target", target}, {"bias", 3u}, {"count", kCount}});
+    stream.dispatch(program, kCount, {{"source", source}, {"Target", target}, {"bias", 3u}, {"count", kCount}});
     EXPECT_EQ(stream.readAs<uint32_t>(target, kCount), std::vector<uint32_t>(kCount, 5));
 
     const auto errorWith = [&](const Bindings::Entry& more, const Bindings::Entry& count) {
-        return errorOf([&] {
-            stream.dispatch(program, 1, {{"source", source}, {"Target", target}, more, count});
-        });
+        return errorOf([&] { stream.dispatch(program, 1, {{"source", source}, {"Target", target}, more, count}); });
     };
     const Bindings::Entry one{"count", 1u};
     EXPECT_CONTAINS(errorWith({"bias", 1.0f}, one),
@@ -124,10 +121,8 @@ TEST_F(VulkanCompute, DefinesAndSpecializationConstantsReachTheShader) {
 }
 
 TEST_F(VulkanCompute, UnknownSpecializationConstantIsNamed) {
-    EXPECT_CONTAINS(errorOf([] {
-                        computeProgram("vulkan_scale.comp", {}, {{"kFaktor", 1}});
-                    }),
-                    "constant 'kFaktor'; did you mean 'kFactor'");
+    EXPECT_ERROR("constant 'kFaktor'; did you mean 'kFactor'",
+                 computeProgram("vulkan_scale.comp", {}, {{"kFaktor", 1}}));
 }
 
 TEST_F(VulkanCompute, ReflectsWhatTheCodeUses) {
@@ -160,7 +155,7 @@ TEST_F(VulkanCompute, NoGroupsRecordNothingAndTooManyAreRefused) {
     CommandStream stream(device());
     stream.dispatch(program, 0, {});
     const uint32_t limit = device().properties().limits.maxComputeWorkGroupCount[1];
-    EXPECT_CONTAINS(errorOf([&] { stream.dispatch(program, glm::uvec2(1, limit + 1), {}); }), "work groups");
+    EXPECT_ERROR("work groups", stream.dispatch(program, glm::uvec2(1, limit + 1), {}));
 }
 
 TEST_F(VulkanCompute, SamplesATextureAndATextureArray) {
@@ -181,11 +176,9 @@ TEST_F(VulkanCompute, SamplesATextureAndATextureArray) {
     const TextureArray textures(device(), entries);
     const Program program = computeProgram("vulkan_sample.comp");
     const Buffer target(device(), "target", 3 * sizeof(glm::vec4));
-    stream.dispatch(program, glm::uvec2(3, 1),
-                    {{"picture", redGreen, linear},
-                     {"Target", target},
-                     {"textures", textures},
-                     {"uv", glm::vec2(0.5f, 0.5f)}});
+    stream.dispatch(
+        program, glm::uvec2(3, 1),
+        {{"picture", redGreen, linear}, {"Target", target}, {"textures", textures}, {"uv", glm::vec2(0.5f, 0.5f)}});
     const std::vector<glm::vec4> result = stream.readAs<glm::vec4>(target, 3);
     EXPECT_NEAR(result[0].r, 0.5f, 1e-2f);
     EXPECT_NEAR(result[0].g, 0.5f, 1e-2f);
@@ -194,17 +187,15 @@ TEST_F(VulkanCompute, SamplesATextureAndATextureArray) {
 
     // A plain image is no texture array.
     const std::string error = errorOf([&] {
-        stream.dispatch(program, glm::uvec2(3, 1),
-                        {{"picture", redGreen, linear},
-                         {"Target", target},
-                         {"textures", blue, linear},
-                         {"uv", glm::vec2(0)}});
+        stream.dispatch(
+            program, glm::uvec2(3, 1),
+            {{"picture", redGreen, linear}, {"Target", target}, {"textures", blue, linear}, {"uv", glm::vec2(0)}});
     });
     EXPECT_CONTAINS(error, "'textures' takes");
 }
 
 TEST_F(VulkanCompute, EmptyTextureArrayIsRefused) {
-    EXPECT_CONTAINS(errorOf([] { TextureArray(device(), {}); }), "at least one");
+    EXPECT_ERROR("at least one", TextureArray(device(), {}));
 }
 
 TEST_F(VulkanCompute, WritesAVolume) {
@@ -216,8 +207,7 @@ TEST_F(VulkanCompute, WritesAVolume) {
     stream.dispatch(program, size, {{"volume", volume}});
     stream.copy(volume, target);
     const std::vector<glm::vec4> texels = stream.readAs<glm::vec4>(target, 5 * 3 * 7);
-    for (uint32_t i = 0; i < texels.size(); ++i)
-        ASSERT_EQ(texels[i], glm::vec4(i % 5, i / 5 % 3, i / 15, 1)) << i;
+    for (uint32_t i = 0; i < texels.size(); ++i) ASSERT_EQ(texels[i], glm::vec4(i % 5, i / 5 % 3, i / 15, 1)) << i;
 }
 
 }  // namespace

@@ -56,8 +56,7 @@ TEST_F(VulkanDevice, ValidationReportsAWrongCall) {
 }
 
 TEST_F(VulkanDevice, MissingEntryPointIsNamed) {
-    EXPECT_CONTAINS(errorOf([] { device().function<PFN_vkVoidFunction>("vkNoSuchFunction"); }),
-                    "vkNoSuchFunction");
+    EXPECT_ERROR("vkNoSuchFunction", device().function<PFN_vkVoidFunction>("vkNoSuchFunction"));
 }
 
 }  // namespace

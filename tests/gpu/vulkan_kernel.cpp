@@ -67,7 +67,7 @@ TEST_F(VulkanKernel, WhatIsLeftOutIsNotCompiled) {
     EXPECT_CONTAINS(error, "tests/gpu/not_there.comp");
     EXPECT_CONTAINS(error, "left it out");
     leftOut.compileIf(true);
-    EXPECT_CONTAINS(errorOf([&] { programs_.compile(); }), "tests/gpu/not_there.comp");
+    EXPECT_ERROR("tests/gpu/not_there.comp", programs_.compile());
 }
 
 TEST_F(VulkanKernel, SeveralOfOneSourceDifferByTheirDefinitions) {
@@ -79,6 +79,26 @@ TEST_F(VulkanKernel, SeveralOfOneSourceDifferByTheirDefinitions) {
     EXPECT_EQ(scaled(plain), 2u);
     EXPECT_EQ(scaled(hundred), 102u);
     EXPECT_EQ(scaled(tripled), 106u);
+}
+
+TEST_F(VulkanKernel, EqualOnesShareAPipeline) {
+    const auto pipelineOf = [](const Program& program) { return program.pipeline(); };
+    const Kernel one(programs_, "vulkan_scale.comp", {{"OFFSET", "7"}});
+    const Kernel equal(programs_, "vulkan_scale.comp", {{"OFFSET", "7"}});
+    const Kernel defined(programs_, "vulkan_scale.comp", {{"OFFSET", "8"}});
+    Kernel specialized(programs_, "vulkan_scale.comp", {{"OFFSET", "7"}});
+    specialized.specialize({{"kFactor", 3}});
+    programs_.compile();
+    EXPECT_EQ(pipelineOf(one), pipelineOf(equal));
+    EXPECT_NE(pipelineOf(one), pipelineOf(defined));
+    EXPECT_NE(pipelineOf(one), pipelineOf(specialized));
+
+    const std::vector<VkFormat> formats{VK_FORMAT_R32G32B32A32_SFLOAT};
+    RasterPipeline drawn(programs_, {"vulkan_triangle.vert", "vulkan_color.frag"}, {.colorFormats = formats});
+    RasterPipeline culled(programs_, {"vulkan_triangle.vert", "vulkan_color.frag"},
+                          {.colorFormats = formats, .cull = VK_CULL_MODE_BACK_BIT});
+    programs_.compile();
+    EXPECT_NE(pipelineOf(drawn), pipelineOf(culled));
 }
 
 TEST_F(VulkanKernel, OtherDefinitionsAndConstantsCompileAgain) {
@@ -96,7 +116,7 @@ TEST_F(VulkanKernel, OtherDefinitionsAndConstantsCompileAgain) {
     EXPECT_EQ(scaled(kernel), 28u);
 
     plan("30", 4);
-    EXPECT_CONTAINS(errorOf([&] { scaled(kernel); }), "vulkan_scale.comp");
+    EXPECT_ERROR("vulkan_scale.comp", scaled(kernel));
     programs_.compile();
     EXPECT_EQ(scaled(kernel), 38u);
     plan("30", 5);
@@ -109,7 +129,7 @@ TEST_F(VulkanKernel, OtherDefinitionsAndConstantsCompileAgain) {
     EXPECT_EQ(scaled(kernel), 10u);
 
     kernel.specialize({{"kFaktor", 1}});
-    EXPECT_CONTAINS(errorOf([&] { programs_.compile(); }), "constant 'kFaktor'");
+    EXPECT_ERROR("constant 'kFaktor'", programs_.compile());
 }
 
 TEST_F(VulkanKernel, AnErrorInOneOfSeveralNamesItsFile) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "passes/common/filter/noisy_irradiance.h"
@@ -26,12 +25,11 @@ class FrameIrradiance final : public Pass {
         uint32_t off = 1000;
         uint32_t spacing = 1;
         static constexpr auto schema() {
-            return std::tuple{
-                field("noise", &Params::noise, "Largest deviation over the mean.", 0.0f, 1.0f),
-                field("step", &Params::step, "Added in each frame.", 0.0f, 1e9f),
-                field("scale", &Params::scale, "Factor of all light.", 0.0f, 1e9f),
-                field("off", &Params::off, "The frame from which on it is dark."),
-                field("spacing", &Params::spacing, "One texel in spacing x spacing has rays.", 1u, 8u)};
+            return std::tuple{field("noise", &Params::noise, "Largest deviation over the mean.", 0.0f, 1.0f),
+                              field("step", &Params::step, "Added in each frame.", 0.0f, 1e9f),
+                              field("scale", &Params::scale, "Factor of all light.", 0.0f, 1e9f),
+                              field("off", &Params::off, "The frame from which on it is dark."),
+                              field("spacing", &Params::spacing, "One texel in spacing x spacing has rays.", 1u, 8u)};
         }
     };
     explicit FrameIrradiance(const Params& params) : params_(params) {}
@@ -39,8 +37,7 @@ class FrameIrradiance final : public Pass {
     void plan(PassPlan& plan) override {
         NoisyIrradiance& noisy = plan[noisy_];
         noisy.spacing = params_.spacing;
-        plan.image(noisy.irradiance, "known irradiance",
-                   NoisyIrradiance::desc(plan.frame, plan[gbuffer_].samples));
+        plan.image(noisy.irradiance, "known irradiance", NoisyIrradiance::desc(plan.frame, plan[gbuffer_].samples));
     }
     void record(PassContext& context) override {
         const Image& image = context[noisy_].irradiance;
@@ -48,8 +45,7 @@ class FrameIrradiance final : public Pass {
         std::mt19937 random(1 + frame_);
         std::uniform_real_distribution<float> even(-1.0f, 1.0f);
         std::vector<glm::vec4> values(size_t(texels.x) * texels.y, glm::vec4(0.0f));
-        const float level =
-            frame_ < params_.off ? params_.scale * (2.0f + params_.step * float(frame_)) : 0.0f;
+        const float level = frame_ < params_.off ? params_.scale * (2.0f + params_.step * float(frame_)) : 0.0f;
         for (uint32_t y = 0; y < texels.y; y += params_.spacing)
             for (uint32_t x = 0; x < texels.x; x += params_.spacing)
                 values[size_t(y) * texels.x + x] =
@@ -67,33 +63,23 @@ class FrameIrradiance final : public Pass {
 
 constexpr uint32_t kSize = 48;
 
-Chain chainOf(const std::shared_ptr<const SceneState>& state, const std::string& source,
-              const std::string& settings, const std::string& gbuffer = "samples_per_pixel_edge: 1",
-              uint32_t size = kSize) {
+Chain chainOf(const State& state, const std::string& source, const std::string& settings,
+              const std::string& gbuffer = "samples_per_pixel_edge: 1", uint32_t size = kSize) {
     return Chain(state,
                  "[{pass: gbuffer, " + gbuffer + "}, {pass: frame_irradiance, id: source, " + source +
-                     "}, {pass: accumulate, inputs: {noisy_irradiance: source.known_irradiance}, " +
-                     settings + "}]",
+                     "}, {pass: accumulate, inputs: {noisy_irradiance: source.known_irradiance}, " + settings + "}]",
                  size, size, 1, [](Registry& registry) { registry.add<FrameIrradiance>(); });
-}
-
-std::shared_ptr<const SceneState> builtin(const std::string& scene, const std::string& parameters = "{}",
-                                          Playback playback = Playback::Frozen) {
-    return std::make_shared<SceneState>(
-        evaluate(makeBuiltinScene(scene, parseYaml(parameters, "scene")), 0.0, playback));
 }
 
 /// Irradiance and number of rays of all texels.
 std::vector<glm::vec4> accumulated(Chain& chain) {
-    return chain.readImage<glm::vec4>(
-        chain.graph().resource<NoisyIrradiance>("noisy_irradiance")->irradiance);
+    return chain.readImage<glm::vec4>(chain.get<NoisyIrradiance>("noisy_irradiance").irradiance);
 }
 std::vector<glm::vec4> source(Chain& chain) {
-    return chain.readImage<glm::vec4>(
-        chain.graph().resource<NoisyIrradiance>("known_irradiance")->irradiance);
+    return chain.readImage<glm::vec4>(chain.get<NoisyIrradiance>("known_irradiance").irradiance);
 }
 std::vector<glm::vec4> previous(Chain& chain) {
-    return chain.readImage<glm::vec4>(chain.graph().resource<SurfaceMotion>("motion")->previous);
+    return chain.readImage<glm::vec4>(chain.get<SurfaceMotion>("motion").previous);
 }
 
 /// Variance of the first channel.
@@ -126,8 +112,7 @@ TEST(Accumulate, AStillCameraSeesTheMeanOfAllFrames) {
     const auto before = accumulated(chain);
     chain.runFrames(1);
     const auto texels = source(chain), after = accumulated(chain);
-    for (size_t i = 0; i < texels.size(); ++i)
-        ASSERT_NEAR(after[i].r, before[i].r * 7 / 8 + texels[i].r / 8, 1e-6 * 2);
+    for (size_t i = 0; i < texels.size(); ++i) ASSERT_NEAR(after[i].r, before[i].r * 7 / 8 + texels[i].r / 8, 1e-6 * 2);
 }
 
 TEST(Accumulate, OneFrameOfHistoryChangesNothing) {
@@ -143,8 +128,7 @@ TEST(Accumulate, OneFrameOfHistoryChangesNothing) {
 TEST(Accumulate, ConstantIrradianceStaysExactUnderAMovingCamera) {
     for (const char* gbuffer : {"method: rays, samples_per_pixel_edge: 2", "method: raster"})
         for (const char* clamp : {"clamp: 0", "clamp: 1"}) {
-            Chain chain =
-                chainOf(builtin("cornell"), "noise: 0", std::string("history: 16, ") + clamp, gbuffer);
+            Chain chain = chainOf(builtin("cornell"), "noise: 0", std::string("history: 16, ") + clamp, gbuffer);
             const glm::vec3 start = chain.state().cameras.at(0).position;
             for (int frame = 1; frame < 6; ++frame)
                 chain.runFrameFrom(start + glm::vec3(0.03f, 0.01f, -0.02f) * float(frame));
@@ -163,8 +147,7 @@ TEST(Accumulate, FillsTexelsThatRaysMiss) {
     // The camera moves by its own texels' width and less, so that texels without a ray see where one was.
     Chain chain = chainOf(builtin("white_room"), "noise: 0, spacing: 2", "history: 16");
     const glm::vec3 start = chain.state().cameras.at(0).position;
-    for (int frame = 1; frame < 8; ++frame)
-        chain.runFrameFrom(start + glm::vec3(0.013f, 0.007f, 0) * float(frame));
+    for (int frame = 1; frame < 8; ++frame) chain.runFrameFrom(start + glm::vec3(0.013f, 0.007f, 0) * float(frame));
     size_t filled = 0;
     for (const glm::vec4& texel : accumulated(chain)) {
         if (texel.a == 0) continue;
@@ -183,7 +166,7 @@ TEST(Accumulate, ForgetsWhatTheCameraDidNotSee) {
     const glm::vec3 from = state->cameras.at(0).position;
     chain.runFrameFrom(from + glm::vec3(0.5f, 0, 0));
     const auto texels = accumulated(chain), points = previous(chain);
-    const auto motion = chain.readImage<glm::vec4>(chain.graph().resource<SurfaceMotion>("motion")->motion);
+    const auto motion = chain.readImage<glm::vec4>(chain.get<SurfaceMotion>("motion").motion);
     const EmbreeScene scene(*state);
     const auto isHidden = [&](size_t i) {
         const glm::vec3 away = glm::vec3(points[i]) - from;
@@ -222,7 +205,7 @@ TEST(Accumulate, FollowsWhatMoves) {
     const auto before = previous(chain);
     chain.goTo(0.15);
     const auto texels = accumulated(chain), points = previous(chain);
-    const auto positions = chain.readImage<glm::vec4>(chain.graph().resource<GBuffer>("gbuffer")->position);
+    const auto positions = chain.readImage<glm::vec4>(chain.get<GBuffer>("gbuffer").position);
     size_t moving = 0, kept = 0;
     double way = 0;
     for (size_t i = 0; i < texels.size(); ++i) {
@@ -259,8 +242,7 @@ TEST(Accumulate, IsLinearInLight) {
     const auto run = [](const std::string& scale) {
         Chain chain = chainOf(builtin("cornell"), "noise: 1, scale: " + scale, "history: 8, clamp: 1");
         const glm::vec3 start = chain.state().cameras.at(0).position;
-        for (int frame = 1; frame < 5; ++frame)
-            chain.runFrameFrom(start + glm::vec3(0.02f, 0, 0) * float(frame));
+        for (int frame = 1; frame < 5; ++frame) chain.runFrameFrom(start + glm::vec3(0.02f, 0, 0) * float(frame));
         return accumulated(chain);
     };
     const auto one = run("1"), large = run("1048576"), small = run("9.5367431640625e-7");
@@ -307,8 +289,7 @@ TEST(Accumulate, LowersTheNoiseOfEveryGather) {
                 return sum;
             };
             // The same rays; the filter weighs them by another noise.
-            EXPECT_NEAR(mean(many) / meanOfFrames, 1, isFiltered ? 0.02 : 1e-4)
-                << gather.back() << isFiltered;
+            EXPECT_NEAR(mean(many) / meanOfFrames, 1, isFiltered ? 0.02 : 1e-4) << gather.back() << isFiltered;
             EXPECT_LT(steps(many), (isFiltered ? 0.8 : 0.25) * steps(one)) << gather.back() << isFiltered;
         }
 }

@@ -15,9 +15,8 @@ constexpr uint32_t kSize = 32;
 constexpr double kSeen = 0.02;  // Of a light, as framework/experiment/scoring.h has it.
 
 /// The Cornell box with a point light, and a second one of a quarter of its power.
-std::shared_ptr<const SceneState> twoLights() {
-    auto state = std::make_shared<SceneState>(
-        evaluate(makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")), 0.0));
+State twoLights() {
+    auto state = builtin("cornell", "{lights: point}");
     Light dim = state->lights.at(0);
     dim.intensity *= 0.25f;
     dim.position.x += 0.3f;
@@ -25,24 +24,17 @@ std::shared_ptr<const SceneState> twoLights() {
     return state;
 }
 
-std::shared_ptr<const SceneState> oneLight() {
-    return std::make_shared<SceneState>(
-        evaluate(makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")), 0.0));
-}
-
-Chain chainOf(const std::shared_ptr<const SceneState>& state, uint32_t history, const std::string& clamp,
-              const std::string& block = "4") {
+Chain chainOf(const State& state, uint32_t history, const std::string& clamp, const std::string& block = "4") {
     return Chain(state,
                  graphYaml({"gbuffer", "sample_vpls, vpls_per_bounce: 1024, bounces: 2",
                             "gather_vpls, visibility: none, block: " + block,
                             "accumulate, history: " + std::to_string(history) + ", clamp: " + clamp}),
-                 kSize, kSize, 1);
+                 kSize, kSize);
 }
 
 /// Irradiance and number of virtual lights of all texels.
 std::vector<glm::vec4> texels(Chain& chain) {
-    return chain.readImage<glm::vec4>(
-        chain.graph().resource<NoisyIrradiance>("noisy_irradiance")->irradiance);
+    return chain.readImage<glm::vec4>(chain.get<NoisyIrradiance>("noisy_irradiance").irradiance);
 }
 
 double sum(const std::vector<glm::vec4>& texels) {
@@ -68,8 +60,7 @@ struct Afterglow {
     }
 };
 
-Afterglow afterglow(const std::shared_ptr<const SceneState>& state, uint32_t history,
-                    const std::string& clamp, uint32_t frames) {
+Afterglow afterglow(const State& state, uint32_t history, const std::string& clamp, uint32_t frames) {
     Chain single = chainOf(state, 1, "0"), chain = chainOf(state, history, clamp);
     const auto lit = texels(single);
     for (uint32_t frame = 1; frame < history; ++frame) chain.runFrame(0);
@@ -112,8 +103,8 @@ TEST(AccumulateVirtualLights, ALightThatIsOffStaysAsLongAsItsVirtualLightsCount)
         // virtual lights and count for less, so that the light stays longer
         const size_t lit = Afterglow::framesLit(seen.left);
         const auto alike = size_t(std::log(kSeen) / std::log((history - 1.0) / history));
-        std::printf("history of %u frames: seen in %zu frames, %zu were all alike; %.3f left in the first\n",
-                    history, lit, alike, seen.left[0]);
+        std::printf("history of %u frames: seen in %zu frames, %zu were all alike; %.3f left in the first\n", history,
+                    lit, alike, seen.left[0]);
         EXPECT_GT(lit, alike);
         EXPECT_LT(lit, 2 * alike);
     }
@@ -128,12 +119,12 @@ TEST(AccumulateVirtualLights, AClampedOneIsGoneSoonerNextToAnotherLight) {
 }
 
 TEST(AccumulateVirtualLights, AClampedOneIsGoneAtOnceWhereNoLightIsLeft) {
-    Chain chain = chainOf(oneLight(), 8, "1");
+    Chain chain = chainOf(builtin("cornell", "{lights: point}"), 8, "1");
     chain.runFrames(7);
     EXPECT_GT(mean(chain.image("indirect")), 0);
     switchOff(chain);
     EXPECT_EQ(mean(chain.image("indirect")), 0);
-    EXPECT_EQ(chain.graph().resource<Vpls>("vpls")->activeCount, 0u);
+    EXPECT_EQ(chain.get<Vpls>("vpls").activeCount, 0u);
 }
 
 TEST(AccumulateVirtualLights, TheOtherLightsBringWhatTheyDid) {

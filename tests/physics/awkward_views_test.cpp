@@ -14,33 +14,24 @@ std::string graphOf(const Injection& injection) {
                       "gather_rays"});
 }
 
-/// The Cornell box, lit by a point light of 1 W/sr.
-SceneState cornell() {
-    return evaluate(makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")), 0.0);
-}
-
-double meanIndirect(const SceneState& state, const std::string& graph) {
-    return mean(Chain(std::make_shared<SceneState>(state), graph, 24, 24, 1).image("indirect"));
-}
-
 TEST(AwkwardViews, LightOutsideTheGridShinesIntoIt) {
     // Next to the camera, 2 m before the box's open side.
-    SceneState state = cornell();
+    SceneState state = *builtin("cornell", "{lights: point}");
     state.lights.at(0).position = state.cameras.at(0).position + glm::vec3(0.5f, 0, 0);
-    const double expected = meanIndirect(state, graphYaml({"path_trace, spp: 256, bounces: 4"}));
+    const double expected = meanIndirect(state, graphYaml({"path_trace, spp: 256, bounces: 4"}), 24, 24);
     ASSERT_GT(expected, 0);
     for (const Injection& injection : kInjections)
-        EXPECT_NEAR(meanIndirect(state, graphOf(injection)) / expected, 1, 0.03) << injection.pass;
+        EXPECT_NEAR(meanIndirect(state, graphOf(injection), 24, 24) / expected, 1, 0.03) << injection.pass;
 }
 
 TEST(AwkwardViews, CameraInsideABoxSeesNoLight) {
     // Within the tall box, that no light enters. Voxels along its edges hold its inner and outer faces of one
     // direction and leak between them: at 32³ up to 2 % of what the lit room shows.
-    SceneState state = cornell();
-    const double lit = meanIndirect(state, graphYaml({"path_trace, spp: 16, bounces: 4"}));
+    SceneState state = *builtin("cornell", "{lights: point}");
+    const double lit = meanIndirect(state, graphYaml({"path_trace, spp: 16, bounces: 4"}), 24, 24);
     state.cameras.at(0).position = {-0.326f, 0.6f, -0.257f};
     for (const Injection& injection : kInjections) {
-        const double leak = meanIndirect(state, graphOf(injection)) / lit;
+        const double leak = meanIndirect(state, graphOf(injection), 24, 24) / lit;
         std::printf("%s: %.2g of the lit room\n", injection.pass.c_str(), leak);
         EXPECT_LT(leak, 0.02) << injection.pass;
     }
@@ -48,13 +39,13 @@ TEST(AwkwardViews, CameraInsideABoxSeesNoLight) {
 
 TEST(AwkwardViews, CameraInAVoxelizedWall) {
     // In the back wall's plane, looking out of it: what the voxels there hold does not come between.
-    SceneState state = cornell();
+    SceneState state = *builtin("cornell", "{lights: point}");
     Camera& camera = state.cameras.at(0);
     camera.position.z = -0.999f;
     camera.forward = {0, 0, 1};
-    const double expected = meanIndirect(state, graphYaml({"path_trace, spp: 256, bounces: 4"}));
+    const double expected = meanIndirect(state, graphYaml({"path_trace, spp: 256, bounces: 4"}), 24, 24);
     for (const Injection& injection : kInjections)
-        EXPECT_NEAR(meanIndirect(state, graphOf(injection)) / expected, 1, 0.03) << injection.pass;
+        EXPECT_NEAR(meanIndirect(state, graphOf(injection), 24, 24) / expected, 1, 0.03) << injection.pass;
 }
 
 }  // namespace

@@ -24,25 +24,23 @@ double meanIrradianceOf(glm::dvec2 low, glm::dvec2 high) {
 /// origin, over the mean by quadrature. The camera looks along the plane from 1.5 m before the voxel, which
 /// is 2.7 m wide: rays are some twenty times as dense at the near edge, below the light, as at the far one.
 double seenAtAGrazingAngle(const std::string& write) {
-    SceneState state = evaluate(
-        makeBuiltinScene("plane", parseYaml("{height: " + std::to_string(kHeight) + "}", "scene")), 0.0);
+    SceneState state = *builtin("plane", "{height: " + std::to_string(kHeight) + "}");
     Camera& camera = state.cameras.at(0);
     camera.position = {-1.5f, 0.6f, 1.3f};
     camera.forward = glm::normalize(glm::vec3(1, -0.2f, 0));
     camera.up = glm::normalize(glm::vec3(0.2f, 1, 0));
     camera.verticalFovRadians = 1.9f;
-    Chain chain(std::make_shared<SceneState>(state),
+    Chain chain(state,
                 graphYaml({"voxelize, resolution: 4",
                            "inject_camera_rays, rays_per_image: 262144, bounces: 0, write: " + write}),
-                32, 32, 1);
+                32, 32);
     const Voxels voxels(chain);
-    const glm::ivec3 cell(
-        glm::floor((glm::vec3(0.1f, 0, 0.1f) - voxels.grid.origin) / voxels.grid.voxelSize));
+    const glm::ivec3 cell(glm::floor((glm::vec3(0.1f, 0, 0.1f) - voxels.grid.origin) / voxels.grid.voxelSize));
     const size_t voxel = size_t(&voxels.at(cell) - voxels.materials.data());
     const glm::dvec3 low = glm::dvec3(voxels.grid.origin) + double(voxels.grid.voxelSize) * glm::dvec3(cell);
     const glm::dvec3 high = low + double(voxels.grid.voxelSize);
 
-    const auto& light = *chain.graph().resource<VoxelIrradiance>("irradiance");
+    const auto& light = chain.get<VoxelIrradiance>("irradiance");
     const size_t face = voxel * kFaces + 2;  // +y
     const double area = readAreas(chain, light.area)[face] * voxels.grid.voxelSize * voxels.grid.voxelSize;
     const double flux = readFlux(chain, light.direct)[3 * face];

@@ -17,18 +17,6 @@ namespace {
 
 constexpr uint32_t kSide = 16;
 
-const RadianceVoxels& radiance(const Chain& chain) {
-    return *chain.graph().resource<RadianceVoxels>("radiance");
-}
-
-/// The Cornell box, 2 m wide, seen from `camera`.
-std::shared_ptr<SceneState> cornellFrom(const glm::vec3& camera) {
-    auto state = std::make_shared<SceneState>(
-        evaluate(makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")), 0));
-    state->cameras.at(0).position = camera;
-    return state;
-}
-
 std::string filterGraph(uint32_t directions, const std::string& filter) {
     return graphYaml({fmt::format("voxelize, resolution: 72, directions: {}", directions),
                       "inject_light_rays, bounces: 1", "filter_voxels, layout: " + filter});
@@ -70,14 +58,12 @@ void compare(const RadianceVoxels& buffer, const RadianceVoxels& texture, const 
             return minimumLevel(windows, grid, camera, q.position) > float(p.level);
         });
     });
-    std::vector<RadianceQuery> queries;
-    for (const LayerPlace& p : places) queries.push_back(queryAt(grid, p, p.voxels));
+    const std::vector<RadianceQuery> queries = queriesAt(grid, places);
     const std::vector<glm::vec4> expected = sampleRadiance(buffer, queries);
     const std::vector<glm::vec4> found = sampleRadiance(texture, queries);
     const std::vector<glm::vec4> round = sampleRadiance(full, voxelsRound(grid, places));
     double brightest = 0;
-    for (const glm::vec4& voxel : round)
-        brightest = std::max<double>(brightest, glm::compMax(glm::vec3(voxel)));
+    for (const glm::vec4& voxel : round) brightest = std::max<double>(brightest, glm::compMax(glm::vec3(voxel)));
     for (size_t i = 0; i < places.size(); ++i) {
         const LayerPlace& p = places[i];
         glm::vec4 most(0.0f);
@@ -86,12 +72,10 @@ void compare(const RadianceVoxels& buffer, const RadianceVoxels& texture, const 
         for (int c = 0; c < 4; ++c) {
             const double difference = std::abs(double(found[i][c]) - expected[i][c]);
             const double rounding = c < 3 ? std::exp2(-14) * brightest : std::exp2(-15);
-            EXPECT_LE(difference, part * most[c] + (p.level + 2) * rounding)
-                << "place " << i << ", channel " << c;
+            EXPECT_LE(difference, part * most[c] + (p.level + 2) * rounding) << "place " << i << ", channel " << c;
         }
         if (expected[i].g <= 0 || most.g <= 0) continue;
-        agreement.largest =
-            std::max(agreement.largest, double(std::abs(found[i].g - expected[i].g) / most.g));
+        agreement.largest = std::max(agreement.largest, double(std::abs(found[i].g - expected[i].g) / most.g));
         ++agreement.lit;
         if (p.level >= windows.firstWhole()) continue;
         for (int k = 0; k < 3; ++k)
@@ -104,11 +88,9 @@ void compare(const RadianceVoxels& buffer, const RadianceVoxels& texture, const 
 
 TEST(ClipmapTextures, SamplesInLayersAreThoseOfTheBuffer) {
     for (const uint32_t directions : {1u, 6u}) {
-        const Chain full(cornellFrom(kWalk[0]), filterGraph(directions, "dense"), 8, 8, 1);
-        Chain buffer(cornellFrom(kWalk[0]), filterGraph(directions, "clipmap, clipmap_resolution: 16"), 8, 8,
-                     1);
-        Chain texture(cornellFrom(kWalk[0]),
-                      filterGraph(directions, "clipmap_textures, clipmap_resolution: 16"), 8, 8, 1);
+        const Chain full(cornellFrom(kWalk[0]), filterGraph(directions, "dense"), 8, 8);
+        Chain buffer(cornellFrom(kWalk[0]), filterGraph(directions, "clipmap, clipmap_resolution: 16"), 8, 8);
+        Chain texture(cornellFrom(kWalk[0]), filterGraph(directions, "clipmap_textures, clipmap_resolution: 16"), 8, 8);
         Agreement agreement;
         for (const glm::vec3& camera : kWalk) {
             buffer.runFrameFrom(camera);
@@ -127,8 +109,8 @@ TEST(ClipmapTextures, WindowsThatLightThemselvesAreThoseOfTheBuffer) {
         return graphYaml({"voxelize_clipmap, resolution: 72, clipmap_resolution: 16",
                           "light_clipmap, shadow_resolution: 256, layout: " + layout});
     };
-    Chain buffer(cornellFrom(kWalk[0]), graph("clipmap"), 8, 8, 1);
-    Chain texture(cornellFrom(kWalk[0]), graph("clipmap_textures"), 8, 8, 1);
+    Chain buffer(cornellFrom(kWalk[0]), graph("clipmap"), 8, 8);
+    Chain texture(cornellFrom(kWalk[0]), graph("clipmap_textures"), 8, 8);
     Agreement agreement;
     for (const glm::vec3& camera : kWalk) {
         buffer.runFrameFrom(camera);
@@ -146,15 +128,11 @@ TEST(ClipmapTextures, BouncesBringWhatTheyBringInTheBuffer) {
         const Chain chain(cornellFrom(kWalk[0]),
                           graphYaml({"voxelize_clipmap, resolution: 20, clipmap_resolution: 16",
                                      "light_clipmap, bounces: 1, bounce_cones: 5, layout: " + layout}),
-                          8, 8, 1);
+                          8, 8);
         const gpu::RadianceGrid& grid = radiance(chain).grid;
-        const std::vector<LayerPlace> places = randomPlaces(grid, 10000, [&](uint32_t level) {
-            return VoxelBox{glm::ivec3(0), levelResolution(grid.resolution, level)};
-        });
-        std::vector<RadianceQuery> queries;
-        for (const LayerPlace& p : places) queries.push_back(queryAt(grid, p, p.voxels));
         double all = 0;
-        for (const glm::vec4& sample : sampleRadiance(radiance(chain), queries)) all += sample.g;
+        for (const glm::vec4& sample : sampleRadiance(chain, queriesAt(grid, randomPlaces(grid, 10000))))
+            all += sample.g;
         return all;
     };
     EXPECT_NEAR(sum("clipmap_textures") / sum("clipmap"), 1.0, 2 * weightError());
@@ -163,11 +141,10 @@ TEST(ClipmapTextures, BouncesBringWhatTheyBringInTheBuffer) {
 TEST(ClipmapTextures, ConesGatherWhatTheyGatherInTheBuffer) {
     for (const std::string directions : {"1", "6"}) {
         const auto indirect = [&](const std::string& layout) {
-            Chain chain(
-                "cornell", "{lights: point}",
-                graphYaml({"gbuffer", "voxelize, resolution: 48, directions: " + directions,
-                           "inject_light_rays, rays_per_light: 131072, bounces: 2",
-                           "filter_voxels, clipmap_resolution: 16, layout: " + layout, "gather_cones"}));
+            Chain chain("cornell", "{lights: point}",
+                        graphYaml({"gbuffer", "voxelize, resolution: 48, directions: " + directions,
+                                   "inject_light_rays, rays_per_light: 131072, bounces: 2",
+                                   "filter_voxels, clipmap_resolution: 16, layout: " + layout, "gather_cones"}));
             return chain.image("indirect");
         };
         expectSameLight(indirect("clipmap"), indirect("clipmap_textures"), directions);
@@ -202,7 +179,7 @@ TEST(ClipmapTextures, MemoryIsPredictedAndBoundByTheWindows) {
     Chain chain(cornellFrom({0, 1, 0}),
                 graphYaml({"voxelize, resolution: 80", "inject_light_rays, bounces: 0",
                            "filter_voxels, layout: clipmap_textures, clipmap_resolution: 16"}),
-                8, 8, 1);
+                8, 8);
     const RadianceVoxels& r = radiance(chain);
     EXPECT_EQ(chain.planned.back().bytes, r.header.bytes() + imageBytes(r.texture.desc()));
     // 80 voxels a side, and a border: 18 voxels of windows of three levels and 12 of the first whole one,
@@ -211,30 +188,16 @@ TEST(ClipmapTextures, MemoryIsPredictedAndBoundByTheWindows) {
 }
 
 TEST(ClipmapTextures, WhatADeviceLacksIsNamed) {
-    const auto plan = [](uint32_t side, const std::string& graph) {
-        const SceneState state =
-            evaluate(makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")), 0.0);
-        Registry registry;
-        registerPasses(registry);
-        Frame frame;
-        frame.scene = &state;
-        frame.camera = state.cameras.at(0);
-        frame.width = frame.height = 8;
-        DeviceInfo info = device().info();
-        info.filteredVolumeSide = side;
-        Graph(registry, parseYaml(graph, "graph")).plan(frame, info, device().memoryLimitBytes());
-    };
     const std::string filter =
         graphYaml({"gbuffer", "voxelize, resolution: 32", "inject_light_rays",
                    "filter_voxels, layout: clipmap_textures, clipmap_resolution: 16", "gather_cones"});
-    const std::string light =
-        graphYaml({"gbuffer", "voxelize_clipmap, resolution: 32, clipmap_resolution: 16",
-                   "light_clipmap, layout: clipmap_textures", "gather_cones"});
-    EXPECT_CONTAINS(errorOf([&] { plan(0, filter); }), "filter_voxels: device");
-    EXPECT_CONTAINS(errorOf([&] { plan(0, light); }), "light_clipmap: device");
-    EXPECT_CONTAINS(errorOf([&] { plan(107, light); }), "set 'layout' to clipmap");
-    plan(108, filter);
-    plan(108, light);
+    const std::string light = graphYaml({"gbuffer", "voxelize_clipmap, resolution: 32, clipmap_resolution: 16",
+                                         "light_clipmap, layout: clipmap_textures", "gather_cones"});
+    EXPECT_ERROR("filter_voxels: device", planWithVolumes(0, filter));
+    EXPECT_ERROR("light_clipmap: device", planWithVolumes(0, light));
+    EXPECT_ERROR("'layout'", planWithVolumes(107, light));
+    planWithVolumes(108, filter);
+    planWithVolumes(108, light);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "passes/cones/clipmap/clipmap_voxels.h"
 #include "passes/cones/radiance/radiance_voxels.h"
 #include "scene/shapes.h"
-#include "tests/gpu/radiance_samples.h"
+#include "tests/gpu/radiance_places.h"
 #include "tests/support/errors.h"
 
 namespace voxray::test {
@@ -22,31 +22,16 @@ std::string graphOf(const std::string& layout) {
 const std::string kGraph = graphOf("clipmap");
 const std::string kLayouts[] = {"clipmap", "clipmap_textures"};
 
-std::shared_ptr<SceneState> stateOf(const std::string& scene, const std::string& parameters) {
-    return std::make_shared<SceneState>(evaluate(makeBuiltinScene(scene, parseYaml(parameters, "scene")), 0));
-}
-
-/// The Cornell box, 2 m wide, seen from `camera`.
-std::shared_ptr<SceneState> cornellFrom(const glm::vec3& camera) {
-    auto state = stateOf("cornell", "{lights: point}");
-    state->cameras.at(0).position = camera;
-    return state;
-}
-
 const ClipmapVoxels& clipmap(const Chain& chain) {
-    return *chain.graph().resource<ClipmapVoxels>("clipmap");
-}
-
-const RadianceVoxels& radiance(const Chain& chain) {
-    return *chain.graph().resource<RadianceVoxels>("radiance");
+    return chain.get<ClipmapVoxels>("clipmap");
 }
 
 /// All that a clipmap holds: radiance; of each level occupancy, ranks and materials.
 std::vector<std::vector<uint32_t>> content(Chain& chain) {
     std::vector<std::vector<uint32_t>> all{radianceContent(radiance(chain))};
     for (const ClipmapVoxels::Level& level : clipmap(chain).levels)
-        for (const Buffer* buffer : {&level.voxels.occupancy, &level.voxels.rank,
-                                     static_cast<const Buffer*>(&level.voxels.materials)})
+        for (const Buffer* buffer :
+             {&level.voxels.occupancy, &level.voxels.rank, static_cast<const Buffer*>(&level.voxels.materials)})
             all.push_back(chain.read<uint32_t>(*buffer));
     return all;
 }
@@ -60,17 +45,14 @@ std::pair<uint64_t, uint64_t> updated(const Chain& chain) {
 TEST(ClipmapVoxels, ScrolledAreAsMadeFromScratch) {
     for (const std::string& layout : kLayouts) {
         const glm::vec3 start(-0.31f, 0.9f, 0.2f);
-        Chain scrolled(cornellFrom(start), graphOf(layout), 8, 8, 1);
+        Chain scrolled(cornellFrom(start), graphOf(layout), 8, 8);
         const auto first = content(scrolled);
         // Shorter than a voxel, of many along all axes, farther than windows are wide, and out of the scene.
-        const std::vector<glm::vec3> walk{{-0.3f, 0.91f, 0.2f},
-                                          {-0.1f, 1.12f, 0.25f},
-                                          {0.8f, 1.8f, -0.77f},
-                                          {0.8f, 1.5f, 5},
-                                          {-0.63f, 0.3f, -0.2f}};
+        const std::vector<glm::vec3> walk{
+            {-0.3f, 0.91f, 0.2f}, {-0.1f, 1.12f, 0.25f}, {0.8f, 1.8f, -0.77f}, {0.8f, 1.5f, 5}, {-0.63f, 0.3f, -0.2f}};
         for (const glm::vec3& camera : walk) {
             scrolled.runFrameFrom(camera);
-            Chain fresh(cornellFrom(camera), graphOf(layout), 8, 8, 1);
+            Chain fresh(cornellFrom(camera), graphOf(layout), 8, 8);
             EXPECT_TRUE(content(scrolled) == content(fresh)) << layout << ", " << camera.x;
             EXPECT_LE(updated(scrolled).first, updated(fresh).first);
         }
@@ -85,7 +67,7 @@ TEST(ClipmapVoxels, ScrolledAreAsMadeFromScratch) {
 
 TEST(ClipmapVoxels, VoxelizeWhatScrollsInAlone) {
     const glm::vec3 start(0, 1, 0);
-    Chain chain(cornellFrom(start), kGraph, 8, 8, 1);
+    Chain chain(cornellFrom(start), kGraph, 8, 8);
     const uint64_t allRays = chain.frameSamples.at(0).rays;
     EXPECT_GT(allRays, 0u);
     chain.runFrameFrom(start);
@@ -102,18 +84,8 @@ TEST(ClipmapVoxels, VoxelizeWhatScrollsInAlone) {
 
 /// Cornell with a sphere that moves through it, a place a second.
 std::shared_ptr<const Scene> roomWithSphere() {
-    auto scene = std::make_shared<Scene>(*makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")));
-    scene->meshes.push_back(sphereMesh("sphere", glm::vec3(0), 0.13f, 2, 0, false, true));
-    AnimationChannel channel;
-    channel.node = uint32_t(scene->nodes.size());
-    for (const glm::vec3& place : {glm::vec3(0.3f, 1.4f, 0.3f), glm::vec3(0.32f, 1.41f, 0.3f),
-                                   glm::vec3(-0.86f, 0.7f, 0.3f), glm::vec3(0.87f, 0.13f, -0.8f)}) {
-        channel.timesSeconds.push_back(float(channel.timesSeconds.size()));
-        channel.values.push_back(glm::vec4(place, 0));
-    }
-    scene->nodes.emplace_back();
-    scene->animation.push_back(channel);
-    scene->instances.push_back({uint32_t(scene->meshes.size() - 1), int32_t(channel.node)});
+    auto scene = builtinScene("cornell", "{lights: point}");
+    addMovingSphere(*scene, 0, {{0.3f, 1.4f, 0.3f}, {0.32f, 1.41f, 0.3f}, {-0.86f, 0.7f, 0.3f}, {0.87f, 0.13f, -0.8f}});
     return scene;
 }
 
@@ -122,12 +94,12 @@ TEST(ClipmapVoxels, FollowWhatMoves) {
         // A sphere, the light, and the camera at the same time.
         const auto scene = roomWithSphere();
         const auto stateAt = [&](double second) {
-            auto state = std::make_shared<SceneState>(evaluate(scene, second, Playback::Looping));
+            auto state = evaluated(scene, second, Playback::Looping);
             state->cameras.at(0).position = glm::vec3(0.1f, 1, 0.2f);
             if (second >= 2) state->lights.at(0).position += glm::vec3(0.2f, -0.1f, 0.1f);
             return state;
         };
-        Chain moved(stateAt(0), graphOf(layout), 8, 8, 1);
+        Chain moved(stateAt(0), graphOf(layout), 8, 8);
         auto last = content(moved);
         const uint64_t whole = updated(moved).first;
         for (int second = 1; second <= 3; ++second) {
@@ -137,7 +109,7 @@ TEST(ClipmapVoxels, FollowWhatMoves) {
                 return changed;
             });
             EXPECT_LT(updated(moved).first, whole / 2);
-            Chain made(stateAt(second), graphOf(layout), 8, 8, 1);
+            Chain made(stateAt(second), graphOf(layout), 8, 8);
             EXPECT_TRUE(content(moved) == content(made)) << layout << ", " << second;
             EXPECT_FALSE(content(moved) == last) << layout << ", " << second;
             last = content(moved);
@@ -152,7 +124,7 @@ TEST(ClipmapVoxels, FollowWhatMoves) {
         EXPECT_FALSE(content(moved) == last);
         auto lit = stateAt(3);
         lit->lights.at(0).position.x -= 0.3f;
-        EXPECT_TRUE(content(moved) == content(*std::make_unique<Chain>(lit, graphOf(layout), 8, 8, 1)));
+        EXPECT_TRUE(content(moved) == content(*std::make_unique<Chain>(lit, graphOf(layout), 8, 8)));
     }
 }
 
@@ -161,8 +133,8 @@ TEST(ClipmapVoxels, FollowWhatMoves) {
 glm::dvec4 unpack(glm::uvec2 t) {
     const uint64_t bits = uint64_t(t.x) | uint64_t(t.y) << 32;
     const double scale = std::ldexp(1.0, int(bits >> 42 & 255) - 126 - 1);
-    return {scale * double(bits & 16383), scale * double(bits >> 14 & 16383),
-            scale * double(bits >> 28 & 16383), double(bits >> 50) / 16383};
+    return {scale * double(bits & 16383), scale * double(bits >> 14 & 16383), scale * double(bits >> 28 & 16383),
+            double(bits >> 50) / 16383};
 }
 
 /// Radiance times coverage summed over the finest level's values, and each of them.
@@ -183,8 +155,7 @@ TEST(ClipmapVoxels, ClosedRoomCatchesAllLight) {
     // 8 pi W of a point light in a closed room of albedo 0.5. Each face of a voxel in a wall holds albedo /
     // pi E times its area, but along the room's edges, where coverages add up to more than the area.
     Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
-                graphYaml({"voxelize_clipmap, resolution: 60, clipmap_resolution: 64", "light_clipmap"}), 8,
-                8);
+                graphYaml({"voxelize_clipmap, resolution: 60, clipmap_resolution: 64", "light_clipmap"}), 8, 8);
     double sum = 0;
     for (const glm::dvec4& value : finestLevel(chain)) sum += value.g;
     const double face = std::pow(radiance(chain).grid.voxelSize, 2);
@@ -214,8 +185,8 @@ TEST(ClipmapVoxels, HoldWhatAGridOfTheSceneHolds) {
         sum += b[i].g;
         ownSum += a[i].g;
     }
-    std::printf("mean difference %.3f, ratio %.4f, other coverage %zu of %zu\n", difference / sum,
-                ownSum / sum, otherCoverage, a.size());
+    std::printf("mean difference %.3f, ratio %.4f, other coverage %zu of %zu\n", difference / sum, ownSum / sum,
+                otherCoverage, a.size());
     EXPECT_LT(double(otherCoverage) / double(a.size()), 0.001);
     EXPECT_LT(difference / sum, 0.01);
     EXPECT_NEAR(ownSum / sum, 1.0, 0.01);
@@ -223,14 +194,12 @@ TEST(ClipmapVoxels, HoldWhatAGridOfTheSceneHolds) {
 
 TEST(ClipmapVoxels, ConesBringTheFirstBounce) {
     const double expected =
-        mean(Chain("cornell", "{lights: point}", graphYaml({"path_trace, spp: 128, bounces: 1"}))
-                 .image("indirect"));
+        mean(Chain("cornell", "{lights: point}", graphYaml({"path_trace, spp: 128, bounces: 1"})).image("indirect"));
     for (const uint32_t side : {64u, 16u})
         for (const std::string& layout : kLayouts) {
             Chain chain(
                 "cornell", "{lights: point}",
-                graphYaml({"gbuffer",
-                           fmt::format("voxelize_clipmap, resolution: 64, clipmap_resolution: {}", side),
+                graphYaml({"gbuffer", fmt::format("voxelize_clipmap, resolution: 64, clipmap_resolution: {}", side),
                            "light_clipmap, layout: " + layout, "gather_cones"}));
             const double ratio = mean(chain.image("indirect")) / expected;
             std::printf("%s, windows of %u: %.3f of the path tracer's\n", layout.c_str(), side, ratio);
@@ -241,8 +210,7 @@ TEST(ClipmapVoxels, ConesBringTheFirstBounce) {
 TEST(ClipmapVoxels, BouncesAreThoseOfTheSceneAndFollowTheCamera) {
     // One more bounce: against the path tracer, and scrolled against made there.
     const double expected =
-        mean(Chain("cornell", "{lights: point}", graphYaml({"path_trace, spp: 128, bounces: 2"}))
-                 .image("indirect"));
+        mean(Chain("cornell", "{lights: point}", graphYaml({"path_trace, spp: 128, bounces: 2"})).image("indirect"));
     Chain chain("cornell", "{lights: point}",
                 graphYaml({"gbuffer", "voxelize_clipmap, resolution: 48, clipmap_resolution: 16",
                            "light_clipmap, bounces: 1", "gather_cones"}));
@@ -252,24 +220,23 @@ TEST(ClipmapVoxels, BouncesAreThoseOfTheSceneAndFollowTheCamera) {
 
     const std::string graph =
         graphYaml({"voxelize_clipmap, resolution: 24, clipmap_resolution: 16", "light_clipmap, bounces: 2"});
-    Chain scrolled(cornellFrom({-0.3f, 0.3f, 0.2f}), graph, 8, 8, 1);
+    Chain scrolled(cornellFrom({-0.3f, 0.3f, 0.2f}), graph, 8, 8);
     const glm::vec3 camera(0.25f, 1.3f, -0.4f);
     scrolled.runFrameFrom(camera);
-    Chain fresh(cornellFrom(camera), graph, 8, 8, 1);
+    Chain fresh(cornellFrom(camera), graph, 8, 8);
     EXPECT_TRUE(content(scrolled) == content(fresh));
 }
 
 TEST(ClipmapVoxels, BadInputIsNamed) {
-    const auto expectError = [](const std::shared_ptr<SceneState>& state, const std::string& voxelize,
-                                const std::string& rest, const std::string& text) {
-        const std::string graph = graphYaml({"gbuffer", "voxelize_clipmap, resolution: 16" + voxelize, rest});
-        EXPECT_CONTAINS(errorOf([&] { Chain(state, graph, 8, 8, 1); }), text);
+    const auto errorWith = [](const std::string& lights, const std::string& inject) {
+        return errorOf([&] {
+            Chain("cornell", "{lights: " + lights + "}",
+                  graphYaml({"gbuffer", "voxelize_clipmap, resolution: 16", inject}), 8, 8);
+        });
     };
-    const std::string light = "light_clipmap";
-    expectError(stateOf("cornell", "{lights: area}"), "", light,
-                "light_clipmap: emissive surfaces have no single viewpoint");
+    EXPECT_CONTAINS(errorWith("area", "light_clipmap"), "light_clipmap: emissive surfaces");
     // Methods that need one grid of the whole scene can't be wired to it.
-    expectError(cornellFrom({0, 0, 0}), "", "inject_light_rays", "voxels");
+    EXPECT_CONTAINS(errorWith("point", "inject_light_rays"), "voxels");
 }
 
 }  // namespace

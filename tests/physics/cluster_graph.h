@@ -16,8 +16,7 @@ inline const std::string kDirect = "rays_per_light: 262144, bounces: 0";
 
 inline std::vector<std::string> clusterGraph(const std::string& inject, const std::string& cluster,
                                              const std::string& visibility, const std::string& bounces,
-                                             const std::string& gather,
-                                             const std::string& resolution = "24") {
+                                             const std::string& gather, const std::string& resolution = "24") {
     return {"gbuffer",
             "voxelize, resolution: " + resolution,
             "place_surfels",
@@ -32,7 +31,7 @@ inline std::vector<std::string> clusterGraph(const std::string& inject, const st
 
 /// Surface groups of a chain's voxels.
 inline std::vector<gpu::SurfaceGroup> readGroups(Chain& chain) {
-    return chain.read<gpu::SurfaceGroup>(chain.graph().resource<VoxelPatches>("patches")->groups);
+    return chain.read<gpu::SurfaceGroup>(chain.get<VoxelPatches>("patches").groups);
 }
 
 /// By patch: 6 * group + face.
@@ -50,10 +49,10 @@ struct VisibilityEntry {
 
 /// The visibility list of each patch: entries of a chunk lie end to end, the first one in its lowest bits.
 inline std::vector<std::vector<VisibilityEntry>> readVisibilityLists(Chain& chain) {
-    const auto* visibility = chain.graph().resource<ClusterVisibility>("cluster_visibility");
-    const gpu::VisibilityListLayout& layout = visibility->layout;
+    const ClusterVisibility& visibility = chain.get<ClusterVisibility>("cluster_visibility");
+    const gpu::VisibilityListLayout& layout = visibility.layout;
     std::vector<std::vector<VisibilityEntry>> lists;
-    for (const ClusterVisibility::Chunk& chunk : visibility->chunks) {
+    for (const ClusterVisibility::Chunk& chunk : visibility.chunks) {
         const auto offsets = chain.read<uint32_t>(chunk.offsets), words = chain.read<uint32_t>(chunk.entries);
         const auto entry = [&](uint32_t number) {
             uint32_t bits = 0;
@@ -72,8 +71,7 @@ inline std::vector<std::vector<VisibilityEntry>> readVisibilityLists(Chain& chai
 /// Radiosity of each patch, W/m², green, as passes/surfels/radiosity.glsl packs it.
 inline std::vector<double> readRadiosity(Chain& chain) {
     std::vector<double> radiosity;
-    for (const uint32_t bits :
-         chain.read<uint32_t>(chain.graph().resource<ClusterLight>("cluster_light")->patches))
+    for (const uint32_t bits : chain.read<uint32_t>(chain.get<ClusterLight>("cluster_light").patches))
         radiosity.push_back(std::ldexp(double(bits >> 8 & 255) / 255, int(bits >> 24) - 128));
     return radiosity;
 }

@@ -33,16 +33,16 @@ struct NormalCounts {
 };
 
 NormalCounts countNormals(const std::shared_ptr<const Scene>& scene, const std::string& ties) {
-    Chain chain(std::make_shared<SceneState>(evaluate(scene, 0.0)),
+    Chain chain(evaluated(scene),
                 graphYaml({"voxelize, resolution: 8, visibility_rays: 0",
                            "cluster_voxels, target: 8, normals: open_space, ties: " + ties}),
-                16, 16, 1);
+                16, 16);
     const PassSample& sample = chain.buildSamples.at(1);
-    NormalCounts counts{.tied = reported(sample, "voxels with a tie of unoccupied directions, %"),
-                        .decided = reported(sample, "voxels that fragments decide otherwise, %"),
-                        .changed = reported(sample, "voxels with another normal than by area, %")};
+    NormalCounts counts{.tied = reported(sample, "voxels with several equally open directions, %"),
+                        .decided = reported(sample, "voxels whose tie fragments break in another way, %"),
+                        .changed = reported(sample, "voxels whose normal differs from the area-weighted one, %")};
     for (const gpu::VoxelCluster& cluster :
-         chain.read<gpu::VoxelCluster>(chain.graph().resource<VoxelClusters>("clusters")->clusters)) {
+         chain.read<gpu::VoxelCluster>(chain.get<VoxelClusters>("clusters").clusters)) {
         const float up = cluster.seedNormal.y;
         (up > 0.999f ? counts.up : up < -0.999f ? counts.down : counts.others) += cluster.memberCount;
     }
@@ -54,8 +54,7 @@ TEST(ClusterNormals, OfAThinPlateFollowItsFragmentsWhereBothWaysAreOpen) {
     // fragments the finer sheet has more in each voxel. Without probes: their noise would decide by area.
     for (const bool isFinerBelow : {true, false}) {
         const auto scene = isFinerBelow ? plate(1, 16) : plate(16, 1);
-        const NormalCounts bySurface = countNormals(scene, "surfaces"),
-                           byFragments = countNormals(scene, "fragments");
+        const NormalCounts bySurface = countNormals(scene, "surfaces"), byFragments = countNormals(scene, "fragments");
         for (const NormalCounts& counts : {bySurface, byFragments}) {
             EXPECT_EQ(counts.tied, 100);
             EXPECT_EQ(counts.up + counts.down, 64);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <numbers>
 
 #include "passes/clusters/voxel_clusters.h"
 #include "tests/physics/cluster_graph.h"
@@ -13,16 +12,14 @@
 namespace voxray::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// Clusters of a chain, read back.
 struct Clusters {
     explicit Clusters(Chain& chain) : voxels(chain) {
-        const auto* resource = chain.graph().resource<VoxelClusters>("clusters");
-        clusters = chain.read<gpu::VoxelCluster>(resource->clusters);
-        clusterOfVoxel = chain.read<uint32_t>(resource->clusterOfVoxel);
-        coordinates = chain.read<glm::uvec3>(resource->coordinates);
-        unassigned = reported(chain.buildSamples.at(1), "voxels no seed reached, %");
+        const auto& c = chain.get<VoxelClusters>("clusters");
+        clusters = chain.read<gpu::VoxelCluster>(c.clusters);
+        clusterOfVoxel = chain.read<uint32_t>(c.clusterOfVoxel);
+        coordinates = chain.read<glm::uvec3>(c.coordinates);
+        unassigned = reported(chain.buildSamples.at(1), "voxels that no seed reached, %");
     }
     Voxels voxels;
     std::vector<gpu::VoxelCluster> clusters;
@@ -33,9 +30,13 @@ struct Clusters {
 
 Clusters clustersOf(const std::string& scene, const std::string& parameters, const std::string& pass,
                     const std::string& resolution = "32") {
-    Chain chain(scene, parameters,
-                graphYaml({"voxelize, resolution: " + resolution, "cluster_voxels, " + pass}), 16, 16);
+    Chain chain(scene, parameters, graphYaml({"voxelize, resolution: " + resolution, "cluster_voxels, " + pass}), 16,
+                16);
     return Clusters(chain);
+}
+
+int64_t unassigned(const Clusters& c) {
+    return std::ranges::count(c.clusterOfVoxel, NO_CLUSTER);
 }
 
 /// As voxel_normals.comp has it; not a number where that takes the largest face.
@@ -61,8 +62,8 @@ TEST(ClusterVoxels, GroupEachVoxelOnceAndTheSameInEachRun) {
             EXPECT_GT(memberCounts[i], 0u) << kind;
             EXPECT_EQ(c.clusters[i].memberCount, memberCounts[i]) << kind;
         }
-        std::printf("%s: %zu clusters of %u voxels, no seed reached %.2f %%\n", kind.c_str(),
-                    c.clusters.size(), c.voxels.count, c.unassigned);
+        std::printf("%s: %zu clusters of %u voxels, no seed reached %.2f %%\n", kind.c_str(), c.clusters.size(),
+                    c.voxels.count, c.unassigned);
     }
 }
 
@@ -90,17 +91,14 @@ TEST(ClusterVoxels, TakeWhatNoOtherWantsInThePapersOrder) {
     const std::string few = "target: 1, iterations: 1, reach: 8, unassigned: leave, assign: ";
     const Clusters nearest = clustersOf("white_room", "{}", few + "nearest");
     const Clusters first = clustersOf("white_room", "{}", few + "first");
-    const auto unassigned = [](const Clusters& c) {
-        return std::ranges::count(c.clusterOfVoxel, NO_CLUSTER);
-    };
     EXPECT_GT(unassigned(nearest), 0);
     EXPECT_EQ(unassigned(first), 0);
     // Where each direction has its own clusters, nearly all voxels with a normal join one of like normal.
     const Clusters many = clustersOf("cornell", "{lights: point}", "target: 200, assign: first, reach: 4");
     uint32_t known = 0, beyond = 0;
     for (uint32_t voxel = 0; voxel < many.voxels.count; ++voxel) {
-        const double cosine = glm::dot(many.clusters[many.clusterOfVoxel[voxel]].seedNormal,
-                                       normalOf(many.voxels.materials[voxel]));
+        const double cosine =
+            glm::dot(many.clusters[many.clusterOfVoxel[voxel]].seedNormal, normalOf(many.voxels.materials[voxel]));
         if (std::isnan(cosine)) continue;
         ++known;
         beyond += cosine < std::cos(35 * kPi / 180) - 1e-4 ? 1 : 0;
@@ -112,9 +110,6 @@ TEST(ClusterVoxels, TakeWhatNoOtherWantsInThePapersOrder) {
 
 TEST(ClusterVoxels, LeaveVoxelsOnlyWhereAsked) {
     const std::string few = "target: 12, iterations: 1, unassigned: ";
-    const auto unassigned = [](const Clusters& c) {
-        return std::ranges::count(c.clusterOfVoxel, NO_CLUSTER);
-    };
     const Clusters left = clustersOf("cornell", "{lights: point}", few + "leave");
     EXPECT_GT(unassigned(left), 0);
     EXPECT_NEAR(100.0 * double(unassigned(left)) / left.voxels.count, left.unassigned, 1e-6);
@@ -143,24 +138,24 @@ TEST(ClusterVoxels, TakeAnyNumberOfVoxelsAndClusters) {
     EXPECT_EQ(many.clusters.size(), many.voxels.count);
     const Clusters few = clustersOf("white_room", "{}", "target: 1");
     EXPECT_GE(few.clusters.size(), 6u);
-    EXPECT_CONTAINS(errorOf([] { clustersOf("plane", "{}", "target: 0"); }), "target");
+    EXPECT_ERROR("target", clustersOf("plane", "{}", "target: 0"));
 }
 
 TEST(ClusterVisibility, CountsFormFactors) {
     // Parallel unit squares, 1 m apart: F = 0.19982 (Howell, C-11). The fraction of rays from patches +y of
     // the lower one that hit the upper one.
     for (const std::string visibility : {"voxels", "exact"}) {
-        Chain chain("quad_light", "{}",
-                    graphYaml({"voxelize, resolution: 32", "cluster_voxels, target: 100", "place_surfels",
-                               "find_patches",
-                               "cluster_visibility, rays: 256, near_distance: 0, visibility: " + visibility}),
-                    16, 16);
+        Chain chain(
+            "quad_light", "{}",
+            graphYaml({"voxelize, resolution: 32", "cluster_voxels, target: 100", "place_surfels", "find_patches",
+                       "cluster_visibility, rays: 256, near_distance: 0, visibility: " + visibility}),
+            16, 16);
         const Clusters c(chain);
-        const auto* patches = chain.graph().resource<VoxelPatches>("patches");
-        const auto groups = chain.read<gpu::SurfaceGroup>(patches->groups);
-        const auto components = chain.read<gpu::ClusterComponent>(patches->components);
-        const auto memberGroups = chain.read<uint32_t>(patches->memberGroups);
-        const auto materials = chain.read<gpu::PackedVoxelMaterial>(patches->materials);
+        const auto& patches = chain.get<VoxelPatches>("patches");
+        const auto groups = chain.read<gpu::SurfaceGroup>(patches.groups);
+        const auto components = chain.read<gpu::ClusterComponent>(patches.components);
+        const auto memberGroups = chain.read<uint32_t>(patches.memberGroups);
+        const auto materials = chain.read<gpu::PackedVoxelMaterial>(patches.materials);
         const auto faces = facesOfPatches(groups);
         const auto lists = readVisibilityLists(chain);
         double sum = 0, area = 0;
@@ -186,8 +181,7 @@ TEST(ClusterVisibility, KeepLongLists) {
         "furnace", "{shape: sphere, albedo: 0.5, emission: 1}",
         graphYaml({"gbuffer", "voxelize, resolution: 12", "place_surfels", "cluster_voxels, target: 100000",
                    "find_patches", "cluster_visibility, rays: 1024, near_distance: 0",
-                   "inject_clusters, direct: shadow_rays", "gather_clusters, filter_passes: 0",
-                   "gather_irradiance"}),
+                   "inject_clusters, direct: shadow_rays", "gather_clusters, filter_passes: 0", "gather_irradiance"}),
         16, 16);
     const double light = mean(chain.image("indirect")) / 0.25;
     std::printf("light %.4f of the closed form\n", light);
@@ -206,8 +200,7 @@ double leakIntoARoom(const std::string& visibility, const std::string& direct, c
     double inside = 0, outside = 0, insideCount = 0, outsideCount = 0;
     for (size_t i = 0; i < groups.size(); ++i) {
         double sum = 0;
-        for (int k = 0; k < std::popcount(groups[i].faces); ++k)
-            sum += light[groups[i].firstPatch + size_t(k)];
+        for (int k = 0; k < std::popcount(groups[i].faces); ++k) sum += light[groups[i].firstPatch + size_t(k)];
         const glm::vec3 p = groups[i].pointAbove;
         const bool isInside = std::abs(p.x) < 2 && p.y > 0 && p.y < 2.5f && std::abs(p.z) < 2;
         (isInside ? inside : outside) += sum;
@@ -247,9 +240,8 @@ TEST(ClusterVisibility, LookAlongTheNormalOfEachWallOfACorner) {
                     graphYaml(clusterGraph(kDirect, "target: 100", "rays: 64, hemisphere: " + hemisphere, "0",
                                            "filter_passes: 0", "19")));
         Light light;
-        light.flux = readFlux(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->indirect);
-        const auto surfels =
-            chain.read<gpu::GroupedSurfel>(chain.graph().resource<VoxelPatches>("patches")->surfels);
+        light.flux = readFlux(chain, chain.get<VoxelIrradiance>("irradiance").indirect);
+        const auto surfels = chain.read<gpu::GroupedSurfel>(chain.get<VoxelPatches>("patches").surfels);
         light.faces.resize(light.flux.size() / 18);
         light.isAligned.resize(light.faces.size(), true);
         for (const gpu::GroupedSurfel& s : surfels)
@@ -271,8 +263,8 @@ TEST(ClusterVisibility, LookAlongTheNormalOfEachWallOfACorner) {
         sum[isAligned] += face.flux[i];
         if (i % 18 == 0 && isAligned && std::popcount(face.faces[i / 18]) > 1) ++corners;
     }
-    std::printf("%.0f corners: %.6f of the light differs, at slanted surfaces %.4f\n", corners,
-                difference[1] / sum[1], difference[0] / sum[0]);
+    std::printf("%.0f corners: %.6f of the light differs, at slanted surfaces %.4f\n", corners, difference[1] / sum[1],
+                difference[0] / sum[0]);
     EXPECT_GT(corners, 100);
     EXPECT_LT(difference[1], 1e-4 * sum[1]);
     EXPECT_GT(difference[0], 0.01 * sum[0]);
@@ -288,18 +280,12 @@ TEST(ClusterVisibility, RefusesWhatMakesNoSense) {
     EXPECT_CONTAINS(message("rays: 0"), "rays");
     EXPECT_CONTAINS(message("rays: 2000"), "rays");
     // All surfaces in one voxel: none is open to light.
-    EXPECT_CONTAINS(
-        errorOf([] {
-            Chain("cornell", "{lights: point}",
-                  graphYaml(clusterGraph(kDirect, "target: 50", "rays: 16", "0", "filter_size: 3", "1")));
-        }),
-        "no light falls on any voxel");
-    EXPECT_CONTAINS(errorOf([] {
-                        Chain("cornell", "{lights: point}",
-                              graphYaml({"voxelize, resolution: 16, visibility_rays: 0", "place_surfels",
-                                         "cluster_voxels", "find_patches"}));
-                    }),
-                    "find_patches");
+    EXPECT_ERROR("no light",
+                 Chain("cornell", "{lights: point}",
+                       graphYaml(clusterGraph(kDirect, "target: 50", "rays: 16", "0", "filter_size: 3", "1"))));
+    EXPECT_ERROR("find_patches", Chain("cornell", "{lights: point}",
+                                       graphYaml({"voxelize, resolution: 16, visibility_rays: 0", "place_surfels",
+                                                  "cluster_voxels", "find_patches"})));
 }
 
 }  // namespace

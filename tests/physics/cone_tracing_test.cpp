@@ -23,8 +23,7 @@ std::string coneGraph(const Setting& s) {
 }
 
 double indirect(const std::string& scene, const std::string& parameters, const Setting& setting) {
-    Chain chain(scene, parameters, coneGraph(setting));
-    return mean(chain.image("indirect"));
+    return meanIndirect(scene, parameters, coneGraph(setting));
 }
 
 /// Indirect light in the room without light, relative to the one with.
@@ -69,13 +68,12 @@ TEST(ConeTracing, EveryLayoutKeepsTheEnergyOfACurvedFurnace) {
 TEST(ConeTracing, SteppedConesAsPublishedAreLinearAndKeepNoEnergy) {
     // Where every surface sends the same, what is missing to 1 is opacity that a march in free steps lost, or
     // that a surface's own voxels took: with a value for each direction its dark back hides most of the room.
-    const auto part = [](const std::string& layout, const std::string& directions,
-                         const std::string& emission) {
-        Chain chain("furnace", "{shape: box, albedo: 0.5, emission: " + emission + "}",
-                    graphYaml({"gbuffer", "voxelize, resolution: 32, directions: " + directions,
-                               "inject_light_rays, rays_per_light: 65536, bounces: 2",
-                               "filter_voxels, emission: true, layout: " + layout, "gather_stepped_cones"}));
-        return mean(chain.image("indirect")) / (0.5 * 1.875);
+    const auto part = [](const std::string& layout, const std::string& directions, const std::string& emission) {
+        return meanIndirect("furnace", "{shape: box, albedo: 0.5, emission: " + emission + "}",
+                            graphYaml({"gbuffer", "voxelize, resolution: 32, directions: " + directions,
+                                       "inject_light_rays, rays_per_light: 65536, bounces: 2",
+                                       "filter_voxels, emission: true, layout: " + layout, "gather_stepped_cones"})) /
+               (0.5 * 1.875);
     };
     const double one = part("dense", "1", "1"), six = part("dense", "6", "1");
     std::printf("stepped cones: %.4f of the closed form by one direction, %.4f by six\n", one, six);
@@ -125,8 +123,7 @@ TEST(ConeTracing, WallsLeakLittle) {
 }
 
 TEST(ConeTracing, EverySetKeepsTheEnergyOfAWhiteRoom) {
-    Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 256, bounces: 4"}));
-    const double expected = mean(reference.image("indirect"));
+    const double expected = mean(pathTraced("white_room", "{albedo: 0.5}", 256, 4));
     for (const std::string& cones : kSets) {
         Setting s;
         s.gather = "cones: " + cones;
@@ -137,17 +134,14 @@ TEST(ConeTracing, EverySetKeepsTheEnergyOfAWhiteRoom) {
 TEST(ConeTracing, IsLinearInLight) {
     const Setting s;
     // Radiance is kept in half floats, in units of a power of two.
-    EXPECT_NEAR(indirect("white_room", "{intensity: 7}", s) / indirect("white_room", "{intensity: 1}", s),
-                7.0, 0.01);
+    EXPECT_NEAR(indirect("white_room", "{intensity: 7}", s) / indirect("white_room", "{intensity: 1}", s), 7.0, 0.01);
 }
 
 TEST(ConeTracing, IsDeterministic) {
     for (const std::string voxels : {"0", "2"}) {
         Setting s;
         s.gather = "cones: 16, near_field_voxels: " + voxels;
-        const auto run = [&] {
-            return Chain("cornell", "{lights: point}", coneGraph(s)).image("indirect").data;
-        };
+        const auto run = [&] { return indirectLight("cornell", "{lights: point}", coneGraph(s)).data; };
         EXPECT_EQ(run(), run()) << voxels;
     }
 }
@@ -163,22 +157,17 @@ TEST(ConeTracing, FewerTracedPixelsKeepTheEnergy) {
 }
 
 TEST(ConeTracing, ConvergesToTheReferenceOnCornell) {
-    Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 512, bounces: 4"}));
-    const ImageF expected = reference.image("indirect");
+    const ImageF& expected = pathTraced("cornell", "{lights: point}", 512, 4);
     const auto error = [&](const std::string& resolution, const std::string& cones) {
         Setting s;
         s.gbuffer = "samples_per_pixel_edge: 3";
         s.voxelize = "resolution: " + resolution;
         s.inject = "rays_per_light: 524288, bounces: 3";
         s.gather = "cones: " + cones + ", stride: 3";
-        Chain chain("cornell", "{lights: point}", coneGraph(s));
-        const ImageF image = chain.image("indirect");
+        const ImageF image = indirectLight("cornell", "{lights: point}", coneGraph(s));
         const double ratio = mean(image) / mean(expected);
         EXPECT_NEAR(ratio, 1.0, 0.03) << resolution << ' ' << cones;  // 0.980 and 0.992, noise 0.3 %.
-        double sum = 0;
-        for (size_t i = 0; i < image.data.size(); ++i)
-            sum += std::abs(double(image.data[i]) - expected.data[i]);
-        const double difference = sum / double(image.data.size()) / mean(expected);
+        const double difference = meanDifference(image, expected);
         std::printf("%s, %s cones: %.4f of the path tracer's, mean difference %.4f\n", resolution.c_str(),
                     cones.c_str(), ratio, difference);
         return difference;

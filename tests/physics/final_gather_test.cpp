@@ -2,9 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
-#include <numbers>
 
+#include "image/metrics.h"
 #include "passes/common/voxels/voxels.h"
 #include "tests/physics/voxels_read.h"
 #include "tests/support/errors.h"
@@ -12,20 +11,6 @@
 
 namespace voxray::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-const VoxelIrradiance& irradiance(const Chain& chain) {
-    return *chain.graph().resource<VoxelIrradiance>("irradiance");
-}
-
-// Sum over all voxels and directions, green channel.
-double total(Chain& chain, const Buffer& flux) {
-    const std::vector<float> values = readFlux(chain, flux);
-    double sum = 0;
-    for (size_t i = 1; i < values.size(); i += 3) sum += values[i];
-    return sum;
-}
 
 using Passes = std::vector<std::string>;
 const Passes kRaw = {"gather_rays"};
@@ -52,29 +37,19 @@ std::string messageOf(const std::string& scene, const std::string& graph) {
     return errorOf([&] { Chain(scene, "{}", graph); });
 }
 
-double difference(const ImageF& a, const ImageF& b) {
-    double sum = 0;
-    for (size_t i = 0; i < a.data.size(); ++i) sum += std::abs(double(a.data[i]) - b.data[i]);
-    return sum / double(b.data.size()) / mean(b);
-}
-
 TEST(FinalGather, FollowsALightThatMoves) {
     // What is kept from frame to frame is made again: the image is that of a graph made where the light is.
     for (const Injection& injection : kInjections) {
         SCOPED_TRACE(injection.pass);
         const std::string graph = gatherGraph(injection.withBounces(1), "rays_per_block: 4", filtered(1));
-        const auto before = std::make_shared<SceneState>(
-            evaluate(makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")), 0.0));
-        const auto after = std::make_shared<SceneState>(*before);
-        after->lights.at(0).position.x += 0.4f;
-        Chain moved(before, graph, 16, 16, 1), made(after, graph, 16, 16, 1);
+        const auto before = builtin("cornell", "{lights: point}");
+        Chain moved(before, graph, 16, 16);
         const ImageF old = moved.image("indirect");
-        moved.update([&](SceneState& state) {
-            state.lights = after->lights;
-            return std::vector<Box>();
-        });
-        EXPECT_EQ(moved.image("indirect").data, made.image("indirect").data);
-        EXPECT_GT(difference(old, made.image("indirect")), 0.01);
+        moved.update(moveLight);
+        moveLight(*before);
+        const ImageF made = Chain(before, graph, 16, 16).image("indirect");
+        EXPECT_EQ(moved.image("indirect").data, made.data);
+        EXPECT_GT(meanDifference(old, made), 0.01);
     }
 }
 
@@ -84,28 +59,26 @@ TEST(VoxelRays, ClosedRoomCatchesAllLight) {
     Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
                 graphYaml({"voxelize, resolution: 24", "place_surfels, points_per_voxel: 16",
                            "inject_voxel_rays, paths_per_point: 4, bounces: 3"}));
-    EXPECT_NEAR(total(chain, irradiance(chain).direct) / (8 * kPi), 1.0, 0.01);
-    EXPECT_NEAR(total(chain, irradiance(chain).indirect) / (8 * kPi * 0.875), 1.0, 0.02);
+    EXPECT_NEAR(totalFlux(chain, irradiance(chain).direct) / (8 * kPi), 1.0, 0.01);
+    EXPECT_NEAR(indirectFlux(chain) / (8 * kPi * 0.875), 1.0, 0.02);
 }
 
 TEST(VoxelRays, AreDeterministic) {
     const auto run = [](const std::string& inject) {
-        Chain chain("cornell", "{lights: point}",
-                    gatherGraph(inject, "rays_per_block: 4", kRaw, "resolution: 24"));
-        return chain.image("indirect").data;
+        return indirectLight("cornell", "{lights: point}",
+                             gatherGraph(inject, "rays_per_block: 4", kRaw, "resolution: 24"))
+            .data;
     };
-    for (const std::string inject :
-         {"inject_voxel_rays, bounces: 2", "inject_voxel_rays, points: gather_hits",
-          "inject_camera_rays, rays_per_image: 8192"})
+    for (const std::string inject : {"inject_voxel_rays, bounces: 2", "inject_voxel_rays, points: gather_hits",
+                                     "inject_camera_rays, rays_per_image: 8192"})
         EXPECT_EQ(run(inject), run(inject)) << inject;
 }
 
 TEST(VoxelRays, AreLinearInLight) {
     const auto run = [](const std::string& intensity) {
-        Chain chain(
-            "white_room", "{intensity: " + intensity + "}",
-            graphYaml({"voxelize, resolution: 12", "place_surfels", "inject_voxel_rays, bounces: 3"}));
-        return total(chain, irradiance(chain).indirect);
+        Chain chain("white_room", "{intensity: " + intensity + "}",
+                    graphYaml({"voxelize, resolution: 12", "place_surfels", "inject_voxel_rays, bounces: 3"}));
+        return indirectFlux(chain);
     };
     EXPECT_NEAR(run("7") / run("1"), 7.0, 1e-3);
 }
@@ -117,8 +90,7 @@ TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAFurnace) {
         if (!injection.takesEmission) continue;
         const bool fromLights = injection.pass.starts_with("inject_light_rays");
         const std::string inject = injection.withBounces(2) + (fromLights ? "" : ", light_samples: 16");
-        Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
-                    gatherGraph(inject, "rays_per_block: 64"));
+        Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}", gatherGraph(inject, "rays_per_block: 64"));
         EXPECT_NEAR(mean(chain.image("indirect")), 0.36 + 0.216 + 0.1296, 0.02 * 0.7056) << injection.pass;
     }
 }
@@ -127,13 +99,10 @@ TEST(FinalGather, EveryStrategyKeepsTheEnergyOfALitSphere) {
     // A furnace for lights that have a viewpoint: 1 W/sr in the center of a sphere of 1 m give 1 W/m²
     // everywhere, and each bounce reflects 0.6 of that to everywhere. The gather itself is one bounce, of
     // three.
-    Scene sphere = *makeBuiltinScene("furnace", parseYaml("{albedo: 0.6, emission: 0}", "scene"));
-    sphere.lights.resize(1);
-    const auto state =
-        std::make_shared<SceneState>(evaluate(std::make_shared<Scene>(std::move(sphere)), 0.0));
+    const State state = litSphere();
     const double expected = 0.6 / kPi * (0.6 + 0.36 + 0.216);
     for (const Injection& injection : kInjections) {
-        Chain chain(state, gatherGraph(injection.withBounces(2), "rays_per_block: 64"), 32, 32, 1);
+        Chain chain(state, gatherGraph(injection.withBounces(2), "rays_per_block: 64"), 32, 32);
         const double ratio = mean(chain.image("indirect")) / expected;
         std::printf("%s: %.4f of the closed form\n", injection.pass.c_str(), ratio);
         EXPECT_NEAR(ratio, 1.0, 0.005) << injection.pass;  // Noise of 64 rays a pixel: up to 0.0012.
@@ -148,29 +117,29 @@ TEST(FinalGather, ShadowRaysAtHitsKeepTheEnergyOfAFurnace) {
 }
 
 TEST(FinalGather, ShadowRaysAtHitsKeepTheEnergyOfAWhiteRoom) {
-    Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 256, bounces: 4"}));
+    const ImageF& reference = pathTraced("white_room", "{albedo: 0.5}", 256, 4);
     const std::string exact = "gather_rays, direct_at_hits: shadow_rays";
     const auto image = [](const std::string& intensity, const Passes& gather) {
-        Chain chain("white_room", "{albedo: 0.5, intensity: " + intensity + "}",
-                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 3", "rays_per_block: 64",
-                                gather));
-        return mean(chain.image("indirect"));
+        return meanIndirect(
+            "white_room", "{albedo: 0.5, intensity: " + intensity + "}",
+            gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 3", "rays_per_block: 64", gather));
     };
-    EXPECT_NEAR(image("1", {exact}) / mean(reference.image("indirect")), 1.0, 0.02);
-    EXPECT_NEAR(image("1", filtered(4, exact)) / mean(reference.image("indirect")), 1.0, 0.02);
+    EXPECT_NEAR(image("1", {exact}) / mean(reference), 1.0, 0.02);
+    EXPECT_NEAR(image("1", filtered(4, exact)) / mean(reference), 1.0, 0.02);
     EXPECT_NEAR(image("7", {exact}) / image("1", {exact}), 7.0, 7e-3);
 }
 
 TEST(FinalGather, ShadowRaysAtHitsKnowNoVoxels) {
     // One bounce of light in all: what the hits reflect is direct light alone, which no voxel coarsens. The
     // path tracer's image, but for noise, however large voxels are.
-    Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 1024, bounces: 1"}));
+    const ImageF& reference = pathTraced("white_room", "{albedo: 0.5}", 1024, 1);
     const auto error = [&](const std::string& gather) {
-        Chain chain("white_room", "{albedo: 0.5}",
-                    gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 0", "rays_per_block: 256",
-                                {"gather_rays, near_field_cells: 0, direct_at_hits: " + gather},
-                                "resolution: 3, visibility_rays: 0", "2"));
-        return difference(chain.image("indirect"), reference.image("indirect"));
+        return meanDifference(
+            indirectLight("white_room", "{albedo: 0.5}",
+                          gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 0", "rays_per_block: 256",
+                                      {"gather_rays, near_field_cells: 0, direct_at_hits: " + gather},
+                                      "resolution: 3, visibility_rays: 0", "2")),
+            reference);
     };
     const double exact = error("shadow_rays"), coarse = error("voxels");
     EXPECT_LT(exact, 0.02);
@@ -181,13 +150,12 @@ TEST(FinalGather, FilterKeepsAUniformImage) {
     // In a furnace irradiance is the same everywhere and no ray is noisy: nothing may change it, edges
     // included.
     const auto image = [](int levels) {
-        Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
-                    gatherGraph("inject_light_rays, rays_per_light: 524288, bounces: 2",
-                                "rays_per_block: 16, block: 4",
-                                filtered(levels, "gather_rays, near_field_cells: 0"), "resolution: 4"));
-        return chain.image("indirect");
+        return indirectLight(
+            "furnace", "{shape: box, albedo: 0.6, emission: 1}",
+            gatherGraph("inject_light_rays, rays_per_light: 524288, bounces: 2", "rays_per_block: 16, block: 4",
+                        filtered(levels, "gather_rays, near_field_cells: 0"), "resolution: 4"));
     };
-    EXPECT_LT(difference(image(5), image(1)), 0.01);
+    EXPECT_LT(meanDifference(image(5), image(1)), 0.01);
 }
 
 TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAWhiteRoom) {
@@ -196,10 +164,8 @@ TEST(FinalGather, EveryStrategyKeepsTheEnergyOfAWhiteRoom) {
     // the path tracer is the reference.
     Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 256, bounces: 4"}));
     for (const Injection& injection : kInjections) {
-        Chain chain("white_room", "{albedo: 0.5}",
-                    gatherGraph(injection.withBounces(3), "rays_per_block: 64"));
-        EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.02)
-            << injection.pass;
+        Chain chain("white_room", "{albedo: 0.5}", gatherGraph(injection.withBounces(3), "rays_per_block: 64"));
+        EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.02) << injection.pass;
     }
 }
 
@@ -213,17 +179,16 @@ TEST(FinalGather, AllPairsOfStrategiesAgreeOnCornell) {
     }
     for (size_t i = 0; i < means.size(); ++i)
         for (size_t j = 0; j < i; ++j)
-            EXPECT_NEAR(means[i] / means[j], 1.0, 0.015)
-                << kInjections[i].pass << " and " << kInjections[j].pass;
+            EXPECT_NEAR(means[i] / means[j], 1.0, 0.015) << kInjections[i].pass << " and " << kInjections[j].pass;
 }
 
 TEST(FinalGather, ConvergesToTheReference) {
-    Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 1024, bounces: 6"}));
+    const ImageF& reference = pathTraced("cornell", "{lights: point}", 1024, 6);
     const auto error = [&](const std::string& rays) {
-        Chain chain("cornell", "{lights: point}",
-                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5",
-                                "rays_per_block: " + rays, kRaw, "resolution: 64", "3"));
-        return difference(chain.image("indirect"), reference.image("indirect"));
+        return meanDifference(indirectLight("cornell", "{lights: point}",
+                                            gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5",
+                                                        "rays_per_block: " + rays, kRaw, "resolution: 64", "3")),
+                              reference);
     };
     const double few = error("1"), many = error("32");
     EXPECT_LT(many, 0.35 * few);
@@ -234,11 +199,10 @@ TEST(FinalGather, BlocksShareRaysWithoutLosingEnergy) {
     // Each block's rays reach every texel, fewer or more rays than texels: the mean does not depend on the
     // split.
     const auto image = [](const std::string& trace) {
-        Chain chain("white_room", "{albedo: 0.5}",
-                    gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 2", trace, filtered(3),
-                                "resolution: 16"),
-                    48, 48);
-        return mean(chain.image("indirect"));
+        return meanIndirect(
+            "white_room", "{albedo: 0.5}",
+            gatherGraph("inject_light_rays, rays_per_light: 65536, bounces: 2", trace, filtered(3), "resolution: 16"),
+            48, 48);
     };
     const double expected = image("rays_per_block: 32");
     for (const std::string trace :
@@ -247,102 +211,86 @@ TEST(FinalGather, BlocksShareRaysWithoutLosingEnergy) {
 }
 
 TEST(FinalGather, FilterLowersTheError) {
-    Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 128, bounces: 6"}), 64, 64);
+    const ImageF& reference = pathTraced("cornell", "{lights: point}", 128, 6, 64, 64);
     const auto error = [&](const Passes& gather) {
-        Chain chain("cornell", "{lights: point}",
-                    gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5", "rays_per_block: 4",
-                                gather, "resolution: 48"),
-                    64, 64);
-        return difference(chain.image("indirect"), reference.image("indirect"));
+        return meanDifference(indirectLight("cornell", "{lights: point}",
+                                            gatherGraph("inject_light_rays, rays_per_light: 131072, bounces: 5",
+                                                        "rays_per_block: 4", gather, "resolution: 48"),
+                                            64, 64),
+                              reference);
     };
     EXPECT_LT(error(filtered(3)), 0.6 * error(kRaw));
 }
 
 TEST(FinalGather, SubPixelsAreAveraged) {
     const auto image = [](const std::string& samples, const std::string& rays) {
-        Chain chain("cornell", "{lights: point}",
-                    graphYaml({"gbuffer, samples_per_pixel_edge: " + samples, "voxelize", "inject_light_rays",
-                               "trace_gather_rays, rays_per_block: " + rays, "gather_rays"}));
-        return mean(chain.image("indirect"));
+        return meanIndirect("cornell", "{lights: point}",
+                            graphYaml({"gbuffer, samples_per_pixel_edge: " + samples, "voxelize", "inject_light_rays",
+                                       "trace_gather_rays, rays_per_block: " + rays, "gather_rays"}));
     };
     EXPECT_NEAR(image("3", "16") / image("1", "64"), 1.0, 0.03);
 }
 
 TEST(FinalGather, MorePathsOnDemandLowerTheNoise) {
     const auto image = [](const std::string& rays) {
-        Chain chain(
+        return indirectLight(
             "cornell", "{lights: point}",
             graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels, points_per_voxel: 2",
                        "trace_gather_rays, rays_per_block: 64",
                        "inject_voxel_rays, points: gather_hits, paths_per_point: " + rays, "gather_rays"}));
-        return chain.image("indirect");
     };
     const ImageF expected = image("64");
-    const double one = difference(image("1"), expected), sixteen = difference(image("16"), expected);
+    const double one = meanDifference(image("1"), expected), sixteen = meanDifference(image("16"), expected);
     EXPECT_LT(sixteen, 0.5 * one);
 }
 
 TEST(FinalGather, BadInputIsNamed) {
     const std::string scene = "cornell";
     EXPECT_CONTAINS(messageOf(scene, gatherGraph("inject_light_rays", "rays_per_block: 2, block: 4")),
-                    "leaves texels without any; let filter_irradiance follow");
+                    "filter_irradiance");
+    EXPECT_CONTAINS(messageOf(scene, gatherGraph("inject_light_rays", "rays_per_block: 2, block: 4", filtered(1))),
+                    "'levels' to 3");
     EXPECT_CONTAINS(
-        messageOf(scene, gatherGraph("inject_light_rays", "rays_per_block: 2, block: 4", filtered(1))),
-        "raise 'levels' to 3");
-    EXPECT_CONTAINS(messageOf(scene, graphYaml({"gbuffer", "voxelize", "place_surfels",
-                                                "inject_voxel_rays, points: gather_hits"})),
-                    "gather_hits");
+        messageOf(scene, graphYaml({"gbuffer", "voxelize", "place_surfels", "inject_voxel_rays, points: gather_hits"})),
+        "gather_hits");
     EXPECT_CONTAINS(
         messageOf("white_room", gatherGraph("inject_voxel_rays", "rays_per_block: 4", kRaw, "resolution: 1")),
-        "raise voxelize's 'resolution'");
+        "voxelize's 'resolution'");
     for (const std::string inject : {"inject_voxel_rays", "inject_camera_rays"}) {
         SCOPED_TRACE(inject);
         const std::string graph = graphYaml({"voxelize, resolution: 8", "place_surfels", inject});
-        Scene dark = *makeBuiltinScene("white_room", parseYaml("{}", "scene"));
-        dark.lights.clear();
-        const auto state =
-            std::make_shared<SceneState>(evaluate(std::make_shared<Scene>(std::move(dark)), 0.0));
-        EXPECT_CONTAINS(errorOf([&] { Chain(state, graph, 8, 8, 1); }), inject + ": the scene has no lights");
+        const auto dark = builtinScene("white_room");
+        dark->lights.clear();
+        EXPECT_CONTAINS(errorOf([&] { Chain(evaluated(dark), graph, 8, 8); }), inject + ": the scene has no lights");
     }
 }
 
 TEST(FinalGather, RaysGoOnFromNearHits) {
     // A room in the sun whose voxels are as wide as its walls are thick: one holds a sill in the sun and the
     // dark wall below it.
-    const auto state = std::make_shared<SceneState>(
-        evaluate(makeBuiltinScene("window_room", parseYaml("{slats: 0}", "scene")), 0.0));
-    Chain reference(state, graphYaml({"path_trace, spp: 1024, bounces: 8"}), 64, 36, 1);
+    const auto state = builtin("window_room", "{slats: 0}");
+    const ImageF reference = pathTraced(state, 1024, 8, 32, 18);
     const auto run = [&](const std::string& nearField) {
-        Chain chain(state,
-                    gatherGraph("inject_light_rays, rays_per_light: 2097152, bounces: 7",
-                                "rays_per_block: 128, block: 2",
-                                {"gather_rays, near_field_cells: " + nearField}, "resolution: 64", "2"),
-                    64, 36, 1);
+        Chain chain(
+            state,
+            gatherGraph("inject_light_rays, rays_per_light: 2097152, bounces: 7", "rays_per_block: 128, block: 2",
+                        {"gather_rays, near_field_cells: " + nearField}, "resolution: 64", "2"),
+            32, 18);
         return chain.image("indirect");
     };
-    const ImageF exact = reference.image("indirect");
-    const auto relativeSquare = [&](const ImageF& image) {
-        double sum = 0;
-        const double floor = 0.01 * mean(exact) * mean(exact);
-        for (size_t i = 0; i < exact.data.size(); ++i) {
-            const double error = double(image.data[i]) - exact.data[i];
-            sum += error * error / (double(exact.data[i]) * exact.data[i] + floor);
-        }
-        return sum / double(exact.data.size());
-    };
-    const double read = relativeSquare(run("0")), gone = relativeSquare(run("2"));
+    const double read = relMse(run("0"), reference), gone = relMse(run("2"), reference);
     std::printf("relMSE: every hit is read %.4f, rays go on from near ones %.4f\n", read, gone);
     EXPECT_LT(gone, 0.8 * read);
 }
 
 TEST(FinalGather, RaysGoOnWhereNoLightWasInjected) {
     // A few hundred camera rays light few of the voxels. What gather rays meet elsewhere is measured there.
-    Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 64, bounces: 4"}));
+    const ImageF& reference = pathTraced("white_room", "{albedo: 0.5}", 64, 4);
     const auto ratio = [&](const std::string& nearField) {
         Chain chain("white_room", "{albedo: 0.5}",
                     gatherGraph("inject_camera_rays, rays_per_image: 256, bounces: 3", "rays_per_block: 64",
                                 {"gather_rays, near_field_cells: " + nearField}));
-        return mean(chain.image("indirect")) / mean(reference.image("indirect"));
+        return mean(chain.image("indirect")) / mean(reference);
     };
     EXPECT_LT(ratio("0"), 0.8);
     EXPECT_NEAR(ratio("0.001"), 1.0, 0.1);
@@ -352,10 +300,9 @@ TEST(FinalGather, ReportsHowManyHitsAreOnUnlitFaces) {
     // In a furnace every lit face reflects 0.6, of which pixels reflect 0.6, and what reads an unlit one
     // shows nothing: the image lacks just the part that is reported.
     const auto run = [](const std::string& rays, const std::string& nearField) {
-        return Chain(
-            "furnace", "{shape: box, albedo: 0.6, emission: 1}",
-            gatherGraph("inject_camera_rays, rays_per_image: " + rays + ", bounces: 0, light_samples: 64",
-                        "rays_per_block: 64", {"gather_rays, near_field_cells: " + nearField}));
+        return Chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
+                     gatherGraph("inject_camera_rays, rays_per_image: " + rays + ", bounces: 0, light_samples: 64",
+                                 "rays_per_block: 64", {"gather_rays, near_field_cells: " + nearField}));
     };
     const auto unlit = [](const Chain& chain) {
         return reported(chain.frameSamples.back(), "hits on unlit faces, % of rays") / 100;
@@ -377,17 +324,16 @@ TEST(FinalGather, GridOfOneVoxel) {
     // that is measured over all surfaces falls on twice the area that is lit: half the irradiance, and no
     // less for any bounce, since none starts from what the voxel holds. The camera's rays measure lit faces
     // alone.
-    Chain reference("white_room", "{albedo: 0.5}", graphYaml({"path_trace, spp: 16, bounces: 4"}));
+    const ImageF& reference = pathTraced("white_room", "{albedo: 0.5}", 16, 4);
     for (const Injection& injection : kInjections) {
-        Chain chain("white_room", "{albedo: 0.5}",
-                    graphYaml({"gbuffer", "voxelize, resolution: 1, visibility_rays: 0",
-                               "place_surfels, points_per_voxel: 256", "link_surfels",
-                               "trace_gather_rays, rays_per_block: 16", injection.withBounces(3),
-                               "gather_rays, near_field_cells: 0", "composite"}));
-        const double ratio = mean(chain.image("indirect")) / mean(reference.image("indirect"));
+        Chain chain(
+            "white_room", "{albedo: 0.5}",
+            graphYaml({"gbuffer", "voxelize, resolution: 1, visibility_rays: 0", "place_surfels, points_per_voxel: 256",
+                       "link_surfels", "trace_gather_rays, rays_per_block: 16", injection.withBounces(3),
+                       "gather_rays, near_field_cells: 0", "composite"}));
+        const double ratio = mean(chain.image("indirect")) / mean(reference);
         std::printf("%s: %.4f\n", injection.pass.c_str(), ratio);
-        EXPECT_NEAR(ratio, injection.pass.starts_with("inject_camera_rays") ? 1.0 : 0.5, 0.04)
-            << injection.pass;
+        EXPECT_NEAR(ratio, injection.pass.starts_with("inject_camera_rays") ? 1.0 : 0.5, 0.04) << injection.pass;
     }
 }
 

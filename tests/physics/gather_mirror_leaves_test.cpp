@@ -18,7 +18,7 @@ TEST(GatherMirror, CellsEmitAndReflectAsTheirSurfacesDo) {
         Chain chain(facing(mirror, mirror),
                     mirrorGraph("walk: hierarchical, bounces: " + std::to_string(n), "bounces: 0",
                                 "build_hybrid_leaves, primitives: 1, grid: 8"),
-                    8, 8, 1);
+                    8, 8);
         const double series = e * r * r * (1 - std::pow(r, n - 1)) / (1 - r);
         EXPECT_NEAR(centerOf(chain.image("direct")), e * r, 2e-3 * e) << n;
         EXPECT_NEAR(centerOf(chain.image("indirect")), series, 4e-3 * e) << n;
@@ -33,34 +33,28 @@ TEST(GatherMirror, WalksThroughListsFindWhatTheRayTracerFinds) {
     const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}));
     const auto run = [&](const std::string& walk) {
         return std::make_unique<Chain>(
-            state, roomGraph("bounces: 2, walk: " + walk, {"build_hybrid_leaves, primitives: 4096"}), 24, 24,
-            1);
+            state, roomGraph("bounces: 2, walk: " + walk, {"build_hybrid_leaves, primitives: 4096"}), 24, 24);
     };
     const auto exact = run("exact");
     const ImageF expected = exact->image("indirect");
     for (const std::string walk : {"hierarchical", "voxel_by_voxel"}) {
         const auto hybrid = run(walk);
         const ImageF image = hybrid->image("indirect");
-        double difference = 0;
-        for (size_t i = 0; i < image.data.size(); ++i)
-            difference += std::abs(double(image.data[i]) - expected.data[i]);
-        EXPECT_LT(difference / double(image.data.size()), 1e-4 * mean(expected)) << walk;
+        EXPECT_LT(meanDifference(image, expected), 1e-4) << walk;
         for (const std::string value : {"mirror rays that hit triangles", "mirror rays that missed"})
-            EXPECT_EQ(reported(hybrid->frameSamples.back(), value),
-                      reported(exact->frameSamples.back(), value));
+            EXPECT_EQ(reported(hybrid->frameSamples.back(), value), reported(exact->frameSamples.back(), value));
     }
 }
 
 TEST(GatherMirror, GridsShowWhatVoxelsOfTheirSizeCan) {
     // Where a leaf holds more than one triangle, cells of 1/2 and of 1/16 of a voxel stand for them.
     const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}));
-    Chain reference(state, graphYaml({"path_trace, spp: 256, bounces: 1"}), 32, 32, 1);
-    const ImageF expected = reference.image("indirect");
+    const ImageF expected = pathTraced(state, 256, 1);
     const auto error = [&](const std::string& cells) {
-        Chain chain(state,
-                    roomGraph("walk: hierarchical, bounces: 1",
-                              {"build_hybrid_leaves, primitives: 1, grid: " + cells}, "16"),
-                    32, 32, 1);
+        Chain chain(
+            state,
+            roomGraph("walk: hierarchical, bounces: 1", {"build_hybrid_leaves, primitives: 1, grid: " + cells}, "16"),
+            32, 32);
         const auto [difference, ratio] = errorAt(chain, "indirect", expected, -0.999f);
         std::printf("grids of %s: %.4f, ratio %.4f\n", cells.c_str(), difference, ratio);
         EXPECT_NEAR(ratio, 1.0, 0.05) << cells;
@@ -74,12 +68,12 @@ TEST(GatherMirror, GridsShowWhatVoxelsOfTheirSizeCan) {
 TEST(GatherMirror, WideRaysGoOnAsCones) {
     // A glossy ray soon is wider than a voxel. Cones that stand for it keep its light.
     const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}, 0.5f));
-    Chain reference(state, graphYaml({"path_trace, spp: 512, bounces: 1"}), 32, 32, 1);
+    const ImageF reference = pathTraced(state, 512, 1);
     Chain chain(state,
                 roomGraph("max_roughness: 1, rays: 4, bounces: 1, walk: hierarchical, wide_rays: cones",
                           {"filter_voxels", "build_hybrid_leaves"}, "64"),
-                32, 32, 1);
-    const auto [difference, ratio] = errorAt(chain, "indirect", reference.image("indirect"), -0.999f);
+                32, 32);
+    const auto [difference, ratio] = errorAt(chain, "indirect", reference, -0.999f);
     const double wide = reported(chain.frameSamples.back(), "mirror rays that went on as cones"),
                  triangles = reported(chain.frameSamples.back(), "mirror rays that hit triangles");
     std::printf("%.4f, ratio %.4f, %.0f wide, %.0f on triangles\n", difference, ratio, wide, triangles);
@@ -91,14 +85,13 @@ TEST(GatherMirror, WideRaysGoOnAsCones) {
 TEST(GatherMirror, WideRaysMeetCoarserCells) {
     // What a glossy wall shows in grids: the same light by cells as wide as its rays as by the finest.
     const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}, 0.3f));
-    Chain reference(state, graphYaml({"path_trace, spp: 512, bounces: 1"}), 32, 32, 1);
-    const ImageF expected = reference.image("indirect");
+    const ImageF expected = pathTraced(state, 512, 1);
     std::vector<ImageF> images;
     for (const std::string levels : {"finest", "footprint"}) {
         Chain chain(state,
                     roomGraph("max_roughness: 1, rays: 4, bounces: 1, walk: hierarchical",
                               {"build_hybrid_leaves, primitives: 1, grid: 16, grid_levels: " + levels}, "16"),
-                    32, 32, 1);
+                    32, 32);
         const auto [difference, ratio] = errorAt(chain, "indirect", expected, -0.999f);
         std::printf("%s: %.4f, ratio %.4f\n", levels.c_str(), difference, ratio);
         EXPECT_NEAR(ratio, 1.0, 0.05) << levels;
@@ -110,14 +103,13 @@ TEST(GatherMirror, WideRaysMeetCoarserCells) {
 
 TEST(GatherMirror, TellsWhatRaysEndedOn) {
     // Parts of a pixel's rays, one a pixel here: their sums are what values.csv counts.
-    Chain chain(wallRoom(metal({0.9f, 0.5f, 0.2f})),
-                mirrorGraph("walk: hierarchical, bounces: 1", "bounces: 0",
-                            "build_hybrid_leaves, primitives: 1, grid: 8"),
-                24, 24, 1);
-    const MirrorEnds& ends = *chain.graph().resource<MirrorEnds>("mirror_ends");
+    Chain chain(
+        wallRoom(metal({0.9f, 0.5f, 0.2f})),
+        mirrorGraph("walk: hierarchical, bounces: 1", "bounces: 0", "build_hybrid_leaves, primitives: 1, grid: 8"), 24,
+        24);
+    const MirrorEnds& ends = chain.get<MirrorEnds>("mirror_ends");
     glm::dvec4 sum(0);
-    for (const glm::vec4& fractions : chain.readImage<glm::vec4>(ends.fractions))
-        sum += glm::dvec4(fractions);
+    for (const glm::vec4& fractions : chain.readImage<glm::vec4>(ends.fractions)) sum += glm::dvec4(fractions);
     const PassSample& mirrorPass = *(chain.frameSamples.end() - 2);  // Before composite.
     EXPECT_EQ(sum.x, reported(mirrorPass, "mirror rays that hit triangles"));
     EXPECT_EQ(sum.y, reported(mirrorPass, "mirror rays that hit cells of grids"));

@@ -15,7 +15,7 @@ TEST(GatherMirror, ShowsALampAsDirectLight) {
     Material lamp = metal(glm::vec3(0.0f), 1.0f);
     lamp.metallic = lamp.specular = 0.0f;
     lamp.emission = {5, 3, 2};
-    Chain chain(facing(metal({0.9f, 0.5f, 0.2f}), lamp), mirrorGraph("bounces: 4"), 8, 8, 1);
+    Chain chain(facing(metal({0.9f, 0.5f, 0.2f}), lamp), mirrorGraph("bounces: 4"), 8, 8);
     EXPECT_NEAR(centerOf(chain.image("direct"), 0), 0.9 * 5, 4.5e-3);
     EXPECT_NEAR(centerOf(chain.image("direct"), 1), 0.5 * 3, 1.5e-3);
     EXPECT_NEAR(centerOf(chain.image("direct"), 2), 0.2 * 2, 4e-4);
@@ -27,7 +27,7 @@ TEST(GatherMirror, ShowsTheEnvironmentAsDirectLight) {
     b.quad("mirror", {-4, -4, 0}, {8, 0, 0}, {0, 8, 0}, b.material(metal(glm::vec3(0.8f))));
     b.camera({0, 0, 2}, {0, 0, 0}, 0.5f);
     b.scene().environment.radiance = {1, 2, 3};
-    Chain chain(evaluated(b), mirrorGraph("bounces: 1"), 8, 8, 1);
+    Chain chain(evaluated(b), mirrorGraph("bounces: 1"), 8, 8);
     for (size_t channel = 0; channel < 3; ++channel)
         EXPECT_NEAR(centerOf(chain.image("direct"), channel), 0.8 * double(channel + 1), 2e-3);
     EXPECT_EQ(mean(chain.image("indirect")), 0.0);
@@ -39,7 +39,7 @@ TEST(GatherMirror, FacingMirrorsAreAGeometricSeries) {
     Material mirror = metal(glm::vec3(float(r)));
     mirror.emission = glm::vec3(float(e));
     for (const int n : {1, 2, 7}) {
-        Chain chain(facing(mirror, mirror), mirrorGraph("bounces: " + std::to_string(n)), 8, 8, 1);
+        Chain chain(facing(mirror, mirror), mirrorGraph("bounces: " + std::to_string(n)), 8, 8);
         const double series = e * r * r * (1 - std::pow(r, n - 1)) / (1 - r);
         EXPECT_NEAR(centerOf(chain.image("direct")), e * r, 1e-3 * e) << n;
         EXPECT_NEAR(centerOf(chain.image("indirect")), series, 1e-3 * e) << n;
@@ -47,19 +47,16 @@ TEST(GatherMirror, FacingMirrorsAreAGeometricSeries) {
     }
 }
 
-/// A closed box that emits 1, all of one material.
-State furnace(const std::function<void(Material&)>& change) {
-    auto copy = std::make_shared<Scene>(
-        *makeBuiltinScene("furnace", parseYaml("{shape: box, albedo: 1, emission: 1}", "scene")));
-    for (Material& material : copy->materials) change(material);
-    return std::make_shared<SceneState>(evaluate(copy, 0.0));
+/// A closed box that emits 1, all of metal.
+State metalFurnace(float roughness) {
+    return withMaterials("furnace", "{shape: box, albedo: 1, emission: 1}",
+                         [&](Material& m) { m.metallic = 1, m.roughness = roughness; });
 }
 
 TEST(GatherMirror, KeepsTheEnergyOfAFurnaceOfMirrors) {
     // White metal loses nothing, at any angle: 1 more from each reflection. Half floats of the g-buffer keep
     // 2^-11.
-    Chain chain(furnace([](Material& m) { m.metallic = 1, m.roughness = 0; }), mirrorGraph("bounces: 5"), 16,
-                16, 1);
+    Chain chain(metalFurnace(0), mirrorGraph("bounces: 5"), 16, 16);
     const ImageF direct = chain.image("direct"), indirect = chain.image("indirect");
     for (const float value : direct.data) EXPECT_NEAR(value, 1.0f, 6e-4f);
     for (const float value : indirect.data) EXPECT_NEAR(value, 4.0f, 24e-4f);
@@ -68,21 +65,19 @@ TEST(GatherMirror, KeepsTheEnergyOfAFurnaceOfMirrors) {
 TEST(GatherMirror, KeepsTheEnergyOfAFurnaceOfGlossyMetal) {
     // A glossy surface's light straight from lamps is another pass's: the reference's indirect light alone.
     for (const float roughness : {0.1f, 0.5f}) {
-        const State state = furnace([&](Material& m) { m.metallic = 1, m.roughness = roughness; });
-        Chain reference(state, graphYaml({"path_trace, spp: 256, bounces: 2"}), 16, 16, 1);
-        Chain chain(state, mirrorGraph("max_roughness: 1, rays: 32, bounces: 3"), 16, 16, 1);
+        const State state = metalFurnace(roughness);
+        Chain reference(state, graphYaml({"path_trace, spp: 256, bounces: 2"}), 16, 16);
+        Chain chain(state, mirrorGraph("max_roughness: 1, rays: 32, bounces: 3"), 16, 16);
         EXPECT_EQ(mean(chain.image("direct")), 0.0);
-        EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.005)
-            << roughness;
+        EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.005) << roughness;
     }
 }
 
 TEST(GatherMirror, ConvergesToTheReference) {
     const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}));
-    Chain reference(state, graphYaml({"path_trace, spp: 256, bounces: 1"}), 32, 32, 1);
-    const ImageF expected = reference.image("indirect");
+    const ImageF expected = pathTraced(state, 256, 1);
     const auto error = [&](const std::string& direct, const std::string& voxels) {
-        Chain chain(state, roomGraph("direct_at_hits: " + direct, {}, voxels), 32, 32, 1);
+        Chain chain(state, roomGraph("direct_at_hits: " + direct, {}, voxels), 32, 32);
         const auto [difference, ratio] = errorAt(chain, "indirect", expected, -0.999f);
         std::printf("%s, %s: %.4f, ratio %.4f\n", direct.c_str(), voxels.c_str(), difference, ratio);
         EXPECT_NEAR(ratio, 1.0, 0.03) << direct;
@@ -99,21 +94,20 @@ TEST(GatherMirror, LightThatMirrorsThrowIsInTheVoxels) {
     // What a mirror sends on to the walls, but for what comes to it straight from the point light: the
     // reference finds no such path.
     const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}));
-    Chain reference(state, graphYaml({"path_trace, spp: 512, bounces: 3"}), 32, 32, 1);
+    Chain reference(state, graphYaml({"path_trace, spp: 512, bounces: 3"}), 32, 32);
     const auto wallsOf = [](Chain& chain, const ImageF& image) {
-        const auto positions =
-            chain.readImage<glm::vec4>(chain.graph().resource<GBuffer>("gbuffer")->position);
+        const auto positions = chain.readImage<glm::vec4>(chain.get<GBuffer>("gbuffer").position);
         double sum = 0;
         for (size_t i = 0; i < positions.size(); ++i)
             if (positions[i].z > -0.99f) sum += image.data[3 * i];
         return sum;
     };
     const auto ratio = [&](const std::string& secondary) {
-        Chain chain(state,
-                    graphYaml({"gbuffer", "voxelize, resolution: 32",
-                               "inject_light_rays, rays_per_light: 262144, bounces: 3, " + secondary,
-                               "gather_irradiance"}),
-                    32, 32, 1);
+        Chain chain(
+            state,
+            graphYaml({"gbuffer", "voxelize, resolution: 32",
+                       "inject_light_rays, rays_per_light: 262144, bounces: 3, " + secondary, "gather_irradiance"}),
+            32, 32);
         return wallsOf(chain, chain.image("indirect")) / wallsOf(chain, reference.image("indirect"));
     };
     const double with = ratio("secondary: material, caustics: false"), without = ratio("secondary: diffuse");
@@ -129,14 +123,12 @@ TEST(GatherMirror, ShowsTheBuiltInMirrorsAsTheReferenceDoes) {
         const char *scene, *parameters;
         float depth;  ///< As errorAt() takes it: the wall, and all.
     };
-    for (const View& view :
-         {View{"mirror_room", "{count: 3}", -1.999f}, View{"mirror_row", "{count: 3}", 1e9f}}) {
-        Chain reference(view.scene, view.parameters, graphYaml({"path_trace, spp: 256, bounces: 1"}));
-        Chain chain(
-            view.scene, view.parameters,
-            graphYaml({"gbuffer, samples_per_pixel_edge: 4", "voxelize, resolution: 16",
-                       "inject_light_rays, bounces: 0", "gather_mirror, bounces: 1, light_samples: 4"}));
-        const auto [difference, ratio] = errorAt(chain, "indirect", reference.image("indirect"), view.depth);
+    for (const View& view : {View{"mirror_room", "{count: 3}", -1.999f}, View{"mirror_row", "{count: 3}", 1e9f}}) {
+        const ImageF& reference = pathTraced(view.scene, view.parameters, 256, 1);
+        Chain chain(view.scene, view.parameters,
+                    graphYaml({"gbuffer, samples_per_pixel_edge: 4", "voxelize, resolution: 16",
+                               "inject_light_rays, bounces: 0", "gather_mirror, bounces: 1, light_samples: 4"}));
+        const auto [difference, ratio] = errorAt(chain, "indirect", reference, view.depth);
         std::printf("%s: %.4f, ratio %.4f\n", view.scene, difference, ratio);
         EXPECT_NEAR(ratio, 1.0, 0.02) << view.scene;
         EXPECT_LT(difference, 0.03) << view.scene;
@@ -149,16 +141,14 @@ State lampRoom(const Material& wall) {
     const uint32_t white = b.lambert("white", glm::vec3(0.7f)), red = b.lambert("red", {0.7f, 0.2f, 0.1f});
     b.room({-1, 0, -1}, {1, 2, 1}, {red, white, white, white, b.material(wall), white});
     b.box("box", {0.3f, 0, 0}, {0.5f, 0.7f, 0.5f}, 0.3f, red);
-    b.quad("lamp", {-0.9f, 1.3f, 0.99f}, {0, 0.6f, 0}, {1.8f, 0, 0},
-           b.lambert("lamp", glm::vec3(0.7f), {10, 8, 5}));
+    b.quad("lamp", {-0.9f, 1.3f, 0.99f}, {0, 0.6f, 0}, {1.8f, 0, 0}, b.lambert("lamp", glm::vec3(0.7f), {10, 8, 5}));
     b.camera({-0.2f, 1, 0.9f}, {0, 0.9f, -1}, 70);
     return evaluated(b);
 }
 
 /// What the built-in mirror shows of the lamp at the ceiling, from near.
 State lampInMirrorRoom() {
-    auto state = std::make_shared<SceneState>(
-        evaluate(makeBuiltinScene("mirror_room", parseYaml("{count: 3}", "scene")), 0.0));
+    auto state = builtin("mirror_room", "{count: 3}");
     SceneBuilder b("view");
     b.camera({0, 1.2f, 1.9f}, {0, 2.49f, -4}, 12);
     state->cameras = evaluate(b.finish(), 0.0).cameras;
@@ -175,23 +165,21 @@ TEST(GatherMirror, DirectAndFinalLightAreTheReferences) {
         std::string mirror;
     };
     const glm::vec3 gold(0.9f, 0.8f, 0.6f);
-    for (const View& view :
-         {View{"mirror_room", lampInMirrorRoom(), -1.999f, "rays: 1"},
-          View{"mirror", lampRoom(metal(gold)), -0.999f, "rays: 1"},
-          View{"glossy", lampRoom(metal(gold, 0.3f)), -0.999f, "max_roughness: 1, rays: 4"}}) {
-        Chain reference(view.state, graphYaml({"path_trace, spp: 1024, bounces: 1"}), 32, 32, 1);
+    for (const View& view : {View{"mirror_room", lampInMirrorRoom(), -1.999f, "rays: 1"},
+                             View{"mirror", lampRoom(metal(gold)), -0.999f, "rays: 1"},
+                             View{"glossy", lampRoom(metal(gold, 0.3f)), -0.999f, "max_roughness: 1, rays: 4"}}) {
+        Chain reference(view.state, graphYaml({"path_trace, spp: 1024, bounces: 1"}), 32, 32);
         Chain chain(view.state,
                     graphYaml({"gbuffer, samples_per_pixel_edge: 8", "voxelize, resolution: 16",
                                "inject_light_rays, bounces: 0", "direct_shadow_rays, light_samples: 16",
                                "gather_mirror, bounces: 1, light_samples: 16, " + view.mirror, "composite"}),
-                    32, 32, 1);
+                    32, 32);
         const ImageF whole = reference.image("final"), indirect = reference.image("indirect");
         ImageF direct = whole;
         for (size_t i = 0; i < direct.data.size(); ++i) direct.data[i] -= indirect.data[i];
         const auto check = [&](const char* port, const ImageF& expected, float depth, double noise) {
             const auto [difference, ratio] = errorAt(chain, port, expected, depth);
-            std::printf("%s, %s up to %g: %.4f, ratio %.4f\n", view.name, port, double(depth), difference,
-                        ratio);
+            std::printf("%s, %s up to %g: %.4f, ratio %.4f\n", view.name, port, double(depth), difference, ratio);
             EXPECT_NEAR(ratio, 1.0, 0.02) << view.name << " " << port;
             EXPECT_LT(difference, noise) << view.name << " " << port;
         };
@@ -208,12 +196,12 @@ TEST(GatherMirror, VarnishTakesFromTheDiffuseLobe) {
     varnish.metallic = 0;
     varnish.ior = 2.5f;
     const State state = wallRoom(varnish);
-    Chain reference(state, graphYaml({"path_trace, spp: 1024, bounces: 1"}), 32, 32, 1);
+    const ImageF reference = pathTraced(state, 1024, 1);
     Chain chain(state,
                 roomGraph("bounces: 1", {"trace_gather_rays, rays_per_block: 64",
                                          "gather_rays, direct_at_hits: shadow_rays, near_field_cells: 0"}),
-                32, 32, 1);
-    const auto [difference, ratio] = errorAt(chain, "indirect", reference.image("indirect"), -0.999f);
+                32, 32);
+    const auto [difference, ratio] = errorAt(chain, "indirect", reference, -0.999f);
     std::printf("%.4f, ratio %.4f\n", difference, ratio);
     EXPECT_NEAR(ratio, 1.0, 0.01);
     EXPECT_LT(difference, 0.04);
@@ -222,13 +210,12 @@ TEST(GatherMirror, VarnishTakesFromTheDiffuseLobe) {
 TEST(GatherMirror, HandsOverToCones) {
     // Cones alone, both, rays alone: the same lobe, whoever brings which part of it.
     const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}, 0.4f));
-    Chain reference(state, graphYaml({"path_trace, spp: 512, bounces: 1"}), 32, 32, 1);
-    const ImageF expected = reference.image("indirect");
+    const ImageF expected = pathTraced(state, 512, 1);
     const std::vector<std::string> cones{"filter_voxels", "gather_cones, cones: 5, stride: 16, specular: 19"};
     for (const std::string range :
          {"max_roughness: 0.1, blend_roughness: 0.1", "max_roughness: 0.3, blend_roughness: 0.2",
           "max_roughness: 0.4, blend_roughness: 0.2"}) {
-        Chain chain(state, roomGraph(range + ", rays: 16", cones, "64"), 32, 32, 1);
+        Chain chain(state, roomGraph(range + ", rays: 16", cones, "64"), 32, 32);
         const auto [difference, ratio] = errorAt(chain, "indirect", expected, -0.999f);
         std::printf("%s: %.4f, ratio %.4f\n", range.c_str(), difference, ratio);
         EXPECT_NEAR(ratio, 1.0, 0.03) << range;
@@ -240,11 +227,11 @@ TEST(GatherMirror, LeavesConesAsTheyAreWithoutMirrors) {
     // Nothing is left to rays: what gather_cones shows by itself.
     const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}, 0.4f));
     const std::vector<std::string> cones{"filter_voxels", "gather_cones, cones: 5, stride: 16, specular: 7"};
-    Chain both(state, roomGraph("max_roughness: 0, blend_roughness: 0", cones), 16, 16, 1);
+    Chain both(state, roomGraph("max_roughness: 0, blend_roughness: 0", cones), 16, 16);
     std::vector<std::string> alone{"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 32",
                                    "inject_light_rays, rays_per_light: 524288, bounces: 0"};
     alone.insert(alone.end(), cones.begin(), cones.end());
-    Chain one(state, graphYaml(alone), 16, 16, 1);
+    Chain one(state, graphYaml(alone), 16, 16);
     const ImageF joined = both.image("indirect"), expected = one.image("indirect");
     for (size_t i = 0; i < joined.data.size(); ++i)
         EXPECT_NEAR(joined.data[i], expected.data[i], 1e-5f + 1e-4f * expected.data[i]);
@@ -253,7 +240,7 @@ TEST(GatherMirror, LeavesConesAsTheyAreWithoutMirrors) {
 TEST(GatherMirror, IsLinearInLightAndDeterministic) {
     const auto image = [](float intensity) {
         Chain chain(wallRoom(metal(glm::vec3(0.9f), 0.15f), intensity),
-                    roomGraph("max_roughness: 0.2, rays: 2, bounces: 2"), 16, 16, 1);
+                    roomGraph("max_roughness: 0.2, rays: 2, bounces: 2"), 16, 16);
         return chain.image("indirect");
     };
     const ImageF one = image(1), seven = image(7);
@@ -262,12 +249,9 @@ TEST(GatherMirror, IsLinearInLightAndDeterministic) {
 }
 
 TEST(GatherMirror, RefusesConesThatBringLamps) {
-    EXPECT_CONTAINS(errorOf([] {
-                        Chain chain(
-                            "mirror_room", "{}",
-                            roomGraph("bounces: 1", {"filter_voxels, emission: true", "gather_cones"}));
-                    }),
-                    "set 'emission' of filter_voxels to false");
+    EXPECT_ERROR(
+        "'emission' of filter_voxels",
+        Chain("mirror_room", "{}", roomGraph("bounces: 1", {"filter_voxels, emission: true", "gather_cones"})));
 }
 
 }  // namespace

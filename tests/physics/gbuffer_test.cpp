@@ -17,17 +17,15 @@ namespace voxray::test {
 namespace {
 
 const GBuffer& gbuffer(const Chain& chain) {
-    return *chain.graph().resource<GBuffer>("gbuffer");
+    return chain.get<GBuffer>("gbuffer");
 }
 
 std::vector<glm::vec4> texels(Chain& chain, const Image& image) {
     std::vector<glm::vec4> out;
     if (image.desc().format == VK_FORMAT_R16G16B16A16_SFLOAT)
-        for (const uint64_t packed : chain.readImage<uint64_t>(image))
-            out.push_back(glm::unpackHalf4x16(packed));
+        for (const uint64_t packed : chain.readImage<uint64_t>(image)) out.push_back(glm::unpackHalf4x16(packed));
     else if (image.desc().format == VK_FORMAT_R8G8B8A8_UNORM)
-        for (const uint32_t packed : chain.readImage<uint32_t>(image))
-            out.push_back(glm::unpackUnorm4x8(packed));
+        for (const uint32_t packed : chain.readImage<uint32_t>(image)) out.push_back(glm::unpackUnorm4x8(packed));
     else
         for (const glm::vec4& texel : chain.readImage<glm::vec4>(image)) out.push_back(texel);
     return out;
@@ -63,8 +61,7 @@ void expectSameView(const std::string& scene, const std::string& parameters, flo
             // surface's back.
             if (!isSmooth(normalA, x, y, kWidth, kHeight)) continue;
             ++smooth;
-            ASSERT_LT(glm::length(positionA[i] - positionB[i]), 1e-3f * sceneSize)
-                << scene << " " << x << " " << y;
+            ASSERT_LT(glm::length(positionA[i] - positionB[i]), 1e-3f * sceneSize) << scene << " " << x << " " << y;
             ASSERT_LT(glm::length(normalA[i] - normalB[i]), 2e-3f) << scene << " " << x << " " << y;
             ASSERT_LT(glm::length(shadingA[i] - shadingB[i]), 5e-3f) << scene << " " << x << " " << y;
             ASSERT_LT(glm::length(albedoA[i] - albedoB[i]), 2e-3f) << scene << " " << x << " " << y;
@@ -93,8 +90,7 @@ TEST(GBuffer, SpecularReflectanceFollowsTheMaterial) {
     m.ior = 3.0f;
     builder.quad("pane", {-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material(m));
     builder.camera({0, 0, 1}, {0, 0, 0}, 40);
-    Chain chain(std::make_shared<SceneState>(evaluate(builder.finish(), 0.0)), graphYaml({"gbuffer"}), 4, 4,
-                1);
+    Chain chain(evaluated(builder), graphYaml({"gbuffer"}), 4, 4);
     for (const glm::vec4& s : texels(chain, gbuffer(chain).specular))
         EXPECT_LT(glm::length(s - glm::vec4(0.2f, 0.1f, 0, 0.25f)), 1e-3f);
     for (const glm::vec4& f : texels(chain, gbuffer(chain).fresnel))
@@ -110,8 +106,8 @@ TEST(GBuffer, NoTexelSeesABodyFromInside) {
             const uint32_t glowing = builder.lambert("glowing", glm::vec3(0.5f), glm::vec3(1.0f));
             builder.box("box", {0, 0, 0}, {1, 1, 1}, 0.1f + 0.25f * float(turn), glowing);
             builder.camera({0, 2, 4}, {0, 0.5f, 0}, 25);
-            Chain chain(std::make_shared<SceneState>(evaluate(builder.finish(), 0.0)),
-                        graphYaml({"gbuffer, samples_per_pixel_edge: 4, method: " + method}), 96, 96, 1);
+            Chain chain(evaluated(builder), graphYaml({"gbuffer, samples_per_pixel_edge: 4, method: " + method}), 96,
+                        96);
             const auto emission = texels(chain, gbuffer(chain).emission);
             const auto positions = chain.readImage<glm::vec4>(gbuffer(chain).position);
             for (size_t i = 0; i < positions.size(); ++i) {
@@ -125,7 +121,7 @@ TEST(GBuffer, NoTexelSeesABodyFromInside) {
 }
 
 // A square of 1 m with a texture of columns, black and white in turn.
-std::shared_ptr<const SceneState> stripes(uint32_t columns, const glm::vec3& eye) {
+State stripes(uint32_t columns, const glm::vec3& eye) {
     SceneBuilder builder("stripes");
     Scene& scene = builder.scene();
     Texture texture{"stripes", columns, columns, {}, false, Wrap::Repeat, Wrap::Repeat};
@@ -136,7 +132,7 @@ std::shared_ptr<const SceneState> stripes(uint32_t columns, const glm::vec3& eye
     scene.meshes.back().texCoords0 = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     scene.materials.back().baseColorTexture.texture = 0;
     builder.camera(eye, {0, 0, 0}, 30);
-    return std::make_shared<SceneState>(evaluate(builder.finish(), 0.0));
+    return evaluated(builder);
 }
 
 TEST(GBuffer, TheNearerOfTwoSheetsIsSeenHoweverFarOtherSurfacesLie) {
@@ -145,10 +141,10 @@ TEST(GBuffer, TheNearerOfTwoSheetsIsSeenHoweverFarOtherSurfacesLie) {
     builder.quad("back", {-3, -3, -1e-4f}, {6, 0, 0}, {0, 6, 0}, builder.lambert("back", glm::vec3(0.2f)));
     builder.quad("stray", {1e6f, 0, 0}, {1, 0, 0}, {0, 1, 0}, builder.lambert("stray", glm::vec3(0.5f)));
     builder.camera({0, 0, 4}, {0, 0, 0}, 60);
-    const auto state = std::make_shared<SceneState>(
-        splitAtRegion(evaluate(builder.finish(), 0), {{-3, -3, -1}, {3, 3, 4}}, 0));
+    const auto state =
+        std::make_shared<SceneState>(splitAtRegion(evaluate(builder.finish(), 0), {{-3, -3, -1}, {3, 3, 4}}, 0));
     for (const std::string method : {"rays", "raster"}) {
-        Chain chain(state, graphYaml({"gbuffer, method: " + method}), 16, 16, 1);
+        Chain chain(state, graphYaml({"gbuffer, method: " + method}), 16, 16);
         for (const glm::vec4& albedo : texels(chain, gbuffer(chain).albedo))
             EXPECT_NEAR(albedo.x, 0.8f, 0.01f) << method;
     }
@@ -159,12 +155,12 @@ TEST(GBuffer, TexturesAreSeenAtTheFootprintOfAPixel) {
     // white.
     const auto graph = [](const std::string& method) { return graphYaml({"gbuffer, method: " + method}); };
     for (const std::string method : {"rays", "raster"}) {
-        Chain fine(stripes(1024, {0, 0, 1}), graph(method), 32, 32, 1);
+        Chain fine(stripes(1024, {0, 0, 1}), graph(method), 32, 32);
         for (const glm::vec4& albedo : texels(fine, gbuffer(fine).albedo)) EXPECT_NEAR(albedo.x, 0.5f, 0.01f);
-        Chain coarse(stripes(16, {0, 0, 1}), graph(method), 32, 32, 1);
+        Chain coarse(stripes(16, {0, 0, 1}), graph(method), 32, 32);
         const auto albedos = texels(coarse, gbuffer(coarse).albedo);
-        const auto [low, high] = std::minmax_element(
-            albedos.begin(), albedos.end(), [](const glm::vec3& a, const glm::vec3& b) { return a.x < b.x; });
+        const auto [low, high] = std::minmax_element(albedos.begin(), albedos.end(),
+                                                     [](const glm::vec3& a, const glm::vec3& b) { return a.x < b.x; });
         EXPECT_LT(low->x, 0.05f);
         EXPECT_GT(high->x, 0.95f);
     }
@@ -178,11 +174,10 @@ TEST(GBuffer, OutsideOfAClampedTextureIsItsEdge) {
         auto scene = std::make_shared<Scene>(*state->scene);
         Texture& texture = scene->textures[0];
         texture.wrapU = texture.wrapV = Wrap::ClampToEdge;
-        for (size_t i = 0; i < texture.rgba.size(); ++i)
-            texture.rgba[i] = i % 4 == 3 || i / 4 % 1024 < 1023 ? 255 : 0;
+        for (size_t i = 0; i < texture.rgba.size(); ++i) texture.rgba[i] = i % 4 == 3 || i / 4 % 1024 < 1023 ? 255 : 0;
         state->scene = scene;
         for (VertexAttributes& vertex : state->geometry.attributes) vertex.texCoords.x *= 2;
-        Chain chain(state, graphYaml({"gbuffer, method: " + method}), 32, 32, 1);
+        Chain chain(state, graphYaml({"gbuffer, method: " + method}), 32, 32);
         const auto albedos = texels(chain, gbuffer(chain).albedo);
         for (uint32_t i = 0; i < albedos.size(); ++i) {
             const uint32_t column = i % 32;
@@ -198,7 +193,7 @@ TEST(GBuffer, ANearestTextureHasNoColorBetweenItsTexels) {
         auto scene = std::make_shared<Scene>(*state->scene);
         scene->textures[0].filter = TexelFilter::Nearest;
         state->scene = scene;
-        Chain chain(state, graphYaml({"gbuffer, method: " + method}), 32, 32, 1);
+        Chain chain(state, graphYaml({"gbuffer, method: " + method}), 32, 32);
         const auto albedos = texels(chain, gbuffer(chain).albedo);
         // Half floats round 1 off by 0.0005.
         const auto isBlack = [](const glm::vec4& albedo) { return albedo.x == 0; };
@@ -211,11 +206,10 @@ TEST(GBuffer, ANearestTextureHasNoColorBetweenItsTexels) {
 TEST(GBuffer, SharpColorsAreThoseAtThePoint) {
     // 1024 columns on a metre are 17 a pixel; so each pixel sees some column, and not their mean.
     for (const std::string method : {"rays", "raster"}) {
-        Chain chain(stripes(1024, {0, 0, 1}), graphYaml({"gbuffer, colors: sharp, method: " + method}), 32,
-                    32, 1);
+        Chain chain(stripes(1024, {0, 0, 1}), graphYaml({"gbuffer, colors: sharp, method: " + method}), 32, 32);
         const auto albedos = texels(chain, gbuffer(chain).albedo);
-        const auto [low, high] = std::minmax_element(
-            albedos.begin(), albedos.end(), [](const glm::vec3& a, const glm::vec3& b) { return a.x < b.x; });
+        const auto [low, high] = std::minmax_element(albedos.begin(), albedos.end(),
+                                                     [](const glm::vec3& a, const glm::vec3& b) { return a.x < b.x; });
         EXPECT_LT(low->x, 0.1f) << method;
         EXPECT_GT(high->x, 0.9f) << method;
     }

@@ -1,6 +1,5 @@
 // What leaves of hybrid octrees hold, against brute force on the host and closed forms.
 #include <cstdio>
-#include <optional>
 #include <set>
 
 #include "tests/physics/hybrid_scene.h"
@@ -68,8 +67,7 @@ std::vector<uint32_t> listOf(uint32_t word, const std::vector<ListItem>& primiti
 TEST(HybridLeaves, ListEveryTriangleThatOverlaps) {
     // In voxels larger and smaller by four of the voxelizer's margins
     constexpr double kEpsilon = 1e-3;
-    for (const std::shared_ptr<const SceneState>& state :
-         {builtin("cornell"), builtin("clutter"), builtin("spheres", "{count: 8}"), soup()}) {
+    for (const State state : {builtin("cornell"), builtin("clutter"), builtin("spheres", "{count: 8}"), soup()}) {
         constexpr uint32_t kCapacity = 12;
         Hybrid hybrid(state, 10, fmt::format("primitives: {}, grid: 4", kCapacity));
         const SurfaceVoxels& leafVoxels = hybrid.leaves().voxels(hybrid.voxels());
@@ -77,14 +75,7 @@ TEST(HybridLeaves, ListEveryTriangleThatOverlaps) {
         const std::vector<uint32_t> occupancy = hybrid.chain().read<uint32_t>(leafVoxels.occupancy);
         const std::vector<uint32_t> words = hybrid.chain().read<uint32_t>(hybrid.leaves().words);
         const std::vector<ListItem> primitives = hybrid.chain().read<ListItem>(hybrid.leaves().primitives);
-        const Geometry& g = state->geometry;
-        std::vector<Triangle> triangles;
-        for (const glm::uvec3& t : g.triangles) {
-            Triangle& corners = triangles.emplace_back();
-            for (int k = 0; k < 3; ++k)
-                corners[size_t(k)] =
-                    (glm::dvec3(g.positions[t[k]]) - glm::dvec3(grid.origin)) / double(grid.voxelSize);
-        }
+        const std::vector<Triangle> triangles = trianglesInVoxels(state->geometry, grid);
         size_t lists = 0, grids = 0, pairs = 0, leaf = 0;
         const auto check = [&](glm::ivec3 v) {
             const size_t row = size_t(v.z) * grid.resolution.y + size_t(v.y);
@@ -99,8 +90,8 @@ TEST(HybridLeaves, ListEveryTriangleThatOverlaps) {
                 if (glm::any(glm::greaterThan(glm::min(a, glm::min(b, c)), glm::dvec3(v) + 1.01)) ||
                     glm::any(glm::lessThan(glm::max(a, glm::max(b, c)), glm::dvec3(v) - 0.01)))
                     continue;
-                const double area = glm::length(
-                    glm::cross(triangles[t][1] - triangles[t][0], triangles[t][2] - triangles[t][0]));
+                const double area =
+                    glm::length(glm::cross(triangles[t][1] - triangles[t][0], triangles[t][2] - triangles[t][0]));
                 if (area < 1e-6) continue;  // Has no voxels.
                 if (overlaps(triangles[t], glm::dvec3(v) + 0.5, 0.5 + kEpsilon)) near.insert(t);
                 if (overlaps(triangles[t], glm::dvec3(v) + 0.5, 0.5 - kEpsilon)) within.insert(t);
@@ -126,32 +117,8 @@ TEST(HybridLeaves, ListEveryTriangleThatOverlaps) {
     }
 }
 
-/// Bounds of a triangle's part in the unit cube, by corners of the polygon that is left; nothing where they
-/// don't meet.
-std::optional<std::array<glm::dvec3, 2>> boundsInCube(const Triangle& triangle) {
-    std::vector<glm::dvec3> polygon(triangle.begin(), triangle.end());
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double sign : {-1.0, 1.0}) {
-            std::vector<glm::dvec3> left;
-            const double limit = sign > 0 ? 1 : 0;
-            for (size_t i = 0; i < polygon.size(); ++i) {
-                const glm::dvec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-                const double outA = sign * a[axis] - limit, outB = sign * b[axis] - limit;
-                if (outA <= 0) left.push_back(a);
-                if (outA * outB < 0) left.push_back(glm::mix(a, b, outA / (outA - outB)));
-            }
-            polygon = left;
-        }
-    if (polygon.empty()) return {};
-    std::array<glm::dvec3, 2> bounds{polygon[0], polygon[0]};
-    for (const glm::dvec3& corner : polygon)
-        bounds = {glm::min(bounds[0], corner), glm::max(bounds[1], corner)};
-    return bounds;
-}
-
 TEST(HybridLeaves, BoxesAreThoseOfTheTrianglesInTheLeaf) {
-    for (const std::shared_ptr<const SceneState>& state :
-         {builtin("cornell"), builtin("spheres", "{count: 8}"), soup()}) {
+    for (const State state : {builtin("cornell"), builtin("spheres", "{count: 8}"), soup()}) {
         Hybrid hybrid(state, 10, "primitives: 100000");
         const SurfaceVoxels& leafVoxels = hybrid.leaves().voxels(hybrid.voxels());
         const gpu::VoxelGrid& grid = leafVoxels.grid;
@@ -159,6 +126,7 @@ TEST(HybridLeaves, BoxesAreThoseOfTheTrianglesInTheLeaf) {
         const std::vector<uint32_t> words = hybrid.chain().read<uint32_t>(hybrid.leaves().words);
         const std::vector<ListItem> primitives = hybrid.chain().read<ListItem>(hybrid.leaves().primitives);
         const Geometry& g = state->geometry;
+        const std::vector<Triangle> triangles = trianglesInVoxels(g, grid);
         size_t leaf = 0, boxes = 0;
         double width = 0, truth = 0;
         for (int z = 0; z < int(grid.resolution.z); ++z)
@@ -167,27 +135,24 @@ TEST(HybridLeaves, BoxesAreThoseOfTheTrianglesInTheLeaf) {
                     const size_t row = size_t(z) * grid.resolution.y + size_t(y);
                     if (!(occupancy[row * grid.wordsPerRow + size_t(x) / 32] >> (x % 32) & 1u)) continue;
                     for (const ListItem& item : itemsOf(words[leaf++], primitives)) {
-                        Triangle corners;
-                        for (int k = 0; k < 3; ++k)
-                            corners[size_t(k)] = (glm::dvec3(g.positions[g.triangles[item.triangle][k]]) -
-                                                  glm::dvec3(grid.origin)) /
-                                                     double(grid.voxelSize) -
-                                                 glm::dvec3(x, y, z);
-                        const AlphaMode mode =
-                            state->scene->materials[g.triangleMaterials[item.triangle]].alphaMode;
+                        const AlphaMode mode = state->scene->materials[g.triangleMaterials[item.triangle]].alphaMode;
                         EXPECT_EQ(item.box >> 30, mode == AlphaMode::Mask ? 1u : 0u);
-                        const auto bounds = boundsInCube(corners);
-                        if (!bounds) continue;  // Near the leaf, not in it.
+                        const glm::dvec3 corner(x, y, z);
+                        const auto part = partInBox(triangles[item.triangle], corner, corner + 1.0);
+                        if (part.empty()) continue;  // Near the leaf, not in it.
+                        glm::dvec3 low = part[0], high = part[0];
+                        for (const glm::dvec3& p : part) low = glm::min(low, p), high = glm::max(high, p);
+                        low -= corner, high -= corner;
                         ++boxes;
                         for (int axis = 0; axis < 3; ++axis) {
                             const auto [firstStep, lastStep] = stepsOf(item.box, axis);
                             const double first = double(firstStep) / LEAF_BOX_STEPS,
                                          last = double(lastStep + 1) / LEAF_BOX_STEPS;
                             // Rounding apart, and what a walk allows for it
-                            EXPECT_LE(first, (*bounds)[0][axis] + 1e-4);
-                            EXPECT_GE(last, (*bounds)[1][axis] - 1e-4);
+                            EXPECT_LE(first, low[axis] + 1e-4);
+                            EXPECT_GE(last, high[axis] - 1e-4);
                             width += last - first;
-                            truth += (*bounds)[1][axis] - (*bounds)[0][axis];
+                            truth += high[axis] - low[axis];
                         }
                     }
                 }
@@ -201,7 +166,7 @@ TEST(HybridLeaves, BoxesAreThoseOfTheTrianglesInTheLeaf) {
 
 TEST(HybridLeaves, CellsKeepPlaneNormalAndMeanColour) {
     const glm::vec3 u(2, 0.3f, 0.1f), v(-0.2f, 0.4f, 1.8f), normal = glm::normalize(glm::cross(u, v));
-    const std::shared_ptr<const SceneState> state = mesh(u, v, true);
+    const State state = mesh(u, v, true);
     Hybrid hybrid(state, 16, "primitives: 1, grid: 8");
     EXPECT_EQ(hybrid.leaves().primitiveCount, 0u);
     const std::vector<uint32_t> cells = hybrid.chain().read<uint32_t>(hybrid.leaves().cells);
@@ -213,8 +178,7 @@ TEST(HybridLeaves, CellsKeepPlaneNormalAndMeanColour) {
         const glm::vec3 origin = target + normal + 0.5f * random.vector(-1, 1);
         rays.push_back({origin, 0, target - origin, kInfinity});
     }
-    const std::vector<Hit> expected = hybrid.embree(rays),
-                           hits = hybrid.closest(HybridTraversal::Hierarchical, rays);
+    const std::vector<Hit> expected = hybrid.embree(rays), hits = hybrid.closest(HybridTraversal::Hierarchical, rays);
     const float cell = hybrid.voxels().grid.voxelSize / 8;
     float worst = 0;
     for (size_t i = 0; i < rays.size(); ++i) {
@@ -249,7 +213,7 @@ TEST(HybridLeaves, ALeafOfManyTrianglesKeepsTheirMean) {
     }
     for (const float y : {-1.0f, 1.1f}) b.quad("far", {-1, y, -1}, {0, 0, 2}, {2, 0, 0}, 0);
     b.camera({0, 0, 3}, {0, 0, 0}, 60);
-    const auto state = std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
+    const auto state = evaluated(b);
     Hybrid hybrid(state, 6, "primitives: 64, grid: 4");
     EXPECT_GE(hybrid.leaves().gridCount, 1u);
     const std::vector<Ray> rays{{{0.02f, 0.5f, 0.03f}, 0, {0, -1, 0}, kInfinity}};
@@ -287,8 +251,7 @@ TEST(HybridLeaves, TwoBuildsAreTheSameBits) {
 }
 
 TEST(HybridLeaves, TheLastWriterWritesOneOfTheSurfaces) {
-    Hybrid hybrid(mesh({2, 0.3f, 0.1f}, {-0.2f, 0.4f, 1.8f}, true), 16,
-                  "primitives: 1, grid: 4, write: none");
+    Hybrid hybrid(mesh({2, 0.3f, 0.1f}, {-0.2f, 0.4f, 1.8f}, true), 16, "primitives: 1, grid: 4, write: none");
     const std::vector<uint32_t> cells = hybrid.chain().read<uint32_t>(hybrid.leaves().cells);
     for (uint32_t cell = 0; cell < hybrid.leaves().cellCount; ++cell) {
         const glm::vec3 albedo = unpackCell(&cells[GRID_CELL_WORDS * cell]).albedo;

@@ -11,7 +11,7 @@ namespace voxray::test {
 namespace {
 
 /// Boxes of several colours, rotated by several angles.
-std::shared_ptr<const SceneState> boxes() {
+State boxes() {
     SceneBuilder b("boxes");
     TestRandom random(11);
     for (int i = 0; i < 12; ++i) {
@@ -19,28 +19,7 @@ std::shared_ptr<const SceneState> boxes() {
         b.box("box", base, random.vector(0.1f, 0.7f), random(0, 3), b.lambert("colour", albedo));
     }
     b.camera({0, 0, 3}, {0, 0, 0}, 60);
-    return std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
-}
-
-/// Area of a triangle's part in a box, by the polygon that is left.
-double areaInBox(const Triangle& triangle, const glm::dvec3& low, const glm::dvec3& high) {
-    std::vector<glm::dvec3> polygon(triangle.begin(), triangle.end());
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double sign : {-1.0, 1.0}) {
-            std::vector<glm::dvec3> left;
-            const double limit = sign > 0 ? high[axis] : -low[axis];
-            for (size_t i = 0; i < polygon.size(); ++i) {
-                const glm::dvec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-                const double outA = sign * a[axis] - limit, outB = sign * b[axis] - limit;
-                if (outA <= 0) left.push_back(a);
-                if (outA * outB < 0) left.push_back(glm::mix(a, b, outA / (outA - outB)));
-            }
-            polygon = left;
-        }
-    glm::dvec3 sum(0);
-    for (size_t i = 2; i < polygon.size(); ++i)
-        sum += glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
-    return 0.5 * glm::length(sum);
+    return evaluated(b);
 }
 
 /// What leaves with grids hold, on the host.
@@ -70,7 +49,7 @@ class Grids {
 };
 
 TEST(HybridLevels, CellsAreMeansByArea) {
-    const std::shared_ptr<const SceneState> state = boxes();
+    const State state = boxes();
     const Geometry& g = state->geometry;
     for (const uint32_t m : {5u, 8u}) {
         Hybrid hybrid(state, 10, fmt::format("primitives: 1, grid: {}, grid_levels: footprint", m));
@@ -79,12 +58,7 @@ TEST(HybridLevels, CellsAreMeansByArea) {
         const std::vector<uint32_t> words = hybrid.chain().read<uint32_t>(hybrid.leaves().words);
         const Grids grids(hybrid);
         ASSERT_EQ(grids.shape.gridLevels, 3u);
-        std::vector<Triangle> triangles(g.triangles.size());
-        for (size_t t = 0; t < triangles.size(); ++t)
-            for (int k = 0; k < 3; ++k)
-                triangles[t][size_t(k)] =
-                    (glm::dvec3(g.positions[g.triangles[t][k]]) - glm::dvec3(grid.origin)) /
-                    double(grid.voxelSize);
+        const std::vector<Triangle> triangles = trianglesInVoxels(g, grid);
 
         size_t leaf = 0;
         std::vector<size_t> compared(grids.shape.gridLevels), mixed(grids.shape.gridLevels);
@@ -165,7 +139,7 @@ TEST(HybridLevels, ACoarserCellIsThereWhereAFinerOneIs) {
 
 TEST(HybridLevels, BareRaysMeetTheFinestCells) {
     // Bit for bit, in as many steps, as in grids of one level; and so do rays narrower than two cells.
-    for (const std::shared_ptr<const SceneState>& state : {builtin("clutter"), builtin("cornell")}) {
+    for (const State state : {builtin("clutter"), builtin("cornell")}) {
         const std::string leaves = "primitives: 3, grid: 5, grid_levels: ";
         Hybrid finest(state, 32, leaves + "finest"), levels(state, 32, leaves + "footprint");
         EXPECT_GT(levels.leaves().cellCount, finest.leaves().cellCount);
@@ -199,9 +173,8 @@ TEST(HybridLevels, BareRaysMeetTheFinestCells) {
 }
 
 TEST(HybridLevels, WideRaysMeetCoarserCellsAndMissNoSurface) {
-    for (const auto& [name, state] : {std::pair{"clutter", builtin("clutter")},
-                                      {"spheres", builtin("spheres")},
-                                      {"cornell", builtin("cornell")}}) {
+    for (const auto& [name, state] :
+         {std::pair{"clutter", builtin("clutter")}, {"spheres", builtin("spheres")}, {"cornell", builtin("cornell")}}) {
         Hybrid hybrid(state, 32, "primitives: 3, grid: 7, grid_levels: footprint");
         const std::vector<Ray> rays = raysThrough(state->geometry, 30000);
         const std::vector<Hit> expected = hybrid.embree(rays);
@@ -226,8 +199,8 @@ TEST(HybridLevels, WideRaysMeetCoarserCellsAndMissNoSurface) {
             }
             EXPECT_GT(cells, 150u) << name;
             EXPECT_EQ(missed, 0u) << name << " " << level;
-            std::printf("%s, level %u: %zu of %zu rays meet a cell, %zu too early\n", name, level, cells,
-                        rays.size(), far);
+            std::printf("%s, level %u: %zu of %zu rays meet a cell, %zu too early\n", name, level, cells, rays.size(),
+                        far);
             const std::vector<Hit> other = hybrid.closest(HybridTraversal::VoxelByVoxel, rays, start);
             EXPECT_EQ(std::memcmp(hits.data(), other.data(), hits.size() * sizeof(Hit)), 0) << name;
         }

@@ -20,8 +20,7 @@ TEST(HybridRays, RaysMeetTheTrianglesThatEmbreeMeets) {
         const double part = differing(hybrid.embree(rays), hits);
         EXPECT_LE(part, 1e-4) << name;
         std::printf("%s: %.2g of the rays differ; a ray: %.3g steps, %.3g visits, %.3g tests\n", name, part,
-                    double(hybrid.counts[0]) / double(rays.size()),
-                    double(hybrid.counts[1]) / double(rays.size()),
+                    double(hybrid.counts[0]) / double(rays.size()), double(hybrid.counts[1]) / double(rays.size()),
                     double(hybrid.tests) / double(rays.size()));
         const uint64_t steps = hybrid.counts[0], tests = hybrid.tests;
         const std::vector<Hit> other = hybrid.closest(HybridTraversal::VoxelByVoxel, rays);
@@ -33,7 +32,7 @@ TEST(HybridRays, RaysMeetTheTrianglesThatEmbreeMeets) {
 
 TEST(HybridRays, RaysThatStartOnATriangleMeetWhatEmbreeMeets) {
     // On the triangles of the leaf that they start in, in all directions, without an offset
-    const std::shared_ptr<const SceneState> state = builtin("spheres");
+    const State state = builtin("spheres");
     const Geometry& g = state->geometry;
     Hybrid hybrid(state, 24, "primitives: 100000");
     TestRandom random(3);
@@ -48,9 +47,8 @@ TEST(HybridRays, RaysThatStartOnATriangleMeetWhatEmbreeMeets) {
 }
 
 TEST(HybridRays, GridsNeverMissASurface) {
-    for (const auto& [name, state] : {std::pair{"clutter", builtin("clutter")},
-                                      {"spheres", builtin("spheres")},
-                                      {"cornell", builtin("cornell")}}) {
+    for (const auto& [name, state] :
+         {std::pair{"clutter", builtin("clutter")}, {"spheres", builtin("spheres")}, {"cornell", builtin("cornell")}}) {
         Hybrid hybrid(state, 32, "primitives: 3, grid: 5");
         const gpu::VoxelGrid& grid = hybrid.voxels().grid;
         EXPECT_GT(hybrid.leaves().gridCount, 10u);
@@ -70,8 +68,7 @@ TEST(HybridRays, GridsNeverMissASurface) {
         EXPECT_GT(cells, 300u) << name;
         EXPECT_EQ(missed, 0u) << name;
         EXPECT_LT(double(far), 0.05 * double(rays.size())) << name;
-        std::printf("%s: %zu of %zu rays meet a cell, %zu of them too early\n", name, cells, rays.size(),
-                    far);
+        std::printf("%s: %zu of %zu rays meet a cell, %zu of them too early\n", name, cells, rays.size(), far);
         const std::vector<Hit> other = hybrid.closest(HybridTraversal::VoxelByVoxel, rays);
         EXPECT_EQ(std::memcmp(hits.data(), other.data(), hits.size() * sizeof(Hit)), 0) << name;
     }
@@ -119,15 +116,13 @@ TEST(HybridRays, MasksLeaveHolesInListsAndGrids) {
     for (int i = 0; i < 2; ++i) b.place(b.mesh(square));
     b.quad("wall", {-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, b.lambert("grey", glm::vec3(0.5f)));
     b.camera({0, 0, 3}, {0, 0, 0}, 60);
-    const auto state = std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
+    const auto state = evaluated(b);
     TestRandom random(6);
     std::vector<Ray> rays;
     // Away from the mask's edge by more than what a texel is blended in, 1/256 of its width
     for (int i = 0; i < 5000; ++i)
-        rays.push_back({{(i % 2 == 0 ? 1.0f : -1.0f) * random(0.001f, 0.9f), random(-0.9f, 0.9f), 1},
-                        0,
-                        {0, 0, -1},
-                        kInfinity});
+        rays.push_back(
+            {{(i % 2 == 0 ? 1.0f : -1.0f) * random(0.001f, 0.9f), random(-0.9f, 0.9f), 1}, 0, {0, 0, -1}, kInfinity});
     Hybrid grids(state, 16, "primitives: 1, grid: 8"), lists(state, 16, "primitives: 4");
     EXPECT_GT(grids.leaves().cellCount, 0u);
     EXPECT_EQ(lists.leaves().gridCount, 0u);
@@ -149,8 +144,7 @@ TEST(HybridRays, RaysDoNotMeetTheSurfaceThatTheyLeave) {
     while (rays.size() < 5000) {
         const glm::vec3 origin = random(-0.5f, 0.5f) * u + random(-0.5f, 0.5f) * v;
         const glm::vec3 direction = random.vector(-1, 1);
-        if (glm::dot(direction, normal) > 0)
-            rays.push_back({origin, 1e-4f, glm::normalize(direction), kInfinity});
+        if (glm::dot(direction, normal) > 0) rays.push_back({origin, 1e-4f, glm::normalize(direction), kInfinity});
     }
     const auto hits = [&](const std::optional<gpu::RayStart>& start) {
         return std::ranges::count_if(hybrid.closest(HybridTraversal::Hierarchical, rays, start),
@@ -161,7 +155,7 @@ TEST(HybridRays, RaysDoNotMeetTheSurfaceThatTheyLeave) {
 }
 
 TEST(HybridRays, RaysWiderThanAVoxelEnd) {
-    const std::shared_ptr<const SceneState> state = builtin("cornell");
+    const State state = builtin("cornell");
     Hybrid hybrid(state, 32, "primitives: 1000");
     const std::vector<Ray> rays = raysThrough(state->geometry, 20000);
     const std::vector<Hit> bare = hybrid.closest(HybridTraversal::Hierarchical, rays);
@@ -182,7 +176,7 @@ TEST(HybridRays, RaysWiderThanAVoxelEnd) {
 }
 
 TEST(HybridRays, FragmentsMissTriangles) {
-    const std::shared_ptr<const SceneState> state = builtin("clutter");
+    const State state = builtin("clutter");
     Hybrid exact(state, 32, "primitives: 1000"), fragments(state, 32, "primitives: 1000, lists: fragments");
     EXPECT_LT(fragments.leaves().primitiveCount, exact.leaves().primitiveCount);
     const std::vector<Ray> rays = raysThrough(state->geometry, 20000);
@@ -190,8 +184,8 @@ TEST(HybridRays, FragmentsMissTriangles) {
     const double missed = differing(expected, fragments.closest(HybridTraversal::Hierarchical, rays));
     EXPECT_GT(missed, 0.001);
     EXPECT_LE(differing(expected, exact.closest(HybridTraversal::Hierarchical, rays)), 1e-4);
-    std::printf("fragments: %u of %u triangles in lists, %.2g of the rays differ\n",
-                fragments.leaves().primitiveCount, exact.leaves().primitiveCount, missed);
+    std::printf("fragments: %u of %u triangles in lists, %.2g of the rays differ\n", fragments.leaves().primitiveCount,
+                exact.leaves().primitiveCount, missed);
 }
 
 }  // namespace

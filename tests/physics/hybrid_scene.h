@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <glm/glm.hpp>
-#include <limits>
 #include <optional>
 #include <random>
 
@@ -17,29 +16,21 @@
 
 namespace voxray::test {
 
-inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-inline std::shared_ptr<const SceneState> builtin(const std::string& scene,
-                                                 const std::string& parameters = "{}") {
-    return std::make_shared<SceneState>(
-        evaluate(makeBuiltinScene(scene, parseYaml(parameters, "scene")), 0.0));
-}
-
 /// A scene's hybrid leaves, and rays through them.
 class Hybrid {
  public:
-    Hybrid(const std::shared_ptr<const SceneState>& state, uint32_t resolution, const std::string& parameters)
+    Hybrid(const State& state, uint32_t resolution, const std::string& parameters)
         : chain_(state,
                  graphYaml({fmt::format("voxelize, resolution: {}, visibility_rays: 0", resolution),
                             "build_hybrid_leaves, " + parameters}),
-                 16, 16, 1),
+                 16, 16),
           compiler_(sourceRoot(), shaderCache()),
           stream_(device()),
           scene_(makeGpuScene(device(), stream_, *state)),
           state_(state) {}
 
-    const SurfaceVoxels& voxels() const { return *chain_.graph().resource<SurfaceVoxels>("voxels"); }
-    const HybridLeaves& leaves() const { return *chain_.graph().resource<HybridLeaves>("hybrid_leaves"); }
+    const SurfaceVoxels& voxels() const { return chain_.get<SurfaceVoxels>("voxels"); }
+    const HybridLeaves& leaves() const { return chain_.get<HybridLeaves>("hybrid_leaves"); }
     Chain& chain() { return chain_; }
 
     /// @param start what all rays leave behind. @param maxWidth m, beyond which rays end.
@@ -49,31 +40,22 @@ class Hybrid {
         HybridTracer tracer(programs, walk);
         prepare(programs, tracer, voxels());
         tracer.begin(stream_, scene_, voxels(), leaves(), maxWidth);
-        const std::vector<Hit> hits = start ? closestFrom(tracer, rays, *start) : closest(tracer, rays);
+        const std::vector<Hit> hits = start ? closestFrom(tracer, rays, *start) : closestHits(stream_, tracer, rays);
         counts = stream_.readAs<uint64_t>(tracer.counts(), 2);
         tests = stream_.readAs<uint64_t>(tracer.testCounts(), 1)[0];
         return hits;
     }
     std::vector<Hit> embree(const std::vector<Ray>& rays) {
-        return closest(*makeRayTracer(TracerKind::Embree, device(), compiler_, *state_), rays);
+        return closestHits(stream_, *makeRayTracer(TracerKind::Embree, device(), compiler_, *state_), rays);
     }
 
     std::vector<uint64_t> counts;  ///< Steps and visits of the last stream.
     uint64_t tests = 0;            ///< Of triangles.
 
  private:
-    std::vector<Hit> closest(RayTracer& tracer, const std::vector<Ray>& rays) {
-        const Buffer in(device(), "rays", rays.size() * sizeof(Ray)),
-            out(device(), "hits", rays.size() * sizeof(Hit));
-        stream_.upload(in, rays);
-        tracer.closestHit(stream_, in, out, uint32_t(rays.size()));
-        return stream_.readAs<Hit>(out, rays.size());
-    }
-
     std::vector<Hit> closestFrom(HybridTracer& tracer, const std::vector<Ray>& rays, gpu::RayStart start) {
         const Buffer in(device(), "rays", rays.size() * sizeof(Ray)),
-            starts(device(), "starts", rays.size() * sizeof(start)),
-            out(device(), "hits", rays.size() * sizeof(Hit));
+            starts(device(), "starts", rays.size() * sizeof(start)), out(device(), "hits", rays.size() * sizeof(Hit));
         stream_.upload(in, rays);
         stream_.upload(starts, std::vector<gpu::RayStart>(rays.size(), start));
         tracer.setStarts(&starts);
@@ -86,7 +68,7 @@ class Hybrid {
     ShaderCompiler compiler_;
     CommandStream stream_;
     GpuScene scene_;
-    std::shared_ptr<const SceneState> state_;
+    State state_;
 };
 
 /// Rays from points in a scene's bounds, everywhere; every third begins beyond its origin or ends early.
@@ -142,13 +124,13 @@ inline CellValue unpackCell(const uint32_t* words) {
         n.y = n.y >= 0 ? folded.y : -folded.y;
     }
     const uint32_t a = words[1];
-    return {glm::normalize(n), glm::vec3(float(a & 2047u), float(a >> 11 & 2047u), float(a >> 22)) /
-                                   glm::vec3(2047, 2047, 1023)};
+    return {glm::normalize(n),
+            glm::vec3(float(a & 2047u), float(a >> 11 & 2047u), float(a >> 22)) / glm::vec3(2047, 2047, 1023)};
 }
 
 /// A soup of triangles with alpha masks and degenerate triangles, every third one twice, and two that are no
 /// triangles.
-inline std::shared_ptr<const SceneState> soup() {
+inline std::shared_ptr<SceneState> soup() {
     SceneState state = triangleSoup(1500, 0.12f, 1);
     for (size_t t = 0; t < 1500; t += 3) {
         state.geometry.triangles.push_back(state.geometry.triangles[t]);
@@ -168,10 +150,9 @@ inline std::shared_ptr<const SceneState> soup() {
 }
 
 /// A plane of many small triangles, of two colours one upon the other where `twice`.
-inline std::shared_ptr<const SceneState> mesh(glm::vec3 edgeU, glm::vec3 edgeV, bool twice) {
+inline State mesh(glm::vec3 edgeU, glm::vec3 edgeV, bool twice) {
     SceneBuilder b("mesh");
-    const uint32_t first = b.lambert("first", {0.2f, 0.4f, 0.9f}),
-                   second = b.lambert("second", {0.6f, 0.4f, 0.1f});
+    const uint32_t first = b.lambert("first", {0.2f, 0.4f, 0.9f}), second = b.lambert("second", {0.6f, 0.4f, 0.1f});
     constexpr int kSide = 32;
     for (int i = 0; i < kSide * kSide; ++i) {
         const glm::vec3 u = edgeU / float(kSide), v = edgeV / float(kSide);
@@ -181,7 +162,7 @@ inline std::shared_ptr<const SceneState> mesh(glm::vec3 edgeU, glm::vec3 edgeV, 
     }
     b.box("box", {0, -0.5f, 0}, glm::vec3(0.05f), 0.3f, first);
     b.camera({0, 0, 3}, {0, 0, 0}, 60);
-    return std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
+    return evaluated(b);
 }
 
 }  // namespace voxray::test

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "image/metrics.h"
 #include "passes/common/voxels/voxels.h"
@@ -10,20 +9,6 @@
 
 namespace voxray::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-
-// Flux over all voxels and directions, green channel, W.
-double totalFlux(Chain& chain, const Buffer& flux) {
-    const std::vector<float> values = readFlux(chain, flux);
-    double sum = 0;
-    for (size_t i = 1; i < values.size(); i += 3) sum += values[i];
-    return sum;
-}
-
-const VoxelIrradiance& irradiance(const Chain& chain) {
-    return *chain.graph().resource<VoxelIrradiance>("irradiance");
-}
 
 TEST(Injection, ClosedRoomCatchesAllLight) {
     // A point light of I W/sr in a closed room: 4 pi I arrives at its walls.
@@ -35,9 +20,8 @@ TEST(Injection, ClosedRoomCatchesAllLight) {
 
 TEST(Injection, BouncesSumToTheGeometricSeries) {
     // Walls of albedo a reflect a of all that arrives: indirect flux = direct * (a + a² + ... + a^bounces).
-    Chain chain(
-        "white_room", "{albedo: 0.5, intensity: 2}",
-        graphYaml({"voxelize, resolution: 24", "inject_light_rays, rays_per_light: 262144, bounces: 3"}));
+    Chain chain("white_room", "{albedo: 0.5, intensity: 2}",
+                graphYaml({"voxelize, resolution: 24", "inject_light_rays, rays_per_light: 262144, bounces: 3"}));
     const double expected = 4 * kPi * 2 * (0.5 + 0.25 + 0.125);
     EXPECT_NEAR(totalFlux(chain, irradiance(chain).indirect) / expected, 1.0, 0.01);
 }
@@ -45,11 +29,10 @@ TEST(Injection, BouncesSumToTheGeometricSeries) {
 TEST(Injection, EmissiveFurnaceReachesItsClosedForm) {
     // Every surface emits e and reflects a: the irradiance is pi e / (1 - a) everywhere, of which pi e is
     // direct.
-    Chain chain(
-        "furnace", "{shape: box, albedo: 0.6, emission: 1}",
-        graphYaml({"gbuffer", "voxelize, resolution: 16, samples_per_voxel_edge: 4",
-                   "inject_light_rays, rays_per_light: 1048576, bounces: 24", "gather_irradiance, radius: 2",
-                   "gather_irradiance, id: direct, light: direct, radius: 2", "composite"}));
+    Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
+                graphYaml({"gbuffer", "voxelize, resolution: 16, samples_per_voxel_edge: 4",
+                           "inject_light_rays, rays_per_light: 262144, bounces: 24", "gather_irradiance, radius: 2",
+                           "gather_irradiance, id: direct, light: direct, radius: 2", "composite"}));
     EXPECT_NEAR(mean(chain.image("direct")), 0.6, 0.02 * 0.6);
     EXPECT_NEAR(mean(chain.image("final")), 1 / (1 - 0.6), 0.02 / (1 - 0.6));
 }
@@ -68,18 +51,16 @@ TEST(Injection, SheetsInBordersCatchTheirLightInTheVoxelsThatHoldTheirArea) {
     b.quad("speck", high, {0, 0, -0.003f}, {0, -0.003f, 0}, grey);
     double caught = 0;
     for (int i = 0; i < 7; ++i) {
-        const float x = grid.origin.x + size * float(3 * i + 2),
-                    y = grid.origin.y + size * (float(2 * i) + 1.1f);
+        const float x = grid.origin.x + size * float(3 * i + 2), y = grid.origin.y + size * (float(2 * i) + 1.1f);
         b.quad("sheet", {x, y, -0.31f}, {0, 0, 0.7f}, {0, 0.8f * size, 0}, grey);
         b.quad("panel", {x - size, y + 0.4f * size, -0.31f}, {0, 0, 0.7f}, {2 * size, 0, 0}, grey);
         caught += double(kSun * 0.7f * 0.8f * size);
     }
     b.directionalLight({1, 0, 0}, glm::vec3(kSun));
     b.camera({0, 0, 3}, {0, 0, 0}, 60);
-    Chain chain(
-        std::make_shared<SceneState>(evaluate(b.finish(), 0.0)),
-        graphYaml({"voxelize, resolution: 24", "inject_light_rays, rays_per_light: 1048576, bounces: 0"}), 16,
-        16, 1);
+    Chain chain(evaluated(b),
+                graphYaml({"voxelize, resolution: 24", "inject_light_rays, rays_per_light: 1048576, bounces: 0"}), 16,
+                16);
 
     const std::vector<float> flux = readFlux(chain, irradiance(chain).direct),
                              areas = readAreas(chain, irradiance(chain).area);
@@ -93,8 +74,7 @@ TEST(Injection, IsLinearInLight) {
     const std::string graph =
         graphYaml({"voxelize, resolution: 16", "inject_light_rays, rays_per_light: 16384, bounces: 2"});
     Chain one("white_room", "{intensity: 1}", graph), seven("white_room", "{intensity: 7}", graph);
-    EXPECT_NEAR(totalFlux(seven, irradiance(seven).indirect) / totalFlux(one, irradiance(one).indirect), 7.0,
-                1e-4);
+    EXPECT_NEAR(totalFlux(seven, irradiance(seven).indirect) / totalFlux(one, irradiance(one).indirect), 7.0, 1e-4);
 }
 
 TEST(Injection, IsDeterministic) {
@@ -105,47 +85,44 @@ TEST(Injection, IsDeterministic) {
     EXPECT_EQ(run(), run());
 }
 
+/// Direct light by shadow rays over that of the path tracer.
+double directRatio(const std::string& scene, const std::string& parameters, int samples, uint32_t side) {
+    const auto light = [&](const std::vector<std::string>& passes) {
+        return mean(Chain(scene, parameters, graphYaml(passes), side, side).image("final"));
+    };
+    const std::string rays = fmt::format("direct_shadow_rays, light_samples: {}", samples);
+    return light({"gbuffer", rays, "composite"}) /
+           light({fmt::format("path_trace, spp: {}, bounces: 0", std::max(samples, 64))});
+}
+
 TEST(DirectShadowRays, MatchClosedFormsOnAPlane) {
     // Punctual lights are exact: the same image as the path tracer's, which has its own closed-form tests,
     // with rays through pixel centers instead of pixel means.
-    for (const std::string light : {"point", "spot", "directional"}) {
-        Chain chain("plane", "{light: " + light + "}",
-                    graphYaml({"gbuffer", "direct_shadow_rays", "composite"}), 64, 64);
-        Chain reference("plane", "{light: " + light + "}", graphYaml({"path_trace, spp: 64, bounces: 0"}), 64,
-                        64);
-        EXPECT_NEAR(mean(chain.image("final")) / mean(reference.image("final")), 1.0, 0.003) << light;
-    }
+    for (const std::string light : {"point", "spot", "directional"})
+        EXPECT_NEAR(directRatio("plane", "{light: " + light + "}", 1, 64), 1.0, 0.003) << light;
 }
 
 TEST(DirectShadowRays, AreaLightConvergesToTheReference) {
     // Pixel centers against pixel means: edges of the light weigh less the more pixels there are.
-    Chain chain("quad_light", "{}",
-                graphYaml({"gbuffer", "direct_shadow_rays, light_samples: 64", "composite"}), 96, 96);
-    Chain reference("quad_light", "{}", graphYaml({"path_trace, spp: 64, bounces: 0"}), 96, 96);
-    EXPECT_NEAR(mean(chain.image("final")) / mean(reference.image("final")), 1.0, 0.01);
+    EXPECT_NEAR(directRatio("quad_light", "{}", 64, 96), 1.0, 0.01);
 }
 
 TEST(DirectShadowRays, AWideLightHidesNothingOfItself) {
     // Rays that meet its plane at a slant end before it, too: most of what lies over the receiver is below 30
     // degrees.
-    Chain chain("quad_light", "{light_size: 20, distance: 1}",
-                graphYaml({"gbuffer", "direct_shadow_rays, light_samples: 256", "composite"}), 64, 64);
-    Chain reference("quad_light", "{light_size: 20, distance: 1}",
-                    graphYaml({"path_trace, spp: 256, bounces: 0"}), 64, 64);
-    EXPECT_NEAR(mean(chain.image("final")) / mean(reference.image("final")), 1.0, 0.01);
+    EXPECT_NEAR(directRatio("quad_light", "{light_size: 20, distance: 1}", 256, 64), 1.0, 0.01);
 }
 
 TEST(DirectShadowRays, EnvironmentConvergesToTheReference) {
     // Spheres and a floor under a white sky and nothing else.
-    Scene scene = *makeBuiltinScene("spheres", parseYaml("{moving: false}", "scene"));
-    scene.lights.clear();
-    scene.environment.radiance = glm::vec3(1.0f);
-    const auto state = std::make_shared<SceneState>(evaluate(std::make_shared<Scene>(scene), 0.0));
+    const auto scene = builtinScene("spheres", "{moving: false}");
+    scene->lights.clear();
+    scene->environment.radiance = glm::vec3(1.0f);
+    const State state = evaluated(scene);
     Chain chain(state,
-                graphYaml({"gbuffer, samples_per_pixel_edge: 2", "direct_shadow_rays, light_samples: 32",
-                           "composite"}),
-                64, 48, 1);
-    Chain reference(state, graphYaml({"path_trace, spp: 128, bounces: 0"}), 64, 48, 1);
+                graphYaml({"gbuffer, samples_per_pixel_edge: 2", "direct_shadow_rays, light_samples: 32", "composite"}),
+                64, 48);
+    Chain reference(state, graphYaml({"path_trace, spp: 128, bounces: 0"}), 64, 48);
     const ImageF image = chain.image("final"), truth = reference.image("final");
     EXPECT_NEAR(mean(image) / mean(truth), 1.0, 0.003);
     EXPECT_LT(nRmse(image, truth), 0.06);
@@ -156,15 +133,11 @@ TEST(VoxelLookup, OfDirectLightApproachesShadowRaysAsVoxelsShrink) {
     const auto error = [](uint32_t resolution) {
         Chain chain(
             "plane", "{light: point}",
-            graphYaml({"gbuffer",
-                       "voxelize, samples_per_voxel_edge: 4, resolution: " + std::to_string(resolution),
-                       "inject_light_rays, rays_per_light: 1048576, bounces: 0",
-                       "gather_irradiance, light: direct", "composite"}));
+            graphYaml({"gbuffer", "voxelize, samples_per_voxel_edge: 4, resolution: " + std::to_string(resolution),
+                       "inject_light_rays, rays_per_light: 1048576, bounces: 0", "gather_irradiance, light: direct",
+                       "composite"}));
         Chain exact("plane", "{light: point}", graphYaml({"gbuffer", "direct_shadow_rays", "composite"}));
-        const ImageF a = chain.image("final"), b = exact.image("final");
-        double sum = 0;
-        for (size_t i = 0; i < a.data.size(); ++i) sum += std::abs(a.data[i] - b.data[i]);
-        return sum / double(b.data.size()) / mean(b);
+        return meanDifference(chain.image("final"), exact.image("final"));
     };
     const double coarse = error(8), fine = error(64);
     EXPECT_LT(fine, coarse);
@@ -172,8 +145,7 @@ TEST(VoxelLookup, OfDirectLightApproachesShadowRaysAsVoxelsShrink) {
 }
 
 TEST(VoxelLookup, SevenTapKeepsAConstantAndBlursAnEdge) {
-    const auto direct = [](const std::string& scene, const std::string& parameters,
-                           const std::string& lookup) {
+    const auto direct = [](const std::string& scene, const std::string& parameters, const std::string& lookup) {
         Chain chain(scene, parameters,
                     graphYaml({"gbuffer", "voxelize, resolution: 16, samples_per_voxel_edge: 4",
                                "inject_light_rays, rays_per_light: 1048576, bounces: 0",
@@ -206,12 +178,12 @@ TEST(VoxelLookup, SevenTapKeepsAConstantAndBlursAnEdge) {
 }
 
 TEST(Chain, CornellIndirectMatchesTheReference) {
+    // 262144 paths: noise of half a percent of the mean
     Chain chain("cornell", "{lights: point}",
-                graphYaml({"gbuffer", "voxelize, resolution: 64",
-                           "inject_light_rays, rays_per_light: 1048576, bounces: 8", "gather_irradiance",
-                           "direct_shadow_rays", "composite"}),
-                64, 64);
-    Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 256, bounces: 8"}), 64, 64);
+                graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 64",
+                           "inject_light_rays, rays_per_light: 524288, bounces: 8", "gather_irradiance",
+                           "direct_shadow_rays", "composite"}));
+    Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 256, bounces: 8"}));
     EXPECT_NEAR(mean(chain.image("final")) / mean(reference.image("final")), 1.0, 0.02);
     EXPECT_NEAR(mean(chain.image("indirect")) / mean(reference.image("indirect")), 1.0, 0.03);
 }

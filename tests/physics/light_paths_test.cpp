@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "passes/common/voxels/voxels.h"
 #include "tests/physics/voxels_read.h"
@@ -11,31 +10,21 @@
 namespace voxray::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 /// What a graph of one injection left in the voxels, green channel.
 struct Lit {
-    Lit(const std::string& scene, const std::string& parameters, const std::string& voxelize,
-        const std::string& inject)
+    Lit(const std::string& scene, const std::string& parameters, const std::string& voxelize, const std::string& inject)
         : chain(scene, parameters, graphYaml({"voxelize, " + voxelize, inject})) {
         take();
     }
-    Lit(std::shared_ptr<const SceneState> state, const std::string& voxelize, const std::string& inject)
-        : chain(std::move(state), graphYaml({"voxelize, " + voxelize, inject}), 32, 32, 1) {
+    Lit(State state, const std::string& voxelize, const std::string& inject)
+        : chain(std::move(state), graphYaml({"voxelize, " + voxelize, inject}), 32, 32) {
         take();
     }
     void take() {
-        voxels = chain.graph().resource<SurfaceVoxels>("voxels");
-        const auto* irradiance = chain.graph().resource<VoxelIrradiance>("irradiance");
-        direct = green(irradiance->direct);
-        indirect = green(irradiance->indirect);
-        area = readAreas(chain, irradiance->area);
-    }
-    std::vector<double> green(const Buffer& flux) {
-        const std::vector<float> values = readFlux(chain, flux);
-        std::vector<double> out(values.size() / 3);
-        for (size_t i = 0; i < out.size(); ++i) out[i] = values[3 * i + 1];
-        return out;
+        voxels = &chain.get<SurfaceVoxels>("voxels");
+        direct = greenFlux(chain, irradiance(chain).direct);
+        indirect = greenFlux(chain, irradiance(chain).indirect);
+        area = readAreas(chain, irradiance(chain).area);
     }
     /// The face (index into direct, indirect and area) of the voxel round a point.
     size_t face(glm::vec3 position, size_t direction) {
@@ -57,19 +46,6 @@ struct Lit {
     std::vector<float> area;
 };
 
-double sum(const std::vector<double>& values) {
-    double total = 0;
-    for (const double value : values) total += value;
-    return total;
-}
-
-/// Mean difference of two fields over their mean.
-double difference(const std::vector<double>& a, const std::vector<double>& b) {
-    double total = 0;
-    for (size_t i = 0; i < a.size(); ++i) total += std::abs(a[i] - b[i]);
-    return total / sum(b);
-}
-
 std::string messageOf(const std::string& scene, const std::string& parameters, const std::string& inject) {
     return errorOf([&] { Lit(scene, parameters, "resolution: 8", inject); });
 }
@@ -87,13 +63,12 @@ TEST(LightPaths, MaterialsKeepTheEnergyOfTheirLobes) {
     Lit lambert("white_room", "{albedo: 0.5, intensity: 2}", "resolution: 24",
                 "inject_light_rays, secondary: material, bounces: 2");
     EXPECT_NEAR(sum(lambert.indirect) / (4 * kPi * 2 * (0.5 + 0.25)), 1.0, 5e-3);
-    auto scene =
-        std::make_shared<Scene>(*makeBuiltinScene("white_room", parseYaml("{intensity: 2}", "scene")));
+    auto scene = builtinScene("white_room", "{intensity: 2}");
     for (Material& material : scene->materials) {
         material.baseColor = glm::vec4(1);
         material.metallic = 1, material.roughness = 0;
     }
-    const auto state = std::make_shared<SceneState>(evaluate(scene, 0.0));
+    const auto state = evaluated(scene);
     const std::string inject = "inject_light_rays, rays_per_light: 65536, secondary: material, bounces: 3";
     Lit mirrors(state, "resolution: 24", inject);
     EXPECT_NEAR(sum(mirrors.indirect) / (4 * kPi * 2 * 3), 1.0, 1e-3);
@@ -136,8 +111,7 @@ TEST(LightPaths, MaxIsTheIrradianceAtTheNearestPoint) {
             const glm::vec2 center = (glm::vec2(x, z) - 11.5f) * (2 * half);
             const glm::vec2 nearest = glm::max(glm::abs(center) - half, glm::vec2(0.0f));
             const size_t face = max.face({center.x, 0, center.y}, 2);
-            expected +=
-                std::pow(1 + double(glm::dot(nearest, nearest)), -1.5) * max.area[face] * 4 * half * half;
+            expected += std::pow(1 + double(glm::dot(nearest, nearest)), -1.5) * max.area[face] * 4 * half * half;
         }
     EXPECT_NEAR(sum(max.direct) / expected, 1.0, 0.02);
     EXPECT_LT(sum(average.direct), 0.9 * expected);
@@ -157,9 +131,7 @@ TEST(LightPaths, ScenesWithoutLightsAreRefused) {
 }
 
 TEST(LightPaths, OneVoxelIsRefusedUnlessExposureIsOff) {
-    const auto make = [] {
-        Lit("white_room", "{}", "resolution: 1", "inject_light_rays, rays_per_light: 4096");
-    };
+    const auto make = [] { Lit("white_room", "{}", "resolution: 1", "inject_light_rays, rays_per_light: 4096"); };
     EXPECT_CONTAINS(errorOf(make), "visibility_rays");
     Lit lit("white_room", "{}", "resolution: 1, visibility_rays: 0",
             "inject_light_rays, rays_per_light: 4096, secondary: none");
@@ -169,7 +141,7 @@ TEST(LightPaths, OneVoxelIsRefusedUnlessExposureIsOff) {
 TEST(LightPaths, WhatHasNoIrradianceIsRefused) {
     for (const std::string write : {"max", "moving_average", "none"}) {
         const std::string inject = "inject_light_rays, write: " + write;
-        EXPECT_CONTAINS(messageOf("white_room", "{}", inject), "'write: " + write + "' merges irradiances");
+        EXPECT_CONTAINS(messageOf("white_room", "{}", inject), "'write: " + write + "'");
         EXPECT_CONTAINS(messageOf("furnace", "{}", inject + ", secondary: none"), "emissive surface");
     }
     EXPECT_CONTAINS(messageOf("white_room", "{}", "inject_light_rays, rays_per_light: 0"), "out of range");
@@ -187,34 +159,26 @@ TEST(InjectRsm, AgreesWithLightRays) {
     for (const std::string light : {"point", "spot", "directional"}) {
         const std::string scene = "{light: " + light + "}";
         Lit rsm("plane", scene, "resolution: 16", "inject_rsm, secondary: none, rsm_resolution: 512");
-        Lit rays("plane", scene, "resolution: 16",
-                 "inject_light_rays, secondary: none, rays_per_light: 262144");
+        Lit rays("plane", scene, "resolution: 16", "inject_light_rays, secondary: none, rays_per_light: 262144");
         EXPECT_NEAR(sum(rsm.direct) / sum(rays.direct), 1.0, 0.005) << light;
-        EXPECT_LT(difference(rsm.direct, rays.direct), 0.03) << light;
+        EXPECT_LT(meanDifference(rsm.direct, rays.direct), 0.03) << light;
     }
     Lit rsm("cornell", "{lights: point}", "resolution: 16", "inject_rsm, rsm_resolution: 256, bounces: 3");
-    Lit rays("cornell", "{lights: point}", "resolution: 16",
-             "inject_light_rays, rays_per_light: 524288, bounces: 3");
+    Lit rays("cornell", "{lights: point}", "resolution: 16", "inject_light_rays, rays_per_light: 524288, bounces: 3");
     EXPECT_NEAR(sum(rsm.direct) / sum(rays.direct), 1.0, 0.005);
     EXPECT_NEAR(sum(rsm.indirect) / sum(rays.indirect), 1.0, 0.01);
-    EXPECT_LT(difference(rsm.direct, rays.direct), 0.03);
-    EXPECT_LT(difference(rsm.indirect, rays.indirect), 0.1);  // Noise of the bounces.
+    EXPECT_LT(meanDifference(rsm.direct, rays.direct), 0.03);
+    EXPECT_LT(meanDifference(rsm.indirect, rays.indirect), 0.1);  // Noise of the bounces.
 }
 
 TEST(InjectRsm, WideSpotsTakeTheCube) {
     // From the center of a room, a uniform cone of 80°: 2 pi (1 - cos 80°) I.
-    SceneState state = evaluate(makeBuiltinScene("white_room", parseYaml("{}", "scene")), 0.0);
-    Light& light = state.lights.at(0);
-    light.type = LightType::Spot;
-    light.direction = glm::normalize(glm::vec3(1, 2, 0.5f));
-    light.outerConeAngle = float(80 * kPi / 180);
-    light.innerConeAngle = light.outerConeAngle - 0.01f;
-    Lit lit(std::make_shared<SceneState>(state), "resolution: 16", "inject_rsm, secondary: none");
-    EXPECT_NEAR(sum(lit.direct) / (2 * kPi * (1 - std::cos(light.outerConeAngle - 0.005))), 1.0, 0.005);
+    Lit lit(roomWithSpot(80), "resolution: 16", "inject_rsm, secondary: none");
+    EXPECT_NEAR(sum(lit.direct) / (2 * kPi * (1 - std::cos(80 * kPi / 180 - 0.005))), 1.0, 0.005);
 }
 
 TEST(InjectRsm, LightsWithoutAViewpointAreRefused) {
-    EXPECT_CONTAINS(messageOf("cornell", "{lights: area}", "inject_rsm"), "emissive surfaces have no single");
+    EXPECT_CONTAINS(messageOf("cornell", "{lights: area}", "inject_rsm"), "emissive surfaces");
 }
 
 }  // namespace

@@ -28,8 +28,7 @@ std::string litGraph(const std::string& test, const std::string& resolution) {
 
 std::vector<LitPatch> litPatches(Chain& chain) {
     const auto groups = readGroups(chain);
-    const auto surfels =
-        chain.read<gpu::GroupedSurfel>(chain.graph().resource<VoxelPatches>("patches")->surfels);
+    const auto surfels = chain.read<gpu::GroupedSurfel>(chain.get<VoxelPatches>("patches").surfels);
     const auto faces = facesOfPatches(groups);
     const auto light = readRadiosity(chain);
     std::vector<LitPatch> patches;
@@ -53,10 +52,9 @@ std::shared_ptr<const Scene> ground(float tiltDegrees, const glm::vec3& sun, boo
     return b.finish();
 }
 
-std::vector<LitPatch> litGround(float tiltDegrees, const glm::vec3& sun, bool hasWall,
-                                const std::string& test, const std::string& resolution = "32") {
-    Chain chain(std::make_shared<SceneState>(evaluate(ground(tiltDegrees, sun, hasWall), 0.0)),
-                litGraph(test, resolution), 16, 16, 1);
+std::vector<LitPatch> litGround(float tiltDegrees, const glm::vec3& sun, bool hasWall, const std::string& test,
+                                const std::string& resolution = "32") {
+    Chain chain(evaluated(ground(tiltDegrees, sun, hasWall)), litGraph(test, resolution), 16, 16);
     return litPatches(chain);
 }
 
@@ -75,8 +73,7 @@ TEST(LitPoints, LightAllOfAPlaneThatTheSunGrazes) {
     for (const std::string test : {"points", "surfels"})
         for (const float tilt : {0.0f, 20.0f}) {
             const float along = glm::radians(tilt - 1);
-            const std::vector<LitPatch> patches =
-                litGround(tilt, {std::cos(along), std::sin(along), 0}, false, test);
+            const std::vector<LitPatch> patches = litGround(tilt, {std::cos(along), std::sin(along), 0}, false, test);
             double lit = 0, all = 0;
             for (const LitPatch& p : patches) {
                 if (p.normal.y < 0) {
@@ -86,8 +83,7 @@ TEST(LitPoints, LightAllOfAPlaneThatTheSunGrazes) {
                 lit += p.radiosity > 0 ? 1 : 0;
                 all += 1;
             }
-            std::printf("%s, tilted by %.0f degrees: %.4f of the patches are lit\n", test.c_str(), tilt,
-                        lit / all);
+            std::printf("%s, tilted by %.0f degrees: %.4f of the patches are lit\n", test.c_str(), tilt, lit / all);
             EXPECT_GT(all, 1000);
             EXPECT_EQ(lit, all) << test << tilt;
         }
@@ -140,8 +136,7 @@ TEST(LitPoints, LightARoomAsSurfelsDo) {
 }
 
 TEST(LitPoints, AskForPunctualLights) {
-    EXPECT_CONTAINS(errorOf([] { Chain("furnace", "{shape: box}", litGraph("points", "16")); }),
-                    "lit_test: surfels");
+    EXPECT_ERROR("lit_test: surfels", Chain("furnace", "{shape: box}", litGraph("points", "16")));
 }
 
 }  // namespace

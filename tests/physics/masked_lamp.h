@@ -1,9 +1,6 @@
 #pragma once
 
-#include <memory>
-
-#include "scene/geometry.h"
-#include "scene/shapes.h"
+#include "tests/support/scenes.h"
 
 namespace voxray::test {
 
@@ -18,7 +15,7 @@ inline const char* nameOf(CutBy cut) {
 
 /// A closed room of 2 m with a black lamp of 0.8 m by 0.4 m below its ceiling, which faces down; of the lamp
 /// the half at x < 0 is there. The camera sees the floor.
-inline std::shared_ptr<const SceneState> roomWithHalfALamp(CutBy cut) {
+inline State roomWithHalfALamp(CutBy cut) {
     SceneBuilder b("half a lamp");
     const uint32_t wall = b.lambert("wall", glm::vec3(0.5f));
     b.room(glm::vec3(-1), glm::vec3(1), {wall, wall, wall, wall, wall, wall});
@@ -53,7 +50,7 @@ inline std::shared_ptr<const SceneState> roomWithHalfALamp(CutBy cut) {
         scene.meshes.back().texCoords0 = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     }
     b.camera({0, -0.2f, 0.9f}, {0, -1, 0}, 70);
-    return std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
+    return evaluated(b);
 }
 
 }  // namespace voxray::test

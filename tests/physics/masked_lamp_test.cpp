@@ -17,7 +17,7 @@ namespace {
 /// Mean of an image that a graph writes, over that of the twin that lacks the half.
 void expectTwinsLight(const std::vector<std::string>& passes, const std::string& image, double tolerance) {
     const auto light = [&](CutBy cut) {
-        Chain chain(roomWithHalfALamp(cut), graphYaml(passes), 24, 24, 1);
+        Chain chain(roomWithHalfALamp(cut), graphYaml(passes), 24, 24);
         return mean(chain.image(image));
     };
     const double whole = light(CutBy::Nothing);
@@ -34,18 +34,16 @@ TEST(MaskedLamp, IsInjectedByWhatIsLeft) {
     for (const Injection& injection : kInjections) {
         if (!injection.takesEmission) continue;
         const bool fromLights = injection.pass.starts_with("inject_light_rays");
-        expectTwinsLight(
-            {"gbuffer", "voxelize, resolution: 16", "place_surfels, points_per_voxel: 8", "link_surfels",
-             "trace_gather_rays, rays_per_block: 64",
-             injection.withBounces(1) + (fromLights ? "" : ", light_samples: 16"), "gather_rays"},
-            "indirect", 0.03);
+        expectTwinsLight({"gbuffer", "voxelize, resolution: 16", "place_surfels, points_per_voxel: 8", "link_surfels",
+                          "trace_gather_rays, rays_per_block: 64",
+                          injection.withBounces(1) + (fromLights ? "" : ", light_samples: 16"), "gather_rays"},
+                         "indirect", 0.03);
     }
 }
 
 TEST(MaskedLamp, MakesVirtualLightsAndLightsSurfelsByWhatIsLeft) {
-    expectTwinsLight(
-        {"gbuffer", "sample_vpls, vpls_per_bounce: 8192, bounces: 1", "gather_vpls, visibility: exact"},
-        "indirect", 0.03);
+    expectTwinsLight({"gbuffer", "sample_vpls, vpls_per_bounce: 8192, bounces: 1", "gather_vpls, visibility: exact"},
+                     "indirect", 0.03);
     expectTwinsLight({"gbuffer", "voxelize, resolution: 16", "place_surfels, points_per_voxel: 8",
                       "link_surfels, rays_per_surfel: 32", "inject_radiosity, bounces: 1", "gather_surfels"},
                      "indirect", 0.03);

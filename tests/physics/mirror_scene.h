@@ -1,22 +1,13 @@
 #pragma once
 
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "passes/common/view/gbuffer.h"
-#include "scene/shapes.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {
-
-using State = std::shared_ptr<const SceneState>;
-
-/// Ends a scene.
-inline State evaluated(SceneBuilder& b) {
-    return std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
-}
 
 inline Material metal(const glm::vec3& color, float roughness = 0.0f) {
     Material material;
@@ -29,8 +20,8 @@ inline Material metal(const glm::vec3& color, float roughness = 0.0f) {
 inline std::string mirrorGraph(const std::string& mirror, const std::string& inject = "bounces: 0",
                                const std::string& before = "") {
     return graphYaml({"gbuffer, samples_per_pixel_edge: 1", "voxelize, resolution: 16",
-                      "inject_light_rays, rays_per_light: 4096, " + inject, before,
-                      "gather_mirror, " + mirror, "composite"});
+                      "inject_light_rays, rays_per_light: 4096, " + inject, before, "gather_mirror, " + mirror,
+                      "composite"});
 }
 
 inline double centerOf(const ImageF& image, size_t channel = 0) {
@@ -61,9 +52,8 @@ inline State wallRoom(const Material& material, float intensity = 1.0f) {
 
 /// Over the pixels whose surface lies at z < `depth`: mean difference from the reference over its mean, and
 /// the ratio of the means.
-inline std::pair<double, double> errorAt(Chain& chain, const std::string& port, const ImageF& expected,
-                                         float depth) {
-    const GBuffer& gbuffer = *chain.graph().resource<GBuffer>("gbuffer");
+inline std::pair<double, double> errorAt(Chain& chain, const std::string& port, const ImageF& expected, float depth) {
+    const GBuffer& gbuffer = chain.get<GBuffer>("gbuffer");
     const auto positions = chain.readImage<glm::vec4>(gbuffer.position);
     const ImageF image = chain.image(port);
     const uint32_t s = gbuffer.samples, width = uint32_t(image.width);

@@ -2,10 +2,7 @@
 // there has, and rays are traced again only where something has changed.
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "passes/clusters/voxel_clusters.h"
-#include "scene/moving_spheres.h"
 #include "tests/physics/cluster_graph.h"
 
 namespace voxray::test {
@@ -13,32 +10,13 @@ namespace {
 
 /// Cornell with a ball that swings between the walls, once in four seconds.
 std::shared_ptr<const Scene> swingingBall() {
-    auto scene = std::make_shared<Scene>(*makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")));
-    MovingSpheres spheres;
-    spheres.radius = 0.12f;
-    spheres.center = {0, 1.3f, 0.2f};
-    spheres.swing = {0.85f, 0, 0};
-    spheres.period = 4;
-    addMovingSpheres(*scene, spheres);
-    return scene;
-}
-
-std::unique_ptr<Chain> chainAt(const std::shared_ptr<const Scene>& scene, double second,
-                               const std::string& graph) {
-    return std::make_unique<Chain>(std::make_shared<SceneState>(evaluate(scene, second, Playback::Looping)),
-                                   graph, 16, 16, 1);
+    return cornellWithBall({.radius = 0.12f, .center = {0, 1.3f, 0.2f}, .swing = {0.85f, 0, 0}, .period = 4});
 }
 
 std::string graphOf(const std::string& see, const std::string& cluster = "target: 200") {
-    return graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels, sides: all",
-                      "cluster_voxels, " + cluster, "find_patches", "cluster_visibility, " + see,
-                      "inject_clusters, direct: shadow_rays, bounces: 1", "gather_clusters",
-                      "gather_irradiance"});
-}
-
-template <typename T>
-bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+    return graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels, sides: all", "cluster_voxels, " + cluster,
+                      "find_patches", "cluster_visibility, " + see, "inject_clusters, direct: shadow_rays, bounces: 1",
+                      "gather_clusters", "gather_irradiance"});
 }
 
 constexpr size_t kVisibility = 4;  ///< cluster_visibility, among the passes of the build.
@@ -52,26 +30,24 @@ void expectSame(Chain& a, Chain& b) {
     const auto expectSameBuffer = [&](const Buffer& ofA, const Buffer& ofB) {
         EXPECT_TRUE(sameBits(a.read<uint32_t>(ofA), b.read<uint32_t>(ofB))) << ofA.name();
     };
-    const auto *clustersA = a.graph().resource<VoxelClusters>("clusters"),
-               *clustersB = b.graph().resource<VoxelClusters>("clusters");
+    const auto &clustersA = a.get<VoxelClusters>("clusters"), &clustersB = b.get<VoxelClusters>("clusters");
     for (Buffer VoxelClusters::*buffer :
          {&VoxelClusters::clusters, &VoxelClusters::clusterOfVoxel, &VoxelClusters::coordinates})
-        expectSameBuffer(clustersA->*buffer, clustersB->*buffer);
-    const auto *patchesA = a.graph().resource<VoxelPatches>("patches"),
-               *patchesB = b.graph().resource<VoxelPatches>("patches");
+        expectSameBuffer(clustersA.*buffer, clustersB.*buffer);
+    const auto &patchesA = a.get<VoxelPatches>("patches"), &patchesB = b.get<VoxelPatches>("patches");
     for (Buffer VoxelPatches::*buffer :
-         {&VoxelPatches::firstGroup, &VoxelPatches::groups, &VoxelPatches::firstNeighbour,
-          &VoxelPatches::components, &VoxelPatches::memberGroups, &VoxelPatches::componentOfGroup})
-        expectSameBuffer(patchesA->*buffer, patchesB->*buffer);
-    expectSameBuffer(patchesA->materials, patchesB->materials);
-    expectSameBuffer(patchesA->neighbours, patchesB->neighbours);
-    const auto *listsA = a.graph().resource<ClusterVisibility>("cluster_visibility"),
-               *listsB = b.graph().resource<ClusterVisibility>("cluster_visibility");
-    ASSERT_EQ(listsA->chunks.size(), listsB->chunks.size());
-    EXPECT_EQ(listsA->layout.entryBits, listsB->layout.entryBits);
-    for (size_t i = 0; i < listsA->chunks.size(); ++i) {
-        expectSameBuffer(listsA->chunks[i].offsets, listsB->chunks[i].offsets);
-        expectSameBuffer(listsA->chunks[i].entries, listsB->chunks[i].entries);
+         {&VoxelPatches::firstGroup, &VoxelPatches::groups, &VoxelPatches::firstNeighbour, &VoxelPatches::components,
+          &VoxelPatches::memberGroups, &VoxelPatches::componentOfGroup})
+        expectSameBuffer(patchesA.*buffer, patchesB.*buffer);
+    expectSameBuffer(patchesA.materials, patchesB.materials);
+    expectSameBuffer(patchesA.neighbours, patchesB.neighbours);
+    const auto &listsA = a.get<ClusterVisibility>("cluster_visibility"),
+               &listsB = b.get<ClusterVisibility>("cluster_visibility");
+    ASSERT_EQ(listsA.chunks.size(), listsB.chunks.size());
+    EXPECT_EQ(listsA.layout.entryBits, listsB.layout.entryBits);
+    for (size_t i = 0; i < listsA.chunks.size(); ++i) {
+        expectSameBuffer(listsA.chunks[i].offsets, listsB.chunks[i].offsets);
+        expectSameBuffer(listsA.chunks[i].entries, listsB.chunks[i].entries);
     }
     const ImageF imageA = a.image("indirect"), imageB = b.image("indirect");
     EXPECT_TRUE(sameBits(imageA.data, imageB.data));

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "passes/hybrid_leaves/hybrid_leaves.h"
 #include "tests/gpu/radiance_samples.h"
@@ -16,43 +15,20 @@ namespace {
 /// Places of two spheres in Cornell, one a second. Through the room: in the open; a fraction of a voxel on;
 /// to the wall and over a box, less than a voxel from it; into boxes, floor and walls; back to where it
 /// began.
-const std::vector<std::array<glm::vec3, 2>> kWalk{{{{0.3f, 1.4f, 0.3f}, {0.5f, 1.5f, -0.5f}}},
-                                                  {{{0.32f, 1.41f, 0.3f}, {0.5f, 1.5f, -0.5f}}},
-                                                  {{{-0.86f, 0.7f, 0.3f}, {-0.3f, 1.34f, -0.25f}}},
-                                                  {{{0.333f, 0.5f, 0.7f}, {0.87f, 0.13f, -0.8f}}},
-                                                  {{{0.3f, 1.4f, 0.3f}, {0.5f, 1.5f, -0.5f}}}};
+const std::vector<glm::vec3> kWalks[] = {
+    {{0.3f, 1.4f, 0.3f}, {0.32f, 1.41f, 0.3f}, {-0.86f, 0.7f, 0.3f}, {0.333f, 0.5f, 0.7f}, {0.3f, 1.4f, 0.3f}},
+    {{0.5f, 1.5f, -0.5f}, {0.5f, 1.5f, -0.5f}, {-0.3f, 1.34f, -0.25f}, {0.87f, 0.13f, -0.8f}, {0.5f, 1.5f, -0.5f}}};
 
 /// Cornell with two spheres on their walk, one of which glows.
 std::shared_ptr<const Scene> roomWithSpheres() {
-    auto scene = std::make_shared<Scene>(*makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")));
-    for (size_t i = 0; i < 2; ++i) {
+    auto scene = builtinScene("cornell", "{lights: point}");
+    for (const glm::vec3& emission : {glm::vec3(0), glm::vec3(2, 1, 0.5f)}) {
         Material material = scene->materials.front();
-        if (i == 1) material.emission = glm::vec3(2, 1, 0.5f);
+        material.emission = emission;
         scene->materials.push_back(material);
-        scene->meshes.push_back(
-            sphereMesh("sphere", glm::vec3(0), 0.13f, 2, uint32_t(scene->materials.size() - 1), false, true));
-        AnimationChannel channel;
-        channel.node = uint32_t(scene->nodes.size());
-        for (size_t second = 0; second < kWalk.size(); ++second) {
-            channel.timesSeconds.push_back(float(second));
-            channel.values.push_back(glm::vec4(kWalk[second][i], 0));
-        }
-        scene->nodes.emplace_back();
-        scene->animation.push_back(channel);
-        scene->instances.push_back({uint32_t(scene->meshes.size() - 1), int32_t(channel.node)});
+        addMovingSphere(*scene, uint32_t(scene->materials.size() - 1), kWalks[emission.x > 0]);
     }
     return scene;
-}
-
-std::unique_ptr<Chain> chainAt(const std::shared_ptr<const Scene>& scene, double second,
-                               const std::string& graph) {
-    return std::make_unique<Chain>(std::make_shared<SceneState>(evaluate(scene, second, Playback::Looping)),
-                                   graph, 16, 16, 1);
-}
-
-template <typename T>
-bool sameBits(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 /// A graph that follows the walk, `stride` places at once, and at each of them one that was made there.
@@ -60,7 +36,7 @@ template <typename Compare>
 void followWalk(const std::string& graph, size_t stride, const Compare& compare) {
     const auto scene = roomWithSpheres();
     const auto moved = chainAt(scene, 0, graph);
-    for (size_t second = stride; second < kWalk.size(); second += stride) {
+    for (size_t second = stride; second < kWalks[0].size(); second += stride) {
         SCOPED_TRACE("second " + std::to_string(second));
         moved->goTo(double(second));
         compare(*moved, *chainAt(scene, double(second), graph));
@@ -70,19 +46,18 @@ void followWalk(const std::string& graph, size_t stride, const Compare& compare)
 TEST(MovingVoxels, HybridLeavesAreThoseThatAreRebuilt) {
     for (const std::string levels : {"finest", "footprint"}) {
         SCOPED_TRACE(levels);
-        const std::string graph =
-            graphYaml({"voxelize, resolution: 24",
-                       "build_hybrid_leaves, primitives: 6, grid: 4, grid_levels: " + levels});
+        const std::string graph = graphYaml(
+            {"voxelize, resolution: 24", "build_hybrid_leaves, primitives: 6, grid: 4, grid_levels: " + levels});
         followWalk(graph, 2, [](Chain& moved, Chain& made) {
-            const auto& a = *moved.graph().resource<HybridLeaves>("hybrid_leaves");
-            const auto& b = *made.graph().resource<HybridLeaves>("hybrid_leaves");
+            const auto& a = moved.get<HybridLeaves>("hybrid_leaves");
+            const auto& b = made.get<HybridLeaves>("hybrid_leaves");
             EXPECT_GT(a.gridCount, 0u);
             // Those near the spheres alone are built again.
             EXPECT_GT(reported(moved.updateSamples[1], "leaves built again"), 0);
             EXPECT_LT(reported(moved.updateSamples[1], "leaves built again"), a.shape.leaves / 2);
             for (Buffer HybridLeaves::*buffer :
-                 {&HybridLeaves::words, &HybridLeaves::primitives, &HybridLeaves::corners,
-                  &HybridLeaves::gridBits, &HybridLeaves::gridRanks, &HybridLeaves::cells})
+                 {&HybridLeaves::words, &HybridLeaves::primitives, &HybridLeaves::corners, &HybridLeaves::gridBits,
+                  &HybridLeaves::gridRanks, &HybridLeaves::cells})
                 EXPECT_TRUE(sameBits(moved.read<uint32_t>(a.*buffer), made.read<uint32_t>(b.*buffer)))
                     << (a.*buffer).name();
         });
@@ -114,13 +89,11 @@ TEST(MovingVoxels, CarryTheSameLightInEachLayout) {
     for (const TestedLayout& layout : kRadianceLayouts) cases.emplace_back(once, layout.filter);
     for (const auto& [light, layout] : cases) {
         SCOPED_TRACE(light + " " + layout);
-        followWalk(graphYaml({"voxelize, resolution: 24", light,
-                              "filter_voxels, emission: true, layout: " + layout}),
+        followWalk(graphYaml({"voxelize, resolution: 24", light, "filter_voxels, emission: true, layout: " + layout}),
                    2, [](Chain& moved, Chain& made) {
                        const auto samples = [](Chain& chain) {
-                           const auto& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
-                           return sampleRadiance(*chain.graph().resource<RadianceVoxels>("radiance"),
-                                                 randomQueries(voxels.grid, 5000));
+                           const SurfaceVoxels& voxels = chain.get<SurfaceVoxels>("voxels");
+                           return sampleRadiance(chain, randomQueries(voxels.grid, 5000));
                        };
                        EXPECT_TRUE(sameBits(samples(moved), samples(made)));
                    });
@@ -132,12 +105,11 @@ TEST(MovingVoxels, StayWhereNothingMoves) {
     const auto made = chainAt(roomWithSpheres(), 0, graphYaml({"voxelize, resolution: 40"}));
     Chain& chain = *made;
     const Voxels before(chain);
-    const std::vector<std::vector<Box>> lists{
-        {},
-        {{{5, 5, 5}, {6, 6, 6}}},
-        {{{0.45f, 1.5f, 0.6f}, {0.5f, 1.52f, 0.65f}}},
-        {{{-2, -1, -1}, {0.3f, 2, 0.4f}}, {{-0.2f, 0.3f, 0}, {0.9f, 1.9f, 0.9f}}},
-        {{{-2, -1, -2}, {2, 3, 2}}}};
+    const std::vector<std::vector<Box>> lists{{},
+                                              {{{5, 5, 5}, {6, 6, 6}}},
+                                              {{{0.45f, 1.5f, 0.6f}, {0.5f, 1.52f, 0.65f}}},
+                                              {{{-2, -1, -1}, {0.3f, 2, 0.4f}}, {{-0.2f, 0.3f, 0}, {0.9f, 1.9f, 0.9f}}},
+                                              {{{-2, -1, -2}, {2, 3, 2}}}};
     for (const std::vector<Box>& boxes : lists) {
         chain.update([&](SceneState&) { return boxes; });
         const Voxels after(chain);

@@ -23,8 +23,7 @@ inline glm::uvec2 packRadiance(const glm::dvec4& value) {
     int exponent = 0;
     if (largest > 0) {
         std::frexp(largest, &exponent);  // largest < 2^exponent
-        for (int c = 0; c < 3; ++c)
-            mantissa[c] = std::min(uint32_t(std::ldexp(value[c], 14 - exponent) + 0.5), 16383u);
+        for (int c = 0; c < 3; ++c) mantissa[c] = std::min(uint32_t(std::ldexp(value[c], 14 - exponent) + 0.5), 16383u);
         exponent += 126 - 13;
     }
     const uint32_t opacity = uint32_t(value.a * 16383 + 0.5);
@@ -69,11 +68,11 @@ class Content {
         const double voxel = grid.voxelSize;
         const double level = std::clamp(std::log2(footprint / voxel), 0.0, double(levels.size() - 1));
         const uint32_t finer = uint32_t(level);
-        glm::dvec4 met = trilinear(position, finer, direction) * (1 - (level - finer)) *
-                         (footprint / voxel / double(1u << finer));
+        glm::dvec4 met =
+            trilinear(position, finer, direction) * (1 - (level - finer)) * (footprint / voxel / double(1u << finer));
         if (level > finer)
-            met += trilinear(position, finer + 1, direction) * (level - finer) *
-                   (footprint / voxel / double(2u << finer));
+            met +=
+                trilinear(position, finer + 1, direction) * (level - finer) * (footprint / voxel / double(2u << finer));
         return met;
     }
 
@@ -113,16 +112,14 @@ class Content {
 
     glm::dvec4 trilinear(glm::dvec3 position, uint32_t level, glm::dvec3 direction) const {
         const double side = double(grid.voxelSize) * double(1u << level);
-        const glm::dvec3 inLevel =
-            glm::round(((position - glm::dvec3(grid.origin)) / side - 0.5) * 1024.0) / 1024.0;
+        const glm::dvec3 inLevel = glm::round(((position - glm::dvec3(grid.origin)) / side - 0.5) * 1024.0) / 1024.0;
         const glm::dvec3 first = glm::floor(inLevel), between = inLevel - first;
         const auto weight = [&](int octant) {
             const glm::dvec3 w = glm::mix(1.0 - between, between, glm::dvec3(offset(octant)));
             return w.x * w.y * w.z;
         };
         const auto value = [&](int octant, int face) {
-            return weight(octant) > 0 ? at(level, glm::ivec3(first) + offset(octant))[size_t(face)]
-                                      : glm::dvec4(0.0);
+            return weight(octant) > 0 ? at(level, glm::ivec3(first) + offset(octant))[size_t(face)] : glm::dvec4(0.0);
         };
         glm::dvec4 sum(0.0);
         for (int axis = 0; axis < (directions_ == 1 ? 1 : 3); ++axis)
@@ -132,8 +129,7 @@ class Content {
                 if (directions_ == 1 || !isFront(face, octant)) continue;
                 const glm::dvec4 front = value(octant, face);
                 sum += std::abs(direction[axis]) *
-                       (weight(octant) * front +
-                        weight(rear) * (compositePair(front, value(rear, face)) - front));
+                       (weight(octant) * front + weight(rear) * (compositePair(front, value(rear, face)) - front));
             }
         return sum;
     }

@@ -50,10 +50,10 @@ glm::ivec4 merged(PackedWrite write, uint32_t threads, uint32_t firstSamples, gl
 /// The words of a chain, read back.
 struct Volumes {
     explicit Volumes(Chain& chain) {
-        const auto* voxels = chain.graph().resource<PackedVoxels>("packed_voxels");
-        grid = voxels->grid;
-        normals = chain.read<uint32_t>(voxels->normals);
-        albedos = chain.read<uint32_t>(voxels->albedos);
+        const PackedVoxels& voxels = chain.get<PackedVoxels>("packed_voxels");
+        grid = voxels.grid;
+        normals = chain.read<uint32_t>(voxels.normals);
+        albedos = chain.read<uint32_t>(voxels.albedos);
         if (const auto* light = chain.graph().resource<PackedLight>("packed_light")) {
             irradiance = chain.read<uint32_t>(light->irradiance);
             white = light->white;
@@ -75,7 +75,7 @@ struct Volumes {
 };
 
 Volumes volumesOf(const std::shared_ptr<const Scene>& scene, const std::vector<std::string>& graph) {
-    Chain chain(std::make_shared<SceneState>(evaluate(scene, 0.0)), graphYaml(graph), 16, 16, 1);
+    Chain chain(evaluated(scene), graphYaml(graph), 16, 16);
     return Volumes(chain);
 }
 
@@ -113,7 +113,7 @@ TEST(PackedWrite, BlueDecidesWhatIsTheMaximum) {
 }
 
 TEST(VoxelizePacked, HoldsNormalsAndAlbedosOfWalls) {
-    const auto room = makeBuiltinScene("white_room", parseYaml("{albedo: 0.8}", "scene"));
+    const auto room = builtinScene("white_room", "{albedo: 0.8}");
     for (const std::string write : {"moving_average", "max", "none"}) {
         const Volumes v = volumesOf(room, {"voxelize_packed, resolution: 15, write: " + write});
         for (int axis = 0; axis < 3; ++axis)
@@ -161,8 +161,8 @@ TEST(VoxelizePacked, NormalsOfAThinWallCancelOut) {
         if (isClosed) b.quad("back", {-0.01f, -1, -1}, {0, 0, 2}, {0, 2, 0}, grey);
         b.spotLight({1.01f, 0, 0}, {-1, 0, 0}, 60, 80, glm::vec3(2.0f));
         b.camera({2, 0, 0}, {0, 0, 0}, 60);
-        const Volumes v = volumesOf(
-            b.finish(), {"voxelize_packed, resolution: 9", "inject_packed_light_rays, rays_per_light: 4096"});
+        const Volumes v =
+            volumesOf(b.finish(), {"voxelize_packed, resolution: 9", "inject_packed_light_rays, rays_per_light: 4096"});
         return v.light({0.01f, 0, 0});
     };
     EXPECT_NEAR(lit(false), 2, 0.05);
@@ -174,12 +174,10 @@ TEST(InjectPackedLightRays, LeavesTheClosedFormUnderASpot) {
     // the mean over a voxel
     constexpr double intensity = 2, unit = double(kPi) / 255;
     for (const std::string write : {"moving_average", "max", "none"}) {
-        const Volumes v = volumesOf(floorScene(intensity, false),
-                                    {"voxelize_packed, resolution: 20",
-                                     "inject_packed_light_rays, rays_per_light: 4096, write: " + write});
-        const auto irradiance = [&](double x, double z) {
-            return intensity / std::pow(1 + x * x + z * z, 1.5);
-        };
+        const Volumes v = volumesOf(
+            floorScene(intensity, false),
+            {"voxelize_packed, resolution: 20", "inject_packed_light_rays, rays_per_light: 4096, write: " + write});
+        const auto irradiance = [&](double x, double z) { return intensity / std::pow(1 + x * x + z * z, 1.5); };
         double stored = 0, means = 0, brightest = 0;
         for (int i = -3; i < 3; ++i)
             for (int k = -3; k < 3; ++k) {
@@ -205,8 +203,8 @@ TEST(InjectPackedLightRays, LeavesTheClosedFormUnderASpot) {
 
 TEST(InjectPackedLightRays, FalloffBeginsAgainAtEachSegment) {
     // Down 1 m, up 2 m: I albedo / (1² 2²), where the mirror's beam would have I albedo / (1 + 2)²
-    const Volumes v = volumesOf(floorScene(8, true), {"voxelize_packed, resolution: 21",
-                                                      "inject_packed_light_rays, bounces: 1, white: 2"});
+    const Volumes v = volumesOf(floorScene(8, true),
+                                {"voxelize_packed, resolution: 21", "inject_packed_light_rays, bounces: 1, white: 2"});
     EXPECT_NEAR(v.light({0, 1.999f, 0}), 8 * 0.5 / 4, 0.02);
     EXPECT_EQ(v.light({0, 0.001f, 0}), 2) << "clamped to white: 8 W/m² arrive";
 }
@@ -262,12 +260,11 @@ TEST(DirectPackedVoxels, EmptyVoxelsDarkenALitLayer) {
     // and one reaches it from the other side: (5 (1 - d) + d) / 7
     for (const float d : {0.0f, 0.25f, 0.5f})
         for (const bool seven : {false, true}) {
-            Chain chain(
-                "plane", "{albedo: 0.5}",
-                graphYaml({"gbuffer", "lit_layer, offset: " + std::to_string(d),
-                           std::string("direct_packed_voxels, lookup: ") + (seven ? "seven_tap" : "single"),
-                           "composite, ambient: 0.2"}),
-                16, 16, 1, [](Registry& registry) { registry.add<LitLayer>(); });
+            Chain chain("plane", "{albedo: 0.5}",
+                        graphYaml({"gbuffer", "lit_layer, offset: " + std::to_string(d),
+                                   std::string("direct_packed_voxels, lookup: ") + (seven ? "seven_tap" : "single"),
+                                   "composite, ambient: 0.2"}),
+                        16, 16, 1, [](Registry& registry) { registry.add<LitLayer>(); });
             const double expected = 0.5 * double(seven ? (5 * (1 - d) + d) / 7 : 1 - d);
             EXPECT_NEAR(mean(chain.image("direct")), expected, 1e-4) << d << seven;
             EXPECT_NEAR(mean(chain.image("final")), expected + 0.2 * 0.5, 1e-4) << d << seven;

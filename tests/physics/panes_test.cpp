@@ -31,18 +31,17 @@ std::shared_ptr<SceneState> glazedRoom(Shines shines, int panes, const glm::vec3
     glass.transmission = 1;
     glass.baseColor = glm::vec4(kGlass, 1);
     const uint32_t material = b.material(glass);
-    for (int i = 0; i < panes; ++i)
-        b.quad("pane", {-3, 1.1f + 0.1f * float(i), -3}, {0, 0, 6}, {6, 0, 0}, material);
+    for (int i = 0; i < panes; ++i) b.quad("pane", {-3, 1.1f + 0.1f * float(i), -3}, {0, 0, 6}, {6, 0, 0}, material);
     b.camera({0, 0.5f, 0.9f}, {0, -1, -0.3f}, 70);
     if (shines == Shines::Sky) b.scene().environment.radiance = light;
     return std::make_shared<SceneState>(evaluateWithPanes(b.finish(), 0.0));
 }
 
-void expectTwinsImage(Shines shines, int panes, const std::vector<std::string>& passes,
-                      const std::string& image, double tolerance) {
+void expectTwinsImage(Shines shines, int panes, const std::vector<std::string>& passes, const std::string& image,
+                      double tolerance) {
     const glm::vec3 color = panes == 1 ? kGlass : kGlass * kGlass;
-    Chain glazed(glazedRoom(shines, panes, glm::vec3(1)), graphYaml(passes), 24, 24, 1);
-    Chain twin(glazedRoom(shines, 0, color), graphYaml(passes), 24, 24, 1);
+    Chain glazed(glazedRoom(shines, panes, glm::vec3(1)), graphYaml(passes), 24, 24);
+    Chain twin(glazedRoom(shines, 0, color), graphYaml(passes), 24, 24);
     const ImageF a = glazed.image(image), b = twin.image(image);
     for (size_t channel = 0; channel < 3; ++channel) {
         double sumA = 0, sumB = 0;
@@ -80,22 +79,20 @@ TEST(Panes, ColorTheReference) {
 TEST(Panes, ColorShadowRays) {
     for (const int panes : {1, 2})
         for (const Shines shines : {Shines::Sun, Shines::Sky, Shines::Lamp})
-            expectTwinsImage(shines, panes, {"gbuffer", "direct_shadow_rays, light_samples: 16"}, "direct",
-                             0.001);
+            expectTwinsImage(shines, panes, {"gbuffer", "direct_shadow_rays, light_samples: 16"}, "direct", 0.001);
 }
 
 TEST(Panes, ColorInjectionsAndVirtualLights) {
     for (const Injection& injection : kInjections) {
         if (injection.pass.find("shadow_maps") != std::string::npos) continue;  // Shadow maps see no colour.
-        expectTwinsImage(
-            Shines::Sun, 2,
-            {"gbuffer", "voxelize, resolution: 16", "place_surfels, points_per_voxel: 4", "link_surfels",
-             "trace_gather_rays, rays_per_block: 16", injection.withBounces(1), "gather_rays"},
-            "indirect", 0.01);
+        expectTwinsImage(Shines::Sun, 2,
+                         {"gbuffer", "voxelize, resolution: 16", "place_surfels, points_per_voxel: 4", "link_surfels",
+                          "trace_gather_rays, rays_per_block: 16", injection.withBounces(1), "gather_rays"},
+                         "indirect", 0.01);
     }
     expectTwinsImage(Shines::Sun, 1,
-                     {"gbuffer", "sample_vpls, vpls_per_bounce: 2048", "gather_vpls, visibility: exact"},
-                     "indirect", 0.01);
+                     {"gbuffer", "sample_vpls, vpls_per_bounce: 2048", "gather_vpls, visibility: exact"}, "indirect",
+                     0.01);
 }
 
 }  // namespace

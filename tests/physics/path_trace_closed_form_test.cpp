@@ -1,12 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "base/error.h"
 #include "tests/physics/path_trace_scene.h"
 
 namespace voxray::test {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kPi = std::numbers::pi;
 constexpr double kTolerance = 1e-3;
 
 PathTraceOptions options(uint32_t spp, uint32_t bounces, uint32_t size = 16) {
@@ -138,8 +140,8 @@ TEST(PathTraceClosedForm, EnvironmentMapOnPlane) {
         HandScene s;
         s.ground(s.lambert(glm::vec3(0.5f)));
         s.scene->environment = {glm::vec3(2), map};
-        for (const auto strategy : {path_trace::Strategy::Mis, path_trace::Strategy::ReflectionOnly,
-                                    path_trace::Strategy::LightsOnly}) {
+        for (const auto strategy :
+             {path_trace::Strategy::Mis, path_trace::Strategy::ReflectionOnly, path_trace::Strategy::LightsOnly}) {
             const PathTraceResult r = s.render(downCamera(4, 1), options(256, 0), strategy);
             expectRelative(meanOf(r.total), constant ? 1.0 : 2.0 / 3.0);
         }
@@ -202,8 +204,8 @@ TEST(PathTraceClosedForm, EmissionHasOneSideUnlessDoubleSided) {
         Material lamp = s.scene->materials[s.lambert({}, glm::vec3(1))];
         lamp.doubleSided = doubleSided;
         s.quad({-1, 2, -1}, {0, 0, 2}, {2, 0, 0}, s.material(lamp));  // Faces up.
-        for (const auto strategy : {path_trace::Strategy::Mis, path_trace::Strategy::ReflectionOnly,
-                                    path_trace::Strategy::LightsOnly}) {
+        for (const auto strategy :
+             {path_trace::Strategy::Mis, path_trace::Strategy::ReflectionOnly, path_trace::Strategy::LightsOnly}) {
             const PathTraceResult r = s.render(downCamera(1, 0.01f), options(256, 0, 8), strategy);
             if (doubleSided)
                 expectRelative(meanOf(r.total), 0.5 * 4 * quadrant(0.5, 0.5), 1e-2);

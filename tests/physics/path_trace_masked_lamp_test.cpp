@@ -12,8 +12,7 @@ using path_trace::Strategy;
 double light(CutBy cut, Strategy strategy, uint32_t spp) {
     const auto state = roomWithHalfALamp(cut);
     const PathTraceOptions options{.width = 24, .height = 24, .spp = spp, .bounces = 2};
-    return meanOf(
-        path_trace::render(*state, EmbreeScene(*state), state->cameras[0], options, {}, strategy).total);
+    return meanOf(path_trace::render(*state, EmbreeScene(*state), state->cameras[0], options, {}, strategy).total);
 }
 
 TEST(PathTraceMaskedLamp, ShinesByWhatIsLeft) {

@@ -46,8 +46,7 @@ double largestDifference(const ImageF& image, const ImageF& right) {
     double largest = 0;
     for (size_t i = 0; i < image.data.size(); ++i) {
         const double difference = std::fabs(double(image.data[i]) - double(right.data[i]));
-        largest = std::max(largest,
-                           right.data[i] != 0 ? difference / std::fabs(double(right.data[i])) : difference);
+        largest = std::max(largest, right.data[i] != 0 ? difference / std::fabs(double(right.data[i])) : difference);
     }
     return largest;
 }

@@ -59,8 +59,8 @@ TEST(Reflection, WhiteMetalNeverGainsEnergy) {
     for (const float roughness : {0.2f, 0.5f, 1.0f})
         for (const double cosine : {0.05, 0.3, 0.7, 1.0}) {
             const glm::vec3 out = directionAt(cosine, 0.3);
-            const double albedo = integrate(
-                [&](const glm::vec3& in) { return metal(roughness).evaluate(out, in, kNormal).fCos.x; });
+            const double albedo =
+                integrate([&](const glm::vec3& in) { return metal(roughness).evaluate(out, in, kNormal).fCos.x; });
             EXPECT_LE(albedo, 1.002) << roughness << " " << cosine;
             EXPECT_GE(albedo, 0.25) << roughness << " " << cosine;
             // Seen from above, the roughest surface has a constant distribution: a closed form.
@@ -88,8 +88,7 @@ template <typename Visit>
 void drawMany(const Bsdf& b, const glm::vec3& out, uint32_t count, const Visit& visit) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> unit(0, 0x1.fffffep-1f);
-    for (uint32_t i = 0; i < count; ++i)
-        visit(b.sample(out, kNormal, {unit(random), unit(random)}, unit(random)));
+    for (uint32_t i = 0; i < count; ++i) visit(b.sample(out, kNormal, {unit(random), unit(random)}, unit(random)));
 }
 
 TEST(Reflection, SamplesFollowTheirDensity) {
@@ -120,8 +119,7 @@ TEST(Reflection, SamplesFollowTheirDensity) {
             });
             integrate([&](const glm::vec3& in) {
                 const double s = std::sqrt(std::max(double(glm::dot(in, kNormal)), 0.0));
-                expected[size_t(binOf(in))] +=
-                    b.evaluate(out, in, kNormal).pdf * 2 * s / 800 * 6.283185307179586 / 400;
+                expected[size_t(binOf(in))] += b.evaluate(out, in, kNormal).pdf * 2 * s / 800 * 6.283185307179586 / 400;
                 return 0.0;
             });
 
@@ -137,8 +135,7 @@ TEST(Reflection, SamplesFollowTheirDensity) {
                 ++degrees;
             }
             EXPECT_LT(chi2, degrees + 5 * std::sqrt(2.0 * degrees));
-            const double albedo =
-                integrate([&](const glm::vec3& in) { return b.evaluate(out, in, kNormal).fCos.y; });
+            const double albedo = integrate([&](const glm::vec3& in) { return b.evaluate(out, in, kNormal).fCos.y; });
             EXPECT_NEAR(mean, albedo, 0.01);
         }
 }

@@ -44,12 +44,11 @@ TEST(SobolSampler, EveryPairIsAZeroTwoSequence) {
 
 TEST(SobolSampler, PairsAndSeedsAreUncorrelated) {
     constexpr uint32_t kPoints = 4096;
-    const auto correlation = [&](uint32_t seedA, uint32_t pairA, int a, uint32_t seedB, uint32_t pairB,
-                                 int b) {
+    const auto correlation = [&](uint32_t seedA, uint32_t pairA, int a, uint32_t seedB, uint32_t pairB, int b) {
         double sum = 0;
         for (uint32_t k = 0; k < kPoints; ++k)
-            sum += (SobolSampler(seedA, k).get2D(pairA)[a] - 0.5) *
-                   (SobolSampler(seedB, k).get2D(pairB)[b] - 0.5) * 12 / kPoints;
+            sum += (SobolSampler(seedA, k).get2D(pairA)[a] - 0.5) * (SobolSampler(seedB, k).get2D(pairB)[b] - 0.5) *
+                   12 / kPoints;
         return std::fabs(sum);
     };
     for (uint32_t pair = 0; pair < 8; ++pair)
@@ -67,15 +66,13 @@ TEST(PathTraceSampling, StrategiesAgree) {
     const PathTraceResult mis = s.render(roomCamera(), options);
     for (const Strategy strategy : {Strategy::ReflectionOnly, Strategy::LightsOnly}) {
         const PathTraceResult other = s.render(roomCamera(), options, strategy);
-        for (const auto& [image, halves] :
-             {std::pair{&PathTraceResult::total, &PathTraceResult::totalHalves},
-              std::pair{&PathTraceResult::indirect, &PathTraceResult::indirectHalves}}) {
+        for (const auto& [image, halves] : {std::pair{&PathTraceResult::total, &PathTraceResult::totalHalves},
+                                            std::pair{&PathTraceResult::indirect, &PathTraceResult::indirectHalves}}) {
             const ImageF misVariance = varianceOf(mis.*halves), otherVariance = varianceOf(other.*halves);
             for (uint32_t c = 0; c < 3; ++c) {
                 const double a = meanOf(mis.*image, c), b = meanOf(other.*image, c);
                 const double count = double(mis.total.pixelCount());
-                const double deviation =
-                    std::sqrt((meanOf(misVariance, c) + meanOf(otherVariance, c)) / count);
+                const double deviation = std::sqrt((meanOf(misVariance, c) + meanOf(otherVariance, c)) / count);
                 EXPECT_NEAR(a, b, 4 * deviation);
                 EXPECT_LT(deviation, 0.03 * a);
                 EXPECT_LE(meanOf(misVariance, c), 1.2 * meanOf(otherVariance, c));
@@ -125,8 +122,7 @@ TEST(PathTraceSampling, VarianceIsTheSpreadBetweenSeeds) {
                 predicted += double(variance.data[i]) / kSeeds;
             }
         }
-        for (size_t i = 0; i < sum.size(); ++i)
-            spread += (squares[i] - sum[i] * sum[i] / kSeeds) / (kSeeds - 1);
+        for (size_t i = 0; i < sum.size(); ++i) spread += (squares[i] - sum[i] * sum[i] / kSeeds) / (kSeeds - 1);
         EXPECT_NEAR(predicted / spread, 1, 0.2) << spp;
     }
 }
@@ -164,8 +160,7 @@ TEST(PathTraceSampling, HardGeometryStaysFinite) {
     s.quad({0, 1, 0}, {1e-30f, 0, 0}, {0, 1e-30f, 0}, 3);
     s.quad({-0.5f, 0.5f, 0}, {1, 1e-7f, 0}, {1, 0, 0}, 1);
     for (VertexAttributes& a : s.state.geometry.attributes) a.normal = glm::vec3(0, 1, 0);
-    const PathTraceResult r =
-        s.render(roomCamera(), {.width = 32, .height = 32, .spp = 16, .bounces = 6, .seed = 1});
+    const PathTraceResult r = s.render(roomCamera(), {.width = 32, .height = 32, .spp = 16, .bounces = 6, .seed = 1});
     for (const ImageF* image : {&r.total, &r.indirect, &r.totalHalves[0], &r.indirectHalves[1]})
         for (const float x : image->data) ASSERT_TRUE(std::isfinite(x) && x >= 0);
 }
@@ -174,8 +169,7 @@ TEST(PathTraceSampling, EmptyScenesAreBlack) {
     HandScene s;
     s.lambert(glm::vec3(0.5f));
     s.state.geometry.boundsMin = s.state.geometry.boundsMax = glm::vec3(0.0f);
-    const PathTraceResult r =
-        s.render(Camera{}, {.width = 3, .height = 2, .spp = 1, .bounces = 3, .seed = 1});
+    const PathTraceResult r = s.render(Camera{}, {.width = 3, .height = 2, .spp = 1, .bounces = 3, .seed = 1});
     EXPECT_EQ(r.total.data, std::vector<float>(18, 0.0f));
     EXPECT_EQ(r.rays, 6u);
 }

@@ -3,12 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <numbers>
-#include <numeric>
 
 #include "passes/common/octree/brick_octree.h"
-#include "scene/moving_spheres.h"
 #include "scene/shapes.h"
 #include "tests/gpu/radiance_samples.h"
 #include "tests/support/brick_octree_count.h"
@@ -22,8 +21,7 @@ constexpr double kCode = 1.0 / 255;  // The step of 8 bits.
 /// Nodes of an octree as they stand on the device.
 struct Nodes {
     explicit Nodes(Chain& chain)
-        : octree(*chain.graph().resource<BrickOctree>("brick_octree")),
-          data(chain.read<gpu::BrickNode>(octree.nodes)) {
+        : octree(chain.get<BrickOctree>("brick_octree")), data(chain.read<gpu::BrickNode>(octree.nodes)) {
         data.resize(octree.nodeCount);
     }
     /// Calls `visit(node, its number)` for all nodes of a level.
@@ -63,20 +61,30 @@ std::string treeGraph(const std::string& resolution, const std::string& more = "
 }
 
 std::string lightGraph(const std::string& resolution) {
-    return graphYaml(
-        {"voxelize_octree, resolution: " + resolution, "render_rsm, rsm_resolution: 512", "light_octree"});
+    return graphYaml({"voxelize_octree, resolution: " + resolution, "render_rsm, rsm_resolution: 512", "light_octree"});
 }
 
-const RadianceVoxels& radiance(const Chain& chain) {
-    return *chain.graph().resource<RadianceVoxels>("radiance");
+TEST(BrickOctreeCount, OneVoxelHasTwentySixNeighborsOnEachLevel) {
+    // Voxel 3 of 0 to 7, its parent 1 of 0 to 3, 0 of 0 and 1: there all eight nodes are neighbours.
+    VoxelBits bits(glm::uvec3(8));
+    bits.mark(glm::ivec3(3));
+    const BrickOctreeCount count = countBrickOctree(bits), alone = countBrickOctree(bits, false);
+    const uint64_t expected[4][3] = {{1, 27, 8 * 27}, {1, 27, 8 * 8}, {1, 8, 8}, {1, 1, 1}};
+    ASSERT_EQ(count.levels.size(), 4);
+    for (size_t level = 0; level < 4; ++level) {
+        const auto& [opaque, bricks, nodes] = count.levels[level];
+        EXPECT_EQ((std::array{opaque, bricks, nodes}), std::to_array(expected[level])) << level;
+    }
+    EXPECT_EQ(count.bytes(), 44u * (8 * 27 + 8 * 8 + 8 + 1) + 108u * (27 + 27 + 8 + 1));
+    EXPECT_EQ(alone.bytes(), 44u * (3 * 8 + 1) + 108u * 4);
 }
 
 TEST(PublishedOctree, HasTheNodesThatAreCountedOnTheHost) {
     for (const std::string samples : {"1", "8"})
         for (const bool neighbors : {true, false}) {
-            Chain chain("spheres", "{}",
-                        treeGraph("24", ", samples: " + samples +
-                                            ", brick_neighbors: " + (neighbors ? "true" : "false")));
+            Chain chain(
+                "spheres", "{}",
+                treeGraph("24", ", samples: " + samples + ", brick_neighbors: " + (neighbors ? "true" : "false")));
             const Nodes nodes(chain);
             const VoxelBits voxels =
                 rasterizedVoxels(chain.state().geometry, nodes.octree.grid, uint32_t(std::stoi(samples)));
@@ -131,33 +139,16 @@ TEST(PublishedOctree, LinksNodesToChildrenAndNeighbours) {
     expectLinked(Nodes(chain));
 }
 
-/// A room with two spheres that move.
-std::shared_ptr<SceneState> movingRoom(double seconds) {
-    auto scene = std::make_shared<Scene>(*makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")));
-    MovingSpheres spheres;
-    spheres.count = 2;
-    spheres.radius = 0.2f;
-    spheres.spacing = 0.6f;
-    spheres.swing = {0.4f, 0.2f, 0};
-    addMovingSpheres(*scene, spheres);
-    return std::make_shared<SceneState>(evaluate(scene, seconds, Playback::Looping));
-}
-
-std::vector<glm::vec4> samplesOf(const Chain& chain) {
-    const gpu::RadianceGrid& g = radiance(chain).grid;
-    return sampleRadiance(radiance(chain),
-                          randomQueries({g.origin, g.voxelSize, g.resolution, 0, 1, 1024, {}}, 20000));
-}
-
 TEST(PublishedOctree, DynamicSectionFollowsWhatMoves) {
     // Whatever was there before: nodes and light are those of an octree that is built at that time, and what
     // stays keeps its place.
-    Chain moved(movingRoom(0), lightGraph("24"), 8, 8, 1);
-    const std::vector<gpu::BrickNode> before = Nodes(moved).data;
-    for (const double seconds : {0.7, 1.5, 0.4})
-        moved.update([&](SceneState& state) { return advance(state, seconds); });
-    Chain fresh(movingRoom(0.4), lightGraph("24"), 8, 8, 1);
-    const Nodes here(moved), there(fresh);
+    const auto scene = cornellWithBall({.count = 2, .radius = 0.2f, .spacing = 0.6f, .swing = {0.4f, 0.2f, 0}});
+    const auto moved = chainAt(scene, 0, lightGraph("24"));
+    const std::vector<gpu::BrickNode> before = Nodes(*moved).data;
+    const std::vector<glm::vec4> samplesBefore = samplesOf(*moved);
+    for (const double seconds : {0.7, 1.5, 0.4}) moved->goTo(seconds);
+    const auto fresh = chainAt(scene, 0.4, lightGraph("24"));
+    const Nodes here(*moved), there(*fresh);
     expectLinked(here);
     EXPECT_GT(here.octree.nodeCount, here.octree.staticNodes + 100);
     EXPECT_EQ(here.octree.staticNodes, there.octree.staticNodes);
@@ -171,31 +162,35 @@ TEST(PublishedOctree, DynamicSectionFollowsWhatMoves) {
             EXPECT_EQ(here.data[i].color, before[i].color);
         }
     }
-    EXPECT_EQ(samplesOf(moved), samplesOf(fresh));
-    EXPECT_NE(samplesOf(moved), samplesOf(Chain(movingRoom(0), lightGraph("24"), 8, 8, 1)));
+    EXPECT_EQ(samplesOf(*moved), samplesOf(*fresh));
+    EXPECT_NE(samplesOf(*moved), samplesBefore);
 }
 
 /// Two floors that face up, with albedos .25 and .5, and a lid that makes the cube.
-std::shared_ptr<const SceneState> floors(const std::function<void(SceneBuilder&)>& light) {
+State floors(const std::function<void(SceneBuilder&)>& light) {
     SceneBuilder b("floors");
     b.quad("floor", {0, 0.1f, 0}, {0, 0, 8}, {4, 0, 0}, b.lambert("dark", glm::vec3(0.25f)));
     b.quad("step", {4, 2.1f, 0}, {0, 0, 8}, {4, 0, 0}, b.lambert("bright", glm::vec3(0.5f)));
     b.box("lamp", {4, 8, 4}, glm::vec3(0.01f), 0, b.lambert("black", glm::vec3(0.0f)));
     light(b);
     b.camera({4, 7, 4}, {4, 0, 4.1f}, 60);
-    return std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
+    return evaluated(b);
 }
 
-/// Radiance over opacity in the centers of voxels that a floor lies in.
-std::vector<glm::vec4> onFloors(const Chain& chain) {
+/// Radiance and opacity in the centers of the voxels of some places.
+std::vector<glm::vec4> inVoxelsOf(const Chain& chain, const std::vector<glm::vec3>& places) {
     const gpu::RadianceGrid& g = radiance(chain).grid;
     std::vector<RadianceQuery> queries;
-    for (const glm::vec3 at : {glm::vec3(1.5f, 0.1f, 3), glm::vec3(2.5f, 0.1f, 6), glm::vec3(5.5f, 2.1f, 3),
-                               glm::vec3(6.5f, 2.1f, 6)}) {
-        const glm::vec3 voxel = glm::floor((at - g.origin) / g.voxelSize) + 0.5f;
+    for (const glm::vec3& place : places) {
+        const glm::vec3 voxel = glm::floor((place - g.origin) / g.voxelSize) + 0.5f;
         queries.push_back({g.origin + g.voxelSize * voxel, g.voxelSize, {1, 0, 0}});
     }
-    return sampleRadiance(radiance(chain), queries);
+    return sampleRadiance(chain, queries);
+}
+
+/// On the floors.
+std::vector<glm::vec4> onFloors(const Chain& chain) {
+    return inVoxelsOf(chain, {{1.5f, 0.1f, 3}, {2.5f, 0.1f, 6}, {5.5f, 2.1f, 3}, {6.5f, 2.1f, 6}});
 }
 
 TEST(PublishedOctree, LeavesSendWhatEquationTwoSays) {
@@ -204,7 +199,7 @@ TEST(PublishedOctree, LeavesSendWhatEquationTwoSays) {
         return onFloors(Chain(floors([&](SceneBuilder& b) {
                                   b.directionalLight({std::sqrt(0.75f), -0.5f, 0}, glm::vec3(irradiance));
                               }),
-                              lightGraph("16"), 8, 8, 1));
+                              lightGraph("16"), 8, 8));
     };
     const std::vector<glm::vec4> met = lit(10), twice = lit(20);
     for (size_t i = 0; i < met.size(); ++i) {
@@ -222,7 +217,7 @@ TEST(PublishedOctree, LightsAddUp) {
                                   if (first) b.directionalLight({0, -1, 0}, glm::vec3(2.0f));
                                   if (second) b.pointLight({4, 6, 4}, glm::vec3(100.0f));
                               }),
-                              lightGraph("16"), 8, 8, 1));
+                              lightGraph("16"), 8, 8));
     };
     const std::vector<glm::vec4> sun = lit(true, false), lamp = lit(false, true), both = lit(true, true);
     for (size_t i = 0; i < both.size(); ++i) {
@@ -241,47 +236,37 @@ TEST(PublishedOctree, NormalsThatCancelReflectNothing) {
     b.quad("lit", {0, 3.1f, 0}, {0, 0, 1}, {1, 0, 0}, white);
     b.directionalLight({0, -1, 0}, glm::vec3(1.0f));
     b.camera({4, 7, 4}, {4, 0, 4.1f}, 60);
-    const Chain chain(std::make_shared<SceneState>(evaluate(b.finish(), 0.0)), lightGraph("16"), 8, 8, 1);
-    const gpu::RadianceGrid& g = radiance(chain).grid;
-    const auto at = [&](glm::vec3 place) {
-        const glm::vec3 voxel = glm::floor((place - g.origin) / g.voxelSize) + 0.5f;
-        return RadianceQuery{g.origin + g.voxelSize * voxel, g.voxelSize, {1, 0, 0}};
-    };
-    const std::vector<glm::vec4> met =
-        sampleRadiance(radiance(chain), {at({5, 0.1f, 5}), at({0.5f, 3.1f, 0.5f})});
+    const Chain chain(evaluated(b), lightGraph("16"), 8, 8);
+    const std::vector<glm::vec4> met = inVoxelsOf(chain, {{5, 0.1f, 5}, {0.5f, 3.1f, 0.5f}});
     EXPECT_EQ(met[0], glm::vec4(0, 0, 0, 1));
     EXPECT_GT(met[1].g, 0.25f);
 }
 
 TEST(PublishedOctree, IsTheSameEachTime) {
-    const auto samples = [] {
-        return samplesOf(Chain("cornell", "{lights: point}", lightGraph("20"), 8, 8));
-    };
+    const auto samples = [] { return samplesOf(Chain("cornell", "{lights: point}", lightGraph("20"), 8, 8)); };
     EXPECT_EQ(samples(), samples());
 }
 
 TEST(PublishedOctree, LightsARoomAndNoMoreThanThat) {
     // Indirect light of one bounce over the path tracer's. Ours halves it, since the dark outer side of a
     // wall counts in a voxel's one value; here a leaf's one normal is that of the lit side.
-    const auto mean = [](const std::vector<std::string>& light) {
+    const auto indirect = [](const std::vector<std::string>& light) {
         std::vector<std::string> passes{"gbuffer"};
         passes.insert(passes.end(), light.begin(), light.end());
-        Chain chain("cornell", "{lights: point}", graphYaml(passes), 24, 24);
-        const ImageF image = chain.image("indirect");
-        return std::accumulate(image.data.begin(), image.data.end(), 0.0) / double(image.data.size());
+        return mean(Chain("cornell", "{lights: point}", graphYaml(passes), 24, 24).image("indirect"));
     };
-    const double reference = mean({"path_trace, spp: 256, bounces: 1"});
+    const double reference = indirect({"path_trace, spp: 256, bounces: 1"});
     const double published =
-        mean({"voxelize_octree, resolution: 32", "render_rsm", "light_octree", "gather_stepped_cones"});
-    const double ours = mean({"voxelize, resolution: 32, directions: 1", "inject_rsm, bounces: 0",
-                              "filter_voxels, layout: svo_bricks", "gather_stepped_cones"});
+        indirect({"voxelize_octree, resolution: 32", "render_rsm", "light_octree", "gather_stepped_cones"});
+    const double ours = indirect({"voxelize, resolution: 32, directions: 1", "inject_rsm, bounces: 0",
+                                  "filter_voxels, layout: svo_bricks", "gather_stepped_cones"});
     std::printf("over the path tracer: published %.3f, ours %.3f\n", published / reference, ours / reference);
     EXPECT_NEAR(published / reference, 1, 0.35);
     EXPECT_NEAR(ours / published, 0.5, 0.1);
 
     // Nearly all of it is light of the surface that a cone starts from: further off there is next to none.
-    const double farther = mean(
-        {"voxelize_octree, resolution: 32", "render_rsm", "light_octree", "gather_stepped_cones, start: 6"});
+    const double farther =
+        indirect({"voxelize_octree, resolution: 32", "render_rsm", "light_octree", "gather_stepped_cones, start: 6"});
     EXPECT_LT(farther, 0.1 * published);
 }
 

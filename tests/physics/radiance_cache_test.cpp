@@ -2,15 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
+#include "image/metrics.h"
 #include "tests/gpu/chain.h"
 #include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 /// @param cache, gather: more parameters, as ", bounces: 2".
 std::string cacheGraph(const std::string& cache, int raysPerTexel = 64, const std::string& gather = "") {
@@ -25,19 +23,16 @@ double reportedBy(const std::vector<PassSample>& samples, const std::string& nam
     throw Error("no pass reported anything");
 }
 
-/// The relative difference of two images' mean squares over the second one's: squared nRMSE.
+/// The square of the nRMSE.
 double squaredError(const ImageF& a, const ImageF& b) {
-    double sum = 0;
-    for (size_t i = 0; i < a.data.size(); ++i) sum += std::pow(double(a.data[i]) - b.data[i], 2);
-    return sum / double(b.data.size()) / std::pow(mean(b), 2);
+    return std::pow(nRmse(a, b), 2);
 }
 
 TEST(RadianceCache, KeepsTheEnergyOfAFurnace) {
     // Every surface emits 1 and reflects 0.6: three bounces of light add 0.36 + 0.216 + 0.1296 to what is
     // direct. The gather itself is one of them. A sphere, whose light samples all weigh alike: where the
     // walls of a box meet they have a tail so long that 65536 paths miss one percent of the mean.
-    Chain chain("furnace", "{albedo: 0.6, emission: 1}",
-                cacheGraph(", bounces: 2", 64, ", near_field_cells: 0.0625"));
+    Chain chain("furnace", "{albedo: 0.6, emission: 1}", cacheGraph(", bounces: 2", 64, ", near_field_cells: 0.0625"));
     const double ratio = mean(chain.image("indirect")) / (0.36 + 0.216 + 0.1296);
     std::printf("%.4f of the closed form\n", ratio);
     EXPECT_NEAR(ratio, 1.0, 0.005);
@@ -57,14 +52,10 @@ TEST(RadianceCache, HitsWithoutACellAreBlackWhereNoRayGoesOn) {
 TEST(RadianceCache, KeepsTheEnergyOfALitSphere) {
     // 1 W/sr in the center of a sphere of 1 m give 1 W/m² everywhere, and each bounce reflects 0.6 of that to
     // everywhere: four bounces in cells, one by the gather.
-    Scene sphere = *makeBuiltinScene("furnace", parseYaml("{albedo: 0.6, emission: 0}", "scene"));
-    sphere.lights.resize(1);
-    const auto state =
-        std::make_shared<SceneState>(evaluate(std::make_shared<Scene>(std::move(sphere)), 0.0));
+    const State state = litSphere();
     const double expected = 0.6 / kPi * (0.6 + 0.36 + 0.216 + 0.1296 + 0.07776);
     for (const std::string update : {"once", "each_frame"}) {
-        Chain chain(state, cacheGraph(", bounces: 4, update: " + update, 64, ", near_field_cells: 0.0625"),
-                    32, 32, 1);
+        Chain chain(state, cacheGraph(", bounces: 4, update: " + update, 64, ", near_field_cells: 0.0625"), 32, 32);
         const double ratio = mean(chain.image("indirect")) / expected;
         std::printf("%s: %.4f of the closed form\n", update.c_str(), ratio);
         EXPECT_NEAR(ratio, 1.0, 0.005) << update;
@@ -74,16 +65,14 @@ TEST(RadianceCache, KeepsTheEnergyOfALitSphere) {
 TEST(RadianceCache, ConvergesToTheReference) {
     // With eight times the paths and cells a quarter as large error falls. What is left is noise of 1024
     // gather rays a pixel and of the reference.
-    Chain reference("cornell", "{lights: point}", graphYaml({"path_trace, spp: 4096, bounces: 8"}));
-    const ImageF truth = reference.image("indirect");
+    const ImageF& truth = pathTraced("cornell", "{lights: point}", 4096, 8, 16, 16);
     double before = 1e9, ratio = 0;
-    for (const std::string cache :
-         {"rays_per_image: 4096, cell_size: 0.4", "rays_per_image: 32768, cell_size: 0.1",
-          "rays_per_image: 262144, cell_size: 0.025"}) {
+    for (const std::string cache : {"rays_per_image: 4096, cell_size: 0.4", "rays_per_image: 32768, cell_size: 0.1",
+                                    "rays_per_image: 262144, cell_size: 0.025"}) {
         Chain chain("cornell", "{lights: point}",
                     graphYaml({"gbuffer, samples_per_pixel_edge: 4", "trace_gather_rays, rays_per_block: 64",
-                               "update_radiance_cache, bounces: 7, " + cache,
-                               "gather_rays, source: radiance_cache"}));
+                               "update_radiance_cache, bounces: 7, " + cache, "gather_rays, source: radiance_cache"}),
+                    16, 16);
         const ImageF image = chain.image("indirect");
         const double error = squaredError(image, truth);
         ratio = mean(image) / mean(truth);
@@ -97,16 +86,14 @@ TEST(RadianceCache, ConvergesToTheReference) {
 
 TEST(RadianceCache, IsLinearInLight) {
     const auto run = [](const std::string& intensity) {
-        Chain chain("white_room", "{intensity: " + intensity + "}", cacheGraph(", bounces: 3"));
-        return mean(chain.image("indirect"));
+        return meanIndirect("white_room", "{intensity: " + intensity + "}", cacheGraph(", bounces: 3"));
     };
     EXPECT_NEAR(run("7") / run("1"), 7.0, 1e-3);
 }
 
 TEST(RadianceCache, IsDeterministic) {
     const auto run = [] {
-        Chain chain("cornell", "{lights: point}",
-                    cacheGraph(", bounces: 2, history_frames: 4, samples_to_end: 2"));
+        Chain chain("cornell", "{lights: point}", cacheGraph(", bounces: 2, history_frames: 4, samples_to_end: 2"));
         chain.runFrameFrom({0.1f, 0.9f, 2.5f});
         return chain.image("indirect").data;
     };
@@ -140,8 +127,7 @@ TEST(RadianceCache, CountsHashCollisionsAsLinearProbingHasThem) {
     for (const std::string capacity : {"32768", "65536"}) {
         const auto [occupancy, collisions] = run(capacity);
         const double expected = occupancy / (2 * (1 - occupancy));
-        std::printf("full to %.3f: %.4f collisions per cell, expected %.4f\n", occupancy, collisions,
-                    expected);
+        std::printf("full to %.3f: %.4f collisions per cell, expected %.4f\n", occupancy, collisions, expected);
         EXPECT_NEAR(collisions / expected, 1.0, 0.1) << capacity;
         EXPECT_EQ(run(capacity).second, collisions);
     }
@@ -162,20 +148,11 @@ TEST(RadianceCache, CellsGrowWithTheirDistanceFromTheCamera) {
 TEST(RadianceCache, HistoryLowersNoiseAndFollowsALight) {
     // Few paths a frame: cells that hold those of sixteen frames are less noisy. The light moves, and after
     // many frames more the image is that of a cache made where it is.
-    const auto scene = [] {
-        return std::make_shared<SceneState>(
-            evaluate(makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")), 0.0));
-    };
-    const auto move = [](SceneState& state) {
-        state.lights.at(0).position.x += 0.3f;
-        return std::vector<Box>();
-    };
-    const auto moved = scene();
-    move(*moved);
+    const auto state = builtin("cornell", "{lights: point}");
     const std::string paths = ", bounces: 7, rays_per_image: ", near = ", near_field_cells: 0.0625";
-    Chain truth(scene(), cacheGraph(paths + "1048576", 64, near), 32, 32, 1);
-    Chain one(scene(), cacheGraph(paths + "2048", 64, near), 32, 32, 1);
-    Chain many(scene(), cacheGraph(paths + "2048, history_frames: 16", 64, near), 32, 32, 1);
+    Chain truth(state, cacheGraph(paths + "1048576", 64, near), 32, 32);
+    Chain one(state, cacheGraph(paths + "2048", 64, near), 32, 32);
+    Chain many(state, cacheGraph(paths + "2048, history_frames: 16", 64, near), 32, 32);
     const auto still = [](SceneState&) { return std::vector<Box>(); };
     many.runFrames(24);
     many.update(still);
@@ -184,10 +161,11 @@ TEST(RadianceCache, HistoryLowersNoiseAndFollowsALight) {
     std::printf("squared nRMSE %.5f, with a history %.5f\n", single, history);
     EXPECT_LT(history, 0.7 * single);
 
-    many.update(move);
+    many.update(moveLight);
     many.runFrames(48);
     many.update(still);
-    Chain truthMoved(moved, cacheGraph(paths + "1048576", 64, near), 32, 32, 1);
+    moveLight(*state);
+    Chain truthMoved(state, cacheGraph(paths + "1048576", 64, near), 32, 32);
     EXPECT_LT(squaredError(many.image("indirect"), truthMoved.image("indirect")), 1.3 * history);
     EXPECT_GT(squaredError(many.image("indirect"), truth.image("indirect")), 2 * history);
 }
@@ -202,8 +180,7 @@ TEST(RadianceCache, PathsThatEndInTheCacheAreShorterAndBringTheSameLight) {
     };
     const auto [whole, wholeVertices] = run("");
     const auto [ended, endedVertices] = run(", samples_to_end: 4");
-    std::printf("%.2f and %.2f vertices per path, mean ratio %.4f\n", wholeVertices, endedVertices,
-                ended / whole);
+    std::printf("%.2f and %.2f vertices per path, mean ratio %.4f\n", wholeVertices, endedVertices, ended / whole);
     EXPECT_NEAR(ended / whole, 1.0, 0.02);
     EXPECT_LT(endedVertices, 0.6 * wholeVertices);
 }

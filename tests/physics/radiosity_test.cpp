@@ -15,23 +15,11 @@
 namespace voxray::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-// Indirect flux over all voxels and directions, green channel, W.
-double indirectFlux(Chain& chain) {
-    const std::vector<float> values =
-        readFlux(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->indirect);
-    double sum = 0;
-    for (size_t i = 1; i < values.size(); i += 3) sum += values[i];
-    return sum;
-}
-
 // A lit room of albedo 0.5, after three bounces.
 double fluxOfRoom(const std::string& intensity, int rays) {
     Chain chain("white_room", "{albedo: 0.5, intensity: " + intensity + "}",
                 graphYaml({"voxelize, resolution: 12", "place_surfels, points_per_voxel: 8",
-                           "link_surfels, rays_per_surfel: " + std::to_string(rays),
-                           "inject_radiosity, bounces: 3"}));
+                           "link_surfels, rays_per_surfel: " + std::to_string(rays), "inject_radiosity, bounces: 3"}));
     return indirectFlux(chain);
 }
 
@@ -55,9 +43,8 @@ TEST(Radiosity, LinksHoldWhatRaysSee) {
     constexpr uint32_t kRays = 8;
     Chain chain("white_room", "{albedo: 0.5}",
                 graphYaml({"voxelize, resolution: 12", "place_surfels, points_per_voxel: 8",
-                           "link_surfels, rays_per_surfel: " + std::to_string(kRays),
-                           "inject_radiosity, bounces: 1"}));
-    const SurfelLinks& links = *chain.graph().resource<SurfelLinks>("links");
+                           "link_surfels, rays_per_surfel: " + std::to_string(kRays), "inject_radiosity, bounces: 1"}));
+    const SurfelLinks& links = chain.get<SurfelLinks>("links");
     const std::vector<uint32_t> numbers = chain.read<uint32_t>(links.links);
     ASSERT_EQ(numbers.size(), size_t(links.surfelCount) * kRays);
     uint32_t inside = 0;
@@ -75,16 +62,14 @@ TEST(Radiosity, LinksHoldWhatRaysSee) {
 }
 
 TEST(Radiosity, NeighboursAreTheSurfelsWithinAVoxel) {
-    Chain chain(
-        "clutter", "{}",
-        graphYaml({"voxelize, resolution: 12", "place_surfels, sides: all",
-                   "link_surfels, rays_per_surfel: 1", "inject_radiosity, bounces: 1", "smooth_surfels"}));
-    const SurfelNeighbours& neighbours = *chain.graph().resource<SurfelNeighbours>("neighbours");
+    Chain chain("clutter", "{}",
+                graphYaml({"voxelize, resolution: 12", "place_surfels, sides: all", "link_surfels, rays_per_surfel: 1",
+                           "inject_radiosity, bounces: 1", "smooth_surfels"}));
+    const SurfelNeighbours& neighbours = chain.get<SurfelNeighbours>("neighbours");
     const auto begins = chain.read<uint32_t>(neighbours.begins);
     const auto pairs = chain.read<glm::uvec2>(neighbours.pairs);
-    const auto surfels =
-        chain.read<gpu::SortedSurfel>(chain.graph().resource<SurfelsByVoxel>("surfels_by_voxel")->sorted);
-    const float size = chain.graph().resource<SurfaceVoxels>("voxels")->grid.voxelSize;
+    const auto surfels = chain.read<gpu::SortedSurfel>(chain.get<SurfelsByVoxel>("surfels_by_voxel").sorted);
+    const float size = chain.get<SurfaceVoxels>("voxels").grid.voxelSize;
     ASSERT_EQ(begins.size(), surfels.size() + 1);
     ASSERT_EQ(begins.back(), pairs.size());
 
@@ -109,29 +94,27 @@ TEST(Radiosity, NeighboursAreTheSurfelsWithinAVoxel) {
 // nRMSE of indirect light in Cornell after three bounces; `gather`: the passes after inject_radiosity.
 double errorInCornell(int resolution, int points, int rays, const std::vector<std::string>& gather) {
     static const ImageF truth =
-        Chain("cornell", "{lights: point}", graphYaml({"path_trace, spp: 512, bounces: 3"}), 48, 48)
-            .image("indirect");
+        indirectLight("cornell", "{lights: point}", graphYaml({"path_trace, spp: 512, bounces: 3"}), 48, 48);
     std::vector<std::string> passes{
         "gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: " + std::to_string(resolution),
         "place_surfels, points_per_voxel: " + std::to_string(points),
         "link_surfels, rays_per_surfel: " + std::to_string(rays), "inject_radiosity, bounces: 3"};
     passes.insert(passes.end(), gather.begin(), gather.end());
-    return nRmse(Chain("cornell", "{lights: point}", graphYaml(passes), 48, 48).image("indirect"), truth);
+    return nRmse(indirectLight("cornell", "{lights: point}", graphYaml(passes), 48, 48), truth);
 }
 
 TEST(Radiosity, LookupsConvergeToTheReference) {
     for (const std::string gather : {"gather_irradiance", "gather_surfels"}) {
         const double few = errorInCornell(24, 1, 1, {gather}), coarse = errorInCornell(24, 8, 16, {gather});
         const double fine = errorInCornell(48, 8, 32, {gather});
-        std::printf("%s: few rays %.3f, more %.3f, and smaller voxels %.3f\n", gather.c_str(), few, coarse,
-                    fine);
+        std::printf("%s: few rays %.3f, more %.3f, and smaller voxels %.3f\n", gather.c_str(), few, coarse, fine);
         EXPECT_LT(coarse, 0.8 * few) << gather;
         EXPECT_LT(fine, 0.8 * coarse) << gather;
     }
 }
 
 // A wall of pleats, narrower than voxels, between a white wall on its left and a black one on its right.
-std::shared_ptr<const SceneState> pleatedWall() {
+State pleatedWall() {
     SceneBuilder scene("pleats");
     const uint32_t white = scene.lambert("white", glm::vec3(0.8f)), black = scene.lambert("black", {});
     scene.room({-1, -1, -1}, {1, 1, 1}, {white, black, black, black, SceneBuilder::none, black});
@@ -143,33 +126,38 @@ std::shared_ptr<const SceneState> pleatedWall() {
     }
     scene.pointLight({0, 0, 0.5f}, glm::vec3(2));
     scene.camera({0, 0, 0.9f}, {0, 0, -1}, 60);
-    return std::make_shared<SceneState>(evaluate(scene.finish(), 0.0));
+    return evaluated(scene);
+}
+
+// Indirect light of a scene by the path tracer, and by points on its surfaces.
+ImageF truthOf(const State& state, int bounces) {
+    return Chain(state, graphYaml({fmt::format("path_trace, spp: 512, bounces: {}", bounces)}), 48, 48)
+        .image("indirect");
+}
+ImageF linkedLight(const State& state, int bounces, const std::string& sides, const std::string& gather) {
+    return Chain(state,
+                 graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 16",
+                            "place_surfels, points_per_voxel: 16, sides: " + sides, "link_surfels, rays_per_surfel: 32",
+                            fmt::format("inject_radiosity, bounces: {}", bounces), gather}),
+                 48, 48)
+        .image("indirect");
 }
 
 TEST(Radiosity, SurfelsTellSurfacesInAVoxelApart) {
     // Pleats face +x or -x and all of them +z, so that a voxel's face +z mixes bright ones with dark ones.
     // The surfels are the same.
-    const std::shared_ptr<const SceneState> state = pleatedWall();
-    const ImageF truth =
-        Chain(state, graphYaml({"path_trace, spp: 512, bounces: 1"}), 48, 48, 1).image("indirect");
-    const auto error = [&](const std::string& gather) {
-        Chain chain(state,
-                    graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 16",
-                               "place_surfels, points_per_voxel: 16", "link_surfels, rays_per_surfel: 32",
-                               "inject_radiosity, bounces: 1", gather}),
-                    48, 48, 1);
-        return nRmse(chain.image("indirect"), truth);
-    };
-    const double voxels = error("gather_irradiance"), surfels = error("gather_surfels");
+    const State state = pleatedWall();
+    const ImageF truth = truthOf(state, 1);
+    const double voxels = nRmse(linkedLight(state, 1, "open", "gather_irradiance"), truth),
+                 surfels = nRmse(linkedLight(state, 1, "open", "gather_surfels"), truth);
     std::printf("voxels %.3f, surfels %.3f\n", voxels, surfels);
     EXPECT_LT(surfels, 0.6 * voxels);
 }
 
 // Shelves, nearer to each other than voxels are wide, open towards a lamp and a camera in front of them.
-std::shared_ptr<const SceneState> narrowShelves() {
+State narrowShelves() {
     SceneBuilder scene("shelves");
-    const uint32_t white = scene.lambert("white", glm::vec3(0.8f)),
-                   grey = scene.lambert("grey", glm::vec3(0.5f));
+    const uint32_t white = scene.lambert("white", glm::vec3(0.8f)), grey = scene.lambert("grey", glm::vec3(0.5f));
     scene.room({-1, -1, -1}, {1, 1, 1}, {grey, grey, grey, grey, grey, grey});
     constexpr int kShelves = 20;
     for (int i = 1; i < kShelves; ++i) {
@@ -178,25 +166,15 @@ std::shared_ptr<const SceneState> narrowShelves() {
     }
     scene.pointLight({0, 0, 0.8f}, glm::vec3(2));
     scene.camera({0, 0.4f, 0.9f}, {0, 0, -0.2f}, 60);
-    return std::make_shared<SceneState>(evaluate(scene.finish(), 0.0));
+    return evaluated(scene);
 }
 
 TEST(Radiosity, NarrowGapsHaveLightOfTheirOwn) {
     // With points on open sides alone the shelves have none, and links and lookups take those of other
     // surfaces.
-    const std::shared_ptr<const SceneState> state = narrowShelves();
-    const ImageF truth =
-        Chain(state, graphYaml({"path_trace, spp: 512, bounces: 3"}), 48, 48, 1).image("indirect");
-    const auto image = [&](const std::string& sides) {
-        return Chain(state,
-                     graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 16",
-                                "place_surfels, points_per_voxel: 16, sides: " + sides,
-                                "link_surfels, rays_per_surfel: 32", "inject_radiosity, bounces: 3",
-                                "gather_surfels"}),
-                     48, 48, 1)
-            .image("indirect");
-    };
-    const ImageF open = image("open"), all = image("all");
+    const State state = narrowShelves();
+    const ImageF truth = truthOf(state, 3), open = linkedLight(state, 3, "open", "gather_surfels"),
+                 all = linkedLight(state, 3, "all", "gather_surfels");
     std::printf("open sides: nRMSE %.3f, mean %.3f; all sides: %.3f, %.3f\n", nRmse(open, truth),
                 meanRatio(open, truth), nRmse(all, truth), meanRatio(all, truth));
     EXPECT_LT(nRmse(all, truth), 0.2 * nRmse(open, truth));
@@ -204,7 +182,7 @@ TEST(Radiosity, NarrowGapsHaveLightOfTheirOwn) {
 }
 
 // Two pipes, one in the other, with a gap between them that is narrower than a voxel.
-std::shared_ptr<const SceneState> doublePipe() {
+State doublePipe() {
     SceneBuilder scene("pipe");
     const uint32_t grey = scene.lambert("grey", glm::vec3(0.5f));
     scene.room({-1, -1, -1}, {1, 1, 1}, {grey, grey, grey, grey, grey, grey});
@@ -218,22 +196,15 @@ std::shared_ptr<const SceneState> doublePipe() {
             scene.quad("facet", on(radius, i), {0, 2, 0}, on(radius, i + 1) - on(radius, i), grey);
     scene.pointLight({0.8f, 0, 0.8f}, glm::vec3(2));
     scene.camera({0, 0, 0.9f}, {0, 0, 0}, 60);
-    return std::make_shared<SceneState>(evaluate(scene.finish(), 0.0));
+    return evaluated(scene);
 }
 
 TEST(Radiosity, TexelsOfABentSurfaceDontHideIt) {
     // The mean of a pixel's texels lies behind a convex surface. Told from there it would be covered, and
     // take the light of the gap.
-    const std::shared_ptr<const SceneState> state = doublePipe();
-    const ImageF truth =
-        Chain(state, graphYaml({"path_trace, spp: 512, bounces: 3"}), 48, 48, 1).image("indirect");
-    Chain chain(
-        state,
-        graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 16",
-                   "place_surfels, points_per_voxel: 16, sides: all", "link_surfels, rays_per_surfel: 32",
-                   "inject_radiosity, bounces: 3", "gather_surfels"}),
-        48, 48, 1);
-    EXPECT_NEAR(meanRatio(chain.image("indirect"), truth), 1.0, 0.02);
+    const State state = doublePipe();
+    const ImageF all = linkedLight(state, 3, "all", "gather_surfels");
+    EXPECT_NEAR(meanRatio(all, truthOf(state, 3)), 1.0, 0.02);
 }
 
 TEST(Radiosity, SmoothSurfelsAreLessNoisy) {
@@ -247,14 +218,13 @@ TEST(Radiosity, SmoothSurfelsAreLessNoisy) {
 
 // Mean irradiance of all slots, W/m², by one to many iterations of smooth_surfels; 0 of them: without it.
 double meanOfSurfels(int iterations) {
-    Chain chain(
-        "cornell", "{lights: point}",
-        graphYaml({"voxelize, resolution: 24", "place_surfels, points_per_voxel: 4",
-                   "link_surfels, rays_per_surfel: 8", "inject_radiosity, bounces: 3",
-                   iterations > 0 ? "smooth_surfels, iterations: " + std::to_string(iterations) : ""}));
+    Chain chain("cornell", "{lights: point}",
+                graphYaml({"voxelize, resolution: 24", "place_surfels, points_per_voxel: 4",
+                           "link_surfels, rays_per_surfel: 8", "inject_radiosity, bounces: 3",
+                           iterations > 0 ? "smooth_surfels, iterations: " + std::to_string(iterations) : ""}));
     double sum = 0;
     const std::vector<glm::uvec3> surfels =
-        chain.read<glm::uvec3>(chain.graph().resource<SurfelIrradiance>("surfel_irradiance")->lit);
+        chain.read<glm::uvec3>(chain.get<SurfelIrradiance>("surfel_irradiance").lit);
     for (const glm::uvec3 s : surfels)  // Green; packed as passes/surfels/radiosity.glsl has it.
         sum += std::ldexp(double(s.z >> 8 & 255u) / 255.0, int(s.z >> 24) - 128);
     return sum / double(surfels.size());
@@ -262,26 +232,23 @@ double meanOfSurfels(int iterations) {
 
 TEST(Radiosity, SmoothSurfelsKeepEnergy) {
     const double measured = meanOfSurfels(0);
-    for (const int iterations : {1, 2, 5})
-        EXPECT_NEAR(meanOfSurfels(iterations) / measured, 1.0, 0.01) << iterations;
+    for (const int iterations : {1, 2, 5}) EXPECT_NEAR(meanOfSurfels(iterations) / measured, 1.0, 0.01) << iterations;
 }
 
 // An image of furniture, some of it nearer to the wall than a voxel, looked up in surfels on all sides.
 ImageF furniture(const std::string& samples, uint32_t width, uint32_t height) {
-    return Chain("clutter", "{}",
-                 graphYaml({"gbuffer, samples_per_pixel_edge: " + samples, "voxelize, resolution: 24",
-                            "place_surfels, sides: all", "link_surfels, rays_per_surfel: 16",
-                            "inject_radiosity, bounces: 2", "gather_surfels"}),
-                 width, height)
-        .image("indirect");
+    return indirectLight("clutter", "{}",
+                         graphYaml({"gbuffer, samples_per_pixel_edge: " + samples, "voxelize, resolution: 24",
+                                    "place_surfels, sides: all", "link_surfels, rays_per_surfel: 16",
+                                    "inject_radiosity, bounces: 2", "gather_surfels"}),
+                         width, height);
 }
 
 TEST(Radiosity, TwoRunsAreIdentical) {
     const auto image = [] {
-        return Chain("cornell", "{lights: point}",
-                     graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels", "link_surfels",
-                                "inject_radiosity", "smooth_surfels", "gather_surfels"}))
-            .image("indirect");
+        return indirectLight("cornell", "{lights: point}",
+                             graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels", "link_surfels",
+                                        "inject_radiosity", "smooth_surfels", "gather_surfels"}));
     };
     EXPECT_EQ(image().data, image().data);
     EXPECT_EQ(furniture("2", 64, 36).data, furniture("2", 64, 36).data);

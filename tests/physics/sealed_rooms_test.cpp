@@ -5,18 +5,11 @@
 #include <glm/vector_relational.hpp>
 
 #include "passes/path_trace/path_tracer.h"
-#include "scene/load.h"
 #include "scene/uniform_random.h"
+#include "tests/support/scenes.h"
 
 namespace voxray::test {
 namespace {
-
-SceneState build(const std::string& name,
-                 const std::vector<std::pair<std::string, std::string>>& params = {}) {
-    Value map = Value::map();
-    for (const auto& [key, text] : params) map.set(key, Value::fromScalar(text));
-    return evaluate(makeBuiltinScene(name, map), 0);
-}
 
 /// Rays from points inside a room, in all directions.
 std::vector<Ray> raysFrom(const glm::vec3& min, const glm::vec3& max, size_t count) {
@@ -43,8 +36,7 @@ std::vector<glm::vec3> endsOf(const SceneState& state, const std::vector<Ray>& r
 
 bool isWithin(const glm::vec3& point, const glm::vec3& min, const glm::vec3& max) {
     constexpr float kRounding = 1e-5f;
-    return glm::all(glm::greaterThan(point, min - kRounding)) &&
-           glm::all(glm::lessThan(point, max + kRounding));
+    return glm::all(glm::greaterThan(point, min - kRounding)) && glm::all(glm::lessThan(point, max + kRounding));
 }
 
 ImageF render(const SceneState& state) {
@@ -58,19 +50,19 @@ float brightest(const ImageF& image) {
 
 TEST(SealedRooms, NoRayLeavesTheShell) {
     constexpr glm::vec3 min(-2, 0, -2), max(2, 2.5f, 2);
-    for (const char* thickness : {"0.001", "0.1"}) {
+    for (const std::string thickness : {"0.001", "0.1"}) {
         const std::vector<Ray> rays = raysFrom(min, max, 1000000);
         size_t outside = 0;
-        for (const glm::vec3& end : endsOf(build("shell_room", {{"wall_thickness", thickness}}), rays))
+        for (const glm::vec3& end : endsOf(*builtin("shell_room", "{wall_thickness: " + thickness + "}"), rays))
             outside += !isWithin(end, min, max);
         EXPECT_EQ(outside, 0u) << thickness;
     }
 }
 
 TEST(SealedRooms, TheShellIsBlackInTheSunAndLitFromInside) {
-    const SceneState sun = build("shell_room");
+    const SceneState sun = *builtin("shell_room");
     EXPECT_EQ(brightest(render(sun)), 0.0f);
-    EXPECT_GT(brightest(render(build("shell_room", {{"light", "inside"}}))), 0.1f);
+    EXPECT_GT(brightest(render(*builtin("shell_room", "{light: inside}"))), 0.1f);
     // The sun is there: it shines on the floor outside, below the roof and up to the wall.
     const Ray ray{{0.2f, 0.001f, 2.11f}, 0, -sun.lights.at(0).direction, 1000};
     EXPECT_FALSE(EmbreeScene(sun).occluded(ray));
@@ -79,8 +71,8 @@ TEST(SealedRooms, TheShellIsBlackInTheSunAndLitFromInside) {
 TEST(SealedRooms, LightEntersTheWindowRoomByItsWindowAlone) {
     constexpr glm::vec3 min(-2.5f, 0, -2), max(2.5f, 2.7f, 2);
     const std::vector<Ray> rays = raysFrom(min, max, 1000000);
-    const auto leaving = [&](const std::vector<std::pair<std::string, std::string>>& params) {
-        const std::vector<glm::vec3> ends = endsOf(build("window_room", params), rays);
+    const auto leaving = [&](const std::string& parameters) {
+        const std::vector<glm::vec3> ends = endsOf(*builtin("window_room", parameters), rays);
         size_t outside = 0, leaks = 0;
         for (size_t i = 0; i < rays.size(); ++i) {
             if (isWithin(ends[i], min, max)) continue;
@@ -93,12 +85,12 @@ TEST(SealedRooms, LightEntersTheWindowRoomByItsWindowAlone) {
         EXPECT_EQ(leaks, 0u);
         return outside;
     };
-    const size_t open = leaving({});
+    const size_t open = leaving("{}");
     EXPECT_GT(open, rays.size() / 100);
-    const size_t blind = leaving({{"slats", "26"}});
+    const size_t blind = leaving("{slats: 26}");
     EXPECT_LT(blind, open);
     EXPECT_GT(blind, open / 10);
-    EXPECT_LT(leaving({{"slats", "26"}, {"slat_tilt_deg", "90"}}), open / 20);
+    EXPECT_LT(leaving("{slats: 26, slat_tilt_deg: 90}"), open / 20);
 }
 
 }  // namespace

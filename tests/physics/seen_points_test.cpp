@@ -13,16 +13,15 @@ namespace voxray::test {
 namespace {
 
 std::string seenGraph(const std::string& update, const std::string& resolution) {
-    return graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: " + resolution,
-                      "place_surfels", "cluster_voxels, target: 1000", "find_patches",
-                      "cluster_visibility, rays: 16", "inject_clusters, direct: shadow_rays",
-                      "gather_clusters, filter_passes: 0, update: " + update, "gather_irradiance"});
+    return graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: " + resolution, "place_surfels",
+                      "cluster_voxels, target: 1000", "find_patches", "cluster_visibility, rays: 16",
+                      "inject_clusters, direct: shadow_rays", "gather_clusters, filter_passes: 0, update: " + update,
+                      "gather_irradiance"});
 }
 
 /// By voxel: whether light was gathered for it.
 std::vector<bool> gathered(Chain& chain) {
-    const std::vector<float> areas =
-        readAreas(chain, chain.graph().resource<VoxelIrradiance>("irradiance")->area);
+    const std::vector<float> areas = readAreas(chain, irradiance(chain).area);
     std::vector<bool> isGathered(areas.size() / 6);
     for (size_t i = 0; i < areas.size(); ++i)
         if (areas[i] > 0) isGathered[i / 6] = true;
@@ -39,38 +38,33 @@ TEST(SeenPoints, LeaveOutWhatIsBehindAWallAndBehindTheCamera) {
     b.directionalLight({0, -1, 0}, glm::vec3(1));
     const glm::vec3 eye(-3, 1, 0);
     b.camera(eye, {0, 1, 0}, 60);
-    Chain chain(std::make_shared<SceneState>(evaluate(b.finish(), 0.0)), seenGraph("seen_points", "32"), 24,
-                24, 1);
+    Chain chain(evaluated(b), seenGraph("seen_points", "32"), 24, 24);
     const std::vector<bool> isGathered = gathered(chain);
-    const auto coordinates =
-        chain.read<glm::uvec3>(chain.graph().resource<VoxelClusters>("clusters")->coordinates);
-    const gpu::VoxelGrid grid = chain.graph().resource<SurfaceVoxels>("voxels")->grid;
+    const auto coordinates = chain.read<glm::uvec3>(chain.get<VoxelClusters>("clusters").coordinates);
+    const gpu::VoxelGrid grid = chain.get<SurfaceVoxels>("voxels").grid;
     const float voxel = grid.voxelSize, tangent = std::tan(glm::radians(30.0f));
     uint32_t before = 0, behindWall = 0, behindCamera = 0, beyondEdge = 0;
     for (size_t i = 0; i < isGathered.size(); ++i) {
-        const glm::vec3 center = grid.origin + voxel * (glm::vec3(coordinates[i]) + 0.5f),
-                        fromEye = center - eye;
+        const glm::vec3 center = grid.origin + voxel * (glm::vec3(coordinates[i]) + 0.5f), fromEye = center - eye;
         const float reach = 2 * voxel;
         const float aside = std::max(std::abs(fromEye.y), std::abs(fromEye.z));
         if (center.x > 0.3f + 1.5f * voxel) {
-            EXPECT_FALSE(isGathered[i])
-                << "behind the wall at " << center.x << " " << center.y << " " << center.z;
+            EXPECT_FALSE(isGathered[i]) << "behind the wall at " << center.x << " " << center.y << " " << center.z;
             ++behindWall;
         } else if (fromEye.x < -reach) {
             EXPECT_FALSE(isGathered[i]) << "behind the camera at " << center.x << " " << center.z;
             ++behindCamera;
         } else if (aside - reach > tangent * (fromEye.x + reach)) {
-            EXPECT_FALSE(isGathered[i])
-                << "beyond the image's edge at " << center.x << " " << center.y << " " << center.z;
+            EXPECT_FALSE(isGathered[i]) << "beyond the image's edge at " << center.x << " " << center.y << " "
+                                        << center.z;
             ++beyondEdge;
         } else if (aside < tangent * fromEye.x) {
-            EXPECT_TRUE(isGathered[i])
-                << "before the wall at " << center.x << " " << center.y << " " << center.z;
+            EXPECT_TRUE(isGathered[i]) << "before the wall at " << center.x << " " << center.y << " " << center.z;
             ++before;
         }
     }
-    std::printf("%u before, %u behind the wall, %u behind the camera, %u beyond the image's edge\n", before,
-                behindWall, behindCamera, beyondEdge);
+    std::printf("%u before, %u behind the wall, %u behind the camera, %u beyond the image's edge\n", before, behindWall,
+                behindCamera, beyondEdge);
     EXPECT_GT(before, 100u);
     EXPECT_GT(behindWall, 300u);
     EXPECT_GT(behindCamera, 100u);
@@ -88,10 +82,7 @@ TEST(SeenPoints, KeepWhatWasSeen) {
     EXPECT_LT(found(), first);
     chain.runFrameFrom(from);
     EXPECT_EQ(found(), 0);
-    chain.update([](SceneState& state) {
-        state.lights[0].position += glm::vec3(0.3f, -0.4f, 0);
-        return std::vector<Box>();
-    });
+    chain.update(moveLight);
     EXPECT_EQ(found(), first);
 }
 
@@ -103,30 +94,27 @@ struct LeftOut {
     double nrmse;                       ///< Of the image against that by lookups.
 };
 
-LeftOut leftOut(const std::shared_ptr<const SceneState>& state, uint32_t width, uint32_t height) {
-    Chain lookup(state, seenGraph("seen", "64"), width, height, 1);
-    Chain points(state, seenGraph("seen_points", "64"), width, height, 1);
+LeftOut leftOut(const State& state, uint32_t width, uint32_t height) {
+    Chain lookup(state, seenGraph("seen", "64"), width, height);
+    Chain points(state, seenGraph("seen_points", "64"), width, height);
     const std::vector<bool> byLookup = gathered(lookup), byPoints = gathered(points);
     const auto count = [](const std::vector<bool>& flags) { return double(std::ranges::count(flags, true)); };
     LeftOut r{double(byLookup.size()), count(byLookup), count(byPoints), 0, 0, 0, 0};
 
     // The eight voxels round each texel
     const Voxels voxels(lookup);
-    const auto coordinates =
-        lookup.read<glm::uvec3>(lookup.graph().resource<VoxelClusters>("clusters")->coordinates);
-    const auto positions = lookup.readImage<glm::vec4>(lookup.graph().resource<GBuffer>("gbuffer")->position);
+    const auto coordinates = lookup.read<glm::uvec3>(lookup.get<VoxelClusters>("clusters").coordinates);
+    const auto positions = lookup.readImage<glm::vec4>(lookup.get<GBuffer>("gbuffer").position);
     std::vector<bool> isRead(byLookup.size());
     for (const glm::vec4& p : positions) {
         if (p.w == 0) continue;
-        const glm::vec3 corner =
-            glm::floor((glm::vec3(p) - voxels.grid.origin) / voxels.grid.voxelSize - 0.5f);
+        const glm::vec3 corner = glm::floor((glm::vec3(p) - voxels.grid.origin) / voxels.grid.voxelSize - 0.5f);
         for (int i = 0; i < 8; ++i) {
             const glm::ivec3 v = glm::ivec3(corner) + glm::ivec3(i & 1, i >> 1 & 1, i >> 2);
             if (glm::any(glm::lessThan(v, glm::ivec3(0))) ||
                 glm::any(glm::greaterThanEqual(v, glm::ivec3(voxels.grid.resolution))) || !voxels.occupied(v))
                 continue;
-            const uint32_t below = voxels.occupancy[voxels.word(v)] & ((1u << (v.x % 32)) - 1u);
-            isRead[voxels.rank[voxels.word(v)] + uint32_t(std::popcount(below))] = true;
+            isRead[voxels.number(v)] = true;
         }
     }
     for (size_t i = 0; i < isRead.size(); ++i) {
@@ -153,8 +141,7 @@ LeftOut leftOut(const std::shared_ptr<const SceneState>& state, uint32_t width, 
 }
 
 TEST(SeenPoints, MissLittleOfCornell) {
-    const auto state = std::make_shared<SceneState>(
-        evaluate(makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")), 0.0));
+    const auto state = builtin("cornell", "{lights: point}");
     const LeftOut r = leftOut(state, 64, 64);
     EXPECT_LT(r.byPoints, r.voxels);
     EXPECT_LT(r.missed, 0.05 * r.read);
@@ -168,7 +155,7 @@ TEST(SeenPoints, MissLittleOfSponza) {
     b.camera({-9, 1.2f, -0.3f}, {0, 3, 0}, 60);
     b.directionalLight(glm::normalize(glm::vec3(-0.12f, -1, -0.08f)), glm::vec3(10));
     const auto view = evaluate(b.finish(), 0.0);
-    const auto state = std::make_shared<SceneState>(evaluate(loadGltf(file), 0.0));
+    const auto state = evaluated(loadGltf(file));
     state->cameras = view.cameras;
     state->lights = view.lights;
     const LeftOut r = leftOut(state, 96, 54);

@@ -11,13 +11,12 @@ namespace voxray::test {
 namespace {
 
 std::string allLights(const std::string& paths) {
-    return graphYaml(
-        {"gbuffer", "sample_vpls, vpls_per_bounce: " + paths, "gather_vpls, visibility: exact, block: 1"});
+    return graphYaml({"gbuffer", "sample_vpls, vpls_per_bounce: " + paths, "gather_vpls, visibility: exact, block: 1"});
 }
 
 std::string selectedLights(const std::string& candidates, const std::string& count) {
-    return graphYaml({"gbuffer", "sample_vpls, vpls_per_bounce: " + candidates,
-                      "select_vpls, count: " + count, "gather_vpls, visibility: exact, block: 1"});
+    return graphYaml({"gbuffer", "sample_vpls, vpls_per_bounce: " + candidates, "select_vpls, count: " + count,
+                      "gather_vpls, visibility: exact, block: 1"});
 }
 
 TEST(SelectVpls, ResamplingKeepsSumsOnAverage) {
@@ -36,7 +35,7 @@ TEST(SelectVpls, ResamplingKeepsSumsOnAverage) {
 TEST(SelectVpls, BringTheEnergyOfAll) {
     // The camera sees half of the walls
     Chain chain("white_room", "{}", selectedLights("4096", "2048"), 16, 16);
-    const Vpls& vpls = *chain.graph().resource<Vpls>("vpls");
+    const Vpls& vpls = chain.get<Vpls>("vpls");
     const auto points = chain.read<gpu::Vpl>(vpls.points);
     const auto list = chain.read<uint32_t>(vpls.activeIndices);
     EXPECT_LE(vpls.activeCount, 2048u);
@@ -53,8 +52,7 @@ TEST(SelectVpls, BringTheEnergyOfAll) {
 }
 
 TEST(SelectVpls, MayBeSelectedAgain) {
-    const double once =
-        mean(Chain("white_room", "{}", selectedLights("16384", "2048"), 16, 16).image("indirect"));
+    const double once = mean(Chain("white_room", "{}", selectedLights("16384", "2048"), 16, 16).image("indirect"));
     const std::string twice =
         graphYaml({"gbuffer", "sample_vpls, vpls_per_bounce: 16384", "select_vpls, id: first, count: 8192",
                    "select_vpls, count: 2048", "gather_vpls, visibility: exact, block: 1"});
@@ -75,8 +73,8 @@ TEST(SelectVpls, BringOverManySeedsWhatManyLightsBring) {
         return sums;
     };
     const std::string compensated = "gather_vpls, visibility: exact, compensation_rays: 2";
-    const std::vector<double> right = squares(
-        graphYaml({"gbuffer", "sample_vpls, vpls_per_bounce: 262144", compensated + ", block: 8"}), 99);
+    const std::vector<double> right =
+        squares(graphYaml({"gbuffer", "sample_vpls, vpls_per_bounce: 262144", compensated + ", block: 8"}), 99);
     std::vector<double> sums(right.size()), squared(right.size());
     for (int seed = 1; seed <= kSeeds; ++seed) {
         const std::vector<double> found =
@@ -93,8 +91,7 @@ TEST(SelectVpls, BringOverManySeedsWhatManyLightsBring) {
         chiSquared += (mean - right[i]) * (mean - right[i]) / ofMean;
         total += mean, totalRight += right[i];
     }
-    std::printf("chi squared %.1f of %zu squares, ratio %.4f\n", chiSquared, right.size(),
-                total / totalRight);
+    std::printf("chi squared %.1f of %zu squares, ratio %.4f\n", chiSquared, right.size(), total / totalRight);
     // Around 1.2 were squares independent; they see the same virtual lights, so that it varies more
     EXPECT_LT(chiSquared / double(right.size()), 3);
     EXPECT_NEAR(total / totalRight, 1, 0.01);
@@ -103,7 +100,7 @@ TEST(SelectVpls, BringOverManySeedsWhatManyLightsBring) {
 TEST(SelectVpls, AreThoseThatTheCameraSees) {
     // A room whose light comes in through a window, and as many virtual lights with and without a choice
     const auto image = [](const std::string& graph) {
-        return Chain("window_room", "{}", graph, 32, 32).image("indirect").data;
+        return Chain("window_room", "{}", graph, 16, 16).image("indirect").data;
     };
     const std::vector<float> right = image(allLights("65536"));
     const auto error = [&](const std::string& graph) {

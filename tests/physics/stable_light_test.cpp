@@ -19,16 +19,14 @@ Values reported(const Chain& chain) {
     return values;
 }
 
-std::string probeGraph(uint32_t resolution, const std::string& filter, uint32_t points = 1000,
-                       uint32_t samples = 4) {
+std::string probeGraph(uint32_t resolution, const std::string& filter, uint32_t points = 1000, uint32_t samples = 4) {
     return graphYaml({fmt::format("voxelize, resolution: {}", resolution), "inject_light_rays, bounces: 3",
                       "place_surfels, points_per_voxel: 1", "filter_voxels, " + filter,
                       fmt::format("probe_irradiance, max_points: {}, cone_sets: {}", points, samples)});
 }
 
 TEST(StableLight, ProbesMeasureTheIrradianceOfAFurnace) {
-    Chain chain("furnace", "{shape: box, albedo: 0.5, emission: 1}",
-                probeGraph(32, "layout: dense, emission: true"));
+    Chain chain("furnace", "{shape: box, albedo: 0.5, emission: 1}", probeGraph(32, "layout: dense, emission: true"));
     // Emission and three reflections of it, from all sides; every other point is outside, where it is dark.
     EXPECT_NEAR(reported(chain).at("mean irradiance") / (std::numbers::pi * 1.875), 0.5, 0.015);
     EXPECT_FALSE(reported(chain).contains("mean change")) << "there is no frame before the first";
@@ -42,8 +40,7 @@ TEST(StableLight, AnOctreeDoesNotChangeWithTheCamera) {
 }
 
 TEST(StableLight, AClipmapChangesOnlyWithTheCameraAndDoesNotJump) {
-    Chain chain("cornell", "{lights: point}",
-                probeGraph(64, "layout: clipmap, clipmap_resolution: 16", 400, 16));
+    Chain chain("cornell", "{lights: point}", probeGraph(64, "layout: clipmap, clipmap_resolution: 16", 400, 16));
     chain.runFrameFrom(chain.state().cameras.at(0).position);
     EXPECT_EQ(reported(chain).at("largest change"), 0);
 

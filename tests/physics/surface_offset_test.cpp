@@ -21,16 +21,16 @@ std::shared_ptr<SceneState> sheetOverGround(float groundHalf, float gap, float s
     if (strayAt > 0) builder.quad("stray", glm::vec3(strayAt), {1, 0, 0}, {0, 1, 0}, gray);
     builder.directionalLight({1, -0.25f, 0}, glm::vec3(1));
     builder.camera({0.5f, 1, 0}, {0.5f, 0, 0}, 40, {0, 0, -1});
-    return std::make_shared<SceneState>(evaluate(builder.finish(), 0));
+    return evaluated(builder);
 }
 
 double directMean(const std::shared_ptr<SceneState>& state, const std::string& gbuffer = "gbuffer") {
-    Chain chain(state, graphYaml({gbuffer + ", samples_per_pixel_edge: 4", "direct_shadow_rays"}), 32, 32, 1);
+    Chain chain(state, graphYaml({gbuffer + ", samples_per_pixel_edge: 4", "direct_shadow_rays"}), 32, 32);
     return mean(chain.image("direct"));
 }
 
 double referenceMean(const std::shared_ptr<SceneState>& state) {
-    Chain chain(state, graphYaml({"gbuffer", "path_trace, spp: 256, bounces: 0"}), 32, 32, 1);
+    Chain chain(state, graphYaml({"gbuffer", "path_trace, spp: 256, bounces: 0"}), 32, 32);
     return mean(chain.image("final"));
 }
 
@@ -47,8 +47,7 @@ TEST(SurfaceOffset, LevelGroundIsAsCertainHoweverFarItReaches) {
     // corners' floats are: the shadow's edge moves by that in the 0.73 m that the camera sees
     const double expected = directMean(sheetOverGround(2, 0.02f));
     for (const float half : {1e3f, 1e5f}) {
-        const double tolerance =
-            (2e-3 + 0.5 * std::numeric_limits<float>::epsilon() * half / 0.73) * expected;
+        const double tolerance = (2e-3 + 0.5 * std::numeric_limits<float>::epsilon() * half / 0.73) * expected;
         EXPECT_NEAR(directMean(sheetOverGround(half, 0.02f)), expected, tolerance) << half;
         EXPECT_NEAR(referenceMean(sheetOverGround(half, 0.02f)), expected, tolerance) << half;
     }
@@ -64,8 +63,8 @@ TEST(SurfaceOffset, RaysEndShortOfLightsThatLieNearTheOrigin) {
     builder.quad("patch", {-1e-3f, 0, 1e-3f}, {2e-3f, 0, 0}, {0, 0, -2e-3f}, glow);
     builder.quad("ceiling", {-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, gray);
     builder.camera({0, 0.5f, 0}, {0, 2, 0}, 60, {0, 0, -1});
-    const auto state = std::make_shared<SceneState>(evaluate(builder.finish(), 0));
-    Chain chain(state, graphYaml({"gbuffer", "direct_shadow_rays, light_samples: 16"}), 32, 32, 1);
+    const auto state = evaluated(builder);
+    Chain chain(state, graphYaml({"gbuffer", "direct_shadow_rays, light_samples: 16"}), 32, 32);
     // L A cos² / d², all of it seen
     const double expected = 0.5 / std::numbers::pi * 1e4 * 4e-6 / 4;
     EXPECT_NEAR(chain.image("direct").pixel(16, 16)[1], expected, 0.01 * expected);
@@ -74,8 +73,8 @@ TEST(SurfaceOffset, RaysEndShortOfLightsThatLieNearTheOrigin) {
 TEST(SurfaceOffset, PointsOnTheEdgesOfARoomAreInIt) {
     // Pixels of a square image whose centers lie on the edges between the walls
     for (const uint32_t size : {32u, 64u, 96u}) {
-        Chain chain("cornell", "{lights: point, boxes: false}", graphYaml({"gbuffer", "direct_shadow_rays"}),
-                    size, size, 1);
+        Chain chain("cornell", "{lights: point, boxes: false}", graphYaml({"gbuffer", "direct_shadow_rays"}), size,
+                    size, 1);
         const ImageF image = chain.image("direct");
         const uint32_t border = size / 32;
         for (uint32_t y = border; y < size - border; ++y)
@@ -95,8 +94,8 @@ TEST(SurfaceOffset, NoSurfaceHidesItself) {
             builder.place(0);
             builder.pointLight(center, glm::vec3(scale * scale));
             builder.camera(center + scale * glm::vec3(0, 0, 0.1f), center, 90);
-            const auto state = std::make_shared<SceneState>(evaluate(builder.finish(), 0));
-            Chain chain(state, graphYaml({"gbuffer", "direct_shadow_rays"}), 64, 64, 1);
+            const auto state = evaluated(builder);
+            Chain chain(state, graphYaml({"gbuffer", "direct_shadow_rays"}), 64, 64);
             for (const float value : chain.image("direct").data)
                 ASSERT_GT(value, 0.5f * 0.8f / 3.1416f * 0.8f) << scale << ' ' << away;
         }

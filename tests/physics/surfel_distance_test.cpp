@@ -26,12 +26,12 @@ TEST(SurfelDistance, InASphereItIsTheRadius) {
     const uint32_t wall = scene.lambert("wall", glm::vec3(0.5f), glm::vec3(1));
     scene.place(scene.mesh(sphereMesh("sphere", glm::vec3(0.0f), 1, 6, wall, true, false)));
     scene.camera({0, 0, 0}, {0, 0, -1}, 60);
-    Chain chain(std::make_shared<SceneState>(evaluate(scene.finish(), 0.0)),
-                graphYaml({"voxelize, resolution: 32", "place_surfels, sides: all",
-                           "link_surfels, rays_per_surfel: 64", "inject_radiosity, bounces: 1"}),
-                32, 32, 1);
-    const SurfelsByVoxel& surfels = *chain.graph().resource<SurfelsByVoxel>("surfels_by_voxel");
-    const double voxelSize = chain.graph().resource<SurfaceVoxels>("voxels")->grid.voxelSize;
+    Chain chain(evaluated(scene),
+                graphYaml({"voxelize, resolution: 32", "place_surfels, sides: all", "link_surfels, rays_per_surfel: 64",
+                           "inject_radiosity, bounces: 1"}),
+                32, 32);
+    const SurfelsByVoxel& surfels = chain.get<SurfelsByVoxel>("surfels_by_voxel");
+    const double voxelSize = chain.get<SurfaceVoxels>("voxels").grid.voxelSize;
     const auto packed = chain.read<glm::uvec2>(surfels.packed);
     const auto sorted = chain.read<gpu::SortedSurfel>(surfels.sorted);
     ASSERT_EQ(packed.size(), sorted.size());
@@ -52,7 +52,7 @@ TEST(SurfelDistance, InASphereItIsTheRadius) {
 
 // A black room; on its back wall, which is grey, a white ledge of a fifth of a voxel of 1/8 m, in the light
 // of a lamp above it.
-std::shared_ptr<const SceneState> ledge() {
+State ledge() {
     SceneBuilder scene("ledge");
     const uint32_t black = scene.lambert("black", {}), grey = scene.lambert("grey", glm::vec3(0.5f)),
                    white = scene.lambert("white", glm::vec3(0.9f));
@@ -60,7 +60,7 @@ std::shared_ptr<const SceneState> ledge() {
     scene.box("ledge", {0, -0.33f, -0.9875f}, {2, 0.02f, 0.025f}, 0, white);
     scene.pointLight({0, 0.9f, -0.5f}, glm::vec3(2));
     scene.camera({0, 0, 0.9f}, {0, 0, -1}, 60);
-    return std::make_shared<SceneState>(evaluate(scene.finish(), 0.0));
+    return evaluated(scene);
 }
 
 // Green, summed over the pixels in which the wall is 0.06 to 0.4 m above the ledge.
@@ -72,17 +72,16 @@ double lightAbove(const ImageF& image) {
 }
 
 TEST(SurfelDistance, LightOfANarrowLedgeStaysNearIt) {
-    const std::shared_ptr<const SceneState> state = ledge();
-    const double truth = lightAbove(
-        Chain(state, graphYaml({"path_trace, spp: 512, bounces: 1"}), 64, 64, 1).image("indirect"));
-    const double looked =
-        lightAbove(Chain(state,
-                         graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 16",
-                                    "place_surfels, points_per_voxel: 32, sides: all",
-                                    "link_surfels, rays_per_surfel: 64", "inject_radiosity, bounces: 1",
-                                    "gather_surfels"}),
-                         64, 64, 1)
-                       .image("indirect"));
+    const State state = ledge();
+    const double truth =
+        lightAbove(Chain(state, graphYaml({"path_trace, spp: 512, bounces: 1"}), 64, 64).image("indirect"));
+    const double looked = lightAbove(
+        Chain(state,
+              graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 16",
+                         "place_surfels, points_per_voxel: 32, sides: all", "link_surfels, rays_per_surfel: 64",
+                         "inject_radiosity, bounces: 1", "gather_surfels"}),
+              64, 64)
+            .image("indirect"));
     std::printf("light above the ledge over the reference's: %.3f\n", looked / truth);
     EXPECT_NEAR(looked / truth, 1.0, 0.2);
 }

@@ -8,7 +8,6 @@
 
 #include "image/metrics.h"
 #include "passes/common/voxels/voxels.h"
-#include "scene/moving_spheres.h"
 #include "scene/shapes.h"
 #include "tests/gpu/radiance_samples.h"
 #include "tests/support/brick_octree_count.h"
@@ -19,15 +18,10 @@ namespace {
 
 constexpr double kCode = 1.0 / 255;  // The step of 8 bits.
 
-std::string filterGraph(const std::string& layout, const std::string& resolution,
-                        const std::string& more = "") {
+std::string filterGraph(const std::string& layout, const std::string& resolution, const std::string& more = "") {
     return graphYaml({"voxelize, directions: 1, resolution: " + resolution,
                       "inject_light_rays, rays_per_light: 65536, bounces: 2",
                       "filter_voxels, layout: " + layout + more});
-}
-
-const RadianceVoxels& radiance(const Chain& chain) {
-    return *chain.graph().resource<RadianceVoxels>("radiance");
 }
 
 /// What a level's samples are made of, in doubles: values half a voxel apart, on nodes' corners and between.
@@ -38,8 +32,7 @@ struct Lattice {
     explicit Lattice(glm::uvec3 size) : nodes(size), values(size_t(glm::compMul(2 * nodes + 1))) {}
     glm::ivec3 last() const { return 2 * nodes; }
     size_t index(glm::ivec3 at) const {
-        return (size_t(at.z) * size_t(2 * nodes.y + 1) + size_t(at.y)) * size_t(2 * nodes.x + 1) +
-               size_t(at.x);
+        return (size_t(at.z) * size_t(2 * nodes.y + 1) + size_t(at.y)) * size_t(2 * nodes.x + 1) + size_t(at.x);
     }
     /// Outside nothing.
     glm::dvec4 operator[](glm::ivec3 at) const {
@@ -65,8 +58,7 @@ Lattice leafLattice(const Lattice& centers) {
             const glm::ivec3 side = (glm::ivec3(octant, octant >> 1, octant >> 2) & 1) * 2 - 1;
             glm::ivec3 center;
             for (int k = 0; k < 3; ++k) center[k] = at[k] % 2 ? at[k] : at[k] + side[k];
-            if (glm::any(glm::lessThan(center, glm::ivec3(0))) ||
-                glm::any(glm::greaterThan(center, centers.last())))
+            if (glm::any(glm::lessThan(center, glm::ivec3(0))) || glm::any(glm::greaterThan(center, centers.last())))
                 continue;
             sum += centers[center];
             ++met;
@@ -141,12 +133,11 @@ TEST(SvoBricks, AreTheGaussianPyramidOfTheirVoxels) {
     centers.fill([&](glm::ivec3 at) {
         if (at.x % 2 && at.y % 2 && at.z % 2) {
             cells.push_back(at);
-            queries.push_back(
-                {grid.origin + 0.5f * grid.voxelSize * glm::vec3(at), grid.voxelSize, {1, 0, 0}});
+            queries.push_back({grid.origin + 0.5f * grid.voxelSize * glm::vec3(at), grid.voxelSize, {1, 0, 0}});
         }
         return glm::dvec4(0.0);
     });
-    const std::vector<glm::vec4> met = sampleRadiance(radiance(dense), queries);
+    const std::vector<glm::vec4> met = sampleRadiance(dense, queries);
     double brightest = 0;
     for (size_t i = 0; i < cells.size(); ++i) {
         centers.values[centers.index(cells[i])] = met[i];
@@ -158,18 +149,17 @@ TEST(SvoBricks, AreTheGaussianPyramidOfTheirVoxels) {
     for (uint32_t level = 0; level < grid.levels; ++level) {
         if (level > 0) lattice = coarser(lattice);
         const LevelPlaces p = randomPlaces(grid, level, 50000);
-        const std::vector<glm::vec4> found = sampleRadiance(radiance(bricks), p.queries);
+        const std::vector<glm::vec4> found = sampleRadiance(bricks, p.queries);
         double worst = 0, largest = 0, sum = 0;
         for (size_t i = 0; i < found.size(); ++i) {
             const glm::dvec4 expected = interpolated(lattice, p.places[i]);
-            const glm::dvec4 error =
-                glm::abs(expected - glm::dvec4(found[i])) / glm::dvec4(glm::dvec3(brightest), 1.0);
+            const glm::dvec4 error = glm::abs(expected - glm::dvec4(found[i])) / glm::dvec4(glm::dvec3(brightest), 1.0);
             worst = std::max(worst, glm::compMax(error));
             largest = std::max(largest, expected.a);
             sum += error.a;
         }
-        std::printf("level %u: opacity up to %.3f, off by at most %.2f codes, %.3f in the mean\n", level,
-                    largest, worst / kCode, sum / double(found.size()) / kCode);
+        std::printf("level %u: opacity up to %.3f, off by at most %.2f codes, %.3f in the mean\n", level, largest,
+                    worst / kCode, sum / double(found.size()) / kCode);
         EXPECT_LT(worst, (2.1 + 4 * level) * kCode) << level;
         EXPECT_GT(largest, 0.05) << level;
     }
@@ -183,24 +173,17 @@ TEST(SvoBricks, MixTheSidesOfALampEvenly) {
     for (const float height : {0.0f, 1.0f}) b.quad("floor", {-1, height, -1}, {0, 0, 2}, {2, 0, 0}, lamp);
     b.pointLight({0, 2, 0}, glm::vec3(1.0f));
     b.camera({0, 2, 0}, {0, 0, 0.1f}, 60);
-    const Chain chain(std::make_shared<SceneState>(evaluate(b.finish(), 0.0)),
-                      filterGraph("svo_bricks", "24", ", emission: true"), 8, 8, 1);
+    const Chain chain(evaluated(b), filterGraph("svo_bricks", "24", ", emission: true"), 8, 8);
     size_t tested = 0;
     for (uint32_t level = 0; level < radiance(chain).grid.levels; ++level) {
         const LevelPlaces p = randomPlaces(radiance(chain).grid, level, 5000);
-        for (const glm::vec4& met : sampleRadiance(radiance(chain), p.queries)) {
+        for (const glm::vec4& met : sampleRadiance(chain, p.queries)) {
             const double rounding = (2.1 + 4 * level) * kCode;
             ASSERT_NEAR(met.g, 1.5 * met.a, 2 * 1.5 * rounding) << level;
             tested += met.a > 0.25f;
         }
     }
     EXPECT_GT(tested, 2000);
-}
-
-std::vector<glm::vec4> samplesOf(const Chain& chain) {
-    const gpu::RadianceGrid& g = radiance(chain).grid;
-    return sampleRadiance(radiance(chain),
-                          randomQueries({g.origin, g.voxelSize, g.resolution, 0, 1, 1024, {}}, 20000));
 }
 
 TEST(SvoBricks, AreLinearInLightAndTheSameEachTime) {
@@ -220,37 +203,35 @@ TEST(SvoBricks, FollowALightThatChanges) {
     // Structure stays, values are new: as if it had been so from the start.
     const std::string graph = filterGraph("svo_bricks", "16");
     const auto state = [](float intensity) {
-        auto made = std::make_shared<SceneState>(
-            evaluate(makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")), 0.0));
+        auto made = builtin("cornell", "{lights: point}");
         made->lights.at(0).intensity *= intensity;
         made->lights.at(0).position.x += 0.1f * intensity;
         return made;
     };
-    Chain changed(state(1), graph, 16, 16, 1);
+    Chain changed(state(1), graph, 16, 16);
     changed.update([&](SceneState& scene) {
         scene.lights = state(3)->lights;
         return std::vector<Box>{};
     });
-    EXPECT_EQ(samplesOf(changed), samplesOf(Chain(state(3), graph, 16, 16, 1)));
+    EXPECT_EQ(samplesOf(changed), samplesOf(Chain(state(3), graph, 16, 16)));
 }
 
 TEST(SvoBricks, TakeWhatTheHostCounts) {
     for (const std::string scene : {"cornell", "thin_wall", "spheres"}) {
-        const Chain chain(scene, "{}",
-                          graphYaml({"voxelize, resolution: 48, directions: 1",
-                                     "inject_light_rays, rays_per_light: 1024, bounces: 0",
-                                     "filter_voxels, layout: svo_bricks"}));
-        const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
+        const Chain chain(
+            scene, "{}",
+            graphYaml({"voxelize, resolution: 48, directions: 1", "inject_light_rays, rays_per_light: 1024, bounces: 0",
+                       "filter_voxels, layout: svo_bricks"}));
+        const SurfaceVoxels& voxels = chain.get<SurfaceVoxels>("voxels");
         const BrickOctreeCount count = countBrickOctree(metVoxels(chain.state().geometry, voxels.grid));
-        EXPECT_NEAR(double(radiance(chain).storage[1].bytes()) / double(count.bricks() * kBrickBytes), 1.0,
-                    0.03)
+        EXPECT_NEAR(double(radiance(chain).storage[1].bytes()) / double(count.bricks() * kBrickBytes), 1.0, 0.03)
             << scene;
         EXPECT_NEAR(double(chain.graph().memory().back().bytes) / double(count.bytes()), 1.0, 0.03) << scene;
     }
 }
 
 /// Voxels 3 and 4 along x and z of eight, of which one of four has no surface: (x, z) = (4, 3).
-std::shared_ptr<const SceneState> threeOfFour() {
+State threeOfFour() {
     SceneBuilder b("three_of_four");
     const uint32_t grey = b.lambert("grey", glm::vec3(0.5f));
     b.box("low corner", {0.005f, 0, 0.005f}, glm::vec3(0.01f), 0, grey);
@@ -265,26 +246,25 @@ std::shared_ptr<const SceneState> threeOfFour() {
     floor(4, 4, 0.75f);
     b.pointLight({4, 7, 4}, glm::vec3(50.0f));
     b.camera({4, 7, 4}, {4, 0, 4.1f}, 60);
-    return std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
+    return evaluated(b);
 }
 
 TEST(SvoBricks, DifferWhereANeighborIsMissing) {
     // Figure 28. Where the four voxels meet, all bricks hold their mean. Without the empty one means are
     // taken along x, then along z, each of the two that there are.
     const auto opacities = [](const std::string& neighbors) {
-        const Chain chain(threeOfFour(),
-                          graphYaml({"voxelize, resolution: 8, directions: 1, visibility_rays: 0",
-                                     "inject_light_rays, bounces: 0",
-                                     "filter_voxels, layout: svo_bricks, brick_neighbors: " + neighbors}),
-                          8, 8, 1);
+        const Chain chain(
+            threeOfFour(),
+            graphYaml({"voxelize, resolution: 8, directions: 1, visibility_rays: 0", "inject_light_rays, bounces: 0",
+                       "filter_voxels, layout: svo_bricks, brick_neighbors: " + neighbors}),
+            8, 8);
         const gpu::RadianceGrid& g = radiance(chain).grid;
         EXPECT_EQ(g.resolution, glm::uvec3(8));
         std::vector<RadianceQuery> queries;
-        for (const glm::vec2 xz :
-             {glm::vec2(3.5f, 3.5f), glm::vec2(3.5f, 4.5f), glm::vec2(4.5f, 4.5f), glm::vec2(3.999f, 3.999f),
-              glm::vec2(3.999f, 4.001f), glm::vec2(4.001f, 4.001f)})
+        for (const glm::vec2 xz : {glm::vec2(3.5f, 3.5f), glm::vec2(3.5f, 4.5f), glm::vec2(4.5f, 4.5f),
+                                   glm::vec2(3.999f, 3.999f), glm::vec2(3.999f, 4.001f), glm::vec2(4.001f, 4.001f)})
             queries.push_back({g.origin + g.voxelSize * glm::vec3(xz.x, 3.5f, xz.y), g.voxelSize, {1, 0, 0}});
-        return sampleRadiance(radiance(chain), queries);
+        return sampleRadiance(chain, queries);
     };
     const std::vector<glm::vec4> whole = opacities("true"), missing = opacities("false");
     const float sw = whole[0].a, nw = whole[1].a, ne = whole[2].a;
@@ -303,8 +283,7 @@ TEST(SvoBricks, ErrLittleMoreThanFullGrids) {
     const std::string room = "{lights: point}";
     const ImageF reference =
         Chain("cornell", room, graphYaml({"path_trace, spp: 256, bounces: 3"}), 24, 24).image("indirect");
-    const auto error = [&](const std::string& layout, const std::string& resolution,
-                           const std::string& gather) {
+    const auto error = [&](const std::string& layout, const std::string& resolution, const std::string& gather) {
         const std::string inject = "inject_light_rays, rays_per_light: 262144, bounces: 2";
         const std::string voxelize = "voxelize, directions: 1, resolution: " + resolution;
         const std::string filter = "filter_voxels, layout: " + layout;
@@ -315,36 +294,28 @@ TEST(SvoBricks, ErrLittleMoreThanFullGrids) {
         for (const std::string resolution : {"8", "16", "32"}) {
             const double bricks = error("svo_bricks", resolution, gather);
             const double dense = error("dense", resolution, gather);
-            std::printf("%s at %s: %.3f, full grids %.3f\n", gather.c_str(), resolution.c_str(), bricks,
-                        dense);
+            std::printf("%s at %s: %.3f, full grids %.3f\n", gather.c_str(), resolution.c_str(), bricks, dense);
             EXPECT_LT(bricks, 1.33 * dense) << gather << ' ' << resolution;
             EXPECT_GT(bricks, 0.9 * dense) << gather << ' ' << resolution;
         }
 }
 
 TEST(SvoBricks, RefuseWhatWasNotPublished) {
-    EXPECT_CONTAINS(errorOf([] {
-                        const Chain chain("cornell", "{lights: point}",
-                                          graphYaml({"voxelize, resolution: 16, directions: 6",
-                                                     "inject_light_rays, rays_per_light: 1024, bounces: 0",
-                                                     "filter_voxels, layout: svo_bricks"}));
-                    }),
-                    "here are 6. Set voxelize's 'directions' to 1");
+    EXPECT_ERROR("voxelize's 'directions'",
+                 Chain("cornell", "{}",
+                       graphYaml({"voxelize, resolution: 16, directions: 6", "inject_light_rays, bounces: 0",
+                                  "filter_voxels, layout: svo_bricks"})));
 }
 
 TEST(SvoBricks, FollowSurfacesThatMove) {
     // The whole octree is built again: as if surfaces had been there from the start.
-    auto scene = std::make_shared<Scene>(*makeBuiltinScene("cornell", parseYaml("{lights: point}", "scene")));
-    addMovingSpheres(*scene, {});
-    const auto at = [&](double seconds) {
-        return std::make_shared<SceneState>(evaluate(scene, seconds, Playback::Looping));
-    };
+    const auto scene = cornellWithBall({});
     const std::string graph = filterGraph("svo_bricks", "24");
-    Chain moved(at(0), graph, 8, 8, 1);
-    moved.update([](SceneState& state) { return advance(state, 0.4); });
-    const std::vector<glm::vec4> samples = samplesOf(moved);
-    EXPECT_EQ(samples, samplesOf(Chain(at(0.4), graph, 8, 8, 1)));
-    EXPECT_NE(samples, samplesOf(Chain(at(0), graph, 8, 8, 1)));
+    const auto moved = chainAt(scene, 0, graph);
+    const std::vector<glm::vec4> before = samplesOf(*moved);
+    moved->goTo(0.4);
+    EXPECT_EQ(samplesOf(*moved), samplesOf(*chainAt(scene, 0.4, graph)));
+    EXPECT_NE(samplesOf(*moved), before);
 }
 
 }  // namespace

@@ -24,18 +24,11 @@ TEST(SvoLayout, AgreesWithTheDenseLayout) {
                            "filter_voxels, layout: " + layout}));
         };
         const auto dense = chain("dense"), svo = chain("svo");
-        const RadianceVoxels& denseVoxels = *dense->graph().resource<RadianceVoxels>("radiance");
-        const RadianceVoxels& octree = *svo->graph().resource<RadianceVoxels>("radiance");
-        const std::vector<RadianceQuery> queries = randomQueries({octree.grid.origin,
-                                                                  octree.grid.voxelSize,
-                                                                  octree.grid.resolution,
-                                                                  0,
-                                                                  octree.grid.directions,
-                                                                  1024,
-                                                                  {}},
-                                                                 directions == "1" ? 200000 : 1000000);
-        const std::vector<glm::vec4> a = sampleRadiance(denseVoxels, queries),
-                                     b = sampleRadiance(octree, queries);
+        const gpu::RadianceGrid& grid = radiance(*svo).grid;
+        const std::vector<RadianceQuery> queries =
+            randomQueries({grid.origin, grid.voxelSize, grid.resolution, 0, grid.directions, 1024, {}},
+                          directions == "1" ? 200000 : 1000000);
+        const std::vector<glm::vec4> a = sampleRadiance(*dense, queries), b = sampleRadiance(*svo, queries);
         double worst = 0, worstCoverage = 0, brightest = 0;
         for (size_t i = 0; i < queries.size(); ++i) {
             brightest = std::max<double>(brightest, glm::compMax(glm::vec3(a[i])));
@@ -45,8 +38,8 @@ TEST(SvoLayout, AgreesWithTheDenseLayout) {
         EXPECT_GT(brightest, 0.05);
         EXPECT_LT(worst, 3 * std::exp2(-11) * brightest);
         EXPECT_LT(worstCoverage, 3 * std::exp2(-11) * 2);
-        std::printf("directions %s: radiance differs by %.2g of the brightest, coverage by %.2g\n",
-                    directions.c_str(), worst / brightest, worstCoverage);
+        std::printf("directions %s: radiance differs by %.2g of the brightest, coverage by %.2g\n", directions.c_str(),
+                    worst / brightest, worstCoverage);
     }
 }
 
@@ -78,17 +71,16 @@ TEST(SvoLayout, GrowsWithItsSurfaceAlone) {
     b.box("speck", {0, 1.99f, 0}, glm::vec3(0.01f), 0, grey);  // Makes the grid a cube.
     b.pointLight({0, 1, 0}, glm::vec3(1.0f));
     b.camera({0, 1, 0.5f}, {0, 0, 0}, 60);
-    const auto state = std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
+    const auto state = evaluated(b);
     for (const uint32_t resolution : {32u, 64u, 128u, 256u}) {
         const Chain chain(
             state,
             graphYaml({fmt::format("voxelize, resolution: {}, directions: 1, visibility_rays: 0", resolution),
                        "inject_light_rays, rays_per_light: 1024, bounces: 0", "filter_voxels, layout: svo"}),
-            8, 8, 1);
-        const uint32_t voxels = chain.graph().resource<SurfaceVoxels>("voxels")->voxelCount;
-        const RadianceVoxels& radiance = *chain.graph().resource<RadianceVoxels>("radiance");
-        const uint64_t held =
-            radiance.octree.table.bytes() + radiance.octree.nodes.bytes() + radiance.storage[0].bytes();
+            8, 8);
+        const uint32_t voxels = chain.get<SurfaceVoxels>("voxels").voxelCount;
+        const RadianceVoxels& r = radiance(chain);
+        const uint64_t held = r.octree.table.bytes() + r.octree.nodes.bytes() + r.storage[0].bytes();
         const double bytes = double(held) / voxels;
         std::printf("%u: %.2f bytes a surface voxel\n", resolution, bytes);
         // A few nodes more where the floor ends within one, and the path to the speck.

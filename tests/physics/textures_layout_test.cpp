@@ -10,15 +10,10 @@
 namespace voxray::test {
 namespace {
 
-std::string filterGraph(const std::string& layout, const std::string& resolution,
-                        const std::string& directions) {
+std::string filterGraph(const std::string& layout, const std::string& resolution, const std::string& directions) {
     return graphYaml({"gbuffer", "voxelize, resolution: " + resolution + ", directions: " + directions,
-                      "inject_light_rays, rays_per_light: 131072, bounces: 2",
-                      "filter_voxels, layout: " + layout, "gather_cones"});
-}
-
-const RadianceVoxels& radiance(const Chain& chain) {
-    return *chain.graph().resource<RadianceVoxels>("radiance");
+                      "inject_light_rays, rays_per_light: 131072, bounces: 2", "filter_voxels, layout: " + layout,
+                      "gather_cones"});
 }
 
 TEST(TexturesLayout, SamplesInLayersAgreeWithFullGrids) {
@@ -27,19 +22,14 @@ TEST(TexturesLayout, SamplesInLayersAgreeWithFullGrids) {
     // levels some round up, of the box's grid no side is a power of two.
     for (const std::string resolution : {"24", "32"})
         for (const std::string directions : {"1", "6"}) {
-            const Chain dense("cornell", "{lights: point}", filterGraph("dense", resolution, directions), 8,
-                              8);
-            const Chain textures("cornell", "{lights: point}",
-                                 filterGraph("textures", resolution, directions), 8, 8);
+            const Chain dense("cornell", "{lights: point}", filterGraph("dense", resolution, directions), 8, 8);
+            const Chain textures("cornell", "{lights: point}", filterGraph("textures", resolution, directions), 8, 8);
             const gpu::RadianceGrid& grid = radiance(dense).grid;
-            const std::vector<LayerPlace> places = randomPlaces(grid, 50000, [&](uint32_t level) {
-                return VoxelBox{glm::ivec3(0), levelResolution(grid.resolution, level)};
-            });
-            std::vector<RadianceQuery> queries;
-            for (const LayerPlace& p : places) queries.push_back(queryAt(grid, p, p.voxels));
-            const std::vector<glm::vec4> expected = sampleRadiance(radiance(dense), queries);
-            const std::vector<glm::vec4> found = sampleRadiance(radiance(textures), queries);
-            const std::vector<glm::vec4> round = sampleRadiance(radiance(dense), voxelsRound(grid, places));
+            const std::vector<LayerPlace> places = randomPlaces(grid, 50000);
+            const std::vector<RadianceQuery> queries = queriesAt(grid, places);
+            const std::vector<glm::vec4> expected = sampleRadiance(dense, queries);
+            const std::vector<glm::vec4> found = sampleRadiance(textures, queries);
+            const std::vector<glm::vec4> round = sampleRadiance(dense, voxelsRound(grid, places));
             double worst = 0;
             size_t lit = 0;
             for (size_t i = 0; i < places.size(); ++i) {
@@ -55,9 +45,8 @@ TEST(TexturesLayout, SamplesInLayersAgreeWithFullGrids) {
                 if (expected[i].y > 0) ++lit;
             }
             EXPECT_GT(lit, places.size() / 20);
-            std::printf(
-                "%s voxels, %s directions: off by %.2g of the brightest voxel round a place at most\n",
-                resolution.c_str(), directions.c_str(), worst);
+            std::printf("%s voxels, %s directions: off by %.2g of the brightest voxel round a place at most\n",
+                        resolution.c_str(), directions.c_str(), worst);
         }
 }
 
@@ -82,22 +71,9 @@ TEST(TexturesLayout, MemoryIsPredicted) {
 }
 
 TEST(TexturesLayout, WhatADeviceLacksIsNamed) {
-    const auto plan = [](uint32_t side) {
-        const SceneState state = evaluate(makeBuiltinScene("cornell", parseYaml("{}", "scene")), 0.0);
-        Registry registry;
-        registerPasses(registry);
-        Frame frame;
-        frame.scene = &state;
-        frame.camera = state.cameras.at(0);
-        frame.width = frame.height = 8;
-        DeviceInfo info = device().info();
-        info.filteredVolumeSide = side;
-        Graph(registry, parseYaml(filterGraph("textures", "32", "6"), "graph"))
-            .plan(frame, info, device().memoryLimitBytes());
-    };
-    EXPECT_CONTAINS(errorOf([&] { plan(0); }), "storage image and linear filter");
-    EXPECT_CONTAINS(errorOf([&] { plan(191); }), "192x32x32 texels");
-    EXPECT_CONTAINS(errorOf([&] { plan(191); }), "maxImageDimension3D");
+    const auto plan = [](uint32_t side) { planWithVolumes(side, filterGraph("textures", "32", "6")); };
+    EXPECT_ERROR("storage image and linear filter", plan(0));
+    EXPECT_ERROR("192x32x32 texels", plan(191));
     plan(192);
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 /// A wall of 2 m x 2 m x 2 cm across x, red towards -x and green towards +x, a light on either side: the case
 /// of Arnebäck 2017, figure 15.
-std::shared_ptr<const SceneState> redAndGreenWall() {
+State redAndGreenWall() {
     SceneBuilder b("red_green_wall");
     const uint32_t red = b.lambert("red", {0.8f, 0.0f, 0.0f}), green = b.lambert("green", {0.0f, 0.8f, 0.0f}),
                    black = b.lambert("black", glm::vec3(0.0f));
@@ -21,25 +21,23 @@ std::shared_ptr<const SceneState> redAndGreenWall() {
     for (const float x : {-1.1f, 1.09f}) b.box("speck", {x, -1.1f, 0}, glm::vec3(0.01f), 0, black);
     for (const float x : {-1.0f, 1.0f}) b.pointLight({x, 0, 0}, glm::vec3(1.0f));
     b.camera({-1, 0, 0}, {0, 0, 0}, 60);
-    return std::make_shared<SceneState>(evaluate(b.finish(), 0.0));
+    return evaluated(b);
 }
 
 Chain wall(const std::string& voxelize, const std::string& filter) {
-    return Chain(
-        redAndGreenWall(),
-        graphYaml({"voxelize, " + voxelize, "inject_light_rays, bounces: 0", "filter_voxels, " + filter}), 16,
-        16, 1);
+    return Chain(redAndGreenWall(),
+                 graphYaml({"voxelize, " + voxelize, "inject_light_rays, bounces: 0", "filter_voxels, " + filter}), 16,
+                 16);
 }
 
 /// What a ray along ±x (`towards`) meets in the wall, in steps of half a footprint of so many voxels.
 glm::vec3 seen(const Chain& chain, float towards, float footprint) {
-    const RadianceVoxels& radiance = *chain.graph().resource<RadianceVoxels>("radiance");
-    const float width = footprint * radiance.grid.voxelSize;
+    const float width = footprint * radiance(chain).grid.voxelSize;
     std::vector<RadianceQuery> queries;
     for (float x = -3 * width; x <= 3 * width; x += 0.5f * width)
         queries.push_back({{x, 0.1f, 0.1f}, width, {towards, 0, 0}});
     glm::vec3 sum(0.0f);
-    for (const glm::vec4& met : sampleRadiance(radiance, queries)) sum += 0.5f * glm::vec3(met);
+    for (const glm::vec4& met : sampleRadiance(chain, queries)) sum += 0.5f * glm::vec3(met);
     return sum;
 }
 
@@ -71,11 +69,9 @@ TEST(ThinWalls, OneDirectionMakesThemBrown) {
 /// one.
 double leakOfGatherRays(const std::string& inject) {
     const auto seen = [&](const std::string& view) {
-        Chain chain(
-            "thin_wall", "{thickness: 0.05, view: " + view + "}",
-            graphYaml({"gbuffer", "voxelize, resolution: 64", "place_surfels", inject + ", bounces: 3",
-                       "trace_gather_rays, rays_per_block: 64", "gather_rays"}));
-        return mean(chain.image("indirect"));
+        return meanIndirect("thin_wall", "{thickness: 0.05, view: " + view + "}",
+                            graphYaml({"gbuffer", "voxelize, resolution: 64", "place_surfels", inject + ", bounces: 3",
+                                       "trace_gather_rays, rays_per_block: 64", "gather_rays"}));
     };
     return seen("dark") / seen("lit");
 }
@@ -98,8 +94,7 @@ double visibleArea(int copies, bool hasPart, float rise) {
     for (const float y : {-1.3f, 1.29f}) b.box("speck", {0, y, 0}, glm::vec3(0.01f), 0, white);
     b.pointLight({0, 1, 0}, glm::vec3(1.0f));
     b.camera({0, 1, 0}, {0, 0, 0.1f}, 60);
-    Chain chain(std::make_shared<SceneState>(evaluate(b.finish(), 0.0)),
-                graphYaml({"voxelize, resolution: 16, visibility_rays: 64"}), 16, 16, 1);
+    Chain chain(evaluated(b), graphYaml({"voxelize, resolution: 16, visibility_rays: 64"}), 16, 16);
     const Voxels voxels(chain);
     double faces = 0;
     for (const gpu::VoxelMaterial& m : voxels.materials)
@@ -110,9 +105,8 @@ double visibleArea(int copies, bool hasPart, float rise) {
 TEST(ThinWalls, SurfacesThatCoincideHaveTheAreaOfOne) {
     for (const float rise : {0.0f, 0.37f}) {
         const double one = visibleArea(1, false, rise);
-        EXPECT_NEAR(
-            one / (2 * 2 * glm::length(glm::cross(glm::vec3(0, rise, 2), glm::vec3(1, 0.25f * rise, 0)))),
-            1.0, 0.01)
+        EXPECT_NEAR(one / (2 * 2 * glm::length(glm::cross(glm::vec3(0, rise, 2), glm::vec3(1, 0.25f * rise, 0)))), 1.0,
+                    0.01)
             << rise;
         EXPECT_NEAR(visibleArea(2, false, rise) / one, 1.0, 0.01) << rise;
         EXPECT_NEAR(visibleArea(3, false, rise) / one, 1.0, 0.01) << rise;

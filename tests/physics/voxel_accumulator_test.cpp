@@ -13,11 +13,10 @@ namespace {
 
 /// What `samples` samples of firstValue + slope * number leave in every second voxel of a room.
 struct Merged {
-    Merged(Write write, uint32_t samples, float firstValue, float slope, bool reversed = false,
-           float white = 8) {
+    Merged(Write write, uint32_t samples, float firstValue, float slope, bool reversed = false, float white = 8) {
         static Chain& room =
             *kept(std::make_shared<Chain>("white_room", "{}", graphYaml({"voxelize, resolution: 12"})));
-        const SurfaceVoxels& voxels = *room.graph().resource<SurfaceVoxels>("voxels");
+        const SurfaceVoxels& voxels = room.get<SurfaceVoxels>("voxels");
         TestPrograms programs;
         VoxelAccumulator writes(programs, {write, white});
         const Kernel writer(programs, "tests/gpu/voxel_accumulator.comp", VoxelAccumulator::defines(write));
@@ -52,8 +51,7 @@ struct Merged {
             ++faces;
             for (size_t c = 0; c < 3; ++c) {
                 const double channel = expected * double(1u << c);
-                largest =
-                    std::max(largest, std::abs(flux[face * 3 + c] / (area[face] * faceArea) / channel - 1));
+                largest = std::max(largest, std::abs(flux[face * 3 + c] / (area[face] * faceArea) / channel - 1));
             }
         }
         EXPECT_GT(faces, 100);
@@ -91,8 +89,7 @@ TEST(VoxelAccumulator, NoneStoresOneSampleAsItIs) {
         if (merged.area[face] <= 0) continue;
         ++faces;
         for (size_t c = 0; c < 3; ++c) {
-            const double value =
-                merged.flux[face * 3 + c] / (merged.area[face] * merged.faceArea) / double(1u << c);
+            const double value = merged.flux[face * 3 + c] / (merged.area[face] * merged.faceArea) / double(1u << c);
             EXPECT_LT(std::min(std::abs(value - 1), std::abs(value / 3 - 1)), kPacked);
         }
     }
@@ -100,8 +97,7 @@ TEST(VoxelAccumulator, NoneStoresOneSampleAsItIs) {
 }
 
 TEST(VoxelAccumulator, AverageDoesNotDependOnOrder) {
-    const Merged forwards(Write::Average, 101, 0.123f, 0.037f),
-        backwards(Write::Average, 101, 0.123f, 0.037f, true);
+    const Merged forwards(Write::Average, 101, 0.123f, 0.037f), backwards(Write::Average, 101, 0.123f, 0.037f, true);
     EXPECT_EQ(forwards.flux, backwards.flux);
 }
 
@@ -129,8 +125,7 @@ TEST(VoxelAccumulator, AreaIsUnoccludedWhereSamplesFell) {
                 const gpu::VoxelMaterial& m = merged.materials[voxel];
                 const bool written = voxel % 2 == 0;
                 ASSERT_EQ(merged.area[voxel * 6 + 2 * axis], written ? m.unoccludedPositive[int(axis)] : 0);
-                ASSERT_EQ(merged.area[voxel * 6 + 2 * axis + 1],
-                          written ? m.unoccludedNegative[int(axis)] : 0);
+                ASSERT_EQ(merged.area[voxel * 6 + 2 * axis + 1], written ? m.unoccludedNegative[int(axis)] : 0);
             }
     }
 }

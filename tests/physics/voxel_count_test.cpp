@@ -19,7 +19,7 @@ float uniform(Random& random, float low, float high) {
 }
 
 /// A box of a size in which sheets lie on borders of the grid of `resolution`, and a few slivers.
-std::shared_ptr<const SceneState> boxWithSheets(uint32_t seed, uint32_t resolution) {
+State boxWithSheets(uint32_t seed, uint32_t resolution) {
     Random random(seed);
     const float scale = std::pow(10.0f, uniform(random, -3, 5));
     glm::vec3 half, origin;
@@ -50,23 +50,22 @@ std::shared_ptr<const SceneState> boxWithSheets(uint32_t seed, uint32_t resoluti
         builder.quad("sliver", at, way, width, gray);
     }
     builder.camera(origin, origin + glm::vec3(0, 0, half.z), 60);
-    return std::make_shared<SceneState>(evaluate(builder.finish(), 0));
+    return evaluated(builder);
 }
 
 TEST(StillVoxels, AreAllThatIsFilledWhereSheetsLieOnBorders) {
     for (uint32_t seed = 1; seed <= 24; ++seed) {
         const uint32_t resolution = 16 + 8 * (seed % 7);
         const auto state = boxWithSheets(seed, resolution);
-        for (const char* method : {"exact", "dominant_axis"}) {
-            Chain chain(state,
-                        graphYaml({fmt::format("voxelize, visibility_rays: 0, resolution: {}, method: {}",
-                                               resolution, method)}),
-                        8, 8, 1);
-            const Voxels voxels(chain);
-            const uint32_t counted = countStaticVoxels(state->geometry, voxels.grid);
-            EXPECT_GE(counted, voxels.count) << "seed " << seed << ", " << method;
-            EXPECT_LE(counted, 1.25 * voxels.count) << "seed " << seed << ", " << method;
-        }
+        const char* method = seed % 2 == 0 ? "exact" : "dominant_axis";
+        Chain chain(
+            state,
+            graphYaml({fmt::format("voxelize, visibility_rays: 0, resolution: {}, method: {}", resolution, method)}), 8,
+            8);
+        const Voxels voxels(chain);
+        const uint32_t counted = countStaticVoxels(state->geometry, voxels.grid);
+        EXPECT_GE(counted, voxels.count) << "seed " << seed << ", " << method;
+        EXPECT_LE(counted, 1.25 * voxels.count) << "seed " << seed << ", " << method;
     }
 }
 
@@ -76,8 +75,8 @@ TEST(StillVoxels, AreOnBothSidesOfAFloorAtHalfTheHeightOfABox) {
     builder.room({-10, -3, -10}, {10, 3, 10}, {gray, gray, gray, gray, gray, gray});
     builder.quad("floor", {-10, 0, 10}, {20, 0, 0}, {0, 0, -20}, gray);
     builder.camera({0, 1, 9}, {0, 1, 0}, 60);
-    const auto state = std::make_shared<SceneState>(evaluate(builder.finish(), 0));
-    Chain chain(state, graphYaml({"voxelize, resolution: 64"}), 8, 8, 1);
+    const auto state = evaluated(builder);
+    Chain chain(state, graphYaml({"voxelize, resolution: 64"}), 8, 8);
     EXPECT_GE(countStaticVoxels(state->geometry, Voxels(chain).grid), Voxels(chain).count);
 }
 

@@ -14,9 +14,7 @@ namespace {
 class RandomNumbers {
  public:
     float uniform() { return uniform_(random_); }
-    glm::vec3 direction() {
-        return glm::normalize(glm::vec3(normal_(random_), normal_(random_), normal_(random_)));
-    }
+    glm::vec3 direction() { return glm::normalize(glm::vec3(normal_(random_), normal_(random_), normal_(random_))); }
 
  private:
     std::mt19937 random_{7};
@@ -32,8 +30,8 @@ struct SurfaceSample {
 std::vector<SurfaceSample> surfaceSamples(const Geometry& g, size_t count, RandomNumbers& random) {
     std::vector<float> area;
     for (const glm::uvec3& t : g.triangles)
-        area.push_back(glm::length(
-            glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x])));
+        area.push_back(
+            glm::length(glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x])));
     std::discrete_distribution<size_t> pick(area.begin(), area.end());
     std::mt19937 picks(3);
     std::vector<SurfaceSample> samples(count);
@@ -61,7 +59,7 @@ std::vector<SurfacePair> pairsOf(const Geometry& geometry, size_t count, RandomN
 }
 
 const SurfaceVoxels& voxelsOf(const Chain& chain) {
-    return *chain.graph().resource<SurfaceVoxels>("voxels");
+    return chain.get<SurfaceVoxels>("voxels");
 }
 
 size_t sum(const std::vector<uint32_t>& hidden) {
@@ -87,8 +85,7 @@ std::vector<SurfacePair> raysIntoTheOpen(const std::vector<SurfaceSample>& sampl
 TEST(VoxelEnds, FlatSurfacesDoNotHideThemselvesAtAnyTilt) {
     RandomNumbers random;
     for (int tilt = 0; tilt < 12; ++tilt) {
-        auto state =
-            std::make_shared<SceneState>(evaluate(makeBuiltinScene("plane", parseYaml("{}", "scene")), 0.0));
+        auto state = builtin("plane");
         Geometry& g = state->geometry;
         const glm::quat rotation = glm::angleAxis(tilt == 0 ? 0 : 3 * random.uniform(), random.direction());
         g.boundsMin = glm::vec3(1e9f), g.boundsMax = glm::vec3(-1e9f);
@@ -97,7 +94,7 @@ TEST(VoxelEnds, FlatSurfacesDoNotHideThemselvesAtAnyTilt) {
             g.boundsMin = glm::min(g.boundsMin, p), g.boundsMax = glm::max(g.boundsMax, p);
         }
         g.region = {g.boundsMin, g.boundsMax};
-        Chain chain(state, graphYaml({"voxelize, resolution: 32"}), 8, 8, 1);
+        Chain chain(state, graphYaml({"voxelize, resolution: 32"}), 8, 8);
         std::vector<SurfaceSample> samples = surfaceSamples(g, 20000, random);
         for (size_t i = 0; i < samples.size(); i += 2) samples[i].normal = -samples[i].normal;
         EXPECT_EQ(sum(hiddenByVoxels(voxelsOf(chain), raysIntoTheOpen(samples, 500, random))), 0u) << tilt;
@@ -142,8 +139,8 @@ TEST(VoxelEnds, ConcaveEdgesHideWithinTwoVoxels) {
 TEST(VoxelEnds, ConcaveCurvesHideLittle) {
     RandomNumbers random;
     for (const int resolution : {32, 64, 128}) {
-        Chain chain("furnace", "{shape: sphere}",
-                    graphYaml({fmt::format("voxelize, resolution: {}", resolution)}), 8, 8);
+        Chain chain("furnace", "{shape: sphere}", graphYaml({fmt::format("voxelize, resolution: {}", resolution)}), 8,
+                    8);
         const std::vector<SurfacePair> pairs = pairsOf(chain.state().geometry, 50000, random);
         const double part = double(sum(hiddenByVoxels(voxelsOf(chain), pairs))) / double(pairs.size());
         std::printf("a sphere of %d voxels: %.4f of the pairs are hidden\n", resolution, part);

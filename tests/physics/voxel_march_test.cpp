@@ -102,8 +102,8 @@ void expectBruteForce(WalkedVoxels& voxels, const std::vector<Ray>& rays) {
     EXPECT_GT(hits, rays.size() / 100);
     EXPECT_GT(inGrid, hits);
 
-    for (const VoxelTraversal walk : {VoxelTraversal::Bricks, VoxelTraversal::SvoRestart,
-                                      VoxelTraversal::SvoVoxels, VoxelTraversal::Svo}) {
+    for (const VoxelTraversal walk :
+         {VoxelTraversal::Bricks, VoxelTraversal::SvoRestart, VoxelTraversal::SvoVoxels, VoxelTraversal::Svo}) {
         const std::vector<WalkAnswer> others = voxels.walk(walk, rays);
         for (size_t i = 0; i < rays.size(); ++i) {
             WalkAnswer expected = answers[i];
@@ -156,8 +156,7 @@ TEST(VoxelMarch, WalksAlongTheRayThatItIsGiven) {
         }
         const double tolerance = 1.5 / kUnits + 5e-6 * glm::compMax(size);
         for (int axis = 0; axis < 3; ++axis) {
-            ASSERT_NEAR(answers[i].start[axis] / double(kUnits), from[axis] + begin * way[axis], tolerance)
-                << i;
+            ASSERT_NEAR(answers[i].start[axis] / double(kUnits), from[axis] + begin * way[axis], tolerance) << i;
             ASSERT_NEAR(answers[i].end[axis] / double(kUnits), from[axis] + end * way[axis], tolerance) << i;
         }
 
@@ -173,8 +172,7 @@ TEST(VoxelMarch, WalksAlongTheRayThatItIsGiven) {
         }
     }
     EXPECT_LT(double(different) / double(rays.size()), 2e-3);
-    std::printf("units instead of doubles: %.2g of the answers differ\n",
-                double(different) / double(rays.size()));
+    std::printf("units instead of doubles: %.2g of the answers differ\n", double(different) / double(rays.size()));
 }
 
 }  // namespace

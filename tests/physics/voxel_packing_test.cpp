@@ -39,8 +39,7 @@ TEST(VoxelPacking, LightKeepsThirteenBitsOfTheLargestChannel) {
     std::uniform_real_distribution<float> exponent(-113, 127), channel(0, 1);
     double worst = 0, sum = 0;
     for (int i = 0; i < kSamples; ++i) {
-        const vec3 rgb =
-            std::exp2(exponent(random)) * vec3(channel(random), channel(random), channel(random));
+        const vec3 rgb = std::exp2(exponent(random)) * vec3(channel(random), channel(random), channel(random));
         const float largest = max(rgb.x, max(rgb.y, rgb.z));
         const uvec2 packed = packRgb(rgb);
         const vec3 unpacked = unpackRgb(packed);
@@ -62,8 +61,7 @@ TEST(VoxelPacking, LightKeepsThirteenBitsOfTheLargestChannel) {
 TEST(VoxelPacking, ScalingByPowersOfTwoIsExact) {
     const vec3 rgb(0.3f, 0.71f, 0.013f);
     for (int k = -60; k <= 60; ++k)
-        EXPECT_EQ(unpackRgb(packRgb(std::ldexp(1.0f, k) * rgb)),
-                  std::ldexp(1.0f, k) * unpackRgb(packRgb(rgb)));
+        EXPECT_EQ(unpackRgb(packRgb(std::ldexp(1.0f, k) * rgb)), std::ldexp(1.0f, k) * unpackRgb(packRgb(rgb)));
 }
 
 TEST(VoxelPacking, WordsAreFiniteWhereValuesAre) {

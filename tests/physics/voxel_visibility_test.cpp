@@ -45,9 +45,8 @@ TEST(VoxelVisibility, StepsByAnEpsilonSkipSlivers) {
             closest += steps[i].voxel != exact[i].voxel && steps[i].hit == exact[i].hit;
         }
         const double fraction = double(occlusion + closest) / double(rays.size());
-        std::printf(
-            "epsilon %g voxels: occlusion differs for %.2g of the rays, the closest voxel alone for %.2g\n",
-            double(epsilon), double(occlusion) / double(rays.size()), double(closest) / double(rays.size()));
+        std::printf("epsilon %g voxels: occlusion differs for %.2g of the rays, the closest voxel alone for %.2g\n",
+                    double(epsilon), double(occlusion) / double(rays.size()), double(closest) / double(rays.size()));
         EXPECT_GE(fraction, before);
         EXPECT_LT(fraction, 0.01 + 2 * epsilon);
         before = fraction;
@@ -90,8 +89,7 @@ TEST(VoxelVisibility, StreamsHaveTheTracersInterface) {
             ASSERT_EQ(hits[i].triangle != Hit::kMiss, expected[i].hit != 0) << name;
             ASSERT_EQ(hits[i].t, expected[i].hit ? expected[i].t : rays[i].tMax) << name;
         }
-        for (size_t i = expected.size(); i < rays.size(); ++i)
-            EXPECT_EQ(hits[i].triangle, Hit::kMiss) << name;
+        for (size_t i = expected.size(); i < rays.size(); ++i) EXPECT_EQ(hits[i].triangle, Hit::kMiss) << name;
     }
 }
 
@@ -102,7 +100,7 @@ TEST(VoxelVisibility, RefusesGridsThatItCantWalkThrough) {
     window.grid = madeUpGrid(glm::uvec3(64), 1);
     window.grid.windowSize = 32;
     MemoryPlan plan;
-    EXPECT_CONTAINS(errorOf([&] { march.plan(plan, window); }), "64x64x64, of which 32 are held");
+    EXPECT_ERROR("64x64x64, of which 32 are held", march.plan(plan, window));
 }
 
 TEST(VoxelVisibility, ShadowsNarrowToThoseOfSurfaces) {
@@ -123,10 +121,7 @@ TEST(VoxelVisibility, ShadowsNarrowToThoseOfSurfaces) {
     for (const int resolution : {32, 64, 128, 256}) {
         Chain voxels = chain("voxels", resolution);
         const ImageF image = voxels.image("direct");
-        double difference = 0;
-        for (size_t i = 0; i < image.data.size(); ++i)
-            difference += std::abs(double(image.data[i]) - double(expected.data[i]));
-        difference /= mean(expected) * double(image.data.size());
+        const double difference = meanDifference(image, expected);
         std::printf("%d voxels: energy %.4f of the exact, mean difference %.4f\n", resolution,
                     mean(image) / mean(expected), difference);
         EXPECT_LT(difference, 0.6 * before);

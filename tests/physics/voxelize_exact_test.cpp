@@ -9,27 +9,6 @@
 namespace voxray::test {
 namespace {
 
-/// Area of a triangle within a voxel: its polygon cut by the six faces.
-double areaInside(const Triangle& t, glm::dvec3 low) {
-    std::vector<glm::dvec3> polygon(t.begin(), t.end());
-    for (int side = 0; side < 6; ++side) {
-        const int k = side / 2;
-        const double sign = side % 2 == 0 ? 1 : -1, offset = side % 2 == 0 ? -low[k] : low[k] + 1;
-        std::vector<glm::dvec3> kept;
-        for (size_t i = 0; i < polygon.size(); ++i) {
-            const glm::dvec3 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-            const double da = sign * a[k] + offset, db = sign * b[k] + offset;
-            if (da >= 0) kept.push_back(a);
-            if ((da >= 0) != (db >= 0)) kept.push_back(a + (b - a) * (da / (da - db)));
-        }
-        polygon = kept;
-    }
-    glm::dvec3 sum(0.0);
-    for (size_t i = 2; i < polygon.size(); ++i)
-        sum += glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]);
-    return 0.5 * glm::length(sum);
-}
-
 /// Triangles of all sizes and directions; some are slivers, some lie in planes of the axes.
 std::vector<glm::vec3> randomCorners(uint32_t seed, int triangles) {
     std::mt19937 random(seed);
@@ -57,8 +36,7 @@ std::vector<Triangle> inVoxels(const std::vector<glm::vec3>& corners, const gpu:
 
 TEST(VoxelizeExact, MarksTheVoxelsThatTrianglesOverlap) {
     const std::vector<glm::vec3> corners = randomCorners(7, 60);
-    const Voxels voxels =
-        voxelize(triangleScene(corners), "method: exact, resolution: 27, visibility_rays: 0");
+    const Voxels voxels = voxelize(triangleScene(corners), "method: exact, resolution: 27, visibility_rays: 0");
     const std::vector<Triangle> triangles = inVoxels(corners, voxels.grid);
     constexpr double kEpsilon = 1e-3;  // Of which the shader's margin is a quarter.
     int marked = 0;
@@ -78,13 +56,12 @@ TEST(VoxelizeExact, MarksTheVoxelsThatTrianglesOverlap) {
 
 TEST(VoxelizeExact, HoldsTheClippedAreaOfEveryVoxel) {
     const std::vector<glm::vec3> corners = randomCorners(3, 60);
-    const Voxels voxels =
-        voxelize(triangleScene(corners), "method: exact, resolution: 19, visibility_rays: 0");
+    const Voxels voxels = voxelize(triangleScene(corners), "method: exact, resolution: 19, visibility_rays: 0");
     const std::vector<Triangle> triangles = inVoxels(corners, voxels.grid);
     double total = 0;
     voxels.forEach([&](glm::ivec3 v) {
         double expected = 0;
-        for (const Triangle& t : triangles) expected += areaInside(t, glm::dvec3(v));
+        for (const Triangle& t : triangles) expected += areaInBox(t, glm::dvec3(v), glm::dvec3(v) + 1.0);
         total += expected;
         const double found = voxels.occupied(v) ? voxels.at(v).area : 0;
         // Areas are held as half floats: 11 bits.

@@ -49,8 +49,7 @@ Material plain() {
 }
 
 /// Visits the materials of the square's voxels that lie away from its edges.
-void forSquare(const Voxels& voxels,
-               const std::function<void(glm::vec3 center, const gpu::VoxelMaterial&)>& visit) {
+void forSquare(const Voxels& voxels, const std::function<void(glm::vec3 center, const gpu::VoxelMaterial&)>& visit) {
     int seen = 0;
     voxels.forEach([&](glm::ivec3 v) {
         const glm::vec3 center = voxels.grid.origin + (glm::vec3(v) + 0.5f) * voxels.grid.voxelSize;
@@ -131,9 +130,8 @@ TEST(VoxelizeMaterial, AlphaMasksLeaveHoles) {
     m.baseColorTexture.texture = 0;
     m.alphaMode = AlphaMode::Mask;
     for (const std::string method : kMethods) {
-        const Voxels voxels =
-            voxelize(square(m, {stripes}),
-                     "resolution: 16, visibility_rays: 0, samples_per_voxel_edge: 4, method: " + method);
+        const Voxels voxels = voxelize(
+            square(m, {stripes}), "resolution: 16, visibility_rays: 0, samples_per_voxel_edge: 4, method: " + method);
         double area = 0, opacity = 0;
         int count = 0;
         voxels.forEach([&](glm::ivec3 v) {
@@ -163,8 +161,7 @@ TEST(VoxelizeMaterial, OpacityIsTheFractionOfSubSamples) {
         for (const glm::vec3 step : {glm::vec3(0.0f), glm::vec3(0.01f, 0, 0), glm::vec3(0, 0.01f, 0)})
             corners.push_back(glm::clamp(end + (end.x > 0.5f ? -step : step), 0.0f, 1.0f));
     for (const std::string method : {"exact", "dominant_axis"}) {
-        const Voxels voxels =
-            voxelize(triangleScene(corners), "resolution: 4, visibility_rays: 0, method: " + method);
+        const Voxels voxels = voxelize(triangleScene(corners), "resolution: 4, visibility_rays: 0, method: " + method);
         ASSERT_TRUE(voxels.occupied({1, 1, 1})) << method;
         EXPECT_EQ(voxels.at({1, 1, 1}).opacity, 0.25f) << method;
         EXPECT_NEAR(voxels.at({1, 1, 1}).area, 0.25, 1e-3) << method;

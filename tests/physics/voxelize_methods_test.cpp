@@ -38,9 +38,8 @@ int report(const std::string& name, const std::shared_ptr<const Scene>& scene, i
     const Voxels dominant = voxelize(scene, "method: dominant_axis" + common);
     const Voxels three = voxelize(scene, "method: three_axis" + common);
     const Difference d = compare(exact, dominant), t = compare(exact, three);
-    std::printf("| %s, %d³ | %u | %d | %d | %.3f | %d | %d | %.3f |\n", name.c_str(), resolution, exact.count,
-                d.missed, d.added, dominant.area() / exact.area(), t.missed, t.added,
-                three.area() / exact.area());
+    std::printf("| %s, %d³ | %u | %d | %d | %.3f | %d | %d | %.3f |\n", name.c_str(), resolution, exact.count, d.missed,
+                d.added, dominant.area() / exact.area(), t.missed, t.added, three.area() / exact.area());
     return d.missed;
 }
 
@@ -82,8 +81,7 @@ double missedPoints(const std::shared_ptr<const Scene>& scene, const std::string
         for (int i = 0; i <= 60; ++i)
             for (int j = 0; i + j <= 60; ++j, ++points) {
                 const float u = float(i) / 60, v = float(j) / 60;
-                const glm::vec3 p =
-                    g.positions[t.x] * (1 - u - v) + g.positions[t.y] * u + g.positions[t.z] * v;
+                const glm::vec3 p = g.positions[t.x] * (1 - u - v) + g.positions[t.y] * u + g.positions[t.z] * v;
                 missed += !voxels.holds(p);
             }
     return double(missed) / points;
@@ -104,11 +102,10 @@ TEST(VoxelizeMethods, LookupsMixInNoEmptyVoxels) {
     // Inside a glowing sphere the irradiance is the same everywhere. A lookup that filtered across voxels
     // without data would darken where the surface cuts voxels' corners.
     for (const std::string method : kMethods) {
-        Chain chain(
-            "furnace", "{shape: sphere, albedo: 0.5, emission: 1}",
-            graphYaml({"gbuffer", "voxelize, resolution: 10, method: " + method,
-                       "inject_light_rays, rays_per_light: 131072, bounces: 0",
-                       "gather_irradiance, id: direct, light: direct", "gather_irradiance", "composite"}));
+        Chain chain("furnace", "{shape: sphere, albedo: 0.5, emission: 1}",
+                    graphYaml({"gbuffer", "voxelize, resolution: 10, method: " + method,
+                               "inject_light_rays, rays_per_light: 131072, bounces: 0",
+                               "gather_irradiance, id: direct, light: direct", "gather_irradiance", "composite"}));
         const ImageF direct = chain.image("direct");
         const double expected = mean(direct);
         EXPECT_NEAR(expected, 0.5, 0.015) << method;
@@ -125,8 +122,7 @@ TEST(VoxelizeMethods, SumToTheSurfaceArea) {
     const double area = surfaceArea(evaluate(scene, 0.0).geometry);
     for (const auto& [method, tolerance] :
          {std::pair{"exact", 1e-4}, std::pair{"dominant_axis", 5e-3}, std::pair{"three_axis", 5e-3}}) {
-        const Voxels v =
-            voxelize(scene, std::string("resolution: 32, visibility_rays: 0, method: ") + method);
+        const Voxels v = voxelize(scene, std::string("resolution: 32, visibility_rays: 0, method: ") + method);
         EXPECT_NEAR(v.area() * v.grid.voxelSize * v.grid.voxelSize / area, 1.0, tolerance) << method;
     }
 }
@@ -138,8 +134,7 @@ TEST(VoxelizeMethods, AcceptAGridOfOneVoxelAndTrianglesWithoutArea) {
     for (const std::string method : kMethods) {
         const Voxels one = voxelize(triangleScene(corners), "resolution: 1, method: " + method);
         ASSERT_EQ(one.count, 1u) << method;
-        EXPECT_NEAR(one.area() * one.grid.voxelSize * one.grid.voxelSize, 0.5,
-                    method == "exact" ? 1e-4 : 0.2);
+        EXPECT_NEAR(one.area() * one.grid.voxelSize * one.grid.voxelSize, 0.5, method == "exact" ? 1e-4 : 0.2);
         const Voxels fine = voxelize(triangleScene(corners), "resolution: 16, method: " + method);
         EXPECT_FALSE(fine.holds({0, 0, 0.9f})) << method;
         EXPECT_TRUE(fine.holds({0.3f, 0.3f, 0})) << method;
@@ -161,19 +156,16 @@ TEST(VoxelizeMethods, RefuseGridsBeyondMemoryBeforeAllocation) {
 TEST(VoxelizeMethods, OneDirectionLetsLightThroughThinWalls) {
     // A room without light behind a wall of 2 cm, at voxels of 13 cm: one value a voxel mixes both sides.
     const auto leak = [](int directions) {
-        Chain chain(
-            "thin_wall", "{thickness: 0.02}",
-            graphYaml({"gbuffer", "voxelize, directions: " + std::to_string(directions),
-                       "inject_light_rays, rays_per_light: 262144, bounces: 2",
-                       "gather_irradiance, id: direct, light: direct", "gather_irradiance", "composite"}));
-        Chain bright("thin_wall", "{thickness: 0.02, view: lit}",
-                     graphYaml({"path_trace, spp: 64, bounces: 2"}));
+        Chain chain("thin_wall", "{thickness: 0.02}",
+                    graphYaml({"gbuffer", "voxelize, directions: " + std::to_string(directions),
+                               "inject_light_rays, rays_per_light: 262144, bounces: 2",
+                               "gather_irradiance, id: direct, light: direct", "gather_irradiance", "composite"}));
+        Chain bright("thin_wall", "{thickness: 0.02, view: lit}", graphYaml({"path_trace, spp: 64, bounces: 2"}));
         return mean(chain.image("final")) / mean(bright.image("final"));
     };
     const double six = leak(6), one = leak(1);
-    std::printf(
-        "light in the dark room over light in the bright one: directions 6: %.5f, directions 1: %.5f\n", six,
-        one);
+    std::printf("light in the dark room over light in the bright one: directions 6: %.5f, directions 1: %.5f\n", six,
+                one);
     EXPECT_LT(six, 0.002);
     EXPECT_GT(one, 0.02);
 }

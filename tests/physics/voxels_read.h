@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,7 @@ namespace voxray::test {
 inline double surfaceArea(const Geometry& g) {
     double area = 0;
     for (const glm::uvec3 t : g.triangles)
-        area += 0.5 * glm::length(glm::cross(g.positions[t.y] - g.positions[t.x],
-                                             g.positions[t.z] - g.positions[t.x]));
+        area += 0.5 * glm::length(glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x]));
     return area;
 }
 
@@ -39,6 +39,34 @@ inline std::vector<float> readFlux(Chain& chain, const Buffer& flux) {
     return unpackFlux(chain.read<uint32_t>(flux));
 }
 
+inline const VoxelIrradiance& irradiance(const Chain& chain) {
+    return chain.get<VoxelIrradiance>("irradiance");
+}
+
+/// Flux of each face, W, green.
+inline std::vector<double> greenFlux(Chain& chain, const Buffer& flux) {
+    const std::vector<float> values = readFlux(chain, flux);
+    std::vector<double> green(values.size() / 3);
+    for (size_t i = 0; i < green.size(); ++i) green[i] = values[3 * i + 1];
+    return green;
+}
+inline double sum(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+inline double totalFlux(Chain& chain, const Buffer& flux) {
+    return sum(greenFlux(chain, flux));
+}
+inline double indirectFlux(Chain& chain) {
+    return totalFlux(chain, irradiance(chain).indirect);
+}
+
+/// Mean difference of two fields over the mean of the second.
+inline double meanDifference(const std::vector<double>& a, const std::vector<double>& b) {
+    double total = 0;
+    for (size_t i = 0; i < a.size(); ++i) total += std::abs(a[i] - b[i]);
+    return total / sum(b);
+}
+
 /// Areas of VoxelIrradiance, in units of a voxel's face: 6 floats a voxel.
 inline std::vector<float> unpackAreas(const std::vector<uint32_t>& words) {
     std::vector<float> areas;
@@ -53,12 +81,12 @@ inline std::vector<float> readAreas(Chain& chain, const Buffer& area) {
 /// Surface voxels of a chain, read back.
 struct Voxels {
     explicit Voxels(Chain& chain) {
-        const auto* resource = chain.graph().resource<SurfaceVoxels>("voxels");
-        grid = resource->grid;
-        count = resource->voxelCount;
-        materials = readMaterials(chain, *resource);
-        occupancy = chain.read<uint32_t>(resource->occupancy);
-        rank = chain.read<uint32_t>(resource->rank);
+        const auto& voxels = chain.get<SurfaceVoxels>("voxels");
+        grid = voxels.grid;
+        count = voxels.voxelCount;
+        materials = readMaterials(chain, voxels);
+        occupancy = chain.read<uint32_t>(voxels.occupancy);
+        rank = chain.read<uint32_t>(voxels.rank);
     }
     size_t word(glm::ivec3 v) const {
         return (size_t(v.z) * grid.resolution.y + size_t(v.y)) * grid.wordsPerRow + size_t(v.x) / 32;
@@ -67,10 +95,12 @@ struct Voxels {
     bool holds(glm::vec3 position) const {
         return occupied(glm::ivec3(glm::floor((position - grid.origin) / grid.voxelSize)));
     }
-    const gpu::VoxelMaterial& at(glm::ivec3 v) const {
+    /// Of an occupied voxel.
+    uint32_t number(glm::ivec3 v) const {
         const uint32_t below = occupancy[word(v)] & ((1u << (v.x % 32)) - 1u);
-        return materials[rank[word(v)] + uint32_t(std::popcount(below))];
+        return rank[word(v)] + uint32_t(std::popcount(below));
     }
+    const gpu::VoxelMaterial& at(glm::ivec3 v) const { return materials[number(v)]; }
     template <typename Visit>
     void forEach(const Visit& visit) const {
         for (int z = 0; z < int(grid.resolution.z); ++z)
@@ -92,8 +122,7 @@ struct Voxels {
 
 /// The voxels of a scene; `parameters` are those of the pass, as "method: exact, resolution: 16".
 inline Voxels voxelize(const std::shared_ptr<const Scene>& scene, const std::string& parameters) {
-    Chain chain(std::make_shared<SceneState>(evaluate(scene, 0.0)), graphYaml({"voxelize, " + parameters}),
-                16, 16, 1);
+    Chain chain(evaluated(scene), graphYaml({"voxelize, " + parameters}), 16, 16);
     return Voxels(chain);
 }
 
@@ -105,8 +134,7 @@ inline std::shared_ptr<const Scene> triangleScene(const std::vector<glm::vec3>& 
     mesh.material = b.lambert("grey", glm::vec3(0.5f));
     for (uint32_t i = 0; i < corners.size(); ++i) {
         const uint32_t first = i - i % 3;
-        const glm::vec3 n =
-            glm::cross(corners[first + 1] - corners[first], corners[first + 2] - corners[first]);
+        const glm::vec3 n = glm::cross(corners[first + 1] - corners[first], corners[first + 2] - corners[first]);
         mesh.positions.push_back(corners[i]);
         mesh.normals.push_back(glm::length(n) > 0 ? glm::normalize(n) : glm::vec3(0, 1, 0));
         if (i % 3 == 2) mesh.triangles.push_back({first, first + 1, first + 2});

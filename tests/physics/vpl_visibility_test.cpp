@@ -10,30 +10,21 @@ namespace voxray::test {
 namespace {
 
 std::string graph(const std::string& gather, const std::string& before = "") {
-    std::vector<std::string> passes{"gbuffer", "voxelize, resolution: 32"};
-    if (!before.empty()) passes.push_back(before);
-    passes.insert(passes.end(), {"sample_vpls, vpls_per_bounce: 256", "gather_vpls, block: 1, " + gather});
-    return graphYaml(passes);
+    return graphYaml({"gbuffer", "voxelize, resolution: 32", before, "sample_vpls, vpls_per_bounce: 256",
+                      "gather_vpls, block: 1, " + gather});
 }
 
 ImageF indirect(const std::string& gather, const std::string& before = "") {
-    return Chain("cornell", "{lights: point}", graph(gather, before)).image("indirect");
-}
-
-/// Mean difference of two images, over the mean of the second.
-double difference(const ImageF& image, const ImageF& exact) {
-    double sum = 0;
-    for (size_t i = 0; i < exact.data.size(); ++i) sum += std::abs(image.data[i] - exact.data[i]);
-    return sum / double(exact.data.size()) / mean(exact);
+    return indirectLight("cornell", "{lights: point}", graph(gather, before));
 }
 
 TEST(VplVisibility, LeavesWithTrianglesHideWhatTrianglesHide) {
     const ImageF exact = indirect("visibility: exact");
-    const double voxels = difference(indirect("visibility: svo"), exact);
+    const double voxels = meanDifference(indirect("visibility: svo"), exact);
     const double lists =
-        difference(indirect("visibility: hybrid_leaves", "build_hybrid_leaves, primitives: 1048576"), exact);
-    const double grids = difference(
-        indirect("visibility: hybrid_leaves", "build_hybrid_leaves, primitives: 1, grid: 8"), exact);
+        meanDifference(indirect("visibility: hybrid_leaves", "build_hybrid_leaves, primitives: 1048576"), exact);
+    const double grids =
+        meanDifference(indirect("visibility: hybrid_leaves", "build_hybrid_leaves, primitives: 1, grid: 8"), exact);
     std::printf("off the exact image: voxels %.5f, grids %.5f, lists %.5f\n", voxels, grids, lists);
     EXPECT_LT(lists, 1e-5);
     EXPECT_LT(grids, 0.5 * voxels);
@@ -95,27 +86,18 @@ TEST(VplVisibility, BadNumbersAndScenesWithoutSurfacesAreErrors) {
     };
     EXPECT_CONTAINS(refused("vpls_per_bounce: 0"), "out of range");
     EXPECT_CONTAINS(refused("bounces: 0"), "out of range");
-    EXPECT_CONTAINS(refused("vpls_per_bounce: 16777216, bounces: 16"),
-                    "a buffer at most 128; lower the one or");
+    EXPECT_CONTAINS(refused("vpls_per_bounce: 16777216, bounces: 16"), "a buffer at most 128");
 }
 
 TEST(VplVisibility, AllCutAwayByMasksIsAnError) {
     // Surfaces that an alpha mask cuts whole away: there is no voxel, and no ray from a light hits anything
-    SceneState state = evaluate(makeBuiltinScene("white_room", parseYaml("{}", "scene")), 0.0);
-    Scene scene = *state.scene;
-    for (Material& material : scene.materials) {
-        material.alphaMode = AlphaMode::Mask;
-        material.baseColor.a = 0;
-        material.alphaCutoff = 0.5f;
-    }
-    state.scene = std::make_shared<Scene>(scene);
-    const auto refused = [&](const std::string& passes) {
-        return errorOf([&] { Chain(std::make_shared<SceneState>(state), passes, 8, 8, 1); });
+    const auto refused = [](const std::string& passes) {
+        return errorOf([&] { Chain(evaluated(cutAway(builtinScene("white_room"))), passes, 8, 8); });
     };
-    EXPECT_CONTAINS(refused(graph("visibility: svo")), "voxelize: no surface meets the grid");
-    EXPECT_CONTAINS(refused(graphYaml(
-                        {"gbuffer", "sample_vpls, vpls_per_bounce: 256", "gather_vpls, visibility: exact"})),
-                    "none of 256 rays from the lights hit a surface that reflects light");
+    EXPECT_CONTAINS(refused(graph("visibility: svo")), "voxelize: no surface");
+    EXPECT_CONTAINS(
+        refused(graphYaml({"gbuffer", "sample_vpls, vpls_per_bounce: 256", "gather_vpls, visibility: exact"})),
+        "none of 256 rays");
 }
 
 }  // namespace

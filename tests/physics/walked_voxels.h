@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <glm/glm.hpp>
-#include <limits>
 #include <random>
 
 #include "passes/common/voxel_march/voxel_tracer.h"
@@ -11,8 +10,6 @@
 #include "tests/physics/made_up_voxels.h"
 
 namespace voxray::test {
-
-inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// As in tests/gpu/voxel_march.comp.
 struct WalkAnswer {
@@ -55,9 +52,8 @@ class WalkedVoxels {
         const Buffer in(device(), "rays", rays.size() * sizeof(Ray));
         const Buffer out(device(), "answers", rays.size() * sizeof(WalkAnswer));
         stream_.upload(in, rays);
-        stream_.dispatch(
-            kernel, rays.size(),
-            {march, {"rays", in}, {"answers", out}, {"grid", grid}, {"count", uint32_t(rays.size())}});
+        stream_.dispatch(kernel, rays.size(),
+                         {march, {"rays", in}, {"answers", out}, {"grid", grid}, {"count", uint32_t(rays.size())}});
         counts = stream_.readAs<uint64_t>(march.counts(), 2);
         return stream_.readAs<WalkAnswer>(out, rays.size());
     }
@@ -68,11 +64,7 @@ class WalkedVoxels {
         VoxelTracer tracer(programs, walk);
         prepare(programs, tracer, voxels_);
         tracer.begin(stream_, voxels_);
-        const Buffer in(device(), "rays", rays.size() * sizeof(Ray)),
-            out(device(), "hits", rays.size() * sizeof(Hit));
-        stream_.upload(in, rays);
-        tracer.closestHit(stream_, in, out, uint32_t(rays.size()));
-        return stream_.readAs<Hit>(out, rays.size());
+        return test::closestHits(stream_, tracer, rays);
     }
 
     gpu::VoxelGrid grid{};
@@ -121,8 +113,7 @@ inline WalkedVoxels longVoxels() {
     return WalkedVoxels({1024, 11, 18}, 0.02f, [](glm::ivec3 v) { return isSparse(v, 3); });
 }
 inline WalkedVoxels emptyVoxels() {
-    return WalkedVoxels({250, 256, 64}, 0.02f,
-                        [](glm::ivec3 v) { return isSparse(v / 16, 80) && isSparse(v, 60); });
+    return WalkedVoxels({250, 256, 64}, 0.02f, [](glm::ivec3 v) { return isSparse(v / 16, 80) && isSparse(v, 60); });
 }
 
 }  // namespace voxray::test

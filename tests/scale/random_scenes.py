@@ -91,7 +91,7 @@ def run(program, folder, name, resolution, scenes, samples=SAMPLES, sampling=SAM
     sweep = {axis: values for axis, values in {"scene": scenes, **sweep}.items() if len(values) > 1}
     config = {"name": name, "scene": next(iter(scenes.values())), "image": {"width": 32, "height": 32}, "seed": 1,
               "graph": graph(resolution, sampling), "reference": {"pass": "path_trace", "spp": samples, "bounces": 8},
-              "measure": {"frames": 1, "warmup": 0, "second_seed": False, "metrics": ["nrmse", "mean_ratio"]},
+              "measure": {"frames": 1, "warmup": 0, "build_repeats": 0, "metrics": ["nrmse", "mean_ratio"]},
               **({"sweep": sweep} if sweep else {})}
     file, out = os.path.join(folder, name + ".yaml"), os.path.join(folder, name)
     with open(file, "w", encoding="utf-8") as written:

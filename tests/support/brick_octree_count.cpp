@@ -13,8 +13,7 @@ namespace {
 
 /// Samples of a pixel, in sixteenths of its width from its center.
 constexpr std::array<glm::ivec2, 1> kCenter{{{0, 0}}};
-constexpr std::array<glm::ivec2, 8> kEight{
-    {{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}}};
+constexpr std::array<glm::ivec2, 8> kEight{{{1, -3}, {-1, 3}, {5, 1}, {-3, -5}, {-5, 5}, {-7, -1}, {3, 7}, {7, -7}}};
 
 /// Visits the voxels of a triangle's fragments, inside of the grid or not.
 template <typename Visit>
@@ -42,9 +41,8 @@ void visitFragments(const std::array<glm::dvec3, 3>& corners, glm::ivec3 resolut
     for (int y = first[v]; y <= last[v]; ++y)
         for (int x = first[u]; x <= last[u]; ++x) {
             const glm::dvec2 center(x + 0.5, y + 0.5);
-            if (std::ranges::none_of(samples, [&](glm::ivec2 s) {
-                    return isCovered(center.x + s.x / 16.0, center.y + s.y / 16.0);
-                }))
+            if (std::ranges::none_of(
+                    samples, [&](glm::ivec2 s) { return isCovered(center.x + s.x / 16.0, center.y + s.y / 16.0); }))
                 continue;
             const double depth =
                 corners[0][w] -

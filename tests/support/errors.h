@@ -29,5 +29,8 @@ inline testing::AssertionResult contains(std::string_view text, std::string_view
 
 }  // namespace voxray
 
+/// Fails unless a statement throws an Error whose message holds `part`.
+#define EXPECT_ERROR(part, ...) EXPECT_CONTAINS(::voxray::errorOf([&] { __VA_ARGS__; }), part)
+
 /// Fails unless `text` holds `part`.
 #define EXPECT_CONTAINS(text, part) EXPECT_TRUE(::voxray::contains(text, part))

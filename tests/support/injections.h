@@ -7,9 +7,8 @@ namespace voxray::test {
 /// A strategy of injection, with parameters for small scenes, after place_surfels, link_surfels and
 /// trace_gather_rays.
 struct Injection {
-    std::string pass;  ///< And its parameters but for `bounces`.
-    bool
-        takesEmission;  ///< Whether emissive surfaces may be sources; point, spot and directional lights may.
+    std::string pass;         ///< And its parameters but for `bounces`.
+    bool takesEmission;       ///< Whether emissive surfaces may be sources; point, spot and directional lights may.
     bool fromCamera = false;  ///< Lights only voxels that the camera's rays or their reflections meet.
 
     std::string withBounces(int bounces) const { return pass + ", bounces: " + std::to_string(bounces); }

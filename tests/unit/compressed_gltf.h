@@ -30,8 +30,8 @@ inline GltfBuilder dracoGrid(int n, int speed) {
     soup.Start(int(corners.size() / 3));
     const int positions = soup.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
     for (size_t i = 0; i + 2 < corners.size(); i += 3)
-        soup.SetAttributeValuesForFace(positions, draco::FaceIndex(uint32_t(i / 3)), &corners[i],
-                                       &corners[i + 1], &corners[i + 2]);
+        soup.SetAttributeValuesForFace(positions, draco::FaceIndex(uint32_t(i / 3)), &corners[i], &corners[i + 1],
+                                       &corners[i + 2]);
     const std::unique_ptr<draco::Mesh> mesh = soup.Finalize();
     draco::Encoder encoder;
     encoder.SetSpeedOptions(speed, speed);
@@ -46,8 +46,7 @@ inline GltfBuilder dracoGrid(int n, int speed) {
     b.primitive(
         {{"indices", indices},
          {"attributes", {{"POSITION", position}}},
-         {"extensions",
-          {{"KHR_draco_mesh_compression", {{"bufferView", view}, {"attributes", {{"POSITION", 0}}}}}}}});
+         {"extensions", {{"KHR_draco_mesh_compression", {{"bufferView", view}, {"attributes", {{"POSITION", 0}}}}}}}});
     b.root["extensionsRequired"] = {"KHR_draco_mesh_compression"};
     return b;
 }
@@ -56,8 +55,8 @@ inline GltfBuilder dracoGrid(int n, int speed) {
 inline GltfBuilder meshoptGrid(int n) {
     const std::vector<glm::vec3> corners = gridCorners(n);
     std::vector<uint32_t> numbers(corners.size());
-    const size_t count = meshopt_generateVertexRemap(numbers.data(), nullptr, corners.size(), corners.data(),
-                                                     corners.size(), 12);
+    const size_t count =
+        meshopt_generateVertexRemap(numbers.data(), nullptr, corners.size(), corners.data(), corners.size(), 12);
     std::vector<glm::vec3> vertices(count);
     for (size_t i = 0; i < corners.size(); ++i) vertices[numbers[i]] = corners[i];
 
@@ -65,10 +64,8 @@ inline GltfBuilder meshoptGrid(int n) {
     std::vector<uint8_t> bytes(meshopt_encodeVertexBufferBound(count, 12));
     bytes.resize(meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), vertices.data(), count, 12));
     std::vector<uint8_t> triangles(meshopt_encodeIndexBufferBound(numbers.size(), count));
-    triangles.resize(
-        meshopt_encodeIndexBuffer(triangles.data(), triangles.size(), numbers.data(), numbers.size()));
-    const auto compressed = [&](const std::vector<uint8_t>& data, size_t elements, size_t stride,
-                                const char* mode) {
+    triangles.resize(meshopt_encodeIndexBuffer(triangles.data(), triangles.size(), numbers.data(), numbers.size()));
+    const auto compressed = [&](const std::vector<uint8_t>& data, size_t elements, size_t stride, const char* mode) {
         const int raw = b.view(data);
         json extension = b.root["bufferViews"][size_t(raw)];
         extension.update({{"byteStride", stride}, {"count", elements}, {"mode", mode}});
@@ -82,8 +79,7 @@ inline GltfBuilder meshoptGrid(int n) {
         b.accessor(compressed(triangles, numbers.size(), 4, "TRIANGLES"), numbers.size(), "SCALAR", uintType);
     b.primitive({{"indices", indices}, {"attributes", {{"POSITION", position}}}});
     const json fallback = {{"EXT_meshopt_compression", {{"fallback", true}}}};
-    b.root["buffers"] = {{{"byteLength", b.bytes.size()}},
-                         {{"byteLength", 1 << 20}, {"extensions", fallback}}};
+    b.root["buffers"] = {{{"byteLength", b.bytes.size()}}, {{"byteLength", 1 << 20}, {"extensions", fallback}}};
     b.root["extensionsRequired"] = {"EXT_meshopt_compression"};
     return b;
 }

@@ -95,9 +95,8 @@ TEST(EmbreeScene, InactiveRaysMiss) {
     Soup soup;
     soup.add({0, 0, -5}, {4, 0, -5}, {0, 4, -5});
     const EmbreeScene scene(soup.state);
-    const std::vector<Ray> rays{{{1, 1, 0}, 1, {0, 0, -1}, 0},
-                                {{1, 1, 0}, 0, {0, 0, -1}, -kInfinity},
-                                {{1, 1, 0}, 0, {0, 0, -1}, 10}};
+    const std::vector<Ray> rays{
+        {{1, 1, 0}, 1, {0, 0, -1}, 0}, {{1, 1, 0}, 0, {0, 0, -1}, -kInfinity}, {{1, 1, 0}, 0, {0, 0, -1}, 10}};
     std::vector<Hit> hits(3);
     std::vector<uint32_t> occluded(3, 7);
     scene.closestHit(rays, hits);
@@ -237,11 +236,10 @@ TEST(EmbreeScene, StreamsNameTheFirstBadRay) {
     const EmbreeScene scene(soup.state);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const Ray good{{1, 1, 0}, 0, {0, 0, -1}, kInfinity};
-    const std::vector<Ray> badRays{
-        {{1, nan, 0}, 0, {0, 0, -1}, 1},     {{1, 1, 0}, 0, {0, kInfinity, -1}, 1},
-        {{1, 1, 0}, nan, {0, 0, -1}, 1},     {{1, 1, 0}, 0, {0, 0, -1}, nan},
-        {{1, 1, 0}, -1.0f, {0, 0, -1}, 1},   {{1, 1, 3e18f}, 0, {0, 0, -1}, 1},
-        {{1, nan, 0}, 1.0f, {0, 0, -1}, -1}, {{1, 1, 0}, kInfinity, {0, 0, -1}, 1}};
+    const std::vector<Ray> badRays{{{1, nan, 0}, 0, {0, 0, -1}, 1},     {{1, 1, 0}, 0, {0, kInfinity, -1}, 1},
+                                   {{1, 1, 0}, nan, {0, 0, -1}, 1},     {{1, 1, 0}, 0, {0, 0, -1}, nan},
+                                   {{1, 1, 0}, -1.0f, {0, 0, -1}, 1},   {{1, 1, 3e18f}, 0, {0, 0, -1}, 1},
+                                   {{1, nan, 0}, 1.0f, {0, 0, -1}, -1}, {{1, 1, 0}, kInfinity, {0, 0, -1}, 1}};
     for (const Ray& bad : badRays) {
         std::vector<Ray> rays(30000, good);
         rays[12345] = rays[29000] = bad;
@@ -250,8 +248,7 @@ TEST(EmbreeScene, StreamsNameTheFirstBadRay) {
         for (const Coherence coherence : {Coherence::Incoherent, Coherence::Coherent})
             for (const bool closest : {true, false}) {
                 const std::string error = errorOf([&] {
-                    closest ? scene.closestHit(rays, hits, coherence)
-                            : scene.occluded(rays, occluded, coherence);
+                    closest ? scene.closestHit(rays, hits, coherence) : scene.occluded(rays, occluded, coherence);
                 });
                 EXPECT_CONTAINS(error, "ray 12345 ");
             }

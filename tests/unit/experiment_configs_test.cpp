@@ -5,7 +5,7 @@
 
 #include "experiment/scene_setup.h"
 #include "experiment/study.h"
-#include "passes/common/families.h"
+#include "tests/support/all_passes.h"
 #include "tests/support/places.h"
 
 using namespace voxray;
@@ -13,15 +13,13 @@ namespace fs = std::filesystem;
 
 /// Scene files are not part of the repository.
 bool needsFiles(const SceneSettings& scene) {
-    return !scene.source.file.empty() || std::ranges::any_of(scene.additions, [](const SceneAddition& added) {
-        return !added.source.file.empty();
-    });
+    return !scene.source.file.empty() ||
+           std::ranges::any_of(scene.additions, [](const SceneAddition& added) { return !added.source.file.empty(); });
 }
 
 /// Every config that is shipped, with each of its profiles.
 TEST(ShippedConfigs, ReadAndValidate) {
-    Registry registry;
-    registerPasses(registry);
+    const Registry registry = test::allPasses();
     int configs = 0;
     for (const auto& entry : fs::recursive_directory_iterator(test::sourceRoot() / "configs")) {
         if (entry.path().extension() != ".yaml") continue;

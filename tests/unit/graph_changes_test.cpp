@@ -81,9 +81,7 @@ class GraphChanges : public testing::Test {
         graph_->plan(frame_, device_.info(), device_.memoryLimitBytes());
         graph_->prepare(frame_, device_, compiler_, stream_);
     }
-    void runBuild() {
-        samples_ = graph_->run(Phase::Build, frame_, device_, stream_, *tracer_, scene_, 0, false);
-    }
+    void runBuild() { samples_ = graph_->run(Phase::Build, frame_, device_, stream_, *tracer_, scene_, 0, false); }
     /// What Watch reports of a run, as "first run number twice absent".
     std::string run() {
         runBuild();

@@ -44,8 +44,7 @@ struct Hoard final : Pass {
         EXPECT_EQ(scratch_.bytes(), 256 * kKiB);
         context.stream.fill(scratch_, 1);
         context.stream.upload(described_, std::vector<uint32_t>(64 * kKiB, 2));
-        if (params_.recordKept > 0 && !atRecord_)
-            atRecord_ = Buffer(context.device, "more", params_.recordKept * kKiB);
+        if (params_.recordKept > 0 && !atRecord_) atRecord_ = Buffer(context.device, "more", params_.recordKept * kKiB);
         if (params_.recordScratch > 0) Buffer(context.device, "sums", params_.recordScratch * kKiB);
     }
 
@@ -69,8 +68,7 @@ class GraphMemory : public testing::Test {
         planned_ = graph.plan(frame, device_.info(), limit).at(0);
         graph.prepare(frame, device_, compiler_, stream_);
         const uint64_t before = device_.memoryUsedBytes();
-        for (int i = 0; i < 2; ++i)
-            graph.run(Phase::Build, frame, device_, stream_, *tracer_, scene_, 0, false);
+        for (int i = 0; i < 2; ++i) graph.run(Phase::Build, frame, device_, stream_, *tracer_, scene_, 0, false);
         keptByRecording_ = device_.memoryUsedBytes() - before;
         return graph.memory().at(0);
     }
@@ -133,8 +131,8 @@ TEST_F(GraphMemory, WhatIsTooLargeNamesThePassAndWhatToLower) {
     Registry registry;
     registry.add<Hoard>();
     const std::string advice =
-        "lower what it grows with, of greedy.described, greedy.prepare_kept, first.described, "
-        "first.record_kept, image.width, image.height";
+        "lower what it grows with, of greedy.described, greedy.prepare_kept, first.described, first.record_kept, "
+        "image.width, image.height";
     Graph graph(registry, parseYaml("- {pass: hoard, id: unread}\n"
                                     "- {pass: hoard, id: first, record_kept: 1}\n"
                                     "- {pass: hoard, id: greedy, described: 8192, prepare_kept: 8192}\n",
@@ -151,8 +149,7 @@ TEST_F(GraphMemory, WhatIsTooLargeNamesThePassAndWhatToLower) {
     };
     const std::string planned = messageOf([&] { graph.plan(frame, device_.info(), 4096 * kKiB); });
     EXPECT_EQ(planned.find("g.yaml:3: the graph needs "), 0u) << planned;
-    EXPECT_NE(planned.find("the largest part is greedy's described with 8.0 MiB: " + advice),
-              std::string::npos)
+    EXPECT_NE(planned.find("the largest part is greedy's described with 8.0 MiB: " + advice), std::string::npos)
         << planned;
 
     const uint64_t limit = device_.memoryLimitBytes();

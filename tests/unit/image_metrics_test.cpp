@@ -97,8 +97,7 @@ TEST(Metrics, HdrFlipIsTheWorstOfItsExposures) {
     ImageF worst(reference.width, reference.height, 1);
     for (const double stops : {-2.0, 0.0, 2.0}) {
         const ErrorMap one = flipHdr(test, reference, {stops, stops, 1});
-        for (size_t i = 0; i < worst.data.size(); ++i)
-            worst.data[i] = std::max(worst.data[i], one.map.data[i]);
+        for (size_t i = 0; i < worst.data.size(); ++i) worst.data[i] = std::max(worst.data[i], one.map.data[i]);
     }
     EXPECT_EQ(all.map.data, worst.data);
     EXPECT_THROW(flipHdr(test, reference, {1, 0, 2}), Error);
@@ -164,8 +163,8 @@ TEST(Metrics, MaskedScoresAreThoseOfThePixelsUnderTheMask) {
     EXPECT_NEAR(nRmse(test, reference, left), 0.5, 1e-6);
     EXPECT_NEAR(relMse(test, reference, left), 0.25 / 1.01, 1e-6);
     EXPECT_NEAR(meanRatio(test, reference, left), 1.5, 1e-6);
-    EXPECT_NEAR(psnr(preview(test, -3), preview(reference, -3), left),
-                psnr(preview(grey(3), -3), preview(grey(2), -3)), 1e-9);
+    EXPECT_NEAR(psnr(preview(test, -3), preview(reference, -3), left), psnr(preview(grey(3), -3), preview(grey(2), -3)),
+                1e-9);
 
     // What lies beyond the mask is seen by windows alone: five pixels off, SSIM and FLIP are those of the
     // flat pair.

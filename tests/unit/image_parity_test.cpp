@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -9,6 +8,7 @@
 
 #include "image/score.h"
 #include "tests/support/places.h"
+#include "tests/support/temporary_folder.h"
 
 /// Every metric against tests/images/metrics_reference.py, an independent numpy version, on synthetic pairs.
 namespace voxray {
@@ -40,8 +40,7 @@ ImageF paint(uint32_t width, uint32_t height, const Colour& colour) {
 
 std::vector<Pair> syntheticPairs() {
     std::vector<Pair> pairs;
-    pairs.push_back({"noise against noise",
-                     paint(61, 47, [](auto x, auto y, auto c) { return noise(x, y, c); }),
+    pairs.push_back({"noise against noise", paint(61, 47, [](auto x, auto y, auto c) { return noise(x, y, c); }),
                      paint(61, 47, [](auto x, auto y, auto c) { return noise(x, y, c + 3); })});
     const auto board = [](uint32_t shift) {
         return [shift](uint32_t x, uint32_t y, uint32_t c) {
@@ -49,16 +48,14 @@ std::vector<Pair> syntheticPairs() {
         };
     };
     pairs.push_back({"shifted checkerboard", paint(64, 40, board(1)), paint(64, 40, board(0))});
-    pairs.push_back(
-        {"gradient with a tint",
-         paint(80, 24, [](auto x, auto, auto c) { return float(x) / 79 * (c == 2 ? 0.7f : 1.0f); }),
-         paint(80, 24, [](auto x, auto, auto) { return float(x) / 79; })});
+    pairs.push_back({"gradient with a tint",
+                     paint(80, 24, [](auto x, auto, auto c) { return float(x) / 79 * (c == 2 ? 0.7f : 1.0f); }),
+                     paint(80, 24, [](auto x, auto, auto) { return float(x) / 79; })});
     pairs.push_back({"saturated primaries",
                      paint(40, 40, [](auto x, auto, auto c) { return c == (x / 13) % 3 ? 1.0f : 0.0f; }),
                      paint(40, 40, [](auto, auto y, auto c) { return c == (y / 13) % 3 ? 1.0f : 0.0f; })});
     const auto radiance = [](uint32_t x, uint32_t y, uint32_t c) {
-        return std::exp2(10.0f * std::sin(float(x) * 0.11f) * std::cos(float(y) * 0.07f) - 3.0f +
-                         0.3f * float(c));
+        return std::exp2(10.0f * std::sin(float(x) * 0.11f) * std::cos(float(y) * 0.07f) - 3.0f + 0.3f * float(c));
     };
     pairs.push_back({"high dynamic range with fireflies",
                      paint(72, 50,
@@ -67,8 +64,7 @@ std::vector<Pair> syntheticPairs() {
                                return radiance(x, y, c) * (0.5f + noise(x, y, c)) * (firefly ? 100.0f : 1.0f);
                            }),
                      paint(72, 50, radiance)});
-    pairs.push_back({"smaller than the filters",
-                     paint(12, 11, [](auto x, auto, auto) { return float(x) / 9; }),
+    pairs.push_back({"smaller than the filters", paint(12, 11, [](auto x, auto, auto) { return float(x) / 9; }),
                      paint(12, 11, [](auto, auto y, auto) { return 0.1f + float(y) / 12; })});
     return pairs;
 }
@@ -84,11 +80,9 @@ void store(const fs::path& path, const Pair& pair) {
 
 TEST(ImageParity, EveryMetricAgreesWithNumpy) {
     // Hand the pairs to the numpy version.
-    const fs::path folder = fs::temp_directory_path() / ("voxray-parity-" + std::to_string(::getpid()));
-    fs::create_directories(folder);
+    const test::TemporaryFolder folder;
     const std::vector<Pair> pairs = syntheticPairs();
-    std::string command =
-        "/usr/bin/python3 " + (test::sourceRoot() / "tests/images/metrics_reference.py").string();
+    std::string command = "/usr/bin/python3 " + (test::sourceRoot() / "tests/images/metrics_reference.py").string();
     for (size_t i = 0; i < pairs.size(); ++i) {
         const fs::path file = folder / (std::to_string(i) + ".pair");
         store(file, pairs[i]);
@@ -113,7 +107,6 @@ TEST(ImageParity, EveryMetricAgreesWithNumpy) {
             RecordProperty(pair.name + ": " + name, std::to_string(value));
         }
     }
-    fs::remove_all(folder);
 }
 
 }  // namespace

@@ -54,8 +54,7 @@ struct Simulation {
            freed = 0;    ///< Means over references; of `freed` that of what it is before a root.
     double covered = 0;  ///< Part of the intervals that hold the truth.
 };
-Simulation simulate(PlainMetric plain, FreedMetric freed, double power, const ImageF& test,
-                    double deviation) {
+Simulation simulate(PlainMetric plain, FreedMetric freed, double power, const ImageF& test, double deviation) {
     constexpr int kReferences = 400;
     std::mt19937 random(3);
     const ImageF right = truth();
@@ -66,8 +65,7 @@ Simulation simulate(PlainMetric plain, FreedMetric freed, double power, const Im
         const Estimate estimate = freed(test, {a, b}, {});
         s.plain += std::pow(plain(test, meanOf(a, b), {}), power) / kReferences;
         s.freed += std::pow(estimate.value, power) / kReferences;
-        s.covered +=
-            double(estimate.interval->low <= s.truth && s.truth <= estimate.interval->high) / kReferences;
+        s.covered += double(estimate.interval->low <= s.truth && s.truth <= estimate.interval->high) / kReferences;
     }
     s.truth = std::pow(s.truth, power);
     std::printf("truth %.5f plain %.5f freed %.5f covered %.3f\n", s.truth, s.plain, s.freed, s.covered);

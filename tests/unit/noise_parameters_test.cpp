@@ -6,7 +6,7 @@
 #include <set>
 
 #include "experiment/study.h"
-#include "passes/common/families.h"
+#include "tests/support/all_passes.h"
 
 using namespace voxray;
 
@@ -14,15 +14,9 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-Registry allPasses() {
-    Registry registry;
-    registerPasses(registry);
-    return registry;
-}
-
 /// Of the only variant of a graph whose injection has these parameters.
 Names noiseOf(const std::string& injection, const std::string& image) {
-    const Registry registry = allPasses();
+    const Registry registry = test::allPasses();
     const std::string config =
         "name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: gbuffer}\n  - {pass: voxelize}\n"
         "  - {pass: place_surfels}\n  - {pass: inject_voxel_rays, id: inject" +
@@ -45,8 +39,7 @@ TEST(NoiseParameters, AreThoseOfThePassesThatAnImageDependsOn) {
 }
 
 TEST(NoiseParameters, AreLeftOutWhereTheyHaveNoEffect) {
-    EXPECT_EQ(noiseOf(", bounces: 0", "indirect"),
-              (Names{"place_surfels.points_per_voxel", "trace.rays_per_block"}));
+    EXPECT_EQ(noiseOf(", bounces: 0", "indirect"), (Names{"place_surfels.points_per_voxel", "trace.rays_per_block"}));
 }
 
 TEST(NoiseParameters, StandInTheHelpOfTheirPass) {
@@ -54,7 +47,7 @@ TEST(NoiseParameters, StandInTheHelpOfTheirPass) {
     const std::set<std::string> more{"gather_cones.near_field_voxels", "inject_rsm.bounces"};
     const std::regex sentence("[Nn]oisy by[^.]*\\.");
     size_t marked = 0;
-    const Registry registry = allPasses();
+    const Registry registry = test::allPasses();
     for (const PassKind& kind : registry.kinds()) {
         std::smatch found;
         const std::string said = std::regex_search(kind.help, found, sentence) ? found.str() : "";

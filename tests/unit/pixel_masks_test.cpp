@@ -40,8 +40,7 @@ MaskSettings mask(const std::string& material, const std::string& object = "", f
 /// Rows of '#' for selected pixels.
 std::string picture(const MaskSettings& settings, uint32_t width) {
     const SceneState state = twoWalls();
-    const PixelSelection selection =
-        selectPixels({settings}, state, state.cameras.at(0), width, kHeight).at(0);
+    const PixelSelection selection = selectPixels({settings}, state, state.cameras.at(0), width, kHeight).at(0);
     std::string rows;
     for (size_t i = 0; i < selection.pixels.size(); ++i) {
         rows += selection.pixels[i] ? '#' : '.';
@@ -53,8 +52,8 @@ std::string picture(const MaskSettings& settings, uint32_t width) {
 
 std::string rows(const std::string& empty, const std::string& full) {
     // The image is 2/3 m high on each side of its center: 0.5 m is 3 of 4 rows.
-    return empty + "\n" + full + "\n" + full + "\n" + full + "\n" + full + "\n" + full + "\n" + full + "\n" +
-           full + "\n";
+    return empty + "\n" + full + "\n" + full + "\n" + full + "\n" + full + "\n" + full + "\n" + full + "\n" + full +
+           "\n";
 }
 
 TEST(PixelMasks, SelectByMaterialObjectAndMirror) {
@@ -83,16 +82,14 @@ TEST(PixelMasks, ThatSelectNothingOrAllAreWarnedOf) {
     EXPECT_TRUE(warnings(mask("wood"), sky).empty());
     EXPECT_TRUE(warnings(mask("", "", 0, 1), sky).empty());
     EXPECT_EQ(warnings(mask("", "", 0, 1), closer).size(), 1u);
-    EXPECT_CONTAINS(warnings(mask("", "", 0, 1), closer).at(0).str(),
-                    "measure.masks.m: it selects every pixel");
+    EXPECT_CONTAINS(warnings(mask("", "", 0, 1), closer).at(0).str(), "measure.masks.m: it selects every pixel");
 
     // Out of sight, or nowhere
     Camera left = closer;
     left.position.x = -5;
     EXPECT_CONTAINS(warnings(mask("mirror"), left).at(0).str(), "is out of sight");
     for (const MaskSettings& nowhere : {mask("wood", "right"), mask("", "", 0.9f, 0.01f)})
-        EXPECT_CONTAINS(warnings(nowhere, sky).at(0).str(),
-                        "no surface of the scene meets all of its conditions");
+        EXPECT_CONTAINS(warnings(nowhere, sky).at(0).str(), "no surface of the scene meets all of its conditions");
 }
 
 TEST(PixelMasks, UnknownNamesAreErrors) {

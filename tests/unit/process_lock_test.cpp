@@ -14,6 +14,7 @@
 
 #include "base/files.h"
 #include "tests/support/errors.h"
+#include "tests/support/temporary_folder.h"
 
 using namespace voxray;
 using Kind = ProcessLock::Kind;
@@ -24,15 +25,8 @@ namespace {
 /// A folder, and other processes that hold its lock.
 class SharedFolder : public testing::Test {
  protected:
-    void SetUp() override {
-        folder_ = fs::temp_directory_path() /
-                  fmt::format("voxray_{}_{}", testing::UnitTest::GetInstance()->current_test_info()->name(),
-                              ::getpid());
-        fs::create_directories(folder_);
-    }
     void TearDown() override {
         for (const pid_t process : std::vector(holders_)) end(process, SIGKILL);
-        fs::remove_all(folder_);
     }
 
     fs::path file() const { return folder_ / ".lock"; }
@@ -76,7 +70,7 @@ class SharedFolder : public testing::Test {
         }
     }
 
-    fs::path folder_;
+    const test::TemporaryFolder folder_;
     std::vector<pid_t> holders_;
 };
 

@@ -24,8 +24,8 @@ double correlation(const ImageF& x, const ImageF& otherX, const ImageF& y, const
 }
 
 TEST(ReferenceNoise, IsIndependentOfAPathTracedVariantOfTheSameSeedAndSamples) {
-    const Experiment experiment = parseExperiment(
-        "name: noise\nscene: {builtin: cornell}\ngraph: [{pass: path_trace}]\n", "noise.yaml");
+    const Experiment experiment =
+        parseExperiment("name: noise\nscene: {builtin: cornell}\ngraph: [{pass: path_trace}]\n", "noise.yaml");
     SceneLoader loader({});
     const PreparedScene prepared = loader.prepare(experiment.setup.scene);
     const EmbreeScene tracer(prepared.state);
@@ -35,8 +35,7 @@ TEST(ReferenceNoise, IsIndependentOfAPathTracedVariantOfTheSameSeedAndSamples) {
             .totalHalves;
     };
     for (const uint64_t seed : {0u, 7u}) {
-        const auto variant = halvesOf(seed), other = halvesOf(seed + 1000),
-                   reference = halvesOf(referenceSeed(seed));
+        const auto variant = halvesOf(seed), other = halvesOf(seed + 1000), reference = halvesOf(referenceSeed(seed));
         // 4 standard deviations. Where one image is the same, the signs agree in two of three pixels.
         const double limit = 4.0 / 96;
         EXPECT_NEAR(correlation(variant[0], other[0], variant[0], other[1]), 1.0 / 3, 2 * limit);

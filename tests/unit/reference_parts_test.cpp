@@ -20,8 +20,7 @@ class RunInParts : public RunTest {
         PreparedExperiment prepared(makeStudy(parseExperiment(config(rest), "fake.yaml"), passes), o);
         return partsOf(prepared, referenceParts);
     }
-    RunSummary runPart(const std::string& id, const std::string& out = "out",
-                       const std::string& rest = kSweep) const {
+    RunSummary runPart(const std::string& id, const std::string& out = "out", const std::string& rest = kSweep) const {
         RunOptions o = options();
         o.out = root_ / out;
         o.part = id;
@@ -48,8 +47,7 @@ TEST_F(RunInParts, PartsAreListedInOrder) {
     EXPECT_EQ(parts(2, "sweep: {constant.value: [0.25, 1]}\n")[0].id, all[0].id);
     EXPECT_NE(parts(2, std::string(kSweep) + "seed: 3\n")[0].id, all[0].id);
     EXPECT_EQ(parts(1, "sweep: {image.width: [8, 16]}\n").size(), 5u);
-    EXPECT_CONTAINS(errorOf<UsageError>([&] { parts(5); }),
-                    "4 samples a pixel can't be divided into 5 parts");
+    EXPECT_CONTAINS(errorOf<UsageError>([&] { parts(5); }), "4 samples a pixel can't be divided into 5 parts");
 }
 
 TEST_F(RunInParts, InAnyOrderTheyMakeWhatARunMakes) {
@@ -112,8 +110,7 @@ TEST_F(RunInParts, FinishedPartsAreKeptOnResume) {
 }
 
 TEST_F(RunInParts, UnknownPartsAndOtherExperimentsAreRefused) {
-    EXPECT_CONTAINS(errorOf<UsageError>([&] { runPart("variant.value-2"); }),
-                    "did you mean 'variant.value-1'?");
+    EXPECT_CONTAINS(errorOf<UsageError>([&] { runPart("variant.value-2"); }), "'variant.value-1'");
     EXPECT_FALSE(fs::exists(root_ / "out"));
     runPart(parts(1)[0].id);
     const std::string other = std::string(kSweep) + "seed: 3\n";
@@ -173,7 +170,7 @@ TEST_F(RunInParts, AFailedReferenceIsWhyVariantsFailed) {
     PreparedExperiment prepared(wired(), o);
     const std::string id = partsOf(prepared, 1)[0].id;
     o.part = id;
-    EXPECT_CONTAINS(errorOf([&] { runExperiment(wired(), o); }), "no truth");
+    EXPECT_ERROR("no truth", runExperiment(wired(), o));
     o.part = "merge";
     EXPECT_EQ(runExperiment(wired(), o).failed, 2u);
     EXPECT_EQ(cell("value-1", "status"), "failed");
@@ -183,7 +180,7 @@ TEST_F(RunInParts, AFailedReferenceIsWhyVariantsFailed) {
 TEST_F(RunInParts, AFailedVariantIsAnErrorAndARowOfTheMerge) {
     const std::string sweep = "sweep: {constant.fail: [true, false]}\n";
     runPart(parts(1, sweep)[0].id, "out", sweep);
-    EXPECT_CONTAINS(errorOf([&] { runPart("variant.fail-true", "out", sweep); }), "the pass gave up");
+    EXPECT_ERROR("the pass gave up", runPart("variant.fail-true", "out", sweep));
     EXPECT_FALSE(fs::exists(root_ / "out" / "images" / "fail-true"));
     runPart("variant.fail-false", "out", sweep);
     const RunSummary summary = merge({"out"}, "all");
@@ -224,8 +221,7 @@ TEST_F(RunInParts, FoldersOfSeveralMachinesAreMerged) {
         EXPECT_TRUE(fs::exists(root_ / "out" / "images" / folder / "final.exr")) << folder;
         EXPECT_EQ(reference["variants"].size(), 1u);
     }
-    EXPECT_EQ(std::ranges::count(readTextFile(root_ / "out" / "passes.csv"), '\n'),
-              std::ranges::count(right, '\n'));
+    EXPECT_EQ(std::ranges::count(readTextFile(root_ / "out" / "passes.csv"), '\n'), std::ranges::count(right, '\n'));
 }
 
 TEST_F(RunInParts, WhatDiffersIsNotMerged) {
@@ -236,7 +232,7 @@ TEST_F(RunInParts, WhatDiffersIsNotMerged) {
         EXPECT_FALSE(fs::exists(root_ / "all"));
         return message;
     };
-    EXPECT_CONTAINS(refusal(), "both hold 'value-1'");
+    EXPECT_CONTAINS(refusal(), "'value-1'");
 
     // Each of the manifest's keys that tell an experiment apart
     const std::string text = readTextFile(root_ / "copy" / "manifest.json");
@@ -247,8 +243,7 @@ TEST_F(RunInParts, WhatDiffersIsNotMerged) {
         EXPECT_CONTAINS(refusal(), key);
         EXPECT_CONTAINS(refusal(), value);
     };
-    refusalOf("config.measure.frames: 3 and 4", "copy",
-              [](auto& m) { m["config"]["measure"]["frames"] = 4; });
+    refusalOf("config.measure.frames: 3 and 4", "copy", [](auto& m) { m["config"]["measure"]["frames"] = 4; });
     refusalOf("voxray_version: ", "\"0.0\"", [](auto& m) { m["voxray_version"] = "0.0"; });
     refusalOf("commit: ", "\"abc\"", [](auto& m) { m["commit"] = "abc"; });
     refusalOf("inputs.value-1.scene: ", "\"abc\"", [](auto& m) { m["inputs"]["value-1"]["scene"] = "abc"; });
@@ -256,10 +251,7 @@ TEST_F(RunInParts, WhatDiffersIsNotMerged) {
 
     // Other results in the target, and no results
     EXPECT_CONTAINS(errorOf<UsageError>([&] { merge({"out"}, "copy"); }), "holds results already");
-    EXPECT_CONTAINS(errorOf<UsageError>([&] {
-                        merge({"out", "nowhere"}, "all");
-                    }),
-                    "holds no results of Voxray");
+    EXPECT_CONTAINS(errorOf<UsageError>([&] { merge({"out", "nowhere"}, "all"); }), "holds no results of Voxray");
 }
 
 TEST_F(RunInParts, SumsAreKeptToTheBitAndDamageIsNoticed) {
@@ -285,7 +277,7 @@ TEST_F(RunInParts, SumsAreKeptToTheBitAndDamageIsNoticed) {
     const ReferenceImages images = imagesOf(sum), again = imagesOf(partOf(images));
     EXPECT_EQ(images.final.a.data, again.final.a.data);
     EXPECT_EQ(images.indirect.mean.data, again.indirect.mean.data);
-    EXPECT_CONTAINS(errorOf([&] { folder.load(hash, 2, 2); }), "another reference");
+    EXPECT_ERROR("another reference", folder.load(hash, 2, 2));
 
     const fs::path file = root_ / "parts" / (ReferenceParts::id(hash, {1, 2}) + ".sums");
     const std::string whole = readTextFile(file);

@@ -19,15 +19,14 @@ MAX_BYTES = 60e6
 SIZE = (640, 360)
 
 
-def noise(path: Path, channels: int) -> Path:
+def noise(path: Path, channels: int) -> None:
     """A picture that does not compress: the largest that a run can leave."""
     shape = (SIZE[1], SIZE[0], channels) if channels > 1 else (SIZE[1], SIZE[0])
     Image.fromarray(np.random.default_rng(1).integers(0, 256, shape, dtype=np.uint8)).save(path)
-    return path
 
 
 def write(directory: Path, count: int) -> None:
-    """Variants of two keys with errors of both lights and all images, which are links to one."""
+    """Variants of two keys with errors of both lights and all images, which are the reference's: links to its folder."""
     random = np.random.default_rng(2)
     sizes = (32, 64, 128, 256, 512)
     rows = []
@@ -43,13 +42,12 @@ def write(directory: Path, count: int) -> None:
     graph = [{"pass": name, "id": name, "rays": 16, "bounces": 7} for name in ("voxelize", "inject", "gbuffer", "gather", "composite")]
     run["variants"] = {row["variant"]: graph for row in rows}
     made_up.write_results(directory, rows, run, images=False)
-    color, grey = noise(directory / "color.png", 3), noise(directory / "grey.png", 1)
-    for folder in ("reference", *(row["variant"] for row in rows)):
-        (directory / "images" / folder).mkdir(parents=True)
-        for name in ("final", "indirect"):
-            os.link(color, directory / "images" / folder / f"{name}.png")
-        for name in ("flip", "indirect_flip"):
-            os.link(grey, directory / "images" / folder / f"{name}.png")
+    images = directory / "images"
+    (images / "reference").mkdir(parents=True)
+    for name, channels in (("final", 3), ("indirect", 3), ("flip", 1), ("indirect_flip", 1)):
+        noise(images / "reference" / f"{name}.png", channels)
+    for row in rows:
+        os.symlink(images / "reference", images / row["variant"])
 
 
 class ManyVariants(unittest.TestCase):

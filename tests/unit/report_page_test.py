@@ -7,9 +7,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from report_support import NRMSE, Page, ReportTest, made_up
+from report_support import NRMSE, Page, ReportTest, made_up, numbers_of
 
-from report import bars, charts, details, names, page, ranking, setting, style, table
+from report import bars, details, names, page, pages, ranking, setting, style, table
 from report.load import load
 from PIL import Image
 
@@ -28,7 +28,7 @@ class FullRun(unittest.TestCase):
 
     def test_shows_every_part(self):
         # 2 lights x 2 times x 3 errors; 6 finished variants x 2 lights x (image, error map) and 2 references.
-        self.assertEqual(self.page.count("svg", "chart"), 12 + 2)
+        self.assertEqual(self.page.count("div", "plot"), 12 + 2)
         sources = [attrs["src"] for tag, attrs in self.page.tags if tag == "img"]
         self.assertEqual(len(sources), 26)
         self.assertTrue(all(source.startswith("data:image/png;base64,") for source in sources))
@@ -71,7 +71,7 @@ class FullRun(unittest.TestCase):
         named = names.names_of(results)
         lights = results.lights()
         anchors = {name: f"variant-{number}" for name, number in named.numbers.items()}
-        shown = details.variants(results, lights, style.pass_colors(results), named, anchors, [])
+        shown = details.variants(results, lights, style.pass_colors(results), named, anchors, set(), [])
         leads = {lead.light: lead.copies for lead in details.leads(results, lights, shown, details.thumbnails(results, lights, shown))}
         for light, error in (("total", "0.211"), ("indirect", "0.300")):
             reference, best, its_error = leads[light]
@@ -85,15 +85,16 @@ class FullRun(unittest.TestCase):
         self.assertEqual(self.source.count("data:image/png;base64,"), len(sources))
 
     def test_needs_nothing_else(self):
-        self.assertNotRegex(self.source, r"https?://")
+        own = self.source.replace(pages._own("d3"), "").replace("http://www.w3.org/2000/svg", "")  # names that nothing loads
+        self.assertNotRegex(own, r"https?://")
         for _, value in re.findall(r'\b(src|href)="([^"]*)"', self.source):
             self.assertRegex(value, r"^(data:image/png|#)")
 
     def test_links_lead_somewhere(self):
         targets = {f"#{name}" for name in self.page.attributes("id")}
-        of_points = [link for link in self.page.attributes("xlink:href") if link.startswith("#variant-")]
-        self.assertEqual(len(of_points), (12 + 2) * 6)
-        self.assertLessEqual({*self.page.attributes("href"), *self.page.attributes("xlink:href")}, targets)
+        of_points = {f"#{variant['anchor']}" for variant in numbers_of(self.source, "chart-data")["variants"]}
+        self.assertEqual(len(of_points), 6)
+        self.assertLessEqual({*self.page.attributes("href"), *of_points}, targets)
 
     def test_same_results_make_the_same_page(self):
         self.assertEqual(self.source, page.render(load(self.directory)))
@@ -103,7 +104,7 @@ class PartOfARun(ReportTest):
     def test_without_indirect_light(self):
         rows = [made_up.variant("a", 10, 0.3), made_up.variant("b", 20, 0.2)]
         shown = self.make(rows, made_up.manifest([]), indirect=False)
-        self.assertEqual(shown.count("svg", "chart"), 6 + 1)
+        self.assertEqual(shown.count("div", "plot"), 6 + 1)
         self.assertNotIn("Indirect", shown.text)
 
     def test_without_reference_and_manifest(self):
@@ -112,12 +113,12 @@ class PartOfARun(ReportTest):
         self.assertIn("The reference's image is missing", shown.text)
         self.assertIn("manifest.json cannot be read", shown.text)
         self.assertIn("scores are left out", shown.text)
-        self.assertEqual(shown.count("svg", "chart"), 0)
+        self.assertEqual(shown.count("div", "plot"), 0)
 
     def test_single_variant(self):
         shown = self.make([made_up.variant("only", 10, 0.3)], made_up.manifest([]), indirect=False)
         self.assertEqual(shown.count("td", "best"), 0)  # nothing to be better than
-        self.assertEqual(shown.count("svg", "chart"), 6 + 1)
+        self.assertEqual(shown.count("div", "plot"), 6 + 1)
 
     def test_all_failed(self):
         shown = self.make([made_up.failed("a", "lost device"), made_up.failed("b", "")], made_up.manifest([]))
@@ -161,20 +162,6 @@ class PartOfARun(ReportTest):
         results = load(made_up.write_results(self.directory, rows, made_up.manifest(["size", "method"]), images=False))
         self.assertEqual([column.key for column in table.columns_of(results, [])][-2:], ["rays", "size"])
 
-    def test_labels_that_would_lie_on_others_are_left_out(self):
-        def drawn(ms):
-            rows = [made_up.variant(f"variant {i}", time, 0.3) for i, time in enumerate(ms)]
-            results = load(made_up.write_results(self.directory, rows, made_up.manifest([]), images=False))
-            named, all_names = names.names_of(results), list(results.variants["variant"])
-            chart = charts.cost_error_chart(results, NRMSE, "total", False, dict.fromkeys(all_names, style.Style("c0", "o")),
-                                            named.short, dict.fromkeys(all_names, "x"), "chart", [], named)
-            return chart.unlabelled, sum(f">{name}<" in re.sub(r"<title>.*?</title>", "", chart.svg) for name in all_names)
-
-        self.assertEqual(drawn((1, 10, 100)), (0, 3))
-        left_out, labels = drawn([10 + 0.001 * i for i in range(12)])
-        self.assertGreater(left_out, 0)
-        self.assertEqual(labels, 12 - left_out)
-
     def test_zero_and_infinite_scores_are_named_not_drawn(self):
         perfect = made_up.variant("perfect", 10, 0.0)
         perfect["psnr_db"] = "inf"
@@ -200,11 +187,11 @@ class PartOfARun(ReportTest):
             "b,compare,missed,,40\na,cache,dropped,0,0\na,cache,dropped,1,0\n")
         self.assertEqual(self.run_program()[0], 0)
         shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
-        for words in ("What passes report", "compare: missed", "1\u202f234\u202f567", "0.500 (most 0.750)", "1 (a): 0.500 on average"):
+        for words in ("What passes report", "compare: missed", "1\u202f234\u202f567", "0.500 (most 0.750)"):
             self.assertIn(words, shown.text)
-        self.assertEqual(shown.attributes("aria-label").count("probe: change"), 1)
+        charts = numbers_of((self.directory / "report.html").read_text(encoding="utf-8"), "chart-data")["charts"]
+        self.assertEqual([chart["text"] for chart in charts if "lines" in chart], ["probe: change over frames; a: 0.500 on average"])
         self.assertIn("cache: dropped", shown.text)  # It stays as it was: the table says so.
-        self.assertNotIn("cache: dropped", shown.attributes("aria-label"))
         (self.directory / "values.csv").write_text("what,is\nthis,here\n")
         self.assertEqual(self.run_program()[0], 0)
         self.assertIn("values.csv lacks a column", Page((self.directory / "report.html").read_text(
@@ -227,9 +214,11 @@ class PartOfARun(ReportTest):
         made_up.write_csv(self.directory / "frames.csv", list(frames[1]), frames)
         self.assertEqual(self.run_program()[0], 0)
         shown = Page((self.directory / "report.html").read_text(encoding="utf-8"))
-        for words in ("Over frames", "temporal bias", "0.080–0.12", "1 (calm): 0.220 on average"):
+        for words in ("Over frames", "temporal bias", "0.080–0.12"):
             self.assertIn(words, shown.text)
-        self.assertEqual(shown.count("svg", "chart"), 6 + 1 + 3)
+        lines = numbers_of((self.directory / "report.html").read_text(encoding="utf-8"), "chart-data")["charts"][-3]
+        self.assertEqual(lines["lines"], [[0, [0, 1, 2], [0.2, 0.22, 0.24]], [1, [0, 1, 2], [0.4, 0.44, 0.48]]])
+        self.assertEqual(shown.count("div", "plot"), 6 + 1 + 3)
         (self.directory / "frames.csv").write_text("what,is\nthis,here\n")
         self.assertEqual(self.run_program()[0], 0)
         self.assertIn("frames.csv lacks a column", (self.directory / "report.html").read_text(encoding="utf-8"))
@@ -327,7 +316,7 @@ class HostileText(ReportTest):
         run = made_up.manifest(["<b>key</b>"])
         run.update({"warnings": ["<img src=x>"], "device": "<u>GPU</u>", "config": {"name": "</title><b>"}})
         shown = self.make(rows, run, images=False)
-        self.assertEqual([tag for tag, _ in shown.tags if tag == "script"], ["script"])
+        self.assertEqual([tag for tag, _ in shown.tags if tag == "script"], ["script", "script"])  # data and ours
         self.assertNotIn("onload", [name for _, attrs in shown.tags for name in attrs])
         self.assertFalse({"u", "img"} & {tag for tag, _ in shown.tags})
         for name in self.NAMES:

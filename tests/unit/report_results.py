@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
+from exr_writer import exr
+
 METRICS = [{"name": name, "label": label, "unit": unit, "better": better, "meaning": f"what {label} measures",
             "interval": name in ("nrmse", "relmse")}
            for name, label, unit, better in (
@@ -100,20 +102,31 @@ def passes(rows: list[dict]) -> list[dict]:
     return table
 
 
-def save_image(path: Path, error: float, size: tuple[int, int], grey: bool = False) -> None:
-    """A picture of a lit sphere, the further from right the larger `error`; or the grey map of that error."""
-    path.parent.mkdir(parents=True, exist_ok=True)
+def sphere(error: float, size: tuple[int, int]) -> tuple[np.ndarray, np.ndarray]:
+    """A picture of a lit sphere, the further from right the larger `error`, and the right one."""
     x, y = np.meshgrid(np.linspace(-1.8, 1.8, size[0]), np.linspace(-1, 1, size[1]))
     z = np.sqrt(np.clip(0.6 - x * x - y * y, 0, None))
     right = np.stack([0.2 + z, 0.2 + 0.5 * z + 0.1 * x, 0.4 - 0.3 * y], axis=-1)
-    test = right + error * np.sin(12 * x)[..., None] * 0.3
+    return right + error * np.sin(12 * x)[..., None] * 0.3, right
+
+
+def radiance(error: float, size: tuple[int, int]) -> np.ndarray:
+    """The sphere in a light of up to 50, in the shadow some thousandths of it."""
+    return (60 * sphere(error, size)[0].clip(0, None) ** 4).astype(np.float32)
+
+
+def save_image(path: Path, error: float, size: tuple[int, int], grey: bool = False) -> None:
+    """The sphere as PNG, or the grey map of its error."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    test, right = sphere(error, size)
     pixels = np.abs(test - right).mean(axis=-1) if grey else test
     Image.fromarray((pixels.clip(0, 1) * 255).astype(np.uint8)).save(path)
 
 
 def write_results(directory: Path, rows: list[dict], run: dict | None, *, reference: bool = True,
-                  indirect: bool = True, images: bool = True, size: tuple[int, int] = SIZE) -> Path:
-    """Writes a results folder; `run` is its manifest, None for none."""
+                  indirect: bool = True, images: bool = True, floats: bool = False,
+                  size: tuple[int, int] = SIZE) -> Path:
+    """Writes a results folder; `run` is its manifest, None for none. `floats`: with EXR files of radiance()."""
     rows = [{"name": row["variant"], **row} for row in rows]
     text = ("variant", "name", "status", "error", "device", "tracer")
     numbers = [*COSTS, *SCORES, *(f"indirect_{key}" for key in SCORES)]
@@ -134,6 +147,8 @@ def write_results(directory: Path, rows: list[dict], run: dict | None, *, refere
     for folder, error in folders if images else []:
         for name in ("final", "indirect") if indirect else ("final",):
             save_image(directory / "images" / folder / f"{name}.png", error, size)
+            if floats:
+                (directory / "images" / folder / f"{name}.exr").write_bytes(exr(radiance(error, size), zipped=True))
         for name in (("flip", "indirect_flip") if indirect else ("flip",)) if folder != "reference" else ():
             save_image(directory / "images" / folder / f"{name}.png", error, size, grey=True)
     return directory

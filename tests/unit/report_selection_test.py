@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import re
 import unittest
 from unittest import mock
 
-from report_support import Page, ReportTest, made_up
+from report_support import Page, ReportTest, made_up, numbers_of
 
 from report import charts, details, make_report, names, page, ranking, selection, style
 from report.load import load
@@ -52,13 +51,24 @@ class Selection(ReportTest):
         with mock.patch.object(selection, "_MAX_VARIANTS", 4):
             self.assertEqual(self.selected(), "abd")
 
+    def test_half_floats_that_would_be_too_large_are_those_of_the_front(self):
+        self.write(floats=True)
+        results = load(self.directory)
+        with mock.patch.object(selection, "_float_bytes", lambda *_: 10.0):
+            for size, shown, expected in ((60, "abcde", "abcde"), (59, "abcde", "abd"), (59, "bce", "bce"), (35, "abcde", "ab"), (10, "abcde", "")):
+                with mock.patch.object(selection, "_MAX_FLOAT_BYTES", size):
+                    self.assertEqual(selection.with_floats(results, results.lights(), list(shown)), {"reference", *expected}, size)
+            with mock.patch.object(selection, "_MAX_FLOAT_BYTES", 9):
+                self.assertEqual(selection.with_floats(results, results.lights(), list("abcde")), set())
+
     def test_others_keep_their_row_and_their_points(self):
         self.write()
         self.assertEqual(make_report.main([str(self.directory), "--images", "front"]), 0)
         source = (self.directory / "report.html").read_text(encoding="utf-8")
         shown = Page(source)
         self.assertIn("2 variants are not shown with their images", shown.text)
-        ids, links = shown.attributes("id"), shown.attributes("href") + shown.attributes("xlink:href")
+        ids, links = shown.attributes("id"), shown.attributes("href")
+        links += [f"#{variant['anchor']}" for variant in numbers_of(source, "chart-data")["variants"]]
         self.assertEqual([name for name in ids if name.startswith("variant-") and name.count("-") == 1],
                          ["variant-1", "variant-2", "variant-4"])
         self.assertEqual([name for name in ids if name.startswith("row-")], [f"row-{i}" for i in range(1, 6)])
@@ -90,7 +100,7 @@ class Timeline(ReportTest):
         made_up.write_results(self.directory, [made_up.variant("a", 10, 0.3)], made_up.manifest([]), images=False)
         results = load(self.directory)
         named = names.names_of(results)
-        passes = details.variants(results, ["total"], style.pass_colors(results), named, {"a": "x"}, [])[0].passes
+        passes = details.variants(results, ["total"], style.pass_colors(results), named, {"a": "x"}, set(), [])[0].passes
         # Of 20 ms of build 14 and 5.6, of 10 ms a frame 2, 7 and 0.5; the build is the longest phase
         for row, start, width in zip(passes, (0, 14, 0, 2, 9), (14, 5.6, 2, 7, 0.5)):
             self.assertAlmostEqual(row.start, 100 * start / 19.6, places=6, msg=row.name)
@@ -101,16 +111,10 @@ class ManyPoints(ReportTest):
     def test_those_far_from_the_front_are_dots(self):
         rows = [made_up.variant(f"v{i}", 10 + i % 20, 0.1 + 0.01 * (i // 20)) for i in range(400)]
         results = load(made_up.write_results(self.directory, rows, made_up.manifest([]), images=False))
-        named, metric = names.names_of(results), results.metrics[0]
-        everywhere = {row["variant"]: style.Style("c0", "o") for row in rows}
-        anchors = {row["variant"]: row["variant"] for row in rows}
-        chart = charts.cost_error_chart(results, metric, "total", False, everywhere, named.numbers, anchors, "chart", [], named)
-        self.assertEqual((chart.marks, chart.dots), (250, 150))
-        self.assertEqual(chart.svg.count("<title>"), 250)
-        self.assertIn('xlink:href="#v0"', chart.svg)  # the fastest with the least error
-        self.assertNotIn('xlink:href="#v399"', chart.svg)
-        dots = [path for path in re.findall(r' d="([^>]*)', chart.svg) if "stroke-linecap: round" in path]
-        self.assertEqual([path.count("M ") for path in dots], [150])
+        chart, absent = charts.error_chart(results, results.metrics[0], "total", "frame")
+        self.assertEqual((len(chart["drawn"]), len(chart["marked"]), len(chart["labelled"]), absent), (400, 250, 80, []))
+        self.assertIn(0, chart["marked"])  # the fastest with the least error
+        self.assertNotIn(399, chart["marked"])
 
 
 if __name__ == "__main__":

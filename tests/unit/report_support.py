@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import io
+import json
+import re
 import sys
 import tempfile
 import unittest
@@ -21,6 +23,11 @@ from report.results import Metric  # noqa: E402
 NRMSE = Metric("nrmse", "nRMSE", "", "low", "", True)
 FLIP = Metric("flip", "HDR-FLIP", "", "low", "")
 _VOID = {"meta", "img", "input", "br", "wbr", "path", "rect", "use", "hr", "link"}
+
+
+def numbers_of(source: str, name: str) -> dict:
+    """What a page's script shows: the JSON with this id."""
+    return json.loads(re.search(f'<script type="application/json" id="{name}">(.*)</script>', source)[1])
 
 
 class Page(HTMLParser):

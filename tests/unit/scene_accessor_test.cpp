@@ -16,14 +16,11 @@ TEST(GltfAccessors, IndicesOfAllTypesAndNone) {
         GltfBuilder b;
         json primitive = positionOnly(b.floats(corners, "VEC3"));
         if (type == ubyteType)
-            primitive["indices"] =
-                b.accessor(b.view(std::vector<uint8_t>{0, 1, 2, 0, 2, 3}), 6, "SCALAR", type);
+            primitive["indices"] = b.accessor(b.view(std::vector<uint8_t>{0, 1, 2, 0, 2, 3}), 6, "SCALAR", type);
         if (type == ushortType)
-            primitive["indices"] =
-                b.accessor(b.view(std::vector<uint16_t>{0, 1, 2, 0, 2, 3}), 6, "SCALAR", type);
+            primitive["indices"] = b.accessor(b.view(std::vector<uint16_t>{0, 1, 2, 0, 2, 3}), 6, "SCALAR", type);
         if (type == uintType)
-            primitive["indices"] =
-                b.accessor(b.view(std::vector<uint32_t>{0, 1, 2, 0, 2, 3}), 6, "SCALAR", type);
+            primitive["indices"] = b.accessor(b.view(std::vector<uint32_t>{0, 1, 2, 0, 2, 3}), 6, "SCALAR", type);
         b.primitive(primitive);
         const auto scene = b.load();
         const Mesh& mesh = scene->meshes.at(0);
@@ -62,14 +59,14 @@ TEST(GltfAccessors, PointsAndLinesAreSkippedWithAWarning) {
 
 TEST(GltfAccessors, NormalisedIntegersAreFractions) {
     GltfBuilder b;
-    const int s8 = b.accessor(b.view(std::vector<int8_t>{127, 0, 0, 0, 0, -127, -128, 0, 0, 0, 127, 0}, 4), 3,
-                              "VEC3", byteType, {{"normalized", true}});
-    const int u16 = b.accessor(b.view(std::vector<uint16_t>{0, 65535, 32768, 0, 65535, 13107}), 3, "VEC2",
-                               ushortType, {{"normalized", true}});
-    const int s16 = b.accessor(b.view(std::vector<int16_t>{-32768, 32767, -32767, 0, 16384, 0}), 3, "VEC2",
-                               shortType, {{"normalized", true}});
-    const int u8 = b.accessor(b.view(std::vector<uint8_t>{0, 51, 255, 0, 1, 2, 3, 0, 4, 5, 6, 0}, 4), 3,
-                              "VEC3", ubyteType, {{"normalized", true}});
+    const int s8 = b.accessor(b.view(std::vector<int8_t>{127, 0, 0, 0, 0, -127, -128, 0, 0, 0, 127, 0}, 4), 3, "VEC3",
+                              byteType, {{"normalized", true}});
+    const int u16 = b.accessor(b.view(std::vector<uint16_t>{0, 65535, 32768, 0, 65535, 13107}), 3, "VEC2", ushortType,
+                               {{"normalized", true}});
+    const int s16 = b.accessor(b.view(std::vector<int16_t>{-32768, 32767, -32767, 0, 16384, 0}), 3, "VEC2", shortType,
+                               {{"normalized", true}});
+    const int u8 = b.accessor(b.view(std::vector<uint8_t>{0, 51, 255, 0, 1, 2, 3, 0, 4, 5, 6, 0}, 4), 3, "VEC3",
+                              ubyteType, {{"normalized", true}});
     b.triangle({{"attributes", {{"NORMAL", s8}, {"TEXCOORD_0", u16}, {"TEXCOORD_1", s16}, {"COLOR_0", u8}}}});
     const Mesh mesh = b.load()->meshes.at(0);
     const float root = std::sqrt(0.5f);
@@ -127,8 +124,8 @@ TEST(GltfAccessors, IndicesMayBeSparseAlone) {
         {"count", 2},
         {"indices", {{"bufferView", b.view(std::vector<uint8_t>{1, 2})}, {"componentType", ubyteType}}},
         {"values", {{"bufferView", b.view(std::vector<uint16_t>{1, 2})}}}};
-    const int indices = b.add(
-        "accessors", {{"count", 3}, {"type", "SCALAR"}, {"componentType", ushortType}, {"sparse", sparse}});
+    const int indices =
+        b.add("accessors", {{"count", 3}, {"type", "SCALAR"}, {"componentType", ushortType}, {"sparse", sparse}});
     b.triangle({{"indices", indices}});
     EXPECT_EQ(b.load()->meshes.at(0).triangles.at(0), glm::uvec3(0, 1, 2));
 }
@@ -143,35 +140,32 @@ TEST(GltfAccessors, HostileNumbersAreRefusedInOneLine) {
         return b.error();
     };
     // accessor 0: indices, accessor 1: positions.
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["count"] = 4; }), "4 elements of 12 bytes");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["count"] = 0x7fffffffffffffff; }),
-                    "more than 2^31");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["count"] = 1u << 31; }), "don't fit");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["byteOffset"] = 4; }), "end outside");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["byteOffset"] = 0xfffffffffffffff0u; }),
-                    "too big");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["type"] = "MAT3"; }), "matrices");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["type"] = "VEC2"; }), "components");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["componentType"] = 5124; }),
-                    "component type");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][0]["componentType"] = floatType; }), "indices");
-    EXPECT_CONTAINS(refused([](auto& b) {
-                        b.root["accessors"][1].erase("bufferView"),
-                            b.root["accessors"][1]["count"] = 1u << 30;
+    const std::tuple<const char*, json, const char*> cases[] = {
+        {"/accessors/1/count", 4, "4 elements of 12 bytes"},
+        {"/accessors/1/count", 0x7fffffffffffffff, "more than 2^31"},
+        {"/accessors/1/count", 1u << 31, "don't fit"},
+        {"/accessors/1/byteOffset", 4, "end outside"},
+        {"/accessors/1/byteOffset", 0xfffffffffffffff0u, "too big"},
+        {"/accessors/1/type", "MAT3", "matrices"},
+        {"/accessors/1/type", "VEC2", "components"},
+        {"/accessors/1/componentType", 5124, "component type"},
+        {"/accessors/0/componentType", floatType, "indices"},
+        {"/accessors/1/bufferView", 9, "bufferView 9"},
+        {"/bufferViews/1/byteLength", 4096, "outside of buffer 0"},
+        {"/bufferViews/1/byteOffset", -8, "byteOffset"},
+        {"/buffers", {{{"byteLength", 1 << 20}}}, "byteLength"},
+        {"/meshes/0/primitives/0/attributes/NORMAL", 77, "accessor 77"},
+        {"/meshes/0/primitives/0/mode", 9, "mode 9"}};
+    for (const auto& [where, value, said] : cases)
+        EXPECT_CONTAINS(refused([&](GltfBuilder& b) { b.root[json::json_pointer(where)] = value; }), said);
+    EXPECT_CONTAINS(refused([](GltfBuilder& b) {
+                        b.root["accessors"][1].erase("bufferView");
+                        b.root["accessors"][1]["count"] = 1u << 30;
                     }),
                     "without a buffer");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["accessors"][1]["bufferView"] = 9; }), "bufferView 9");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["bufferViews"][1]["byteLength"] = 4096; }),
-                    "outside of buffer 0");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["bufferViews"][1]["byteOffset"] = -8; }), "byteOffset");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["buffers"] = {{{"byteLength", 1 << 20}}}; }), "byteLength");
-    EXPECT_CONTAINS(refused([](auto& b) { b.bytes[4] = 7; }), "index 7 for 3 vertices");
-    EXPECT_CONTAINS(
-        refused([](auto& b) { b.root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] = 77; }),
-        "accessor 77");
-    EXPECT_CONTAINS(refused([](auto& b) { b.root["meshes"][0]["primitives"][0]["mode"] = 9; }), "mode 9");
+    EXPECT_CONTAINS(refused([](GltfBuilder& b) { b.bytes[4] = 7; }), "index 7 for 3 vertices");
     const float bad = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_CONTAINS(refused([&](auto& b) { std::memcpy(b.bytes.data() + 8, &bad, 4); }), "not finite");
+    EXPECT_CONTAINS(refused([&](GltfBuilder& b) { std::memcpy(b.bytes.data() + 8, &bad, 4); }), "not finite");
 }
 
 }  // namespace

@@ -17,8 +17,7 @@ GltfBuilder animated(const char* path, const char* interpolation, const std::vec
         for (int c = 0; c < (rotation ? 4 : 3); ++c) flat.push_back(v[c]);
     const int output = b.accessor(b.view(flat), values.size(), rotation ? "VEC4" : "VEC3", floatType);
     b.add("animations",
-          {{"samplers",
-            {{{"input", b.floats(times, "SCALAR")}, {"output", output}, {"interpolation", interpolation}}}},
+          {{"samplers", {{{"input", b.floats(times, "SCALAR")}, {"output", output}, {"interpolation", interpolation}}}},
            {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}}});
     return b;
 }
@@ -51,10 +50,9 @@ TEST(Animation, RotationTakesTheShorterArcAtConstantSpeed) {
 
 TEST(Animation, CubicSplineIsHermite) {
     // In-tangent, value, out-tangent; the curve through these keys is x(t) = t^3 on [0, 2].
-    const auto scene =
-        animated("translation", "CUBICSPLINE", {0, 2},
-                 {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {12, 0, 0, 0}, {8, 0, 0, 0}, {0, 0, 0, 0}})
-            .load();
+    const auto scene = animated("translation", "CUBICSPLINE", {0, 2},
+                                {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {12, 0, 0, 0}, {8, 0, 0, 0}, {0, 0, 0, 0}})
+                           .load();
     for (const float t : {0.0f, 0.5f, 1.0f, 1.7f, 2.0f}) EXPECT_NEAR(vertex(scene, t, 0).x, t * t * t, 1e-5f);
 }
 

@@ -19,8 +19,7 @@ SceneState build(const std::string& name, const Value& params = {}) {
 
 glm::vec3 faceNormal(const Geometry& g, size_t triangle) {
     const glm::uvec3 t = g.triangles[triangle];
-    return glm::normalize(
-        glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x]));
+    return glm::normalize(glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x]));
 }
 
 glm::vec3 centroid(const Geometry& g, size_t triangle) {
@@ -135,15 +134,13 @@ TEST(BuiltinScenes, WallsAreClosedSolids) {
     // from before as from behind. A room that is sealed lies outside of its walls' solid.
     const auto sumFrom = [](const SceneState& state, const glm::dvec3& point) {
         double sum = 0;
-        for (size_t i = 0; i < state.geometry.triangles.size(); ++i)
-            sum += solidAngle(state.geometry, i, point);
+        for (size_t i = 0; i < state.geometry.triangles.size(); ++i) sum += solidAngle(state.geometry, i, point);
         return sum;
     };
     Value window = parameter("sill", "0.2");
     window.set("wall_thickness", Value::fromScalar("0.3"));
     window.set("ground_distance", Value::fromScalar("3"));
-    for (const SceneState& state :
-         {build("window_room"), build("window_room", window), build("shell_room")}) {
+    for (const SceneState& state : {build("window_room"), build("window_room", window), build("shell_room")}) {
         SCOPED_TRACE(state.scene->name);
         EXPECT_NEAR(sumFrom(state, glm::dvec3(state.cameras[0].position)), 0, 1e-4);
         EXPECT_NEAR(sumFrom(state, {0.1, 1.2, 20}), 0, 1e-4);
@@ -175,9 +172,7 @@ TEST(BuiltinScenes, WindowRoomHasItsBlindAndItsSun) {
 }
 
 TEST(BuiltinScenes, ClutterFollowsItsSeedAndStaysInItsRoom) {
-    const auto clutter = [](const char* seed) {
-        return makeBuiltinScene("clutter", parameter("seed", seed));
-    };
+    const auto clutter = [](const char* seed) { return makeBuiltinScene("clutter", parameter("seed", seed)); };
     EXPECT_EQ(clutter("1")->contentHash, clutter("1")->contentHash);
     EXPECT_NE(clutter("1")->contentHash, clutter("2")->contentHash);
     EXPECT_EQ(build("clutter", parameter("count", "0")).geometry.triangles.size(), 12u);

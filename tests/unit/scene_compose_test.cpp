@@ -27,8 +27,7 @@ std::shared_ptr<const Scene> clock() {
     scene.nodes.resize(2);
     scene.nodes[1].parent = 0;
     b.place(b.mesh(sphereMesh("bob", {0, -1, 0}, 0.2f, 1, brass, false, true)), 1);
-    scene.animation = {
-        {1, AnimatedProperty::Translation, Interpolation::Linear, {0, 1, 2}, {{}, {1, 0, 0, 0}, {}}}};
+    scene.animation = {{1, AnimatedProperty::Translation, Interpolation::Linear, {0, 1, 2}, {{}, {1, 0, 0, 0}, {}}}};
     b.spotLight({0, 2, 0}, {0, -1, 0}, 10, 20, glm::vec3(3));
     b.pointLight({9, 9, 9}, glm::vec3(1));
     scene.lights[1].node = 1;
@@ -73,8 +72,8 @@ TEST(Compose, GeometryIsTheSumOfTheParts) {
         for (size_t i = 0; i < g.triangles.size(); ++i) {
             const bool isAdded = i >= a.triangles.size();
             const Material& material = composed->materials[g.triangleMaterials[i]];
-            const uint32_t own = isAdded ? b.triangleMaterials[(i - a.triangles.size()) % b.triangles.size()]
-                                         : a.triangleMaterials[i];
+            const uint32_t own =
+                isAdded ? b.triangleMaterials[(i - a.triangles.size()) % b.triangles.size()] : a.triangleMaterials[i];
             EXPECT_EQ(material.name, (isAdded ? added : first).scene->materials[own].name);
         }
     }
@@ -142,8 +141,7 @@ TEST(Compose, APlacedSceneTakesItsLightsAndCamerasAlong) {
 TEST(Compose, OneMaterialStandsInForAll) {
     Scene composed = *makeBuiltinScene("cornell", {});
     const size_t materials = composed.materials.size();
-    const Material gold =
-        makeMaterial("gold", {.baseColor = {1, 0.8f, 0.3f}, .metallic = 1, .roughness = 0.25f});
+    const Material gold = makeMaterial("gold", {.baseColor = {1, 0.8f, 0.3f}, .metallic = 1, .roughness = 0.25f});
     addScene(composed, *clock(), {}, "clock", &gold);
     ASSERT_EQ(composed.materials.size(), materials + 1);
     EXPECT_TRUE(composed.textures.empty());
@@ -163,8 +161,7 @@ TEST(Compose, ContentTellsPlacesAndMaterialsApart) {
         addScene(composed, *clock(), placement, "clock", material);
         return hashScene(composed);
     };
-    const Material white = makeMaterial("white", {}),
-                   black = makeMaterial("white", {.baseColor = glm::vec3(0)});
+    const Material white = makeMaterial("white", {}), black = makeMaterial("white", {.baseColor = glm::vec3(0)});
     EXPECT_EQ(hashOf({}, &white), hashOf({}, &white));
     EXPECT_NE(hashOf({}, &white), hashOf(kPlacement, &white));
     EXPECT_NE(hashOf({}, &white), hashOf({}, &black));
@@ -175,8 +172,8 @@ TEST(MaterialChange, ReplacesWhatIsGivenAndTheTexturesThatWouldMultiplyIt) {
     Material before;
     before.baseColor = {0.1f, 0.2f, 0.3f, 0.4f};
     before.alphaMode = AlphaMode::Mask;
-    for (TextureRef* ref : {&before.baseColorTexture, &before.metallicRoughnessTexture, &before.normalTexture,
-                            &before.emissiveTexture})
+    for (TextureRef* ref :
+         {&before.baseColorTexture, &before.metallicRoughnessTexture, &before.normalTexture, &before.emissiveTexture})
         ref->texture = 7;
     const auto changed = [&](const MaterialSettings& settings, const std::vector<std::string>& keys) {
         Material material = before;
@@ -193,8 +190,7 @@ TEST(MaterialChange, ReplacesWhatIsGivenAndTheTexturesThatWouldMultiplyIt) {
     EXPECT_EQ(mirror.normalTexture.texture, 7);
     EXPECT_EQ(mirror.alphaMode, AlphaMode::Mask);
 
-    const Material lamp =
-        changed({.baseColor = glm::vec3(0), .emission = glm::vec3(5)}, {"base_color", "emission"});
+    const Material lamp = changed({.baseColor = glm::vec3(0), .emission = glm::vec3(5)}, {"base_color", "emission"});
     EXPECT_EQ(lamp.baseColor, glm::vec4(0, 0, 0, 1));
     EXPECT_EQ(lamp.emission, glm::vec3(5));
     EXPECT_EQ(lamp.baseColorTexture.texture, -1);
@@ -233,7 +229,7 @@ TEST(Subdivide, KeepsSurfacesOfMoreTriangles) {
     const Mesh &a = before.meshes[1], &b = after.meshes[1];
     EXPECT_LT(b.positions.size(), 16 * a.positions.size() + 1);
     for (const glm::vec3& n : b.normals) EXPECT_NEAR(glm::length(n), 1, 1e-5);
-    EXPECT_CONTAINS(errorOf([&] { subdivide(after, 14); }), "subdivide less");
+    EXPECT_ERROR("subdivide less", subdivide(after, 14));
 }
 
 }  // namespace

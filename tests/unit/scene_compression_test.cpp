@@ -45,8 +45,7 @@ TEST(Compression, MeshoptFiltersOfNormals) {
     b.root["buffers"][0]["byteLength"] = b.bytes.size();
     b.root["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
         b.accessor(view, count, "VEC3", byteType, {{"normalized", true}});
-    for (const VertexAttributes& a : evaluate(b.load(), 0).geometry.attributes)
-        expectNear(a.normal, {1, 0, 0}, 1e-6f);
+    for (const VertexAttributes& a : evaluate(b.load(), 0).geometry.attributes) expectNear(a.normal, {1, 0, 0}, 1e-6f);
 }
 
 TEST(Compression, BrokenDataNamesItsPlace) {

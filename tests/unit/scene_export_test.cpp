@@ -13,8 +13,7 @@ SceneState roundTrip(const SceneState& state) {
     return evaluate(scene, 0);
 }
 
-void expectSameTexture(const SceneState& a, const TextureRef& refA, const SceneState& b,
-                       const TextureRef& refB) {
+void expectSameTexture(const SceneState& a, const TextureRef& refA, const SceneState& b, const TextureRef& refB) {
     ASSERT_EQ(refA.texture < 0, refB.texture < 0);
     if (refA.texture < 0) return;
     const Texture& textureA = a.scene->textures[size_t(refA.texture)];
@@ -104,10 +103,8 @@ TEST(GlbExport, BuiltinScenesComeBackAsTheyWere) {
 
 TEST(GlbExport, ComposedScenesComeBackAsTheyWere) {
     const auto scene = std::make_shared<Scene>(*makeBuiltinScene("cornell", {}));
-    const Material gold =
-        makeMaterial("gold", {.baseColor = {1, 0.8f, 0.3f}, .metallic = 1, .roughness = 0.25f});
-    addScene(*scene, *makeBuiltinScene("spheres", {}), {{1, 0, 2}, {0, 30, 0}, {0.5f, -0.5f, 0.5f}},
-             "spheres", &gold);
+    const Material gold = makeMaterial("gold", {.baseColor = {1, 0.8f, 0.3f}, .metallic = 1, .roughness = 0.25f});
+    addScene(*scene, *makeBuiltinScene("spheres", {}), {{1, 0, 2}, {0, 30, 0}, {0.5f, -0.5f, 0.5f}}, "spheres", &gold);
     addScene(*scene, *makeBuiltinScene("plane", {}), {{0, 3, 0}, {10, 20, 30}, glm::vec3(2)}, "plane");
     const SceneState state = evaluate(scene, 0.7);
     EXPECT_EQ(state.lights.size(), 2u);
@@ -174,11 +171,9 @@ void expectRangesOfGltf(const json& root) {
             expectRange(core, member, 0, 1);
         const json extensions = material.value("extensions", json::object());
         expectRange(extensions.value("KHR_materials_specular", json::object()), "specularFactor", 0, 1);
-        expectRange(extensions.value("KHR_materials_specular", json::object()), "specularColorFactor", 0,
-                    none);
+        expectRange(extensions.value("KHR_materials_specular", json::object()), "specularColorFactor", 0, none);
         expectRange(extensions.value("KHR_materials_ior", json::object()), "ior", 0, none);
-        expectRange(extensions.value("KHR_materials_emissive_strength", json::object()), "emissiveStrength",
-                    0, none);
+        expectRange(extensions.value("KHR_materials_emissive_strength", json::object()), "emissiveStrength", 0, none);
     }
     for (const json& node : root.value("nodes", json::array())) expectRange(node, "rotation", -1, 1);
     for (const json& camera : root.value("cameras", json::array())) {

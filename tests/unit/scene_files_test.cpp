@@ -45,9 +45,8 @@ TEST(GltfFiles, UrisThatLeaveTheFolderAreRefused) {
     const TemporaryFolder folder;
     GltfBuilder b;
     b.triangle();
-    for (const char* uri :
-         {"/etc/passwd", "../mesh.bin", "a/%2e%2e/../mesh.bin", "%2e%2e/mesh.bin", "..\\mesh.bin",
-          "file:///mesh.bin", "C:/mesh.bin", "https://host/mesh.bin", "%2fetc/passwd"}) {
+    for (const char* uri : {"/etc/passwd", "../mesh.bin", "a/%2e%2e/../mesh.bin", "%2e%2e/mesh.bin", "..\\mesh.bin",
+                            "file:///mesh.bin", "C:/mesh.bin", "https://host/mesh.bin", "%2fetc/passwd"}) {
         b.root["buffers"] = {{{"byteLength", b.bytes.size()}, {"uri", uri}}};
         writeBytes(folder / "scene.gltf", b.root.dump());
         EXPECT_CONTAINS(refusal(folder / "scene.gltf"), "not a file below");

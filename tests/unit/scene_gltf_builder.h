@@ -1,7 +1,6 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <filesystem>
@@ -12,33 +11,13 @@
 
 #include "scene/load.h"
 #include "tests/support/errors.h"
+#include "tests/support/temporary_folder.h"
 
 namespace voxray::test {
 
 using nlohmann::json;
 
-constexpr int byteType = 5120, ubyteType = 5121, shortType = 5122, ushortType = 5123, uintType = 5125,
-              floatType = 5126;
-
-/// A folder that is gone after the test.
-class TemporaryFolder {
- public:
-    TemporaryFolder() {
-        std::string pattern = (std::filesystem::temp_directory_path() / "voxray-scene-XXXXXX").string();
-        if (mkdtemp(pattern.data()) == nullptr) throw Error("no temporary folder");
-        path_ = pattern;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-    std::filesystem::path path_;
-};
+constexpr int byteType = 5120, ubyteType = 5121, shortType = 5122, ushortType = 5123, uintType = 5125, floatType = 5126;
 
 inline void writeBytes(const std::filesystem::path& path, const std::string& bytes) {
     std::ofstream out(path, std::ios::binary);
@@ -67,8 +46,7 @@ struct GltfBuilder {
         while (bytes.size() % 4 != 0) bytes += '\0';
         json entry = {{"buffer", 0}, {"byteOffset", bytes.size()}, {"byteLength", values.size() * sizeof(T)}};
         if (stride > 0) entry["byteStride"] = stride;
-        if (!values.empty())
-            bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+        if (!values.empty()) bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
         return add("bufferViews", entry);
     }
     int add(const char* list, json entry) {
@@ -76,8 +54,7 @@ struct GltfBuilder {
         return int(root[list].size() - 1);
     }
     int accessor(int view, size_t count, const char* type, int componentType, json more = json::object()) {
-        more.update(
-            {{"bufferView", view}, {"count", count}, {"type", type}, {"componentType", componentType}});
+        more.update({{"bufferView", view}, {"count", count}, {"type", type}, {"componentType", componentType}});
         return add("accessors", more);
     }
     template <typename T>
@@ -91,8 +68,7 @@ struct GltfBuilder {
     }
     /// Three vertices: (0,0,0) (1,0,0) (0,1,0), facing +Z.
     int triangle(json more = json::object(), json node = json::object()) {
-        more["attributes"]["POSITION"] =
-            floats(std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, "VEC3");
+        more["attributes"]["POSITION"] = floats(std::vector<glm::vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, "VEC3");
         return primitive(std::move(more), std::move(node));
     }
 
@@ -152,10 +128,9 @@ inline void expectNear(const glm::vec3& a, const glm::vec3& b, float tolerance) 
 
 /// A 2 x 1 PNG: red with alpha 255, green with alpha 0.
 inline std::vector<uint8_t> tinyPng() {
-    return {137, 80,  78, 71, 13,  10,  26,  10, 0,   0,   0,   13,  73, 72,  68,  82, 0,  0,
-            0,   2,   0,  0,  0,   1,   8,   6,  0,   0,   0,   244, 34, 127, 138, 0,  0,  0,
-            15,  73,  68, 65, 84,  120, 156, 99, 248, 207, 192, 240, 31, 8,   25,  0,  15, 249,
-            2,   254, 45, 71, 129, 244, 0,   0,  0,   0,   73,  69,  78, 68,  174, 66, 96, 130};
+    return {137, 80, 78, 71, 13, 10,  26, 10,  0,   0,  0,   13,  73, 72, 68, 82, 0,  0,   0,   2,  0,   0,   0,   1,
+            8,   6,  0,  0,  0,  244, 34, 127, 138, 0,  0,   0,   15, 73, 68, 65, 84, 120, 156, 99, 248, 207, 192, 240,
+            31,  8,  25, 0,  15, 249, 2,  254, 45,  71, 129, 244, 0,  0,  0,  0,  73, 69,  78,  68, 174, 66,  96,  130};
 }
 
 }  // namespace voxray::test

@@ -36,20 +36,19 @@ TEST(GltfMaterials, DefaultsAreGltfs) {
 }
 
 TEST(GltfMaterials, FactorsAndExtensionsAreRead) {
-    GltfBuilder b = textured(
-        {{"name", "all"},
-         {"pbrMetallicRoughness",
-          {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.75}}},
-         {"emissiveFactor", {1, 0.5, 0}},
-         {"alphaMode", "MASK"},
-         {"alphaCutoff", 0.3},
-         {"doubleSided", true},
-         {"extensions",
-          {{"KHR_materials_emissive_strength", {{"emissiveStrength", 12}}},
-           {"KHR_materials_ior", {{"ior", 1.33}}},
-           {"KHR_materials_specular", {{"specularFactor", 0}, {"specularColorFactor", {0.5, 1, 2}}}}}}});
-    b.root["extensionsRequired"] = {"KHR_materials_ior", "KHR_materials_emissive_strength",
-                                    "KHR_materials_specular"};
+    GltfBuilder b =
+        textured({{"name", "all"},
+                  {"pbrMetallicRoughness",
+                   {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0.25}, {"roughnessFactor", 0.75}}},
+                  {"emissiveFactor", {1, 0.5, 0}},
+                  {"alphaMode", "MASK"},
+                  {"alphaCutoff", 0.3},
+                  {"doubleSided", true},
+                  {"extensions",
+                   {{"KHR_materials_emissive_strength", {{"emissiveStrength", 12}}},
+                    {"KHR_materials_ior", {{"ior", 1.33}}},
+                    {"KHR_materials_specular", {{"specularFactor", 0}, {"specularColorFactor", {0.5, 1, 2}}}}}}});
+    b.root["extensionsRequired"] = {"KHR_materials_ior", "KHR_materials_emissive_strength", "KHR_materials_specular"};
     const Material m = b.load()->materials.at(0);
     EXPECT_EQ(m.name, "all");
     EXPECT_EQ(m.baseColor, glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
@@ -65,11 +64,10 @@ TEST(GltfMaterials, FactorsAndExtensionsAreRead) {
 }
 
 TEST(GltfMaterials, OneImageAsColourAndAsDataIsTwoTextures) {
-    GltfBuilder b =
-        textured({{"pbrMetallicRoughness",
-                   {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 0}}}}},
-                  {"emissiveTexture", {{"index", 0}, {"texCoord", 1}}}},
-                 {{"wrapS", 33071}, {"wrapT", 33648}});
+    GltfBuilder b = textured(
+        {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 0}}}}},
+         {"emissiveTexture", {{"index", 0}, {"texCoord", 1}}}},
+        {{"wrapS", 33071}, {"wrapT", 33648}});
     const auto scene = b.load();
     const Material& m = scene->materials[0];
     ASSERT_EQ(scene->textures.size(), 2u);
@@ -85,12 +83,12 @@ TEST(GltfMaterials, OneImageAsColourAndAsDataIsTwoTextures) {
 }
 
 TEST(GltfMaterials, TextureTransformsScaleThenTurnThenMove) {
-    GltfBuilder b = textured(
-        {{"emissiveTexture",
-          {{"index", 0},
-           {"extensions",
-            {{"KHR_texture_transform",
-              {{"offset", {0.5, 0.25}}, {"rotation", M_PI / 2}, {"scale", {2, 3}}, {"texCoord", 1}}}}}}}});
+    GltfBuilder b =
+        textured({{"emissiveTexture",
+                   {{"index", 0},
+                    {"extensions",
+                     {{"KHR_texture_transform",
+                       {{"offset", {0.5, 0.25}}, {"rotation", M_PI / 2}, {"scale", {2, 3}}, {"texCoord", 1}}}}}}}});
     const TextureRef ref = b.load()->materials[0].emissiveTexture;
     EXPECT_EQ(ref.texCoord, 1u);
     // (1, 1) is scaled to (2, 3); a quarter turn counter-clockwise, v downwards, makes it (3, -2).
@@ -130,8 +128,7 @@ TEST(GltfMaterials, BadOnesAreRefusedInOneLine) {
     EXPECT_CONTAINS(b.error(), "image 4");
     EXPECT_CONTAINS(textured(good, {{"wrapS", 1}}).error(), "wrap mode 1");
     EXPECT_CONTAINS(textured(good, {{"magFilter", 5}}).error(), "texture filters 5");
-    EXPECT_CONTAINS(textured({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1}}}}}).error(),
-                    "baseColorFactor");
+    EXPECT_CONTAINS(textured({{"pbrMetallicRoughness", {{"baseColorFactor", {1, 1}}}}}).error(), "baseColorFactor");
     EXPECT_CONTAINS(textured({{"alphaMode", "SHINY"}}).error(), "SHINY");
     b = textured({{"extensions", {{"KHR_materials_ior", {{"ior", "glass"}}}}}});
     EXPECT_CONTAINS(b.error(), "KHR_materials_ior.ior");
@@ -152,18 +149,17 @@ TEST(GltfMaterials, TheFilterIsThatOfMagnification) {
 
 TEST(GltfMaterials, NumbersOutOfRangeAreLimitedWithAWarning) {
     const auto scene =
-        textured(
-            {{"name", "bright"},
-             {"pbrMetallicRoughness",
-              {{"baseColorFactor", {1.2, -1, 0.5, 3}}, {"metallicFactor", 2}, {"roughnessFactor", -0.5}}},
-             {"emissiveFactor", {2, -1, 0}},
-             {"alphaMode", "MASK"},
-             {"alphaCutoff", -1},
-             {"extensions",
-              {{"KHR_materials_specular", {{"specularFactor", 7}, {"specularColorFactor", {-1, 1, 2}}}},
-               {"KHR_materials_ior", {{"ior", 0.5}}},
-               {"KHR_materials_transmission", {{"transmissionFactor", 1.5}}},
-               {"KHR_materials_emissive_strength", {{"emissiveStrength", 3}}}}}})
+        textured({{"name", "bright"},
+                  {"pbrMetallicRoughness",
+                   {{"baseColorFactor", {1.2, -1, 0.5, 3}}, {"metallicFactor", 2}, {"roughnessFactor", -0.5}}},
+                  {"emissiveFactor", {2, -1, 0}},
+                  {"alphaMode", "MASK"},
+                  {"alphaCutoff", -1},
+                  {"extensions",
+                   {{"KHR_materials_specular", {{"specularFactor", 7}, {"specularColorFactor", {-1, 1, 2}}}},
+                    {"KHR_materials_ior", {{"ior", 0.5}}},
+                    {"KHR_materials_transmission", {{"transmissionFactor", 1.5}}},
+                    {"KHR_materials_emissive_strength", {{"emissiveStrength", 3}}}}}})
             .load();
     const Material& m = scene->materials[0];
     EXPECT_EQ(m.baseColor, glm::vec4(1, 0, 0.5f, 1));
@@ -176,20 +172,18 @@ TEST(GltfMaterials, NumbersOutOfRangeAreLimitedWithAWarning) {
     EXPECT_EQ(m.ior, 1);
     EXPECT_EQ(m.transmission, 1);
     EXPECT_TRUE(warns(*scene, "material 0 'bright': baseColorFactor is 1.2, not from 0 to 1; taken as 1"));
-    for (const char* name :
-         {"metallicFactor", "roughnessFactor", "emissiveFactor", "alphaCutoff", "specularFactor",
-          "specularColorFactor", "KHR_materials_ior.ior", "transmissionFactor"})
+    for (const char* name : {"metallicFactor", "roughnessFactor", "emissiveFactor", "alphaCutoff", "specularFactor",
+                             "specularColorFactor", "KHR_materials_ior.ior", "transmissionFactor"})
         EXPECT_TRUE(warns(*scene, name)) << name;
-    const auto infinite =
-        textured({{"extensions", {{"KHR_materials_ior", {{"ior", 0}}}}}}).load()->materials[0].ior;
+    const auto infinite = textured({{"extensions", {{"KHR_materials_ior", {{"ior", 0}}}}}}).load()->materials[0].ior;
     EXPECT_EQ(infinite, 0);
 }
 
 TEST(GltfMaterials, TransmissionMakesPanesUnlessAllIsLambert) {
     GltfBuilder b;
     b.add("materials", {{"name", "wall"}});
-    b.add("materials", {{"name", "glass"},
-                        {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 0.9}}}}}});
+    b.add("materials",
+          {{"name", "glass"}, {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 0.9}}}}}});
     b.triangle({{"material", 0}});
     b.triangle({{"material", 1}});
     b.root["extensionsUsed"] = {"KHR_materials_transmission"};
@@ -216,8 +210,7 @@ TEST(GltfColours, BaseColorIsFromZeroToOne) {
     GltfBuilder b;
     b.add("materials", {{"pbrMetallicRoughness", {{"baseColorFactor", {0.8, 0.8, 0.5, 1}}}}});
     const float infinity = std::numeric_limits<float>::infinity(), nan = std::nanf("");
-    const int rgb =
-        b.floats(std::vector<glm::vec3>{{1.5f, 1.2f, 1.5f}, {-1, 0.5f, 3}, {infinity, nan, 1}}, "VEC3");
+    const int rgb = b.floats(std::vector<glm::vec3>{{1.5f, 1.2f, 1.5f}, {-1, 0.5f, 3}, {infinity, nan, 1}}, "VEC3");
     b.triangle({{"material", 0}, {"attributes", {{"COLOR_0", rgb}}}});
     const auto scene = b.load();
     const auto& colors = scene->meshes[0].colors;
@@ -230,9 +223,8 @@ TEST(GltfColours, BaseColorIsFromZeroToOne) {
 
 TEST(GltfColours, VertexColoursOfAllKinds) {
     GltfBuilder b;
-    const int rgb =
-        b.accessor(b.view(std::vector<uint16_t>{65535, 0, 0, 0, 0, 65535, 0, 0, 0, 0, 13107, 0}, 8), 3,
-                   "VEC3", ushortType, {{"normalized", true}});
+    const int rgb = b.accessor(b.view(std::vector<uint16_t>{65535, 0, 0, 0, 0, 65535, 0, 0, 0, 0, 13107, 0}, 8), 3,
+                               "VEC3", ushortType, {{"normalized", true}});
     b.triangle({{"attributes", {{"COLOR_0", rgb}}}});
     const int rgba = b.floats(std::vector<glm::vec4>(3, {0.25f, 0.5f, 0.75f, 0.125f}), "VEC4");
     b.triangle({{"attributes", {{"COLOR_0", rgba}}}});

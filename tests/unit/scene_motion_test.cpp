@@ -122,8 +122,7 @@ TEST(Motion, RunsOfMovingInstancesAreOneRange) {
 }
 
 TEST(Motion, SpheresSwingAsALattice) {
-    for (const auto& [count, side, layers] :
-         {std::tuple{1, 1, 1}, {9, 3, 1}, {27, 3, 3}, {64, 4, 4}, {125, 5, 5}}) {
+    for (const auto& [count, side, layers] : {std::tuple{1, 1, 1}, {9, 3, 1}, {27, 3, 3}, {64, 4, 4}, {125, 5, 5}}) {
         Scene scene;
         MovingSpheres spheres;
         spheres.count = uint32_t(count);

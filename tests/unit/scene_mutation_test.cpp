@@ -15,21 +15,19 @@ GltfBuilder everything() {
     b.add("samplers", {{"wrapS", 33071}});
     b.add("images", {{"bufferView", b.view(tinyPng())}, {"mimeType", "image/png"}});
     b.add("textures", {{"source", 0}, {"sampler", 0}});
-    const json transform = {
-        {"KHR_texture_transform", {{"offset", {0.5, 0.25}}, {"rotation", 1}, {"scale", {2, 3}}}}};
-    b.add("materials", {{"name", "m"},
-                        {"pbrMetallicRoughness",
-                         {{"baseColorFactor", {1, 1, 1, 1}},
-                          {"baseColorTexture", {{"index", 0}, {"extensions", transform}}}}},
-                        {"normalTexture", {{"index", 0}}},
-                        {"emissiveFactor", {1, 0.5, 0.25}},
-                        {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 7}}}}}});
+    const json transform = {{"KHR_texture_transform", {{"offset", {0.5, 0.25}}, {"rotation", 1}, {"scale", {2, 3}}}}};
+    b.add("materials",
+          {{"name", "m"},
+           {"pbrMetallicRoughness",
+            {{"baseColorFactor", {1, 1, 1, 1}}, {"baseColorTexture", {{"index", 0}, {"extensions", transform}}}}},
+           {"normalTexture", {{"index", 0}}},
+           {"emissiveFactor", {1, 0.5, 0.25}},
+           {"extensions", {{"KHR_materials_emissive_strength", {{"emissiveStrength", 7}}}}}});
     const int uv = b.floats(std::vector<glm::vec2>{{0, 0}, {1, 0}, {0, 1}}, "VEC2");
     const int colors =
         b.accessor(b.view(std::vector<uint8_t>(12, 200), 4), 3, "VEC4", ubyteType, {{"normalized", true}});
     const int indices = b.accessor(b.view(std::vector<uint16_t>{0, 1, 2}), 3, "SCALAR", ushortType);
-    b.triangle(
-        {{"material", 0}, {"indices", indices}, {"attributes", {{"TEXCOORD_0", uv}, {"COLOR_0", colors}}}});
+    b.triangle({{"material", 0}, {"indices", indices}, {"attributes", {{"TEXCOORD_0", uv}, {"COLOR_0", colors}}}});
     const int normals = b.floats(std::vector<glm::vec3>(3, {0, 0, 1}), "VEC3");
     b.triangle({{"mode", 5}, {"attributes", {{"NORMAL", normals}}}}, {{"scale", {1, -1, 1}}});
     b.root["accessors"].back()["sparse"] = {
@@ -48,8 +46,7 @@ GltfBuilder everything() {
     b.root["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", target}}};
     b.root["meshes"][0]["weights"] = {0.5};
     b.root["nodes"][0]["skin"] = b.add(
-        "skins",
-        {{"joints", {2}}, {"inverseBindMatrices", b.floats(std::vector<glm::mat4>{glm::mat4(1)}, "MAT4")}});
+        "skins", {{"joints", {2}}, {"inverseBindMatrices", b.floats(std::vector<glm::mat4>{glm::mat4(1)}, "MAT4")}});
     b.root["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
         {"TRANSLATION", b.floats(std::vector<glm::vec3>{{1, 0, 0}}, "VEC3")}};
     b.add("nodes", {{"camera", 0}, {"children", {0, 1, 2}}, {"extras", {{"note", {1, "two", nullptr}}}}});
@@ -57,9 +54,8 @@ GltfBuilder everything() {
     b.root["scene"] = 0;
     const int input = b.floats(std::vector<float>{0, 1}, "SCALAR");
     const int output = b.floats(std::vector<glm::vec3>{{0, 0, 0}, {0, 10, 0}}, "VEC3");
-    b.add("animations",
-          {{"samplers", {{{"input", input}, {"output", output}}}},
-           {"channels", {{{"sampler", 0}, {"target", {{"node", 3}, {"path", "translation"}}}}}}});
+    b.add("animations", {{"samplers", {{{"input", input}, {"output", output}}}},
+                         {"channels", {{{"sampler", 0}, {"target", {{"node", 3}, {"path", "translation"}}}}}}});
     return b;
 }
 
@@ -71,14 +67,11 @@ class Mutations : public testing::Test {
         try {
             const Geometry g = evaluate(loadGltf(folder_ / "scene.glb"), 0.5, Playback::Looping).geometry;
             ++loaded_;
-            for (const glm::uvec3& t : g.triangles)
-                ASSERT_LT(std::max({t.x, t.y, t.z}), g.positions.size()) << what;
-            for (const VertexAttributes& a : g.attributes)
-                ASSERT_NEAR(glm::length(a.normal), 1, 1e-3) << what;
+            for (const glm::uvec3& t : g.triangles) ASSERT_LT(std::max({t.x, t.y, t.z}), g.positions.size()) << what;
+            for (const VertexAttributes& a : g.attributes) ASSERT_NEAR(glm::length(a.normal), 1, 1e-3) << what;
         } catch (const Error& error) {
             ++refused_;
-            ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos)
-                << what << ": " << error.what();
+            ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos) << what << ": " << error.what();
         } catch (const std::exception& error) {
             FAIL() << what << ": not an Error: " << error.what();
         }
@@ -119,8 +112,7 @@ TEST_F(Mutations, FlippedBitsOfCompressedMeshes) {
     for (const GltfBuilder& good : {dracoGrid(4, 10), dracoGrid(4, 3), meshoptGrid(4)})
         for (int i = 0; i < 500; ++i) {
             GltfBuilder bad = good;
-            for (int f = 0; f < 1 + i % 3; ++f)
-                bad.bytes[random() % bad.bytes.size()] ^= char(1 << random() % 8);
+            for (int f = 0; f < 1 + i % 3; ++f) bad.bytes[random() % bad.bytes.size()] ^= char(1 << random() % 8);
             check(bad.glb(), "compressed, flip " + std::to_string(i));
         }
 }
@@ -137,8 +129,7 @@ TEST_F(Mutations, FlippedBitsInText) {
 
 TEST_F(Mutations, Truncations) {
     const std::string good = everything().glb();
-    for (size_t size = 0; size < good.size(); size += 7)
-        check(good.substr(0, size), "cut " + std::to_string(size));
+    for (size_t size = 0; size < good.size(); size += 7) check(good.substr(0, size), "cut " + std::to_string(size));
 }
 
 /// Paths to all values below one.
@@ -191,8 +182,7 @@ TEST_F(Mutations, MembersRemovedAndExchanged) {
 TEST_F(Mutations, NumbersInTheBufferReplaced) {
     const GltfBuilder good = everything();
     std::mt19937 random(3);
-    const std::vector<uint32_t> patterns{0x7fc00000u, 0x7f800000u, 0xff800000u,
-                                         0x7f7fffffu, 0xffffffffu, 0x00000001u};
+    const std::vector<uint32_t> patterns{0x7fc00000u, 0x7f800000u, 0xff800000u, 0x7f7fffffu, 0xffffffffu, 0x00000001u};
     for (size_t offset = 0; offset + 4 <= good.bytes.size(); offset += 4) {
         GltfBuilder bad = good;
         std::memcpy(bad.bytes.data() + offset, &patterns[random() % patterns.size()], 4);

@@ -37,8 +37,7 @@ TEST(GltfNodes, MirroringKeepsFrontsAndTangentFrames) {
                    {{"scale", {1, mirrored ? -1 : 1, 1}}});
         const Geometry g = evaluate(b.load(), 0).geometry;
         const glm::uvec3 t = g.triangles[0];
-        const glm::vec3 face =
-            glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x]);
+        const glm::vec3 face = glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x]);
         EXPECT_NEAR(face.z, 1, 1e-6);
         expectNear(g.attributes[0].normal, {0, mirrored ? -root : root, root}, 1e-6f);
         // The bitangent is mirrored with the mesh.
@@ -107,13 +106,12 @@ TEST(GltfNodes, LightsAndCamerasAreUsedAsTheirNodesPlaceThem) {
          {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.4}}}},
         {{"type", "point"}, {"name", "bulb"}},
         {{"type", "directional"}, {"intensity", 3}}};
-    b.root["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}},
-                         {{"type", "orthographic"},
-                          {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 10}, {"znear", 0.1}}}}};
+    b.root["cameras"] = {
+        {{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}},
+        {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"zfar", 10}, {"znear", 0.1}}}}};
     const json turn = {0, root, 0, root};  // 90 degrees about Y: -Z becomes -X.
     const auto light = [](int index) { return json{{"KHR_lights_punctual", {{"light", index}}}}; };
-    b.add("nodes",
-          {{"extensions", light(0)}, {"rotation", turn}, {"translation", {1, 2, 3}}, {"scale", {5, 5, 5}}});
+    b.add("nodes", {{"extensions", light(0)}, {"rotation", turn}, {"translation", {1, 2, 3}}, {"scale", {5, 5, 5}}});
     b.add("nodes", {{"extensions", light(1)}});
     b.add("nodes", {{"extensions", light(2)}, {"rotation", {-root, 0, 0, root}}});
     b.add("nodes", {{"camera", 0}, {"rotation", turn}, {"translation", {4, 5, 6}}, {"name", "view"}});

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "experiment/study.h"
-#include "passes/common/families.h"
+#include "tests/support/all_passes.h"
 #include "tests/support/errors.h"
 
 using namespace voxray;
@@ -13,11 +13,7 @@ using namespace voxray;
 namespace {
 
 Study wired(const std::string& text) {
-    static const Registry registry = [] {
-        Registry all;
-        registerPasses(all);
-        return all;
-    }();
+    static const Registry registry = test::allPasses();
     return makeStudy(parseExperiment("name: x\nscene: {builtin: cornell}\n" + text, "x.yaml"), registry);
 }
 
@@ -26,6 +22,10 @@ std::string graphWith(const std::string& voxelize) {
     return "graph:\n  - {pass: gbuffer}\n  - {pass: voxelize" + voxelize +
            "}\n  - {pass: inject_light_rays, id: inject}\n  - {pass: gather_irradiance}\n"
            "  - {pass: direct_shadow_rays}\n  - {pass: composite}\n";
+}
+
+std::string messageOf(const std::string& text) {
+    return errorOf<UsageError>([&] { wired(text); });
 }
 
 std::vector<std::string> namesOf(const Study& experiment) {
@@ -37,18 +37,14 @@ std::vector<std::string> namesOf(const Study& experiment) {
 }  // namespace
 
 TEST(UnusedSettings, AreRefusedWhereTheyStand) {
-    const auto message = [](const std::string& text) { return errorOf<UsageError>([&] { wired(text); }); };
-    EXPECT_EQ(message(graphWith(", samples_per_voxel_edge: 4")),
-              "x.yaml:5: voxelize.samples_per_voxel_edge: no effect with method: exact; only with method: "
-              "three_axis; leave it out");
-    EXPECT_EQ(message(graphWith("") + "sweep: {voxelize.samples_per_voxel_edge: [1, 2]}\n"),
-              "x.yaml:10: sweep.voxelize.samples_per_voxel_edge: changes nothing in any variant: "
-              "no effect with method: exact; only with method: three_axis");
+    EXPECT_CONTAINS(messageOf(graphWith(", samples_per_voxel_edge: 4")),
+                    "x.yaml:5: voxelize.samples_per_voxel_edge: no effect");
+    EXPECT_CONTAINS(messageOf(graphWith("") + "sweep: {voxelize.samples_per_voxel_edge: [1, 2]}\n"),
+                    "x.yaml:10: sweep.voxelize.samples_per_voxel_edge: ");
     // Swept values of whole passes bring parameters of their own
-    EXPECT_EQ(message(graphWith("") + "sweep:\n  inject:\n    - inject_light_rays\n"
-                                      "    - {pass: inject_light_rays, secondary: none, bounces: 3}\n"),
-              "x.yaml:13: inject.bounces: no effect with secondary: none; "
-              "only with secondary other than none; leave it out");
+    EXPECT_CONTAINS(messageOf(graphWith("") + "sweep:\n  inject:\n    - inject_light_rays\n"
+                                              "    - {pass: inject_light_rays, secondary: none, bounces: 3}\n"),
+                    "x.yaml:13: inject.bounces: no effect");
 }
 
 TEST(UnusedSettings, StayWhereASweepUsesThem) {
@@ -67,16 +63,11 @@ TEST(UnusedSettings, ShadowMapsAreForAllPointsAndTakeNoSamples) {
                "  - {pass: trace_gather_rays}\n  - {pass: inject_voxel_rays, id: inject, " +
                inject + "}\n  - {pass: gather_rays}\n  - {pass: direct_shadow_rays}\n  - {pass: composite}\n";
     };
-    const auto message = [&](const std::string& inject) { return errorOf<UsageError>([&] { wired(graph(inject)); }); };
-    EXPECT_EQ(message("points: gather_hits, direct: shadow_maps"),
-              "x.yaml:8: inject.direct: no effect with points: gather_hits; only with points: all; "
-              "leave it out");
-    EXPECT_EQ(message("shadow_resolution: 64"),
-              "x.yaml:8: inject.shadow_resolution: no effect with direct: shadow_rays; only with direct: "
-              "shadow_maps; leave it out");
-    EXPECT_EQ(message("direct: shadow_maps, light_samples: 4"),
-              "x.yaml:8: inject.light_samples: no effect with direct: shadow_maps, points: all; "
-              "only with direct: shadow_rays or points: gather_hits; leave it out");
+    for (const auto& [parameters, name] :
+         std::vector<std::pair<std::string, std::string>>{{"points: gather_hits, direct: shadow_maps", "direct"},
+                                                          {"shadow_resolution: 64", "shadow_resolution"},
+                                                          {"direct: shadow_maps, light_samples: 4", "light_samples"}})
+        EXPECT_CONTAINS(messageOf(graph(parameters)), "x.yaml:8: inject." + name + ": no effect");
     EXPECT_EQ(namesOf(wired(graph("points: all") + "sweep: {inject.points: [all, gather_hits], inject.direct: "
                                                    "[shadow_rays, shadow_maps]}\n"))
                   .size(),
@@ -90,21 +81,15 @@ TEST(UnusedSettings, OfGatherRaysGoWithTheirSource) {
                store + "}\n  - {pass: gather_rays, " + gather +
                "}\n  - {pass: direct_shadow_rays}\n  - {pass: composite}\n";
     };
-    const auto message = [&](const std::string& gather) {
-        return errorOf<UsageError>([&] { wired(graph("update_radiance_cache", gather)); });
+    const auto messageOf = [&](const std::string& gather) {
+        return ::messageOf(graph("update_radiance_cache", gather));
     };
-    EXPECT_EQ(message("source: radiance_cache, direct_at_hits: shadow_rays"),
-              "x.yaml:9: gather_rays.direct_at_hits: no effect with source: radiance_cache; only with source: "
-              "voxels; leave it out");
-    EXPECT_EQ(message("min_samples: 4"),
-              "x.yaml:9: gather_rays.min_samples: no effect with source: voxels; only with source: "
-              "radiance_cache; leave it out");
+    EXPECT_CONTAINS(messageOf("source: radiance_cache, direct_at_hits: shadow_rays"),
+                    "x.yaml:9: gather_rays.direct_at_hits: no effect");
+    EXPECT_CONTAINS(messageOf("min_samples: 4"), "x.yaml:9: gather_rays.min_samples: no effect");
 
     // Whether merged voxels hold direct light is for merge_voxels to say
     wired(graph("merge_voxels", "source: merged_voxels, near_field_cells: 0, light_samples: 4"));
-    EXPECT_CONTAINS(
-        errorOf<UsageError>([&] {
-            wired(graph("update_radiance_cache", "source: radiance_cache, near_field_cells: 0, light_samples: 4"));
-        }),
-        "x.yaml:9: gather_rays.light_samples: no effect with");
+    EXPECT_CONTAINS(messageOf("source: radiance_cache, near_field_cells: 0, light_samples: 4"),
+                    "x.yaml:9: gather_rays.light_samples: no effect");
 }

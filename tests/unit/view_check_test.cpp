@@ -11,18 +11,17 @@ namespace voxray {
 namespace {
 
 ViewCheck checkOf(const std::string& scene, int exposureStops, const std::string& graph) {
-    const Experiment experiment = parseExperiment(
-        fmt::format("name: x\nscene: {{{}}}\nimage: {{width: 64, height: 36, exposure_stops: {}}}\n"
-                    "graph: {}\n",
-                    scene, exposureStops, graph),
-        "x.yaml");
+    const Experiment experiment =
+        parseExperiment(fmt::format("name: x\nscene: {{{}}}\nimage: {{width: 64, height: 36, exposure_stops: {}}}\n"
+                                    "graph: {}\n",
+                                    scene, exposureStops, graph),
+                        "x.yaml");
     SceneLoader loader({});
     return checkView(experiment.setup, loader.prepare(experiment.setup.scene), pathTracedPreview);
 }
 
 /// What is said of a scene's view.
-std::string saidOf(const std::string& scene, int exposureStops = 0,
-                   const std::string& graph = "[{pass: gbuffer}]") {
+std::string saidOf(const std::string& scene, int exposureStops = 0, const std::string& graph = "[{pass: gbuffer}]") {
     std::vector<std::string> lines;
     for (const Diagnostic& found : checkOf(scene, exposureStops, graph).found) lines.push_back(found.str());
     return fmt::format("{}", fmt::join(lines, " | "));
@@ -45,7 +44,7 @@ TEST(ViewCheck, SaysNothingOfBuiltInScenesButThoseThatAreDarkByIntention) {
 TEST(ViewCheck, TellsHowMuchOfTheViewIsMetal) {
     // Half a metal counts half; what a config says of a material stands above its mode.
     const auto metalOf = [](const std::string& scene) {
-        return checkOf(scene, 0, "[{pass: gbuffer}]").metallicFraction;
+        return checkOf(scene, 0, "[{pass: gbuffer}]").visibleMetalFraction;
     };
     const std::string plane = "builtin: plane, override: {ground: {metallic: ";
     EXPECT_NEAR(metalOf(plane + "1}}"), 1, 1e-6);
@@ -56,11 +55,10 @@ TEST(ViewCheck, TellsHowMuchOfTheViewIsMetal) {
 }
 
 TEST(ViewCheck, RefusesDarkBacks) {
-    const char* outside[] = {
-        // Outside of a closed room, behind the open box, below a plane that is lit from above
-        "builtin: white_room, camera: {position: [0, 1, 9], target: [0, 1, 0]}",
-        "builtin: cornell, lights: point, camera: {position: [0, 1, -4], target: [0, 1, 0]}",
-        "builtin: plane, camera: {position: [0, -2, 0.1], target: [0, 0, 0]}"};
+    const char* outside[] = {// Outside of a closed room, behind the open box, below a plane that is lit from above
+                             "builtin: white_room, camera: {position: [0, 1, 9], target: [0, 1, 0]}",
+                             "builtin: cornell, lights: point, camera: {position: [0, 1, -4], target: [0, 1, 0]}",
+                             "builtin: plane, camera: {position: [0, -2, 0.1], target: [0, 0, 0]}"};
     for (const char* scene : outside) {
         const std::string message = refusalOf(scene);
         EXPECT_CONTAINS(message, "x.yaml:2: ");
@@ -68,16 +66,14 @@ TEST(ViewCheck, RefusesDarkBacks) {
         EXPECT_CONTAINS(message, "./voxray scene ");
     }
     // Inside of the taller box
-    EXPECT_CONTAINS(
-        refusalOf("builtin: cornell, camera: {position: [-0.35, 0.6, -0.3], target: [0, 0.6, 0]}"),
-        "inside of a solid");
+    EXPECT_CONTAINS(refusalOf("builtin: cornell, camera: {position: [-0.35, 0.6, -0.3], target: [0, 0.6, 0]}"),
+                    "inside of a solid");
     EXPECT_CONTAINS(refusalOf("builtin: cornell, camera: {position: [0, 1, 3], target: [0, 1, 9]}"),
                     "no surface lies in its view");
 }
 
 TEST(ViewCheck, AllowsBacksThatAreLit) {
-    EXPECT_EQ(saidOf("builtin: white_room, environment: 1, camera: {position: [0, 1, 9], target: [0, 1, 0]}"),
-              "");
+    EXPECT_EQ(saidOf("builtin: white_room, environment: 1, camera: {position: [0, 1, 9], target: [0, 1, 0]}"), "");
 }
 
 TEST(ViewCheck, FindsLightThatFewPathsMeet) {
@@ -88,8 +84,7 @@ TEST(ViewCheck, FindsLightThatFewPathsMeet) {
 }
 
 TEST(ViewCheck, WarnsOfCamerasThatSeeHardlyAnything) {
-    const std::string far =
-        saidOf("builtin: cornell, camera: {position: [0, 1, 31], target: [0, 1, 0], fov_deg: 60}");
+    const std::string far = saidOf("builtin: cornell, camera: {position: [0, 1, 31], target: [0, 1, 0], fov_deg: 60}");
     EXPECT_CONTAINS(far, "x.yaml:2: ");
     EXPECT_CONTAINS(far, "fill less than 1 % of its view: it stands at [0, 1, 31], 30 m away");
     EXPECT_CONTAINS(far, "from [-1, 0, -1] to [1, 2, 1]");
@@ -131,8 +126,8 @@ TEST(ViewCheck, WarnsOfLightThatDoesNotComeToTheView) {
 TEST(ViewCheck, NamesWhatIsInTheWayOfASun) {
     // The floor of the open box below a dome, a sphere that encloses it
     const std::string dome = saidOf(
-        "builtin: cornell, lights: [{directional: [0, -0.5, -1]}], add: [{builtin: furnace, transform: "
-        "{scale: 20}, material: {base_color: 0.5}}]");
+        "builtin: cornell, lights: [{directional: [0, -0.5, -1]}], add: [{builtin: furnace, transform: {scale: "
+        "20}, material: {base_color: 0.5}}]");
     EXPECT_CONTAINS(dome, "scene.lights[0]: it lights the backs of surfaces alone");
     EXPECT_CONTAINS(dome, "; 'furnace' is in its way: 'scene.hide: [\"furnace\"]' takes it out of the scene");
 }
@@ -146,8 +141,7 @@ TEST(ViewCheck, AStrayTriangleHidesNoSun) {
 }
 
 TEST(ViewCheck, WarnsOfVoxelsOverMoreThanIsSeen) {
-    const std::string stray =
-        "builtin: cornell, add: [{builtin: plane, transform: {translate: [1000, 0, 0]}}]";
+    const std::string stray = "builtin: cornell, add: [{builtin: plane, transform: {translate: [1000, 0, 0]}}]";
     const std::string graph = "[{pass: gbuffer}, {pass: voxelize}]";
     EXPECT_EQ(saidOf("builtin: cornell", 0, graph), "");
     EXPECT_EQ(saidOf(stray), "") << "nothing is voxelized";
@@ -156,15 +150,12 @@ TEST(ViewCheck, WarnsOfVoxelsOverMoreThanIsSeen) {
     // What is proposed is a region of a config
     const std::string region = said.substr(said.find("region: {"));
     EXPECT_EQ(saidOf(stray + ", " + region, 0, graph), "");
-    EXPECT_CONTAINS(refusalOf(stray + ", region: {min: [5, 5, 5], max: [6, 6, 6]}"),
-                    "none of the scene lies in it");
-    EXPECT_CONTAINS(refusalOf(stray + ", region: {min: [1, 0, 0], max: [1, 1, 1]}"),
-                    "min must be less than max");
+    EXPECT_CONTAINS(refusalOf(stray + ", region: {min: [5, 5, 5], max: [6, 6, 6]}"), "none of the scene lies in it");
+    EXPECT_CONTAINS(refusalOf(stray + ", region: {min: [1, 0, 0], max: [1, 1, 1]}"), "min must be less than max");
 }
 
 TEST(ViewCheck, WarnsOfViewsThatAreWhiteOrBlack) {
-    const std::string lamp =
-        "builtin: white_room, keep_file_lights: false, lights: [{point: [0, 0, 0], intensity: ";
+    const std::string lamp = "builtin: white_room, keep_file_lights: false, lights: [{point: [0, 0, 0], intensity: ";
     const std::string bright = saidOf(lamp + "80000}]");
     EXPECT_CONTAINS(bright, "x.yaml:2: scene.lights[0]: nearly all of the view is white: ");
     EXPECT_CONTAINS(bright, "1 is white at exposure_stops: 0; divide it by about ");

@@ -59,8 +59,7 @@ class AmbientOcclusion final : public Pass {
     }
 
  private:
-    static constexpr uint32_t kBatchRays =
-        1u << 16;  ///< Bounds rays and answers to 2.3 MiB, whatever the image.
+    static constexpr uint32_t kBatchRays = 1u << 16;  ///< Bounds rays and answers to 2.3 MiB, whatever the image.
 
     const Params params_;
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};

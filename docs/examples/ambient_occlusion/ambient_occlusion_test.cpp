@@ -10,10 +10,9 @@ using namespace voxray::test;
 namespace {
 
 /// The empty Cornell box, open in front, seen as wide as it is high.
-Chain boxOf(uint32_t size, const std::string& parameters, uint64_t seed = 1,
-            const std::string& gbuffer = "gbuffer") {
-    return Chain("cornell", "{lights: point, boxes: false}",
-                 graphYaml({gbuffer, "ambient_occlusion" + parameters}), size, size, seed,
+Chain boxOf(uint32_t size, const std::string& parameters, uint64_t seed = 1, const std::string& gbuffer = "gbuffer") {
+    return Chain("cornell", "{lights: point, boxes: false}", graphYaml({gbuffer, "ambient_occlusion" + parameters}),
+                 size, size, seed,
                  [](Registry& registry) { addRegistered(registry, "docs/examples/ambient_occlusion/"); });
 }
 

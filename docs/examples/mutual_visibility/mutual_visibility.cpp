@@ -8,8 +8,7 @@ namespace voxray {
 class MutualVisibility final : public Pass {
  public:
     static constexpr const char* kName = "mutual_visibility";
-    static constexpr const char* kHelp =
-        "1 where a pixel's surface sees the surface at pixel (x, y), else 0.";
+    static constexpr const char* kHelp = "1 where a pixel's surface sees the surface at pixel (x, y), else 0.";
     struct Params {
         uint32_t x = 0, y = 0;
         static constexpr auto schema() {
@@ -32,7 +31,7 @@ class MutualVisibility final : public Pass {
                           {"seen", context[seen_].image},
                           {"grid", voxels.grid},
                           {"pixel", glm::uvec2(params_.x, params_.y)}});
-        context.voxelCounts.push_back(&march_.counts());
+        context.visitCounts.push_back(&march_.counts());
     }
 
  private:

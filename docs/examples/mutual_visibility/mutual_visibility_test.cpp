@@ -13,11 +13,10 @@ constexpr uint32_t kSide = 96;
 TEST(MutualVisibility, IsThatOfShadowRaysButForAFewVoxels) {
     // From the floor before the boxes.
     constexpr uint32_t x = 48, y = 92;
-    Chain chain("cornell", "{lights: point}",
-                graphYaml({"gbuffer", "voxelize, resolution: 128",
-                           fmt::format("mutual_visibility, x: {}, y: {}", x, y)}),
-                kSide, kSide, 1,
-                [](Registry& registry) { addRegistered(registry, "docs/examples/mutual_visibility/"); });
+    Chain chain(
+        "cornell", "{lights: point}",
+        graphYaml({"gbuffer", "voxelize, resolution: 128", fmt::format("mutual_visibility, x: {}, y: {}", x, y)}),
+        kSide, kSide, 1, [](Registry& registry) { addRegistered(registry, "docs/examples/mutual_visibility/"); });
     const ImageF seen = chain.image("seen");
     const glm::vec4 from =
         chain.readImage<glm::vec4>(chain.graph().resource<GBuffer>("gbuffer")->position)[y * kSide + x];
@@ -37,8 +36,8 @@ TEST(MutualVisibility, IsThatOfShadowRaysButForAFewVoxels) {
         wronglyHidden += isLit && seen.data[3 * pixel] == 0;
         wronglySeen += !isLit && seen.data[3 * pixel] == 1;
     }
-    std::printf("%zu pixels are seen, %zu are not; by voxels %zu less and %zu more\n", visible, hidden,
-                wronglyHidden, wronglySeen);
+    std::printf("%zu pixels are seen, %zu are not; by voxels %zu less and %zu more\n", visible, hidden, wronglyHidden,
+                wronglySeen);
     EXPECT_GT(visible, 3000u);
     EXPECT_GT(hidden, 500u);
     EXPECT_LT(double(wronglyHidden), 0.1 * double(visible));

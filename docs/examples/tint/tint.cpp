@@ -12,18 +12,17 @@ class Tint final : public Pass {
     struct Params {
         glm::vec3 color{1.0f};
         static constexpr auto schema() {
-            return std::tuple{field("color", &Params::color, "Factor of each channel.", glm::vec3(0.0f),
-                                    glm::vec3(1000.0f))};
+            return std::tuple{
+                field("color", &Params::color, "Factor of each channel.", glm::vec3(0.0f), glm::vec3(1000.0f))};
         }
     };
     explicit Tint(const Params& params) : params_(params) {}
 
     void plan(PassPlan& plan) override { plan.frameImage(final_); }
     void record(PassContext& context) override {
-        context.dispatch(kernel_, context.frame.pixels(),
-                         {{"source", context[source_].image},
-                          {"target", context[final_].image},
-                          {"color", params_.color}});
+        context.dispatch(
+            kernel_, context.frame.pixels(),
+            {{"source", context[source_].image}, {"target", context[final_].image}, {"color", params_.color}});
     }
 
  private:

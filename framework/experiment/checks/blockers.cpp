@@ -66,10 +66,7 @@ std::string occluderAdvice(std::span<const Ray> rays, const SceneState& state, c
     // Glass has the highest rank, then enclosing objects
     const auto rank = [&](uint32_t i) {
         const bool glass = isGlass(scene.materials[scene.meshes[scene.instances[i].mesh].material]);
-        return std::pair(glass                                                   ? 2
-                         : encloses(state.geometry, state.geometry.instances[i]) ? 1
-                                                                                 : 0,
-                         blocked[i]);
+        return std::pair(glass ? 2 : encloses(state.geometry, state.geometry.instances[i]) ? 1 : 0, blocked[i]);
     };
     std::optional<uint32_t> worst;
     for (uint32_t i = 0; i < blocked.size(); ++i)
@@ -82,10 +79,9 @@ std::string occluderAdvice(std::span<const Ray> rays, const SceneState& state, c
     };
     if (name.empty() || std::ranges::all_of(scene.instances, hasName)) return "";
     const Material& material = scene.materials[scene.meshes[instance.mesh].material];
-    return fmt::format(
-        "'{}' is in its way{}: 'scene.hide: [\"{}\"]' takes it out of the scene", name,
-        isGlass(material) ? fmt::format(", of the glass '{}', which is opaque here", material.name) : "",
-        name);
+    return fmt::format("'{}' is in its way{}: 'scene.hide: [\"{}\"]' takes it out of the scene", name,
+                       isGlass(material) ? fmt::format(", of the glass '{}', which is opaque here", material.name) : "",
+                       name);
 }
 
 }  // namespace voxray

@@ -24,8 +24,8 @@ Diagnostic directionsOfLights(const SceneSettings& scene) {
     }
     if (directions.empty()) return {};
     return {where,
-            fmt::format("scene.lights: no light was found in the camera's view, "
-                        "so that the image will be black: light travels along {}",
+            fmt::format("scene.lights: no light was found in the camera's view, so that the image will be black: "
+                        "light travels along {}",
                         fmt::join(directions, ", ")),
             "is that the way of the light, not the way to it? Else " + cameraAdvice(scene)};
 }
@@ -48,13 +48,12 @@ void cameraSeesLittle(const View& view, Diagnostics& found) {
     const Geometry& g = view.state().geometry;
     const glm::vec3& position = view.prepared.camera.position;
     const glm::vec3 nearest = glm::clamp(position, g.boundsMin, g.boundsMax);
-    found.push_back(
-        {cameraLocation(view.scene()),
-         fmt::format("scene.camera: surfaces fill less than {} % of its view: "
-                     "it stands at {}, {:.3g} m away from a scene that reaches from {} to {}",
-                     100 * kMinSurfaceFraction, bracketed(position), glm::distance(nearest, position),
-                     bracketed(g.boundsMin), bracketed(g.boundsMax)),
-         "are its numbers metres? " + cameraAdvice(view.scene())});
+    found.push_back({cameraLocation(view.scene()),
+                     fmt::format("scene.camera: surfaces fill less than {} % of its view: "
+                                 "it stands at {}, {:.3g} m away from a scene that reaches from {} to {}",
+                                 100 * kMinSurfaceFraction, bracketed(position), glm::distance(nearest, position),
+                                 bracketed(g.boundsMin), bracketed(g.boundsMax)),
+                     "are its numbers metres? " + cameraAdvice(view.scene())});
 }
 
 /// Warns of a black view, which may be intended in tests of light leaks.

@@ -8,7 +8,7 @@
 /// but may be intended. Settings that can't be intended throw UsageError.
 namespace voxray {
 
-class LightRays;
+class ShadowRayCost;
 
 /// A variant whose graph is planned on its scene.
 struct PlannedVariant {
@@ -17,9 +17,9 @@ struct PlannedVariant {
     const PreparedScene& scene;
     bool isNewScene;  ///< Whether the previous variant has another scene; then the scene itself is checked.
     SceneLoader& loader;
-    LightRays& lightRays;
-    double metallicFraction;  ///< ViewCheck::metallicFraction
-    const Graph* reference;   ///< Planned on the same scene; nullptr: no reference.
+    ShadowRayCost& shadowRayCost;
+    double visibleMetalFraction;  ///< ViewCheck::visibleMetalFraction
+    const Graph* reference;       ///< Planned on the same scene; nullptr: no reference.
 };
 
 /// A check, which appends its diagnostics to `found`.
@@ -48,12 +48,11 @@ void checkAddedSceneUnits(const PlannedVariant&, Diagnostics&);
 /// Warns of added scenes of another unit: one in centimetres is 100 times too large. A flat scene, such as a
 /// ground plane, may have any size.
 /// @param prepared that of `scene`, which `loader` has loaded.
-Diagnostics checkAddedSceneUnits(const SceneSettings& scene, const PreparedScene& prepared,
-                                 SceneLoader& loader);
+Diagnostics checkAddedSceneUnits(const SceneSettings& scene, const PreparedScene& prepared, SceneLoader& loader);
 void keepFileLightsWithoutLights(const PlannedVariant&, Diagnostics&);
 void staticMovingSpheres(const PlannedVariant&, Diagnostics&);
 // Time and memory (cost.cpp)
-void slowLightRays(const PlannedVariant&, Diagnostics&);
+void slowShadowRays(const PlannedVariant&, Diagnostics&);
 // What is compared (comparison.cpp)
 void shortHistory(const PlannedVariant&, Diagnostics&);
 void missingLight(const PlannedVariant&, Diagnostics&);
@@ -62,7 +61,7 @@ void missingLobes(const PlannedVariant&, Diagnostics&);
 
 /// Checks of each variant.
 inline constexpr Check<PlannedVariant> kVariantChecks[] = {checkAddedSceneUnits, keepFileLightsWithoutLights,
-                                                           staticMovingSpheres,  slowLightRays,
+                                                           staticMovingSpheres,  slowShadowRays,
                                                            shortHistory,         missingLight,
                                                            differentBounces,     missingLobes};
 

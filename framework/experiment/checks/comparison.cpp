@@ -21,8 +21,7 @@ std::optional<Bounces> bouncesOf(const Variant& variant) {
             for (const Value& entry : variant.setup.graph.items)
                 if (passId(entry) == passId(pass)) {
                     const Value* written = entry.find("bounces");
-                    return Bounces{passId(pass), written ? written->where : entry.where,
-                                   bounces->asInteger("bounces")};
+                    return Bounces{passId(pass), written ? written->where : entry.where, bounces->asInteger("bounces")};
                 }
     return std::nullopt;
 }
@@ -37,8 +36,8 @@ void shortHistory(const PlannedVariant& v, Diagnostics& found) {
         if (pass.warmupFrames > measure.warmup)
             found.push_back(
                 {pass.where,
-                 fmt::format("{}: it goes on from frame to frame, and {} of the {} frames "
-                             "that it looks back on come before the one that is compared:",
+                 fmt::format("{}: it goes on from frame to frame, "
+                             "and {} of the {} frames that it looks back on come before the one that is compared:",
                              pass.id, measure.warmup, pass.warmupFrames),
                  fmt::format("write measure: {{warmup: {}}}, or compare a sequence with 'compare_every'",
                              pass.warmupFrames)});
@@ -51,8 +50,8 @@ void missingLight(const PlannedVariant& v, Diagnostics& found) {
         if (std::ranges::count(kPartsOfLight, input.port) > 0)
             found.push_back(
                 {input.where,
-                 fmt::format("{0}: no pass before it writes '{1}', so that '{2}' lacks {1} light, "
-                             "which the reference has",
+                 fmt::format("{0}: "
+                             "no pass before it writes '{1}', so that '{2}' lacks {1} light, which the reference has",
                              input.id, input.port, kComparedImage),
                  fmt::format("these can: {}", fmt::join(v.study.registry->writersOf(input.port), ", "))});
 }
@@ -74,8 +73,8 @@ void differentBounces(const PlannedVariant& v, Diagnostics& found) {
     // Later passes may add bounces
     const std::optional<Bounces> first = bouncesOf(v.variant);
     if (first && has >= first->value && first->value + wanted - has >= 0)
-        advice = fmt::format("write 'bounces: {}' in '{}', or {}", first->value + wanted - has, first->id,
-                             advice.substr(6));
+        advice =
+            fmt::format("write 'bounces: {}' in '{}', or {}", first->value + wanted - has, first->id, advice.substr(6));
     found.push_back({first ? first->where : v.study.experiment.reference.where,
                      fmt::format("indirect light has {} bounces, the reference's {}:", has, wanted), advice});
 }
@@ -83,16 +82,15 @@ void differentBounces(const PlannedVariant& v, Diagnostics& found) {
 /// Warns of a variant without specular lobes if much of the view is metal.
 void missingLobes(const PlannedVariant& v, Diagnostics& found) {
     constexpr double kMinMetallicFraction = 0.1;
-    if (!v.reference || v.metallicFraction < kMinMetallicFraction) return;
+    if (!v.reference || v.visibleMetalFraction < kMinMetallicFraction) return;
     const auto* test = v.variant.graph.resource<FrameImage>(kIndirectImage);
     const auto* expected = v.reference->resource<FrameImage>(kIndirectImage);
     if (!test || !expected || test->hasSpecularLobes || !expected->hasSpecularLobes) return;
     found.push_back(
         {v.variant.setup.scene.where,
-         fmt::format(
-             "scene: {:.0f} % of the surfaces in view are metal, which reflects by specular lobes alone: "
-             "the reference has what they reflect of indirect light, and this variant lacks it",
-             100 * v.metallicFraction),
+         fmt::format("scene: {:.0f} % of the surfaces in view are metal, which reflects by specular lobes alone: "
+                     "the reference has what they reflect of indirect light, and this variant lacks it",
+                     100 * v.visibleMetalFraction),
          "write 'materials: "
          "lambert' for a scene without lobes, or take gather_mirror, or gather_cones with 'specular'"});
 }

@@ -68,7 +68,7 @@ std::vector<std::string> smallerTextures(const SceneSettings& settings, const Sc
 
 }  // namespace
 
-double LightRays::perSecond() {
+double ShadowRayCost::perSecond() {
     if (perSecond_) return *perSecond_;
     // Rays from vertices all over the scene to all lights in turn
     const Geometry& g = state_.geometry;
@@ -89,7 +89,7 @@ double LightRays::perSecond() {
     return *perSecond_;
 }
 
-void LightRays::check(std::span<const Graph::PassInfo> passes, Diagnostics& found) {
+void ShadowRayCost::check(std::span<const Graph::PassInfo> passes, Diagnostics& found) {
     if (state_.lights.size() < kMinLights || state_.geometry.triangles.empty()) return;
     for (const Graph::PassInfo& pass : passes) {
         if (pass.lightRays < kMinRays) continue;
@@ -98,16 +98,15 @@ void LightRays::check(std::span<const Graph::PassInfo> passes, Diagnostics& foun
         found.push_back(
             {pass.where,
              fmt::format(
-                 "{}: {} lights take {:.0f} million rays, "
-                 "about {} on this machine's CPU each time that it runs: it takes as long for each light",
+                 "{}: {} lights take {:.0f} million rays, about {} on this machine's CPU each time that it runs: "
+                 "it takes as long for each light",
                  pass.id, state_.lights.size(), double(pass.lightRays) / 1e6, duration(seconds)),
-             "lower the size of the image or its own parameters, "
-             "or leave lights out with 'keep_file_lights: false'"});
+             "lower the size of the image or its own parameters, or leave lights out with 'keep_file_lights: false'"});
     }
 }
 
-void slowLightRays(const PlannedVariant& v, Diagnostics& found) {
-    v.lightRays.check(v.variant.graph.passes(), found);
+void slowShadowRays(const PlannedVariant& v, Diagnostics& found) {
+    v.shadowRayCost.check(v.variant.graph.passes(), found);
 }
 
 /// Warns of variants that exceed the config's limit of memory. @throws UsageError if all do.
@@ -124,8 +123,7 @@ void exceededMemoryLimit(const Study& study, Diagnostics& found) {
     std::ranges::stable_sort(needs, {}, &MemoryNeed::bytes);
     const auto& [variant, bytes, largest] = *std::ranges::find_if(needs, isOver);
     const Diagnostic finding{locationOf(study.experiment.config, "measure.memory_limit_mb"),
-                             fmt::format("measure.memory_limit_mb: "
-                                         "{} MiB are too few for {} of {} variants: "
+                             fmt::format("measure.memory_limit_mb: {} MiB are too few for {} of {} variants: "
                                          "{} takes at least {:.1f} MiB, the largest part of it by '{}'",
                                          limitMb, over, needs.size(), variant, double(bytes) / kMiB, largest),
                              ""};
@@ -145,10 +143,9 @@ std::string sceneSizeAdvice(const SceneSettings& settings, const SceneState& sta
     else
         remedies = fewerTriangles(settings);
     remedies.emplace_back("take another --device");
-    return fmt::format(
-        "its {} triangles take {:.1f} MiB, its {} textures {:.1f} MiB, its environment {:.1f} MiB: {}",
-        state.geometry.triangles.size(), double(triangles) / kMiB, scene.textures.size(),
-        double(textures) / kMiB, double(map) / kMiB, fmt::join(remedies, ", or "));
+    return fmt::format("its {} triangles take {:.1f} MiB, its {} textures {:.1f} MiB, its environment {:.1f} MiB: {}",
+                       state.geometry.triangles.size(), double(triangles) / kMiB, scene.textures.size(),
+                       double(textures) / kMiB, double(map) / kMiB, fmt::join(remedies, ", or "));
 }
 
 }  // namespace voxray

@@ -11,11 +11,11 @@
 
 namespace voxray {
 
-/// Estimates the time of rays to many lights from the speed of a few rays on this machine's CPU.
-class LightRays {
+/// Estimates the time of shadow rays to many lights from the speed of a few rays on this machine's CPU.
+class ShadowRayCost {
  public:
     /// @param state must outlive this object.
-    explicit LightRays(const SceneState& state) : state_(state) {}
+    explicit ShadowRayCost(const SceneState& state) : state_(state) {}
 
     /// Warns of planned passes that trace rays to lights for longer than ten seconds in each run, because
     /// there are many lights.

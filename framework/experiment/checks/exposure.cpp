@@ -22,8 +22,7 @@ double scaleOf(float exposureStops) {
 }
 
 double meanOf(const ImageF& view, double contentFraction) {
-    return std::accumulate(view.data.begin(), view.data.end(), 0.0) / double(view.data.size()) /
-           contentFraction;
+    return std::accumulate(view.data.begin(), view.data.end(), 0.0) / double(view.data.size()) / contentFraction;
 }
 
 /// The mean of each pixel's channels, sorted.
@@ -91,8 +90,8 @@ Diagnostic nearlyAll(const Setup& setup, double radiance, const char* color) {
     std::string advice = fmt::format("{}", fmt::join(remedies, ", or "));
     if (factor > 1 && !lights.hint.empty()) advice += "; " + lights.hint;
     return {lights.where,
-            fmt::format("{}: nearly all of the view is {}: its radiance is about {:.2g} W/(m² sr), "
-                        "and {:.3g} is white at exposure_stops: {:g}",
+            fmt::format("{}: nearly all of the view is {}: "
+                        "its radiance is about {:.2g} W/(m² sr), and {:.3g} is white at exposure_stops: {:g}",
                         fmt::join(lights.names, ", "), color, radiance, 1 / scaleOf(stops), stops),
             advice};
 }

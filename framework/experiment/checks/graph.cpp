@@ -89,7 +89,7 @@ void checkPassNames(const Experiment& experiment, const Registry& registry) {
             }
 }
 
-void checkOwnValues(const Experiment& experiment, const std::vector<Variant>& variants, const Registry& registry) {
+void checkUnsweptConfig(const Experiment& experiment, const std::vector<Variant>& variants, const Registry& registry) {
     for (const Value& entry : experiment.setup.graph.items) {
         if (!entry.find("pass")) continue;
         checkEntry(registry, entry);
@@ -99,7 +99,7 @@ void checkOwnValues(const Experiment& experiment, const std::vector<Variant>& va
     }
 }
 
-void checkSwaps(const Study& study) {
+void checkSweptPasses(const Study& study) {
     const auto& axes = study.experiment.sweep.members;
     for (size_t a = 0; a < axes.size(); ++a) {
         const auto isOfAxis = [&](const Value& entry) { return passId(entry) == axes[a].key; };
@@ -126,12 +126,12 @@ void checkSwaps(const Study& study) {
     }
 }
 
-void checkLightsGoOff(const SceneSettings& scene, const MeasureSettings& measure) {
+void checkLightSwitchTimes(const SceneSettings& scene, const MeasureSettings& measure) {
     for (size_t i = 0; i < scene.lights.size(); ++i)
         if (const ConfigLight& light = scene.lights[i]; light.offAt >= measure.frames)
             throw UsageError(light.where,
-                             "scene.lights[{}].off_at: {} is after the last frame, {}, "
-                             "so that it always shines: lower it, or raise measure.frames",
+                             "scene.lights[{}].off_at: {} is after the last frame, {}, so that it always shines: "
+                             "lower it, or raise measure.frames",
                              i, light.offAt, measure.frames - 1);
 }
 
@@ -155,7 +155,7 @@ std::string whyNeverRun(const Study& study, const std::string& id) {
     return Graph(*study.registry, variant->setup.graph).whyCulled(id);
 }
 
-void checkIsNotOverwritten(const Study& study) {
+void checkNoImageIsOverwritten(const Study& study) {
     const std::string id = overwrittenPass(study);
     if (!id.empty() && unusedPassIds(study).size() > 1) throw UsageError("{}", whyNeverRun(study, id));
 }
@@ -165,7 +165,7 @@ void checkIsNotOverwritten(const Study& study) {
 void unusedPasses(const Study& study, Diagnostics& found) {
     std::vector<std::string> ids;
     for (const std::string& id : unusedPassIds(study))
-        if (std::ranges::count(study.deselected, id) == 0) ids.push_back(id);
+        if (std::ranges::count(study.excludedPasses, id) == 0) ids.push_back(id);
     const std::string first = overwrittenPass(study);
     std::ranges::stable_partition(ids, [&](const std::string& id) { return id == first; });
     for (const std::string& id : ids) found.push_back({{}, whyNeverRun(study, id), ""});

@@ -12,19 +12,18 @@ namespace voxray {
 /// graph would be reported as a misspelt path.
 void checkPassNames(const Experiment& experiment, const Registry& registry);
 
-/// Checks the values in the graph's config, including those that the sweep replaces in all variants.
-void checkOwnValues(const Experiment& experiment, const std::vector<Variant>& variants,
-                    const Registry& registry);
+/// Checks the graph as the config gives it, without the sweep: also values that the sweep replaces in all variants.
+void checkUnsweptConfig(const Experiment& experiment, const std::vector<Variant>& variants, const Registry& registry);
 
 /// Rejects lights that are switched off after the last frame.
-void checkLightsGoOff(const SceneSettings& scene, const MeasureSettings& measure);
+void checkLightSwitchTimes(const SceneSettings& scene, const MeasureSettings& measure);
 
-/// Rejects values of a sweep over whole passes whose pass runs in no variant, while that of another value
-/// does, e.g. a chain without its last pass.
-void checkSwaps(const Study& study);
+/// Rejects swept values that are passes, if such a pass runs in no variant while that of another value does, e.g. a
+/// chain without its last pass.
+void checkSweptPasses(const Study& study);
 
 /// Rejects a pass that overwrites the image of another pass, if that leaves several passes unused.
-void checkIsNotOverwritten(const Study& study);
+void checkNoImageIsOverwritten(const Study& study);
 
 /// The id of a pass that runs in no variant because a later pass also writes the compared image; "": none.
 std::string overwrittenPass(const Study& study);

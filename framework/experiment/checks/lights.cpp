@@ -55,8 +55,7 @@ bool isFinite(const glm::vec3& v) {
 /// A ray from the light to a triangle's center; inactive outside of a spot's cone.
 Ray rayTo(const Light& light, const Geometry& g, uint32_t triangle) {
     const glm::uvec3 corners = g.triangles[triangle];
-    const glm::vec3 center =
-        (g.positions[corners.x] + g.positions[corners.y] + g.positions[corners.z]) / 3.0f;
+    const glm::vec3 center = (g.positions[corners.x] + g.positions[corners.y] + g.positions[corners.z]) / 3.0f;
     const glm::vec3 toCenter = center - light.position;
     const float distance = glm::length(toCenter);
     const bool isInCone = light.type != LightType::Spot ||
@@ -67,8 +66,7 @@ Ray rayTo(const Light& light, const Geometry& g, uint32_t triangle) {
 
 /// The sides of surfaces that a directional light reaches. Rays are traced from the surfaces to the light,
 /// which has no position.
-LitSides directionalLitSides(const Light& light, const SceneState& state, const EmbreeScene& tracer,
-                             size_t step) {
+LitSides directionalLitSides(const Light& light, const SceneState& state, const EmbreeScene& tracer, size_t step) {
     const Geometry& g = state.geometry;
     const size_t triangles = g.triangles.size();
     const uint32_t points = uint32_t(std::max<size_t>(1, kRays / std::max<size_t>(1, triangles)));
@@ -115,8 +113,8 @@ Ray rayFrom(const VisiblePoint& point, const Light& light) {
         if (!(distance > 0)) return inactive;
         direction = (light.position - point.position) / distance;
     }
-    const bool isInCone = light.type != LightType::Spot ||
-                          glm::dot(-direction, light.direction) > std::cos(light.outerConeAngle);
+    const bool isInCone =
+        light.type != LightType::Spot || glm::dot(-direction, light.direction) > std::cos(light.outerConeAngle);
     if (!isInCone || glm::dot(direction, point.normal) <= 0) return inactive;
     return {point.position, 0, direction, kShorter * distance};
 }
@@ -131,8 +129,7 @@ std::vector<Ray> raysFrom(std::span<const VisiblePoint> points, const Light& lig
 /// from a scene that reaches from [...] to [...]"; else "".
 std::string howFar(const Light& light, const Geometry& g) {
     if (light.type == LightType::Directional) return {};
-    const float distance =
-        glm::distance(light.position, glm::clamp(light.position, g.boundsMin, g.boundsMax));
+    const float distance = glm::distance(light.position, glm::clamp(light.position, g.boundsMin, g.boundsMax));
     if (distance <= glm::distance(g.boundsMin, g.boundsMax)) return {};
     return fmt::format("it stands {:.3g} m away from a scene that reaches from {} to {}", distance,
                        bracketed(g.boundsMin), bracketed(g.boundsMax));
@@ -140,8 +137,8 @@ std::string howFar(const Light& light, const Geometry& g) {
 
 /// Whether a significant number of rays is unoccluded.
 bool isUnoccluded(std::span<const Ray> rays, const EmbreeScene& tracer) {
-    const auto unoccluded = std::ranges::count_if(
-        rays, [&](const Ray& ray) { return ray.tMax > ray.tMin && !tracer.occluded(ray); });
+    const auto unoccluded =
+        std::ranges::count_if(rays, [&](const Ray& ray) { return ray.tMax > ray.tMin && !tracer.occluded(ray); });
     // A few rays pass between adjacent surfaces because of rounding, about sqrt(n) of n along a line
     return unoccluded * unoccluded > ptrdiff_t(rays.size());
 }
@@ -172,8 +169,7 @@ Finding findingOf(const ConfigLight& entry, const View& view) {
     }
     if (isUnoccluded(rays, view.tracer) || view.reachesView(entry.light)) return {};
     return {entry.light.type == LightType::Directional
-                ? "none of its light comes to what the camera sees: "
-                  "is its direction the way that the light travels?"
+                ? "none of its light comes to what the camera sees: is its direction the way that the light travels?"
                 : "none of its light comes to what the camera sees: "
                   "does it stand inside of an object, or behind a wall?",
             occluderAdvice(rays, view.state(), view.tracer)};
@@ -189,10 +185,10 @@ void occludedSuns(const View& view, Diagnostics& found) {
         if (light.type != LightType::Directional || light.intensity == glm::vec3(0.0f)) continue;
         const std::vector<Ray> rays = raysFrom(view.points, light);
         if (isUnoccluded(rays, view.tracer) || view.reachesView(light)) continue;
-        found.push_back({view.scene().where,
-                         fmt::format("scene: none of the light of its sun '{}' comes to what the camera sees",
-                                     light.name),
-                         occluderAdvice(rays, view.state(), view.tracer)});
+        found.push_back(
+            {view.scene().where,
+             fmt::format("scene: none of the light of its sun '{}' comes to what the camera sees", light.name),
+             occluderAdvice(rays, view.state(), view.tracer)});
     }
 }
 
@@ -206,8 +202,7 @@ void ineffectiveLights(const View& view, Diagnostics& found) {
         std::string advice = finding.advice;
         if (const std::string far = howFar(lights[i].light, view.state().geometry); !far.empty())
             advice += (advice.empty() ? "" : "; ") + far;
-        found.push_back(
-            {lights[i].where, fmt::format("scene.lights[{}]: {}", i, finding.text), std::move(advice)});
+        found.push_back({lights[i].where, fmt::format("scene.lights[{}]: {}", i, finding.text), std::move(advice)});
     }
 }
 
@@ -217,10 +212,9 @@ void spotAngleInRadians(const View& view, Diagnostics& found) {
     for (size_t i = 0; i < lights.size(); ++i) {
         const float angle = glm::degrees(lights[i].light.outerConeAngle);
         if (lights[i].light.type == LightType::Spot && angle <= glm::half_pi<float>())
-            found.push_back(
-                {lights[i].where,
-                 fmt::format("scene.lights[{}].outer_deg: {:.4g} degrees are a thin beam's", i, angle),
-                 fmt::format("{:.4g} in radians is {:.4g} degrees", angle, glm::degrees(angle))});
+            found.push_back({lights[i].where,
+                             fmt::format("scene.lights[{}].outer_deg: {:.4g} degrees are a thin beam's", i, angle),
+                             fmt::format("{:.4g} in radians is {:.4g} degrees", angle, glm::degrees(angle))});
     }
 }
 

@@ -32,17 +32,14 @@ glm::vec3 hemisphereDirection(const glm::vec3& normal, size_t i) {
 }
 
 /// Bounding box of most points that are visible to the camera, and of those that are visible from there.
-Box visibleBox(const PreparedScene& prepared, const EmbreeScene& tracer,
-               std::span<const VisiblePoint> visible) {
+Box visibleBox(const PreparedScene& prepared, const EmbreeScene& tracer, std::span<const VisiblePoint> visible) {
     const Geometry& g = prepared.state.geometry;
     std::vector<glm::vec3> points;
     for (const VisiblePoint& point : visible) {
         points.push_back(point.position);
         const glm::vec3 direction = hemisphereDirection(point.normal, points.size());
-        const Hit hit =
-            tracer.closestHit({point.position, 0, direction, std::numeric_limits<float>::infinity()});
-        if (hit.triangle != Hit::kMiss)
-            points.push_back(pointTowards(g, hit.triangle, hit.u, hit.v, direction));
+        const Hit hit = tracer.closestHit({point.position, 0, direction, std::numeric_limits<float>::infinity()});
+        if (hit.triangle != Hit::kMiss) points.push_back(pointTowards(g, hit.triangle, hit.u, hit.v, direction));
     }
     const auto distance = [&](const glm::vec3& p) { return glm::distance(p, prepared.camera.position); };
     std::ranges::sort(points, {}, distance);
@@ -74,16 +71,15 @@ void sceneMuchLargerThanView(const View& view, Diagnostics& found) {
     const double step = std::pow(10.0, std::floor(std::log10(double(longest(box)))) - 2);
     const auto corner = [&](const glm::vec3& p, auto&& rounded) {
         const glm::dvec3 at = glm::dvec3(p) + glm::dvec3(prepared.origin);
-        return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", step * rounded(at.x / step),
-                           step * rounded(at.y / step), step * rounded(at.z / step));
+        return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", step * rounded(at.x / step), step * rounded(at.y / step),
+                           step * rounded(at.z / step));
     };
-    found.push_back(
-        {view.scene().where,
-         fmt::format("scene: it is {:.3g} m across, and voxels are spread over all of it", longest(whole)),
-         fmt::format("the camera sees {:.3g} m of it. "
-                     "To have voxels there alone write into 'scene'  region: {{min: {}, max: {}}}",
-                     longest(box), corner(box.min, [](double x) { return std::floor(x); }),
-                     corner(box.max, [](double x) { return std::ceil(x); }))});
+    found.push_back({view.scene().where,
+                     fmt::format("scene: it is {:.3g} m across, and voxels are spread over all of it", longest(whole)),
+                     fmt::format("the camera sees {:.3g} m of it. "
+                                 "To have voxels there alone write into 'scene'  region: {{min: {}, max: {}}}",
+                                 longest(box), corner(box.min, [](double x) { return std::floor(x); }),
+                                 corner(box.max, [](double x) { return std::ceil(x); }))});
 }
 
 }  // namespace voxray

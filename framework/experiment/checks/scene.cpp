@@ -46,9 +46,8 @@ Diagnostic findingOf(const SceneAddition& addition, const Box& added, const Box&
     const glm::vec3 gap = glm::max(glm::max(added.min - scene.max, scene.min - added.max), glm::vec3(0.0f));
     const float distance = glm::length(gap);
     const TextLocation& where = addition.source.where;
-    const std::string sizes =
-        fmt::format("{}: '{}' is {:.3g} m across, the scene that it is added to {:.3g} m",
-                    addition.source.owner, addition.source.name(), size, whole);
+    const std::string sizes = fmt::format("{}: '{}' is {:.3g} m across, the scene that it is added to {:.3g} m",
+                                          addition.source.owner, addition.source.name(), size, whole);
     const auto unit = [&](float factor) {
         return fmt::format("is one of the two in centimetres? then write transform: {{scale: {}}}",
                            scaled(addition.placement, factor));
@@ -56,15 +55,13 @@ Diagnostic findingOf(const SceneAddition& addition, const Box& added, const Box&
     if (size >= kCentimetres * whole) return {where, sizes, unit(1 / kCentimetres)};
     if (kCentimetres * size <= whole) return {where, sizes, unit(kCentimetres)};
     if (distance >= kCentimetres * whole)
-        return {where, fmt::format("{}, and {:.3g} m away", sizes, distance),
-                "is its 'translate' in metres?"};
+        return {where, fmt::format("{}, and {:.3g} m away", sizes, distance), "is its 'translate' in metres?"};
     return {};
 }
 
 }  // namespace
 
-Diagnostics checkAddedSceneUnits(const SceneSettings& scene, const PreparedScene& prepared,
-                                 SceneLoader& loader) {
+Diagnostics checkAddedSceneUnits(const SceneSettings& scene, const PreparedScene& prepared, SceneLoader& loader) {
     // Meshes of additions follow those of the scene. Their indices don't change if instances are hidden
     Diagnostics all;
     size_t first = loader.load(scene.source)->meshes.size();
@@ -87,20 +84,18 @@ void checkAddedSceneUnits(const PlannedVariant& v, Diagnostics& found) {
 /// Warns if the config removes punctual lights of a scene that has none: probably others are intended.
 void keepFileLightsWithoutLights(const PlannedVariant& v, Diagnostics& found) {
     if (v.variant.setup.scene.options.keepFileLights || !v.scene.state.scene->lights.empty()) return;
-    found.push_back(
-        {locationOf(v.variant.config, "scene.keep_file_lights"),
-         "scene.keep_file_lights: the scene has no punctual lights",
-         "what else shines stays: 'override: {MATERIAL: {emission: 0}}' puts out a surface, 'environment: "
-         "none' the sky"});
+    found.push_back({locationOf(v.variant.config, "scene.keep_file_lights"),
+                     "scene.keep_file_lights: the scene has no punctual lights",
+                     "what else shines stays: 'override: {MATERIAL: {emission: 0}}' puts out a surface, 'environment: "
+                     "none' the sky"});
 }
 
 /// Warns of moving spheres without a time step.
 void staticMovingSpheres(const PlannedVariant& v, Diagnostics& found) {
     const SceneSettings& scene = v.variant.setup.scene;
     if (!scene.movingSpheres || scene.movingSpheres->count == 0 || scene.options.timeStep > 0) return;
-    found.push_back(
-        {locationOf(v.variant.config, "scene.moving_spheres"), "scene.moving_spheres: they stand still",
-         "for ones that move write 'time_step', the seconds from one frame to the next, next to it"});
+    found.push_back({locationOf(v.variant.config, "scene.moving_spheres"), "scene.moving_spheres: they stand still",
+                     "for ones that move write 'time_step', the seconds from one frame to the next, next to it"});
 }
 
 }  // namespace voxray

@@ -30,8 +30,7 @@ void refuseUnusedParameters(const Study& study) {
         for (const Value& pass : variant.setup.graph.items)
             for (const auto& [key, value] : pass.members) {
                 const std::string path = passId(pass) + "." + key;
-                if (paths.contains(path) &&
-                    std::ranges::count(variant.unused, path, &UnusedSetting::name) == 0)
+                if (paths.contains(path) && std::ranges::count(variant.unused, path, &UnusedSetting::name) == 0)
                     effective.insert(keyOf(variant, path, value.where));
             }
     for (const auto& [key, parameter] : unused)
@@ -39,15 +38,14 @@ void refuseUnusedParameters(const Study& study) {
             throw UsageError(parameter.where, "{}: {}; leave it out", parameter.name, parameter.why);
 }
 
-void UnusedMotion::add(const Variant& variant, const Scene& scene) {
+void UnusedMotionSettings::add(const Variant& variant, const Scene& scene) {
     const auto addUse = [&](const std::string& path, bool hasEffect, const char* why) {
         Use& use = uses_.try_emplace(path, Use{false, locationOf(variant.config, path), why}).first->second;
         use.hasEffect = use.hasEffect || hasEffect;
     };
     const SceneSettings& settings = variant.setup.scene;
     const bool isAnimated = !scene.animation.empty();
-    const char* nothing =
-        "nothing in the scene is animated: leave it out, or add 'moving_spheres' to the scene";
+    const char* nothing = "nothing in the scene is animated: leave it out, or add 'moving_spheres' to the scene";
     if (settings.options.time > 0) addUse("scene.time", isAnimated, nothing);
     if (settings.options.timeStep > 0 && !isAnimated) addUse("scene.time_step", false, nothing);
 
@@ -56,12 +54,11 @@ void UnusedMotion::add(const Variant& variant, const Scene& scene) {
     const char* single = "there is one frame, in which nothing moves: raise measure.frames, or leave it out";
     const auto moves = [](const ConfigLight& light) { return light.move != glm::vec3(0.0f); };
     if (settings.options.timeStep > 0 && isAnimated) addUse("scene.time_step", hasFrames, single);
-    if (settings.camera && settings.camera->move != glm::vec3(0.0f))
-        addUse("scene.camera.move", hasFrames, single);
+    if (settings.camera && settings.camera->move != glm::vec3(0.0f)) addUse("scene.camera.move", hasFrames, single);
     if (std::ranges::any_of(settings.lights, moves)) addUse("scene.lights", hasFrames, single);
 }
 
-void UnusedMotion::refuse() const {
+void UnusedMotionSettings::throwIfAny() const {
     for (const auto& [path, use] : uses_)
         if (!use.hasEffect) throw UsageError(use.where, "{}: no effect: {}", path, use.why);
 }

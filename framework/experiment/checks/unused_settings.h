@@ -15,15 +15,15 @@ void refuseUnusedParameters(const Study& study);
 
 /// Finds settings of motion and time that have no effect in any variant, because nothing is animated or there
 /// is only one frame.
-class UnusedMotion {
+class UnusedMotionSettings {
  public:
-    explicit UnusedMotion(const MeasureSettings& measure) : measure_(measure) {}
+    explicit UnusedMotionSettings(const MeasureSettings& measure) : measure_(measure) {}
 
     /// Adds the settings of a variant, which renders `scene`.
     void add(const Variant& variant, const Scene& scene);
 
     /// @throws UsageError with file and line for the first setting that has no effect in any variant.
-    void refuse() const;
+    void throwIfAny() const;
 
  private:
     struct Use {

@@ -39,9 +39,8 @@ float metallicAt(const SceneState& state, const Hit& hit) {
     const TextureRef& ref = material.metallicRoughnessTexture;
     if (ref.texture < 0 || material.metallic == 0) return material.metallic;
     const glm::uvec3 corners = g.triangles[hit.triangle];
-    const glm::vec4 texCoords =
-        interpolate(g.attributes[corners.x].texCoords, g.attributes[corners.y].texCoords,
-                    g.attributes[corners.z].texCoords, hit.u, hit.v);
+    const glm::vec4 texCoords = interpolate(g.attributes[corners.x].texCoords, g.attributes[corners.y].texCoords,
+                                            g.attributes[corners.z].texCoords, hit.u, hit.v);
     const Texture& texture = state.scene->textures[size_t(ref.texture)];
     return material.metallic * sampleTexture(texture, textureCoordinates(ref, texCoords)).b;
 }
@@ -56,17 +55,16 @@ void traceView(View& view, const Camera& camera, Size size) {
         for (uint32_t x = 0; x < size.width; ++x) {
             const glm::vec3 direction =
                 rays.direction((float(x) + 0.5f) / float(size.width), (float(y) + 0.5f) / float(size.height));
-            const Hit hit =
-                view.tracer.closestHit({rays.origin, 0, direction, std::numeric_limits<float>::infinity()});
+            const Hit hit = view.tracer.closestHit({rays.origin, 0, direction, std::numeric_limits<float>::infinity()});
             if (hit.triangle == Hit::kMiss) continue;
             metallic += double(metallicAt(view.state(), hit));
             backs += isBackFacing(g, hit.triangle, direction) ? 1 : 0;
-            view.points.push_back({pointTowards(g, hit.triangle, hit.u, hit.v, direction),
-                                   normalTowards(g, hit.triangle, direction)});
+            view.points.push_back(
+                {pointTowards(g, hit.triangle, hit.u, hit.v, direction), normalTowards(g, hit.triangle, direction)});
         }
     const size_t count = view.points.size();
     view.surfaceFraction = double(count) / (double(size.width) * size.height);
-    view.metallicFraction = metallic / double(std::max<size_t>(count, 1));
+    view.visibleMetalFraction = metallic / double(std::max<size_t>(count, 1));
     view.showsBacks = 2 * backs > count;
     view.isEmpty = view.surfaceFraction < kMinSurfaceFraction;
 }
@@ -89,10 +87,9 @@ SceneState unlit(const SceneState& state) {
 /// Key of everything that a view depends on, except locations in the config.
 std::string keyOf(const Setup& setup, const std::string& sceneKey) {
     const ImageSettings& image = setup.image;
-    std::string key = fmt::format("{} {:.6f} {} {}", sceneKey, double(image.width) / image.height,
-                                  image.exposureStops, isVoxelized(setup));
-    for (const ConfigLight& light : setup.scene.lights)
-        key += light.move == glm::vec3(0.0f) ? " rests" : " moves";
+    std::string key = fmt::format("{} {:.6f} {} {}", sceneKey, double(image.width) / image.height, image.exposureStops,
+                                  isVoxelized(setup));
+    for (const ConfigLight& light : setup.scene.lights) key += light.move == glm::vec3(0.0f) ? " rests" : " moves";
     return key;
 }
 
@@ -139,8 +136,8 @@ ViewCheck checkView(const Setup& setup, const PreparedScene& prepared, const Pre
         if (view.isEmpty) return true;  // Only the camera is reported.
         if (!singleLight) singleLight = unlit(state);
         singleLight->lights = {light};
-        return std::ranges::any_of(
-            kQualities, [&](const Quality& quality) { return !isBlack(render(*singleLight, quality)); });
+        return std::ranges::any_of(kQualities,
+                                   [&](const Quality& quality) { return !isBlack(render(*singleLight, quality)); });
     };
     // Few paths may miss small lights
     if (!view.isEmpty)
@@ -148,13 +145,12 @@ ViewCheck checkView(const Setup& setup, const PreparedScene& prepared, const Pre
             if (view.image = render(state, quality);
                 !isDarkAt(setup.image.exposureStops, view.image, view.contentFraction()))
                 break;
-    ViewCheck checked{{}, view.metallicFraction};
+    ViewCheck checked{{}, view.visibleMetalFraction};
     for (const Check<View> check : kViewChecks) check(view, checked.found);
     return checked;
 }
 
-const ViewCheck& ViewChecks::of(const Setup& setup, const std::string& sceneKey,
-                                const PreparedScene& prepared) {
+const ViewCheck& CameraViewChecks::of(const Setup& setup, const std::string& sceneKey, const PreparedScene& prepared) {
     // Diagnostics have locations in a config and are not valid for other configs
     const std::string viewKey = keyOf(setup, sceneKey), configKey = setup.scene.where.file + " " + viewKey;
     for (const std::string& key : {viewKey, configKey})

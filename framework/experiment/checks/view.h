@@ -38,7 +38,7 @@ struct View {
     std::function<bool(const Light&)> reachesView;
     std::vector<VisiblePoint> points;  ///< Evenly distributed over the image.
     double surfaceFraction = 0;        ///< Fraction of the image that shows surfaces.
-    double metallicFraction = 0;       ///< Fraction of these surfaces that is metal.
+    double visibleMetalFraction = 0;   ///< Fraction of these surfaces that is metal.
     bool showsBacks = false;           ///< Whether most of these surfaces show their back sides.
     bool isEmpty = false;              ///< Whether surfaceFraction is below kMinSurfaceFraction.
     ImageF image = {};                 ///< Path traced, 3 channels, W/(m² sr); none if the view is empty.
@@ -52,7 +52,7 @@ struct View {
 /// The result of kViewChecks for a view.
 struct ViewCheck {
     Diagnostics found;
-    double metallicFraction = 0;  ///< View::metallicFraction
+    double visibleMetalFraction = 0;  ///< View::visibleMetalFraction
 };
 
 /// Does kViewChecks for a variant's camera. A small image is path traced with few samples and, if it is
@@ -62,9 +62,9 @@ struct ViewCheck {
 ViewCheck checkView(const Setup& setup, const PreparedScene& prepared, const Preview& preview);
 
 /// Checks each view once, since several variants, profiles and configs may have the same one.
-class ViewChecks {
+class CameraViewChecks {
  public:
-    explicit ViewChecks(Preview preview) : preview_(std::move(preview)) {}
+    explicit CameraViewChecks(Preview preview) : preview_(std::move(preview)) {}
     /// As checkView(). @param sceneKey SceneLoader::key() of the scene.
     const ViewCheck& of(const Setup& setup, const std::string& sceneKey, const PreparedScene& prepared);
 

@@ -41,8 +41,7 @@ class UpdateRadianceCache final : public Pass {
         "Fills a hashed radiance cache by paths traced from the camera. "
         "Shadow rays measure direct light at each vertex. "
         "The first four vertices of a path write the irradiance that they receive to hashed cells. "
-        "Unbiased in the mean of a cell. "
-        "There are no cells where no path arrives, and where the hash table is full. "
+        "Unbiased in the mean of a cell. There are no cells where no path arrives, and where the hash table is full. "
         "Biased by: the size of cells; with history_frames, light that changed since; samples_to_end. "
         "Noisy by: rays_per_image, the more so the smaller cells are. Source: NVIDIA's SHaRC.";
     struct Params {
@@ -58,18 +57,15 @@ class UpdateRadianceCache final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("update", &Params::update,
-                      "once: "
-                      "the cache is filled before the frames, by paths from the camera's initial position. "
-                      "each_frame: it is filled again in each frame, "
-                      "with history_frames above 1 on top of earlier samples."),
-                field("rays_per_image", &Params::raysPerImage, "Paths from the camera in an update.", 1u,
-                      1u << 24)
+                      "once: the cache is filled before the frames, by paths from the camera's initial position. "
+                      "each_frame: "
+                      "it is filled again in each frame, with history_frames above 1 on top of earlier samples."),
+                field("rays_per_image", &Params::raysPerImage, "Paths from the camera in an update.", 1u, 1u << 24)
                     .lessNoise(),
-                field("bounces", &Params::bounces,
-                      "Bounces of light; Russian roulette by albedo ends paths early.", 0u, 32u),
+                field("bounces", &Params::bounces, "Bounces of light; Russian roulette by albedo ends paths early.", 0u,
+                      32u),
                 field("light_samples", &Params::lightSamples,
-                      "Shadow rays at each vertex to the emissive surfaces, and to the environment.", 1u,
-                      64u),
+                      "Shadow rays at each vertex to the emissive surfaces, and to the environment.", 1u, 64u),
                 field("cell_size", &Params::cellSize,
                       "Maximum edge of a cell over its distance from the camera; "
                       "edges are the scene's size over powers of two.",
@@ -81,24 +77,21 @@ class UpdateRadianceCache final : public Pass {
                 field("capacity", &Params::capacity, "Slots of the hash table, 40 bytes each.",
                       powersOfTwo(1u << 6, 1u << 22)),
                 field("history_frames", &Params::historyFrames,
-                      "Frames of the exponential moving average in cells; "
-                      "changes of light lag by about as many. 1: the samples of this frame only.",
+                      "Frames of the exponential moving average in cells; changes of light lag by about as many. "
+                      "1: the samples of this frame only.",
                       1u, 1024u)
                     .onlyWith(oneOf(&Params::update, {CacheUpdate::EachFrame})),
                 field("samples_to_end", &Params::samplesToEnd,
                       "Samples that a cell needs in the previous frame for paths to end there, "
-                      "at their second vertex or later, with the cell's light. "
-                      "Biased: light of all bounces, with the errors and the lag of cells. "
-                      "0: no path ends in the cache.",
+                      "at their second vertex or later, with the cell's light. Biased: "
+                      "light of all bounces, with the errors and the lag of cells. 0: no path ends in the cache.",
                       0u, 65536u)
                     .onlyWith(noneOf(&Params::historyFrames, {1u}))};
         }
     };
 
     explicit UpdateRadianceCache(const Params& params) : params_(params) {}
-    Phase phase() const override {
-        return params_.update == CacheUpdate::EachFrame ? Phase::Frame : Phase::Build;
-    }
+    Phase phase() const override { return params_.update == CacheUpdate::EachFrame ? Phase::Frame : Phase::Build; }
     uint32_t warmupFrames() const override { return params_.historyFrames - 1; }
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
@@ -108,9 +101,7 @@ class UpdateRadianceCache final : public Pass {
     bool endsInCache() const { return usesHistory() && params_.samplesToEnd > 0; }
     /// The vertices that write, and the bounces of light that the last of them receives.
     uint32_t maxPathVertices() const { return kWrittenVertices + params_.bounces; }
-    uint32_t batchPaths() const {
-        return std::min(params_.raysPerImage, kMaxBatchVertices / maxPathVertices());
-    }
+    uint32_t batchPaths() const { return std::min(params_.raysPerImage, kMaxBatchVertices / maxPathVertices()); }
     gpu::RadianceCacheGrid makeGrid(const Frame& frame) const;
     /// Empties the table, or fills it with the previous frame's cells, decayed.
     void initCells(PassContext& context, RadianceCache& cache);
@@ -139,8 +130,7 @@ void UpdateRadianceCache::plan(PassPlan& plan) {
         throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", kName,
                     plan.device.name);
     sources_ = requireLightSources(*plan.frame.scene, kName);
-    unitsPerIrradiance_ =
-        std::ldexp(1.0f, 28) / std::max(meanIrradiance(sources_, plan.frame.scene->geometry), 1e-30f);
+    unitsPerIrradiance_ = std::ldexp(1.0f, 28) / std::max(meanIrradiance(sources_, plan.frame.scene->geometry), 1e-30f);
 
     RadianceCache& cache = plan[cache_];
     if (!endsInCache()) cache.lightBounces = params_.bounces;  // Otherwise all bounces
@@ -171,15 +161,13 @@ void UpdateRadianceCache::record(PassContext& context) {
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
     double vertices = 0;
     for (uint32_t first = 0; first < params_.raysPerImage; first += batchPaths())
-        vertices +=
-            tracePaths(context, cache, first, std::min(batchPaths(), params_.raysPerImage - first), seed);
+        vertices += tracePaths(context, cache, first, std::min(batchPaths(), params_.raysPerImage - first), seed);
     const CellCounts counts = context.stream.readAs<CellCounts>(cellCounts_, 1)[0];
     context.report("cells", counts.cells);
     context.report("occupancy", double(counts.cells) / params_.capacity);
     context.report("vertices per path", vertices / params_.raysPerImage);
     context.report("samples lost", counts.lost);
-    context.report("hash collisions per cell",
-                   counts.cells > 0 ? double(counts.collisions) / counts.cells : 0);
+    context.report("hash collisions per cell", counts.cells > 0 ? double(counts.collisions) / counts.cells : 0);
 }
 
 // A cube around the scene whose octree planes avoid round fractions of its extent, where models often have

@@ -20,12 +20,12 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kChunkRays = 1u << 20;        // Limits the rays of a chunk to 32 MiB.
-constexpr uint32_t kMaxCandidates = 4;           // Surfels that are tested for each hit, one in each round.
+constexpr uint32_t kChunkRays = 1u << 20;  // Rays of a chunk (a range of patches), which take at most 32 MiB.
+/// For each hit, up to 4 surfels are tried in turn, until one sees the hit point.
+constexpr uint32_t kMaxCandidates = 4;
 constexpr uint32_t kMaxGroups = (1u << 28) - 1;  // Limit of packed_hit.glsl.
 
-/// The surfel that is tested for a hit, and the groups of those that turned out to be occluded from it. As in
-/// find_hit_groups.comp.
+/// The surfel now tested, and the groups of earlier ones that did not see the hit point. As in find_hit_groups.comp.
 struct Candidate {
     uint32_t surfel;
     uint32_t rejectedGroups[kMaxCandidates];
@@ -33,15 +33,16 @@ struct Candidate {
 
 /// Mean numbers for estimates of memory. Rays of a patch often hit the same cluster: lists without patches
 /// were measured to grow with the square root of the number of rays (docs/papers/cosin2022.md).
-constexpr double kPatchesPerVoxel = 6, kEntriesPerRootOfRays = 4;
+constexpr double kPatchesPerVoxel = 6, kEntriesPerSqrtRays = 4;
 
 }  // namespace
 
-/// What rays are traced through: the scene, voxels exactly, or voxels on a Bresenham line as in the paper.
-enum class RayTraversal { Exact, Voxels, Bresenham };
+/// What rays are traced through. Triangles: those of the scene. Voxels: every voxel on the way. Bresenham: the voxels
+/// of a Bresenham line, as in the paper.
+enum class RayTraversal { Triangles, Voxels, Bresenham };
 template <>
 struct EnumNames<RayTraversal> {
-    static constexpr std::array names{std::pair{RayTraversal::Exact, "exact"},
+    static constexpr std::array names{std::pair{RayTraversal::Triangles, "exact"},
                                       std::pair{RayTraversal::Voxels, "voxels"},
                                       std::pair{RayTraversal::Bresenham, "bresenham"}};
 };
@@ -64,23 +65,23 @@ class FindClusterVisibility final : public Pass {
         "Measures form factors from each patch to voxel clusters. "
         "Traces cosine-distributed rays from the surfels of each patch (find_patches: "
         "a surface group as seen from one of its voxel's six faces). "
-        "Lists the cluster components that they hit, with the number of rays for each, "
-        "which is a form factor. Surfaces within near_distance are listed as patches instead of clusters. "
-        "Biased by: cluster size; "
-        "through voxels also by voxel size (surfaces are as thick as their voxels). Noisy by: rays. "
-        "Source: Cosin and Patow 2022, section 4.3.";
+        "Lists the cluster components that they hit, with the number of rays for each; "
+        "divided by 'rays' it is a form factor. "
+        "Surfaces within near_distance are listed as patches instead of clusters. "
+        "Biased by: cluster size; with 'visibility: voxels' or 'bresenham' also by voxel size "
+        "(surfaces are as thick as their voxels). "
+        "Noisy by: rays. Source: Cosin and Patow 2022, section 4.3.";
     struct Params {
         uint32_t rays = 128;
         float nearDistance = 4;
-        RayTraversal visibility = RayTraversal::Exact;
+        RayTraversal visibility = RayTraversal::Triangles;
         HemisphereAxis hemisphere = HemisphereAxis::Surface;
         static constexpr auto schema() {
             return std::tuple{
                 field("rays", &Params::rays, "Rays from each patch.", 1u, MAX_RAYS_PER_PATCH).lessNoise(),
                 field("near_distance", &Params::nearDistance,
-                      "Distance in voxels below which lists have patches, "
-                      "and beyond which they have clusters. 0: clusters only. "
-                      "10000: patches only, for comparison.",
+                      "Distance in voxels below which lists have patches, and beyond which they have clusters. "
+                      "0: clusters only. 10000: patches only, for comparison.",
                       0.0f, 10000.0f),
                 field("visibility", &Params::visibility,
                       "exact: rays are traced through the scene. voxels: through every voxel on their way. "
@@ -92,14 +93,14 @@ class FindClusterVisibility final : public Pass {
     };
 
     explicit FindClusterVisibility(const Params& params) : params_(params) {
-        if (!isExact()) march_.emplace(*this, VoxelTraversal::Bricks);
+        if (!tracesTriangles()) march_.emplace(*this, VoxelTraversal::Bricks);
     }
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
 
  private:
     bool listsPatches() const { return params_.nearDistance > 0; }
-    bool isExact() const { return params_.visibility == RayTraversal::Exact; }
+    bool tracesTriangles() const { return params_.visibility == RayTraversal::Triangles; }
     /// Builds the lists of `count` patches from `first` on.
     void buildChunk(PassContext& context, uint32_t first, uint32_t count);
     /// The bindings of patch_samples.glsl except `rayCount` and `round`.
@@ -109,19 +110,17 @@ class FindClusterVisibility final : public Pass {
     uint32_t traceRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
                        const Buffer& packedHits);
     /// The same through voxels.
-    void marchRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
-                   const Buffer& packedHits);
+    void marchRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count, const Buffer& packedHits);
     /// Lists the rays that have to be traced. @return their number.
-    uint32_t listRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
-                      const Buffer& packedHits);
+    uint32_t listRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count, const Buffer& packedHits);
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
-    In<VoxelClusters> clusters_{*this, "clusters", "coordinates of voxels"};
+    In<VoxelClusters> clusters_{*this, "clusters", "clusters; only their voxel coordinates are read"};
     In<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels"};
     Out<ClusterVisibility> visibility_{*this, "cluster_visibility", "visibility lists of patches"};
     std::optional<VoxelMarch> march_;  ///< For rays through voxels.
-    PrefixSum prefixSum_{*this, PrefixSum::Of::Values};
+    PrefixSum prefixSum_{*this, PrefixSum::Input::Uints};
     std::optional<Compaction> compaction_;       ///< For scenes with moving surfaces.
     std::optional<RayUpdateCache> updateCache_;  ///< Likewise.
     uint64_t tracedRays_ = 0;                    ///< In the current call of record().
@@ -130,11 +129,12 @@ class FindClusterVisibility final : public Pass {
     Kernel listAllRays_{*this, "passes/clusters/iota.comp"};
     Kernel generateRays_{*this, "generate_patch_rays.comp"};
     Kernel findHitGroups_{*this, "find_hit_groups.comp"};
+    // A list target is a face of a cluster component or a patch
     Kernel hitsToTargets_{*this, "hits_to_targets.comp"};
     Kernel mergeTargets_{*this, "merge_targets.comp"};
     Kernel packLists_{*this, "pack_lists.comp"};
-    Buffer patchFaces_, packedHits_, targets_, entryCounts_, missed_;  ///< Scratch.
-    Buffer flags_, listedRays_, rays_, hits_, candidates_, visibilityRays_, occluded_;
+    Buffer patchFaces_, packedHits_, targets_, entryCounts_, lostRays_;  ///< Scratch.
+    Buffer flags_, listedRays_, rays_, hits_, candidates_, occlusionRays_, occluded_;
 };
 
 void FindClusterVisibility::plan(PassPlan& plan) {
@@ -146,8 +146,8 @@ void FindClusterVisibility::plan(PassPlan& plan) {
     const uint64_t rays = uint64_t(chunk) * params_.rays;
     plan.scratchBuffer(targets_, "targets of rays", rays * sizeof(uint32_t));
     plan.scratchBuffer(entryCounts_, "entry counts of patches", (chunk + 1) * sizeof(uint32_t));
-    plan.scratchBuffer(missed_, "rays without a target", 2 * sizeof(uint32_t));
-    const bool reusesHits = isExact() && !movingInstanceRanges(plan.frame.scene->geometry).empty();
+    plan.scratchBuffer(lostRays_, "rays without a target", 2 * sizeof(uint32_t));
+    const bool reusesHits = tracesTriangles() && !movingInstanceRanges(plan.frame.scene->geometry).empty();
     if (reusesHits) {
         compaction_.emplace(*this);
         updateCache_.emplace(*this);
@@ -155,13 +155,12 @@ void FindClusterVisibility::plan(PassPlan& plan) {
         plan.scratchBuffer(packedHits_, "packed hits", rays * sizeof(uint32_t));
     }
     const double raysPerPatch = params_.rays, cachedHits = reusesHits ? raysPerPatch : 0;
-    const double entries = listsPatches()
-                               ? raysPerPatch
-                               : std::min(raysPerPatch, kEntriesPerRootOfRays * std::sqrt(raysPerPatch));
+    const double entries =
+        listsPatches() ? raysPerPatch : std::min(raysPerPatch, kEntriesPerSqrtRays * std::sqrt(raysPerPatch));
     plan.estimate(voxels.estimatedCount * kPatchesPerVoxel * (entries + cachedHits) * sizeof(uint32_t));
-    marchRays_.compileIf(!isExact());
-    for (Kernel* kernel : {&listAllRays_, &generateRays_, &findHitGroups_}) kernel->compileIf(isExact());
-    if (!isExact()) {
+    marchRays_.compileIf(!tracesTriangles());
+    for (Kernel* kernel : {&listAllRays_, &generateRays_, &findHitGroups_}) kernel->compileIf(tracesTriangles());
+    if (!tracesTriangles()) {
         Defines defines = march_->defines();
         if (params_.visibility == RayTraversal::Bresenham) defines.emplace("BRESENHAM", "1");
         marchRays_.define(defines);
@@ -174,7 +173,7 @@ void FindClusterVisibility::plan(PassPlan& plan) {
     plan.scratchBuffer(rays_, "rays of patches", rays * sizeof(Ray));
     plan.scratchBuffer(hits_, "hits of patches' rays", rays * sizeof(Hit));
     plan.scratchBuffer(candidates_, "candidate surfels of hits", rays * sizeof(Candidate));
-    plan.scratchBuffer(visibilityRays_, "visibility rays from hits", rays * sizeof(Ray));
+    plan.scratchBuffer(occlusionRays_, "visibility rays from hits", rays * sizeof(Ray));
     plan.scratchBuffer(occluded_, "visibility of hits", rays * sizeof(uint32_t));
 }
 
@@ -193,30 +192,32 @@ void FindClusterVisibility::record(PassContext& context) {
         uint64_t(kFaces) * patches.componentCount + (listsPatches() ? uint64_t(patches.patchCount) : 0);
     gpu::VisibilityListLayout& layout = visibility.layout;
     layout.entryBits = std::max(layout.rayBits + uint32_t(std::bit_width(targets)), 1u);
-    if (layout.entryBits > 32 || patches.groupCount > kMaxGroups)
+    if (layout.entryBits > 32)
         throw Error(
-            "{}: {} faces of clusters and patches and {} rays don't fit into 32 bits; set 'near_distance: "
-            "0', or lower 'rays', cluster_voxels's 'target' or voxelize's 'resolution'",
+            "{}: a list entry needs over 32 bits for {} targets and {} rays; set 'near_distance: 0', or lower 'rays', "
+            "cluster_voxels's 'target' or voxelize's 'resolution'",
             kName, targets, params_.rays);
+    if (patches.groupCount > kMaxGroups)
+        throw Error("{}: {} surface groups exceed the limit of {}; lower voxelize's 'resolution'", kName,
+                    patches.groupCount, kMaxGroups);
 
     CommandStream& stream = context.stream;
     if (march_) march_->begin(stream, voxels);
-    if (updateCache_ && changed && !context.isFirstRun() && patches.previousGroups)
+    if (updateCache_ && changed && !context.isFirstRun() && patches.previousGroupIndex)
         updateCache_->startUpdate(stream, voxels, context[clusters_], patches, *changed);
     else if (updateCache_)
         updateCache_->clear();
     const uint32_t count = patches.patchCount, perChunk = visibility.layout.patchesPerChunk;
     patchFaces_ = Buffer(context.device, "faces of patches", std::max(count, 1u) * sizeof(uint32_t));
-    context.dispatch(
-        listPatchFaces_, patches.groupCount,
-        {{"groups", patches.groups}, {"patchFaces", patchFaces_}, {"groupCount", patches.groupCount}});
-    stream.fill(missed_, 0);
+    context.dispatch(listPatchFaces_, patches.groupCount,
+                     {{"groups", patches.groups}, {"patchFaces", patchFaces_}, {"groupCount", patches.groupCount}});
+    stream.fill(lostRays_, 0);
     tracedRays_ = 0;
     for (uint32_t first = 0; first < count; first += perChunk)
         buildChunk(context, first, std::min(perChunk, count - first));
     patchFaces_ = {};
     if (updateCache_) updateCache_->store(stream, patches);
-    if (march_) context.voxelCounts.push_back(&march_->counts());
+    if (march_) context.visitCounts.push_back(&march_->counts());
 
     std::vector<uint64_t> addresses;
     for (const ClusterVisibility::Chunk& chunk : visibility.chunks)
@@ -226,17 +227,15 @@ void FindClusterVisibility::record(PassContext& context) {
         Buffer(context.device, "addresses of visibility lists", addresses.size() * sizeof(uint64_t));
     stream.upload(visibility.chunkAddresses, addresses);
     const double rays = double(count) * params_.rays;
-    const std::vector<uint32_t> missed = stream.readAs<uint32_t>(missed_, 2);
+    const std::vector<uint32_t> lostRays = stream.readAs<uint32_t>(lostRays_, 2);
     const auto percent = [&](uint32_t lost) { return count > 0 ? 100 * lost / rays : 0; };
-    // Keys of values.csv. A "hit without surfel" is HIT_NO_GROUP
+    // "Hits without surfel": no candidate surfel saw the hit (HIT_NO_GROUP, packed_hit.glsl)
     context.report("patches", count);
-    context.report("visibility list entries of a patch",
-                   count > 0 ? double(visibility.entryCount) / count : 0);
-    context.report("rays without a hit, %", percent(missed[0]));
-    context.report("hits without surfel, % of rays", percent(missed[1]));
+    context.report("visibility list entries of a patch", count > 0 ? double(visibility.entryCount) / count : 0);
+    context.report("rays without a hit, %", percent(lostRays[0]));
+    context.report("hits without surfel, % of rays", percent(lostRays[1]));
     context.report("bytes of the lists", double(visibility.bytes()));
-    if (updateCache_)
-        context.report("rays traced, % of all", count > 0 ? 100 * double(tracedRays_) / rays : 0);
+    if (updateCache_) context.report("rays traced, % of all", count > 0 ? 100 * double(tracedRays_) / rays : 0);
 }
 
 std::vector<Binding> FindClusterVisibility::rayBindings(PassContext& context, uint32_t firstPatch) const {
@@ -252,49 +251,44 @@ std::vector<Binding> FindClusterVisibility::rayBindings(PassContext& context, ui
             {"aboutFaceAxis", params_.hemisphere == HemisphereAxis::Face}};
 }
 
-uint32_t FindClusterVisibility::listRays(PassContext& context, const std::vector<Binding>& rays,
-                                         uint32_t count, const Buffer& packedHits) {
+uint32_t FindClusterVisibility::listRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
+                                         const Buffer& packedHits) {
     CommandStream& stream = context.stream;
     if (!updateCache_ || !updateCache_->isActive()) {
         stream.dispatch(listAllRays_, count, {{"values", listedRays_}, {"count", count}});
         return count;
     }
     stream.fill(flags_, 0);
-    updateCache_->reuse(stream,
-                        {context.scene,
-                         rays,
-                         {"packedHits", packedHits},
-                         {"flags", flags_},
-                         {"rayCount", count},
-                         {"round", 0u}},
-                        count);
+    updateCache_->reuse(
+        stream,
+        {context.scene, rays, {"packedHits", packedHits}, {"flags", flags_}, {"rayCount", count}, {"round", 0u}},
+        count);
     return compaction_->run(stream, flags_, listedRays_, (count + 31) / 32);
 }
 
-uint32_t FindClusterVisibility::traceRays(PassContext& context, const std::vector<Binding>& rays,
-                                          uint32_t count, const Buffer& packedHits) {
+uint32_t FindClusterVisibility::traceRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
+                                          const Buffer& packedHits) {
     const VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
     const uint32_t listed = listRays(context, rays, count, packedHits);
     if (listed == 0) return 0;
-    const Bindings listedRays{
-        context.scene, rays, {"listedRays", listedRays_}, {"rays", rays_}, {"rayCount", listed}};
+    const Bindings listedRays{context.scene, rays, {"listedRays", listedRays_}, {"rays", rays_}, {"rayCount", listed}};
     context.dispatch(generateRays_, listed, {listedRays.all(), {"round", 0u}});
     context.tracer.closestHit(stream, rays_, hits_, listed);
-    // The last round only evaluates the visibility of the last candidates
+    // Each round first reads the occlusion traced in the previous one; the last does only that
     for (uint32_t round = 0; round <= kMaxCandidates; ++round) {
         context.dispatch(findHitGroups_, listed,
                          {listedRays.all(),
                           context[voxels_],
                           {"firstGroup", patches.firstGroup},
-                          {"VoxelMaterialsRef", patches.materials.ref()},
+                          {"VoxelMaterialsRef", patches.materials.ref()},  // Of groups (patch_samples.glsl).
                           {"hits", hits_},
                           {"candidates", candidates_},
-                          {"visibilityRays", visibilityRays_},
+                          {"occlusionRays", occlusionRays_},
                           {"occluded", occluded_},
                           {"packedHits", packedHits},
                           {"round", round}});
-        if (round < kMaxCandidates) context.tracer.occluded(stream, visibilityRays_, occluded_, listed);
+        if (round < kMaxCandidates) context.tracer.occluded(stream, occlusionRays_, occluded_, listed);
     }
     return listed;
 }
@@ -321,7 +315,7 @@ void FindClusterVisibility::buildChunk(PassContext& context, uint32_t first, uin
     const std::vector<Binding> rays = rayBindings(context, first);
     const uint32_t rayCount = count * params_.rays;
     const Buffer& packedHits = updateCache_ ? updateCache_->addChunk(context.device, rayCount) : packedHits_;
-    if (isExact())
+    if (tracesTriangles())
         tracedRays_ += traceRays(context, rays, rayCount, packedHits);
     else
         marchRays(context, rays, rayCount, packedHits);
@@ -330,7 +324,7 @@ void FindClusterVisibility::buildChunk(PassContext& context, uint32_t first, uin
                       {"groups", patches.groups},
                       {"componentOfGroup", patches.componentOfGroup},
                       {"targets", targets_},
-                      {"missed", missed_},
+                      {"lostRays", lostRays_},
                       {"lists", visibility.layout},
                       {"rays", rayCount}});
 
@@ -340,11 +334,9 @@ void FindClusterVisibility::buildChunk(PassContext& context, uint32_t first, uin
     chunk.offsets = Buffer(context.device, "offsets of visibility lists", (count + 1) * sizeof(uint32_t));
     const uint32_t entries = prefixSum_.run(stream, entryCounts_, chunk.offsets, count + 1);
     const uint64_t words = (uint64_t(entries) * visibility.layout.entryBits + 31) / 32;
-    chunk.entries =
-        Buffer(context.device, "visibility lists", std::max<uint64_t>(words, 1) * sizeof(uint32_t));
+    chunk.entries = Buffer(context.device, "visibility lists", std::max<uint64_t>(words, 1) * sizeof(uint32_t));
     stream.fill(chunk.entries, 0);
-    context.dispatch(packLists_, count,
-                     {lists.all(), {"offsets", chunk.offsets}, {"entries", chunk.entries}});
+    context.dispatch(packLists_, count, {lists.all(), {"offsets", chunk.offsets}, {"entries", chunk.entries}});
     stream.finish();
     visibility.chunks.push_back(std::move(chunk));
     visibility.entryCount += entries;

@@ -1,6 +1,6 @@
 // Finds the surface group that a ray hit: that of the nearest surfel that is visible from a point in front of the hit.
-// Each round selects the nearest surfel among groups not yet rejected and generates a visibility ray to it; the next
-// round accepts or rejects its group.
+// Each round selects the nearest surfel among groups not yet rejected and generates an occlusion ray to it. The next
+// round accepts the surfel's group if that ray is unoccluded and else rejects it.
 #include "passes/clusters/cluster_visibility/patch_samples.glsl"
 #include "shaders/scene/scene.glsl"
 #include "passes/surfels/surfel_bias.glsl"
@@ -21,7 +21,7 @@ readonly buffer ListedRays { uint data[]; } listedRays;
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(scalar) buffer Candidates { Candidate data[]; } candidates;
-layout(scalar) writeonly buffer VisibilityRays { Ray data[]; } visibilityRays;  // From the hit to the candidate.
+layout(scalar) writeonly buffer OcclusionRays { Ray data[]; } occlusionRays;  // From the hit to the candidate.
 readonly buffer Occluded { uint data[]; } occluded;                            // Results of the previous round's rays.
 readonly buffer FirstGroup { uint data[]; } firstGroup;
 writeonly buffer PackedHits { uint data[]; } packedHits;
@@ -83,7 +83,7 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.rayCount) return;
     const uint ray = listedRays.data[i];
-    visibilityRays.data[i] = kNoRay;
+    occlusionRays.data[i] = kNoRay;
     const Hit hit = hits.data[i];
     Candidate candidate;
     if (push.round > 0u) {
@@ -116,5 +116,5 @@ void main() {
     const vec3 origin = p.position - min(0.5 * hit.t, s.height) * direction;
     const vec3 toSurfel = pointAbove(s) - origin;
     if (dot(toSurfel, toSurfel) > 0.0)
-        visibilityRays.data[i] = Ray(origin, 0.0, normalize(toSurfel), length(toSurfel));
+        occlusionRays.data[i] = Ray(origin, 0.0, normalize(toSurfel), length(toSurfel));
 }

@@ -1,4 +1,4 @@
-// Generates the listed rays from patches.
+// Generates the rays whose indices are listed, from surfels of patches.
 #include "passes/clusters/cluster_visibility/patch_ray.glsl"
 layout(local_size_x = 64) in;
 

@@ -1,5 +1,5 @@
 // Writes the target of each ray: a face of a cluster component or, closer than nearDistance, a patch. NO_TARGET if the
-// hit group sends no light, since it has no patch at the face or its voxel is in no cluster.
+// hit group sends no light, because it has no patch at the face or its voxel is in no cluster.
 #include "passes/clusters/cluster_visibility/packed_hit.glsl"
 #include "passes/clusters/visibility_list_types.h"
 #include "passes/clusters/group_patches.glsl"
@@ -10,7 +10,7 @@ readonly buffer PackedHits { uint data[]; } packedHits;
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer ComponentOfGroup { uint data[]; } componentOfGroup;
 layout(scalar) writeonly buffer Targets { uint data[]; } targets;
-buffer Missed { uint counts[2]; } missed;  // Numbers of rays with HIT_NOTHING and with HIT_NO_GROUP.
+buffer LostRays { uint counts[2]; } lostRays;  // Numbers of rays with HIT_NOTHING and with HIT_NO_GROUP.
 layout(push_constant, scalar) uniform Push {
     VisibilityListLayout lists;
     uint rays;
@@ -27,7 +27,7 @@ void main() {
     const uint ray = linearIndex();
     if (ray >= push.rays) return;
     const uint packedHit = packedHits.data[ray];
-    if (packedHit == HIT_NOTHING) atomicAdd(missed.counts[0], 1u);
-    if (packedHit == HIT_NO_GROUP) atomicAdd(missed.counts[1], 1u);
+    if (packedHit == HIT_NOTHING) atomicAdd(lostRays.counts[0], 1u);
+    if (packedHit == HIT_NO_GROUP) atomicAdd(lostRays.counts[1], 1u);
     targets.data[ray] = hitsGroup(packedHit) ? targetOf(packedHit) : NO_TARGET;
 }

@@ -1,4 +1,4 @@
-// Marches rays from patches through voxels. In a voxel a ray hits one of the surface groups, sampled by visible area.
+// Marches rays from patches through voxels. In a voxel a ray hits one of the surface groups, chosen by visible area.
 // BRESENHAM: visits the voxels of a 3D Bresenham line, one for each step along the longest axis, which misses voxels of
 // which the ray only cuts a corner (Cosin and Patow 2022, section 4.3).
 #include "passes/clusters/cluster_visibility/patch_samples.glsl"

@@ -5,7 +5,8 @@ layout(local_size_x = 64) in;
 
 // Input: raysPerPatch targets for each patch. Output: the first elements of each patch are its entries.
 layout(scalar) buffer Targets { uint data[]; } targets;
-layout(scalar) writeonly buffer EntryCounts { uint data[]; } entryCounts;  // Per patch, then 0 for the prefix sum.
+// One for each patch, and a last 0, where the prefix sum leaves the total.
+layout(scalar) writeonly buffer EntryCounts { uint data[]; } entryCounts;
 layout(push_constant, scalar) uniform Push {
     VisibilityListLayout lists;
     uint patches;

@@ -32,22 +32,21 @@ RayUpdateCache::RayUpdateCache(ProgramOwner& owner)
       reuseHits_(owner, "reuse_hits.comp"),
       regions_(owner) {}
 
-void RayUpdateCache::startUpdate(CommandStream& stream, const SurfaceVoxels& voxels,
-                                 const VoxelClusters& clusters, const VoxelPatches& patches,
-                                 const std::vector<Box>& changed) {
+void RayUpdateCache::startUpdate(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
+                                 const VoxelPatches& patches, const std::vector<Box>& changed) {
     Device& device = stream.device();
-    const Buffer changedNeighbourhood = regions_.bits(
-        stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, kHitReach)), voxels);
-    newGroups_ = Buffer(device, "new numbers of groups", uintBytes(groupCount_));
+    const Buffer changedNeighbourhood =
+        regions_.bits(stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, kHitReach)), voxels);
+    newGroupIndex_ = Buffer(device, "new numbers of groups", uintBytes(groupCount_));
     previousFirstPatches_ = Buffer(device, "previous first patches of groups", uintBytes(patches.groupCount));
-    stream.fill(newGroups_, NO_GROUP);
+    stream.fill(newGroupIndex_, NO_GROUP);
     stream.dispatch(renumberGroups_, patches.groupCount,
                     {{"groups", patches.groups},
-                     {"previousGroups", patches.previousGroups},
+                     {"previousGroupIndex", patches.previousGroupIndex},
                      {"coordinates", clusters.coordinates},
                      {"changedNeighbourhood", changedNeighbourhood},
                      {"firstPatches", firstPatches_},
-                     {"newGroups", newGroups_},
+                     {"newGroupIndex", newGroupIndex_},
                      {"previousFirstPatches", previousFirstPatches_},
                      {"grid", voxels.grid},
                      {"groupCount", patches.groupCount}});
@@ -71,7 +70,7 @@ void RayUpdateCache::reuse(CommandStream& stream, const Bindings& rays, uint32_t
                     {rays.all(),
                      {"boxes", boxes_},
                      {"previousHits", previousHitAddresses_},
-                     {"newGroups", newGroups_},
+                     {"newGroupIndex", newGroupIndex_},
                      {"previousFirstPatches", previousFirstPatches_}});
 }
 
@@ -83,12 +82,11 @@ void RayUpdateCache::store(CommandStream& stream, const VoxelPatches& patches) {
     stream.finish();
     isActive_ = false;
     previousHits_.clear();
-    previousHitAddresses_ = {}, newGroups_ = {}, previousFirstPatches_ = {}, boxes_ = {}, firstPatches_ = {};
+    previousHitAddresses_ = {}, newGroupIndex_ = {}, previousFirstPatches_ = {}, boxes_ = {}, firstPatches_ = {};
     groupCount_ = patches.groupCount;
     firstPatches_ = Buffer(stream.device(), "first patches of groups", uintBytes(groupCount_));
-    stream.dispatch(
-        storeFirstPatches_, groupCount_,
-        {{"groups", patches.groups}, {"firstPatches", firstPatches_}, {"groupCount", groupCount_}});
+    stream.dispatch(storeFirstPatches_, groupCount_,
+                    {{"groups", patches.groups}, {"firstPatches", firstPatches_}, {"groupCount", groupCount_}});
     stream.finish();
 }
 

@@ -41,7 +41,7 @@ class RayUpdateCache {
     std::vector<Buffer> packedHits_, previousHits_;  ///< Per chunk (packed_hit.glsl).
     Buffer firstPatches_;                            ///< Per group.
     uint32_t groupCount_ = 0;
-    Buffer previousHitAddresses_, newGroups_, previousFirstPatches_, boxes_;  ///< During an update.
+    Buffer previousHitAddresses_, newGroupIndex_, previousFirstPatches_, boxes_;  ///< During an update.
     bool isActive_ = false;
 };
 

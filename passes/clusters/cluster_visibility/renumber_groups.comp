@@ -6,12 +6,12 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-readonly buffer PreviousGroups { uint data[]; } previousGroups;
+readonly buffer PreviousGroupIndex { uint data[]; } previousGroupIndex;
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
 // A bit for each voxel in which hits may have changed.
 readonly buffer ChangedNeighbourhood { uint words[]; } changedNeighbourhood;
 readonly buffer FirstPatches { uint data[]; } firstPatches;  // Per previous group.
-writeonly buffer NewGroups { uint data[]; } newGroups;       // Per previous group. Must be NO_GROUP before.
+writeonly buffer NewGroupIndex { uint data[]; } newGroupIndex;       // Per previous group. Must be NO_GROUP before.
 writeonly buffer PreviousFirstPatches { uint data[]; } previousFirstPatches;  // Per group; NO_GROUP: it is new.
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
@@ -21,9 +21,9 @@ layout(push_constant, scalar) uniform Push {
 void main() {
     const uint i = linearIndex();
     if (i >= push.groupCount) return;
-    const uint previous = previousGroups.data[i];
+    const uint previous = previousGroupIndex.data[i];
     previousFirstPatches.data[i] = previous == NO_GROUP ? NO_GROUP : firstPatches.data[previous];
     const ivec3 voxel = ivec3(coordinates.data[groups.data[i].voxel]);
     const uint changed = changedNeighbourhood.words[voxelWord(push.grid, voxel)] & voxelBit(push.grid, voxel);
-    if (previous != NO_GROUP && changed == 0u) newGroups.data[previous] = i;
+    if (previous != NO_GROUP && changed == 0u) newGroupIndex.data[previous] = i;
 }

@@ -11,7 +11,7 @@ struct Box {
 layout(scalar) readonly buffer Boxes { Box data[]; } boxes;  // The first one contains all others.
 // Packed hits of each chunk, with previous indices of groups.
 layout(scalar) readonly buffer PreviousHits { LargeUints data[]; } previousHits;
-readonly buffer NewGroups { uint data[]; } newGroups;
+readonly buffer NewGroupIndex { uint data[]; } newGroupIndex;
 readonly buffer PreviousFirstPatches { uint data[]; } previousFirstPatches;
 writeonly buffer PackedHits { uint data[]; } packedHits;
 buffer Flags { uint words[]; } flags;  // Must be 0 before.
@@ -26,7 +26,7 @@ uint previousHit(uint ray) {
             .data[previous % push.lists.patchesPerChunk * push.lists.raysPerPatch + ray % push.lists.raysPerPatch];
     // The position of a hit without a group is not stored
     if (!hitsGroup(packedHit)) return packedHit == HIT_NO_GROUP ? HIT_UNKNOWN : packedHit;
-    const uint newGroup = newGroups.data[hitGroup(packedHit)];
+    const uint newGroup = newGroupIndex.data[hitGroup(packedHit)];
     return newGroup == NO_GROUP ? HIT_UNKNOWN : withGroup(packedHit, newGroup);
 }
 
@@ -38,7 +38,7 @@ bool intersects(Ray ray, Box box) {
 }
 
 // Whether a ray intersects a changed box before its hit, which is within two voxels of the hit group's surfels.
-bool hitsChange(uint ray, uint packedHit) {
+bool intersectsChangedBox(uint ray, uint packedHit) {
     Ray r = patchRay(ray);
     if (hitsGroup(packedHit)) {
         const vec3 toGroup = groupedSurfels.data[groups.data[hitGroup(packedHit)].firstSurfel].position - r.origin;
@@ -54,7 +54,7 @@ void main() {
     const uint ray = linearIndex();
     if (ray >= push.rayCount) return;
     uint packedHit = previousHit(ray);
-    if (packedHit != HIT_UNKNOWN && hitsChange(ray, packedHit)) packedHit = HIT_UNKNOWN;
+    if (packedHit != HIT_UNKNOWN && intersectsChangedBox(ray, packedHit)) packedHit = HIT_UNKNOWN;
     packedHits.data[ray] = packedHit;
     if (packedHit == HIT_UNKNOWN) atomicOr(flags.words[ray / 32u], 1u << (ray % 32u));
 }

@@ -22,8 +22,8 @@ void main() {
     for (BoxIterator it = voxelsInBox(first, last); nextVoxel(it);) {
         const float cosine = dot(seed.normal, normals.data[it.number]);
         const bool isWithinLimit = cosine >= push.minCosine;
-        if (push.takesFirst == 0u && !isWithinLimit) continue;
-        const uint cost = push.takesFirst == 1u
+        if (push.firstInRandomOrder == 0u && !isWithinLimit) continue;
+        const uint cost = push.firstInRandomOrder == 1u
                               ? (hash(i) >> 1) | (isWithinLimit ? 0u : 0x80000000u)
                               : floatBitsToUint(max(clusterDistance(seed.center, it.voxel, cosine), 0.0));
         atomicMin(bestSeed.data[it.number], (uint64_t(cost) << 32) | uint64_t(i));

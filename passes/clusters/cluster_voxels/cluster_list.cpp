@@ -13,14 +13,11 @@ void ClusterList::build(CommandStream& stream, uint32_t voxelCount, const SlicCl
                         VoxelClusters& clusters) {
     Device& device = stream.device();
     const uint32_t numbers = slic.seedCount + voxelCount, words = (numbers + 31) / 32;
-    const auto uints = [&](const char* name, uint64_t n) {
-        return Buffer(device, name, n * sizeof(uint32_t));
-    };
+    const auto uints = [&](const char* name, uint64_t n) { return Buffer(device, name, n * sizeof(uint32_t)); };
     const Buffer memberCounts = uints("member counts", numbers), newNumbers = uints("new numbers", numbers);
     const Buffer flags = uints("nonempty flags", words), nonempty = uints("nonempty clusters", numbers);
     histogram_.record(stream, slic.assignment, memberCounts, voxelCount, numbers);
-    stream.dispatch(flagNonempty_, words,
-                    {{"memberCounts", memberCounts}, {"flags", flags}, {"numbers", numbers}});
+    stream.dispatch(flagNonempty_, words, {{"memberCounts", memberCounts}, {"flags", flags}, {"numbers", numbers}});
     clusters.count = compaction_.run(stream, flags, nonempty, words);
     clusters.clusters = Buffer(device, "clusters", clusters.count * sizeof(gpu::VoxelCluster));
     stream.dispatch(initClusters_, clusters.count,

@@ -12,8 +12,7 @@ class ClusterList {
     explicit ClusterList(ProgramOwner& owner);
 
     /// Sets all members of `clusters` except `coordinates`. Waits for the device.
-    void build(CommandStream& stream, uint32_t voxelCount, const SlicClustering::Result& slic,
-               VoxelClusters& clusters);
+    void build(CommandStream& stream, uint32_t voxelCount, const SlicClustering::Result& slic, VoxelClusters& clusters);
 
  private:
     Histogram histogram_;

@@ -3,12 +3,12 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) writeonly buffer Seeds { ClusterSeed data[]; } seeds;
-layout(scalar) readonly buffer Cells { uvec3 resolution; } cells;
+layout(scalar) readonly buffer SeedGrid { uvec3 resolution; } seedGrid;
 
 void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
-    const uvec3 size = cells.resolution, cell = uvec3(i % size.x, (i / size.x) % size.y, i / (size.x * size.y));
+    const uvec3 size = seedGrid.resolution, cell = uvec3(i % size.x, (i / size.x) % size.y, i / (size.x * size.y));
     const vec3 width = vec3(push.grid.resolution) / vec3(size), center = (vec3(cell) + 0.5) * width;
     const ivec3 first = ivec3(ceil(vec3(cell) * width - 0.5)), last = ivec3(ceil(vec3(cell + 1u) * width - 0.5)) - 1;
     ClusterSeed seed = ClusterSeed(center, 0u, vec3(0.0, 0.0, 1.0));

@@ -7,9 +7,9 @@ layout(scalar) readonly buffer Normals { vec3 data[]; } normals;  // Per voxel, 
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint count;       // Seeds or voxels: one for each thread.
-    float reach;      // Voxels: largest distance of voxels from their cluster's center along each axis.
+    float searchRadius;  // Voxels: largest distance of voxels from their cluster's center along each axis.
     float minCosine;  // Cosine of the largest angle between a cluster's normal and those of its voxels.
-    uint takesFirst;  // 1: ClusterAssignment::First. 0: ClusterAssignment::Nearest.
+    uint firstInRandomOrder;  // 1: ClusterAssignment::FirstInRandomOrder. 0: ClusterAssignment::Nearest.
     uint seedCount;
 } push;
 
@@ -54,15 +54,15 @@ bool nextVoxel(inout BoxIterator it) {
     return true;
 }
 
-// The box of voxels whose centers are within reach of a point along each axis, in voxels.
+// The box of voxels whose centers are within the search radius of a point along each axis, in voxels.
 void boxWithinReach(vec3 center, out ivec3 first, out ivec3 last) {
-    first = max(ivec3(ceil(center - 0.5 - push.reach)), ivec3(0));
-    last = min(ivec3(floor(center - 0.5 + push.reach)), ivec3(push.grid.resolution) - 1);
+    first = max(ivec3(ceil(center - 0.5 - push.searchRadius)), ivec3(0));
+    last = min(ivec3(floor(center - 0.5 + push.searchRadius)), ivec3(push.grid.resolution) - 1);
 }
 
 // Squared SLIC distance (Achanta et al. 2012, equation 3) with normals instead of colors: positions in units of the
-// reach, normals in units of the chord of the angle limit. 0 to 4 within both.
+// search radius, normals in units of the chord of the angle limit. 0 to 4 within both.
 float clusterDistance(vec3 center, ivec3 voxel, float cosine) {
-    const vec3 offset = (vec3(voxel) + 0.5 - center) / push.reach;
+    const vec3 offset = (vec3(voxel) + 0.5 - center) / push.searchRadius;
     return dot(offset, offset) + (1.0 - cosine) / (1.0 - push.minCosine);
 }

@@ -10,11 +10,12 @@ namespace voxray {
 namespace {
 
 constexpr uint64_t kSumBytes = 7 * sizeof(uint64_t);  // For each seed (cluster_sums.glsl).
-constexpr uint32_t kMaxRounds = 256;                  // About ten are expected (Luby 1986).
+/// Rounds of independent-set selection; O(log n) are expected, about ten (Luby 1986).
+constexpr uint32_t kMaxIndependentSetRounds = 256;
 
 Defines normalDefines(const ClusterParams& params) {
     Defines defines;
-    if (params.normals == ClusterNormals::OpenSpace) defines.emplace("OPEN_SPACE", "1");
+    if (params.normals == ClusterNormals::LeastOccupiedDirection) defines.emplace("LEAST_OCCUPIED_DIRECTION", "1");
     if (params.usesFragments()) defines.emplace("FRAGMENTS", "1");
     return defines;
 }
@@ -37,26 +38,26 @@ SlicClustering::SlicClustering(ProgramOwner& owner, const ClusterParams& params)
       joinNewSeeds_(owner, "join_new_seeds.comp"),
       joinNearestCluster_(owner, "join_nearest_cluster.comp") {}
 
-glm::uvec3 SlicClustering::seedCells(const gpu::VoxelGrid& grid, uint32_t voxelCount) const {
-    // Each seed has a cell of w³ voxels; a cube has `initial` cells. A flat surface has w² voxels in a cell;
-    // with `first` a cluster gets all voxels within reach, (2w)²
+glm::uvec3 SlicClustering::seedGridResolution(const gpu::VoxelGrid& grid, uint32_t voxelCount) const {
+    // Seeds lie on a grid of cells w voxels wide; `initial` counts those of a cube as wide as the longest axis. On a
+    // flat surface a cell holds w² voxels, hence w = sqrt(voxels / target). With `first` clusters are wider
+    // than a cell (their search box is 2w wide at reach 1), so w is halved
+    const uint32_t seedsPerCube = params_.initial, targetClusters = params_.target;
     const double longest = std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z});
-    double width = longest / std::cbrt(double(std::max(params_.initial, 1u)));
-    if (params_.initial == 0) {
-        width = std::sqrt(double(voxelCount) / params_.target);
-        if (params_.assign == ClusterAssignment::First) width /= 2;
+    double width = longest / std::cbrt(double(std::max(seedsPerCube, 1u)));
+    if (seedsPerCube == 0) {
+        width = std::sqrt(double(voxelCount) / targetClusters);
+        if (params_.assign == ClusterAssignment::FirstInRandomOrder) width /= 2;
     }
-    return glm::max(glm::uvec3(glm::round(glm::dvec3(grid.resolution) / std::max(width, 1.0))),
-                    glm::uvec3(1));
+    return glm::max(glm::uvec3(glm::round(glm::dvec3(grid.resolution) / std::max(width, 1.0))), glm::uvec3(1));
 }
 
-void SlicClustering::findNormals(CommandStream& stream, const SurfaceVoxels& voxels,
-                                 const Buffer& coordinates, const FragmentAngles::Sums& fragments,
-                                 Result& result) const {
+void SlicClustering::findNormals(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates,
+                                 const AnglesToAxes::Sums& angleSums, Result& result) const {
     const uint32_t count = voxels.voxelCount;
     result.normals = Buffer(stream.device(), "voxel normals", count * sizeof(glm::vec3));
     Buffer counts;
-    if (params_.normals == ClusterNormals::OpenSpace) {
+    if (params_.normals == ClusterNormals::LeastOccupiedDirection) {
         counts = Buffer(stream.device(), "voxels by choice of normal", sizeof(NormalCounts));
         stream.fill(counts, 0);
     }
@@ -64,43 +65,42 @@ void SlicClustering::findNormals(CommandStream& stream, const SurfaceVoxels& vox
                     {voxels,
                      ifUsed({"coordinates", coordinates}),
                      ifUsed({"counts", counts}),
-                     ifUsed({"fragmentAngles", fragments.angles}),
+                     ifUsed({"anglesToAxes", angleSums.angles}),
                      {"normals", result.normals},
                      {"count", count},
-                     {"fixedPointScale", fragments.fixedPointScale}});
+                     {"fixedPointScale", angleSums.fixedPointScale}});
     if (counts) result.normalCounts = stream.readAs<NormalCounts>(counts, 1)[0];
 }
 
 SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceVoxels& voxels,
-                                           const Buffer& coordinates,
-                                           const FragmentAngles::Sums& fragments) const {
+                                           const Buffer& coordinates, const AnglesToAxes::Sums& angleSums) const {
     Device& device = stream.device();
     const uint32_t count = voxels.voxelCount;
-    const glm::uvec3 cells = seedCells(voxels.grid, count);
-    if (product(cells) > 1u << 26)
-        throw Error("cluster_voxels: {} seeds are too many; lower 'initial' or 'target'", product(cells));
+    const glm::uvec3 seedGrid = seedGridResolution(voxels.grid, count);
+    if (product(seedGrid) > 1u << 26)
+        throw Error("cluster_voxels: {} seeds are too many; lower 'initial' or 'target'", product(seedGrid));
     Result result;
-    result.seedCount = uint32_t(product(cells));
-    findNormals(stream, voxels, coordinates, fragments, result);
+    result.seedCount = uint32_t(product(seedGrid));
+    findNormals(stream, voxels, coordinates, angleSums, result);
 
-    const glm::vec3 widths = glm::vec3(voxels.grid.resolution) / glm::vec3(cells);
-    const float reach = params_.reach * std::max({widths.x, widths.y, widths.z});
+    const glm::vec3 widths = glm::vec3(voxels.grid.resolution) / glm::vec3(seedGrid);
+    const float searchRadius = params_.reach * std::max({widths.x, widths.y, widths.z});
     // The bindings of neighbourhood.glsl
     const auto neighbourhood = [&](uint32_t threads) {
         return Bindings{voxels,
                         ifUsed({"normals", result.normals}),
                         {"count", threads},
-                        {"reach", reach},
+                        {"searchRadius", searchRadius},
                         {"minCosine", std::cos(glm::radians(params_.maxAngle))},
-                        {"takesFirst", params_.assign == ClusterAssignment::First},
+                        {"firstInRandomOrder", params_.assign == ClusterAssignment::FirstInRandomOrder},
                         {"seedCount", result.seedCount}}
             .all();
     };
-    const Buffer cellResolution(device, "resolution of the seeds' grid", sizeof(glm::uvec3));
-    stream.upload(cellResolution, std::as_bytes(std::span(&cells, 1)));
+    const Buffer seedGridBuffer(device, "resolution of the seeds' grid", sizeof(glm::uvec3));
+    stream.upload(seedGridBuffer, std::as_bytes(std::span(&seedGrid, 1)));
     result.seeds = Buffer(device, "cluster seeds", result.seedCount * sizeof(gpu::ClusterSeed));
     stream.dispatch(initSeeds_, result.seedCount,
-                    {neighbourhood(result.seedCount), {"seeds", result.seeds}, {"cells", cellResolution}});
+                    {neighbourhood(result.seedCount), {"seeds", result.seeds}, {"seedGrid", seedGridBuffer}});
 
     // Cosin and Patow 2022, algorithm 1
     const Buffer bestSeed(device, "best seeds of voxels", count * sizeof(uint64_t));
@@ -123,34 +123,31 @@ SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceV
     }
 
     // Store the assignment, and count voxels without a cluster
-    const Buffer unassigned(device, "voxels without a cluster", sizeof(uint32_t));
+    const Buffer unassignedCount(device, "voxels without a cluster", sizeof(uint32_t));
     result.assignment = Buffer(device, "clusters of voxels", count * sizeof(uint32_t));
-    stream.fill(unassigned, 0);
-    stream.dispatch(extractAssignment_, count,
-                    {{"bestSeed", bestSeed},
-                     {"assignment", result.assignment},
-                     {"unassigned", unassigned},
-                     {"count", count}});
-    result.unassigned = stream.readAs<uint32_t>(unassigned, 1)[0];
+    stream.fill(unassignedCount, 0);
+    stream.dispatch(
+        extractAssignment_, count,
+        {{"bestSeed", bestSeed}, {"assignment", result.assignment}, {"unassigned", unassignedCount}, {"count", count}});
+    result.unassignedCount = stream.readAs<uint32_t>(unassignedCount, 1)[0];
 
     // These voxels join the nearest cluster or form new ones
-    const Buffer scratch(device, "new clusters of voxels", count * sizeof(uint32_t));
-    const Bindings assignment{
-        neighbourhood(count), {"coordinates", coordinates}, {"assignment", result.assignment}};
-    uint32_t remaining = result.unassigned;
-    if (params_.unassigned == UnassignedVoxels::Nearest && remaining > 0 && remaining < count) {
-        stream.dispatch(joinNearestCluster_, count, {assignment.all(), {"newAssignment", scratch}});
-        stream.copy(scratch, result.assignment, count * sizeof(uint32_t));
+    const Buffer newAssignmentOrSeeds(device, "new clusters of voxels", count * sizeof(uint32_t));
+    const Bindings assignment{neighbourhood(count), {"coordinates", coordinates}, {"assignment", result.assignment}};
+    uint32_t remaining = result.unassignedCount;
+    if (params_.unassignedPolicy == UnassignedVoxels::Nearest && remaining > 0 && remaining < count) {
+        stream.dispatch(joinNearestCluster_, count, {assignment.all(), {"newAssignment", newAssignmentOrSeeds}});
+        stream.copy(newAssignmentOrSeeds, result.assignment, count * sizeof(uint32_t));
     }
-    if (params_.unassigned == UnassignedVoxels::NewClusters) {
+    if (params_.unassignedPolicy == UnassignedVoxels::NewClusters) {
         for (uint32_t round = 0; remaining > 0; ++round) {
-            if (round == kMaxRounds)
+            if (round == kMaxIndependentSetRounds)
                 throw Error("cluster_voxels: {} voxels found no cluster in {} rounds", remaining, round);
-            stream.dispatch(selectIndependentSet_, count, {assignment.all(), {"isNewSeed", scratch}});
-            stream.fill(unassigned, 0);
+            stream.dispatch(selectIndependentSet_, count, {assignment.all(), {"isNewSeed", newAssignmentOrSeeds}});
+            stream.fill(unassignedCount, 0);
             stream.dispatch(joinNewSeeds_, count,
-                            {assignment.all(), {"isNewSeed", scratch}, {"unassigned", unassigned}});
-            remaining = stream.readAs<uint32_t>(unassigned, 1)[0];
+                            {assignment.all(), {"isNewSeed", newAssignmentOrSeeds}, {"unassigned", unassignedCount}});
+            remaining = stream.readAs<uint32_t>(unassignedCount, 1)[0];
         }
     }
     stream.finish();

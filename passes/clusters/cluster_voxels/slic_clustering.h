@@ -6,19 +6,19 @@
 
 #include "base/schema.h"
 #include "graph/pass.h"
-#include "passes/clusters/cluster_voxels/fragment_angles.h"
+#include "passes/clusters/cluster_voxels/angles_to_axes.h"
 #include "passes/clusters/voxel_clusters.h"
 
 namespace voxray {
 
 /// How a voxel within reach of several clusters is assigned to one of them.
-/// First: to the first one in a random order whose normal is within the angle limit, else to the first one
+/// FirstInRandomOrder: to the first one in a random order whose normal is within the angle limit, else to the first one
 /// (Cosin and Patow 2022, equation 1; there the order is that of threads).
 /// Nearest: to the nearest one by position and normal within the angle limit (Achanta et al. 2012).
-enum class ClusterAssignment { First, Nearest };
+enum class ClusterAssignment { FirstInRandomOrder, Nearest };
 template <>
 struct EnumNames<ClusterAssignment> {
-    static constexpr std::array names{std::pair{ClusterAssignment::First, "first"},
+    static constexpr std::array names{std::pair{ClusterAssignment::FirstInRandomOrder, "first"},
                                       std::pair{ClusterAssignment::Nearest, "nearest"}};
 };
 
@@ -32,22 +32,23 @@ struct EnumNames<UnassignedVoxels> {
                                       std::pair{UnassignedVoxels::Leave, "leave"}};
 };
 
-/// How the normal of a voxel is determined: by the area at its faces or, where its surfaces disagree, the
-/// axis direction with the fewest occupied voxels in front (Cosin and Patow 2022, section 4.2 and figure 7).
-enum class ClusterNormals { Area, OpenSpace };
+/// How the normal of a voxel is determined. AreaWeighted: by the area at its faces. LeastOccupiedDirection: where the
+/// normals in the voxel differ too much for a mean, it is the axis direction with the fewest occupied voxels in front
+/// (Cosin and Patow 2022, section 4.2 and figure 7).
+enum class ClusterNormals { AreaWeighted, LeastOccupiedDirection };
 template <>
 struct EnumNames<ClusterNormals> {
-    static constexpr std::array names{std::pair{ClusterNormals::Area, "area"},
-                                      std::pair{ClusterNormals::OpenSpace, "open_space"}};
+    static constexpr std::array names{std::pair{ClusterNormals::AreaWeighted, "area"},
+                                      std::pair{ClusterNormals::LeastOccupiedDirection, "open_space"}};
 };
 
-/// How OpenSpace decides between directions with as few occupied voxels: by the normal by area or by the
-/// normals of triangle fragments (Cosin and Patow 2022, figure 7).
-enum class OpenSpaceTies { Surfaces, Fragments };
+/// How LeastOccupiedDirection decides between directions with as few occupied voxels. AreaWeightedNormal: the direction
+/// nearest to it. Fragments: the one nearest to the normals of triangle fragments (Cosin and Patow 2022, figure 7).
+enum class TieBreak { AreaWeightedNormal, Fragments };
 template <>
-struct EnumNames<OpenSpaceTies> {
-    static constexpr std::array names{std::pair{OpenSpaceTies::Surfaces, "surfaces"},
-                                      std::pair{OpenSpaceTies::Fragments, "fragments"}};
+struct EnumNames<TieBreak> {
+    static constexpr std::array names{std::pair{TieBreak::AreaWeightedNormal, "surfaces"},
+                                      std::pair{TieBreak::Fragments, "fragments"}};
 };
 
 /// The parameters of cluster_voxels.
@@ -58,31 +59,29 @@ struct ClusterParams {
     float reach = 2;
     float maxAngle = 35;
     ClusterAssignment assign = ClusterAssignment::Nearest;
-    UnassignedVoxels unassigned = UnassignedVoxels::NewClusters;
-    ClusterNormals normals = ClusterNormals::Area;
-    OpenSpaceTies ties = OpenSpaceTies::Surfaces;
+    UnassignedVoxels unassignedPolicy = UnassignedVoxels::NewClusters;
+    ClusterNormals normals = ClusterNormals::AreaWeighted;
+    TieBreak tieBreak = TieBreak::AreaWeightedNormal;
     bool usesFragments() const {
-        return normals == ClusterNormals::OpenSpace && ties == OpenSpaceTies::Fragments;
+        return normals == ClusterNormals::LeastOccupiedDirection && tieBreak == TieBreak::Fragments;
     }
     static constexpr auto schema() {
         return std::tuple{
             field("initial", &ClusterParams::initial,
-                  "Approximate number of seeds in a cube as wide as the grid's longest axis, "
-                  "as in the paper; those outside of the grid are left out, and most others have no voxel. "
-                  "0: `target` is used.",
+                  "Approximate number of seeds in a cube as wide as the grid's longest axis, as in the paper; "
+                  "those outside of the grid are left out, and most others have no voxel. 0: `target` is used.",
                   0u, 1u << 24),
             field("target", &ClusterParams::target,
-                  "Approximate number of clusters on flat surfaces: "
-                  "a cluster is sqrt(voxels / target) voxels wide. Thin and curved surfaces have more.",
+                  "Approximate number of clusters on flat surfaces: a cluster is sqrt(voxels / target) voxels wide. "
+                  "Thin and curved surfaces have more.",
                   1u, 1u << 22)
                 .onlyWith(oneOf(&ClusterParams::initial, {0u})),
             field("iterations", &ClusterParams::iterations,
-                  "How often voxels are assigned; in between, clusters move to the mean of their voxels.", 1u,
-                  100u),
+                  "How often voxels are assigned; in between, clusters move to the mean of their voxels.", 1u, 100u),
             field("reach", &ClusterParams::reach,
                   "Largest distance of voxels from their cluster's center along each axis, "
-                  "in widths of a seed's cell. 1: that of SLIC. With more, "
-                  "fewer voxels stay without a cluster, and `first` makes fewer, larger clusters.",
+                  "in widths of a seed's cell. 1: that of SLIC. "
+                  "With more, fewer voxels stay without a cluster, and `first` makes fewer, larger clusters.",
                   0.5f, 8.0f),
             field("max_angle", &ClusterParams::maxAngle,
                   "Largest angle between a cluster's normal and those of its voxels, degrees; "
@@ -92,20 +91,20 @@ struct ClusterParams {
                   "nearest: a voxel is assigned to the nearest cluster by position and normal. "
                   "first: to the first within the angle limit in a random order of clusters, "
                   "else to the first that reaches it (as in the paper, where the order is that of threads)."),
-            field("unassigned", &ClusterParams::unassigned,
+            field("unassigned", &ClusterParams::unassignedPolicy,
                   "Voxels that are assigned to no cluster. own: they form new clusters. "
                   "nearest: they join the nearest cluster whatever its normal. "
                   "leave: they have no cluster, block light and send none."),
             field("normals", &ClusterParams::normals,
                   "Normal of a voxel. area: by the unoccluded area at its faces. "
-                  "open_space: where its surfaces disagree, "
+                  "open_space: where the normals in it differ too much for a mean, "
                   "the axis direction in which fewest of 3x3 voxels are occupied (the paper's)."),
-            field("ties", &ClusterParams::ties,
+            field("ties", &ClusterParams::tieBreak,
                   "Choice between directions with as few occupied voxels. "
-                  "surfaces: the nearest to the normal by area. "
-                  "fragments: the one to which the normals of the triangles "
-                  "in the voxel have the smallest sum of angles, whatever their areas (the paper's).")
-                .onlyWith(oneOf(&ClusterParams::normals, {ClusterNormals::OpenSpace}))};
+                  "surfaces: the nearest to the area-weighted normal. fragments: "
+                  "the one to which the normals of the triangles in the voxel have the smallest sum of angles, "
+                  "whatever their areas (the paper's).")
+                .onlyWith(oneOf(&ClusterParams::normals, {ClusterNormals::LeastOccupiedDirection}))};
     }
 };
 
@@ -115,32 +114,34 @@ class SlicClustering {
  public:
     SlicClustering(ProgramOwner& owner, const ClusterParams& params);
 
-    /// Numbers of voxels by the choice of their normal, with ClusterNormals::OpenSpace (voxel_normals.comp).
+    /// Numbers of voxels by the choice of their normal, with ClusterNormals::LeastOccupiedDirection
+    /// (voxel_normals.comp).
     struct NormalCounts {
-        uint32_t disagreeing;  ///< Surfaces in the voxel disagree.
+        uint32_t disagreeing;  ///< The normals in the voxel differ too much for a mean.
         uint32_t tied;         ///< Subset of these: several directions have as few occupied voxels.
-        uint32_t decided;      ///< Subset of these: fragments choose another direction than surfaces.
-        uint32_t changed;      ///< Voxels whose normal differs from the one by area.
+        /// Subset of these: fragments choose another direction than the area-weighted normal.
+        uint32_t decidedByFragments;
+        uint32_t changed;  ///< Voxels whose normal differs from the area-weighted one.
     };
 
     struct Result {
         uint32_t seedCount = 0;
-        uint32_t unassigned = 0;  ///< Number of voxels that the last iteration left without a cluster.
-        Buffer assignment;        ///< Cluster of each voxel; empty ones have numbers, too (assignment.glsl).
-        Buffer normals;           ///< Per voxel: unit length, 3 floats.
+        uint32_t unassignedCount = 0;  ///< Number of voxels that the last iteration left without a cluster.
+        Buffer assignment;             ///< Cluster of each voxel; empty ones have numbers, too (assignment.glsl).
+        Buffer normals;                ///< Per voxel: unit length, 3 floats.
         NormalCounts normalCounts{};
         Buffer seeds;  ///< gpu::ClusterSeed each, as in the last iteration.
     };
-    /// @param coordinates of voxels. @param fragments if usesFragments(). Waits for the device.
+    /// @param coordinates of voxels. @param angleSums if usesFragments(). Waits for the device.
     Result run(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates,
-               const FragmentAngles::Sums& fragments) const;
+               const AnglesToAxes::Sums& angleSums) const;
 
  private:
     /// Fills `normals` and `normalCounts` of the result.
     void findNormals(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates,
-                     const FragmentAngles::Sums& fragments, Result& result) const;
+                     const AnglesToAxes::Sums& angleSums, Result& result) const;
     /// Resolution of the uniform grid of seeds.
-    glm::uvec3 seedCells(const gpu::VoxelGrid& grid, uint32_t voxelCount) const;
+    glm::uvec3 seedGridResolution(const gpu::VoxelGrid& grid, uint32_t voxelCount) const;
 
     const ClusterParams params_;
     Kernel findNormals_, initSeeds_, assignVoxels_, accumulateSums_, updateSeeds_, extractAssignment_,

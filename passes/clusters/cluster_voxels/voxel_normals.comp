@@ -1,10 +1,11 @@
-// Computes the normal of each surface voxel from the unoccluded area at its faces. OPEN_SPACE: where its surfaces
-// disagree, from the empty voxels around it (Cosin and Patow 2022, section 4.2 and figure 7).
+// Computes the normal of each surface voxel from the unoccluded area at its faces. LEAST_OCCUPIED_DIRECTION: where the
+// normals in the voxel differ too much for a mean, it is the direction with the fewest occupied voxels in front (Cosin
+// and Patow 2022, section 4.2 and figure 7).
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/face.glsl"
 #include "shaders/voxels/voxels.glsl"
 #ifdef FRAGMENTS
-#include "passes/clusters/cluster_voxels/fragment_angles.glsl"
+#include "passes/clusters/cluster_voxels/angles_to_axes.glsl"
 #endif
 layout(local_size_x = 64) in;
 
@@ -13,19 +14,19 @@ layout(scalar) writeonly buffer Normals { vec3 data[]; } normals;
 layout(scalar) buffer Counts {
     uint disagreeing;  // As SlicClustering::NormalCounts.
     uint tied;
-    uint decided;
+    uint decidedByFragments;
     uint changed;
 } counts;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint count;
-    float fixedPointScale;  // Units of fragmentAngles in a radian.
+    float fixedPointScale;  // Units of anglesToAxes in a radian.
 } push;
 
 // A plane of area A and unit normal n has area A n² at each face in front of it, so the square roots of the areas are
 // parallel to n. If the areas of opposite faces are equal, as for both sides of a sheet, the mean front-side normal is
 // used; if that is 0, too, the largest face.
-vec3 normalOfArea(VoxelMaterial m) {
+vec3 areaWeightedNormal(VoxelMaterial m) {
     const vec3 difference = m.unoccludedPositive - m.unoccludedNegative;
     const vec3 sum = m.unoccludedPositive + m.unoccludedNegative;
     if (dot(abs(difference), vec3(1.0)) > 0.01 * dot(sum, vec3(1.0)))
@@ -34,7 +35,7 @@ vec3 normalOfArea(VoxelMaterial m) {
     return faceNormal(sum.x >= sum.y && sum.x >= sum.z ? 0u : sum.y >= sum.z ? 2u : 4u);
 }
 
-#ifdef OPEN_SPACE
+#ifdef LEAST_OCCUPIED_DIRECTION
 // Number of occupied voxels among the 3 x 3 in front of a face.
 uint occupiedInFront(ivec3 voxel, uint face) {
     const int axis = int(face >> 1);
@@ -72,8 +73,8 @@ uint nearestFace(uint faces, vec3 normal) {
 #ifdef FRAGMENTS
 // Sum of the angles between a face's normal and those of a voxel's fragments, in units of 1 / push.fixedPointScale rad.
 float angleTo(uint voxel, uint face) {
-    const float positive = float(fragmentAngles.data[ANGLE_SUMS * voxel + (face >> 1)]);
-    const float pi = 3.14159265358979 * push.fixedPointScale * float(fragmentAngles.data[ANGLE_SUMS * voxel + 3u]);
+    const float positive = float(anglesToAxes.data[ANGLE_SUMS * voxel + (face >> 1)]);
+    const float pi = 3.14159265358979 * push.fixedPointScale * float(anglesToAxes.data[ANGLE_SUMS * voxel + 3u]);
     return (face & 1u) == 0u ? positive : pi - positive;
 }
 
@@ -82,7 +83,7 @@ uint facesNearestToFragments(uint voxel, uint faces) {
     float least = 1.0e30;
     for (uint face = 0u; face < 6u; ++face)
         if ((faces >> face & 1u) != 0u) least = min(least, angleTo(voxel, face));
-    const float tolerance = 1.0e-3 * push.fixedPointScale * float(fragmentAngles.data[ANGLE_SUMS * voxel + 3u]);
+    const float tolerance = 1.0e-3 * push.fixedPointScale * float(anglesToAxes.data[ANGLE_SUMS * voxel + 3u]);
     uint nearest = 0u;
     for (uint face = 0u; face < 6u; ++face)
         if ((faces >> face & 1u) != 0u && angleTo(voxel, face) <= least + tolerance) nearest |= 1u << face;
@@ -90,15 +91,15 @@ uint facesNearestToFragments(uint voxel, uint faces) {
 }
 #endif
 
-vec3 normalOfOpenSpace(uint voxel, vec3 areaNormal) {
+vec3 leastOccupiedDirection(uint voxel, vec3 areaNormal) {
     uint faces = leastOccupiedFaces(ivec3(coordinates.data[voxel]));
     if (bitCount(faces) > 1) atomicAdd(counts.tied, 1u);
-    const uint faceByArea = nearestFace(faces, areaNormal);
+    const uint faceOfAreaNormal = nearestFace(faces, areaNormal);
 #ifdef FRAGMENTS
     faces = facesNearestToFragments(voxel, faces);
 #endif
     const uint face = nearestFace(faces, areaNormal);
-    if (face != faceByArea) atomicAdd(counts.decided, 1u);
+    if (face != faceOfAreaNormal) atomicAdd(counts.decidedByFragments, 1u);
     return faceNormal(face);
 }
 #endif
@@ -107,14 +108,14 @@ void main() {
     const uint voxel = linearIndex();
     if (voxel >= push.count) return;
     const VoxelMaterial m = voxelMaterial(voxel);
-    vec3 normal = normalOfArea(m);
-#ifdef OPEN_SPACE
-    // The mean normal is short if the normals of the surfaces disagree
+    vec3 normal = areaWeightedNormal(m);
+#ifdef LEAST_OCCUPIED_DIRECTION
+    // The mean normal is short if the normals in the voxel differ
     if (dot(m.normal, m.normal) < 0.98) {
-        const vec3 openNormal = normalOfOpenSpace(voxel, normal);
+        const vec3 direction = leastOccupiedDirection(voxel, normal);
         atomicAdd(counts.disagreeing, 1u);
-        if (dot(openNormal, normal) < 0.999) atomicAdd(counts.changed, 1u);
-        normal = openNormal;
+        if (dot(direction, normal) < 0.999) atomicAdd(counts.changed, 1u);
+        normal = direction;
     }
 #endif
     normals.data[voxel] = normal;

@@ -1,8 +1,8 @@
-// Averages the material of each surface group over its surfels: its mean normal and reflectance, and its fraction of
-// the voxel's area at each face. A group has a patch at each face at which it has area.
+// Averages the material of each surface group over its surfels: its mean normal and reflectance and, for each face, its
+// share of the voxel's projected area. A group has a patch at each face onto which it projects area.
 //
-// The voxel's unoccluded area is divided among unoccluded groups. Occluded groups exist only if each sample point has a
-// surfel on either side of its surface; then each surfel has the same fraction of the voxel's whole area.
+// The voxel's unoccluded area is divided among unoccluded groups. Occluded groups exist only with 'sides: all', where
+// each sample point has two surfels. Each of them stands for area / number of points.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -14,11 +14,11 @@ layout(scalar) readonly buffer GroupMaterialsRef { VoxelMaterials groupMaterials
 writeonly buffer PatchCounts { uint data[]; } patchCounts;  // Per group.
 layout(push_constant) uniform Push { uint voxels; } push;
 
-// Adds the projected area of a surfel at the three faces that its normal points to.
-void addArea(vec3 normal, inout vec3 positive, inout vec3 negative) {
-    const vec3 area = normal * normal;
-    positive += mix(area, vec3(0.0), lessThan(normal, vec3(0.0)));
-    negative += mix(vec3(0.0), area, lessThan(normal, vec3(0.0)));
+// Divides a surfel's weight of 1 among the three faces that its normal points to, by the squares of its components.
+void addFaceWeights(vec3 normal, inout vec3 positive, inout vec3 negative) {
+    const vec3 weight = normal * normal;
+    positive += mix(weight, vec3(0.0), lessThan(normal, vec3(0.0)));
+    negative += mix(vec3(0.0), weight, lessThan(normal, vec3(0.0)));
 }
 
 vec3 fractionOf(vec3 groupSum, vec3 voxelSum, vec3 area) {
@@ -30,11 +30,12 @@ void main() {
     if (voxel >= push.voxels) return;
     const uint first = firstGroup.data[voxel], end = firstGroup.data[voxel + 1u];
     vec3 voxelPositive = vec3(0.0), voxelNegative = vec3(0.0);
-    float points = 0.0;
+    float samplePoints = 0.0;  // Half of the surfels: with 'sides: all' each point has two.
     for (uint group = first; group < end; ++group) {
-        points += 0.5 * float(groups.data[group].surfelCount);
+        samplePoints += 0.5 * float(groups.data[group].surfelCount);
         for (uint i = 0u; i < groups.data[group].surfelCount && groups.data[group].isOccluded == 0u; ++i)
-            addArea(groupedSurfels.data[groups.data[group].firstSurfel + i].normal, voxelPositive, voxelNegative);
+            addFaceWeights(groupedSurfels.data[groups.data[group].firstSurfel + i].normal, voxelPositive,
+                           voxelNegative);
     }
     const VoxelMaterial whole = voxelMaterial(voxel);
     for (uint group = first; group < end; ++group) {
@@ -44,13 +45,14 @@ void main() {
         const uint surfelCount = groups.data[group].surfelCount;
         for (uint i = 0u; i < surfelCount; ++i) {
             const GroupedSurfel s = groupedSurfels.data[groups.data[group].firstSurfel + i];
-            addArea(s.normal, positive, negative);
+            addFaceWeights(s.normal, positive, negative);
             m.albedo += s.reflectance / float(surfelCount);
             m.normal += s.normal / float(surfelCount);
         }
         if (groups.data[group].isOccluded == 1u) {
-            m.unoccludedPositive = whole.area / points * positive;
-            m.unoccludedNegative = whole.area / points * negative;
+            // These members hold the area of occluded groups, too
+            m.unoccludedPositive = whole.area / samplePoints * positive;
+            m.unoccludedNegative = whole.area / samplePoints * negative;
         } else {
             m.unoccludedPositive = fractionOf(positive, voxelPositive, whole.unoccludedPositive);
             m.unoccludedNegative = fractionOf(negative, voxelNegative, whole.unoccludedNegative);

@@ -1,5 +1,6 @@
-// Counts the candidates for neighbours of each surface group: groups in the 26 adjacent voxels that have area at a
-// common face. LIST: stores them. Rays test their visibility later.
+// Counts the candidates for neighbours of each surface group: groups in the 26 adjacent voxels whose surfaces face one
+// of the same six directions, and which are both occluded or both unoccluded. LIST: stores them. Rays test their
+// visibility later.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -12,16 +13,17 @@ layout(scalar) readonly buffer GroupMaterialsRef { VoxelMaterials groupMaterials
 #ifdef LIST
 readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
 layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
-layout(scalar) readonly buffer NeighbourOfRef { LargeUints neighbourOf; };  // The group of each entry of `neighbours`.
+layout(scalar) readonly buffer GroupOfEntryRef { LargeUints groupOfEntry; };  // The group of each neighbour entry.
 #else
-writeonly buffer Counts { uint data[]; } counts;  // Per group, then 0 for the prefix sum.
+// One for each group, and a last 0, where the prefix sum leaves the total.
+writeonly buffer Counts { uint data[]; } counts;
 #endif
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint groupCount;
 } push;
 
-bool haveCommonFace(VoxelMaterial a, VoxelMaterial b) {
+bool faceSameDirection(VoxelMaterial a, VoxelMaterial b) {
     const vec3 area = min(a.unoccludedPositive, b.unoccludedPositive) + min(a.unoccludedNegative, b.unoccludedNegative);
     return any(greaterThan(area, vec3(0.0)));
 }
@@ -38,10 +40,10 @@ void main() {
             if (i == 13 || voxel == NO_VOXEL) continue;
             for (uint neighbour = firstGroup.data[voxel]; neighbour < firstGroup.data[voxel + 1u]; ++neighbour) {
                 if (groups.data[neighbour].isOccluded != groups.data[group].isOccluded) continue;
-                if (!haveCommonFace(m, unpackMaterial(groupMaterials.data[neighbour]))) continue;
+                if (!faceSameDirection(m, unpackMaterial(groupMaterials.data[neighbour]))) continue;
 #ifdef LIST
                 neighbours.data[firstNeighbour.data[group] + count] = neighbour;
-                neighbourOf.data[firstNeighbour.data[group] + count] = group;
+                groupOfEntry.data[firstNeighbour.data[group] + count] = group;
 #endif
                 ++count;
             }

@@ -8,7 +8,7 @@
 namespace voxray {
 
 ComponentLabeling::ComponentLabeling(ProgramOwner& owner)
-    : prefixSum_(owner, PrefixSum::Of::Values),
+    : prefixSum_(owner, PrefixSum::Input::Uints),
       compaction_(owner),
       histogram_(owner),
       radixSort_(owner),
@@ -48,16 +48,15 @@ void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters
                      {"groupCount", groups}});
     patches.componentCount = compaction_.run(stream, flags, roots, words);
     stream.fill(componentOfRoot, NO_COMPONENT);
-    stream.dispatch(
-        numberComponents_, patches.componentCount,
-        {{"roots", roots}, {"componentOfRoot", componentOfRoot}, {"components", patches.componentCount}});
+    stream.dispatch(numberComponents_, patches.componentCount,
+                    {{"roots", roots}, {"componentOfRoot", componentOfRoot}, {"components", patches.componentCount}});
 
     // Sort the groups by component. The sort is stable: groups of a component stay ascending
     Buffer keys(device, "components of groups", uintBytes(groups));
     patches.componentOfGroup = Buffer(device, "components of groups", uintBytes(groups));
     patches.memberGroups = Buffer(device, "groups by component", uintBytes(groups));
-    patches.components = Buffer(device, "components of clusters",
-                                std::max(patches.componentCount, 1u) * sizeof(gpu::ClusterComponent));
+    patches.components =
+        Buffer(device, "components of clusters", std::max(patches.componentCount, 1u) * sizeof(gpu::ClusterComponent));
     stream.dispatch(assignComponents_, groups,
                     {{"labels", labels},
                      {"componentOfRoot", componentOfRoot},
@@ -66,8 +65,7 @@ void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters
                      {"memberGroups", patches.memberGroups},
                      {"groupCount", groups},
                      {"components", patches.componentCount}});
-    radixSort_.record(stream, keys, patches.memberGroups, groups,
-                      uint32_t(std::bit_width(patches.componentCount)));
+    radixSort_.record(stream, keys, patches.memberGroups, groups, uint32_t(std::bit_width(patches.componentCount)));
     const Buffer memberCounts(device, "group counts of components", uintBytes(patches.componentCount));
     const Buffer firstMembers(device, "first groups of components", uintBytes(patches.componentCount));
     histogram_.record(stream, patches.componentOfGroup, memberCounts, groups, patches.componentCount);

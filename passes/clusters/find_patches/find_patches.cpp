@@ -15,7 +15,7 @@
 
 namespace voxray {
 
-/// Splits the surfels of each voxel into surface groups, which see each other, and clusters into connected
+/// Splits the surfels of each voxel into surface groups: surfels that see each other. Splits clusters into connected
 /// components of these groups, so that light does not leak through walls thinner than a voxel. A patch is the
 /// projection of a surface group onto one of its voxel's six faces. An extension of Cosin and Patow 2022, who
 /// have one surface in each voxel: docs/clusters.md, "How it works".
@@ -26,20 +26,20 @@ class FindPatches final : public Pass {
         "Splits voxels' surfels and clusters at walls thinner than a voxel. "
         "Surfels of a voxel that see each other form a surface group; "
         "clusters are split into connected components of these groups. "
-        "So both sides of a wall thinner than a voxel have their own light (cluster_visibility, "
-        "inject_clusters, gather_clusters). With place_surfels' 'sides: "
-        "all' gaps narrower than a voxel have groups, too, which send and receive light. "
-        "Biased by: voxel size (occluders lower than half a voxel split nothing). "
-        "Noisy by: points_per_voxel (a surface without a point is in no group). Source: docs/clusters.md.";
+        "So the two surfaces of a wall thinner than a voxel have separate light (cluster_visibility, inject_clusters, "
+        "gather_clusters). If place_surfels has 'sides: all', surfaces inside narrow gaps also form groups, "
+        "and exchange light. Biased by: voxel size (rays start half a voxel above the surface, "
+        "so they miss lower occluders and leave those surfels in one group). "
+        "Noisy by: points_per_voxel (a surface without a surfel gets no group). Source: docs/clusters.md.";
 
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
 
  private:
     /// Finds the group of each surfel within its voxel.
-    void groupSurfels(PassContext& context, SurfelsByVoxel& lists);
+    void groupSurfels(PassContext& context, SurfelsByVoxel& surfelsByVoxel);
     /// Numbers the groups of all voxels and their patches.
-    void listGroups(PassContext& context, const SurfelsByVoxel& lists);
+    void listGroups(PassContext& context, const SurfelsByVoxel& surfelsByVoxel);
     /// Lists the groups in adjacent voxels that each group sees.
     void findNeighbours(PassContext& context);
 
@@ -50,7 +50,7 @@ class FindPatches final : public Pass {
     In<VoxelClusters> clusters_{*this, "clusters", "clusters of surface voxels"};
     Out<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels"};
     SurfelSort sort_{*this};
-    PrefixSum prefixSum_{*this, PrefixSum::Of::Values};
+    PrefixSum prefixSum_{*this, PrefixSum::Input::Uints};
     SurfelGrouping grouping_{*this};
     ComponentLabeling labeling_{*this};
     std::optional<GroupUpdateCache> updateCache_;  ///< For scenes with moving surfaces.
@@ -73,8 +73,7 @@ class FindPatches final : public Pass {
 void FindPatches::plan(PassPlan& plan) {
     batch_.plan(plan, plan[surfels_].hasOccludedSurfels);
     const bool surfacesMove = !movingInstanceRanges(plan.frame.scene->geometry).empty();
-    for (Kernel* kernel : {&updateSurfels_, &updateNeighbourRays_, &updateNeighbours_})
-        kernel->compileIf(surfacesMove);
+    for (Kernel* kernel : {&updateSurfels_, &updateNeighbourRays_, &updateNeighbours_}) kernel->compileIf(surfacesMove);
     if (surfacesMove) updateCache_.emplace(*this);
 }
 
@@ -83,26 +82,22 @@ void FindPatches::record(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
     const std::optional<std::vector<Box>>& changed = context.frame.changed;
     if (!voxels.unoccludedAreaOnly)
-        throw Error(
-            "{}: surfels without open space before them have no side; "
-            "leave voxelize's 'visibility_rays' above 0",
-            kName);
+        throw Error("{}: needs the unoccluded area of voxels: set voxelize's 'visibility_rays' to 1 or more", kName);
     VoxelPatches& patches = context[patches_];
     if (updateCache_ && changed && !context.isFirstRun())
         updateCache_->startUpdate(context.stream, voxels, patches, *changed);
     patches.clear();
-    SurfelsByVoxel lists;
-    sort_.run(context.stream, context[surfels_], voxels.voxelCount, lists);
-    groupSurfels(context, lists);
-    listGroups(context, lists);
-    lists = {};
+    SurfelsByVoxel surfelsByVoxel;
+    sort_.run(context.stream, context[surfels_], voxels.voxelCount, surfelsByVoxel);
+    groupSurfels(context, surfelsByVoxel);
+    listGroups(context, surfelsByVoxel);
+    surfelsByVoxel = {};
     findNeighbours(context);
     labeling_.run(context.stream, context[clusters_], patches);
     if (updateCache_) {
         updateCache_->finishUpdate();
         updateCache_->storeVoxels(context.stream, voxels);
     }
-    // In values.csv a "side" is a surface group and a "part of a cluster" is a component
     context.report("surface groups", patches.groupCount);
     context.report("surface groups of a voxel", double(patches.groupCount) / voxels.voxelCount);
     context.report("patches for each voxel", double(patches.patchCount) / voxels.voxelCount);
@@ -110,13 +105,13 @@ void FindPatches::record(PassContext& context) {
     context.report("bytes of surface groups", double(patches.bytes()));
 }
 
-void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& lists) {
+void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& surfelsByVoxel) {
     const SurfaceVoxels& voxels = context[voxels_];
     VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
-    patches.surfelCount = lists.sortedCount;
+    patches.surfelCount = surfelsByVoxel.sortedCount;
     patches.surfels = LargeBuffer(context.device, "surfels by group",
-                                  std::max(lists.sortedCount, 1u) * sizeof(gpu::GroupedSurfel));
+                                  std::max(surfelsByVoxel.sortedCount, 1u) * sizeof(gpu::GroupedSurfel));
     std::vector<Binding> storedGroups;
     if (isUpdate()) storedGroups = updateCache_->surfelBindings(context[clusters_]);
     uint32_t firstIndex = 0;
@@ -124,7 +119,7 @@ void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& lists) {
         context.dispatch(isUpdate() ? updateSurfels_ : initSurfels_, chunk.count,
                          {storedGroups,
                           {"surfels", chunk.surfels},
-                          {"SortedIndicesRef", lists.sortedIndices.ref()},
+                          {"SortedIndicesRef", surfelsByVoxel.sortedIndices.ref()},
                           {"GroupedSurfelsRef", patches.surfels.ref()},
                           {"grid", voxels.grid},
                           {"count", chunk.count},
@@ -132,20 +127,21 @@ void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& lists) {
         firstIndex += chunk.count;
     }
     stream.finish();
-    patches.surfelIndex = std::move(lists.sortedIndices);
-    lists.sorted = {};
-    grouping_.run(context, batch_, voxels, context[surfels_].hasOccludedSurfels, lists, patches);
+    patches.surfelIndex = std::move(surfelsByVoxel.sortedIndices);
+    surfelsByVoxel.sorted = {};
+    grouping_.run(context, batch_, voxels, context[surfels_].hasOccludedSurfels, surfelsByVoxel, patches);
+    // Each sample point has up to two surfels: one on each side
     if (updateCache_) updateCache_->storeSurfels(stream, patches, 2 * context[surfels_].pointCount);
 }
 
-void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& lists) {
+void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& surfelsByVoxel) {
     const SurfaceVoxels& voxels = context[voxels_];
     VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
     const uint32_t count = voxels.voxelCount;
     patches.firstGroup = Buffer(context.device, "first groups of voxels", uintBytes(count + 1));
     context.dispatch(sortSurfels_, count + 1,
-                     {{"lists", lists.lists},
+                     {{"surfelRanges", surfelsByVoxel.ranges},
                       {"counts", patches.firstGroup},
                       {"GroupedSurfelsRef", patches.surfels.ref()},
                       {"voxels", count}});
@@ -155,7 +151,7 @@ void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& lists) 
     patches.materials =
         LargeBuffer(context.device, "materials of surface groups", groups * sizeof(gpu::PackedVoxelMaterial));
     context.dispatch(listGroups_, count,
-                     {{"lists", lists.lists},
+                     {{"surfelRanges", surfelsByVoxel.ranges},
                       {"firstGroup", patches.firstGroup},
                       {"SurfelIndexRef", patches.surfelIndex.ref()},
                       {"groups", patches.groups},
@@ -171,10 +167,9 @@ void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& lists) 
                       {"GroupedSurfelsRef", patches.surfels.ref()},
                       {"voxels", count}});
     patches.patchCount = prefixSum_.run(stream, patchCounts, patchCounts, patches.groupCount);
-    context.dispatch(
-        numberPatches_, patches.groupCount,
-        {{"firstPatches", patchCounts}, {"groups", patches.groups}, {"groupCount", patches.groupCount}});
-    if (isUpdate()) updateCache_->findPrevious(stream, voxels, context[clusters_], patches);
+    context.dispatch(numberPatches_, patches.groupCount,
+                     {{"firstPatches", patchCounts}, {"groups", patches.groups}, {"groupCount", patches.groupCount}});
+    if (isUpdate()) updateCache_->findPreviousGroupIndices(stream, voxels, context[clusters_], patches);
     stream.finish();
 }
 
@@ -189,38 +184,36 @@ void FindPatches::findNeighbours(PassContext& context) {
                              {"firstGroup", patches.firstGroup},
                              {"GroupMaterialsRef", patches.materials.ref()},
                              {"groupCount", groups}};
-    patches.firstNeighbour =
-        Buffer(context.device, "first neighbours of surface groups", uintBytes(groups + 1));
+    patches.firstNeighbour = Buffer(context.device, "first neighbours of surface groups", uintBytes(groups + 1));
     context.dispatch(countNeighbours_, groups + 1, {adjacency.all(), {"counts", patches.firstNeighbour}});
-    const uint32_t neighbours =
-        prefixSum_.run(stream, patches.firstNeighbour, patches.firstNeighbour, groups + 1);
+    const uint32_t neighbours = prefixSum_.run(stream, patches.firstNeighbour, patches.firstNeighbour, groups + 1);
     patches.neighbours = LargeBuffer(context.device, "neighbours of surface groups", uintBytes(neighbours));
-    const LargeBuffer neighbourOf(context.device, "groups by neighbour", uintBytes(neighbours));
+    const LargeBuffer groupOfEntry(context.device, "group of each neighbour entry", uintBytes(neighbours));
     context.dispatch(listNeighbours_, groups + 1,
                      {adjacency.all(),
                       {"firstNeighbour", patches.firstNeighbour},
                       {"NeighboursRef", patches.neighbours.ref()},
-                      {"NeighbourOfRef", neighbourOf.ref()}});
-    std::vector<Binding> reused, previous;
+                      {"GroupOfEntryRef", groupOfEntry.ref()}});
+    std::vector<Binding> reusedVisibility, previousNeighbours;
     if (isUpdate()) {
-        reused = updateCache_->neighbourRayBindings();
-        previous = updateCache_->previousNeighbourBindings(patches);
+        reusedVisibility = updateCache_->neighbourRayBindings();
+        previousNeighbours = updateCache_->previousNeighbourBindings(patches);
     }
     RayBatch::inBatches(neighbours, [&](uint32_t first, uint32_t count) {
         context.dispatch(isUpdate() ? updateNeighbourRays_ : generateNeighbourRays_, count,
-                         {reused,
+                         {reusedVisibility,
                           {"groups", patches.groups},
                           {"NeighboursRef", patches.neighbours.ref()},
-                          {"NeighbourOfRef", neighbourOf.ref()},
+                          {"GroupOfEntryRef", groupOfEntry.ref()},
                           {"rays", batch_.rays},
                           {"first", first},
                           {"count", count}});
         context.tracer.occluded(stream, batch_.rays, batch_.occluded, count);
         context.dispatch(isUpdate() ? updateNeighbours_ : removeOccludedNeighbours_, count,
-                         {previous,
+                         {previousNeighbours,
                           {"occluded", batch_.occluded},
                           {"NeighboursRef", patches.neighbours.ref()},
-                          ifUsed({"NeighbourOfRef", neighbourOf.ref()}),
+                          ifUsed({"GroupOfEntryRef", groupOfEntry.ref()}),
                           {"first", first},
                           {"count", count}});
     });

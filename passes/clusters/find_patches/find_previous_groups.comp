@@ -1,5 +1,5 @@
 // Finds the index that each surface group of an unchanged voxel had in the previous build. Where no adjacent voxel has
-// changed either, the occlusion between the group and its neighbours is reused.
+// changed either, a later shader reuses the earlier visibility tests between the group and its neighbours.
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -9,12 +9,14 @@ layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer FirstGroup { uint data[]; } firstGroup;
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
 readonly buffer Changed { uint words[]; } changed;  // A bit for each voxel.
-readonly buffer ChangedNeighbourhood { uint words[]; } changedNeighbourhood;  // Likewise: it or an adjacent voxel.
+// A bit for each voxel: set if it or one of the 26 around it has changed.
+readonly buffer ChangedNeighbourhood { uint words[]; } changedNeighbourhood;
 readonly buffer PreviousOccupancy { uint words[]; } previousOccupancy;
 readonly buffer PreviousRank { uint before[]; } previousRank;
 readonly buffer PreviousFirstGroup { uint data[]; } previousFirstGroup;
-writeonly buffer PreviousGroups { uint data[]; } previousGroups;  // NO_GROUP: its voxel has changed.
-writeonly buffer ReusedGroup { uint data[]; } reusedGroup;  // The same, or NO_GROUP if an adjacent voxel has changed.
+writeonly buffer PreviousGroupIndex { uint data[]; } previousGroupIndex;  // NO_GROUP: the voxel has changed.
+// As previousGroupIndex, but NO_GROUP also if an adjacent voxel has changed.
+writeonly buffer ReusablePreviousIndex { uint data[]; } reusablePreviousIndex;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint groupCount;
@@ -32,6 +34,6 @@ void main() {
             previousRank.before[word] + uint(bitCount(previousOccupancy.words[word] & (bit - 1u)));
         previous = previousFirstGroup.data[previousVoxel] + i - firstGroup.data[voxel];
     }
-    previousGroups.data[i] = previous;
-    reusedGroup.data[i] = (changedNeighbourhood.words[word] & bit) == 0u ? previous : NO_GROUP;
+    previousGroupIndex.data[i] = previous;
+    reusablePreviousIndex.data[i] = (changedNeighbourhood.words[word] & bit) == 0u ? previous : NO_GROUP;
 }

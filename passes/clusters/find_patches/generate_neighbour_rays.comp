@@ -7,9 +7,9 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
-layout(scalar) readonly buffer NeighbourOfRef { LargeUints neighbourOf; };
+layout(scalar) readonly buffer GroupOfEntryRef { LargeUints groupOfEntry; };
 #ifdef UPDATE
-readonly buffer ReusedGroup { uint data[]; } reusedGroup;
+readonly buffer ReusablePreviousIndex { uint data[]; } reusablePreviousIndex;
 #endif
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(push_constant) uniform Push {
@@ -20,9 +20,9 @@ layout(push_constant) uniform Push {
 void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
-    const uint group = neighbourOf.data[push.first + i];
+    const uint group = groupOfEntry.data[push.first + i];
 #ifdef UPDATE
-    if (reusedGroup.data[group] != NO_GROUP) {
+    if (reusablePreviousIndex.data[group] != NO_GROUP) {
         rays.data[i] = kNoRay;
         return;
     }

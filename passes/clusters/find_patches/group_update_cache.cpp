@@ -17,8 +17,7 @@ GroupUpdateCache::GroupUpdateCache(ProgramOwner& owner)
 void GroupUpdateCache::startUpdate(CommandStream& stream, const SurfaceVoxels& voxels, VoxelPatches& patches,
                                    const std::vector<Box>& changed) {
     const auto changedBits = [&](uint32_t margin) {
-        return regions_.bits(stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, margin)),
-                             voxels);
+        return regions_.bits(stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, margin)), voxels);
     };
     changed_ = changedBits(0);
     changedNeighbourhood_ = changedBits(1);
@@ -29,15 +28,13 @@ void GroupUpdateCache::startUpdate(CommandStream& stream, const SurfaceVoxels& v
 }
 
 std::vector<Binding> GroupUpdateCache::surfelBindings(const VoxelClusters& clusters) const {
-    return {{"coordinates", clusters.coordinates},
-            {"changed", changed_},
-            {"StoredGroupsRef", storedGroups_.ref()}};
+    return {{"coordinates", clusters.coordinates}, {"changed", changed_}, {"StoredGroupsRef", storedGroups_.ref()}};
 }
 
-void GroupUpdateCache::findPrevious(CommandStream& stream, const SurfaceVoxels& voxels,
-                                    const VoxelClusters& clusters, VoxelPatches& patches) {
-    patches.previousGroups = Buffer(stream.device(), "previous groups", uintBytes(patches.groupCount));
-    reusedGroup_ =
+void GroupUpdateCache::findPreviousGroupIndices(CommandStream& stream, const SurfaceVoxels& voxels,
+                                                const VoxelClusters& clusters, VoxelPatches& patches) {
+    patches.previousGroupIndex = Buffer(stream.device(), "previous groups", uintBytes(patches.groupCount));
+    reusablePreviousIndex_ =
         Buffer(stream.device(), "groups whose neighbours are reused", uintBytes(patches.groupCount));
     stream.dispatch(findPreviousGroups_, patches.groupCount,
                     {{"groups", patches.groups},
@@ -48,25 +45,25 @@ void GroupUpdateCache::findPrevious(CommandStream& stream, const SurfaceVoxels& 
                      {"previousOccupancy", occupancy_},
                      {"previousRank", rank_},
                      {"previousFirstGroup", firstGroup_},
-                     {"previousGroups", patches.previousGroups},
-                     {"reusedGroup", reusedGroup_},
+                     {"previousGroupIndex", patches.previousGroupIndex},
+                     {"reusablePreviousIndex", reusablePreviousIndex_},
                      {"grid", voxels.grid},
                      {"groupCount", patches.groupCount}});
 }
 
 std::vector<Binding> GroupUpdateCache::neighbourRayBindings() const {
-    return {{"reusedGroup", reusedGroup_}};
+    return {{"reusablePreviousIndex", reusablePreviousIndex_}};
 }
 
 std::vector<Binding> GroupUpdateCache::previousNeighbourBindings(const VoxelPatches& patches) const {
-    return {{"reusedGroup", reusedGroup_},
+    return {{"reusablePreviousIndex", reusablePreviousIndex_},
             {"firstNeighbour", patches.firstNeighbour},
             {"previousFirstNeighbour", firstNeighbour_},
             {"PreviousNeighboursRef", neighbours_.ref()}};
 }
 
 void GroupUpdateCache::finishUpdate() {
-    changed_ = {}, changedNeighbourhood_ = {}, reusedGroup_ = {}, firstGroup_ = {}, firstNeighbour_ = {},
+    changed_ = {}, changedNeighbourhood_ = {}, reusablePreviousIndex_ = {}, firstGroup_ = {}, firstNeighbour_ = {},
     neighbours_ = {};
     isActive_ = false;
 }

@@ -16,7 +16,7 @@ namespace voxray {
 ///
 ///     startUpdate()                  before an update, with the previous build's groups
 ///     surfelBindings()               the previous group of each surfel (init_surfels.comp)
-///     findPrevious()                 once groups are numbered
+///     findPreviousGroupIndices()     once groups are numbered
 ///     neighbourRayBindings()         groups without rays to neighbours (generate_neighbour_rays.comp)
 ///     previousNeighbourBindings()    their neighbours (remove_occluded_neighbours.comp)
 ///     finishUpdate()
@@ -30,9 +30,9 @@ class GroupUpdateCache {
                      const std::vector<Box>& changed);
     bool isActive() const { return isActive_; }
     std::vector<Binding> surfelBindings(const VoxelClusters& clusters) const;
-    /// Fills VoxelPatches::previousGroups.
-    void findPrevious(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
-                      VoxelPatches& patches);
+    /// Fills VoxelPatches::previousGroupIndex.
+    void findPreviousGroupIndices(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
+                                  VoxelPatches& patches);
     std::vector<Binding> neighbourRayBindings() const;
     std::vector<Binding> previousNeighbourBindings(const VoxelPatches& patches) const;
     /// Frees what startUpdate() moved. The stream must have finished.
@@ -48,7 +48,7 @@ class GroupUpdateCache {
     Buffer occupancy_, rank_;                ///< From the previous build.
     LargeBuffer storedGroups_;               ///< gpu::StoredGroup of each surfel id.
     Buffer changed_, changedNeighbourhood_;  ///< During an update: a bit for each voxel.
-    Buffer reusedGroup_;                     ///< Per group, see find_previous_groups.comp.
+    Buffer reusablePreviousIndex_;           ///< Per group, see find_previous_groups.comp.
     Buffer firstGroup_, firstNeighbour_;     ///< From the previous build.
     LargeBuffer neighbours_;                 ///< Likewise.
     bool isActive_ = false;

@@ -1,4 +1,5 @@
-// Writes the surfels of a chunk, sorted by voxel, without a group. UPDATE: those of unchanged voxels keep their group.
+// Writes the surfels of a chunk, sorted by voxel, without a group. UPDATE: those of unchanged voxels get their
+// previous one.
 #include "passes/clusters/grouped_surfels.glsl"
 #include "passes/clusters/find_patches/stored_group.h"
 #include "shaders/compute/large_buffer.glsl"

@@ -4,7 +4,7 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer Lists { uvec2 data[]; } lists;  // First and end surfel of each voxel.
+readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;  // First and end surfel of each voxel.
 readonly buffer FirstGroup { uint data[]; } firstGroup;
 layout(scalar) readonly buffer SurfelIndexRef { LargeUints surfelIndex; };
 layout(scalar) writeonly buffer Groups { SurfaceGroup data[]; } groups;
@@ -13,8 +13,8 @@ layout(push_constant) uniform Push { uint voxels; } push;
 void main() {
     const uint voxel = linearIndex();
     if (voxel >= push.voxels) return;
-    const uint end = lists.data[voxel].y;
-    uint i = lists.data[voxel].x;
+    const uint end = surfelRanges.data[voxel].y;
+    uint i = surfelRanges.data[voxel].x;
     for (uint group = firstGroup.data[voxel]; group < firstGroup.data[voxel + 1u]; ++group) {
         const uint first = i, groupInVoxel = groupedSurfels.data[i].group;
         for (; i < end && groupedSurfels.data[i].group == groupInVoxel; ++i) {

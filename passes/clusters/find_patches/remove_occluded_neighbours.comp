@@ -8,9 +8,9 @@ layout(local_size_x = 64) in;
 readonly buffer Occluded { uint data[]; } occluded;
 layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
 #ifdef UPDATE
-layout(scalar) readonly buffer NeighbourOfRef { LargeUints neighbourOf; };
+layout(scalar) readonly buffer GroupOfEntryRef { LargeUints groupOfEntry; };
 readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
-readonly buffer ReusedGroup { uint data[]; } reusedGroup;
+readonly buffer ReusablePreviousIndex { uint data[]; } reusablePreviousIndex;
 readonly buffer PreviousFirstNeighbour { uint data[]; } previousFirstNeighbour;
 layout(scalar) readonly buffer PreviousNeighboursRef { LargeUints previousNeighbours; };
 #endif
@@ -21,7 +21,7 @@ layout(push_constant) uniform Push {
 
 bool isOccluded(uint i) {
 #ifdef UPDATE
-    const uint group = neighbourOf.data[push.first + i], previous = reusedGroup.data[group];
+    const uint group = groupOfEntry.data[push.first + i], previous = reusablePreviousIndex.data[group];
     if (previous != NO_GROUP) {
         const uint indexInList = push.first + i - firstNeighbour.data[group];
         return previousNeighbours.data[previousFirstNeighbour.data[previous] + indexInList] == NO_GROUP;

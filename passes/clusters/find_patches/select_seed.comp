@@ -3,7 +3,7 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer Lists { uvec2 data[]; } lists;  // First and end surfel of each voxel.
+readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;  // First and end surfel of each voxel.
 writeonly buffer Seeds { uint data[]; } seeds;  // Surfel of each voxel.
 buffer Remaining { uint count; } remaining;     // Number of voxels with a new seed.
 layout(push_constant) uniform Push {
@@ -15,7 +15,7 @@ layout(push_constant) uniform Push {
 void main() {
     const uint voxel = linearIndex();
     if (voxel >= push.voxels) return;
-    for (uint i = lists.data[voxel].x; i < lists.data[voxel].y; ++i) {
+    for (uint i = surfelRanges.data[voxel].x; i < surfelRanges.data[voxel].y; ++i) {
         const GroupedSurfel s = groupedSurfels.data[i];
         if (s.group != NO_GROUP || s.isOccluded != push.groupsOccluded) continue;
         groupedSurfels.data[i].group = push.round;

@@ -3,7 +3,7 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer Lists { uvec2 data[]; } lists;    // First and end surfel of each voxel.
+readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;    // First and end surfel of each voxel.
 writeonly buffer Counts { uint data[]; } counts;  // Per voxel, then 0 for the prefix sum.
 layout(push_constant) uniform Push { uint voxels; } push;
 
@@ -12,7 +12,7 @@ void main() {
     if (voxel > push.voxels) return;
     uint groups = 0u;
     if (voxel < push.voxels) {
-        const uint first = lists.data[voxel].x, end = lists.data[voxel].y;
+        const uint first = surfelRanges.data[voxel].x, end = surfelRanges.data[voxel].y;
         // Insertion sort is stable: within a group surfels stay sorted by id
         for (uint i = first; i < end; ++i) {
             const GroupedSurfel s = groupedSurfels.data[i];

@@ -24,12 +24,12 @@ SurfelGrouping::SurfelGrouping(ProgramOwner& owner)
       generateVisibilityRays_(owner, "generate_visibility_rays.comp"),
       joinGroup_(owner, "join_group.comp") {}
 
-void SurfelGrouping::run(PassContext& context, const RayBatch& batch, const SurfaceVoxels& voxels,
-                         bool hasOccluded, const SurfelsByVoxel& lists, const VoxelPatches& patches) const {
-    groupByVisibility(context, batch, voxels.voxelCount, lists, patches, false);
+void SurfelGrouping::run(PassContext& context, const RayBatch& batch, const SurfaceVoxels& voxels, bool hasOccluded,
+                         const SurfelsByVoxel& surfelsByVoxel, const VoxelPatches& patches) const {
+    groupByVisibility(context, batch, voxels.voxelCount, surfelsByVoxel, patches, false);
     if (!hasOccluded) return;
     measureGaps(context, batch, voxels.grid.voxelSize, patches);
-    groupByVisibility(context, batch, voxels.voxelCount, lists, patches, true);
+    groupByVisibility(context, batch, voxels.voxelCount, surfelsByVoxel, patches, true);
 }
 
 void SurfelGrouping::measureGaps(PassContext& context, const RayBatch& batch, float voxelSize,
@@ -42,16 +42,14 @@ void SurfelGrouping::measureGaps(PassContext& context, const RayBatch& batch, fl
                           {"count", count},
                           {"voxelSize", voxelSize}});
         context.tracer.closestHit(context.stream, batch.rays, batch.hits, count);
-        context.dispatch(measureGapHeight_, count,
-                         {{"hits", batch.hits},
-                          {"GroupedSurfelsRef", patches.surfels.ref()},
-                          {"first", first},
-                          {"count", count}});
+        context.dispatch(
+            measureGapHeight_, count,
+            {{"hits", batch.hits}, {"GroupedSurfelsRef", patches.surfels.ref()}, {"first", first}, {"count", count}});
     });
 }
 
 void SurfelGrouping::groupByVisibility(PassContext& context, const RayBatch& batch, uint32_t voxels,
-                                       const SurfelsByVoxel& lists, const VoxelPatches& patches,
+                                       const SurfelsByVoxel& surfelsByVoxel, const VoxelPatches& patches,
                                        bool occluded) const {
     CommandStream& stream = context.stream;
     const Buffer seeds(context.device, "seeds of surface groups", uintBytes(voxels));
@@ -60,7 +58,7 @@ void SurfelGrouping::groupByVisibility(PassContext& context, const RayBatch& bat
         const uint32_t round = (occluded ? kMaxGroupsPerVoxel : 0) + i;
         stream.fill(remaining, 0);
         context.dispatch(selectSeed_, voxels,
-                         {{"lists", lists.lists},
+                         {{"surfelRanges", surfelsByVoxel.ranges},
                           {"seeds", seeds},
                           {"remaining", remaining},
                           {"GroupedSurfelsRef", patches.surfels.ref()},

@@ -33,16 +33,15 @@ class SurfelGrouping {
     explicit SurfelGrouping(ProgramOwner& owner);
 
     /// Groups the surfels of `patches` that have no group yet: first unoccluded ones, then occluded ones.
-    /// @param hasOccluded whether there are occluded surfels. @param lists the surfels of each voxel.
+    /// @param hasOccluded whether there are occluded surfels. @param surfelsByVoxel the surfels of each voxel.
     void run(PassContext& context, const RayBatch& batch, const SurfaceVoxels& voxels, bool hasOccluded,
-             const SurfelsByVoxel& lists, const VoxelPatches& patches) const;
+             const SurfelsByVoxel& surfelsByVoxel, const VoxelPatches& patches) const;
 
  private:
-    void measureGaps(PassContext& context, const RayBatch& batch, float voxelSize,
-                     const VoxelPatches& patches) const;
+    void measureGaps(PassContext& context, const RayBatch& batch, float voxelSize, const VoxelPatches& patches) const;
     /// Groups only occluded or only unoccluded surfels.
     void groupByVisibility(PassContext& context, const RayBatch& batch, uint32_t voxels,
-                           const SurfelsByVoxel& lists, const VoxelPatches& patches, bool occluded) const;
+                           const SurfelsByVoxel& surfelsByVoxel, const VoxelPatches& patches, bool occluded) const;
 
     Kernel generateGapRays_, measureGapHeight_, selectSeed_, generateVisibilityRays_, joinGroup_;
 };

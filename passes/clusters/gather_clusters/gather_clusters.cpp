@@ -24,12 +24,11 @@ class GatherClusters final : public Pass {
  public:
     static constexpr const char* kName = "gather_clusters";
     static constexpr const char* kHelp =
-        "Gathers each patch's irradiance from the voxel clusters that it sees. "
-        "It sums the light of inject_clusters over the lists of cluster_visibility "
-        "and filters it over neighbours that see each other. The result is irradiance of voxels, "
-        "with the direct light of inject_clusters, for gather_irradiance or gather_rays. "
-        "Biased by: voxel and cluster size, the filter (light leaks round edges). "
-        "Noisy by: the lists' rays. Source: Cosin and Patow 2022, section 4.4.";
+        "Gathers each patch's irradiance from the voxel clusters that it sees. It sums the light "
+        "of inject_clusters over the lists of cluster_visibility and filters it over neighbours that see each other. "
+        "The result is irradiance of voxels, with the direct light of inject_clusters, "
+        "for gather_irradiance or gather_rays. Biased by: voxel and cluster size, "
+        "the filter (light leaks round edges). Noisy by: the lists' rays. Source: Cosin and Patow 2022, section 4.4.";
     struct Params {
         GatherUpdate update = GatherUpdate::All;
         uint32_t reach = 4;
@@ -39,26 +38,25 @@ class GatherClusters final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("update", &Params::update,
-                      "Voxels whose light is gathered. all: every voxel, "
-                      "whenever light or voxels have changed. seen: voxels around what the camera sees, "
+                      "Voxels whose light is gathered. all: every voxel, whenever light or voxels have changed. "
+                      "seen: voxels around what the camera sees, "
                       "once when they come into view and again when light or voxels change; "
                       "for gather_irradiance, which reads no others. "
                       "seen_points: likewise, but voxels of which the camera sees one of 12 points, "
                       "2 voxels from their centers (the paper's test); lookups exclude other voxels."),
                 field("reach", &Params::reach,
-                      "Distance in voxels along each axis of voxels that count "
-                      "as around what the camera sees. It must cover the lookup that follows: "
-                      "4 times gather_irradiance's 'radius' where there are few surfaces, "
-                      "and one more with 'lookup: seven_tap'. A lookup that reads farther is refused.",
+                      "Distance in voxels along each axis of voxels that count as around what the camera sees. "
+                      "It must cover the lookup that follows: "
+                      "4 times gather_irradiance's 'radius' where there are few surfaces, and one more with 'lookup: "
+                      "seven_tap'. A lookup that reads farther is refused.",
                       1u, 64u)
                     .onlyWith(oneOf(&Params::update, {GatherUpdate::Seen})),
                 field("filter_passes", &Params::filterPasses,
-                      "How often patches are averaged with those at the same faces "
-                      "of neighbouring surface groups. The paper: 2, of size 5.",
+                      "How often patches are averaged with those at the same faces of neighbouring surface groups. "
+                      "The paper: 2, of size 5.",
                       0u, 8u),
                 field("filter_size", &Params::filterSize,
-                      "Voxels along each edge of the filter's cube, "
-                      "with binomial weights (about a Gaussian). "
+                      "Voxels along each edge of the filter's cube, with binomial weights (about a Gaussian). "
                       "Occluded neighbours and faces without surfaces are excluded.",
                       std::vector{3u, 5u})
                     .onlyWith(noneOf(&Params::filterPasses, {0u})),

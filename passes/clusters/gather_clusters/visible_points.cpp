@@ -5,8 +5,7 @@
 namespace voxray {
 
 VisiblePoints::VisiblePoints(ProgramOwner& owner)
-    : generateRays_(owner, "generate_visibility_rays.comp"),
-      markVoxels_(owner, "mark_voxels_by_points.comp") {}
+    : generateRays_(owner, "generate_visibility_rays.comp"), markVoxels_(owner, "mark_voxels_by_points.comp") {}
 
 void VisiblePoints::mark(PassContext& context, const SurfaceVoxels& voxels, const Buffer& coordinates,
                          const Buffer& requested, const Buffer& newVoxels, const Buffer& count) const {
@@ -19,15 +18,12 @@ void VisiblePoints::mark(PassContext& context, const SurfaceVoxels& voxels, cons
             {"forward", camera.forward},      {"right", camera.right},  {"up", camera.up}};
     };
     const auto generate = [&](const VoxelPointRays::Batch& batch) {
-        context.dispatch(generateRays_, batch.voxels * kPoints,
-                         {batchBindings(batch), {"coordinates", coordinates}});
+        context.dispatch(generateRays_, batch.voxels * kPoints, {batchBindings(batch), {"coordinates", coordinates}});
     };
     const auto mark = [&](const VoxelPointRays::Batch& batch) {
-        context.dispatch(markVoxels_, batch.voxels,
-                         {batchBindings(batch),
-                          {"occluded", rays_.occluded()},
-                          {"newVoxels", newVoxels},
-                          {"count", count}});
+        context.dispatch(
+            markVoxels_, batch.voxels,
+            {batchBindings(batch), {"occluded", rays_.occluded()}, {"newVoxels", newVoxels}, {"count", count}});
     };
     rays_.trace(context, voxels.voxelCount, generate, mark);
 }

@@ -14,8 +14,8 @@ class VisiblePoints {
     void plan(PassPlan& plan) { rays_.plan(plan); }
     /// @param coordinates of voxels. @param requested of voxels: 0 if it was not visible before; becomes 1.
     /// @param newVoxels new ones are appended in any order. @param count its size.
-    void mark(PassContext& context, const SurfaceVoxels& voxels, const Buffer& coordinates,
-              const Buffer& requested, const Buffer& newVoxels, const Buffer& count) const;
+    void mark(PassContext& context, const SurfaceVoxels& voxels, const Buffer& coordinates, const Buffer& requested,
+              const Buffer& newVoxels, const Buffer& count) const;
 
  private:
     static constexpr uint32_t kPoints = 12;  ///< As in visible_points.glsl.

@@ -41,9 +41,8 @@ void VisibleVoxels::markLookups(PassContext& context, const GBuffer& gbuffer, co
                       {"reach", int32_t(reach)}});
 }
 
-VisibleVoxels::NewVoxels VisibleVoxels::find(PassContext& context, const GBuffer* gbuffer,
-                                             const SurfaceVoxels& voxels, const VoxelClusters& clusters,
-                                             const VoxelPatches& patches, uint32_t reach,
+VisibleVoxels::NewVoxels VisibleVoxels::find(PassContext& context, const GBuffer* gbuffer, const SurfaceVoxels& voxels,
+                                             const VoxelClusters& clusters, const VoxelPatches& patches, uint32_t reach,
                                              uint32_t steps) const {
     CommandStream& stream = context.stream;
     NewVoxels found;

@@ -16,8 +16,7 @@ namespace voxray {
 enum class GatherUpdate { All, Seen, SeenPoints };
 template <>
 struct EnumNames<GatherUpdate> {
-    static constexpr std::array names{std::pair{GatherUpdate::All, "all"},
-                                      std::pair{GatherUpdate::Seen, "seen"},
+    static constexpr std::array names{std::pair{GatherUpdate::All, "all"}, std::pair{GatherUpdate::Seen, "seen"},
                                       std::pair{GatherUpdate::SeenPoints, "seen_points"}};
 };
 
@@ -39,16 +38,14 @@ class VisibleVoxels {
     /// @param gbuffer visible surfaces. @param reach distance in voxels along each axis that lookups around
     /// them read; both are unused with SeenPoints. @param steps of dilation. Waits for the device.
     NewVoxels find(PassContext& context, const GBuffer* gbuffer, const SurfaceVoxels& voxels,
-                   const VoxelClusters& clusters, const VoxelPatches& patches, uint32_t reach,
-                   uint32_t steps) const;
+                   const VoxelClusters& clusters, const VoxelPatches& patches, uint32_t reach, uint32_t steps) const;
 
     /// Result of the last find(): new voxels, and their unoccluded groups with neighbours.
     const Buffer& voxels() const { return newVoxels_; }
     const Buffer& groups() const { return listedGroups_; }
 
  private:
-    void markLookups(PassContext& context, const GBuffer& gbuffer, const SurfaceVoxels& voxels,
-                     uint32_t reach) const;
+    void markLookups(PassContext& context, const GBuffer& gbuffer, const SurfaceVoxels& voxels, uint32_t reach) const;
 
     std::optional<VisiblePoints> points_;  ///< For GatherUpdate::SeenPoints.
     Kernel markVoxels_, listGroups_, dilate_;

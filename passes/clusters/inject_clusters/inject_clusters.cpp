@@ -36,8 +36,7 @@ struct EnumNames<ClusterDirect> {
 enum class LitTest { Surfels, Points };
 template <>
 struct EnumNames<LitTest> {
-    static constexpr std::array names{std::pair{LitTest::Surfels, "surfels"},
-                                      std::pair{LitTest::Points, "points"}};
+    static constexpr std::array names{std::pair{LitTest::Surfels, "surfels"}, std::pair{LitTest::Points, "points"}};
 };
 
 /// Computes the radiosity of patches and cluster components from direct or injected light, with bounces along
@@ -50,9 +49,8 @@ class InjectClusters final : public Pass {
         "Any injection may have left the voxels' light. "
         "The mean is sent by each component of a cluster (find_patches) from its six faces. "
         "Further bounces follow the visibility lists of cluster_visibility. "
-        "Biased by: the size of clusters, over which light is averaged; "
-        "injected light also by that of voxels, which may contain both sides of a wall. "
-        "Noisy by: bounce_patches. Source: Cosin and Patow 2022, section 4.4.";
+        "Biased by: the size of clusters, over which light is averaged; injected light also by that of voxels, "
+        "which may contain both sides of a wall. Noisy by: bounce_patches. Source: Cosin and Patow 2022, section 4.4.";
     struct Params {
         uint32_t bounces = 0;
         uint32_t bouncePatches = 0;
@@ -62,28 +60,25 @@ class InjectClusters final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("bounces", &Params::bounces,
-                      "Bounces between clusters, "
-                      "after those of the injection and before the one of gather_clusters.",
+                      "Bounces between clusters, after those of the injection and before the one of gather_clusters.",
                       0u, 64u),
                 field("bounce_patches", &Params::bouncePatches,
-                      "Number of patches of each component face that are sampled by area, "
-                      "anew in each bounce. 0: every patch has its own bounce.",
+                      "Number of patches of each component face that are sampled by area, anew in each bounce. "
+                      "0: every patch has its own bounce.",
                       0u, 64u)
                     .lessNoise()
                     .onlyWith(noneOf(&Params::bounces, {0u})),
                 field("direct", &Params::direct,
                       "Source of direct light. injected: what an injection left in the voxels. "
-                      "shadow_rays: "
-                      "rays from the surfels (place_surfels) to the lights, without an injection."),
+                      "shadow_rays: rays from the surfels (place_surfels) to the lights, without an injection."),
                 field("lit_test", &Params::litTest,
-                      "Shadow test. surfels: a shadow ray from each surfel. "
-                      "points: all surfels of a voxel are lit if a light sees one of 18 points 1.5 voxels "
-                      "from its center and no surface in the adjacent voxel towards the light faces away "
-                      "from it (the paper's); for punctual lights.")
+                      "Shadow test. surfels: a shadow ray from each surfel. points: "
+                      "all surfels of a voxel are lit if a light sees one of 18 points 1.5 voxels from its center "
+                      "and no surface in the adjacent voxel towards the light faces away from it (the paper's); "
+                      "for punctual lights.")
                     .onlyWith(oneOf(&Params::direct, {ClusterDirect::ShadowRays})),
                 field("light_samples", &Params::lightSamples,
-                      "Shadow rays from each surfel to the emissive surfaces, and to the environment.", 1u,
-                      256u)
+                      "Shadow rays from each surfel to the emissive surfaces, and to the environment.", 1u, 256u)
                     .onlyWith(oneOf(&Params::direct, {ClusterDirect::ShadowRays}))};
         }
     };
@@ -115,18 +110,15 @@ class InjectClusters final : public Pass {
     void bouncePatches(PassContext& context, ClusterLight& light);
     void bounceComponents(PassContext& context, ClusterLight& light);
     /// Computes areas of component faces and lists those with area. @return their number.
-    uint32_t listSendingFaces(PassContext& context, const Buffer& componentFaces,
-                              const Buffer& sendingFaces) const;
+    uint32_t listSendingFaces(PassContext& context, const Buffer& componentFaces, const Buffer& sendingFaces) const;
     /// Computes radiosity of patches after bounces between component faces.
     void scatter(PassContext& context, const ClusterLight& light, const Buffer& bouncedRadiosity) const;
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
-    In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at voxels' surfaces",
-                                    isInjected()};
+    In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at voxels' surfaces", isInjected()};
     In<Surfels> surfels_{*this, "surfels", "points where irradiance is measured", !isInjected()};
-    In<VoxelClusters> clusters_{*this, "clusters", "coordinates of voxels",
-                                params_.litTest == LitTest::Points};
+    In<VoxelClusters> clusters_{*this, "clusters", "coordinates of voxels", params_.litTest == LitTest::Points};
     In<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels"};
     In<ClusterVisibility> visibility_{*this, "cluster_visibility", "visibility lists of patches"};
     Out<ClusterLight> light_{*this, "cluster_light", "radiosity of cluster components and patches"};
@@ -266,8 +258,7 @@ void InjectClusters::bounceComponents(PassContext& context, ClusterLight& light)
     stream.finish();
 }
 
-void InjectClusters::scatter(PassContext& context, const ClusterLight& light,
-                             const Buffer& bouncedRadiosity) const {
+void InjectClusters::scatter(PassContext& context, const ClusterLight& light, const Buffer& bouncedRadiosity) const {
     const VoxelPatches& patches = context[patches_];
     context.dispatch(scatterRadiosity_, patches.componentCount,
                      {patches.componentBindings(),
@@ -300,8 +291,7 @@ void InjectClusters::measure(PassContext& context, const ClusterLight& light) {
                                        std::max(patches.surfelCount, 1u) * sizeof(glm::vec3));
     if (testsPoints()) {
         stream.fill(surfelIrradiance, 0);
-        litPoints_->measure(context, sources_, context[voxels_], context[clusters_], patches,
-                            surfelIrradiance);
+        litPoints_->measure(context, sources_, context[voxels_], context[clusters_], patches, surfelIrradiance);
     } else {
         traceSurfels(context, surfelIrradiance);
     }
@@ -335,15 +325,14 @@ void InjectClusters::traceSurfels(PassContext& context, const LargeBuffer& surfe
 void InjectClusters::reflect(PassContext& context, bool hasBounced) {
     const VoxelPatches& patches = context[patches_];
     const ClusterLight& light = context[light_];
-    context.dispatch(
-        reflectPatches_, patches.groupCount,
-        {{"VoxelMaterialsRef", patches.materials.ref()},
-         {"groups", patches.groups},
-         {"InitialIrradianceRef", initialIrradiance_.ref()},
-         {"BouncedIrradianceRef", hasBounced ? bouncedIrradiance_.ref() : initialIrradiance_.ref()},
-         {"RadiosityRef", light.patches.ref()},
-         {"groupCount", patches.groupCount},
-         {"hasBounced", hasBounced}});
+    context.dispatch(reflectPatches_, patches.groupCount,
+                     {{"VoxelMaterialsRef", patches.materials.ref()},
+                      {"groups", patches.groups},
+                      {"InitialIrradianceRef", initialIrradiance_.ref()},
+                      {"BouncedIrradianceRef", hasBounced ? bouncedIrradiance_.ref() : initialIrradiance_.ref()},
+                      {"RadiosityRef", light.patches.ref()},
+                      {"groupCount", patches.groupCount},
+                      {"hasBounced", hasBounced}});
     context.dispatch(averageComponents_, patches.componentCount,
                      {patches.componentBindings(),
                       {"RadiosityRef", light.patches.ref()},

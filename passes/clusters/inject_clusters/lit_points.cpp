@@ -5,9 +5,9 @@ namespace voxray {
 LitPoints::LitPoints(ProgramOwner& owner)
     : generateRays_(owner, "generate_shadow_rays.comp"), addLight_(owner, "add_punctual_light.comp") {}
 
-void LitPoints::measure(PassContext& context, const std::vector<LightSource>& sources,
-                        const SurfaceVoxels& voxels, const VoxelClusters& clusters,
-                        const VoxelPatches& patches, const LargeBuffer& surfelIrradiance) const {
+void LitPoints::measure(PassContext& context, const std::vector<LightSource>& sources, const SurfaceVoxels& voxels,
+                        const VoxelClusters& clusters, const VoxelPatches& patches,
+                        const LargeBuffer& surfelIrradiance) const {
     for (const LightSource& source : sources) {
         const auto batchBindings = [&](const VoxelPointRays::Batch& batch) {
             return Bindings{context.scene,

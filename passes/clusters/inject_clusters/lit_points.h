@@ -18,8 +18,7 @@ class LitPoints {
     void plan(PassPlan& plan) { rays_.plan(plan); }
     /// Adds irradiance, W/m², to that of VoxelPatches::surfels, 3 floats each. @param sources punctual.
     void measure(PassContext& context, const std::vector<LightSource>& sources, const SurfaceVoxels& voxels,
-                 const VoxelClusters& clusters, const VoxelPatches& patches,
-                 const LargeBuffer& surfelIrradiance) const;
+                 const VoxelClusters& clusters, const VoxelPatches& patches, const LargeBuffer& surfelIrradiance) const;
 
  private:
     static constexpr uint32_t kPoints = 18;  ///< As in lit_points.glsl.

@@ -8,7 +8,7 @@ namespace voxray {
 class Compaction {
  public:
     explicit Compaction(ProgramOwner& owner)
-        : prefixSum_(owner, PrefixSum::Of::SetBits), list_(owner, "compaction.comp") {}
+        : prefixSum_(owner, PrefixSum::Input::SetBits), list_(owner, "compaction.comp") {}
 
     /// Writes the indices of the flagged items, in ascending order.
     /// @param flags a bit per item: that of item i is bit i % 32 of word i / 32; bits beyond the last item
@@ -17,8 +17,7 @@ class Compaction {
     uint32_t run(CommandStream& stream, const Buffer& flags, const Buffer& indices, uint32_t words) const {
         const Buffer before(stream.device(), "flagged items before", uint64_t(words) * sizeof(uint32_t));
         const uint32_t count = prefixSum_.run(stream, flags, before, words);
-        stream.dispatch(list_, words,
-                        {{"flags", flags}, {"before", before}, {"indices", indices}, {"words", words}});
+        stream.dispatch(list_, words, {{"flags", flags}, {"before", before}, {"indices", indices}, {"words", words}});
         stream.finish();
         return count;
     }

@@ -14,8 +14,7 @@ class LargeBuffer : public Buffer {
     LargeBuffer() = default;
     /// As Buffer.
     LargeBuffer(Device& device, const std::string& name, uint64_t bytes)
-        : Buffer(device, name, bytes),
-          ref_(device, name + "'s address", sizeof(uint64_t), MemoryKind::Upload) {
+        : Buffer(device, name, bytes), ref_(device, name + "'s address", sizeof(uint64_t), MemoryKind::Upload) {
         ref_.mappedAs<uint64_t>()[0] = address();
     }
 

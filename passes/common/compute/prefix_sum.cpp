@@ -11,23 +11,23 @@ uint32_t scanBlocksOf(uint32_t count) {
     return count / kBlockValues + (count % kBlockValues > 0 ? 1 : 0);
 }
 
-Defines stage(const char* name, PrefixSum::Of of) {
-    return of == PrefixSum::Of::SetBits ? Defines{{name, "1"}, {"SET_BITS", "1"}} : Defines{{name, "1"}};
+Defines stage(const char* name, PrefixSum::Input input) {
+    return input == PrefixSum::Input::SetBits ? Defines{{name, "1"}, {"SET_BITS", "1"}} : Defines{{name, "1"}};
 }
 
 }  // namespace
 
-PrefixSum::PrefixSum(ProgramOwner& owner, Of of)
-    : sumBlocks_(owner, "prefix_sum.comp", stage("SUM_BLOCKS", of)),
-      scanBlocks_(owner, "prefix_sum.comp", stage("SCAN_BLOCKS", of)),
-      scanValues_(owner, "prefix_sum.comp", stage("SCAN_VALUES", of)) {}
+PrefixSum::PrefixSum(ProgramOwner& owner, Input input)
+    : sumBlocks_(owner, "prefix_sum.comp", stage("SUM_BLOCKS", input)),
+      scanBlocks_(owner, "prefix_sum.comp", stage("SCAN_BLOCKS", input)),
+      scanValues_(owner, "prefix_sum.comp", stage("SCAN_VALUES", input)) {}
 
 uint64_t PrefixSum::scratchBytes(uint32_t count) {
     return (uint64_t(scanBlocksOf(count)) + 1) * sizeof(uint32_t);
 }
 
-void PrefixSum::record(CommandStream& stream, const Buffer& source, const Buffer& before,
-                       const Buffer& blockSums, uint32_t count) const {
+void PrefixSum::record(CommandStream& stream, const Buffer& source, const Buffer& before, const Buffer& blockSums,
+                       uint32_t count) const {
     const uint32_t blocks = scanBlocksOf(count);
     const Bindings bindings{ifUsed({"source", source}),
                             ifUsed({"result", before}),
@@ -40,8 +40,7 @@ void PrefixSum::record(CommandStream& stream, const Buffer& source, const Buffer
     stream.dispatch(scanValues_, threads, bindings);
 }
 
-uint32_t PrefixSum::run(CommandStream& stream, const Buffer& source, const Buffer& before,
-                        uint32_t count) const {
+uint32_t PrefixSum::run(CommandStream& stream, const Buffer& source, const Buffer& before, uint32_t count) const {
     const Buffer sums(stream.device(), "prefix sum blocks", scratchBytes(count));
     record(stream, source, before, sums, count);
     uint32_t sum = 0;

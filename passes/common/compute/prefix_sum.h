@@ -8,8 +8,9 @@ namespace voxray {
 /// Exclusive prefix sum on the device, of uints or of the numbers of bits set in them.
 class PrefixSum {
  public:
-    enum class Of { Values, SetBits };
-    PrefixSum(ProgramOwner& owner, Of of);
+    /// What is summed: the source's uints, or the number of bits set in each.
+    enum class Input { Uints, SetBits };
+    PrefixSum(ProgramOwner& owner, Input input);
 
     /// Writes to before[i] the sum over source[0 .. i). Both buffers hold `count` uints and may be the same.
     /// The sum of all must be below 2^32. @return the sum of all; waits for the device.

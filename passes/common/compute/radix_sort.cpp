@@ -18,17 +18,15 @@ uint32_t sortBlocksOf(uint32_t count) {
 }  // namespace
 
 RadixSort::RadixSort(ProgramOwner& owner)
-    : prefixSum_(owner, PrefixSum::Of::Values),
+    : prefixSum_(owner, PrefixSum::Input::Uints),
       count_(owner, "radix_sort.comp", {{"COUNT_DIGITS", "1"}}),
       scatter_(owner, "radix_sort.comp", {{"SCATTER", "1"}}) {}
 
-void RadixSort::record(CommandStream& stream, Buffer& keys, Buffer& values, uint32_t count,
-                       uint32_t keyBits) {
+void RadixSort::record(CommandStream& stream, Buffer& keys, Buffer& values, uint32_t count, uint32_t keyBits) {
     if (count == 0) return;
     const uint32_t blocks = sortBlocksOf(count), counts = blocks * kDigits;
     if (blocks > kMaxBlocks)
-        throw Error("a radix sort takes at most {} pairs; these are {}", uint64_t(kMaxBlocks) * kBlockPairs,
-                    count);
+        throw Error("a radix sort takes at most {} pairs; these are {}", uint64_t(kMaxBlocks) * kBlockPairs, count);
     Device& device = stream.device();
     ensureSize(sortedKeys_, device, "radix sort keys", keys.bytes());
     ensureSize(sortedValues_, device, "radix sort values", values.bytes());

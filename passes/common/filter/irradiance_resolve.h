@@ -11,10 +11,8 @@ class IrradianceResolve {
 
     /// Writes albedo / π times irradiance, averaged over each pixel's texels, W/(m² sr).
     /// @param irradiance RGBA32F of the G-buffer's extent, W/m². @param result a frame image.
-    void record(PassContext& context, const GBuffer& gbuffer, const Image& irradiance,
-                const Image& result) const {
-        context.dispatch(program_, context.frame.pixels(),
-                         {gbuffer, {"irradiance", irradiance}, {"result", result}});
+    void record(PassContext& context, const GBuffer& gbuffer, const Image& irradiance, const Image& result) const {
+        context.dispatch(program_, context.frame.pixels(), {gbuffer, {"irradiance", irradiance}, {"result", result}});
     }
 
  private:

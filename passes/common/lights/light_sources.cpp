@@ -20,8 +20,7 @@ float largest(glm::vec3 v) {
 }  // namespace
 
 float triangleArea(const Geometry& g, glm::uvec3 t) {
-    return 0.5f *
-           glm::length(glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x]));
+    return 0.5f * glm::length(glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x]));
 }
 
 std::vector<LightSource> lightSources(const SceneState& state) {
@@ -34,18 +33,16 @@ std::vector<LightSource> lightSources(const SceneState& state) {
     const float disc = kPi * radius * radius;
     for (uint32_t i = 0; i < state.lights.size(); ++i) {
         const Light& light = state.lights[i];
-        const float solidAngleOrArea = light.type == LightType::Point ? 4 * kPi
-                                       : light.type == LightType::Spot
-                                           ? 2 * kPi * (1 - std::cos(light.outerConeAngle))
-                                           : disc;
+        const float solidAngleOrArea = light.type == LightType::Point  ? 4 * kPi
+                                       : light.type == LightType::Spot ? 2 * kPi * (1 - std::cos(light.outerConeAngle))
+                                                                       : disc;
         add(LightSource::Punctual, i, largest(light.intensity) * solidAngleOrArea);
     }
     float emitted = 0;
     for (size_t t = 0; t < g.triangles.size(); ++t) {
         const float emission = largest(meanEmission(state, uint32_t(t)));
         const bool doubleSided = state.scene->materials[g.triangleMaterials[t]].doubleSided;
-        if (emission > 0)
-            emitted += emission * triangleArea(g, g.triangles[t]) * kPi * (doubleSided ? 2.0f : 1.0f);
+        if (emission > 0) emitted += emission * triangleArea(g, g.triangles[t]) * kPi * (doubleSided ? 2.0f : 1.0f);
     }
     add(LightSource::Emitters, 0, emitted);
     const Environment& e = state.scene->environment;
@@ -58,9 +55,8 @@ std::vector<LightSource> requireLightSources(const SceneState& state, const std:
     std::vector<LightSource> all = lightSources(state);
     if (all.empty())
         throw Error(
-            "{}: the scene has no lights, emissive surfaces or environment; "
-            "write some into 'scene', as in lights: [{{point: [0, 2, 0], intensity: "
-            "5}}], and leave 'keep_file_lights' true for its own",
+            "{}: the scene has no lights, emissive surfaces or environment; write some into 'scene', as in lights: "
+            "[{{point: [0, 2, 0], intensity: 5}}], and leave 'keep_file_lights' true for its own",
             pass);
     return all;
 }

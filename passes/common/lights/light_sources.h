@@ -9,11 +9,7 @@ namespace voxray {
 
 /// A light source: one punctual light, all emissive triangles together, or the environment.
 struct LightSource {
-    enum Kind : uint32_t {
-        Punctual = 0,
-        Emitters = 1,
-        Environment = 2
-    };  // As in shaders/lights/lights.glsl.
+    enum Kind : uint32_t { Punctual = 0, Emitters = 1, Environment = 2 };  // As in shaders/lights/lights.glsl.
     Kind kind;
     uint32_t light;  ///< Index of a punctual light.
     float power;     ///< Estimate for the brightest channel, W; an upper bound for untextured emitters.

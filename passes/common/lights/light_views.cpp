@@ -13,8 +13,8 @@ gpu::LightView makeView(glm::vec3 origin, glm::vec3 forward, float halfExtent) {
     view.origin = origin;
     view.halfExtent = halfExtent;
     view.forward = forward;
-    view.right = glm::normalize(
-        glm::cross(forward, std::abs(forward.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
+    view.right =
+        glm::normalize(glm::cross(forward, std::abs(forward.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
     view.up = glm::cross(view.right, forward);
     return view;
 }
@@ -29,16 +29,15 @@ std::vector<LightSource> requirePunctualLights(const SceneState& state, const st
             throw Error(
                 "{}: {} no single viewpoint to render a shadow map from; "
                 "use {}, or point, spot and directional lights alone{}",
-                pass, source.kind == LightSource::Emitters ? "emissive surfaces have" : "an environment has",
-                instead, source.kind == LightSource::Environment ? " with 'scene.environment: none'" : "");
+                pass, source.kind == LightSource::Emitters ? "emissive surfaces have" : "an environment has", instead,
+                source.kind == LightSource::Environment ? " with 'scene.environment: none'" : "");
     return sources;
 }
 
 std::vector<gpu::LightView> lightViews(const Light& light, const Geometry& geometry) {
     const BoundingSphere sphere = boundingSphere(geometry);
     if (light.type == LightType::Directional) {
-        gpu::LightView view =
-            makeView(sphere.center - light.direction * sphere.reach, light.direction, sphere.radius);
+        gpu::LightView view = makeView(sphere.center - light.direction * sphere.reach, light.direction, sphere.radius);
         view.farthest = 2 * sphere.reach;
         view.parallel = 1;
         return {view};

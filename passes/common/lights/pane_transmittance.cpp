@@ -15,9 +15,8 @@ void requireClearPanes(const SceneState& state, const std::string& pass) {
     const Scene& panes = *state.panes->scene;
     const Mesh& mesh = panes.meshes[panes.instances.front().mesh];
     throw Error(
-        "{}: its light takes on no colour of the scene's panes, such as '{}'; "
-        "take them out with 'scene.hide', make them opaque with 'materials: "
-        "lambert', or light by shadow rays or light rays",
+        "{}: its light takes on no colour of the scene's panes, such as '{}'; take them out with 'scene.hide', "
+        "make them opaque with 'materials: lambert', or light by shadow rays or light rays",
         pass, panes.materials[mesh.material].name);
 }
 
@@ -35,8 +34,8 @@ void PaneTransmittance::plan(PassPlan& plan, uint64_t rays) {
     plan.scratchBuffer(active_, "rays that go on to panes", sizeof(uint32_t));
 }
 
-void PaneTransmittance::apply(PassContext& context, const Buffer& rays, const Buffer& throughput,
-                              uint32_t stride, uint32_t count, const Buffer* hits) const {
+void PaneTransmittance::apply(PassContext& context, const Buffer& rays, const Buffer& throughput, uint32_t stride,
+                              uint32_t count, const Buffer* hits) const {
     RayTracer* panes = context.tracer.panes();
     if (!panes) return;
     CommandStream& stream = context.stream;

@@ -28,10 +28,10 @@ RasterState rsmState() {
 RsmImage::RsmImage(ProgramOwner& owner) : rasterize_(owner, {"light_view.vert", "rsm.frag"}, rsmState()) {}
 
 void RsmImage::plan(PassPlan& plan, uint32_t resolution) {
-    plan.image(texels_, "reflective shadow map",
-               targetDesc(resolution, kRsmFormat,
-                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
-                              VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
+    plan.image(
+        texels_, "reflective shadow map",
+        targetDesc(resolution, kRsmFormat,
+                   VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT));
     plan.image(depth_, "reflective shadow map depth",
                targetDesc(resolution, kRsmDepthFormat, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT));
 }
@@ -43,8 +43,7 @@ void RsmImage::draw(PassContext& context, const gpu::LightView& view) const {
     targets.colors = {{&texels_, nothing}};
     targets.depth = &depth_;
     targets.extent = texels_.desc().extent;
-    context.stream.draw(rasterize_, targets, context.scene.triangleCount * 3,
-                        {context.scene, {"view", view}});
+    context.stream.draw(rasterize_, targets, context.scene.triangleCount * 3, {context.scene, {"view", view}});
 }
 
 }  // namespace voxray

@@ -18,8 +18,8 @@ ImageDesc mapDesc(uint32_t resolution) {
     ImageDesc desc;
     desc.format = kShadowMapFormat;
     desc.extent = {resolution, resolution, 1};
-    desc.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    desc.usage =
+        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     return desc;
 }
 
@@ -53,8 +53,7 @@ void ShadowMap::draw(PassContext& context, const gpu::LightView& view) const {
     RasterTargets targets;
     targets.depth = &image_;
     targets.extent = image_.desc().extent;
-    context.stream.draw(rasterize_, targets, context.scene.triangleCount * 3,
-                        {context.scene, {"view", view}});
+    context.stream.draw(rasterize_, targets, context.scene.triangleCount * 3, {context.scene, {"view", view}});
 }
 
 void ShadowMaps::plan(PassPlan& plan, const std::vector<LightSource>& sources, uint32_t resolution) {
@@ -62,13 +61,12 @@ void ShadowMaps::plan(PassPlan& plan, const std::vector<LightSource>& sources, u
     const uint32_t views = viewCount(*plan.frame.scene, sources);
     if (views * texelBytes(resolution) / sizeof(float) > UINT32_MAX)
         throw Error(
-            "shadow maps of {0} views with {1}x{1} texels each can't be numbered in 32 bits; lower "
-            "'shadow_resolution'",
+            "shadow maps of {0} views with {1}x{1} texels each can't be numbered in 32 bits; "
+            "lower 'shadow_resolution'",
             views, resolution);
     map_.plan(plan, resolution);
     plan.buffer(texels_, "a shadow map's texels", texelBytes(resolution));
-    plan.buffer(lights_, "lights with shadow maps",
-                2 * sizeof(uint32_t) + sources.size() * sizeof(ShadowLight));
+    plan.buffer(lights_, "lights with shadow maps", 2 * sizeof(uint32_t) + sources.size() * sizeof(ShadowLight));
     plan.buffer(views_, "lights' views", views * sizeof(gpu::LightView));
     plan.buffer(depths_, "shadow maps", views * texelBytes(resolution));
 }

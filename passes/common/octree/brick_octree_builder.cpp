@@ -35,14 +35,14 @@ BrickOctreeBuilder::BrickOctreeBuilder(ProgramOwner& owner, bool neighbors)
       link_(owner, "brick_octree_link.comp"),
       subdivide_(owner, "brick_octree_subdivide.comp"),
       clear_(owner, "brick_octree_clear.comp"),
-      prefixSum_(owner, PrefixSum::Of::Values) {}
+      prefixSum_(owner, PrefixSum::Input::Uints) {}
 
 void BrickOctreeBuilder::build(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells,
                                uint32_t fragments) const {
     const glm::uvec3 size = octree.grid.resolution;
     if (std::max({size.x, size.y, size.z}) > kLongestAxis)
-        throw Error("an octree of bricks takes at most {} voxels along an axis; the grid has {}x{}x{}",
-                    kLongestAxis, size.x, size.y, size.z);
+        throw Error("an octree of bricks takes at most {} voxels along an axis; the grid has {}x{}x{}", kLongestAxis,
+                    size.x, size.y, size.z);
     octree.levels.assign(gridLevels(size), LevelNodes{});
     octree.levels.back().staticCount = 1;
     octree.nodeCount = octree.brickCount = 0;
@@ -68,15 +68,13 @@ void BrickOctreeBuilder::rebuildDynamic(CommandStream& stream, BrickOctree& octr
     addNodes(stream, octree, Section::Dynamic, cells, fragments);
 }
 
-void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Section section,
-                                  const LargeBuffer& cells, uint32_t fragments) const {
+void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Section section, const LargeBuffer& cells,
+                                  uint32_t fragments) const {
     const uint32_t top = uint32_t(octree.levels.size()) - 1;
     for (uint32_t level = top + 1; level-- > 0;) {
         const LevelNodes nodes = octree.levels[level];
         const uint32_t count = nodesOf(nodes), depth = top - level;
-        const auto scratch = [&](const char* name) {
-            return Buffer(stream.device(), name, count * sizeof(uint32_t));
-        };
+        const auto scratch = [&](const char* name) { return Buffer(stream.device(), name, count * sizeof(uint32_t)); };
         const Buffer visited = scratch("visited nodes"), flags = scratch("flagged nodes"),
                      before = scratch("flags before");
         stream.fill(visited, 0);
@@ -92,8 +90,7 @@ void BrickOctreeBuilder::addNodes(CommandStream& stream, BrickOctree& octree, Se
                          {"depth", depth},
                          {"fragments", fragments},
                          {"neighbors", neighbors_}});
-        stream.dispatch(link_, count,
-                        {{"OctreeNodesRef", octree.nodes.ref()}, {"nodes", nodes}, {"depth", depth}});
+        stream.dispatch(link_, count, {{"OctreeNodesRef", octree.nodes.ref()}, {"nodes", nodes}, {"depth", depth}});
         const uint32_t flagged = prefixSum_.run(stream, flags, before, count);
         const uint32_t firstChild = level == 0 ? NO_CHILDREN : octree.nodeCount;
         if (level > 0) {

@@ -16,11 +16,9 @@ class BrickOctreeBuilder {
     /// Replaces the whole octree by a static section. Waits for the device once per level.
     /// @param cells a uint for each fragment: the coordinates of its voxel, 10 bits each. Voxels may have
     /// several fragments.
-    void build(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells,
-               uint32_t fragments) const;
+    void build(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells, uint32_t fragments) const;
     /// Replaces the dynamic section. Parameters as in build().
-    void rebuildDynamic(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells,
-                        uint32_t fragments) const;
+    void rebuildDynamic(CommandStream& stream, BrickOctree& octree, const LargeBuffer& cells, uint32_t fragments) const;
 
  private:
     enum class Section { Static, Dynamic };

@@ -15,7 +15,7 @@ OctreeBuilder::OctreeBuilder(ProgramOwner& owner)
     : flag_(owner, "octree_flag.comp"),
       subdivide_(owner, "octree_subdivide.comp"),
       number_(owner, "octree_number.comp"),
-      prefixSum_(owner, PrefixSum::Of::SetBits) {}
+      prefixSum_(owner, PrefixSum::Input::SetBits) {}
 
 Octree OctreeBuilder::build(CommandStream& stream, const SurfaceVoxels& voxels) const {
     Device& device = stream.device();
@@ -58,8 +58,7 @@ Octree OctreeBuilder::build(CommandStream& stream, const SurfaceVoxels& voxels) 
     return octree;
 }
 
-std::vector<Buffer> OctreeBuilder::flag(CommandStream& stream, const SurfaceVoxels& voxels,
-                                        OctreeSize& size) const {
+std::vector<Buffer> OctreeBuilder::flag(CommandStream& stream, const SurfaceVoxels& voxels, OctreeSize& size) const {
     // Bottom-up, each level from the next finer one
     const uint32_t levels = gridLevels(size.resolution);
     const Buffer counts(stream.device(), "octree node counts", levels * sizeof(uint32_t));

@@ -30,8 +30,7 @@ class DominantAxisVoxelizer final : public RasterVoxelizer {
         Defines methodDefines = defines;
         methodDefines.emplace(samples_ > 0 ? "SAMPLED_AXIS" : "DOMINANT_AXIS", "1");
         const std::vector<std::string> files{"passes/common/triangle_voxelizer/dominant_axis.vert",
-                                             "passes/common/triangle_voxelizer/dominant_axis.geom",
-                                             shader + ".frag"};
+                                             "passes/common/triangle_voxelizer/dominant_axis.geom", shader + ".frag"};
         return std::make_unique<RasterPipeline>(owner, files, RasterState{}, methodDefines);
     }
 

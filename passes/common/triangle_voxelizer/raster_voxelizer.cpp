@@ -15,8 +15,7 @@ void RasterVoxelizer::select(PassContext& context, const gpu::VoxelGrid&, const 
     if (!triangles.empty()) context.stream.upload(drawn_, triangles);
 }
 
-std::vector<Binding> RasterVoxelizer::allBindings(const PassContext& context,
-                                                  std::span<const Binding> callback) const {
+std::vector<Binding> RasterVoxelizer::allBindings(const PassContext& context, std::span<const Binding> callback) const {
     std::vector<Binding> bindings = context.scene.bindings();
     bindings.emplace_back("drawnTriangles", drawn_);
     bindings.insert(bindings.end(), callback.begin(), callback.end());

@@ -11,8 +11,7 @@ class ThreeAxisVoxelizer final : public RasterVoxelizer {
 
     std::unique_ptr<PassProgram> makeProgram(ProgramOwner& owner, const std::string& shader,
                                              const Defines& defines) const override {
-        const std::vector<std::string> files{"passes/common/triangle_voxelizer/three_axis.vert",
-                                             shader + ".frag"};
+        const std::vector<std::string> files{"passes/common/triangle_voxelizer/three_axis.vert", shader + ".frag"};
         return std::make_unique<RasterPipeline>(owner, files, RasterState{}, defines);
     }
 

@@ -11,8 +11,8 @@ constexpr int kTileSide = 8;  // Columns, as in exact.glsl.
 
 /// Calls process(packed tile) for the tiles of a triangle's bounds that may overlap the region.
 template <typename Process>
-void forEachTile(const Geometry& geometry, const gpu::VoxelGrid& grid, const VoxelRegion& region,
-                 uint32_t triangle, const Process& process) {
+void forEachTile(const Geometry& geometry, const gpu::VoxelGrid& grid, const VoxelRegion& region, uint32_t triangle,
+                 const Process& process) {
     const auto corner = [&](int k) {
         return (geometry.positions[geometry.triangles[triangle][k]] - grid.origin) / grid.voxelSize;
     };
@@ -28,9 +28,7 @@ void forEachTile(const Geometry& geometry, const gpu::VoxelGrid& grid, const Vox
         const int lowest = column(bounds.low[along], along);
         return lowest + std::max(int(region.low()[along]) - lowest, 0) / kTileSide * kTileSide;
     };
-    const auto last = [&](int along) {
-        return std::min(column(bounds.high[along], along), int(region.high()[along]));
-    };
+    const auto last = [&](int along) { return std::min(column(bounds.high[along], along), int(region.high()[along])); };
     for (int y = first(w); y <= last(w); y += kTileSide)
         for (int x = first(u); x <= last(u); x += kTileSide) {
             glm::vec3 low = bounds.low, high = bounds.high;
@@ -48,8 +46,7 @@ TriangleTiles::TriangleTiles(CommandStream& stream, const Geometry& geometry, co
     for (const uint32_t t : triangles)
         forEachTile(geometry, grid, region, t, [&](uint32_t tile) { tiles.push_back({t, tile}); });
     count_ = uint32_t(tiles.size());
-    buffer_ =
-        Buffer(stream.device(), "tiles of triangles", std::max<size_t>(tiles.size(), 1) * sizeof(glm::uvec2));
+    buffer_ = Buffer(stream.device(), "tiles of triangles", std::max<size_t>(tiles.size(), 1) * sizeof(glm::uvec2));
     if (!tiles.empty()) stream.upload(buffer_, tiles);
 }
 

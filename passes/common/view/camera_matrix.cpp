@@ -8,8 +8,7 @@ namespace voxray {
 
 glm::mat4 viewProjection(const Camera& camera, uint32_t width, uint32_t height, const Geometry& geometry) {
     const auto reach = [&](const glm::vec3& low, const glm::vec3& high) {
-        const glm::vec3 farthest =
-            glm::max(glm::abs(camera.position - low), glm::abs(camera.position - high));
+        const glm::vec3 farthest = glm::max(glm::abs(camera.position - low), glm::abs(camera.position - high));
         return std::max(glm::length(farthest) * 1.01f, 1e-3f);
     };
     const float far = reach(geometry.boundsMin, geometry.boundsMax);

@@ -15,16 +15,15 @@ struct GBuffer : Resource {
     Image normal;           ///< RGBA16F: shading normal, facing the camera.
     Image geometricNormal;  ///< RGBA16F: the triangle's normal, facing the camera.
     Image albedo;           ///< RGBA16F: diffuse reflectance.
-    Image emission;  ///< RGBA32F: radiance towards the camera, W/(m² sr); the environment's on a miss.
-    Image specular;  ///< RGBA16F: F0, roughness; unpacked by specularOf() of shaders/scene/specular.glsl.
-    Image fresnel;   ///< RGBA8: F90, F0 and F90 of the dielectric layer; likewise.
+    Image emission;         ///< RGBA32F: radiance towards the camera, W/(m² sr); the environment's on a miss.
+    Image specular;         ///< RGBA16F: F0, roughness; unpacked by specularOf() of shaders/scene/specular.glsl.
+    Image fresnel;          ///< RGBA8: F90, F0 and F90 of the dielectric layer; likewise.
 
     /// For shaders that declare images of these names, and `samples`.
     std::vector<Binding> bindings() const {
-        std::vector<Binding> all{
-            {"position", position}, {"normal", normal},     {"geometricNormal", geometricNormal},
-            {"albedo", albedo},     {"emission", emission}, {"specular", specular},
-            {"fresnel", fresnel},   {"samples", samples}};
+        std::vector<Binding> all{{"position", position}, {"normal", normal},     {"geometricNormal", geometricNormal},
+                                 {"albedo", albedo},     {"emission", emission}, {"specular", specular},
+                                 {"fresnel", fresnel},   {"samples", samples}};
         for (Binding& binding : all) binding.optional = true;
         return all;
     }

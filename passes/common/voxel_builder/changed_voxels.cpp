@@ -14,8 +14,7 @@ constexpr float kProbeReach = 1 + 1.0f / 16;
 
 }  // namespace
 
-std::vector<VoxelBox> changedVoxels(const gpu::VoxelGrid& grid, const std::vector<Box>& changed,
-                                    uint32_t margin) {
+std::vector<VoxelBox> changedVoxels(const gpu::VoxelGrid& grid, const std::vector<Box>& changed, uint32_t margin) {
     const int voxels = int(margin);
     const VoxelBox window = windowVoxels(grid);
     const glm::ivec3 end = window.first + glm::ivec3(window.size);

@@ -14,8 +14,7 @@ RegionMerge::RegionMerge(ProgramOwner& owner)
       merge_(owner, "merge_occupancy.comp"),
       materials_(owner, "merge_materials.comp") {}
 
-Buffer RegionMerge::bits(CommandStream& stream, const VoxelRegion& region,
-                         const SurfaceVoxels& voxels) const {
+Buffer RegionMerge::bits(CommandStream& stream, const VoxelRegion& region, const SurfaceVoxels& voxels) const {
     Device& device = stream.device();
     Buffer bits(device, "voxel region", voxels.occupancy.bytes());
     stream.fill(bits, 0);
@@ -42,12 +41,9 @@ Buffer RegionMerge::merged(CommandStream& stream, const Buffer& bits, const Buff
                            const Buffer& rebuilt) const {
     Buffer merged(stream.device(), "voxel occupancy", previous.bytes());
     const uint32_t words = uint32_t(previous.bytes() / sizeof(uint32_t));
-    stream.dispatch(merge_, words,
-                    {{"region", bits},
-                     {"rebuilt", rebuilt},
-                     {"previous", previous},
-                     {"merged", merged},
-                     {"words", words}});
+    stream.dispatch(
+        merge_, words,
+        {{"region", bits}, {"rebuilt", rebuilt}, {"previous", previous}, {"merged", merged}, {"words", words}});
     stream.finish();
     return merged;
 }

@@ -16,8 +16,7 @@ class RegionMerge {
     Buffer bits(CommandStream& stream, const VoxelRegion& region, const SurfaceVoxels& voxels) const;
     /// Merges two occupancies: `rebuilt` within the region of these bits, `previous` elsewhere. Clears
     /// `rebuilt` outside the region.
-    Buffer merged(CommandStream& stream, const Buffer& bits, const Buffer& previous,
-                  const Buffer& rebuilt) const;
+    Buffer merged(CommandStream& stream, const Buffer& bits, const Buffer& previous, const Buffer& rebuilt) const;
     /// The first step: merges occupancies. Clears that of `rebuilt` outside the region.
     void occupancy(CommandStream& stream, const VoxelRegion& region, const SurfaceVoxels& previous,
                    SurfaceVoxels& rebuilt);

@@ -34,8 +34,8 @@ uint64_t pointsOn(const Geometry& g, const gpu::VoxelGrid& grid, uint32_t triang
 VisibilityProbe::VisibilityProbe(ProgramOwner& owner)
     : generateRays_(owner, "generate_visibility_rays.comp"), count_(owner, "count_visible_points.comp") {}
 
-Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels,
-                            const std::vector<uint32_t>& triangles, uint32_t pointsPerFace) const {
+Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels, const std::vector<uint32_t>& triangles,
+                            uint32_t pointsPerFace) const {
     CommandStream& stream = context.stream;
     Buffer counts(context.device, "visibility counts",
                   std::max<uint64_t>(voxels.voxelCount, 1) * kCounts * sizeof(uint32_t));
@@ -48,8 +48,7 @@ Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels,
     const Buffer pointCount(context.device, "number of visibility probes", sizeof(uint32_t));
     const Buffer rays(context.device, "visibility rays", 2ull * kBatchPoints * sizeof(Ray));
     const Buffer hits(context.device, "visibility results", 2ull * kBatchPoints * sizeof(Hit));
-    const Buffer probePoints(context.device, "visibility probes in voxels",
-                             kBatchPoints * sizeof(ProbePoint));
+    const Buffer probePoints(context.device, "visibility probes in voxels", kBatchPoints * sizeof(ProbePoint));
     std::vector<glm::uvec2> points;  // Triangle, and index of the point on it.
     const auto probe = [&] {
         if (points.empty()) return;

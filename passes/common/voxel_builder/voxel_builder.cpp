@@ -6,14 +6,13 @@
 
 namespace voxray {
 
-VoxelBuilder::VoxelBuilder(ProgramOwner& owner, std::unique_ptr<TriangleVoxelizer> voxelizer,
-                           uint32_t visibilityRays)
+VoxelBuilder::VoxelBuilder(ProgramOwner& owner, std::unique_ptr<TriangleVoxelizer> voxelizer, uint32_t visibilityRays)
     : voxelizer_(std::move(voxelizer)),
       visibilityRays_(visibilityRays),
       markVoxels_(voxelizer_->makeProgram(owner, "passes/common/voxel_builder/mark_voxels")),
       addSurfaces_(voxelizer_->makeProgram(owner, "passes/common/voxel_builder/add_surfaces")),
       resolve_(owner, "surface_accumulator_resolve.comp"),
-      prefixSum_(owner, PrefixSum::Of::SetBits),
+      prefixSum_(owner, PrefixSum::Input::SetBits),
       visibilityProbe_(owner),
       merge_(owner) {}
 
@@ -52,8 +51,7 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
 
     // Mark occupied voxels, then number them
     stream.fill(target.occupancy, 0);
-    voxelizer_->run(context, *markVoxels_, target.grid, std::vector<Binding>{{"occupancy", target.occupancy}},
-                    0);
+    voxelizer_->run(context, *markVoxels_, target.grid, std::vector<Binding>{{"occupancy", target.occupancy}}, 0);
     if (previous) merge_.occupancy(stream, region, *previous, target);
     target.voxelCount = prefixSum_.run(stream, target.occupancy, target.rank, uint32_t(target.words()));
     const uint64_t count = std::max(target.voxelCount, 1u);
@@ -61,8 +59,7 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
     if (target.voxelCount == 0) stream.fill(target.materials, 0);
 
     // Accumulate the surfaces' materials in fixed point, test their visibility, and divide sums by areas
-    const LargeBuffer accumulator(context.device, "surface accumulator",
-                                  count * ACCUMULATOR_UINTS * sizeof(uint32_t));
+    const LargeBuffer accumulator(context.device, "surface accumulator", count * ACCUMULATOR_UINTS * sizeof(uint32_t));
     stream.fill(accumulator, 0);
     voxelizer_->run(context, *addSurfaces_, target.grid,
                     std::vector<Binding>{{"SurfaceAccumulatorRef", accumulator.ref()},

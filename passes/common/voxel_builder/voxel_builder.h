@@ -18,16 +18,15 @@ struct VoxelBuildParams {
     uint32_t directions = 6;
     uint32_t visibilityRays = 8;
     static constexpr auto schema() {
-        return std::tuple{
-            field("directions", &VoxelBuildParams::directions,
-                  "6: light is stored for each face of a voxel. "
-                  "1: all faces share one value, so that light from both sides of a thin wall mixes.",
-                  {1, 6}),
-            field("visibility_rays", &VoxelBuildParams::visibilityRays,
-                  "Visibility probes per area of a voxel's face: "
-                  "points whose two sides are tested for occlusion within a voxel's width. "
-                  "0: all surfaces count as visible from both sides, which darkens thin closed walls.",
-                  0u, 256u)};
+        return std::tuple{field("directions", &VoxelBuildParams::directions,
+                                "6: light is stored for each face of a voxel. "
+                                "1: all faces share one value, so that light from both sides of a thin wall mixes.",
+                                {1, 6}),
+                          field("visibility_rays", &VoxelBuildParams::visibilityRays,
+                                "Visibility probes per area of a voxel's face: "
+                                "points whose two sides are tested for occlusion within a voxel's width. "
+                                "0: all surfaces count as visible from both sides, which darkens thin closed walls.",
+                                0u, 256u)};
     }
 };
 

@@ -59,8 +59,7 @@ VoxelMarch::VoxelMarch(ProgramOwner& owner, VoxelTraversal traversal, float epsi
 
 void VoxelMarch::plan(MemoryPlan& plan, const SurfaceVoxels& voxels) {
     requireWholeGrid(voxels.grid);
-    for (Kernel* kernel : {&cells_, &along_[0], &along_[1], &along_[2]})
-        kernel->compileIf(hasDistances(traversal_));
+    for (Kernel* kernel : {&cells_, &along_[0], &along_[1], &along_[2]}) kernel->compileIf(hasDistances(traversal_));
     plan.buffer(counts_, "voxel march counts", kCountBytes);
     if (traversal_ != VoxelTraversal::Bricks) return;
     const glm::uvec3 resolution = voxels.grid.resolution;
@@ -96,11 +95,9 @@ void VoxelMarch::measureDistances(CommandStream& stream) {
         fewerAxes_ = Buffer(stream.device(), kFewerAxes, bytes);
         stream.dispatch(cells_, cells, {octree_, {"target", fewerAxes_}, numbers.all()});
     } else {
-        stream.dispatch(cells_, cells,
-                        {{"voxelOccupancy", voxels_->occupancy},
-                         {"voxelBricks", bricks_},
-                         {"target", fewerAxes_},
-                         numbers.all()});
+        stream.dispatch(
+            cells_, cells,
+            {{"voxelOccupancy", voxels_->occupancy}, {"voxelBricks", bricks_}, {"target", fewerAxes_}, numbers.all()});
     }
     for (size_t axis = 0; axis < 3; ++axis) {
         const Buffer& source = axis == 1 ? distances_ : fewerAxes_;
@@ -119,8 +116,8 @@ Defines VoxelMarch::defines() const {
 }
 
 std::vector<Binding> VoxelMarch::bindings() const {
-    std::vector<Binding> all{ifUsed({"voxelOccupancy", voxels_->occupancy}),
-                             ifUsed({"voxelRank", voxels_->rank}), ifUsed({"voxelMarchCounts", counts_})};
+    std::vector<Binding> all{ifUsed({"voxelOccupancy", voxels_->occupancy}), ifUsed({"voxelRank", voxels_->rank}),
+                             ifUsed({"voxelMarchCounts", counts_})};
     if (isOctree(traversal_)) all.push_back({"octree", octree_.header});
     if (hasDistances(traversal_)) all.push_back({"voxelDistances", distances_});
     if (traversal_ == VoxelTraversal::Bricks) all.push_back({"voxelBricks", bricks_});

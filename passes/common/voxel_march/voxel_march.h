@@ -22,8 +22,8 @@ template <>
 struct EnumNames<VoxelTraversal> {
     static constexpr std::array names{
         std::pair{VoxelTraversal::Bits, "bits"}, std::pair{VoxelTraversal::Bricks, "bricks"},
-        std::pair{VoxelTraversal::SvoRestart, "svo_restart"},
-        std::pair{VoxelTraversal::SvoVoxels, "svo_voxels"}, std::pair{VoxelTraversal::Svo, "svo"}};
+        std::pair{VoxelTraversal::SvoRestart, "svo_restart"}, std::pair{VoxelTraversal::SvoVoxels, "svo_voxels"},
+        std::pair{VoxelTraversal::Svo, "svo"}};
 };
 
 /// Surface voxels with the data structure of a traversal, for shaders that trace rays through them. Such a
@@ -46,7 +46,7 @@ class VoxelMarch {
     Defines defines() const;
     /// For shaders/voxel_march/voxel_march.glsl.
     std::vector<Binding> bindings() const;
-    /// Steps and visits since begin(), 64 bits each (PassContext::voxelCounts).
+    /// Steps and visits since begin(), 64 bits each (PassContext::visitCounts).
     const Buffer& counts() const { return counts_; }
 
     uint64_t memoryBytes() const;

@@ -20,8 +20,8 @@ void VoxelTracer::plan(MemoryPlan& plan, const SurfaceVoxels& voxels) {
     occluded_.specialize({{"kOccluded", 1}});
 }
 
-void VoxelTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
-                        uint32_t count, Coherence) {
+void VoxelTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
+                        Coherence) {
     for (uint32_t first = 0; first < count;) {
         const uint32_t end = first + std::min(kRaysPerLaunch, count - first);
         stream.dispatch(query == Query::Occluded ? occluded_ : closestHit_, end - first,

@@ -12,8 +12,8 @@ class FaceIrradiance {
 
     /// Divides flux, or the sum of `flux` and `added`, by area. Reallocates when the number of voxels has
     /// changed. @param area, flux, added as in VoxelIrradiance.
-    void update(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& area,
-                const LargeBuffer& flux, const LargeBuffer* added = nullptr) {
+    void update(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& area, const LargeBuffer& flux,
+                const LargeBuffer* added = nullptr) {
         const uint32_t faces = voxels.voxelCount * kFaces;
         ensureSize(faces_, stream.device(), "face irradiance", uint64_t(faces) * 4 * sizeof(float));
         stream.dispatch(program_, faces,

@@ -27,9 +27,8 @@ class FluxAccumulator {
     /// Writes watts to `flux` (VoxelIrradiance::direct or ::indirect).
     void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const LargeBuffer& flux) const {
         const uint32_t pairs = voxels.voxelCount * 3;
-        stream.dispatch(
-            resolve_, pairs,
-            {*this, {"FluxRef", flux.ref()}, {"pairs", pairs}, {"wattsPerUnit", 1.0f / unitsPerWatt_}});
+        stream.dispatch(resolve_, pairs,
+                        {*this, {"FluxRef", flux.ref()}, {"pairs", pairs}, {"wattsPerUnit", 1.0f / unitsPerWatt_}});
     }
     /// Frees the sums, once the stream has finished.
     void end() { sums_ = {}; }

@@ -62,10 +62,8 @@ void visitVoxels(glm::uvec3 resolution, const std::array<glm::dvec3, 3>& corners
                                  margin * (std::abs(outward.x) + std::abs(outward.y))};
     }
     const double slopeU = -normal[u] / normal[w], slopeV = -normal[v] / normal[w];
-    const double length1 = glm::length(corners[1] - corners[0]),
-                 length2 = glm::length(corners[2] - corners[0]);
-    const double planeError =
-        kCountRounding * length1 * length2 / glm::length(normal) * std::max(length1, length2);
+    const double length1 = glm::length(corners[1] - corners[0]), length2 = glm::length(corners[2] - corners[0]);
+    const double planeError = kCountRounding * length1 * length2 / glm::length(normal) * std::max(length1, length2);
     const double reach = 0.5 * (std::abs(slopeU) + std::abs(slopeV)) + margin + planeError;
     for (int y = first[v]; y <= last[v]; ++y)
         for (int x = first[u]; x <= last[u]; ++x) {

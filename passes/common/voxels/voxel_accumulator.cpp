@@ -50,8 +50,7 @@ void VoxelAccumulator::begin(Device& device, CommandStream& stream, const Surfac
     clear(sums_, "voxel irradiance sums", voxels.voxelCount * bytes.sums);
     if (bytes.weights > 0) clear(weights_, "voxel irradiance weights", voxels.voxelCount * bytes.weights);
     scale_ = 1;
-    if (params_.write == Write::Average && typicalIrradiance > 0)
-        scale_ = float(1u << 24) / typicalIrradiance;
+    if (params_.write == Write::Average && typicalIrradiance > 0) scale_ = float(1u << 24) / typicalIrradiance;
     if (params_.write == Write::MovingAverage) scale_ = 1 / params_.white;
 }
 

@@ -26,12 +26,11 @@ struct WriteParams {
         return std::tuple{
             field("write", &WriteParams::write,
                   "How samples in a voxel are merged: average, exact and independent of order; "
-                  "max, the brightest sample; "
-                  "moving_average, the 8-bit compare-and-swap loop of Magalhães 2020; "
+                  "max, the brightest sample; moving_average, the 8-bit compare-and-swap loop of Magalhães 2020; "
                   "none, the last sample, as the lower bound of the cost."),
             field("white", &WriteParams::white,
-                  "Irradiance, W/m², of white in the 8 bits of moving_average; brighter samples are clamped.",
-                  1e-6f, 1e9f)
+                  "Irradiance, W/m², of white in the 8 bits of moving_average; brighter samples are clamped.", 1e-6f,
+                  1e9f)
                 .onlyWith(oneOf(&WriteParams::write, {Write::MovingAverage}))};
     }
 };
@@ -67,8 +66,7 @@ class VoxelAccumulator {
     /// Writes mean irradiance times unoccluded area to `flux` (VoxelIrradiance::direct or ::indirect), and
     /// raises `area` to the unoccluded area for faces with samples. Clear `area` before the first resolve()
     /// if faces without samples are unknown; fill it with unoccluded areas if they are dark.
-    void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const LargeBuffer& flux,
-                 const Buffer& area) const;
+    void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const LargeBuffer& flux, const Buffer& area) const;
     /// Frees the sums, once the stream has finished.
     void end() { sums_ = {}, weights_ = {}; }
 

@@ -3,8 +3,8 @@
 #include <atomic>
 #include <bit>
 #include <cstdint>
-#include <glm/common.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vector_relational.hpp>
 #include <vector>
 
 namespace voxray {
@@ -23,8 +23,7 @@ class VoxelBits {
         if (!(bits.load(std::memory_order_relaxed) & bit)) bits.fetch_or(bit, std::memory_order_relaxed);
     }
     bool isInside(glm::ivec3 v) const {
-        return glm::all(glm::greaterThanEqual(v, glm::ivec3(0))) &&
-               glm::all(glm::lessThan(v, glm::ivec3(size_)));
+        return glm::all(glm::greaterThanEqual(v, glm::ivec3(0))) && glm::all(glm::lessThan(v, glm::ivec3(size_)));
     }
     /// Whether a voxel is marked; false outside the box.
     bool operator[](glm::ivec3 v) const { return isInside(v) && words_[word(v)] >> (v.x % 64) & 1; }
@@ -35,9 +34,7 @@ class VoxelBits {
     }
 
  private:
-    size_t word(glm::ivec3 v) const {
-        return (size_t(v.z) * size_.y + size_t(v.y)) * wordsPerRow_ + size_t(v.x) / 64;
-    }
+    size_t word(glm::ivec3 v) const { return (size_t(v.z) * size_.y + size_t(v.y)) * wordsPerRow_ + size_t(v.x) / 64; }
     glm::uvec3 size_;
     size_t wordsPerRow_;
     std::vector<uint64_t> words_;

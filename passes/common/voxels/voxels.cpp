@@ -38,9 +38,9 @@ void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const Voxe
     if (std::ranges::none_of(direct, [](uint32_t word) { return word != 0; }))
         throw Error(
             "no light falls on any voxel: either the lights shine past the scene, "
-            "or all that they reach has another surface within one voxel ({:.3g} m); "
-            "raise voxelize's 'resolution', give the part of a large scene that is looked at "
-            "as 'scene.region', or set voxelize's 'visibility_rays: 0'",
+            "or all that they reach has another surface within one voxel ({:.3g} m); raise voxelize's 'resolution', "
+            "give the part of a large scene that is looked at as 'scene.region', or set voxelize's 'visibility_rays: "
+            "0'",
             voxels.grid.voxelSize);
 }
 
@@ -66,8 +66,7 @@ double estimateVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
     for (uint32_t t = 0; t < geometry.triangles.size(); ++t) {
         if (!isInRegion(geometry, t)) continue;
         const glm::uvec3 v = geometry.triangles[t];
-        const glm::dvec3 a = geometry.positions[v.x], b = geometry.positions[v.y],
-                         c = geometry.positions[v.z];
+        const glm::dvec3 a = geometry.positions[v.x], b = geometry.positions[v.y], c = geometry.positions[v.z];
         area += 0.5 * glm::length(glm::cross(b - a, c - a));
     }
     // A plane with the area of a voxel's face passes through |nx| + |ny| + |nz| voxels: 3/2 on average over

@@ -30,8 +30,7 @@ uint32_t clipmapLevels(glm::uvec3 resolution, const ClipmapParams& params, const
         throw Error(
             "{}: with {} levels no window of {} voxels holds the whole scene of {}x{}x{}; "
             "set 'clipmap_levels' to {} or more, or raise 'clipmap_resolution'",
-            pass, params.clipmapLevels, params.clipmapResolution, resolution.x, resolution.y, resolution.z,
-            least);
+            pass, params.clipmapLevels, params.clipmapResolution, resolution.x, resolution.y, resolution.z, least);
     return std::min(params.clipmapLevels, gridLevels(resolution));
 }
 

@@ -34,8 +34,7 @@ void RadianceClipmap::plan(PassPlan& plan, const std::string& pass, RadianceVoxe
     if (radiance.layout == RadianceLayout::ClipmapTextures) {
         const glm::uvec3 extent = packAtlas(windows_, grid.levels, grid.directions).extent;
         planRadianceTexture(plan, pass, "set 'layout' to clipmap", extent, 1, radiance);
-        plan.buffer(radiance.header, "radiance clipmap's header",
-                    sizeof(ClipmapHeader) + sizeof(ClipmapTextureHeader));
+        plan.buffer(radiance.header, "radiance clipmap's header", sizeof(ClipmapHeader) + sizeof(ClipmapTextureHeader));
         return;
     }
     radiance.grid.unit = 1;
@@ -62,12 +61,10 @@ void RadianceClipmap::prepare(PassSetup& setup, RadianceVoxels& radiance) const 
     prepareRadianceTexture(setup, radiance);
 }
 
-std::vector<gpu::ClipmapWindow> RadianceClipmap::moveWindows(PassContext& context,
-                                                             RadianceVoxels& radiance) const {
+std::vector<gpu::ClipmapWindow> RadianceClipmap::moveWindows(PassContext& context, RadianceVoxels& radiance) const {
     const glm::vec3 camera = context.frame.camera.position;
     std::vector<gpu::ClipmapWindow> windows;
-    for (uint32_t level = 0; level < radiance.grid.levels; ++level)
-        windows.push_back(windows_.window(level, camera));
+    for (uint32_t level = 0; level < radiance.grid.levels; ++level) windows.push_back(windows_.window(level, camera));
     if (radiance.euclidean)
         for (gpu::ClipmapWindow& w : windows) {
             w.center = camera;

@@ -20,12 +20,11 @@ struct EnumNames<LevelDistance> {
 struct ClipmapLevelParams {
     LevelDistance levelDistance = LevelDistance::Axis;
     static constexpr auto schema() {
-        return std::tuple{
-            field("level_distance", &ClipmapLevelParams::levelDistance,
-                  "The distance from the camera by which coarser levels of a clipmap replace finer ones. "
-                  "axis: that along the axis where it is largest, so that all of a window counts. "
-                  "euclidean: as published in Arnebäck 2017 (section 4.2.1), for comparison: "
-                  "a ball in each window counts, half of its voxels.")};
+        return std::tuple{field("level_distance", &ClipmapLevelParams::levelDistance,
+                                "The distance from the camera by which coarser levels of a clipmap replace finer ones. "
+                                "axis: that along the axis where it is largest, so that all of a window counts. "
+                                "euclidean: as published in Arnebäck 2017 (section 4.2.1), for comparison: "
+                                "a ball in each window counts, half of its voxels.")};
     }
 };
 

@@ -21,8 +21,8 @@ class ClipmapStorage final : public RadianceStorage {
 
     void prepare(PassSetup& setup, RadianceVoxels& radiance) override { clipmap_.prepare(setup, radiance); }
 
-    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
-             RadianceVoxels& radiance, float emission) override {
+    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light, RadianceVoxels& radiance,
+             float emission) override {
         const bool isUnchanged = !context.changed(voxels) && !light.isNew;
         const std::vector<gpu::ClipmapWindow> windows = clipmap_.moveWindows(context, radiance);
 
@@ -30,9 +30,8 @@ class ClipmapStorage final : public RadianceStorage {
         uint64_t updated = 0;
         for (uint32_t level = 0; level < radiance.grid.levels; ++level) {
             const gpu::ClipmapWindow& window = windows[level];
-            const std::vector<VoxelBox> boxes = isUnchanged
-                                                    ? scrolledIn(windows_[level], window)
-                                                    : std::vector{VoxelBox{window.first, window.size}};
+            const std::vector<VoxelBox> boxes =
+                isUnchanged ? scrolledIn(windows_[level], window) : std::vector{VoxelBox{window.first, window.size}};
             // A level is filtered from the next finer one if that is a whole grid, else from the surfaces
             const uint32_t source = level > clipmap_.windows().firstWhole() ? level - 1 : 0;
             for (const VoxelBox& box : boxes) {

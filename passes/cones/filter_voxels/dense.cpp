@@ -33,8 +33,7 @@ class DenseStorage final : public FullGrids {
         const uint64_t values = pyramidVoxels(grid) * grid.directions;
         if (values > UINT32_MAX)
             throw Error(
-                "filter_voxels: "
-                "{} values of {}x{}x{} voxels and their levels can't be numbered in 32 bits; "
+                "filter_voxels: {} values of {}x{}x{} voxels and their levels can't be numbered in 32 bits; "
                 "lower voxelize's 'resolution'",
                 values, grid.resolution.x, grid.resolution.y, grid.resolution.z);
         radiance.storage = std::vector<Buffer>(1);

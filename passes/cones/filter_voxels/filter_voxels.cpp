@@ -16,9 +16,8 @@ class FilterVoxels final : public Pass {
     static constexpr const char* kName = "filter_voxels";
     static constexpr const char* kHelp =
         "Prefilters surface voxels into outgoing radiance and opacity at all scales, for gather_cones. "
-        "Opacity is the fraction of a beam that surfaces occlude. "
-        "Biased by: voxel size; surfaces in a larger voxel that face the same way are averaged; "
-        "in a clipmap distance from the camera. "
+        "Opacity is the fraction of a beam that surfaces occlude. Biased by: voxel size; "
+        "surfaces in a larger voxel that face the same way are averaged; in a clipmap distance from the camera. "
         "Bounces by cones work with the layouts dense and svo; for clipmaps light_clipmap has them. "
         "Source: Crassin et al. 2011, section 4 (anisotropic voxels); Arnebäck 2017, section 3.1.4.";
     struct Params : ClipmapParams, ClipmapLevelParams, BrickParams, ConeBounceParams {
@@ -33,11 +32,11 @@ class FilterVoxels final : public Pass {
                            field("emission", &Params::emission,
                                  "Whether radiance includes what surfaces emit. "
                                  "Off, cones gather indirect light only: a direct_* pass adds the rest.")},
-                std::tuple{std::get<0>(ClipmapParams::schema()).onlyWith(ifClipmap()),
-                           std::get<1>(ClipmapParams::schema()).onlyWith(ifClipmap()),
-                           std::get<0>(ClipmapLevelParams::schema()).onlyWith(ifClipmap()),
-                           std::get<0>(BrickParams::schema())
-                               .onlyWith(oneOf(&Params::layout, {RadianceLayout::SvoBricks}))},
+                std::tuple{
+                    std::get<0>(ClipmapParams::schema()).onlyWith(ifClipmap()),
+                    std::get<1>(ClipmapParams::schema()).onlyWith(ifClipmap()),
+                    std::get<0>(ClipmapLevelParams::schema()).onlyWith(ifClipmap()),
+                    std::get<0>(BrickParams::schema()).onlyWith(oneOf(&Params::layout, {RadianceLayout::SvoBricks}))},
                 ConeBounceParams::schema());
         }
     };
@@ -67,8 +66,7 @@ void FilterVoxels::plan(PassPlan& plan) {
             "set 'layout' to dense or svo, or the injection's own 'bounces', "
             "or take voxelize_clipmap and light_clipmap");
     RadianceVoxels& radiance = plan[radiance_];
-    if (const auto injected = plan[irradiance_].lightBounces)
-        radiance.lightBounces = *injected + params_.bounces + 1;
+    if (const auto injected = plan[irradiance_].lightBounces) radiance.lightBounces = *injected + params_.bounces + 1;
     radiance.layout = params_.layout;
     radiance.emission = params_.emission;
     radiance.euclidean = params_.levelDistance == LevelDistance::Euclidean;
@@ -89,9 +87,8 @@ void FilterVoxels::record(PassContext& context) {
     const VoxelIrradiance& irradiance = context[irradiance_];
     RadianceVoxels& radiance = context[radiance_];
     const auto fill = [&](const LargeBuffer& indirect, bool last) {
-        storage_->run(context, voxels,
-                      {irradiance.direct, indirect, irradiance.area, context.changed(irradiance_)}, radiance,
-                      last && params_.emission ? 1.0f : 0.0f);
+        storage_->run(context, voxels, {irradiance.direct, indirect, irradiance.area, context.changed(irradiance_)},
+                      radiance, last && params_.emission ? 1.0f : 0.0f);
     };
 
     // Each iteration adds one bounce to the light of the last one. Emission is added in the last: the light

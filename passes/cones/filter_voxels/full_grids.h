@@ -10,8 +10,8 @@ class FullGrids : public RadianceStorage {
  public:
     explicit FullGrids(ProgramOwner& owner)
         : surface_(owner, "dense_surface.comp"), level_(owner, "passes/cones/radiance/filter_level.comp") {}
-    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
-             RadianceVoxels& radiance, float emission) override;
+    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light, RadianceVoxels& radiance,
+             float emission) override;
 
  protected:
     /// Compiles the shaders for the layout of `radiance`.

@@ -10,8 +10,7 @@ std::unique_ptr<RadianceStorage> makeTexturesStorage(ProgramOwner& owner);
 std::unique_ptr<RadianceStorage> makeSvoBricksStorage(ProgramOwner& owner, const BrickParams& params);
 
 std::unique_ptr<RadianceStorage> makeRadianceStorage(ProgramOwner& owner, RadianceLayout layout,
-                                                     const ClipmapParams& clipmap,
-                                                     const BrickParams& bricks) {
+                                                     const ClipmapParams& clipmap, const BrickParams& bricks) {
     switch (layout) {
         case RadianceLayout::Dense:
             return makeDenseStorage(owner);

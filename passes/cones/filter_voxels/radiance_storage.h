@@ -46,8 +46,7 @@ struct BrickParams {
         return std::tuple{
             field("brick_neighbors", &BrickParams::brickNeighbors,
                   "Whether the 26 neighbors of each node that surfaces pass through get bricks. "
-                  "Off, values that bricks share differ where one is missing, "
-                  "as in Arnebäck 2017, figure 28.")};
+                  "Off, values that bricks share differ where one is missing, as in Arnebäck 2017, figure 28.")};
     }
 };
 

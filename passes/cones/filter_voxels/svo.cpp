@@ -16,12 +16,11 @@ class SvoStorage final : public RadianceStorage {
     void plan(PassPlan& plan, const SurfaceVoxels& voxels, RadianceVoxels& radiance) override {
         radiance.grid.unit = 1;  // Values have exponents.
         // Values of all levels, and a table of about a word per voxel.
-        plan.estimate(voxels.estimatedCount * (4.0 / 3 * radiance.grid.directions + 0.5) *
-                      sizeof(glm::uvec2));
+        plan.estimate(voxels.estimatedCount * (4.0 / 3 * radiance.grid.directions + 0.5) * sizeof(glm::uvec2));
     }
 
-    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
-             RadianceVoxels& radiance, float emission) override {
+    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light, RadianceVoxels& radiance,
+             float emission) override {
         CommandStream& stream = context.stream;
         // After a rebuild all nodes count as changed, else those with new values.
         const bool isRebuilt = version_ != voxels.version;
@@ -31,8 +30,7 @@ class SvoStorage final : public RadianceStorage {
             changed_ = {};
             allocateSvoValues(stream, builder_.build(stream, voxels), radiance);
             version_ = voxels.version;
-            changed_ =
-                Buffer(context.device, "octree changes", SvoFilter::changedBytes(radiance.octree.size));
+            changed_ = Buffer(context.device, "octree changes", SvoFilter::changedBytes(radiance.octree.size));
         }
         stream.fill(changed_, isRebuilt ? ~0u : 0u);
 

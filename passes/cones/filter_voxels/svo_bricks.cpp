@@ -31,14 +31,13 @@ class SvoBricksStorage final : public RadianceStorage {
         // With neighbors a surface is about two layers thick at the grid's border, three elsewhere. Each
         // level has a quarter of the voxels of the one below, and eight nodes for each brick of the one
         // above.
-        plan.estimate(voxels.estimatedCount * (neighbors_ ? 8.0 / 3 : 4.0 / 3) *
-                      (2 * kBrickNodeBytes + kBrickBytes));
+        plan.estimate(voxels.estimatedCount * (neighbors_ ? 8.0 / 3 : 4.0 / 3) * (2 * kBrickNodeBytes + kBrickBytes));
         BrickRadiance::plan(plan, radiance);
         fillLeaves_.define(radiance.defines());
     }
 
-    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light,
-             RadianceVoxels& radiance, float emission) override {
+    void run(PassContext& context, const SurfaceVoxels& voxels, const SurfaceLight& light, RadianceVoxels& radiance,
+             float emission) override {
         CommandStream& stream = context.stream;
         if (version_ != voxels.version) {
             build(stream, voxels);
@@ -49,13 +48,9 @@ class SvoBricksStorage final : public RadianceStorage {
         const gpu::LevelNodes& leaves = octree_.levels[0];
         stream.fill(radiance.storage[0], 0);
         for (const uint32_t scaleIsKnown : {0u, 1u})
-            context.dispatch(fillLeaves_, leaves.staticCount,
-                             {voxels,
-                              light,
-                              radiance,
-                              {"emission", emission},
-                              {"nodes", leaves},
-                              {"scaleIsKnown", scaleIsKnown}});
+            context.dispatch(
+                fillLeaves_, leaves.staticCount,
+                {voxels, light, radiance, {"emission", emission}, {"nodes", leaves}, {"scaleIsKnown", scaleIsKnown}});
         radiance_.filter(stream, octree_, radiance);
     }
 

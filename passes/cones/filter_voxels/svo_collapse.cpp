@@ -9,7 +9,7 @@ SvoCollapse::SvoCollapse(ProgramOwner& owner)
       copyMasks_(owner, "svo_collapse.comp", {{"MASKS", "1"}}),
       copyNodes_(owner, "svo_collapse.comp", {{"WORDS", "1"}}),
       fillTable_(owner, "svo_collapse_table.comp"),
-      prefixSum_(owner, PrefixSum::Of::SetBits) {}
+      prefixSum_(owner, PrefixSum::Input::SetBits) {}
 
 void SvoCollapse::run(CommandStream& stream, RadianceVoxels& radiance) const {
     // Mark uniform nodes, bottom-up.
@@ -32,13 +32,12 @@ void SvoCollapse::run(CommandStream& stream, RadianceVoxels& radiance) const {
     // Each uniform node loses its eight children.
     const std::vector<uint32_t> uniformNodes = stream.readAs<uint32_t>(counts, size.levels());
     OctreeSize smaller = size;
-    for (uint32_t level = 1; level < size.levels(); ++level)
-        smaller.nodes[level - 1] -= 8 * uniformNodes[level];
+    for (uint32_t level = 1; level < size.levels(); ++level) smaller.nodes[level - 1] -= 8 * uniformNodes[level];
     if (smaller.nodes != size.nodes) radiance = shrink(stream, radiance, uniform, smaller);
 }
 
-RadianceVoxels SvoCollapse::shrink(CommandStream& stream, const RadianceVoxels& radiance,
-                                   const Buffer& uniform, const OctreeSize& smaller) const {
+RadianceVoxels SvoCollapse::shrink(CommandStream& stream, const RadianceVoxels& radiance, const Buffer& uniform,
+                                   const OctreeSize& smaller) const {
     Device& device = stream.device();
     RadianceVoxels result;
     result.layout = radiance.layout;
@@ -78,8 +77,7 @@ RadianceVoxels SvoCollapse::shrink(CommandStream& stream, const RadianceVoxels& 
     }
 
     for (uint32_t level = smaller.levels(); level-- > smaller.tableLevel();)
-        stream.dispatch(fillTable_, levelVoxels(smaller.resolution, level),
-                        {result.octree, {"level", level}});
+        stream.dispatch(fillTable_, levelVoxels(smaller.resolution, level), {result.octree, {"level", level}});
     stream.finish();
     return result;
 }

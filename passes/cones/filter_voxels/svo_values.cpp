@@ -20,8 +20,8 @@ void allocateSvoValues(CommandStream& stream, Octree octree, RadianceVoxels& rad
     radiance.storage.clear();
     radiance.octree = std::move(octree);
     const OctreeSize& size = radiance.octree.size;
-    const Buffer& values = radiance.storage.emplace_back(
-        device, "octree values", uint64_t(size.nodeCount()) * directions * sizeof(glm::uvec2));
+    const Buffer& values = radiance.storage.emplace_back(device, "octree values",
+                                                         uint64_t(size.nodeCount()) * directions * sizeof(glm::uvec2));
     radiance.header = Buffer(device, "octree values' header", sizeof(OctreeHeader));
     const OctreeHeader header{radiance.grid, values.address()};
     stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
@@ -38,9 +38,8 @@ void SvoFilter::run(CommandStream& stream, const RadianceVoxels& radiance, const
     const OctreeSize& size = radiance.octree.size;
     const std::vector<uint32_t> first = size.first();
     for (uint32_t level = 1; level < size.levels(); ++level)
-        stream.dispatch(
-            filter_, size.nodes[level],
-            {radiance, {"changed", changed}, {"firstNode", first[level]}, {"count", size.nodes[level]}});
+        stream.dispatch(filter_, size.nodes[level],
+                        {radiance, {"changed", changed}, {"firstNode", first[level]}, {"count", size.nodes[level]}});
 }
 
 }  // namespace voxray

@@ -17,9 +17,7 @@ struct TextureHeader {
 gpu::TextureLayout textureLayout(glm::uvec3 resolution) {
     gpu::TextureLayout layout{};
     for (int axis = 0; axis < 3; ++axis) layout.extent[axis] = std::bit_ceil(resolution[axis]);
-    const int longest = resolution.x >= std::max(resolution.y, resolution.z) ? 0
-                        : resolution.y >= resolution.z                       ? 1
-                                                                             : 2;
+    const int longest = resolution.x >= std::max(resolution.y, resolution.z) ? 0 : resolution.y >= resolution.z ? 1 : 2;
     layout.along[longest] = 1;
     layout.extent.z = std::max(layout.extent.z, 2u);  // An image one texel deep would be 2D.
     return layout;
@@ -35,8 +33,7 @@ class TexturesStorage final : public FullGrids {
         const gpu::RadianceGrid& grid = radiance.grid;
         layout_ = textureLayout(grid.resolution);
         planRadianceTexture(plan, "filter_voxels", "set 'layout' to dense",
-                            layout_.extent * (1u + (grid.directions - 1u) * layout_.along), grid.levels,
-                            radiance);
+                            layout_.extent * (1u + (grid.directions - 1u) * layout_.along), grid.levels, radiance);
         plan.buffer(radiance.header, "radiance voxels' header", sizeof(TextureHeader));
         define(radiance);
     }

@@ -27,9 +27,9 @@ class GatherCones final : public Pass {
         "Gathers indirect light by a few cones per texel through prefiltered voxels (filter_voxels). "
         "Biased by: voxel size; the number of cones; a mean over some 25 pixels of the same surface, "
         "which evens out the fixed pattern of directions; the shape of specular lobes. "
-        "Noisy by near_field_voxels alone. Time grows with the cones of each texel, "
-        "so on a CPU begin with `stride: 4`, a quarter of them, and `specular: 0` where nothing is glossy. "
-        "Source: Crassin et al. 2011; Arnebäck 2017, section 3.1.5.";
+        "Noisy by near_field_voxels alone. Time grows with the cones of each texel, so on a CPU begin with `stride: "
+        "4`, a quarter of them, and `specular: 0` where nothing is glossy. Source: Crassin et al. "
+        "2011; Arnebäck 2017, section 3.1.5.";
     struct Params {
         uint32_t cones = 16;
         uint32_t stride = 1;
@@ -38,20 +38,19 @@ class GatherCones final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("cones", &Params::cones,
-                      "Cones that partition the hemisphere; the set of 6 is that of Arnebäck 2017.",
-                      coneSetSizes()),
+                      "Cones that partition the hemisphere; the set of 6 is that of Arnebäck 2017.", coneSetSizes()),
                 field("stride", &Params::stride,
-                      "Traces every n-th texel of the G-buffer; the others have the mean "
-                      "of the traced texels around them on the same surface.",
+                      "Traces every n-th texel of the G-buffer; "
+                      "the others have the mean of the traced texels around them on the same surface.",
                       1u, 64u),
                 field("specular", &Params::specular,
-                      "Cones that partition the specular lobe of each texel of the G-buffer; "
-                      "a mirror has one. 0: surfaces reflect by their diffuse albedo only.",
+                      "Cones that partition the specular lobe of each texel of the G-buffer; a mirror has one. "
+                      "0: surfaces reflect by their diffuse albedo only.",
                       {0, 1, 7, 19}),
                 field("near_field_voxels", &Params::nearFieldVoxels,
                       "Length of the rays that diffuse cones begin with, in voxels of the finest level. "
-                      "At a hit direct light is sampled by shadow rays and the path continues, "
-                      "up to twice; without a hit the cone begins at the ray's end. 0: no rays.",
+                      "At a hit direct light is sampled by shadow rays and the path continues, up to twice; "
+                      "without a hit the cone begins at the ray's end. 0: no rays.",
                       0.0f, 64.0f)};
         }
     };

@@ -31,10 +31,8 @@ void NearField::plan(PassPlan& plan, const RadianceVoxels& radiance, const Setti
     plan.buffer(light_, "light of cones", batch * 4 * sizeof(float));
     plan.buffer(count_, "number of near hits", sizeof(uint32_t));
     plan.buffer(direct_, "direct light at near hits", batch * 4 * sizeof(float));
-    for (Buffer& surfels : surfels_)
-        plan.buffer(surfels, "surfels at near hits", batch * sizeof(gpu::Surfel));
-    for (Buffer& normals : continuations_)
-        plan.buffer(normals, "normals at near hits", batch * 2 * sizeof(uint32_t));
+    for (Buffer& surfels : surfels_) plan.buffer(surfels, "surfels at near hits", batch * sizeof(gpu::Surfel));
+    for (Buffer& normals : continuations_) plan.buffer(normals, "normals at near hits", batch * 2 * sizeof(uint32_t));
     for (Kernel* kernel : {&resolveRays_, &continuePaths_}) kernel->define(radiance.defines());
 }
 
@@ -72,13 +70,11 @@ void NearField::record(PassContext& context, const GBuffer& gbuffer, const Radia
                           {"count", count_},
                           batch.all()});
         continuePaths(context, radiance, range, seed);
-        context.dispatch(sumCones_, batchTexels,
-                         {{"light", light_}, {"irradiance", irradiance}, batch.all()});
+        context.dispatch(sumCones_, batchTexels, {{"light", light_}, {"irradiance", irradiance}, batch.all()});
     }
 }
 
-void NearField::continuePaths(PassContext& context, const RadianceVoxels& radiance, float range,
-                              uint32_t batchSeed) {
+void NearField::continuePaths(PassContext& context, const RadianceVoxels& radiance, float range, uint32_t batchSeed) {
     CommandStream& stream = context.stream;
     for (uint32_t bounce = 0; bounce < kMaxContinuations; ++bounce) {
         const uint32_t surfels = stream.readAs<uint32_t>(count_, 1)[0];

@@ -26,8 +26,8 @@ class NearField {
 
     void plan(PassPlan& plan, const RadianceVoxels& radiance, const Settings& settings);
     /// Writes the irradiance of the traced texels, W/m². @param cones coneSet() on the device.
-    void record(PassContext& context, const GBuffer& gbuffer, const RadianceVoxels& radiance,
-                const Buffer& cones, const Image& irradiance);
+    void record(PassContext& context, const GBuffer& gbuffer, const RadianceVoxels& radiance, const Buffer& cones,
+                const Image& irradiance);
 
  private:
     /// Continues paths from near hits. @param range of the rays, m.

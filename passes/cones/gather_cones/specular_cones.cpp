@@ -18,8 +18,8 @@ ImageDesc reflectedImage(const Frame& frame, const GBuffer& gbuffer) {
 SpecularCones::SpecularCones(ProgramOwner& owner)
     : fillTable_(owner, "lobe_table.comp"), trace_(owner, "trace_specular_cones.comp") {}
 
-void SpecularCones::plan(PassPlan& plan, const GBuffer& gbuffer, const RadianceVoxels& radiance,
-                         uint32_t strata, Image& reflected) {
+void SpecularCones::plan(PassPlan& plan, const GBuffer& gbuffer, const RadianceVoxels& radiance, uint32_t strata,
+                         Image& reflected) {
     strata_ = strata;
     plan.buffer(table_, "specular lobes", uint64_t(LOBES) * strata * sizeof(gpu::LobeStratum));
     plan.image(reflected, "specular reflection", reflectedImage(plan.frame, gbuffer));

@@ -33,24 +33,20 @@ class LightClipmap final : public Pass {
         "Computes direct light of the voxels of voxelize_clipmap by shadow maps, "
         "and radiance voxels for gather_cones from it. "
         "Each triangle clipped to a voxel is tested against the map of each light. "
-        "The cones gather one bounce more than 'bounces'. "
-        "Each frame updates voxels that scrolled in; all if a light or a surface has moved, "
-        "and with bounces if any scrolled in. "
-        "Only for punctual lights: emissive surfaces and the environment have no single viewpoint. "
-        "Biased by: voxel size, so distance from the camera; shadow_resolution. "
-        "Source: Arnebäck 2017, section 4.1.2, after Panteleev 2014.";
+        "The cones gather one bounce more than 'bounces'. Each frame updates voxels that scrolled in; "
+        "all if a light or a surface has moved, and with bounces if any scrolled in. Only for punctual lights: "
+        "emissive surfaces and the environment have no single viewpoint. Biased by: voxel size, "
+        "so distance from the camera; shadow_resolution. Source: Arnebäck 2017, section 4.1.2, after Panteleev 2014.";
     struct Params : ClipmapLevelParams, ConeBounceParams {
         uint32_t shadowResolution = 512;
         ClipmapLayout layout = ClipmapLayout::Clipmap;
         static constexpr auto schema() {
             return std::tuple_cat(
-                std::tuple{
-                    field("shadow_resolution", &Params::shadowResolution,
-                          "Texels along an edge of each shadow map; a point light has six.", 2u, 4096u),
-                    field("layout", &Params::layout,
-                          "How voxels are stored: clipmap, in a buffer; "
-                          "clipmap_textures, as published in Arnebäck 2017: "
-                          "in a 3D texture that the device's sampler filters.")},
+                std::tuple{field("shadow_resolution", &Params::shadowResolution,
+                                 "Texels along an edge of each shadow map; a point light has six.", 2u, 4096u),
+                           field("layout", &Params::layout,
+                                 "How voxels are stored: clipmap, in a buffer; clipmap_textures, "
+                                 "as published in Arnebäck 2017: in a 3D texture that the device's sampler filters.")},
                 ClipmapLevelParams::schema(), ConeBounceParams::schema());
         }
     };
@@ -64,12 +60,10 @@ class LightClipmap final : public Pass {
     /// Updates light and all levels where windows or, with `moved`, lights or surfaces have changed.
     void relight(PassContext& context, bool moved);
     /// Direct light of the voxels in boxes of a level. @param voxels include these.
-    VoxelIrradiance directLight(PassContext& context, const SurfaceVoxels& voxels,
-                                const std::vector<VoxelBox>& boxes);
+    VoxelIrradiance directLight(PassContext& context, const SurfaceVoxels& voxels, const std::vector<VoxelBox>& boxes);
     /// Fills boxes of a level with the radiance that surface voxels reflect.
     void fillWindow(PassContext& context, uint32_t level, const SurfaceVoxels& voxels,
-                    const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light,
-                    const LargeBuffer& indirect);
+                    const std::vector<VoxelBox>& boxes, const VoxelIrradiance& light, const LargeBuffer& indirect);
     /// Filters the levels above the first whole one, each from the next finer level.
     void fillCoarseLevels(PassContext& context);
 
@@ -126,8 +120,8 @@ void LightClipmap::record(PassContext& context) {
     const bool moved = sceneVersion_ != context.frame.sceneVersion;
     if (moved) shadowMaps_.draw(context, sources_);
     sceneVersion_ = context.frame.sceneVersion;
-    const bool updated = std::ranges::any_of(
-        clipmap.levels, [](const ClipmapVoxels::Level& level) { return !level.boxes.empty(); });
+    const bool updated =
+        std::ranges::any_of(clipmap.levels, [](const ClipmapVoxels::Level& level) { return !level.boxes.empty(); });
     updatedVoxels_ = 0;
     if (moved || updated) relight(context, moved);
     context.report(kUpdatedVoxels, double(updatedVoxels_));
@@ -189,9 +183,8 @@ VoxelIrradiance LightClipmap::directLight(PassContext& context, const SurfaceVox
     irradiance.allocate(context.device, uint32_t(count));
     stream.fill(irradiance.indirect, 0);
     flux_.resolve(stream, voxels, irradiance.direct);
-    context.dispatch(
-        litArea_, voxels.voxelCount,
-        {voxels, {"litArea", litArea}, {"area", irradiance.area}, {"voxelCount", voxels.voxelCount}});
+    context.dispatch(litArea_, voxels.voxelCount,
+                     {voxels, {"litArea", litArea}, {"area", irradiance.area}, {"voxelCount", voxels.voxelCount}});
 
     stream.finish();
     voxelizer_->release();

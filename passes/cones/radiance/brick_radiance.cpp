@@ -21,8 +21,7 @@ Defines brickDefines() {
 }  // namespace
 
 BrickRadiance::BrickRadiance(ProgramOwner& owner)
-    : transfer_(owner, "brick_transfer.comp", brickDefines()),
-      filter_(owner, "brick_filter.comp", brickDefines()) {}
+    : transfer_(owner, "brick_transfer.comp", brickDefines()), filter_(owner, "brick_filter.comp", brickDefines()) {}
 
 void BrickRadiance::plan(PassPlan& plan, RadianceVoxels& radiance) {
     radiance.grid.unit = 1;  // BrickScale has it.
@@ -31,8 +30,7 @@ void BrickRadiance::plan(PassPlan& plan, RadianceVoxels& radiance) {
     plan.buffer(radiance.header, "octree of bricks' header", sizeof(Header));
 }
 
-void BrickRadiance::setOctree(CommandStream& stream, const BrickOctree& octree,
-                              RadianceVoxels& radiance) const {
+void BrickRadiance::setOctree(CommandStream& stream, const BrickOctree& octree, RadianceVoxels& radiance) const {
     Buffer& bricks = radiance.storage[1];
     uint64_t bytes = octree.brickCount * kBrickBytes;
     if (!bricks || bricks.bytes() < bytes) {
@@ -40,13 +38,11 @@ void BrickRadiance::setOctree(CommandStream& stream, const BrickOctree& octree,
         bricks = {};
         bricks = Buffer(stream.device(), "octree bricks", bytes);
     }
-    const Header header{radiance.grid, octree.nodes.address(), bricks.address(),
-                        radiance.storage[0].address()};
+    const Header header{radiance.grid, octree.nodes.address(), bricks.address(), radiance.storage[0].address()};
     stream.upload(radiance.header, std::as_bytes(std::span(&header, 1)));
 }
 
-void BrickRadiance::filter(CommandStream& stream, const BrickOctree& octree,
-                           const RadianceVoxels& radiance) const {
+void BrickRadiance::filter(CommandStream& stream, const BrickOctree& octree, const RadianceVoxels& radiance) const {
     transfer(stream, radiance, octree.levels[0], 0.5f);
     for (size_t level = 1; level < octree.levels.size(); ++level) {
         const gpu::LevelNodes& nodes = octree.levels[level];
@@ -57,13 +53,12 @@ void BrickRadiance::filter(CommandStream& stream, const BrickOctree& octree,
     }
 }
 
-void BrickRadiance::transfer(CommandStream& stream, const RadianceVoxels& radiance,
-                             const gpu::LevelNodes& nodes, float weight) const {
+void BrickRadiance::transfer(CommandStream& stream, const RadianceVoxels& radiance, const gpu::LevelNodes& nodes,
+                             float weight) const {
     for (uint32_t axis = 0; axis < 3; ++axis)
         for (const uint32_t isBack : {0u, 1u})
-            stream.dispatch(
-                transfer_, nodesOf(nodes),
-                {radiance, {"nodes", nodes}, {"axis", axis}, {"weight", weight}, {"isBack", isBack}});
+            stream.dispatch(transfer_, nodesOf(nodes),
+                            {radiance, {"nodes", nodes}, {"axis", axis}, {"weight", weight}, {"isBack", isBack}});
 }
 
 }  // namespace voxray

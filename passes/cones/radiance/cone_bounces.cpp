@@ -28,8 +28,7 @@ void ConeBounces::prepare(PassSetup& setup) {
 
 void ConeBounces::listVoxels(PassContext& context, const SurfaceVoxels& voxels) {
     const uint64_t count = voxels.voxelCount;
-    ensureSize(voxelCoordinates_, context.device, "coordinates of surface voxels",
-               count * sizeof(glm::uvec3));
+    ensureSize(voxelCoordinates_, context.device, "coordinates of surface voxels", count * sizeof(glm::uvec3));
     ensureSize(flux_, context.device, "bounced flux", count * kFluxWords * sizeof(uint32_t));
     const uint32_t words = uint32_t(voxels.words());
     context.dispatch(listVoxels_, words, {voxels, {"voxelCoordinates", voxelCoordinates_}, {"words", words}});

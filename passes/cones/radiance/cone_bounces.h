@@ -17,10 +17,9 @@ struct ConeBounceParams {
     static constexpr auto schema() {
         return std::tuple{
             field("bounces", &ConeBounceParams::bounces,
-                  "Bounces of light from voxel to voxel by cones, in addition to those of the injection.", 0u,
-                  32u),
-            field("bounce_cones", &ConeBounceParams::bounceCones,
-                  "Cones from each face of a voxel in a bounce.", coneSetSizes())
+                  "Bounces of light from voxel to voxel by cones, in addition to those of the injection.", 0u, 32u),
+            field("bounce_cones", &ConeBounceParams::bounceCones, "Cones from each face of a voxel in a bounce.",
+                  coneSetSizes())
                 .onlyWith(noneOf(&ConeBounceParams::bounces, {0u}))};
     }
 };

@@ -6,8 +6,8 @@
 
 namespace voxray {
 
-void planRadianceTexture(PassPlan& plan, const std::string& pass, const std::string& remedy,
-                         glm::uvec3 extent, uint32_t mipLevels, RadianceVoxels& radiance) {
+void planRadianceTexture(PassPlan& plan, const std::string& pass, const std::string& remedy, glm::uvec3 extent,
+                         uint32_t mipLevels, RadianceVoxels& radiance) {
     const uint32_t largest = plan.device.filteredVolumeSide;
     if (largest == 0)
         throw Error(
@@ -16,8 +16,8 @@ void planRadianceTexture(PassPlan& plan, const std::string& pass, const std::str
             pass, plan.device.name, remedy);
     if (std::max({extent.x, extent.y, extent.z}) > largest)
         throw Error(
-            "{}: the 3D texture has {}x{}x{} texels, "
-            "device '{}' takes at most {} along an axis (maxImageDimension3D); "
+            "{}: "
+            "the 3D texture has {}x{}x{} texels, device '{}' takes at most {} along an axis (maxImageDimension3D); "
             "lower the voxels' resolution or 'directions', or {}",
             pass, extent.x, extent.y, extent.z, plan.device.name, largest, remedy);
     ImageDesc desc;

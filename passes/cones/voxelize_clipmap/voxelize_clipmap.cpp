@@ -35,12 +35,11 @@ class VoxelizeClipmap final : public Pass {
     struct Params : ClipmapParams, VoxelBuildParams {
         uint32_t resolution = 128;
         static constexpr auto schema() {
-            return std::tuple_cat(
-                std::tuple{field("resolution", &Params::resolution,
-                                 "Voxels of the finest level along the scene's longest axis, "
-                                 "if its window were the whole scene.",
-                                 1u, 1024u)},
-                ClipmapParams::schema(), VoxelBuildParams::schema());
+            return std::tuple_cat(std::tuple{field("resolution", &Params::resolution,
+                                                   "Voxels of the finest level along the scene's longest axis, "
+                                                   "if its window were the whole scene.",
+                                                   1u, 1024u)},
+                                  ClipmapParams::schema(), VoxelBuildParams::schema());
         }
     };
 
@@ -82,8 +81,7 @@ void VoxelizeClipmap::record(PassContext& context) {
     ClipmapVoxels& clipmap = context[clipmap_];
     const bool moved = frame.sceneVersion != sceneVersion_;
     const bool changesAreKnown = !moved || (frame.sceneVersion == sceneVersion_ + 1 && frame.changed);
-    const std::vector<gpu::ClipmapWindow> previous =
-        changesAreKnown ? windows_ : std::vector<gpu::ClipmapWindow>();
+    const std::vector<gpu::ClipmapWindow> previous = changesAreKnown ? windows_ : std::vector<gpu::ClipmapWindow>();
     windows_.clear();
     uint64_t updated = 0;
     for (uint32_t l = 0; l < clipmap.levels.size(); ++l) {
@@ -97,9 +95,7 @@ void VoxelizeClipmap::record(PassContext& context) {
             builder_.build(context, voxels);
         } else {
             level.boxes = scrolledIn(previous[l], windows_[l]);
-            if (moved)
-                std::ranges::copy(changedVoxels(voxels.grid, *frame.changed),
-                                  std::back_inserter(level.boxes));
+            if (moved) std::ranges::copy(changedVoxels(voxels.grid, *frame.changed), std::back_inserter(level.boxes));
             if (!level.boxes.empty())
                 level.updated = builder_.update(context, VoxelRegion(voxels.grid, level.boxes), voxels);
         }

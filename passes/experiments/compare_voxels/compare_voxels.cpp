@@ -28,18 +28,17 @@ class CompareVoxels final : public Pass {
     static constexpr const char* kName = "compare_voxels";
     static constexpr const char* kHelp =
         "Compares two voxelizations: missed and added voxels, and surface area. "
-        "Counts the voxels of 'truth' that 'voxels' misses, and those that it adds, "
-        "and compares surface areas. Results are in values.csv and the report; there are no outputs. "
-        "Exact. Both inputs need the same 'resolution'. "
+        "Counts the voxels of 'truth' that 'voxels' misses, and those that it adds, and compares surface areas. "
+        "Results are in values.csv and the report; there are no outputs. Exact. "
+        "Both inputs need the same 'resolution'. "
         "Source: Schwarz and Seidel 2010, section 4, for 'method: exact' as the truth.";
 
     void plan(PassPlan& plan) override {
         const glm::uvec3 a = plan[truth_].grid.resolution, b = plan[voxels_].grid.resolution;
         if (a != b)
             throw Error(
-                "compare_voxels: 'truth' has {}x{}x{} voxels, 'voxels' {}x{}x{}; "
-                "give both the same 'resolution'",
-                a.x, a.y, a.z, b.x, b.y, b.z);
+                "compare_voxels: 'truth' has {}x{}x{} voxels, 'voxels' {}x{}x{}; give both the same 'resolution'", a.x,
+                a.y, a.z, b.x, b.y, b.z);
     }
     void record(PassContext& context) override {
         const SurfaceVoxels& truth = context[truth_];

@@ -26,10 +26,9 @@ class ProbeIrradiance final : public Pass {
  public:
     static constexpr const char* kName = "probe_irradiance";
     static constexpr const char* kHelp =
-        "Measures how stable irradiance is over frames, by cones at fixed points. "
-        "The points are on static surfaces. For each frame it reports the mean irradiance (W/m²) "
-        "and its change since the last frame relative to this mean: "
-        "the average over points and the maximum. Tests stability: where only the camera moves, "
+        "Measures how stable irradiance is over frames, by cones at fixed points. The points are on static surfaces. "
+        "For each frame it reports the mean irradiance (W/m²) and its change since the last frame relative "
+        "to this mean: the average over points and the maximum. Tests stability: where only the camera moves, "
         "changes are artifacts of the method. Surfaces may not move, as points would lose their identity.";
     struct Params {
         uint32_t maxPoints = 1024;

@@ -32,9 +32,9 @@ class GatherIrradiance final : public Pass {
     static constexpr const char* kName = "gather_irradiance";
     static constexpr const char* kHelp =
         "Looks light up in the voxels' irradiance at each pixel. "
-        "The irradiance is interpolated at the pixel's surface, for the surface's normal; "
-        "no ray is traced. Biased by: voxel size (detail below it is lost, shadows too with `light: "
-        "direct`; light leaks around thin edges). Noisy by: the injection's rays. Lambert surfaces only. "
+        "The irradiance is interpolated at the pixel's surface, for the surface's normal; no ray is traced. "
+        "Biased by: voxel size (detail below it is lost, shadows too with `light: direct`; "
+        "light leaks around thin edges). Noisy by: the injection's rays. Lambert surfaces only. "
         "Source: Magalhães 2020, section 3.4.";
     struct Params {
         GatheredLight light = GatheredLight::Indirect;
@@ -46,16 +46,13 @@ class GatherIrradiance final : public Pass {
                       "indirect: light that was reflected at least once. "
                       "direct: light straight from its sources, in place of direct_shadow_rays."),
                 field("radius", &Params::radius,
-                      "Radius of the interpolation's kernel in voxels; 1 is trilinear, more is smoother.",
-                      0.5f, 8.0f)
+                      "Radius of the interpolation's kernel in voxels; 1 is trilinear, more is smoother.", 0.5f, 8.0f)
                     .onlyWith(noneOf(&Params::lookup, {VoxelLookup::BilinearFace})),
                 field("lookup", &Params::lookup,
-                      "trilinear: at the surface. "
-                      "seven_tap: there and at one voxel's distance along each axis, "
+                      "trilinear: at the surface. seven_tap: there and at one voxel's distance along each axis, "
                       "which hides holes in the voxels and blurs (Magalhães 2020, listing 4.8, "
-                      "but empty voxels are omitted instead of black). "
-                      "bilinear_face: only the face closest to the normal, "
-                      "between four voxels of one layer (Cosin and Patow 2022).")};
+                      "but empty voxels are omitted instead of black). bilinear_face: "
+                      "only the face closest to the normal, between four voxels of one layer (Cosin and Patow 2022).")};
         }
     };
 
@@ -89,8 +86,8 @@ void GatherIrradiance::plan(PassPlan& plan) {
     const std::optional<uint32_t> gathered = plan[irradiance_].reach;
     if (gathered && *gathered < reach())
         throw Error(
-            "the lookup reads voxels up to {} from what the camera sees, "
-            "and light is gathered for those up to {}; set the 'reach' of gather_clusters to {}",
+            "the lookup reads voxels up to {} from what the camera sees, and light is gathered for those up to {}; "
+            "set the 'reach' of gather_clusters to {}",
             reach(), *gathered, reach());
     if (!isDirect()) plan[reflected_].lightBounces = plan[irradiance_].lightBounces;
     plan.frameImage(reflected_);

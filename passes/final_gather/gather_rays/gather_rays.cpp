@@ -46,13 +46,11 @@ class GatherRays final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("source", &Params::source,
-                      "Storage of light. voxels: faces of surface voxels, filled by any injection. "
-                      "merged_voxels: the trees of merge_voxels. "
-                      "radiance_cache: the hashed cells of update_radiance_cache."),
+                      "Storage of light. voxels: faces of surface voxels, filled by any injection. merged_voxels: "
+                      "the trees of merge_voxels. radiance_cache: the hashed cells of update_radiance_cache."),
                 field("direct_at_hits", &Params::directAtHits,
-                      "Direct light at the hits. voxels: from voxels, as coarse as they are. "
-                      "shadow_rays: exact, by a shadow ray from each hit to each light; "
-                      "only indirect light is read from voxels.")
+                      "Direct light at the hits. voxels: from voxels, as coarse as they are. shadow_rays: "
+                      "exact, by a shadow ray from each hit to each light; only indirect light is read from voxels.")
                     .onlyWith(oneOf(&Params::source, {GatherSource::Voxels})),
                 field("light_samples", &Params::lightSamples,
                       "Shadow rays to the emissive surfaces, and to the environment, "
@@ -63,8 +61,7 @@ class GatherRays final : public Pass {
                               oneOf(&Params::source, {GatherSource::MergedVoxels})),
                 field("near_field_cells", &Params::nearFieldCells,
                       "Paths continue from hits closer than this, in voxels or cells of the cache, "
-                      "and from hits where no light is stored: "
-                      "up to three times, with a radiance cache up to seven. "
+                      "and from hits where no light is stored: up to three times, with a radiance cache up to seven. "
                       "0: every hit reads stored light, and is black where there is none.",
                       0.0f, 64.0f),
                 field("min_samples", &Params::minSamples,
@@ -88,8 +85,7 @@ class GatherRays final : public Pass {
     ContinuedPaths::Counts gather(PassContext& context, const std::vector<Binding>& stored, uint32_t batch);
 
     const Params params_;
-    StoredLight stored_{*this, params_.source, params_.directAtHits == DirectAtHits::Voxels,
-                        params_.minSamples};
+    StoredLight stored_{*this, params_.source, params_.directAtHits == DirectAtHits::Voxels, params_.minSamples};
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     In<GatherHits> hits_{*this, "gather_hits", "where the gather rays hit"};
     Out<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "irradiance from few rays a texel"};
@@ -113,8 +109,7 @@ void GatherRays::plan(PassPlan& plan) {
             "{3}: blocks of {0}x{0} texels have {1} rays, which leaves texels without any; "
             "let filter_irradiance follow, or raise 'rays_per_block' of trace_gather_rays to {2}",
             hits.layout.blockSize, hits.layout.raysPerBlock, texelsPerBlock, kName);
-    plan.image(noisy.irradiance, "noisy irradiance",
-               NoisyIrradiance::desc(plan.frame, plan[gbuffer_].samples));
+    plan.image(noisy.irradiance, "noisy irradiance", NoisyIrradiance::desc(plan.frame, plan[gbuffer_].samples));
     sumMoments_.compileIf(noisy.isRead);
     if (noisy.isRead) {
         noisy.blockSize = hits.layout.blockSize;
@@ -148,12 +143,10 @@ void GatherRays::record(PassContext& context) {
     }
     context.report(readsCache() ? "hits without a cell, % of rays" : "hits on unlit faces, % of rays",
                    traced > 0 ? 100 * unlit / traced : 0);
-    if (resolve_)
-        resolve_->record(context, context[gbuffer_], context[noisy_].irradiance, context[indirect_].image);
+    if (resolve_) resolve_->record(context, context[gbuffer_], context[noisy_].irradiance, context[indirect_].image);
 }
 
-ContinuedPaths::Counts GatherRays::gather(PassContext& context, const std::vector<Binding>& stored,
-                                          uint32_t batch) {
+ContinuedPaths::Counts GatherRays::gather(PassContext& context, const std::vector<Binding>& stored, uint32_t batch) {
     const GatherHits& hits = context[hits_];
     const uint32_t firstBlock = batch * hits.blocksPerBatch, blocks = hits.batchBlocks(batch);
     const uint32_t rays = blocks * hits.layout.raysPerBlock;

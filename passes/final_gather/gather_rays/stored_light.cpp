@@ -7,8 +7,7 @@ StoredLight::StoredLight(Pass& pass, GatherSource source, bool readsVoxelDirect,
       readsVoxelDirect_(readsVoxelDirect),
       minSamples_(minSamples),
       voxels_(pass, "voxels", "surface voxels", source == GatherSource::Voxels),
-      irradiance_(pass, "irradiance", "light that arrives at the voxels' surfaces",
-                  source == GatherSource::Voxels),
+      irradiance_(pass, "irradiance", "light that arrives at the voxels' surfaces", source == GatherSource::Voxels),
       tree_(pass, "irradiance_tree", "light of merged voxels", source == GatherSource::MergedVoxels),
       cache_(pass, "radiance_cache", "light that arrives at surfaces, by hashed cells",
              source == GatherSource::RadianceCache) {
@@ -44,8 +43,7 @@ std::vector<Binding> StoredLight::update(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
     if (context.changed(voxels_) || context.changed(irradiance_)) {
         const VoxelIrradiance& light = context[irradiance_];
-        faces_->update(context.stream, voxels, light.area, light.indirect,
-                       readsVoxelDirect_ ? &light.direct : nullptr);
+        faces_->update(context.stream, voxels, light.area, light.indirect, readsVoxelDirect_ ? &light.direct : nullptr);
         context.stream.upload(grid_, std::vector{voxels.grid});
     }
     return voxels.bindings({faces_->binding(), {"grid", grid_}});

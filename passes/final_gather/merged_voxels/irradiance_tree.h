@@ -16,15 +16,10 @@ struct IrradianceTree : Resource {
     Buffer occupancy, rank;   ///< As in SurfaceVoxels.
     Buffer faces;             ///< A byte per surface voxel: a bit for each face that has a value.
 
-    uint64_t bytes() const {
-        return header.bytes() + words.bytes() + occupancy.bytes() + rank.bytes() + faces.bytes();
-    }
+    uint64_t bytes() const { return header.bytes() + words.bytes() + occupancy.bytes() + rank.bytes() + faces.bytes(); }
     /// For shaders that include irradiance_tree.glsl.
     std::vector<Binding> bindings() const {
-        return {{"irradianceTree", header},
-                {"voxelOccupancy", occupancy},
-                {"voxelRank", rank},
-                {"treeFaces", faces}};
+        return {{"irradianceTree", header}, {"voxelOccupancy", occupancy}, {"voxelRank", rank}, {"treeFaces", faces}};
     }
 };
 

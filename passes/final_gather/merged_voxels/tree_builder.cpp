@@ -75,8 +75,7 @@ struct Subtree {
 
 class Builder {
  public:
-    Builder(double tolerance, std::vector<uint32_t>& words)
-        : leafCost_(tolerance * tolerance), words_(words) {}
+    Builder(double tolerance, std::vector<uint32_t>& words) : leafCost_(tolerance * tolerance), words_(words) {}
 
     Subtree build(std::span<FaceSample> samples) {
         Sums sums;
@@ -95,9 +94,8 @@ class Builder {
         if (split.axis < 0) return replaceByLeaf(first, sums, asLeaf);
 
         // Build both children, and prune them where their leaves reduce the error too little
-        const auto behind = std::partition(samples.begin(), samples.end(), [&](const FaceSample& s) {
-            return s.voxel[split.axis] < split.plane;
-        });
+        const auto behind = std::partition(samples.begin(), samples.end(),
+                                           [&](const FaceSample& s) { return s.voxel[split.axis] < split.plane; });
         words_.push_back(0);
         const Subtree before = build({samples.begin(), behind});
         const size_t offset = words_.size() - first;
@@ -105,8 +103,7 @@ class Builder {
         const Subtree both{before.squaredError + after.squaredError, before.leaves + after.leaves};
         if (cost(both) >= cost(asLeaf)) return replaceByLeaf(first, sums, asLeaf);
         if (offset > TREE_MAX_OFFSET)
-            throw Error("merged voxels need a tree of over {} leaves; raise merge_voxels' 'tolerance'",
-                        before.leaves);
+            throw Error("merged voxels need a tree of over {} leaves; raise merge_voxels' 'tolerance'", before.leaves);
         words_[first] = gpu::packSplit(uint32_t(split.axis), uint32_t(split.plane), uint32_t(offset));
         return both;
     }

@@ -28,10 +28,8 @@ class TraceGatherRays final : public Pass {
         uint32_t block = 1;
         static constexpr auto schema() {
             return std::tuple{
-                field("rays_per_block", &Params::raysPerBlock, "Rays from each block.", 1u, 65536u)
-                    .lessNoise(),
-                field("block", &Params::block, "Texels of the G-buffer along a block's edge.",
-                      powersOfTwo(1, 8))};
+                field("rays_per_block", &Params::raysPerBlock, "Rays from each block.", 1u, 65536u).lessNoise(),
+                field("block", &Params::block, "Texels of the G-buffer along a block's edge.", powersOfTwo(1, 8))};
         }
     };
 
@@ -50,13 +48,11 @@ class TraceGatherRays final : public Pass {
 void TraceGatherRays::plan(PassPlan& plan) {
     GatherHits& hits = plan[hits_];
     const glm::uvec2 texels = glm::uvec2(plan.frame.width, plan.frame.height) * plan[gbuffer_].samples;
-    hits.layout = {texels, (texels + params_.block - 1u) / params_.block, params_.block, params_.raysPerBlock,
-                   0};
+    hits.layout = {texels, (texels + params_.block - 1u) / params_.block, params_.block, params_.raysPerBlock, 0};
     hits.blocksPerBatch = std::clamp(kGatherBatchRays / params_.raysPerBlock, 1u, hits.blocks());
     hits.batches = std::vector<Buffer>((hits.blocks() + hits.blocksPerBatch - 1) / hits.blocksPerBatch);
     for (uint32_t b = 0; b < hits.batches.size(); ++b)
-        plan.buffer(hits.batches[b], "gather hits",
-                    uint64_t(hits.batchBlocks(b)) * params_.raysPerBlock * sizeof(Hit));
+        plan.buffer(hits.batches[b], "gather hits", uint64_t(hits.batchBlocks(b)) * params_.raysPerBlock * sizeof(Hit));
     plan.buffer(rays_, "gather rays", uint64_t(hits.blocksPerBatch) * params_.raysPerBlock * sizeof(Ray));
 }
 

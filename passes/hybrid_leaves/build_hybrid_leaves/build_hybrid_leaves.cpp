@@ -72,10 +72,9 @@ class BuildHybridLeaves final : public Pass {
     static constexpr const char* kName = "build_hybrid_leaves";
     static constexpr const char* kHelp =
         "Builds the leaves of a hybrid octree over surface voxels, for rays that resolve more than voxels. "
-        "Each leaf holds the list of its triangles or, "
-        "if these exceed a capacity, a grid of finer voxels, its cells. "
-        "Biased by: grid, since surfaces in grids are as thick as cells; "
-        "`lists: fragments` misses triangles; `write: none` flickers. Source: Seok 2021, chapter 3.";
+        "Each leaf holds the list of its triangles or, if these exceed a capacity, a grid of finer voxels, "
+        "its cells. Biased by: grid, since surfaces in grids are as thick as cells; `lists: "
+        "fragments` misses triangles; `write: none` flickers. Source: Seok 2021, chapter 3.";
     struct Params {
         uint32_t primitives = 64;
         uint32_t grid = 16;
@@ -89,17 +88,14 @@ class BuildHybridLeaves final : public Pass {
                       "a leaf with more has a grid (Seok 2021, section 3.2).",
                       1u, 1u << 20),
                 field("grid", &Params::grid,
-                      "Resolution m of a leaf's grid: cells along its edge. "
-                      "An empty cell takes two bits.",
-                      2u, 16u),
+                      "Resolution m of a leaf's grid: cells along its edge. An empty cell takes two bits.", 2u, 16u),
                 field("lists", &Params::lists,
                       "exact: every triangle that overlaps the leaf. "
-                      "fragments: every triangle with a raster fragment in the leaf, "
-                      "which misses some (Seok 2021, figures 24 and 25)."),
-                field(
-                    "write", &Params::write,
-                    "average: a cell is the mean of its surfaces, weighted by area. none: "
-                    "the last one that is written, which changes from run to run (Seok 2021, section 3.2)."),
+                      "fragments: every triangle with a raster fragment in the leaf, which misses some (Seok 2021, "
+                      "figures 24 and 25)."),
+                field("write", &Params::write,
+                      "average: a cell is the mean of its surfaces, weighted by area. "
+                      "none: the last one that is written, which changes from run to run (Seok 2021, section 3.2)."),
                 field("grid_levels", &Params::gridLevels,
                       "finest: rays intersect cells of 1/m of the leaf's edge. "
                       "footprint: grids also have cells of twice the edge, and so on up to half the leaf; "
@@ -117,8 +113,7 @@ class BuildHybridLeaves final : public Pass {
     bool isUpdate() const { return updateCache_ && updateCache_->isActive(); }
     /// Builds the leaves of a region and copies the others. False if sums need other fixed-point units:
     /// then all leaves must be rebuilt.
-    bool build(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& surface,
-               HybridLeaves& leaves);
+    bool build(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& surface, HybridLeaves& leaves);
     /// Adds voxels of masked triangles that are too transparent to be surface voxels.
     void addMaskedVoxels(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& voxels,
                          HybridLeaves& leaves);
@@ -135,8 +130,7 @@ class BuildHybridLeaves final : public Pass {
         return params_.lists == LeafLists::Fragments ? Defines{{"FRAGMENTS", "1"}} : Defines{};
     }
     std::unique_ptr<PassProgram> voxelizerProgram(const char* file, const Defines& defines = {}) {
-        return voxelizer_->makeProgram(*this, std::string("passes/hybrid_leaves/build_hybrid_leaves/") + file,
-                                       defines);
+        return voxelizer_->makeProgram(*this, std::string("passes/hybrid_leaves/build_hybrid_leaves/") + file, defines);
     }
 
     const Params params_;
@@ -150,13 +144,13 @@ class BuildHybridLeaves final : public Pass {
     Kernel sizeLists_{*this, "size_lists.comp"};
     Kernel classifyLeaves_{*this, "classify_leaves.comp"};
     Kernel sortLists_{*this, "sort_lists.comp"};
-    PrefixSum prefixSum_{*this, PrefixSum::Of::Values}, bitPrefixSum_{*this, PrefixSum::Of::SetBits};
+    PrefixSum prefixSum_{*this, PrefixSum::Input::Uints}, bitPrefixSum_{*this, PrefixSum::Input::SetBits};
     LeafGrids leafGrids_{*this, params_.write, bitPrefixSum_};
     RegionMerge regionMerge_{*this};
     std::optional<LeafUpdateCache> updateCache_;  ///< Where surfaces move.
     Buffer counts_;                               ///< Triangles of each leaf.
     Buffer rebuiltCounts_;                        ///< The same of rebuilt leaves, 0 for others.
-    LargeBuffer pairs_;  ///< Scratch, of triangles and leaves with grids: three words each.
+    LargeBuffer pairs_;                           ///< Scratch, of triangles and leaves with grids: three words each.
     uint32_t pairCount_ = 0;
     uint32_t itemCount_ = 0;  ///< Of all lists.
     uint32_t rebuiltLeaves_ = 0;
@@ -164,16 +158,14 @@ class BuildHybridLeaves final : public Pass {
 };
 
 uint32_t BuildHybridLeaves::gridLevels() const {
-    const bool hasAllLevels =
-        params_.write == CellWrite::Average && params_.gridLevels == GridLevels::Footprint;
+    const bool hasAllLevels = params_.write == CellWrite::Average && params_.gridLevels == GridLevels::Footprint;
     return hasAllLevels ? allGridLevels(params_.grid) : 1;
 }
 
 void BuildHybridLeaves::plan(PassPlan& plan) {
     const gpu::VoxelGrid& grid = plan[voxels_].grid;
     if (grid.windowSize < std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z}))
-        throw Error(
-            "build_hybrid_leaves needs all voxels, and this grid holds a window of them: take voxelize");
+        throw Error("build_hybrid_leaves needs all voxels, and this grid holds a window of them: take voxelize");
     const Geometry& geometry = plan.frame.scene->geometry;
     plan.buffer(plan[leaves_].header, "hybrid leaves' header", hybridHeaderBytes());
     plan.buffer(plan[leaves_].corners, "corners of triangles",
@@ -232,8 +224,8 @@ bool BuildHybridLeaves::build(PassContext& context, const VoxelRegion& region, c
     return true;
 }
 
-void BuildHybridLeaves::addMaskedVoxels(PassContext& context, const VoxelRegion& region,
-                                        const SurfaceVoxels& voxels, HybridLeaves& leaves) {
+void BuildHybridLeaves::addMaskedVoxels(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& voxels,
+                                        HybridLeaves& leaves) {
     const std::vector<uint32_t> triangles = maskedTriangles(*context.frame.scene);
     if (triangles.empty()) return;
     CommandStream& stream = context.stream;
@@ -244,8 +236,7 @@ void BuildHybridLeaves::addMaskedVoxels(PassContext& context, const VoxelRegion&
     masked.rank = Buffer(context.device, "ranks with masks", voxels.rank.bytes());
     stream.copy(voxels.occupancy, masked.occupancy, voxels.occupancy.bytes());
     voxelizer_->select(context, masked.grid, region, triangles);
-    voxelizer_->run(context, *markLeaves_, masked.grid, std::vector<Binding>{{"occupancy", masked.occupancy}},
-                    0);
+    voxelizer_->run(context, *markLeaves_, masked.grid, std::vector<Binding>{{"occupancy", masked.occupancy}}, 0);
     if (isUpdate())
         masked.occupancy =
             regionMerge_.merged(stream, updateCache_->region(), updateCache_->occupancy(), masked.occupancy);
@@ -253,8 +244,7 @@ void BuildHybridLeaves::addMaskedVoxels(PassContext& context, const VoxelRegion&
     voxelizer_->release();
 }
 
-void BuildHybridLeaves::classifyLeaves(PassContext& context, const SurfaceVoxels& voxels,
-                                       HybridLeaves& leaves) {
+void BuildHybridLeaves::classifyLeaves(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves) {
     // Triangles of each leaf
     CommandStream& stream = context.stream;
     const uint32_t count = voxels.voxelCount;
@@ -293,16 +283,14 @@ void BuildHybridLeaves::classifyLeaves(PassContext& context, const SurfaceVoxels
     pairCount_ = counted.pairs;
     leaves.emptyCount = counted.empty;
     leaves.primitiveCount = counted.listed;
-    stream.dispatch(
-        classifyLeaves_, count,
-        {{"counts", counts_}, {"gridIndices", grids}, {"words", leaves.words}, leafBindings.all()});
+    stream.dispatch(classifyLeaves_, count,
+                    {{"counts", counts_}, {"gridIndices", grids}, {"words", leaves.words}, leafBindings.all()});
     stream.finish();
 }
 
 void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves) {
     CommandStream& stream = context.stream;
-    leaves.primitives =
-        Buffer(context.device, "lists of triangles", uintBytes(uint64_t(itemCount_) * LIST_ITEM_WORDS));
+    leaves.primitives = Buffer(context.device, "lists of triangles", uintBytes(uint64_t(itemCount_) * LIST_ITEM_WORDS));
     const CellLayout layout = cellLayout(*context.frame.scene->scene);
     const uint32_t gridWords = wordsPerGrid(params_.grid, gridLevels());
     leaves.shape = {voxels.voxelCount, params_.primitives, params_.grid,          gridLevels(),
@@ -323,11 +311,9 @@ void BuildHybridLeaves::fillLists(PassContext& context, const SurfaceVoxels& vox
                                                            {"PairsRef", pairs_.ref()},
                                                            {"hybridLeaves", leaves.header}});
     voxelizer_->run(context, *fillLists_, voxels.grid, bindings, 0);
-    stream.dispatch(sortLists_, voxels.voxelCount,
-                    {leaves,
-                     {"counts", rebuiltCounts_},
-                     {"leaves", voxels.voxelCount},
-                     {"capacity", params_.primitives}});
+    stream.dispatch(
+        sortLists_, voxels.voxelCount,
+        {leaves, {"counts", rebuiltCounts_}, {"leaves", voxels.voxelCount}, {"capacity", params_.primitives}});
     if (isUpdate()) updateCache_->copyLists(stream, leaves, counts_);
     stream.finish();
 }

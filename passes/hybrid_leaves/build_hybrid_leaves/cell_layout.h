@@ -23,9 +23,8 @@ inline CellLayout cellLayout(const Scene& scene) {
         for (int c = 0; c < 3; ++c) largestEmission = std::max(largestEmission, material.emission[c]);
         isExtended |= material.metallic > 0 || material.specular > 0;
     }
-    return isExtended || largestEmission > 0
-               ? CellLayout{EXTENDED_CELL_WORDS, EXTENDED_SUM_UINTS, largestEmission}
-               : CellLayout{GRID_CELL_WORDS, SUM_UINTS, 0};
+    return isExtended || largestEmission > 0 ? CellLayout{EXTENDED_CELL_WORDS, EXTENDED_SUM_UINTS, largestEmission}
+                                             : CellLayout{GRID_CELL_WORDS, SUM_UINTS, 0};
 }
 
 /// Fixed-point units of area per cell face: sums of that many triangles fit in 31 bits, where each has at

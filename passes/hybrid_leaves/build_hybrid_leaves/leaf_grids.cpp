@@ -74,17 +74,16 @@ void LeafGrids::fill(PassContext& context, const gpu::VoxelGrid& voxels, const T
     if (updateCache) updateCache->copyGridBits(stream, leaves);
     leaves.cellCount = bitPrefixSum_.run(stream, leaves.gridBits, leaves.gridRanks, words);
     requireBelow(leaves.cellCount, kMaxGridCells, "cells of grids");
-    leaves.cells = Buffer(context.device, "cells of grids",
-                          uintBytes(uint64_t(leaves.cellCount) * leaves.shape.cellWords));
+    leaves.cells =
+        Buffer(context.device, "cells of grids", uintBytes(uint64_t(leaves.cellCount) * leaves.shape.cellWords));
     stream.fill(leaves.cells, 0);
     writeHeader(stream, leaves);
 
     // Values of cells, then their thickness
     LargeBuffer sums;
     if (write_ == CellWrite::Average) {
-        sums = LargeBuffer(
-            context.device, "sums of cells",
-            uintBytes(uint64_t(leaves.cellCount) * cellLayout(*context.frame.scene->scene).sumWords));
+        sums = LargeBuffer(context.device, "sums of cells",
+                           uintBytes(uint64_t(leaves.cellCount) * cellLayout(*context.frame.scene->scene).sumWords));
         stream.fill(sums, 0);
     }
     stream.dispatch(writeCells_, pairs.count, {pairBindings.all(), ifUsed({"CellSumsRef", sums.ref()})});
@@ -92,11 +91,9 @@ void LeafGrids::fill(PassContext& context, const gpu::VoxelGrid& voxels, const T
         stream.dispatch(averageCells_, leaves.cellCount,
                         {leaves, {"CellSumsRef", sums.ref()}, {"cells", leaves.cellCount}});
         const uint32_t cellsPerGrid = gridCells(leaves.shape.gridResolution, 1, leaves.shape.gridLevels);
-        stream.dispatch(coarsenCells_, leaves.gridCount * cellsPerGrid,
-                        {leaves,
-                         {"CellSumsRef", sums.ref()},
-                         {"grids", leaves.gridCount},
-                         {"cellsPerGrid", cellsPerGrid}});
+        stream.dispatch(
+            coarsenCells_, leaves.gridCount * cellsPerGrid,
+            {leaves, {"CellSumsRef", sums.ref()}, {"grids", leaves.gridCount}, {"cellsPerGrid", cellsPerGrid}});
     }
     stream.dispatch(measureThickness_, pairs.count, pairBindings);
     if (updateCache) updateCache->copyCells(stream, leaves);

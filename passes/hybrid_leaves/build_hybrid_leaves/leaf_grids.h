@@ -17,8 +17,7 @@ namespace voxray {
 enum class CellWrite { Average, None };
 template <>
 struct EnumNames<CellWrite> {
-    static constexpr std::array names{std::pair{CellWrite::Average, "average"},
-                                      std::pair{CellWrite::None, "none"}};
+    static constexpr std::array names{std::pair{CellWrite::Average, "average"}, std::pair{CellWrite::None, "none"}};
 };
 
 constexpr uint64_t kMaxGridCells = (1ull << 32) / EXTENDED_SUM_UINTS;  // Indices have 32 bits.

@@ -24,9 +24,8 @@ void LeafUpdateCache::store(CommandStream& stream, const SurfaceVoxels& voxels, 
 }
 
 void LeafUpdateCache::beginUpdate(HybridLeaves& leaves, Buffer region) {
-    for (Buffer HybridLeaves::*member :
-         {&HybridLeaves::words, &HybridLeaves::primitives, &HybridLeaves::gridBits, &HybridLeaves::gridRanks,
-          &HybridLeaves::cells})
+    for (Buffer HybridLeaves::*member : {&HybridLeaves::words, &HybridLeaves::primitives, &HybridLeaves::gridBits,
+                                         &HybridLeaves::gridRanks, &HybridLeaves::cells})
         previous_.*member = std::move(leaves.*member);
     leaves.release();
     region_ = std::move(region);
@@ -39,8 +38,8 @@ std::vector<Binding> LeafUpdateCache::previousArrays(uint32_t count) const {
             {"cells", address(previous_.cells)},       {"count", count}};
 }
 
-uint32_t LeafUpdateCache::mergeCounts(CommandStream& stream, const SurfaceVoxels& voxels,
-                                      const Buffer& rebuiltCounts, const Buffer& counts) {
+uint32_t LeafUpdateCache::mergeCounts(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& rebuiltCounts,
+                                      const Buffer& counts) {
     previousLeaf_ = Buffer(stream.device(), "numbers that leaves had", counts.bytes());
     const Buffer rebuiltLeaves(stream.device(), "leaves that are built again", sizeof(uint32_t));
     stream.fill(rebuiltLeaves, 0);

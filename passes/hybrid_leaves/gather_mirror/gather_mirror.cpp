@@ -50,14 +50,12 @@ class GatherMirror final : public Pass {
     static constexpr const char* kName = "gather_mirror";
     static constexpr const char* kHelp =
         "Traces reflected rays for the specular light of mirror-like surfaces. "
-        "It is added to the direct and indirect light of other passes, "
-        "and includes emissive surfaces, the environment and other mirrors. "
-        "Biased by: voxel size (indirect light at hits, and direct light with `direct_at_hits: voxels`); "
-        "rough specular lobes of reflected surfaces are ignored; "
+        "It is added to the direct and indirect light of other passes, and includes emissive surfaces, "
+        "the environment and other mirrors. Biased by: voxel size (indirect light at hits, "
+        "and direct light with `direct_at_hits: voxels`); rough specular lobes of reflected surfaces are ignored; "
         "caustics are in voxels only where their injection traces them; "
         "cells of hybrid leaves' grids are slightly thicker than their surfaces. "
-        "Noisy by: `rays` where surfaces are no perfect mirrors; light_samples. "
-        "Source: Seok 2021, chapter 4.";
+        "Noisy by: `rays` where surfaces are no perfect mirrors; light_samples. Source: Seok 2021, chapter 4.";
     using Params = MirrorParams;
 
     explicit GatherMirror(const Params& params);
@@ -86,12 +84,10 @@ class GatherMirror final : public Pass {
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
     In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
     In<HybridLeaves> leaves_{*this, "hybrid_leaves", "lists and grids of the octree's leaves", isHybrid()};
-    In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales",
-                                 continuesAsCones()};
+    In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales", continuesAsCones()};
     InOptional<SpecularLobes> lobes_{*this, "lobes", "specular light by cones, for rougher surfaces"};
     InOptional<FrameImage> inputDirect_{*this, "direct", "radiance reflected of direct light"};
-    InOptional<FrameImage> inputIndirect_{*this, "indirect",
-                                          "radiance that diffuse albedos reflect of indirect light"};
+    InOptional<FrameImage> inputIndirect_{*this, "indirect", "radiance that diffuse albedos reflect of indirect light"};
     Out<FrameImage> direct_{*this, "direct", "the same, with emissive surfaces and environment in mirrors"};
     Out<FrameImage> indirect_{*this, "indirect", "the same, with all other light in mirrors"};
     Out<MirrorEnds> ends_{*this, "mirror_ends", "what a pixel's mirror rays hit, for AOVs"};
@@ -117,17 +113,16 @@ class GatherMirror final : public Pass {
 GatherMirror::GatherMirror(const Params& params) : params_(params) {
     if (usesShadowRays()) directLightAtHits_.emplace(*this);
     if (isHybrid())
-        hybridTracer_.emplace(*this, params_.walk == MirrorTraversal::Hierarchical
-                                         ? HybridTraversal::Hierarchical
-                                         : HybridTraversal::VoxelByVoxel);
+        hybridTracer_.emplace(*this, params_.walk == MirrorTraversal::Hierarchical ? HybridTraversal::Hierarchical
+                                                                                   : HybridTraversal::VoxelByVoxel);
 }
 
 void GatherMirror::plan(PassPlan& plan) {
     const SpecularLobes* lobes = plan[lobes_];
     if (lobes && lobes->emission)
         throw Error(
-            "gather_mirror: the cones of 'lobes' bring what surfaces emit, "
-            "which rays and the direct pass bring too; set 'emission' of filter_voxels to false");
+            "gather_mirror: the cones of 'lobes' bring what surfaces emit, which rays and the direct pass bring too; "
+            "set 'emission' of filter_voxels to false");
     if (continuesAsCones() && plan[radiance_].emission)
         throw Error(
             "gather_mirror: wide rays would bring what surfaces emit, which other passes bring, too; "
@@ -152,13 +147,11 @@ void GatherMirror::plan(PassPlan& plan) {
     plan.buffer(flags_, "flags of mirror rays", flagWords(maxPaths) * sizeof(uint32_t));
     plan.buffer(pathIndices_, "list of mirror rays", maxPaths * sizeof(uint32_t));
     plan.buffer(light_, "light of mirror rays", maxPaths * sizeof(gpu::MirrorLight));
-    for (Buffer& paths : paths_)
-        plan.buffer(paths, "paths of mirror rays", maxPaths * sizeof(gpu::MirrorPath));
+    for (Buffer& paths : paths_) plan.buffer(paths, "paths of mirror rays", maxPaths * sizeof(gpu::MirrorPath));
     for (Buffer& rays : rays_) plan.buffer(rays, "mirror rays", maxPaths * sizeof(Ray));
     if (hybridTracer_) {
         hybridTracer_->plan(plan, plan[voxels_]);
-        for (Buffer& starts : starts_)
-            plan.buffer(starts, "starts of mirror rays", maxPaths * sizeof(gpu::RayStart));
+        for (Buffer& starts : starts_) plan.buffer(starts, "starts of mirror rays", maxPaths * sizeof(gpu::RayStart));
     }
     plan.buffer(hits_, "hits of mirror rays", maxPaths * sizeof(Hit));
     plan.buffer(surfels_, "surfels at hits", (usesShadowRays() ? maxPaths : 1) * sizeof(gpu::Surfel));
@@ -198,8 +191,7 @@ void GatherMirror::record(PassContext& context) {
     triangleHitCount_ = cellHitCount_ = coneCount_ = missCount_ = 0;
     if (hybridTracer_) {
         const SurfaceVoxels& voxels = context[voxels_];
-        const float maxWidth =
-            continuesAsCones() ? voxels.grid.voxelSize : std::numeric_limits<float>::infinity();
+        const float maxWidth = continuesAsCones() ? voxels.grid.voxelSize : std::numeric_limits<float>::infinity();
         hybridTracer_->begin(context.stream, context.scene, voxels, context[leaves_], maxWidth);
     }
     for (uint32_t first = 0; first < pixels; first += pixelsPerBatch) {
@@ -213,7 +205,7 @@ void GatherMirror::record(PassContext& context) {
     if (!hybridTracer_) return;
     context.report("mirror rays that hit cells of grids", double(cellHitCount_));
     if (continuesAsCones()) context.report("mirror rays that went on as cones", double(coneCount_));
-    context.voxelCounts.push_back(&hybridTracer_->counts());
+    context.visitCounts.push_back(&hybridTracer_->counts());
 }
 
 void GatherMirror::updateFaceIrradiance(PassContext& context) {
@@ -271,8 +263,7 @@ void GatherMirror::trace(PassContext& context, uint32_t depth, uint32_t count) {
                       {"count", count}});
 }
 
-uint32_t GatherMirror::shadeHits(PassContext& context, const gpu::MirrorBatch& batch, uint32_t depth,
-                                 uint32_t count) {
+uint32_t GatherMirror::shadeHits(PassContext& context, const gpu::MirrorBatch& batch, uint32_t depth, uint32_t count) {
     CommandStream& stream = context.stream;
     stream.fill(counts_, 0);
     context.dispatch(shadeHits_, count,

@@ -44,8 +44,7 @@ struct MirrorParams {
     static constexpr auto schema() {
         return std::tuple{
             field("max_roughness", &MirrorParams::maxRoughness,
-                  "Roughness up to which rays alone give specular light; "
-                  "surfaces below 0.0316 are perfect mirrors.",
+                  "Roughness up to which rays alone give specular light; surfaces below 0.0316 are perfect mirrors.",
                   0.0f, 1.0f),
             field("blend_roughness", &MirrorParams::blendRoughness,
                   "Range of roughness above max_roughness over which rays fade out, "
@@ -59,10 +58,10 @@ struct MirrorParams {
                   "further mirrors are black.",
                   1u, 32u),
             field("walk", &MirrorParams::walk,
-                  "What rays are traced through. exact: the scene, by the ray tracer. "
-                  "hierarchical, voxel_by_voxel: leaves of the octree, which hold triangles or grids of "
-                  "finer voxels; the first skips empty space at all scales, "
-                  "the second visits each voxel from the root, as in the paper."),
+                  "What rays are traced through. exact: the scene, by the ray tracer. hierarchical, voxel_by_voxel: "
+                  "leaves of the octree, which hold triangles or grids of finer voxels; "
+                  "the first skips empty space at all scales, the second visits each voxel from the root, "
+                  "as in the paper."),
             field("wide_rays", &MirrorParams::wideRays,
                   "How rays through hybrid leaves continue where they are wider than a voxel at a surface. "
                   "rays: as rays. cones: as a cone through larger voxels, which hold direct light as well.")

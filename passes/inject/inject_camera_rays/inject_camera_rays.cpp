@@ -23,8 +23,7 @@ class InjectCameraRays final : public Pass {
         "Each hit counts by the area that it stands for. "
         "Leaves unlit: what neither the view nor its secondary rays reach. "
         "Biased by: voxel size; partly visible voxels take the irradiance of their visible part. "
-        "Noisy by: rays_per_image. "
-        "Source: Magalhães 2020, section 3.3.2.";
+        "Noisy by: rays_per_image. Source: Magalhães 2020, section 3.3.2.";
     struct Params : WriteParams {
         uint32_t raysPerImage = 1048576;
         uint32_t bounces = 8;
@@ -33,13 +32,11 @@ class InjectCameraRays final : public Pass {
             return std::tuple_cat(
                 WriteParams::schema(),
                 std::tuple{
-                    field("rays_per_image", &Params::raysPerImage, "Rays from the camera.", 1u, 1u << 26)
-                        .lessNoise(),
-                    field("bounces", &Params::bounces,
-                          "Bounces of light; Russian roulette by albedo ends paths early.", 0u, 32u),
+                    field("rays_per_image", &Params::raysPerImage, "Rays from the camera.", 1u, 1u << 26).lessNoise(),
+                    field("bounces", &Params::bounces, "Bounces of light; Russian roulette by albedo ends paths early.",
+                          0u, 32u),
                     field("light_samples", &Params::lightSamples,
-                          "Shadow rays at each hit to the emissive surfaces, and to the environment.", 1u,
-                          64u)});
+                          "Shadow rays at each hit to the emissive surfaces, and to the environment.", 1u, 64u)});
         }
     };
 

@@ -15,10 +15,9 @@ class InjectLightRays final : public Pass {
  public:
     static constexpr const char* kName = "inject_light_rays";
     static constexpr const char* kHelp =
-        "Traces rays from every light, and deposits their power in the voxels hit. Then the rays bounce. "
-        "Biased by: voxel size; write other than average; "
-        "secondary: mirror, which takes every surface for a coloured mirror. Noisy by: rays_per_light. "
-        "Leaves unlit: nothing that light reaches, given rays enough. "
+        "Traces rays from every light, and deposits their power in the voxels hit. Then the rays bounce. Biased by: "
+        "voxel size; write other than average; secondary: mirror, which takes every surface for a coloured mirror. "
+        "Noisy by: rays_per_light. Leaves unlit: nothing that light reaches, given rays enough. "
         "With diffuse bounces all surfaces are Lambert surfaces of their base colour. "
         "Source: Magalhães 2020, section 3.3.";
     struct Params : LightPathParams {
@@ -52,8 +51,7 @@ class InjectLightRays final : public Pass {
             const uint32_t seed = randomSeed(context.frame, s), rays = params_.raysPerLight;
             for (uint32_t first = 0; first < rays; first += kMaxBatchRays) {
                 const uint32_t count = std::min(kMaxBatchRays, rays - first);
-                emission_.emit(context, sources[s], {seed, rays, first, count}, paths_.rays(),
-                               paths_.paths());
+                emission_.emit(context, sources[s], {seed, rays, first, count}, paths_.rays(), paths_.paths());
                 paths_.trace(context, voxels, {seed, first, count});
             }
         }

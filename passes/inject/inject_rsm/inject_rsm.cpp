@@ -14,16 +14,14 @@ class InjectRsm final : public Pass {
  public:
     static constexpr const char* kName = "inject_rsm";
     static constexpr const char* kHelp =
-        "Lights voxels by a reflective shadow map (RSM) of each light. "
-        "Rasterizes the scene from every light and deposits the light through each texel "
-        "in the voxel of the point that the texel shows. Then rays bounce from there. "
-        "Point lights take a cube of six views, spots one (wider than 90° across: the cube), "
-        "directional lights one over the scene's bounding sphere. "
+        "Lights voxels by a reflective shadow map (RSM) of each light. Rasterizes the scene from every light "
+        "and deposits the light through each texel in the voxel of the point that the texel shows. "
+        "Then rays bounce from there. Point lights take a cube of six views, spots one (wider than 90° across: "
+        "the cube), directional lights one over the scene's bounding sphere. "
         "No emissive surfaces and no environment: they have no single viewpoint. "
         "Biased by: voxel size; rsm_resolution (texels larger than voxels leave gaps). "
-        "Noisy by: bounces alone, of rays from each texel (rsm_resolution). "
-        "Leaves unlit: what lies nearer to a light than 0.0001 of the scene's extent. "
-        "Source: Dachsbacher and Stamminger 2005.";
+        "Noisy by: bounces alone, of rays from each texel (rsm_resolution). Leaves unlit: "
+        "what lies nearer to a light than 0.0001 of the scene's extent. Source: Dachsbacher and Stamminger 2005.";
     struct Params : LightPathParams {
         uint32_t rsmResolution = 768;
         static constexpr auto schema() {

@@ -12,8 +12,8 @@ void HitFaces::plan(PassPlan& plan) {
     plan.buffer(selected_, "surfels to light", Surfels::kMaxChunkSurfels * sizeof(gpu::Surfel));
 }
 
-void HitFaces::mark(PassContext& context, const SurfaceVoxels& voxels, const Surfels& surfels,
-                    const GBuffer& gbuffer, const GatherHits& hits) {
+void HitFaces::mark(PassContext& context, const SurfaceVoxels& voxels, const Surfels& surfels, const GBuffer& gbuffer,
+                    const GatherHits& hits) {
     const auto clear = [&](Buffer& buffer, const char* name) {
         ensureSize(buffer, context.device, name, uint64_t(voxels.voxelCount) * sizeof(uint32_t));
         context.stream.fill(buffer, 0);
@@ -22,10 +22,9 @@ void HitFaces::mark(PassContext& context, const SurfaceVoxels& voxels, const Sur
     if (context.changed(voxels) || context.changed(surfels)) {
         clear(facesWithSurfels_, "faces with surfels");
         for (const Surfels::Chunk& chunk : surfels.chunks)
-            context.dispatch(markSurfelFaces_, chunk.count,
-                             {{"surfels", chunk.surfels},
-                              {"facesWithSurfels", facesWithSurfels_},
-                              {"count", chunk.count}});
+            context.dispatch(
+                markSurfelFaces_, chunk.count,
+                {{"surfels", chunk.surfels}, {"facesWithSurfels", facesWithSurfels_}, {"count", chunk.count}});
     }
     for (uint32_t b = 0; b < hits.batches.size(); ++b) {
         const uint32_t rays = hits.batchBlocks(b) * hits.layout.raysPerBlock;

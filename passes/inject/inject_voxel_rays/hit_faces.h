@@ -15,8 +15,8 @@ class HitFaces {
 
     void plan(PassPlan& plan);
     /// Marks the faces that are read at the hits.
-    void mark(PassContext& context, const SurfaceVoxels& voxels, const Surfels& surfels,
-              const GBuffer& gbuffer, const GatherHits& hits);
+    void mark(PassContext& context, const SurfaceVoxels& voxels, const Surfels& surfels, const GBuffer& gbuffer,
+              const GatherHits& hits);
     /// Selects the surfels of a chunk on marked faces. @return their number. Waits for the device.
     uint32_t select(PassContext& context, const Surfels::Chunk& chunk) const;
     /// The surfels that were selected last.

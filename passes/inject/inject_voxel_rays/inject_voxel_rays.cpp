@@ -38,17 +38,14 @@ class InjectVoxelRays final : public Pass {
     static constexpr const char* kName = "inject_voxel_rays";
     static constexpr const char* kHelp =
         "Lights voxels by shadow rays and paths from their surfels. "
-        "Surfels are points on the voxels' surfaces (place_surfels). "
-        "With `points: gather_hits` it lights in each frame "
-        "only the faces that the rays of trace_gather_rays (which must come before) hit. "
+        "Surfels are points on the voxels' surfaces (place_surfels). With `points: gather_hits` it lights "
+        "in each frame only the faces that the rays of trace_gather_rays (which must come before) hit. "
         "With `direct: shadow_maps` direct light of surfels comes by each light's shadow map: "
-        "point lights take a cube of six maps, spots one (wider than 90° across: the cube), "
-        "directional lights one over the scene's bounding sphere; "
-        "emissive surfaces and the environment have no single viewpoint and are refused. "
-        "Biased by: voxel size; "
-        "of shadow maps also shadow_resolution (shadow edges and gaps below a texel). "
-        "Noisy by: points_per_voxel, paths_per_point. "
-        "Leaves unlit: nothing; with gather_hits all that no gather ray hits. "
+        "point lights take a cube of six maps, spots one (wider than 90° across: "
+        "the cube), directional lights one over the scene's bounding sphere; "
+        "emissive surfaces and the environment have no single viewpoint and are refused. Biased by: voxel size; "
+        "of shadow maps also shadow_resolution (shadow edges and gaps below a texel). Noisy by: "
+        "points_per_voxel, paths_per_point. Leaves unlit: nothing; with gather_hits all that no gather ray hits. "
         "In shadow maps what lies nearer to a light than 0.0001 of the scene's extent casts no shadow. "
         "Source: Magalhães 2020, section 6.1; shadow maps: Arnebäck 2017.";
     struct Params : WriteParams {
@@ -60,33 +57,29 @@ class InjectVoxelRays final : public Pass {
         uint32_t bounces = 8;
         uint32_t lightSamples = 1;
 
-        bool byShadowMaps() const {
-            return points == VoxelRayPoints::All && direct == VoxelRayDirect::ShadowMaps;
-        }
+        bool byShadowMaps() const { return points == VoxelRayPoints::All && direct == VoxelRayDirect::ShadowMaps; }
         static constexpr auto schema() {
             return std::tuple_cat(
-                std::tuple{
-                    field("points", &Params::points,
-                          "Which surfels are lit. all: those of every voxel. "
-                          "gather_hits: those on the faces that the frame's gather rays hit; "
-                          "few paths_per_point suffice, since a gather averages over many faces."),
-                    field("direct", &Params::direct,
-                          "How direct light of surfels is measured. shadow_rays: by rays to the lights. "
-                          "shadow_maps: by a shadow map of each light.")
-                        .onlyWith(oneOf(&Params::points, {VoxelRayPoints::All})),
-                    field("shadow_resolution", &Params::shadowResolution,
-                          "Texels along an edge of each shadow map.", 2u, 8192u)
-                        .onlyWith(oneOf(&Params::direct, {VoxelRayDirect::ShadowMaps}))},
+                std::tuple{field("points", &Params::points,
+                                 "Which surfels are lit. all: those of every voxel. "
+                                 "gather_hits: those on the faces that the frame's gather rays hit; "
+                                 "few paths_per_point suffice, since a gather averages over many faces."),
+                           field("direct", &Params::direct,
+                                 "How direct light of surfels is measured. shadow_rays: by rays to the lights. "
+                                 "shadow_maps: by a shadow map of each light.")
+                               .onlyWith(oneOf(&Params::points, {VoxelRayPoints::All})),
+                           field("shadow_resolution", &Params::shadowResolution,
+                                 "Texels along an edge of each shadow map.", 2u, 8192u)
+                               .onlyWith(oneOf(&Params::direct, {VoxelRayDirect::ShadowMaps}))},
                 WriteParams::schema(),
                 std::tuple{
                     field("paths_per_point", &Params::pathsPerPoint, "Paths from each point.", 1u, 1024u)
                         .lessNoise()
                         .onlyWith(noneOf(&Params::bounces, {0u})),
-                    field("bounces", &Params::bounces,
-                          "Bounces of light; Russian roulette by albedo ends paths early.", 0u, 32u),
+                    field("bounces", &Params::bounces, "Bounces of light; Russian roulette by albedo ends paths early.",
+                          0u, 32u),
                     field("light_samples", &Params::lightSamples,
-                          "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u,
-                          256u)
+                          "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u, 256u)
                         .onlyWith(oneOf(&Params::direct, {VoxelRayDirect::ShadowRays}),
                                   oneOf(&Params::points, {VoxelRayPoints::GatherHits}))});
         }
@@ -125,8 +118,8 @@ InjectVoxelRays::InjectVoxelRays(const Params& params) : params_(params) {
 void InjectVoxelRays::plan(PassPlan& plan) {
     const SceneState& scene = *plan.frame.scene;
     if (shadowMaps_) requireClearPanes(scene, kName);
-    sources_ = shadowMaps_ ? requirePunctualLights(scene, kName, "'direct: shadow_rays'")
-                           : requireLightSources(scene, kName);
+    sources_ =
+        shadowMaps_ ? requirePunctualLights(scene, kName, "'direct: shadow_rays'") : requireLightSources(scene, kName);
     plan[irradiance_].lightBounces = params_.bounces;
     injection_.plan(plan, kName, params_, plan[voxels_]);
     if (shadowMaps_) shadowMaps_->plan(plan, params_.shadowResolution);
@@ -166,14 +159,13 @@ void InjectVoxelRays::record(PassContext& context) {
     injection_.fillUnknown(context, scene.voxels, irradiance);
 }
 
-void InjectVoxelRays::inject(PassContext& context, const PathScene& scene, const Buffer& surfels,
-                             uint32_t count, const Buffer& direct) {
+void InjectVoxelRays::inject(PassContext& context, const PathScene& scene, const Buffer& surfels, uint32_t count,
+                             const Buffer& direct) {
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
     injection_.writeDirect(context, surfels, count, direct);
     for (uint32_t path = 0; path < params_.pathsPerPoint && params_.bounces > 0; ++path) {
         paths_->init(context, surfels, count, seed + (path + 1) * 0xc2b2ae35u, indirect_);
-        for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce)
-            paths_->extend(context, scene, indirect_);
+        for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) paths_->extend(context, scene, indirect_);
         injection_.writeIndirect(context, surfels, count, indirect_);
     }
 }

@@ -10,8 +10,7 @@ constexpr float kFarRadii = 256;
 
 bool isParallel(const LightSource& source, const SceneState& scene) {
     return source.kind == LightSource::Environment ||
-           (source.kind == LightSource::Punctual &&
-            scene.lights[source.light].type == LightType::Directional);
+           (source.kind == LightSource::Punctual && scene.lights[source.light].type == LightType::Directional);
 }
 
 }  // namespace
@@ -30,8 +29,8 @@ void LightEmission::plan(PassPlan& plan, uint64_t rays) {
     plan.scratchBuffer(occluded_, "rays that surfaces far out occlude", rays * sizeof(uint32_t));
 }
 
-void LightEmission::emit(PassContext& context, const LightSource& source, const Batch& batch,
-                         const Buffer& rays, const Buffer& paths) const {
+void LightEmission::emit(PassContext& context, const LightSource& source, const Batch& batch, const Buffer& rays,
+                         const Buffer& paths) const {
     const SceneState& scene = *context.frame.scene;
     const BoundingSphere sphere = boundingSphere(scene.geometry);
     const bool startsInside = extendsFar_ && isParallel(source, scene);
@@ -54,8 +53,7 @@ void LightEmission::dropOccluded(PassContext& context, float reach, uint32_t cou
     context.dispatch(generateBackRays_, count,
                      {{"rays", rays}, {"backRays", backRays_}, {"count", count}, {"length", 2 * reach}});
     context.tracer.occluded(context.stream, backRays_, occluded_, count);
-    context.dispatch(drop_, count,
-                     {{"occluded", occluded_}, {"rays", rays}, {"paths", paths}, {"count", count}});
+    context.dispatch(drop_, count, {{"occluded", occluded_}, {"rays", rays}, {"paths", paths}, {"count", count}});
 }
 
 }  // namespace voxray

@@ -27,8 +27,7 @@ class LightEmission {
               const Buffer& paths) const;
 
  private:
-    void dropOccluded(PassContext& context, float reach, uint32_t count, const Buffer& rays,
-                      const Buffer& paths) const;
+    void dropOccluded(PassContext& context, float reach, uint32_t count, const Buffer& rays, const Buffer& paths) const;
 
     bool extendsFar_ = false;  ///< Whether surfaces extend far beyond the region.
     Kernel emit_, generateBackRays_, drop_;

@@ -9,22 +9,20 @@ namespace voxray {
 namespace {
 
 /// Merging irradiances needs rays with a known cross-section.
-void checkBeams(const std::string& pass, const LightPathParams& params,
-                const std::vector<LightSource>& sources) {
+void checkBeams(const std::string& pass, const LightPathParams& params, const std::vector<LightSource>& sources) {
     const std::string write = enumName(params.write);
     const bool isDiffuse = params.secondary == Secondary::Diffuse || params.secondary == Secondary::Material;
     if (isDiffuse && params.bounces > 0)
         throw Error(
-            "{}: 'write: {}' merges irradiances, and a diffusely reflected ray has none, only power; "
-            "use 'secondary: mirror' or 'none', or 'write: average'",
+            "{}: 'write: {}' merges irradiances, and a diffusely reflected ray has none, only power; use 'secondary: "
+            "mirror' or 'none', or 'write: average'",
             pass, write);
     for (const LightSource& source : sources)
         if (source.kind != LightSource::Punctual)
             throw Error(
                 "{}: 'write: {}' merges irradiances, and a ray from {} has none, only power; use 'write: "
                 "average', or point, spot and directional lights alone",
-                pass, write,
-                source.kind == LightSource::Emitters ? "an emissive surface" : "the environment");
+                pass, write, source.kind == LightSource::Emitters ? "an emissive surface" : "the environment");
 }
 
 }  // namespace
@@ -65,8 +63,7 @@ void LightPaths::plan(PassPlan& plan, const std::string& pass, uint32_t batch, c
     plan.estimate(voxels.estimatedCount * VoxelIrradiance::bytes(1));
 }
 
-void LightPaths::begin(PassContext& context, const SurfaceVoxels& voxels,
-                       const std::vector<LightSource>& sources) {
+void LightPaths::begin(PassContext& context, const SurfaceVoxels& voxels, const std::vector<LightSource>& sources) {
     const double power = totalPower(sources);
     const float typical = meanIrradiance(sources, context.frame.scene->geometry);
     for (size_t i = 0; i < accumulatorCount(); ++i) {
@@ -83,8 +80,8 @@ void LightPaths::trace(PassContext& context, const SurfaceVoxels& voxels, const 
     for (uint32_t bounce = 0; bounce <= params_.lastBounce(); ++bounce) {
         if (bounce > 0 || !batch.hasFirstHits) context.tracer.closestHit(stream, rays_, hits_, batch.count);
         if (bounce == 0)
-            paneTransmittance_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float),
-                                     batch.count, &hits_);
+            paneTransmittance_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float), batch.count,
+                                     &hits_);
 
         // Occlusion of the hits, where only unoccluded area counts
         if (voxels.unoccludedAreaOnly) {
@@ -100,21 +97,20 @@ void LightPaths::trace(PassContext& context, const SurfaceVoxels& voxels, const 
 
         // Deposit and scatter
         const size_t target = bounce == 0 ? 0 : 1;
-        stream.dispatch(
-            deposit_, batch.count,
-            {context.scene,
-             voxels,
-             sumsFlux_ ? fluxes_[target]->bindings() : irradiances_[target]->bindings(),
-             {"scale", sumsFlux_ ? fluxes_[target]->unitsPerWatt() : irradiances_[target]->scale()},
-             {"rays", rays_},
-             {"hits", hits_},
-             {"paths", paths_},
-             {"occluded", occluded_},
-             {"firstRay", batch.first},
-             {"batchRays", batch.count},
-             {"seed", batch.seed},
-             {"bounce", bounce},
-             {"lastBounce", params_.lastBounce()}});
+        stream.dispatch(deposit_, batch.count,
+                        {context.scene,
+                         voxels,
+                         sumsFlux_ ? fluxes_[target]->bindings() : irradiances_[target]->bindings(),
+                         {"scale", sumsFlux_ ? fluxes_[target]->unitsPerWatt() : irradiances_[target]->scale()},
+                         {"rays", rays_},
+                         {"hits", hits_},
+                         {"paths", paths_},
+                         {"occluded", occluded_},
+                         {"firstRay", batch.first},
+                         {"batchRays", batch.count},
+                         {"seed", batch.seed},
+                         {"bounce", bounce},
+                         {"lastBounce", params_.lastBounce()}});
     }
 }
 

@@ -16,9 +16,9 @@ namespace voxray {
 enum class Secondary { None, Mirror, Diffuse, Material };
 template <>
 struct EnumNames<Secondary> {
-    static constexpr std::array names{
-        std::pair{Secondary::None, "none"}, std::pair{Secondary::Mirror, "mirror"},
-        std::pair{Secondary::Diffuse, "diffuse"}, std::pair{Secondary::Material, "material"}};
+    static constexpr std::array names{std::pair{Secondary::None, "none"}, std::pair{Secondary::Mirror, "mirror"},
+                                      std::pair{Secondary::Diffuse, "diffuse"},
+                                      std::pair{Secondary::Material, "material"}};
 };
 
 /// Parameters of passes that trace paths from the lights.
@@ -31,16 +31,15 @@ struct LightPathParams : WriteParams {
             WriteParams::schema(),
             std::tuple{
                 field("secondary", &LightPathParams::secondary,
-                      "How rays continue after a hit. none: they don't, which gives direct light only. "
-                      "mirror: by mirror reflection times the albedo, as in Magalhães 2020. "
-                      "diffuse: cosine-distributed, with Russian roulette by albedo. "
-                      "material: by the surface's specular and diffuse lobes, "
+                      "How rays continue after a hit. none: they don't, which gives direct light only. mirror: "
+                      "by mirror reflection times the albedo, as in Magalhães 2020. diffuse: cosine-distributed, "
+                      "with Russian roulette by albedo. material: by the surface's specular and diffuse lobes, "
                       "so that mirrors and glossy surfaces reflect light onto others."),
                 field("bounces", &LightPathParams::bounces, "Bounces after a ray's first hit.", 0u, 64u)
                     .onlyWith(noneOf(&LightPathParams::secondary, {Secondary::None})),
                 field("caustics", &LightPathParams::caustics,
-                      "Whether perfect mirrors reflect rays that come straight from a point, spot or "
-                      "directional light. The reference lacks that light: no path from the camera finds it.")
+                      "Whether perfect mirrors reflect rays that come straight from a point, "
+                      "spot or directional light. The reference lacks that light: no path from the camera finds it.")
                     .onlyWith(oneOf(&LightPathParams::secondary, {Secondary::Material}))});
     }
     uint32_t lastBounce() const { return secondary == Secondary::None ? 0 : bounces; }

@@ -15,14 +15,13 @@ class RenderRsm final : public Pass {
         "These store the surface point of each texel, for sample_vpls and direct_shadow_maps. "
         "Point lights take a cube of six views, spots one (wider than 90° across: "
         "the cube), directional lights one over the scene's bounding sphere. "
-        "No emissive surfaces and no environment: they have no single viewpoint. "
-        "Biased by: rsm_resolution. Sees nothing nearer to a light than 0.0001 of the scene's extent. "
-        "Source: Dachsbacher and Stamminger 2005.";
+        "No emissive surfaces and no environment: they have no single viewpoint. Biased by: rsm_resolution. "
+        "Sees nothing nearer to a light than 0.0001 of the scene's extent. Source: Dachsbacher and Stamminger 2005.";
     struct Params {
         uint32_t rsmResolution = 512;
         static constexpr auto schema() {
-            return std::tuple{field("rsm_resolution", &Params::rsmResolution,
-                                    "Texels along an edge of each view.", 2u, 4096u)};
+            return std::tuple{
+                field("rsm_resolution", &Params::rsmResolution, "Texels along an edge of each view.", 2u, 4096u)};
         }
     };
 
@@ -43,8 +42,7 @@ void RenderRsm::plan(PassPlan& plan) {
     const SceneState& state = *plan.frame.scene;
     Rsm& rsm = plan[rsm_];
     rsm.resolution = params_.rsmResolution;
-    rsm.sources =
-        requirePunctualLights(state, kName, "direct_shadow_rays, and 'first: light_rays' of sample_vpls");
+    rsm.sources = requirePunctualLights(state, kName, "direct_shadow_rays, and 'first: light_rays' of sample_vpls");
     rsm.firstView = {0};
     for (const LightSource& source : rsm.sources)
         rsm.firstView.push_back(rsm.firstView.back() +
@@ -64,8 +62,7 @@ void RenderRsm::record(PassContext& context) {
     for (const LightSource& source : rsm.sources) {
         const auto sourceViews = lightViews(state.lights[source.light], state.geometry);
         for (uint32_t v = 0; v < sourceViews.size(); ++v)
-            views.push_back(
-                {sourceViews[v], source.light, sourceViews.size() == kCubeFaces ? v : kCubeFaces});
+            views.push_back({sourceViews[v], source.light, sourceViews.size() == kCubeFaces ? v : kCubeFaces});
     }
     stream.upload(rsm.views, views);
     for (size_t v = 0; v < views.size(); ++v) {

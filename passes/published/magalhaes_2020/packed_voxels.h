@@ -17,8 +17,7 @@ enum class PackedWrite { MovingAverage, Max, None };
 template <>
 struct EnumNames<PackedWrite> {
     static constexpr std::array names{std::pair{PackedWrite::MovingAverage, "moving_average"},
-                                      std::pair{PackedWrite::Max, "max"},
-                                      std::pair{PackedWrite::None, "none"}};
+                                      std::pair{PackedWrite::Max, "max"}, std::pair{PackedWrite::None, "none"}};
 };
 
 /// The parameter of passes that write packed words.
@@ -27,9 +26,8 @@ struct PackedWriteParams {
     static constexpr auto schema() {
         return std::tuple{field("write", &PackedWriteParams::write,
                                 "How values in a voxel's word are merged, as published in Magalhães 2020. "
-                                "moving_average: "
-                                "compare and swap, with the count in alpha (section 4.2.5.3). max: "
-                                "an atomic maximum of the packed word, decided by blue (section 5.2.4). "
+                                "moving_average: compare and swap, with the count in alpha (section 4.2.5.3). "
+                                "max: an atomic maximum of the packed word, decided by blue (section 5.2.4). "
                                 "none: a plain store; which value remains is undefined.")};
     }
     /// Definitions of passes/published/packed_write.glsl.

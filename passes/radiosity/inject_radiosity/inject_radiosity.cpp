@@ -25,10 +25,9 @@ class InjectRadiosity final : public Pass {
     static constexpr const char* kName = "inject_radiosity";
     static constexpr const char* kHelp =
         "Lights voxels from their surfels by shadow rays and by radiosity along links. "
-        "Direct light comes by shadow rays; "
-        "indirect light comes along the links of link_surfels: a sum over links per bounce, no rays. "
-        "For light that changes where surfaces don't. Biased by: voxel size, the distance of surfels; "
-        "normal maps are ignored. Noisy by: points_per_voxel, rays_per_surfel. "
+        "Direct light comes by shadow rays; indirect light comes along the links of link_surfels: "
+        "a sum over links per bounce, no rays. For light that changes where surfaces don't. Biased by: "
+        "voxel size, the distance of surfels; normal maps are ignored. Noisy by: points_per_voxel, rays_per_surfel. "
         "Leaves unlit: nothing. Source: Goral et al. 1984; Lehtinen et al. 2008.";
     struct Params : WriteParams {
         uint32_t bounces = 8;
@@ -39,8 +38,7 @@ class InjectRadiosity final : public Pass {
                 std::tuple{
                     field("bounces", &Params::bounces, "Bounces of light.", 0u, 64u),
                     field("light_samples", &Params::lightSamples,
-                          "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u,
-                          256u)});
+                          "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u, 256u)});
         }
     };
 
@@ -114,9 +112,8 @@ std::vector<InjectRadiosity::ChunkLight> InjectRadiosity::measureDirect(PassCont
     std::vector<ChunkLight> light;
     for (const Surfels::Chunk& chunk : context[surfels_].chunks) {
         const uint64_t bytes = chunk.count * kSurfelIrradianceBytes;
-        ChunkLight& chunkLight =
-            light.emplace_back(Buffer(context.device, "direct irradiance of surfels", bytes),
-                               Buffer(context.device, "indirect irradiance of surfels", bytes));
+        ChunkLight& chunkLight = light.emplace_back(Buffer(context.device, "direct irradiance of surfels", bytes),
+                                                    Buffer(context.device, "indirect irradiance of surfels", bytes));
         context.stream.fill(chunkLight.indirect, 0);
         directLight_.measure(context, sources_, chunk.surfels, chunk.count, params_.lightSamples, seed,
                              chunkLight.direct);
@@ -130,8 +127,7 @@ std::vector<InjectRadiosity::ChunkLight> InjectRadiosity::measureDirect(PassCont
     return light;
 }
 
-void InjectRadiosity::gatherRadiosity(PassContext& context, uint32_t bounce,
-                                      const std::vector<ChunkLight>& light) {
+void InjectRadiosity::gatherRadiosity(PassContext& context, uint32_t bounce, const std::vector<ChunkLight>& light) {
     const SurfelLinks& links = context[links_];
     // Later bounces carry less and smoother light: fewer rays suffice
     const uint32_t rays = (links.raysPerSurfel + bounce - 1) / bounce;

@@ -11,7 +11,7 @@ layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 readonly buffer Occluded { uint data[]; } occluded;  // Of the hit: 0 where no surface lies within a voxel before it.
 layout(scalar) readonly buffer SortedRef { SortedSurfelWords sorted; };
-readonly buffer Lists { uvec2 data[]; } lists;
+readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;
 layout(scalar) readonly buffer LinksRef { LargeUints links; };
 buffer UnlinkedHits { uint value; } unlinkedHits;
 layout(push_constant, scalar) uniform Push {
@@ -38,7 +38,7 @@ const float OCCLUSION_MISMATCH = 2.0;
 void searchVoxel(ivec3 voxel, vec3 position, vec3 normal, uint occlusion, inout NearestSurfel nearest) {
     const uint list = voxelNumber(push.grid, voxel);
     if (list == NO_VOXEL) return;
-    const uvec2 range = lists.data[list];
+    const uvec2 range = surfelRanges.data[list];
     SortedSurfelWords words = sorted;  // Loop-invariant load, which compilers do not hoist.
     for (uint i = range.x; i < range.y; ++i) {
         const SortedSurfel s = sortedSurfel(words, i);

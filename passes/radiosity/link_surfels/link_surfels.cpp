@@ -30,9 +30,9 @@ class LinkSurfels final : public Pass {
     struct Params {
         uint32_t raysPerSurfel = 64;
         static constexpr auto schema() {
-            return std::tuple{field("rays_per_surfel", &Params::raysPerSurfel,
-                                    "Rays from each surfel; 4 bytes each.", 1u, 4096u)
-                                  .lessNoise()};
+            return std::tuple{
+                field("rays_per_surfel", &Params::raysPerSurfel, "Rays from each surfel; 4 bytes each.", 1u, 4096u)
+                    .lessNoise()};
         }
     };
 
@@ -99,12 +99,11 @@ void LinkSurfels::record(PassContext& context) {
     packMeanDistances(context, inverseDistances);
     if (context[neighbours_].isRead)
         context.report("radius of neighbours, voxels",
-                       neighbourSearch_.run(context.stream, context[voxels_], surfels.pointCount,
-                                            context[byVoxel_], context[neighbours_]));
+                       neighbourSearch_.run(context.stream, context[voxels_], surfels.pointCount, context[byVoxel_],
+                                            context[neighbours_]));
     const uint32_t unlinkedHits = context.stream.readAs<uint32_t>(unlinkedHits_, 1)[0];
     context.report("links", double(count) * params_.raysPerSurfel);
-    context.report("hits without surfel, % of rays",
-                   100.0 * unlinkedHits / (double(count) * params_.raysPerSurfel));
+    context.report("hits without surfel, % of rays", 100.0 * unlinkedHits / (double(count) * params_.raysPerSurfel));
 }
 
 void LinkSurfels::packSurfels(PassContext& context) const {
@@ -116,7 +115,7 @@ void LinkSurfels::packSurfels(PassContext& context) const {
                      {voxels,
                       {"SortedRef", byVoxel.sorted.ref()},
                       {"PackedRef", byVoxel.packed.ref()},
-                      {"lists", byVoxel.lists},
+                      {"surfelRanges", byVoxel.ranges},
                       {"voxels", voxels.voxelCount}});
 }
 
@@ -128,8 +127,7 @@ void LinkSurfels::linkHits(PassContext& context, const Surfels::Chunk& chunk, Su
     if (!testsOcclusion) context.stream.fill(occluded_, 0);
     const uint32_t raysPerSurfel = params_.raysPerSurfel, surfelsPerBatch = kBatchRays / raysPerSurfel;
     for (uint32_t firstInChunk = 0; firstInChunk < chunk.count; firstInChunk += surfelsPerBatch) {
-        const uint32_t surfels = std::min(surfelsPerBatch, chunk.count - firstInChunk),
-                       rays = surfels * raysPerSurfel;
+        const uint32_t surfels = std::min(surfelsPerBatch, chunk.count - firstInChunk), rays = surfels * raysPerSurfel;
         context.dispatch(generateRays_, rays,
                          {{"surfels", chunk.surfels},
                           {"rays", rays_},
@@ -155,7 +153,7 @@ void LinkSurfels::linkHits(PassContext& context, const Surfels::Chunk& chunk, Su
                           {"hits", hits_},
                           {"occluded", occluded_},
                           {"SortedRef", byVoxel.sorted.ref()},
-                          {"lists", byVoxel.lists},
+                          {"surfelRanges", byVoxel.ranges},
                           {"LinksRef", links.links.ref()},
                           {"unlinkedHits", unlinkedHits_},
                           {"firstSurfel", chunk.firstIndex + firstInChunk},
@@ -180,7 +178,7 @@ void LinkSurfels::packMeanDistances(PassContext& context, const LargeBuffer& inv
     context.dispatch(packMeanDistances_, voxels,
                      {{"InverseDistancesRef", inverseDistances.ref()},
                       {"PackedRef", byVoxel.packed.ref()},
-                      {"lists", byVoxel.lists},
+                      {"surfelRanges", byVoxel.ranges},
                       {"voxels", voxels}});
     context.stream.finish();
 }

@@ -9,7 +9,7 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer SortedRef { SortedSurfelWords sorted; };
-readonly buffer Lists { uvec2 data[]; } lists;
+readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;
 #ifdef COUNT
 buffer Counts { uint data[]; } counts;
 buffer Largest { uint value; } largest;
@@ -40,7 +40,7 @@ void main() {
     for (int i = 0; i < 27; ++i) {
         const uint list = voxelNumber(push.grid, voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1);
         if (list == NO_VOXEL) continue;
-        const uvec2 range = lists.data[list];
+        const uvec2 range = surfelRanges.data[list];
         for (uint j = range.x; j < range.y; ++j) {
             const SortedSurfel neighbour = sortedSurfel(words, j);
             const vec3 offset = neighbour.position - center.position;

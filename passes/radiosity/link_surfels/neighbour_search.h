@@ -15,16 +15,16 @@ class NeighbourSearch {
     /// Lists the surfels within a voxel's size of each surfel. Where these pairs exceed those of flat
     /// surfaces with as many points, the radius shrinks by factors of kRadiusStep until they don't. @param
     /// points that surfels were placed at (Surfels::pointCount). @return the radius, in voxels.
-    float run(CommandStream& stream, const SurfaceVoxels& voxels, uint64_t points,
-              const SurfelsByVoxel& surfels, SurfelNeighbours& neighbours) const;
+    float run(CommandStream& stream, const SurfaceVoxels& voxels, uint64_t points, const SurfelsByVoxel& surfels,
+              SurfelNeighbours& neighbours) const;
 
  private:
     static constexpr float kRadiusStep = 0.8f;
 
     /// Counts the pairs within a radius (m), and writes the first of each surfel to neighbours.begins.
     /// @return their number, or an upper bound where it exceeds 32 bits.
-    uint64_t countPairs(CommandStream& stream, const SurfaceVoxels& voxels, const SurfelsByVoxel& surfels,
-                        float radius, SurfelNeighbours& neighbours) const;
+    uint64_t countPairs(CommandStream& stream, const SurfaceVoxels& voxels, const SurfelsByVoxel& surfels, float radius,
+                        SurfelNeighbours& neighbours) const;
 
     Kernel count_, list_;
     PrefixSum prefixSum_;

@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer InverseDistancesRef { LargeFloats inverseDistances; };  // By sorted surfel, 1/voxel.
 layout(scalar) readonly buffer PackedRef { PackedSurfels packed_; };
-readonly buffer Lists { uvec2 data[]; } lists;
+readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;
 layout(push_constant) uniform Push {
     uint voxels;
 } push;
@@ -15,7 +15,7 @@ layout(push_constant) uniform Push {
 void main() {
     const uint list = linearIndex();
     if (list >= push.voxels) return;
-    const uvec2 range = lists.data[list];
+    const uvec2 range = surfelRanges.data[list];
     for (uint i = range.x; i < range.y; ++i) {
         const uvec2 surfel = packed_.data[i];
         const vec3 normal = unpackNormal(surfel.y);

@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer SortedRef { SortedSurfelWords sorted; };
 layout(scalar) readonly buffer PackedRef { PackedSurfels packed_; };
-readonly buffer Lists { uvec2 data[]; } lists;
+readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint voxels;
@@ -27,7 +27,7 @@ ivec3 voxelOfList(uint list, vec3 position) {
 void main() {
     const uint list = linearIndex();
     if (list >= push.voxels) return;
-    const uvec2 range = lists.data[list];
+    const uvec2 range = surfelRanges.data[list];
     SortedSurfelWords words = sorted;
     for (uint i = range.x; i < range.y; ++i) {
         const SortedSurfel s = sortedSurfel(words, i);

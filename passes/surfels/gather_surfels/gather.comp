@@ -21,7 +21,7 @@ uniform sampler2D position;
 uniform sampler2D normal;
 uniform sampler2D geometricNormal;
 uniform sampler2D albedo;
-readonly buffer Lists { uvec2 data[]; } lists;
+readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;
 layout(scalar) readonly buffer LitRef { LitSurfels lit; };
 #if TESTS_OCCLUSION
 buffer Count { uint value; } count;
@@ -69,7 +69,7 @@ void lookUp(PixelSurface surface, out WeightedSum unoccluded, out WeightedSum oc
         const uint voxel = voxelNumber(push.grid, first + corner);
         if (voxel == NO_VOXEL) continue;
         const float trilinear = weights.x * weights.y * weights.z;
-        const uvec2 range = lists.data[voxel];
+        const uvec2 range = surfelRanges.data[voxel];
         const vec3 inVoxel = fraction + 0.5 - vec3(corner);
         for (uint i = range.x; i < range.y; ++i) {
             const uvec3 s = surfels.data[i];

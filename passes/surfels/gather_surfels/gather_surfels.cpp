@@ -22,8 +22,8 @@ class GatherSurfels final : public Pass {
         "Interpolates indirect light at each pixel from the surfels around it. "
         "Takes the mean irradiance of the surfels in the eight voxels around the pixel's surface, "
         "weighted by position and normal, so that two surfaces in a voxel don't mix. "
-        "Biased by: the distance of surfels. Noisy by: points_per_voxel, rays_per_surfel. "
-        "Lambert surfaces only. Source: Ward, Rubinstein and Clear 1988.";
+        "Biased by: the distance of surfels. Noisy by: points_per_voxel, rays_per_surfel. Lambert surfaces only. "
+        "Source: Ward, Rubinstein and Clear 1988.";
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
 
@@ -58,8 +58,7 @@ void GatherSurfels::plan(PassPlan& plan) {
     }
     plan.frameImage(indirect_);
     for (Kernel* kernel : {&gather_, &resolve_})
-        kernel->define(
-            {{"SAMPLES", std::to_string(samples)}, {"TESTS_OCCLUSION", testsOcclusion_ ? "1" : "0"}});
+        kernel->define({{"SAMPLES", std::to_string(samples)}, {"TESTS_OCCLUSION", testsOcclusion_ ? "1" : "0"}});
     resolve_.compileIf(testsOcclusion_);
 }
 
@@ -73,7 +72,7 @@ void GatherSurfels::record(PassContext& context) {
                          {context.scene,
                           context[gbuffer_],
                           context[voxels_],
-                          {"lists", context[surfels_].lists},
+                          {"surfelRanges", context[surfels_].ranges},
                           {"VoxelFluxRef", irradiance.indirect.ref()},
                           {"voxelArea", irradiance.area},
                           {"LitRef", context[light_].lit.ref()},

@@ -26,8 +26,7 @@ enum class SurfelSides { Open, All };
 
 template <>
 struct EnumNames<SurfelSides> {
-    static constexpr std::array names{std::pair{SurfelSides::Open, "open"},
-                                      std::pair{SurfelSides::All, "all"}};
+    static constexpr std::array names{std::pair{SurfelSides::Open, "open"}, std::pair{SurfelSides::All, "all"}};
 };
 
 /// Distributes points evenly over all surfaces, with a surfel on each side that is unoccluded: no other
@@ -40,23 +39,21 @@ class PlaceSurfels final : public Pass {
     static constexpr const char* kName = "place_surfels";
     static constexpr const char* kHelp =
         "Distributes points (surfels) evenly over both sides of the surfaces. "
-        "There inject_voxel_rays and inject_radiosity measure the irradiance of voxels. "
-        "Depends on geometry alone. Noisy by: points_per_voxel. "
-        "Misses: voxels that hold little surface may get no point.";
+        "There inject_voxel_rays and inject_radiosity measure the irradiance of voxels. Depends on geometry alone. "
+        "Noisy by: points_per_voxel. Misses: voxels that hold little surface may get no point.";
     struct Params {
         uint32_t pointsPerVoxel = 4;
         SurfelSides sides = SurfelSides::Open;
         static constexpr auto schema() {
-            return std::tuple{
-                field("points_per_voxel", &Params::pointsPerVoxel,
-                      "Mean number of points per surface voxel; "
-                      "where surfaces move, per voxel that static surfaces pass through.",
-                      1u, 256u)
-                    .lessNoise(),
-                field("sides", &Params::sides,
-                      "open: the sides of surfaces without another surface within a voxel before them. "
-                      "all: also the others, as in gaps narrower than a voxel, "
-                      "which gather_surfels and link_surfels read; voxels are lit by open sides alone.")};
+            return std::tuple{field("points_per_voxel", &Params::pointsPerVoxel,
+                                    "Mean number of points per surface voxel; "
+                                    "where surfaces move, per voxel that static surfaces pass through.",
+                                    1u, 256u)
+                                  .lessNoise(),
+                              field("sides", &Params::sides,
+                                    "open: the sides of surfaces without another surface within a voxel before them. "
+                                    "all: also the others, as in gaps narrower than a voxel, "
+                                    "which gather_surfels and link_surfels read; voxels are lit by open sides alone.")};
         }
     };
 
@@ -87,13 +84,12 @@ PointDensity PlaceSurfels::density(const Geometry& geometry, const SurfaceVoxels
         density.area = areas.ofStatic > 0 ? areas.ofStatic : areas.ofMoving;
         const double maxVoxels =
             std::sqrt(3.0) * density.area / (double(voxels.grid.voxelSize) * voxels.grid.voxelSize);
-        density.points =
-            perVoxel * (areas.ofStatic > 0 ? std::min(double(*staticVoxels_), maxVoxels) : maxVoxels);
+        density.points = perVoxel * (areas.ofStatic > 0 ? std::min(double(*staticVoxels_), maxVoxels) : maxVoxels);
     }
     const double points = density.points / density.area * (areas.ofStatic + areas.ofMoving);
     if (points > double(kMaxPoints))
-        throw Error("{}: {:.3g} points are more than {}; lower 'points_per_voxel' or voxelize's 'resolution'",
-                    kName, points, kMaxPoints);
+        throw Error("{}: {:.3g} points are more than {}; lower 'points_per_voxel' or voxelize's 'resolution'", kName,
+                    points, kMaxPoints);
     return density;
 }
 

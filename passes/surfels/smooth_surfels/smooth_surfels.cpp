@@ -26,8 +26,7 @@ class SmoothSurfels final : public Pass {
         uint32_t iterations = 2;
         static constexpr auto schema() {
             return std::tuple{field("iterations", &Params::iterations,
-                                    "Number of times that each surfel takes the mean over its neighbours.",
-                                    1u, 16u)};
+                                    "Number of times that each surfel takes the mean over its neighbours.", 1u, 16u)};
         }
     };
 
@@ -56,8 +55,7 @@ void SmoothSurfels::record(PassContext& context) {
     LargeBuffer& result = context[smooth_].lit;
     ensureSize(result, context.device, "smooth irradiance of surfels", allocated * kLitBytes);
     LargeBuffer intermediate(context.device, "intermediate irradiance of surfels", allocated * kLitBytes);
-    const LargeBuffer neighbourhoods(context.device, "moments of neighbourhoods",
-                                     allocated * kNeighbourhoodBytes);
+    const LargeBuffer neighbourhoods(context.device, "moments of neighbourhoods", allocated * kNeighbourhoodBytes);
 
     const SurfelNeighbours& neighbours = context[neighbours_];
     const LargeBuffer* from = &context[light_].lit;

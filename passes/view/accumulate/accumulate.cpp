@@ -15,8 +15,7 @@ class Accumulate final : public Pass {
         "The history of a surface point is looked up at its image position in the previous frame. "
         "The result has less noise and is 'noisy_irradiance' of filter_irradiance, or an image. "
         "Biased where light changes, by lag, which 'clamp' bounds, and, while the camera moves, "
-        "by the blur of lookups between texels. Source: Schied et al. "
-        "2017; Salvi 2016; docs/accumulation.md.";
+        "by the blur of lookups between texels. Source: Schied et al. 2017; Salvi 2016; docs/accumulation.md.";
     struct Params {
         uint32_t history = 16;
         float clamp = 0.0f;
@@ -28,8 +27,7 @@ class Accumulate final : public Pass {
                       1u, 64u),
                 field("clamp", &Params::clamp,
                       "Maximum difference of history from the mean of this frame's neighborhood, "
-                      "in standard deviations of the neighborhood: smaller for less lag and more noise. "
-                      "0: unlimited.",
+                      "in standard deviations of the neighborhood: smaller for less lag and more noise. 0: unlimited.",
                       0.0f, 100.0f)};
         }
     };

@@ -7,8 +7,8 @@ class Composite final : public Pass {
  public:
     static constexpr const char* kName = "composite";
     static constexpr const char* kHelp =
-        "Adds emitted light (or the environment), direct, indirect and ambient light. "
-        "Missing inputs are black. Source of ambient light: Magalhães 2020, section 4.4, where it is 0.2.";
+        "Adds emitted light (or the environment), direct, indirect and ambient light. Missing inputs are black. "
+        "Source of ambient light: Magalhães 2020, section 4.4, where it is 0.2.";
     struct Params {
         float ambient = 0.0f;
         static constexpr auto schema() {

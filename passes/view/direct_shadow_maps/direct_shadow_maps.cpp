@@ -13,9 +13,9 @@ class DirectShadowMaps final : public Pass {
     static constexpr const char* kHelp =
         "Computes direct light at each pixel by shadow maps. "
         "The lights are point, spot and directional lights, and the maps are those of render_rsm. "
-        "Biased by: rsm_resolution, at edges of shadows by about a texel, at contacts within half a texel. "
-        "No noise. Mirrors reflect no light. Compare with direct_shadow_rays. "
-        "Source: Williams 1978; filtering: Reeves et al. 1987; as Sun and Agu 2015, section 3.2.";
+        "Biased by: rsm_resolution, at edges of shadows by about a texel, at contacts within half a texel. No noise. "
+        "Mirrors reflect no light. Compare with direct_shadow_rays. Source: Williams 1978; filtering: Reeves et al. "
+        "1987; as Sun and Agu 2015, section 3.2.";
 
     void plan(PassPlan& plan) override {
         requireClearPanes(*plan.frame.scene, kName);

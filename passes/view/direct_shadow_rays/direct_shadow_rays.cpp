@@ -25,8 +25,7 @@ uint32_t batchPixels(const Frame& frame, const GBuffer& gbuffer) {
 enum class Visibility { Exact, Voxels };
 template <>
 struct EnumNames<Visibility> {
-    static constexpr std::array names{std::pair{Visibility::Exact, "exact"},
-                                      std::pair{Visibility::Voxels, "voxels"}};
+    static constexpr std::array names{std::pair{Visibility::Exact, "exact"}, std::pair{Visibility::Voxels, "voxels"}};
 };
 
 /// Direct light by shadow rays through the stream interface: from each texel of the G-buffer one ray to each
@@ -39,8 +38,7 @@ class DirectShadowRays final : public Pass {
         "spot and directional lights; noisy by `light_samples` for emissive surfaces (picked by power, "
         "uniform over area) and for the environment (by cosine). "
         "Mirrors reflect no lamp and no environment: gather_mirror adds their reflections. "
-        "With `visibility: voxels` biased by voxel size. "
-        "Compare with gather_irradiance with `light: direct`.";
+        "With `visibility: voxels` biased by voxel size. Compare with gather_irradiance with `light: direct`.";
     struct Params {
         uint32_t lightSamples = 4;
         Visibility visibility = Visibility::Exact;
@@ -52,9 +50,9 @@ class DirectShadowRays final : public Pass {
                       1u, 4096u)
                     .lessNoise(),
                 field("visibility", &Params::visibility,
-                      "Geometry for shadow rays. exact: the scene's triangles. voxels: surface voxels, "
-                      "without those around the ray's origin; shadows are wider by about a voxel, contacts "
-                      "and corners too dark or too bright within three (Magalhães 2020, section 3.3.3.2).")};
+                      "Geometry for shadow rays. exact: the scene's triangles. voxels: "
+                      "surface voxels, without those around the ray's origin; shadows are wider by about a voxel, "
+                      "contacts and corners too dark or too bright within three (Magalhães 2020, section 3.3.3.2).")};
         }
     };
 
@@ -142,15 +140,14 @@ void DirectShadowRays::record(PassContext& context) {
                               {"raysPerPixel", perPixel}});
         }
     };
-    for (uint32_t light = 0; light < context.scene.lightCount; ++light)
-        shadowRays(LightSource::Punctual, light);
+    for (uint32_t light = 0; light < context.scene.lightCount; ++light) shadowRays(LightSource::Punctual, light);
     for (uint32_t s = 0; s < params_.lightSamples; ++s) {
         if (context.scene.emitterCount > 0) shadowRays(LightSource::Emitters, s);
         if (context.scene.hasEnvironment) shadowRays(LightSource::Environment, s);
     }
     if (voxelTracer_) {
         context.extraRays += tracer->raysTraced() - raysBefore;
-        context.voxelCounts.push_back(&voxelTracer_->march().counts());
+        context.visitCounts.push_back(&voxelTracer_->march().counts());
     }
 }
 

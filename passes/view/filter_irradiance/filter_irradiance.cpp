@@ -22,9 +22,8 @@ class FilterIrradiance final : public Pass {
     static constexpr const char* kHelp =
         "Denoises a gather's irradiance along surfaces and multiplies by albedo. "
         "The noisy irradiance is that of a gather (gather_rays, path_trace). "
-        "An edge-avoiding wavelet whose width follows from the number of rays and, "
-        "where the gather writes moments, from their variance, the distances of their hits, "
-        "and the differences of light between neighborhoods. "
+        "An edge-avoiding wavelet whose width follows from the number of rays and, where the gather writes moments, "
+        "from their variance, the distances of their hits, and the differences of light between neighborhoods. "
         "Biased by: edge_stopping_scale and levels, less the more rays. Lambert surfaces only. "
         "Source: Dammertz et al. 2010; Ward et al. 1988; docs/filtering.md.";
     struct Params {
@@ -81,8 +80,8 @@ void FilterIrradiance::plan(PassPlan& plan) {
     while ((samples << minLevels) < 2 * noisy.spacing) ++minLevels;
     if (noisy.spacing > samples && params_.levels < minLevels)
         throw Error(
-            "filter_irradiance: the gather has rays for one texel in each {0}x{0}, "
-            "which {1} levels leave with gaps; raise 'levels' to {2} or the gather's rays",
+            "filter_irradiance: the gather has rays for one texel in each {0}x{0}, which {1} levels leave with gaps; "
+            "raise 'levels' to {2} or the gather's rays",
             noisy.spacing, params_.levels, minLevels);
     plan[indirect_].lightBounces = noisy.lightBounces;
     plan.frameImage(indirect_);
@@ -92,12 +91,10 @@ void FilterIrradiance::plan(PassPlan& plan) {
     plan.image(reflectance_, "reflectance of surfaces", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
     plan.image(light_, "statistics of light", values);
     for (Image& level : filtered_) plan.image(level, "filtered irradiance", values);
-    plan.buffer(second_, "second surfaces",
-                (1 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
+    plan.buffer(second_, "second surfaces", (1 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
     if (noisy.blockSize > 0) {
         const glm::uvec2 blocks = noisy.blocks(gbufferExtent(plan.frame, samples));
-        plan.buffer(blockStatistics_, "statistics of rays",
-                    uint64_t(blocks.x) * blocks.y * sizeof(gpu::RayStatistics));
+        plan.buffer(blockStatistics_, "statistics of rays", uint64_t(blocks.x) * blocks.y * sizeof(gpu::RayStatistics));
         for (Image& mean : means_) plan.image(mean, "mean irradiance of neighborhoods", values);
     }
 
@@ -170,12 +167,9 @@ const Image& FilterIrradiance::computeMeans(PassContext& context) const {
     const Image* source = &filtered_[0];
     for (uint32_t level = 0; level < kMeanLevels; ++level) {
         const Image& result = means_[level % 2];
-        context.dispatch(mean_, elements(),
-                         {{"second", second_},
-                          {"surfaces", surfaces_},
-                          {"source", *source},
-                          {"result", result},
-                          {"level", level}});
+        context.dispatch(
+            mean_, elements(),
+            {{"second", second_}, {"surfaces", surfaces_}, {"source", *source}, {"result", result}, {"level", level}});
         source = &result;
     }
     return *source;

@@ -87,13 +87,11 @@ class GBufferPass final : public Pass {
                       1u, 8u),
                 field("normal_maps", &Params::normalMaps,
                       "filtered: the mean normal over a sample's footprint, biased as it flattens detail. "
-                      "sharp: the normal at the sample's point: "
-                      "noise instead, which samples_per_pixel_edge lowers."),
+                      "sharp: the normal at the sample's point: noise instead, which samples_per_pixel_edge lowers."),
                 field("colors", &Params::colors,
                       "filtered: the mean color over a sample's footprint, by mip levels. "
-                      "sharp: the color at the sample's point, "
-                      "with aliasing where texels are smaller than the distance of samples, "
-                      "as published in Magalhães 2020 (section 5.1.4), for comparison.")};
+                      "sharp: the color at the sample's point, with aliasing where texels are smaller "
+                      "than the distance of samples, as published in Magalhães 2020 (section 5.1.4), for comparison.")};
         }
     };
 
@@ -181,8 +179,7 @@ void GBufferPass::plan(PassPlan& plan) {
 void GBufferPass::prepare(PassSetup& setup) {
     if (!hasMotion(setup)) return;
     std::vector<uint32_t> starts;
-    for (const InstanceRange& range : setup.frame.scene->geometry.instances)
-        starts.push_back(range.firstTriangle);
+    for (const InstanceRange& range : setup.frame.scene->geometry.instances) starts.push_back(range.firstTriangle);
     setup.stream.upload(instanceStarts_, starts);
 }
 
@@ -256,13 +253,12 @@ void GBufferPass::rasterize(PassContext& context) {
     targets.depthClear = 0;
     targets.extent = {extent, 1};
     const Geometry& geometry = frame.scene->geometry;
-    context.stream.draw(
-        drawSurfaces_, targets, context.scene.triangleCount * 3,
-        {context.scene,
-         ifUsed({"PreviousPositionsRef", previousPositions_.ref()}),
-         ifUsed({"instanceStarts", instanceStarts_}),
-         {"viewProjection", viewProjection(frame.camera, frame.width, frame.height, geometry)},
-         {"view", view}});
+    context.stream.draw(drawSurfaces_, targets, context.scene.triangleCount * 3,
+                        {context.scene,
+                         ifUsed({"PreviousPositionsRef", previousPositions_.ref()}),
+                         ifUsed({"instanceStarts", instanceStarts_}),
+                         {"viewProjection", viewProjection(frame.camera, frame.width, frame.height, geometry)},
+                         {"view", view}});
 }
 
 VOXRAY_REGISTER_PASS(GBufferPass);

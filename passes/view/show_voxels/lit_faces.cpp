@@ -16,8 +16,7 @@ LitFaces::LitFaces(ProgramOwner& owner)
 
 void LitFaces::count(CommandStream& stream, uint32_t voxels, const VoxelPatches& patches,
                      const ClusterVisibility& visibility, const ClusterLight& light) {
-    ensureSize(litPatches_, stream.device(), "lit patches of components",
-               faceCountBytes(patches.componentCount));
+    ensureSize(litPatches_, stream.device(), "lit patches of components", faceCountBytes(patches.componentCount));
     ensureSize(visibleLitPatches_, stream.device(), "lit patches that faces see", faceCountBytes(voxels));
     stream.dispatch(countLitPatches_, patches.componentCount,
                     {{"groups", patches.groups},

@@ -12,8 +12,8 @@ class LitFaces {
  public:
     explicit LitFaces(ProgramOwner& owner);
 
-    void count(CommandStream& stream, uint32_t voxels, const VoxelPatches& patches,
-               const ClusterVisibility& visibility, const ClusterLight& light);
+    void count(CommandStream& stream, uint32_t voxels, const VoxelPatches& patches, const ClusterVisibility& visibility,
+               const ClusterLight& light);
     /// By voxel and face: the count plus 1; 0 where no surface faces that way.
     const Buffer& visibleLitPatches() const { return visibleLitPatches_; }
 

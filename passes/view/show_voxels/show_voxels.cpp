@@ -31,9 +31,8 @@ class ShowVoxels final : public Pass {
     static constexpr const char* kName = "show_voxels";
     static constexpr const char* kHelp =
         "Draws voxels as cubes, each in the color of its value. "
-        "A pixel shows the first voxel on the ray through its center, without antialiasing: "
-        "a surface voxel, or a radiance voxel of some level. For inspection, not for scores. "
-        "Exact, no noise of its own.";
+        "A pixel shows the first voxel on the ray through its center, without antialiasing: a surface voxel, "
+        "or a radiance voxel of some level. For inspection, not for scores. Exact, no noise of its own.";
     struct Params {
         ShownValue show = ShownValue::Albedo;
         uint32_t redAt = 225;
@@ -41,22 +40,19 @@ class ShowVoxels final : public Pass {
         static constexpr auto schema() {
             return std::tuple{
                 field("show", &Params::show,
-                      "Of surface voxels. albedo: diffuse reflectance. "
-                      "irradiance: of the visible face, as the radiance of a white surface (over pi); "
-                      "magenta where the injection gives no value. opacity: 0 to 1. "
-                      "normal: components from -1 to 1 as 0 to 1. lit_faces: "
-                      "the number of lit voxel faces in the face's visibility list (cluster_visibility), "
+                      "Of surface voxels. albedo: diffuse reflectance. irradiance: of the visible face, "
+                      "as the radiance of a white surface (over pi); magenta where the injection gives no value. "
+                      "opacity: 0 to 1. normal: components from -1 to 1 as 0 to 1. "
+                      "lit_faces: the number of lit voxel faces in the face's visibility list (cluster_visibility), "
                       "from green for none to red for red_at; "
-                      "every lit face of a listed cluster component counts (Cosin and Patow 2022, "
-                      "figure 13); magenta where no surfel faces that way. Of radiance voxels, "
-                      "which cones read. radiance: what leaves through the visible face. "
+                      "every lit face of a listed cluster component counts (Cosin and Patow 2022, figure 13); "
+                      "magenta where no surfel faces that way. Of radiance voxels, which cones read. "
+                      "radiance: what leaves through the visible face. "
                       "radiance_opacity: the fraction of a beam that is blocked there."),
-                field("red_at", &Params::redAt, "Number of lit faces from which on a face is shown red.", 1u,
-                      1u << 24)
+                field("red_at", &Params::redAt, "Number of lit faces from which on a face is shown red.", 1u, 1u << 24)
                     .onlyWith(oneOf(&Params::show, {ShownValue::LitFaces})),
                 field("level", &Params::level,
-                      "Level of radiance voxels; "
-                      "each level's voxels are twice as wide as those of the level below.",
+                      "Level of radiance voxels; each level's voxels are twice as wide as those of the level below.",
                       0u, 15u)
                     .onlyWith(oneOf(&Params::show, {ShownValue::Radiance, ShownValue::RadianceOpacity}))};
         }
@@ -78,11 +74,9 @@ class ShowVoxels final : public Pass {
     void recordLevel(PassContext& context);
 
     const Params params_;
-    In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales",
-                                 showsLevel()};
+    In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales", showsLevel()};
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels", !showsLevel()};
-    In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces",
-                                    showsLight()};
+    In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces", showsLight()};
     In<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels", showsLitFaces()};
     In<ClusterVisibility> visibility_{*this, "cluster_visibility", "what each patch sees", showsLitFaces()};
     In<ClusterLight> clusterLight_{*this, "cluster_light", "which patches are lit", showsLitFaces()};
@@ -104,8 +98,8 @@ void ShowVoxels::plan(PassPlan& plan) {
     if (showsLevel()) {
         const RadianceVoxels& radiance = plan[radiance_];
         if (params_.level >= radiance.grid.levels)
-            throw Error("show_voxels.level: there is no level {}; the radiance voxels have 0 to {}",
-                        params_.level, radiance.grid.levels - 1);
+            throw Error("show_voxels.level: there is no level {}; the radiance voxels have 0 to {}", params_.level,
+                        radiance.grid.levels - 1);
         program_.define(radiance.defines());
         return;
     }
@@ -130,7 +124,7 @@ void ShowVoxels::record(PassContext& context) {
                       {"view", cameraView(context.frame, context.frame.pixels())},
                       {"show", params_.show},
                       {"redAt", params_.redAt}});
-    context.voxelCounts.push_back(&march_->counts());
+    context.visitCounts.push_back(&march_->counts());
 }
 
 Binding ShowVoxels::updateValues(PassContext& context) {

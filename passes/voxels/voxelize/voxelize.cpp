@@ -17,11 +17,9 @@ class VoxelizePass final : public Pass {
  public:
     static constexpr const char* kName = "voxelize";
     static constexpr const char* kHelp =
-        "Voxelizes the scene's triangles into surface voxels with materials. "
-        "A voxel holds albedo, normal, emission, metallic, roughness, opacity and area. "
-        "method exact tests triangles against voxel boxes; "
-        "dominant_axis rasterizes once and conservatively, "
-        "which adds voxels that are only grazed and samples areas; "
+        "Voxelizes the scene's triangles into surface voxels with materials. A voxel holds albedo, normal, emission, "
+        "metallic, roughness, opacity and area. method exact tests triangles against voxel boxes; "
+        "dominant_axis rasterizes once and conservatively, which adds voxels that are only grazed and samples areas; "
         "three_axis rasterizes three times and misses surfaces between sample points, "
         "those thinner than a voxel / samples_per_voxel_edge in two directions. "
         "Source: Magalhães 2020, section 3.2; Schwarz and Seidel 2010 (exact).";
@@ -36,8 +34,7 @@ class VoxelizePass final : public Pass {
                           "Test for the voxels that triangles overlap: "
                           "exact (compute shader, overlap of triangles and boxes), "
                           "dominant_axis (one conservative raster pass), three_axis (three raster passes)."),
-                    field("resolution", &Params::resolution, "Voxels along the scene's longest side.", 1u,
-                          1024u),
+                    field("resolution", &Params::resolution, "Voxels along the scene's longest side.", 1u, 1024u),
                     field("samples_per_voxel_edge", &Params::samplesPerVoxelEdge,
                           "Sample points along a voxel's edge, in each of the three projections.", 1u, 16u)
                         .onlyWith(oneOf(&Params::method, {VoxelizeMethod::ThreeAxis}))},

@@ -28,8 +28,7 @@ void VplCompensation::plan(PassPlan& plan, const Settings& settings, glm::uvec2 
     const uint32_t batch = std::min(texels.x * texels.y, kBatchTexels);
     directLight_.plan(plan, batch);
     for (PathVertices* vertices : {&current_, &next_}) {
-        plan.scratchBuffer(vertices->surfels, "surfels within the bound",
-                           uint64_t(batch) * sizeof(gpu::Surfel));
+        plan.scratchBuffer(vertices->surfels, "surfels within the bound", uint64_t(batch) * sizeof(gpu::Surfel));
         plan.scratchBuffer(vertices->faceNormals, "their faces' normals", uint64_t(batch) * sizeof(uint32_t));
     }
     plan.scratchBuffer(rays_, "rays within the bound", uint64_t(batch) * sizeof(Ray));
@@ -40,8 +39,7 @@ void VplCompensation::plan(PassPlan& plan, const Settings& settings, glm::uvec2 
 }
 
 void VplCompensation::record(PassContext& context, const Vpls& vpls, const VplGather& vplGather,
-                             const VplGather::Visibility& visibility, const GBuffer& gbuffer,
-                             const VplTarget& target) {
+                             const VplGather::Visibility& visibility, const GBuffer& gbuffer, const VplTarget& target) {
     const glm::uvec2 extent = gbufferExtent(context.frame, gbuffer.samples);
     const uint32_t texels = extent.x * extent.y, batch = uint32_t(hits_.bytes() / sizeof(Hit));
     for (uint32_t first = 0; first < texels; first += batch)
@@ -62,10 +60,9 @@ void VplCompensation::record(PassContext& context, const Vpls& vpls, const VplGa
                 const uint32_t seed = randomSeed(context.frame, 0x71u + reflections);
                 count = traceBounce(context, count, seed);
                 if (count == 0) break;
-                directLight_.measure(context, sources_, current_.surfels, count, 1, seed + 0x35u,
-                                     surfelIrradiance_);
-                vplGather.gatherAtSurfels(context, vpls, visibility, current_.surfels, current_.faceNormals,
-                                          count, reflections, surfelIrradiance_);
+                directLight_.measure(context, sources_, current_.surfels, count, 1, seed + 0x35u, surfelIrradiance_);
+                vplGather.gatherAtSurfels(context, vpls, visibility, current_.surfels, current_.faceNormals, count,
+                                          reflections, surfelIrradiance_);
                 context.dispatch(accumulate_, count,
                                  {{"surfels", current_.surfels},
                                   {"surfelIrradiance", surfelIrradiance_},

@@ -16,17 +16,7 @@
 namespace voxray {
 
 /// How the visibility of virtual point lights is tested.
-enum class VplVisibility {
-    Svo,
-    SvoRestart,
-    Bricks,
-    Bits,
-    HybridLeaves,
-    ShadowMap,
-    ImperfectShadowMap,
-    Exact,
-    None
-};
+enum class VplVisibility { Svo, SvoRestart, Bricks, Bits, HybridLeaves, ShadowMap, ImperfectShadowMap, Exact, None };
 template <>
 struct EnumNames<VplVisibility> {
     static constexpr std::array names{std::pair{VplVisibility::Svo, "svo"},
@@ -69,10 +59,10 @@ class GatherVpls final : public Pass {
     static constexpr const char* kHelp =
         "Gathers indirect light from virtual point lights (VPLs) by shadow rays. "
         "Each texel of a block gathers from a different subset of the lights of sample_vpls; "
-        "filter_irradiance should follow. "
-        "Biased by: bound without compensation_rays, which darkens contacts and corners; "
-        "voxel size or map_resolution, unless visibility is exact. Noisy by: the number of virtual lights, "
-        "as blotches that all texels share. Source: Sun and Agu 2015; Kollig and Keller 2004.";
+        "filter_irradiance should follow. Biased by: bound without compensation_rays, "
+        "which darkens contacts and corners; voxel size or map_resolution, unless visibility is exact. "
+        "Noisy by: the number of virtual lights, as blotches that all texels share. "
+        "Source: Sun and Agu 2015; Kollig and Keller 2004.";
     struct Params {
         uint32_t block = 4;
         float bound = 1;
@@ -90,8 +80,9 @@ class GatherVpls final : public Pass {
                       "Texels along the edge of a block, over whose texels the virtual lights are divided.",
                       powersOfTwo(1, 16)),
                 field("bound", &Params::bound,
-                      "Distance below which virtual lights get no brighter, in radii of a disc "
-                      "with the area of all surfaces divided by the number of light paths. 0: no bound.",
+                      "Distance below which virtual lights get no brighter, "
+                      "in radii of a disc with the area of all surfaces divided by the number of light paths. "
+                      "0: no bound.",
                       0.0f, 1000.0f),
                 field("compensation_rays", &Params::compensationRays,
                       "Rays per texel that restore the light that 'bound' takes away, "
@@ -99,9 +90,9 @@ class GatherVpls final : public Pass {
                       0u, 256u)
                     .onlyWith(noneOf(&Params::bound, {0.0f})),
                 field("roulette", &Params::roulette,
-                      "Russian roulette of shadow rays: virtual lights whose unoccluded light at a texel is "
-                      "less than this times the mean of the texel's lights "
-                      "get a ray with a probability in proportion to it. "
+                      "Russian roulette of shadow rays: "
+                      "virtual lights whose unoccluded light at a texel is less than this times the mean "
+                      "of the texel's lights get a ray with a probability in proportion to it. "
                       "Saves rays for noise; 0: none.",
                       0.0f, 100.0f),
                 field("early_out", &Params::earlyOut,
@@ -112,11 +103,10 @@ class GatherVpls final : public Pass {
                 field("visibility", &Params::visibility,
                       "What occludes virtual lights. "
                       "svo, bricks, bits: surface voxels, by three traversals with equal results. "
-                      "svo_restart: surface voxels, by the paper's traversal. "
-                      "hybrid_leaves: triangles and grids in the leaves of an octree (build_hybrid_leaves). "
-                      "shadow_map: a shadow map of each virtual light's hemisphere, by a ray per texel. "
-                      "imperfect_shadow_map: the same, splatted from points (Ritschel et al. 2008). "
-                      "exact: triangles. none: nothing."),
+                      "svo_restart: surface voxels, by the paper's traversal. hybrid_leaves: "
+                      "triangles and grids in the leaves of an octree (build_hybrid_leaves). shadow_map: "
+                      "a shadow map of each virtual light's hemisphere, by a ray per texel. imperfect_shadow_map: "
+                      "the same, splatted from points (Ritschel et al. 2008). exact: triangles. none: nothing."),
                 field("restart_epsilon", &Params::restartEpsilon,
                       "Voxels by which the traversal steps past each node, as in the paper, "
                       "which skips thinner nodes; 0 steps exactly.",
@@ -127,10 +117,10 @@ class GatherVpls final : public Pass {
                       "0 moves the ends out of their surfaces' voxels along normals.",
                       0.0f, 64.0f)
                     .onlyWith(oneOf(&Params::visibility, {VplVisibility::SvoRestart})),
-                field("map_resolution", &Params::mapResolution,
-                      "Texels along an edge of a virtual light's shadow map.", 4u, 1024u)
-                    .onlyWith(oneOf(&Params::visibility,
-                                    {VplVisibility::ShadowMap, VplVisibility::ImperfectShadowMap})),
+                field("map_resolution", &Params::mapResolution, "Texels along an edge of a virtual light's shadow map.",
+                      4u, 1024u)
+                    .onlyWith(
+                        oneOf(&Params::visibility, {VplVisibility::ShadowMap, VplVisibility::ImperfectShadowMap})),
                 field("map_points", &Params::mapPoints,
                       "Points of the scene's surfaces that each map is splatted from.", 64u, 1u << 20)
                     .onlyWith(oneOf(&Params::visibility, {VplVisibility::ImperfectShadowMap}))};
@@ -146,10 +136,9 @@ class GatherVpls final : public Pass {
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     In<Vpls> vpls_{*this, "vpls", "virtual point lights"};
     const std::optional<VoxelTraversal> traversal_ = voxelTraversal(params_.visibility);
-    In<SurfaceVoxels> voxels_{
-        *this, "voxels",
-        traversal_ ? "what occludes shadow rays" : "voxels whose octree shadow rays traverse",
-        traversal_ || params_.visibility == VplVisibility::HybridLeaves};
+    In<SurfaceVoxels> voxels_{*this, "voxels",
+                              traversal_ ? "what occludes shadow rays" : "voxels whose octree shadow rays traverse",
+                              traversal_ || params_.visibility == VplVisibility::HybridLeaves};
     In<HybridLeaves> leaves_{*this, "hybrid_leaves", "what occludes shadow rays",
                              params_.visibility == VplVisibility::HybridLeaves};
     Out<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "irradiance from a subset of lights a texel"};
@@ -166,8 +155,7 @@ class GatherVpls final : public Pass {
 
 GatherVpls::GatherVpls(const Params& params) : params_(params) {
     if (traversal_) voxelTracer_.emplace(*this, *traversal_, params_.restartEpsilon);
-    if (params_.visibility == VplVisibility::HybridLeaves)
-        hybridTracer_.emplace(*this, HybridTraversal::Hierarchical);
+    if (params_.visibility == VplVisibility::HybridLeaves) hybridTracer_.emplace(*this, HybridTraversal::Hierarchical);
     if (params_.visibility == VplVisibility::ShadowMap)
         shadowMaps_ = std::make_unique<TracedShadowMaps>(*this, params_.mapResolution);
     if (params_.visibility == VplVisibility::ImperfectShadowMap)
@@ -183,16 +171,14 @@ void GatherVpls::plan(PassPlan& plan) {
     const bool isCompensated = params_.compensationRays > 0 && minDistanceSquared > 0;
     if (shadowMaps_) shadowMaps_->plan(plan);
     const bool usesRoulette = params_.roulette > 0;
-    const VplGather::DimLightCulling culling{usesRoulette ? params_.roulette : params_.earlyOut,
-                                             usesRoulette};
+    const VplGather::DimLightCulling culling{usesRoulette ? params_.roulette : params_.earlyOut, usesRoulette};
     const float endEpsilon = params_.visibility == VplVisibility::SvoRestart ? params_.endEpsilon : 0;
     vplGather_.plan(plan,
                     {params_.block, minDistanceSquared, culling, endEpsilon, shadowMaps_.get(), isCompensated,
                      hybridTracer_.has_value()},
                     texels, uint64_t(vpls.paths) * vpls.bounces);
     if (isCompensated)
-        compensation_.emplace(*this).plan(plan, {params_.compensationRays, vpls.bounces, minDistanceSquared},
-                                          texels);
+        compensation_.emplace(*this).plan(plan, {params_.compensationRays, vpls.bounces, minDistanceSquared}, texels);
     NoisyIrradiance& noisy = plan[noisy_];
     noisy.blockSize = params_.block;
     noisy.lightBounces = plan[indirect_].lightBounces = vpls.lightBounces;
@@ -244,11 +230,11 @@ void GatherVpls::record(PassContext& context) {
                       {"block", params_.block}});
     if (voxelTracer_) {
         context.extraRays += voxelTracer_->raysTraced() - voxelRaysBefore;
-        context.voxelCounts.push_back(&voxelTracer_->march().counts());
+        context.visitCounts.push_back(&voxelTracer_->march().counts());
     }
     if (hybridTracer_) {
         context.extraRays += hybridTracer_->raysTraced() - hybridRaysBefore;
-        context.voxelCounts.push_back(&hybridTracer_->counts());
+        context.visitCounts.push_back(&hybridTracer_->counts());
     }
     if (resolve_) resolve_->record(context, gbuffer, noisy.irradiance, context[indirect_].image);
 }

@@ -37,8 +37,7 @@ void ImperfectShadowMaps::plan(PassPlan& plan) {
     const Geometry& geometry = plan.frame.scene->geometry;
     area_ = float(surfaceArea(geometry));
     plan.buffer(areaCdf_, "areas of triangles", geometry.triangles.size() * sizeof(float));
-    plan.buffer(pointSets_, "points of shadow maps",
-                uint64_t(kPointSets) * pointsPerMap_ * sizeof(gpu::MapPoint));
+    plan.buffer(pointSets_, "points of shadow maps", uint64_t(kPointSets) * pointsPerMap_ * sizeof(gpu::MapPoint));
     for (uint32_t level = 0; level < kLevels; ++level)
         plan.buffer(levels_[level], level == 0 ? "shadow maps" : "coarser shadow maps",
                     uint64_t(capacity()) * levelResolution(level) * levelResolution(level) * sizeof(float));
@@ -57,8 +56,7 @@ void ImperfectShadowMaps::beginFrame(PassContext& context) {
                       {"triangleCount", uint32_t(geometry.triangles.size())}});
 }
 
-void ImperfectShadowMaps::render(PassContext& context, const Vpls& vpls, uint32_t first,
-                                 uint32_t count) const {
+void ImperfectShadowMaps::render(PassContext& context, const Vpls& vpls, uint32_t first, uint32_t count) const {
     context.stream.fill(levels_[0], 0);
     // A disc has the area of its share of all surfaces
     const float radius = std::sqrt(area_ / (glm::pi<float>() * float(pointsPerMap_)));

@@ -18,8 +18,7 @@ VplGather::Programs::Programs(ProgramOwner& owner, const Defines& defines)
       testShadowMaps(owner, "test_shadow_maps.comp", defines),
       accumulate(owner, "accumulate_irradiance.comp", defines) {}
 
-VplGather::VplGather(ProgramOwner& owner)
-    : texelPrograms_(owner, {}), surfelPrograms_(owner, {{"SURFELS", "1"}}) {}
+VplGather::VplGather(ProgramOwner& owner) : texelPrograms_(owner, {}), surfelPrograms_(owner, {{"SURFELS", "1"}}) {}
 
 void VplGather::plan(PassPlan& plan, const Settings& settings, glm::uvec2 texels, uint64_t maxVpls) {
     settings_ = settings;
@@ -62,8 +61,8 @@ void VplGather::gatherAtTexels(PassContext& context, const Vpls& vpls, const Vis
 }
 
 void VplGather::gatherAtSurfels(PassContext& context, const Vpls& vpls, const Visibility& visibility,
-                                const Buffer& surfels, const Buffer& faceNormals, uint32_t count,
-                                uint32_t reflections, const Buffer& irradiance) const {
+                                const Buffer& surfels, const Buffer& faceNormals, uint32_t count, uint32_t reflections,
+                                const Buffer& irradiance) const {
     gpu::VplBatch batch{};
     batch.receiverExtent = {count, 1};
     batch.reflections = reflections;
@@ -71,16 +70,14 @@ void VplGather::gatherAtSurfels(PassContext& context, const Vpls& vpls, const Vi
            {{"surfels", surfels}, {"faceNormals", faceNormals}}, {{"irradiance", irradiance}});
 }
 
-void VplGather::gather(PassContext& context, const Vpls& vpls, const Visibility& visibility,
-                       gpu::VplBatch batch, uint32_t receiversPerSubset, const Programs& programs,
-                       const std::vector<Binding>& receiverBindings,
-                       const std::vector<Binding>& targetBindings) const {
+void VplGather::gather(PassContext& context, const Vpls& vpls, const Visibility& visibility, gpu::VplBatch batch,
+                       uint32_t receiversPerSubset, const Programs& programs,
+                       const std::vector<Binding>& receiverBindings, const std::vector<Binding>& targetBindings) const {
     CommandStream& stream = context.stream;
     const auto maxRays = uint32_t(occluded_.bytes() / sizeof(uint32_t));
     const VplShadowMaps* shadowMaps = settings_.shadowMaps;
     if (!visibility.tracer && !shadowMaps) stream.fill(occluded_, 0);
-    const Bindings lights{
-        receiverBindings, {"VplsRef", vpls.points.ref()}, {"activeVpls", vpls.activeIndices}};
+    const Bindings lights{receiverBindings, {"VplsRef", vpls.points.ref()}, {"activeVpls", vpls.activeIndices}};
     batch.block = settings_.block;
     batch.bounces = vpls.bounces;
 
@@ -133,11 +130,9 @@ void VplGather::gather(PassContext& context, const Vpls& vpls, const Visibility&
                 } else if (visibility.tracer) {
                     visibility.tracer->occluded(stream, rays_, occluded_, rays, Coherence::Coherent);
                 }
-                stream.dispatch(programs.accumulate, batch.receiverCount,
-                                {targetBindings,
-                                 {"contributions", contributions_},
-                                 {"occluded", occluded_},
-                                 {"batch", batch}});
+                stream.dispatch(
+                    programs.accumulate, batch.receiverCount,
+                    {targetBindings, {"contributions", contributions_}, {"occluded", occluded_}, {"batch", batch}});
             }
         }
     }

@@ -47,13 +47,13 @@ class VplGather {
     /// A gpu::RayStart for each ray of a batch (passes/hybrid_leaves/hybrid_types.h).
     const Buffer& starts() const { return starts_; }
 
-    void gatherAtTexels(PassContext& context, const Vpls& vpls, const Visibility& visibility,
-                        const GBuffer& gbuffer, const VplTarget& target) const;
+    void gatherAtTexels(PassContext& context, const Vpls& vpls, const Visibility& visibility, const GBuffer& gbuffer,
+                        const VplTarget& target) const;
     /// Adds irradiance, W/m², to 4 floats for each of `count` surfels with `faceNormals` (octahedral). @param
     /// reflections between surfel and texel: virtual lights of the last so many bounces are left out.
-    void gatherAtSurfels(PassContext& context, const Vpls& vpls, const Visibility& visibility,
-                         const Buffer& surfels, const Buffer& faceNormals, uint32_t count,
-                         uint32_t reflections, const Buffer& irradiance) const;
+    void gatherAtSurfels(PassContext& context, const Vpls& vpls, const Visibility& visibility, const Buffer& surfels,
+                         const Buffer& faceNormals, uint32_t count, uint32_t reflections,
+                         const Buffer& irradiance) const;
 
  private:
     struct Programs {
@@ -63,8 +63,7 @@ class VplGather {
     /// Defines programs by the settings.
     void define(Programs& programs, bool isUsed) const;
     void gather(PassContext& context, const Vpls& vpls, const Visibility& visibility, gpu::VplBatch batch,
-                uint32_t receiversPerSubset, const Programs& programs,
-                const std::vector<Binding>& receiverBindings,
+                uint32_t receiversPerSubset, const Programs& programs, const std::vector<Binding>& receiverBindings,
                 const std::vector<Binding>& targetBindings) const;
     uint32_t subsetCount() const { return settings_.block * settings_.block; }
 

@@ -14,12 +14,11 @@ constexpr float kUnits = 1u << 30;
 RsmSampling::RsmSampling(ProgramOwner& owner)
     : computeWeights_(owner, "rsm_texel_weights.comp"),
       sampleTexels_(owner, "rsm_sample_texels.comp"),
-      prefixSum_(owner, PrefixSum::Of::Values) {}
+      prefixSum_(owner, PrefixSum::Input::Uints) {}
 
 void RsmSampling::plan(PassPlan& plan, const Rsm& rsm) {
     uint32_t views = 0;
-    for (size_t s = 0; s < rsm.sources.size(); ++s)
-        views = std::max(views, rsm.firstView[s + 1] - rsm.firstView[s]);
+    for (size_t s = 0; s < rsm.sources.size(); ++s) views = std::max(views, rsm.firstView[s + 1] - rsm.firstView[s]);
     const uint64_t texels = uint64_t(views) * rsm.texelsPerView();
     plan.scratchBuffer(weights_, "weights of shadow maps' texels", texels * sizeof(uint32_t));
 }

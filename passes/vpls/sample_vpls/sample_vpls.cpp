@@ -37,8 +37,7 @@ std::vector<uint32_t> interleavedPathOrder(const std::vector<uint32_t>& pathCoun
         for (uint32_t i = 0; i < paths; ++i) position.push_back((i + 0.5) / paths);
     std::vector<uint32_t> paths(position.size()), order(position.size());
     std::iota(paths.begin(), paths.end(), 0u);
-    std::stable_sort(paths.begin(), paths.end(),
-                     [&](uint32_t a, uint32_t b) { return position[a] < position[b]; });
+    std::stable_sort(paths.begin(), paths.end(), [&](uint32_t a, uint32_t b) { return position[a] < position[b]; });
     for (uint32_t index = 0; index < paths.size(); ++index) order[paths[index]] = index;
     return order;
 }
@@ -77,9 +76,8 @@ class SampleVpls final : public Pass {
     static constexpr const char* kHelp =
         "Deposits virtual point lights (VPLs) where light paths hit surfaces, for gather_vpls. "
         "Lights of every kind emit paths in proportion to their power. "
-        "All surfaces are Lambert surfaces of their base colour. "
-        "Biased by: voxel size with 'bounce: svo'. Noisy by: vpls_per_bounce. "
-        "Each frame takes the same random numbers, so that virtual lights move with a light, "
+        "All surfaces are Lambert surfaces of their base colour. Biased by: voxel size with 'bounce: svo'. Noisy by: "
+        "vpls_per_bounce. Each frame takes the same random numbers, so that virtual lights move with a light, "
         "unless 'resample' is set. Source: Keller 1997; Sun and Agu 2015, section 3.2.";
     struct Params {
         uint32_t vplsPerBounce = 1024;
@@ -96,18 +94,15 @@ class SampleVpls final : public Pass {
                     .lessNoise(),
                 field("bounces", &Params::bounces, "Bounces of light: maximum hits of a path.", 1u, 16u),
                 field("first", &Params::first,
-                      "How first hits are sampled. "
-                      "light_rays: by rays of equal power from lights of every kind. "
-                      "rsm: by texels of reflective shadow maps (render_rsm) "
-                      "in proportion to the flux that their points reflect; "
-                      "point, spot and directional lights only."),
+                      "How first hits are sampled. light_rays: by rays of equal power from lights of every kind. "
+                      "rsm: by texels of reflective shadow maps (render_rsm) in proportion to the flux "
+                      "that their points reflect; point, spot and directional lights only."),
                 field("bounce", &Params::bounce,
                       "What rays after the first hit are traced through. exact: triangles. "
                       "svo: surface voxels; virtual lights past the first bounce lie where rays enter them, "
                       "with the voxel's mean normal and albedo."),
                 field("resample", &Params::resample,
-                      "Whether each frame takes its own random numbers, for comparison: "
-                      "virtual lights then jump.")};
+                      "Whether each frame takes its own random numbers, for comparison: virtual lights then jump.")};
         }
     };
 
@@ -124,8 +119,7 @@ class SampleVpls final : public Pass {
 
     const Params params_;
     In<Rsm> rsm_{*this, "rsm", "what lights see", params_.first == FirstVertices::Rsm};
-    In<SurfaceVoxels> voxels_{*this, "voxels", "what rays of further bounces hit",
-                              params_.bounce == VplBounce::Svo};
+    In<SurfaceVoxels> voxels_{*this, "voxels", "what rays of further bounces hit", params_.bounce == VplBounce::Svo};
     Out<Vpls> vpls_{*this, "vpls", "virtual point lights"};
     std::vector<LightSource> sources_;        ///< Sources that were on when paths were divided.
     std::vector<uint32_t> pathCounts_;        ///< By source.
@@ -184,9 +178,8 @@ void SampleVpls::record(PassContext& context) {
     const std::vector<LightSource> activeSources = lightSources(*context.frame.scene);
     for (const LightSource& source : activeSources)
         if (!findSource(sources_, source))
-            throw Error(
-                "{}: a light began to shine after the first frame, when paths were divided among lights",
-                kName);
+            throw Error("{}: a light began to shine after the first frame, when paths were divided among lights",
+                        kName);
     stream.fill(flags_, 0);
     stream.fill(vpls.points, 0);
     if (voxelTracer_) voxelTracer_->begin(stream, context[voxels_]);
@@ -197,10 +190,9 @@ void SampleVpls::record(PassContext& context) {
             tracePaths(context, s, *source, firstPath);
     if (voxelTracer_) {
         context.extraRays += voxelTracer_->raysTraced() - voxelRaysBefore;
-        context.voxelCounts.push_back(&voxelTracer_->march().counts());
+        context.visitCounts.push_back(&voxelTracer_->march().counts());
     }
-    vpls.activeCount =
-        compaction_.run(stream, flags_, vpls.activeIndices, uint32_t(flags_.bytes() / sizeof(uint32_t)));
+    vpls.activeCount = compaction_.run(stream, flags_, vpls.activeIndices, uint32_t(flags_.bytes() / sizeof(uint32_t)));
     context.report("vpls", vpls.activeCount);
     if (vpls.activeCount == 0 && !activeSources.empty())
         throw Error(
@@ -228,8 +220,8 @@ void SampleVpls::tracePaths(PassContext& context, uint32_t s, const LightSource&
             else if (bounce > 0 || !rsmSampling_)
                 context.tracer.closestHit(stream, rays_, hits_, batch.count);
             if (bounce == 0)
-                paneTransmittance_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float),
-                                         batch.count, &hits_);
+                paneTransmittance_.apply(context, rays_, paths_, sizeof(gpu::LightPath) / sizeof(float), batch.count,
+                                         &hits_);
             context.dispatch(tracesVoxels ? depositVplsInVoxels_ : depositVpls_, batch.count,
                              {context.scene,
                               voxelBindings,

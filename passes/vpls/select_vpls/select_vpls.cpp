@@ -19,10 +19,9 @@ class SelectVpls final : public Pass {
     static constexpr const char* kName = "select_vpls";
     static constexpr const char* kHelp =
         "Selects virtual point lights (VPLs) of sample_vpls by their light at random texels. "
-        "The probability to select one is in proportion to its irradiance at a few texels, "
-        "by exact shadow rays, and its flux is divided by that probability. "
-        "No bias. Noisy by: count; and points, which miss virtual lights that few texels see. "
-        "Source: Georgiev and Slusallek 2010.";
+        "The probability to select one is in proportion to its irradiance at a few texels, by exact shadow rays, "
+        "and its flux is divided by that probability. No bias. Noisy by: count; "
+        "and points, which miss virtual lights that few texels see. Source: Georgiev and Slusallek 2010.";
     struct Params {
         uint32_t count = 2048;
         uint32_t points = 32;
@@ -30,10 +29,8 @@ class SelectVpls final : public Pass {
         float bound = 1;
         static constexpr auto schema() {
             return std::tuple{
-                field("count", &Params::count, "Maximum number of selected virtual lights.", 1u, 1u << 20)
-                    .lessNoise(),
-                field("points", &Params::points, "Random texels that each virtual light is tested at.", 1u,
-                      1024u)
+                field("count", &Params::count, "Maximum number of selected virtual lights.", 1u, 1u << 20).lessNoise(),
+                field("points", &Params::points, "Random texels that each virtual light is tested at.", 1u, 1024u)
                     .lessNoise(),
                 field("unseen", &Params::unseen,
                       "Fraction of 'count' that is selected by flux alone, "
@@ -41,8 +38,9 @@ class SelectVpls final : public Pass {
                       "A smaller one makes these rarer and brighter.",
                       0.001f, 1.0f),
                 field("bound", &Params::bound,
-                      "The 'bound' of gather_vpls, so that virtual lights near the tested texels "
-                      "get the weight that they have there. Another value is no bias.",
+                      "The 'bound' of gather_vpls, "
+                      "so that virtual lights near the tested texels get the weight that they have there. "
+                      "Another value is no bias.",
                       0.0f, 1000.0f)};
         }
     };
@@ -77,11 +75,9 @@ void SelectVpls::plan(PassPlan& plan) {
     vpls.areaPerPath = float(surfaceArea(plan.frame.scene->geometry) * vpls.bounces / vpls.paths);
     plan.buffer(vpls.points, "selected virtual point lights", vpls.capacity(kName) * sizeof(gpu::Vpl));
     plan.buffer(vpls.activeIndices, "list of selected virtual point lights", vpls.paths * sizeof(uint32_t));
-    plan.buffer(selectedCandidates_, "indices of selected virtual point lights",
-                vpls.paths * sizeof(uint32_t));
+    plan.buffer(selectedCandidates_, "indices of selected virtual point lights", vpls.paths * sizeof(uint32_t));
     plan.buffer(weights_, "weights of selected virtual point lights", vpls.paths * sizeof(float));
-    const uint64_t batch = std::min(points, uint64_t(kBatchShadowRays / params_.points)),
-                   rays = batch * params_.points;
+    const uint64_t batch = std::min(points, uint64_t(kBatchShadowRays / params_.points)), rays = batch * params_.points;
     plan.scratchBuffer(rays_, "shadow rays", rays * sizeof(Ray));
     plan.scratchBuffer(geometryTerms_, "geometry terms of shadow rays", rays * sizeof(float));
     plan.scratchBuffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
@@ -117,8 +113,7 @@ void SelectVpls::record(PassContext& context) {
     const auto candidateIndices = stream.readAs<uint32_t>(candidates.activeIndices, candidates.activeCount);
     std::vector<uint32_t> activeIndices;
     for (const uint32_t i : selected.indices)
-        activeIndices.push_back(uint32_t(activeIndices.size()) * vpls.bounces +
-                                candidateIndices[i] % vpls.bounces);
+        activeIndices.push_back(uint32_t(activeIndices.size()) * vpls.bounces + candidateIndices[i] % vpls.bounces);
     stream.fill(vpls.points, 0);
     stream.upload(vpls.activeIndices, activeIndices);
     stream.upload(selectedCandidates_, selected.indices);
@@ -139,8 +134,7 @@ std::vector<glm::vec2> SelectVpls::estimateImportance(PassContext& context) cons
     CommandStream& stream = context.stream;
     const Vpls& candidates = context[candidates_];
     const uint32_t batch = uint32_t(occluded_.bytes() / sizeof(uint32_t)) / params_.points;
-    const float minDistanceSquared =
-        params_.bound * params_.bound * context[vpls_].areaPerPath / glm::pi<float>();
+    const float minDistanceSquared = params_.bound * params_.bound * context[vpls_].areaPerPath / glm::pi<float>();
     std::vector<glm::vec2> result;
     for (uint32_t first = 0; first < candidates.activeCount; first += batch) {
         const uint32_t count = std::min(candidates.activeCount - first, batch), rays = count * params_.points;

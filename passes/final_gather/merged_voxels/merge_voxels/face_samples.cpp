@@ -17,8 +17,8 @@ std::vector<glm::ivec3> occupiedVoxels(CommandStream& stream, const SurfaceVoxel
     for (uint32_t word = 0; word < words.size(); ++word) {
         const uint32_t row = word / grid.wordsPerRow;
         for (uint32_t bits = words[word]; bits != 0; bits &= bits - 1)
-            list.emplace_back(word % grid.wordsPerRow * 32 + uint32_t(std::countr_zero(bits)),
-                              row % grid.resolution.y, row / grid.resolution.y);
+            list.emplace_back(word % grid.wordsPerRow * 32 + uint32_t(std::countr_zero(bits)), row % grid.resolution.y,
+                              row / grid.resolution.y);
     }
     return list;
 }

@@ -23,8 +23,7 @@ struct Header {
 enum class MergedLight { All, Indirect };
 template <>
 struct EnumNames<MergedLight> {
-    static constexpr std::array names{std::pair{MergedLight::All, "all"},
-                                      std::pair{MergedLight::Indirect, "indirect"}};
+    static constexpr std::array names{std::pair{MergedLight::All, "all"}, std::pair{MergedLight::Indirect, "indirect"}};
 };
 
 /// Merges voxels of similar irradiance, so that the resolution follows the error.
@@ -33,11 +32,10 @@ class MergeVoxels final : public Pass {
     static constexpr const char* kName = "merge_voxels";
     static constexpr const char* kHelp =
         "Merges adjacent voxels of similar irradiance into k-d trees. "
-        "There is a tree for each of the six face directions, whose leaves are merged voxels, "
-        "for gather_rays. "
+        "There is a tree for each of the six face directions, whose leaves are merged voxels, for gather_rays. "
         "Trees are built down to single voxels, then leaves that reduce the error too little are pruned. "
-        "Runs on the host. Biased by: tolerance; flux is preserved. "
-        "Source: cost-complexity pruning (Breiman et al. 1984; Chou, Lookabaugh and Gray 1989).";
+        "Runs on the host. Biased by: tolerance; flux is preserved. Source: cost-complexity pruning (Breiman et al. "
+        "1984; Chou, Lookabaugh and Gray 1989).";
     struct Params {
         float tolerance = 0.3f;
         MergedLight light = MergedLight::All;
@@ -45,9 +43,8 @@ class MergeVoxels final : public Pass {
             return std::tuple{
                 field("tolerance", &Params::tolerance,
                       "Relative error of irradiance that is accepted over the area of one voxel face. "
-                      "A leaf is pruned where it reduces the squared relative error times area, "
-                      "in voxel faces, by less than this squared. 0: only equal values are merged. "
-                      "Black is merged with black only.",
+                      "A leaf is pruned where it reduces the squared relative error times area, in voxel faces, "
+                      "by less than this squared. 0: only equal values are merged. Black is merged with black only.",
                       0.0f, 30.0f),
                 field("light", &Params::light,
                       "all: direct and indirect light. "
@@ -114,8 +111,7 @@ void MergeVoxels::record(PassContext& context) {
     context.stream.copy(voxels.occupancy, tree.occupancy, tree.occupancy.bytes());
     context.stream.copy(voxels.rank, tree.rank, tree.rank.bytes());
     tree.faces = {};
-    tree.faces =
-        Buffer(context.device, "faces of merged voxels", voxelFaces.faceBits.size() * sizeof(uint32_t));
+    tree.faces = Buffer(context.device, "faces of merged voxels", voxelFaces.faceBits.size() * sizeof(uint32_t));
     context.stream.upload(tree.faces, voxelFaces.faceBits);
     context.stream.finish();
     context.report("faces of voxels", double(count));

@@ -8,8 +8,7 @@ class GatherSteppedCones final : public Pass {
  public:
     static constexpr const char* kName = "gather_stepped_cones";
     static constexpr const char* kHelp =
-        "Gathers indirect light by six cones of 60 degrees, as published. "
-        "For comparison with gather_cones. "
+        "Gathers indirect light by six cones of 60 degrees, as published. For comparison with gather_cones. "
         "The cones have fixed directions about the normal and are weighted by their cosine. "
         "Each is sampled at points along its axis and composited front to back. "
         "Biased by: voxel size; six directions; thin walls that a step skips or samples twice. No noise. "
@@ -23,9 +22,8 @@ class GatherSteppedCones final : public Pass {
                                     "a sample's opacity counts for this fraction of its width.",
                                     0.125f, 1.0f),
                               field("start", &Params::start,
-                                    "Distance from the surface to a cone's first sample, in voxels, "
-                                    "which the thesis does not give. If small, "
-                                    "the surface itself is sampled; if large, close surfaces are skipped.",
+                                    "Voxels from the surface to a cone's first sample (not given in the thesis). "
+                                    "If small, the surface itself is sampled; if large, close surfaces are skipped.",
                                     0.5f, 16.0f)};
         }
     };

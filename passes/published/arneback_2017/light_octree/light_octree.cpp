@@ -23,10 +23,9 @@ class LightOctree final : public Pass {
         "The leaves are those of voxelize_octree, each lit by the texels of render_rsm that see it. "
         "The result is radiance voxels for gather_stepped_cones or gather_cones. "
         "As published in Arnebäck 2017 (sections 3.2.3 and 3.2.4), for comparison: "
-        "use an injection and filter_voxels with layout svo instead. "
-        "Point, spot and directional lights; no bounces, no emissive surfaces. Biased by: voxel size; "
-        "rsm_resolution (leaves between texels stay dark); mean normals of leaves; 8 bits. "
-        "Source: Arnebäck 2017, section 3.2.3.";
+        "use an injection and filter_voxels with layout svo instead. Point, spot and directional lights; "
+        "no bounces, no emissive surfaces. Biased by: voxel size; rsm_resolution (leaves between texels stay dark); "
+        "mean normals of leaves; 8 bits. Source: Arnebäck 2017, section 3.2.3.";
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
 

@@ -40,9 +40,8 @@ class VoxelizeOctree final : public Pass {
         "Triangles are rasterized into a fragment list, over which the octree is built. "
         "Leaves hold a mean color and a mean normal, for light_octree. "
         "As published in Arnebäck 2017 (sections 3.2.1 and 3.2.2), for comparison: "
-        "use voxelize and filter_voxels with layout svo instead. "
-        "Biased by: voxel size; opposite surfaces in a voxel, whose normals cancel out; "
-        "surfaces between samples, which are missed; 8 bits. "
+        "use voxelize and filter_voxels with layout svo instead. Biased by: voxel size; "
+        "opposite surfaces in a voxel, whose normals cancel out; surfaces between samples, which are missed; 8 bits. "
         "Noisy by: nothing, but means of 8 bits depend on the order of threads by a few steps. "
         "Source: Arnebäck 2017, section 3.2.";
     struct Params {
@@ -55,14 +54,13 @@ class VoxelizeOctree final : public Pass {
                                     "whose edge is the scene's longest side.",
                                     1u, 1024u),
                               field("samples", &Params::samples,
-                                    "Sample points of a voxel's column: 8 for multisampling "
-                                    "as published (the thesis does not give the number), "
+                                    "Sample points of a voxel's column: "
+                                    "8 for multisampling as published (the thesis does not give the number), "
                                     "1 for the column's center only.",
                                     {1u, 8u}),
                               field("brick_neighbors", &Params::brickNeighbors,
-                                    "Whether the 26 neighbors of each node with surfaces are created. "
-                                    "Off: values that adjacent bricks share differ "
-                                    "where a neighbor is missing (figure 28).")};
+                                    "Whether the 26 neighbors of each node with surfaces are created. Off: values "
+                                    "that adjacent bricks share differ where a neighbor is missing (figure 28).")};
         }
     };
     explicit VoxelizeOctree(const Params& params) : params_(params) {}
@@ -125,10 +123,9 @@ void VoxelizeOctree::record(PassContext& context) {
         builder_.build(stream, octree, fragments.cells, fragments.count);
         assignLeafValues(context, fragments);
         const gpu::LevelNodes& leaves = octree.levels[0];
-        context.dispatch(markStaticLeaves_, leaves.staticCount,
-                         {{"OctreeNodesRef", octree.nodes.ref()},
-                          {"firstNode", leaves.staticFirst},
-                          {"count", leaves.staticCount}});
+        context.dispatch(
+            markStaticLeaves_, leaves.staticCount,
+            {{"OctreeNodesRef", octree.nodes.ref()}, {"firstNode", leaves.staticFirst}, {"count", leaves.staticCount}});
         stream.finish();
         hasStatic_ = true;
     }
@@ -156,11 +153,10 @@ FragmentList VoxelizeOctree::voxelize(PassContext& context, const std::vector<ui
     list.colors = LargeBuffer(context.device, "fragments' colors", bytes);
     list.normals = LargeBuffer(context.device, "fragments' normals", bytes);
     stream.fill(counter, 0);
-    voxelizer_->run(
-        context, *appendFragments_, grid,
-        std::array{Binding{"fragmentCount", counter}, Binding{"CellsRef", list.cells.ref()},
-                   Binding{"ColorsRef", list.colors.ref()}, Binding{"NormalsRef", list.normals.ref()}},
-        0);
+    voxelizer_->run(context, *appendFragments_, grid,
+                    std::array{Binding{"fragmentCount", counter}, Binding{"CellsRef", list.cells.ref()},
+                               Binding{"ColorsRef", list.colors.ref()}, Binding{"NormalsRef", list.normals.ref()}},
+                    0);
     stream.finish();
     voxelizer_->release();
     return list;

@@ -21,8 +21,8 @@ class DirectPackedVoxels final : public Pass {
     static constexpr const char* kName = "direct_packed_voxels";
     static constexpr const char* kHelp =
         "Looks light up in packed voxels, filtered between voxels. A voxel's light is in one word, "
-        "which includes light of secondary rays. As published in Magalhães 2020 (section 4.4), "
-        "for comparison: use gather_irradiance with `light: direct` instead. Biased by: voxel size; "
+        "which includes light of secondary rays. As published in Magalhães 2020 (section 4.4), for comparison: "
+        "use gather_irradiance with `light: direct` instead. Biased by: voxel size; "
         "empty voxels, which are interpolated as black; light from both sides of a surface in one value. "
         "No noise of its own. Source: Magalhães 2020, sections 3.4.1 and 4.4.";
     struct Params {

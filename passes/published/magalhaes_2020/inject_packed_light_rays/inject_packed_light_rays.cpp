@@ -35,26 +35,26 @@ class InjectPackedLightRays final : public Pass {
         "Traces a planar grid of rays from one spot light into packed voxels. "
         "The irradiance of each hit is merged into the voxel's word, then the ray is mirrored. "
         "As published in Magalhães 2020 (section 4.3), for comparison: use inject_light_rays instead. "
-        "Biased by: voxel size; write: all rays in a voxel have equal weight, "
-        "whatever area they represent; distance falloff restarts with each segment; 8 bits of white. "
+        "Biased by: voxel size; write: all rays in a voxel have equal weight, whatever area they represent; "
+        "distance falloff restarts with each segment; 8 bits of white. "
         "Noisy by: nothing, but moving_average and none depend on the order of threads. "
-        "Surfaces between the grid's rays or beyond 45 degrees, and voxels that voxelization missed, "
-        "remain black. Source: Magalhães 2020, sections 3.3.1 and 4.3.";
+        "Surfaces between the grid's rays or beyond 45 degrees, and voxels that voxelization missed, remain black. "
+        "Source: Magalhães 2020, sections 3.3.1 and 4.3.";
     struct Params : PackedWriteParams {
         uint32_t raysPerLight = 262144;
         uint32_t bounces = 0;
         float white = 3.14159265f;
         static constexpr auto schema() {
             return std::tuple_cat(
-                std::tuple{field("rays_per_light", &Params::raysPerLight,
-                                 "Rays of the grid; a square number.", 1u, 1u << 26),
-                           field("bounces", &Params::bounces,
-                                 "Mirrored rays after a ray's first hit. 0 and 1 as published.", 0u, 64u),
-                           field("white", &Params::white,
-                                 "Irradiance, W/m², of the maximum 8-bit value, "
-                                 "to which brighter values are clamped. "
-                                 "pi as published: a white surface then reflects a radiance of 1.",
-                                 1e-6f, 1e9f)},
+                std::tuple{
+                    field("rays_per_light", &Params::raysPerLight, "Rays of the grid; a square number.", 1u, 1u << 26),
+                    field("bounces", &Params::bounces, "Mirrored rays after a ray's first hit. 0 and 1 as published.",
+                          0u, 64u),
+                    field("white", &Params::white,
+                          "Irradiance, W/m², of the maximum 8-bit value, "
+                          "to which brighter values are clamped. "
+                          "pi as published: a white surface then reflects a radiance of 1.",
+                          1e-6f, 1e9f)},
                 PackedWriteParams::schema());
         }
     };
@@ -81,8 +81,7 @@ class InjectPackedLightRays final : public Pass {
 uint32_t InjectPackedLightRays::spotLight(const SceneState& scene) {
     const std::vector<LightSource> sources = requireLightSources(scene, kName);
     const LightSource& first = sources.front();
-    if (sources.size() > 1 || first.kind != LightSource::Punctual ||
-        scene.lights[first.light].type != LightType::Spot)
+    if (sources.size() > 1 || first.kind != LightSource::Punctual || scene.lights[first.light].type != LightType::Spot)
         throw Error("{}: it takes one spot light and no other light, as published", kName);
     return first.light;
 }

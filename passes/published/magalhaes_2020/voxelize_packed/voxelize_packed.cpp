@@ -19,19 +19,19 @@ class VoxelizePacked final : public Pass {
         "The volumes hold the mean normal and the mean albedo, without faces. "
         "As published in Magalhães 2020 (sections 3.2.4.2 and 4.2), for comparison: use voxelize instead. "
         "Biased by: voxel size; opposite surfaces in a voxel, whose normals cancel out; "
-        "surfaces between pixel centers, which are missed; 8 bits. Noisy by: nothing, "
-        "but moving_average and none depend on the order of threads. Source: Magalhães 2020, section 4.2.";
+        "surfaces between pixel centers, which are missed; 8 bits. Noisy by: "
+        "nothing, but moving_average and none depend on the order of threads. Source: Magalhães 2020, section 4.2.";
     struct Params : PackedWriteParams {
         uint32_t resolution = 128;
         uint32_t samplesPerVoxelEdge = 1;
         static constexpr auto schema() {
             return std::tuple_cat(
-                std::tuple{field("resolution", &Params::resolution, "Voxels along the scene's longest side.",
-                                 1u, 1024u),
-                           field("samples_per_voxel_edge", &Params::samplesPerVoxelEdge,
-                                 "Pixels along a voxel's edge in each of the three projections: "
-                                 "1 as published; with more, fewer surfaces are missed.",
-                                 1u, 16u)},
+                std::tuple{
+                    field("resolution", &Params::resolution, "Voxels along the scene's longest side.", 1u, 1024u),
+                    field("samples_per_voxel_edge", &Params::samplesPerVoxelEdge,
+                          "Pixels along a voxel's edge in each of the three projections: 1 as published; "
+                          "with more, fewer surfaces are missed.",
+                          1u, 16u)},
                 PackedWriteParams::schema());
         }
     };
@@ -52,10 +52,8 @@ class VoxelizePacked final : public Pass {
 
         // All triangles are voxelized in each update, as published
         const VoxelRegion wholeGrid(voxels.grid);
-        voxelizer_->select(context, voxels.grid, wholeGrid,
-                           wholeGrid.triangles(context.frame.scene->geometry));
-        const std::vector<Binding> volumes{{"NormalsRef", voxels.normals.ref()},
-                                           {"AlbedosRef", voxels.albedos.ref()}};
+        voxelizer_->select(context, voxels.grid, wholeGrid, wholeGrid.triangles(context.frame.scene->geometry));
+        const std::vector<Binding> volumes{{"NormalsRef", voxels.normals.ref()}, {"AlbedosRef", voxels.albedos.ref()}};
         voxelizer_->run(context, *write_, voxels.grid, volumes, 0);
         context.stream.finish();
         voxelizer_->release();

@@ -143,9 +143,9 @@ def problem_of_modules(includer, included):
         if path.startswith("passes/common/") and module(path) is None and not path.startswith(FAMILY_LIST):
             return f"{path} is in no module: passes/common/<module>/"
         if module(path) is not None and module(path) not in MODULES:
-            return f"module {module(path)} is not known: add it to tests/house/layers.py"
+            return f"module {module(path)} is not known: add it to tests/repository/layers.py"
         if family(path) is not None and family(path) not in FAMILIES and not includer.startswith("tests/"):
-            return f"family {family(path)} is not known: add it to tests/house/layers.py"
+            return f"family {family(path)} is not known: add it to tests/repository/layers.py"
     mine, other = module(includer), module(included)
     if mine and other and mine != other and other not in MODULES[mine]:
         return f"module {mine} includes {included}: it may include {', '.join(sorted(MODULES[mine])) or 'no module'}"
@@ -178,7 +178,7 @@ def problem_of_own(root, includer, included):
     if includer.startswith("framework/"):
         layer = includer.split("/")[1]
         if layer not in LAYERS:
-            return None if layer == "report" else f"framework/{layer} is in no layer: add it to tests/house/layers.py"
+            return None if layer == "report" else f"framework/{layer} is in no layer: add it to tests/repository/layers.py"
         if included.startswith("passes/"):
             return None if layer == "app" else f"framework/{layer} includes {included}: only app knows the passes"
         if included.startswith("framework/"):

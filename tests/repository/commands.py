@@ -125,10 +125,9 @@ def problem_of(root, words, program):
         if program.run("passes", arguments[0]).returncode != 0:
             return f"no pass {arguments[0]}"
     if command == "run" and configs and not is_placeholder(configs[0]) and "--set" in arguments:
-        whole = [os.path.join(root, word) if word in configs else word for word in arguments]
-        if "--dry-run" not in whole:
-            whole.append("--dry-run")
-        done = program.run("run", *whole)
+        taken = [word for i, option in enumerate(arguments) if option in ("--set", "--profile", "--only")
+                 for word in arguments[i:i + 2]]
+        done = program.run("plan", os.path.join(root, configs[0]), *taken)
         if done.returncode == 2 and "no file" not in done.stderr:
             return done.stderr.strip()
     return None

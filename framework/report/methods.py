@@ -1,0 +1,100 @@
+"""Methods of many runs: variants with the same chain of passes are one, and have one name, color and mark on a page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from report.names import common_words
+from report.ranking import is_numeric
+from report.results import Results
+from report.style import CATEGORY_COLORS, MARKERS, Style
+
+TRACED = "path_trace"
+_RIVAL = (TRACED, "filter_irradiance")  # what a user would pick instead of any method of voxels
+_OTHER_METHODS = ("inject_", "gather_", "sample_")  # what their passes begin with
+_FILTER = "filter_irradiance"
+_EVERYWHERE = {"gbuffer", "voxelize", "composite"}  # passes that tell nothing of a method
+_LAYOUT = "layout"  # the parameter that makes two methods of the same passes
+
+
+@dataclass
+class Method:
+    """`chain`: its passes, those of several layouts with theirs; `names`: the variants' own."""
+
+    chain: tuple[str, ...]
+    names: list[str] = field(default_factory=list)
+    name: str = ""
+
+    @property
+    def traces_paths(self) -> bool:
+        return TRACED in self.chain
+
+    @property
+    def is_rival(self) -> bool:
+        """Whether it is filtered path tracing and nothing else."""
+        return self.chain == _RIVAL
+
+
+def methods_of(runs: list[Results]) -> tuple[list[Method], list[dict[str, int]]]:
+    """The methods of all runs, and for each run the index of each variant's."""
+    methods: dict[tuple, Method] = {}
+    found: list[dict[str, Method]] = []
+    for run in runs:
+        names = dict(_own_names(run))
+        found.append({variant: methods.setdefault(chain := _chain(run, variant), Method(chain)) for variant in names})
+        for variant, method in found[-1].items():
+            method.names.append(names[variant])
+    listed = list(methods.values())
+    _give_names(listed)
+    position = {method.chain: i for i, method in enumerate(listed)}
+    return listed, [{variant: position[method.chain] for variant, method in variants.items()} for variants in found]
+
+
+def styles_of(methods: list[Method]) -> list[Style]:
+    """A color and a mark for each method, of 24 that differ."""
+    return [Style(CATEGORY_COLORS[i % len(CATEGORY_COLORS)], list(MARKERS)[i % len(MARKERS)]) for i in range(len(methods))]
+
+
+def _own_names(run: Results) -> Iterator[tuple[str, str]]:
+    """(variant, what the config calls it): the names that a sweep swaps, without numbers and scenes."""
+    keys = [key for key in run.sweep_keys if key.split(".")[0] != "scene" and not is_numeric(run.ok[key][run.ok[key] != "-"])]
+    columns = zip(*(run.ok[key] for key in keys)) if keys else [()] * len(run.ok)
+    for variant, values in zip(run.ok["variant"], columns):
+        yield variant, ", ".join(value for value in values if value != "-") or variant
+
+
+def _chain(run: Results, variant: str) -> tuple[str, ...]:
+    graph = run.graph_of(variant)
+    kinds = [str(entry.get("pass")) for entry in graph]
+    if set(kinds) >= set(_RIVAL) and not any(kind.startswith(_OTHER_METHODS) for kind in kinds):
+        return _RIVAL
+    names = (f"{kind} ({entry[_LAYOUT]})" if _LAYOUT in entry else kind for kind, entry in zip(kinds, graph))
+    return tuple(name for name in dict.fromkeys(names) if name not in _EVERYWHERE) or ("all",)
+
+
+def _give_names(methods: list[Method]) -> None:
+    for method in methods:
+        method.name = common_words(method.names)
+    for rename in (_by_gather, _by_difference, _by_number):
+        groups: dict[str, list[Method]] = {}
+        for method in methods:
+            groups.setdefault(method.name, []).append(method)
+        renamed = {method.chain: rename(method, same) for name, same in groups.items() if len(same) > 1 or not name for method in same}
+        for method in methods:
+            method.name = renamed.get(method.chain, method.name)
+
+
+def _by_gather(method: Method, _: list[Method]) -> str:
+    gather = next((kind for kind in reversed(method.chain) if kind.startswith(("gather_", TRACED))), method.chain[-1])
+    return gather.replace("_", " ") + (", filtered" if _FILTER in method.chain else "")
+
+
+def _by_difference(method: Method, same: list[Method]) -> str:
+    shared = set.intersection(*(set(other.chain) for other in same))
+    apart = [kind.replace("_", " ") for kind in method.chain if kind not in shared]
+    return f"{method.name} ({', '.join(apart)})" if apart else method.name
+
+
+def _by_number(method: Method, same: list[Method]) -> str:
+    return f"{method.name} {next(i for i, other in enumerate(same, 1) if other is method)}"
