@@ -15,7 +15,7 @@ class FilterVoxels final : public Pass {
  public:
     static constexpr const char* kName = "filter_voxels";
     static constexpr const char* kHelp =
-        "Prefilters surface voxels into outgoing radiance and opacity at all scales, for gather_cones. "
+        "Prefilters surface voxels into radiance and opacity at all scales, for gather_cones. "
         "Opacity is the fraction of a beam that surfaces occlude. Biased by: voxel size; "
         "surfaces in a larger voxel that face the same way are averaged; in a clipmap distance from the camera. "
         "Bounces by cones work with the layouts dense and svo; for clipmaps light_clipmap has them. "

@@ -30,8 +30,7 @@ class LightClipmap final : public Pass {
  public:
     static constexpr const char* kName = "light_clipmap";
     static constexpr const char* kHelp =
-        "Computes direct light of the voxels of voxelize_clipmap by shadow maps, "
-        "and radiance voxels for gather_cones from it. "
+        "Lights the voxels of voxelize_clipmap by shadow maps and prefilters them for gather_cones. "
         "Each triangle clipped to a voxel is tested against the map of each light. "
         "The cones gather one bounce more than 'bounces'. Each frame updates voxels that scrolled in; "
         "all if a light or a surface has moved, and with bounces if any scrolled in. Only for punctual lights: "

@@ -71,7 +71,7 @@ class BuildHybridLeaves final : public Pass {
  public:
     static constexpr const char* kName = "build_hybrid_leaves";
     static constexpr const char* kHelp =
-        "Builds the leaves of a hybrid octree over surface voxels, for rays that resolve more than voxels. "
+        "Builds the leaves of a hybrid octree: triangles or finer voxels in surface voxels. "
         "Each leaf holds the list of its triangles or, if these exceed a capacity, a grid of finer voxels, "
         "its cells. Biased by: grid, since surfaces in grids are as thick as cells; `lists: "
         "fragments` misses triangles; `write: none` flickers. Source: Seok 2021, chapter 3.";
