@@ -50,7 +50,7 @@ def front_of(variants: pd.DataFrame) -> pd.DataFrame:
 # %%
 for scene, variants in table.groupby("scene", sort=False):
     print(f"\n{scene}")
-    print(front_of(variants)[["method", "variant", cost, error]].to_string(index=False))
+    print(front_of(variants)[["method", "name", cost, error]].to_string(index=False))
 
 # %% [markdown]
 # ## The charts

@@ -33,7 +33,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 # %%
 results = load(directory)
 prefix = "indirect_" if "indirect" in results.lights() else ""
-columns = ["variant", *results.sweep_keys, "build_ms", "frame_ms_median"]
+columns = ["name", *results.sweep_keys, "build_ms", "frame_ms_median"]
 columns += [prefix + name for name in ("nrmse", "relmse", "flip", "mean_ratio")]
 with pd.option_context("display.width", 160, "display.max_columns", None):
     print(results.ok[columns].sort_values(prefix + "nrmse").to_string(index=False))
@@ -47,7 +47,7 @@ for warning in results.warnings:
 # %%
 frame = results.passes[results.passes["phase"] == "frame"]
 if len(frame):
-    print(frame.pivot_table(index="variant", columns="pass", values="ms_median", sort=False).round(2))
+    print(frame.merge(results.ok[["variant", "name"]]).pivot_table(index="name", columns="pass", values="ms_median", sort=False).round(2))
 
 # %% [markdown]
 # ## Speed against error
@@ -66,7 +66,7 @@ for value, group in groups:
     bars = [(group[error] - [low for low, _ in ends]).clip(lower=0), ([high for _, high in ends] - group[error]).clip(lower=0)]
     axes.errorbar(group["frame_ms_median"], group[error], bars, fmt="o", label=str(value), zorder=3)
 for _, row in points.iterrows():
-    axes.annotate(row["variant"], (row["frame_ms_median"], row[error]), (4, 4),
+    axes.annotate(row["name"], (row["frame_ms_median"], row[error]), (4, 4),
                   textcoords="offset points", fontsize=8, parse_math=False)
 
 # The Pareto front, and what a black and a constant image score.

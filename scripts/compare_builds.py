@@ -181,7 +181,7 @@ def compare_config(folder_a, folder_b, ignored):
         if a["variant"] != b["variant"]:
             remarks.append(f"paired by order: {a['variant']} and {b['variant']}")
         for column in a:
-            if column in TIMES or column in ("variant", "error", "device", "tracer") or column not in b:
+            if column in TIMES or column in ("variant", "name", "error", "device", "tracer") or column not in b:
                 continue
             if a[column] != b[column]:
                 if column.endswith("nrmse") and float(a[column] or 0) > 0 and b[column]:

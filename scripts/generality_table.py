@@ -20,7 +20,7 @@ COLUMNS = ("indirect_mean_ratio", "indirect_relmse", "indirect_nrmse")
 NO_RATIO = 1e6  # the mean ratio that an image has over a black reference
 # What the floor outside of shell_room reflects of the sun alone, W/(m² sr): albedo / pi times irradiance times cosine.
 SUNLIT_FLOOR = 0.75 / math.pi * 20 * 0.6 / math.hypot(0.5, 0.6, 1)
-PLAIN = {"variant", "status", "error", "device", "tracer", VOXELS, "inject", "gather"}
+PLAIN = {"variant", "name", "status", "error", "device", "tracer", VOXELS, "inject", "gather"}
 
 
 def is_black(row):
@@ -71,7 +71,7 @@ def baselines(folder):
 
 def table(rows, text):
     """A line an injection, named by the last pass of its chain, and a column a gather and resolution; `text` of each row."""
-    cells = {(swept(row), row["inject"].split(" + ")[-1], row["gather"], int(row[VOXELS])): text(row) for row in rows}
+    cells = {(swept(row), row["inject"], row["gather"], int(row[VOXELS])): text(row) for row in rows}
     lines = dict.fromkeys((key[0], key[1]) for key in cells)
     columns = sorted({(key[2], key[3]) for key in cells}, key=lambda column: (column[0] != "gather_rays", column))
     return markdown_table(["injection", *(f"`{gather}`, {voxels}³" for gather, voxels in columns)],

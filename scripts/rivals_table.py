@@ -93,7 +93,7 @@ def speed_up(ms, error, points):
 
 def samples_of(passes, row):
     """Samples a pixel of filtered path tracing, None for another method."""
-    return int(re.search(r"path_trace spp (\d+)", row["indirect"])[1]) if any(p["pass"] == "paths" for p in passes) else None
+    return int(re.search(r"\bspp (\d+)", row["indirect"])[1]) if any(p["pass"] == "paths" for p in passes) else None
 
 
 def is_no_slower(ms, error, rivals):

@@ -110,7 +110,7 @@ void addExplainCommand(CLI::App& app, int&) {
     addConfig(command);
     addText(command, "--variant", "NAME",
             "Which variant of the config's sweep is explained, by its name in results.csv or the end of it, "
-            "as in lookup for indirect-lookup.");
+            "as in lookup for cornell-lookup.");
     addConfigOptions(command, *values);
     addRunOptions(command, values->run, "Results folder; default results/explain_<experiment>.");
 }

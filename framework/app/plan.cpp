@@ -32,6 +32,7 @@ Value listOf(const std::vector<std::string>& words) {
 Value variantValue(const Variant& variant) {
     Value map = Value::map(), locations = Value::list();
     for (const Value& entry : variant.setup.graph.items) locations.items.push_back(quotedText(entry.where.str()));
+    map.set("id", quotedText(variant.id));
     map.set("name", quotedText(variant.name));
     map.set("values", listOf(variant.values));
     map.set("config", variant.config);

@@ -15,7 +15,7 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// Begins a step, e.g. "resolution-64".
+    /// Begins a step, e.g. "resolution 64".
     void begin(const std::string& step);
     /// How much of the step is done, in [0, 1]. Redraws at most ten times a second.
     void update(double fraction);

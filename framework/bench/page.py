@@ -100,7 +100,7 @@ def parity_table(data: dict) -> Table:
         for pair in pairs:
             values = (found.get((pair, method)) or {}).get("errors", [None, None])
             errors.update({run: value for run, value in zip(pair.split(" against "), values) if value is not None})
-        table.add(method.removeprefix("indirect-"), *cells, "; ".join(f"{run} {number(value)}" for run, value in errors.items()))
+        table.add(method, *cells, "; ".join(f"{run} {number(value)}" for run, value in errors.items()))
     return table
 
 
@@ -214,6 +214,6 @@ def _strips(data: dict) -> list[tuple[str, list[tuple[str, str]]]]:
     for row in data.get("parity", []):
         for run, path in zip(row["pair"].split(" against "), row.get("pictures", [])):
             if Path(path).is_file() and not run.endswith(" again"):
-                strips.setdefault(row["method"].removeprefix("indirect-"), {}).setdefault(run, path)
+                strips.setdefault(row["method"], {}).setdefault(run, path)
     return [(method, [(run, pages.data_uri(Path(path).read_bytes()))
                       for run, path in pictures.items()]) for method, pictures in strips.items()]

@@ -44,7 +44,7 @@ class Program:
 class Variant:
     """What a run knows of one variant: `result` is its result.json, None with an `error` where it failed or did not run."""
 
-    name: str
+    name: str  # its id, also of its folder and of its part
     kinds: dict[str, str]  # of its passes, by id
     result: dict | None
     error: str

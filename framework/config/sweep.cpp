@@ -13,11 +13,12 @@ namespace voxray {
 namespace {
 
 constexpr size_t kMaxVariants = 10000;
-constexpr size_t kMaxNameLength = 120;
+constexpr size_t kMaxIdLength = 120;
 
 struct Axis {
     std::string path;
     std::string label;  ///< Short name that is used in names of variants.
+    bool isWord;        ///< Its values' labels need no parameter before them, unless they are numbers.
     std::vector<Value> values;
     std::vector<std::string> texts;  ///< Labels of the values.
     TextLocation where;
@@ -29,6 +30,11 @@ void checkPath(const std::string& path, const TextLocation& where) {
     if (std::ranges::count(fixed, first) > 0)
         throw UsageError(
             where, "sweep: '{}' is the same for all variants; sweep over a pass, scene, image, seed or tracer", path);
+}
+
+/// Whether an axis' values are passes or chains of passes.
+bool isPassPath(const std::string& path) {
+    return path.find('.') == std::string::npos && std::ranges::count(configKeys(), path) == 0;
 }
 
 std::string fileSafe(const std::string& text) {
@@ -52,8 +58,8 @@ std::vector<Axis> readAxes(const Experiment& experiment) {
         checkPath(path, list.where);
         const std::string label = lastKey(experiment.config, path);
         ++labels[label];
-        axes.push_back({path, label, sweepValues(list), {}, list.where});
-        axes.back().texts = sweepLabels(list);
+        const bool isWord = list.isMap() || isPassPath(path) || path == "scene";
+        axes.push_back({path, label, isWord, sweepValues(list), sweepLabels(path, list), list.where});
         const std::set<std::string> unique(axes.back().texts.begin(), axes.back().texts.end());
         if (unique.size() != axes.back().texts.size())
             throw UsageError(list.where, "sweep.{}: a value appears twice", path);
@@ -120,9 +126,13 @@ class BaseConfigs {
     std::map<std::vector<size_t>, Value> configs_;  ///< By the indices of replaced passes.
 };
 
-std::string shortened(const std::string& name) {
-    if (name.size() <= kMaxNameLength) return name;
-    return name.substr(0, kMaxNameLength - 9) + "-" + Hasher().add(name).hex().substr(0, 8);
+std::string shortened(const std::string& id) {
+    if (id.size() <= kMaxIdLength) return id;
+    return id.substr(0, kMaxIdLength - 9) + "-" + Hasher().add(id).hex().substr(0, 8);
+}
+
+bool isNumber(const std::string& text) {
+    return !text.empty() && text.find_first_not_of("0123456789.-+e") == std::string::npos;
 }
 
 }  // namespace
@@ -139,8 +149,8 @@ std::vector<Value> sweepValues(const Value& axis) {
     return values;
 }
 
-std::vector<std::string> sweepLabels(const Value& axis) {
-    if (!axis.isMap()) return valueLabels(axis.items);
+std::vector<std::string> sweepLabels(const std::string& path, const Value& axis) {
+    if (!axis.isMap()) return isPassPath(path) ? chainLabels(axis.items) : valueLabels(axis.items);
     std::vector<std::string> names;
     for (const auto& member : axis.members) names.push_back(member.key);
     return names;
@@ -160,7 +170,7 @@ void selectSweepValues(Value& config, const std::vector<std::string>& choices) {
         std::vector<std::string> names;
         for (const auto& member : sweep ? sweep->members : std::vector<Value::Member>()) names.push_back(member.key);
         if (!axis) throw UsageError("--only: the sweep has no axis '{}'{}", path, didYouMean(path, names));
-        const std::vector<std::string> labels = sweepLabels(*axis);
+        const std::vector<std::string> labels = sweepLabels(path, *axis);
         for (const std::string& value : values)
             if (std::ranges::count(labels, value) == 0)
                 throw UsageError("--only: '{}' has no value '{}'{}", path, value, didYouMean(value, labels));
@@ -212,24 +222,30 @@ std::vector<SweepPoint> expandSweep(const Experiment& experiment) {
         variants.push_back(std::move(variant));
     }
     VariantNames names(experiment);
-    for (SweepPoint& variant : variants) variant.name = names.next(variant.values);
+    for (SweepPoint& variant : variants) names.name(variant);
     return variants;
 }
 
 VariantNames::VariantNames(const Experiment& experiment) {
-    for (const Axis& axis : readAxes(experiment)) labels_.push_back(axis.label);
+    for (const auto& axis : readAxes(experiment)) axes_.push_back({axis.label, axis.isWord});
 }
 
-std::string VariantNames::next(const std::vector<std::string>& values) {
+void VariantNames::name(SweepPoint& variant) {
     std::string name;
-    for (size_t a = 0; a < labels_.size(); ++a)
-        if (values[a] != kNoValue) name += (name.empty() ? "" : "_") + fileSafe(labels_[a] + "-" + values[a]);
-    name = shortened(name.empty() ? "default" : name);
+    for (size_t a = 0; a < axes_.size(); ++a) {
+        const std::string& value = variant.values[a];
+        if (value == kNoValue) continue;
+        const bool isAlone = axes_[a].isWord && !isNumber(value);
+        name += (name.empty() ? "" : ", ") + (isAlone ? value : axes_[a].label + " " + value);
+    }
+    if (name.empty()) name = "default";
 
-    // Names of different values may be equal after fileSafe()
-    const std::string plain = name;
-    for (int copy = 2; !taken_.insert(name).second; ++copy) name = plain + "-" + std::to_string(copy);
-    return name;
+    // Keys of two axes may be equal, and so may different names after fileSafe()
+    variant.name = name;
+    for (int copy = 2; !names_.insert(variant.name).second; ++copy) variant.name = fmt::format("{} ({})", name, copy);
+    const std::string id = shortened(fileSafe(variant.name));
+    variant.id = id;
+    for (int copy = 2; !ids_.insert(variant.id).second; ++copy) variant.id = fmt::format("{}-{}", id, copy);
 }
 
 }  // namespace voxray

@@ -10,7 +10,8 @@ namespace voxray {
 
 /// One point of the sweep.
 struct SweepPoint {
-    std::string name;                 ///< Unique, safe as a file name, e.g. "resolution-64_inject-inject_rsm".
+    std::string name;                 ///< Unique, e.g. "resolution 64, gather_cones, cones 16".
+    std::string id;                   ///< The name as a file name, unique too: "resolution-64-gather_cones-cones-16".
     std::vector<std::string> values;  ///< Label of each axis' value, in the order of sweepKeys().
     Value config;                     ///< The experiment's config with this variant's values and without sweep.
     Setup setup;
@@ -22,8 +23,9 @@ std::vector<std::string> sweepKeys(const Experiment& experiment);
 /// The values of an axis, which is a list, or a map of named values.
 std::vector<Value> sweepValues(const Value& axis);
 
-/// Labels of these values, as in SweepPoint::values: their names in a map, else valueLabels().
-std::vector<std::string> sweepLabels(const Value& axis);
+/// Labels of an axis' values, as in SweepPoint::values: their keys in a map, else chainLabels() where the
+/// axis replaces a pass, or valueLabels(). @param path of the axis.
+std::vector<std::string> sweepLabels(const std::string& path, const Value& axis);
 
 /// Removes all values of a config's sweep except the selected ones. Axes without a selected value are
 /// unchanged.
@@ -33,16 +35,20 @@ void selectSweepValues(Value& config, const std::vector<std::string>& choices);
 /// Label of an axis that a variant doesn't have.
 inline constexpr const char* kNoValue = "-";
 
-/// Makes names of variants from their values. They are unique and valid as file names.
+/// Sets names and ids of variants, which are unique, from their values. A value is named by its key in the
+/// config, a pass or a scene by its label alone, any other value by its parameter too: "resolution 64".
 class VariantNames {
  public:
     explicit VariantNames(const Experiment& experiment);
-    /// @param values in the order of sweepKeys().
-    std::string next(const std::vector<std::string>& values);
+    void name(SweepPoint& variant);
 
  private:
-    std::vector<std::string> labels_;
-    std::set<std::string> taken_;
+    struct Axis {
+        std::string label;
+        bool isWord;  ///< Its values' labels need no parameter before them, unless they are numbers.
+    };
+    std::vector<Axis> axes_;
+    std::set<std::string> names_, ids_;
 };
 
 /// All combinations of the sweep's values; the last axis varies fastest. Without a sweep there is one

@@ -24,7 +24,7 @@ std::vector<const Value*> entriesOf(const Value& value) {
 
 /// The member that names an entry, or nullptr.
 const Value::Member* namingMember(const Value& entry) {
-    static const std::set<std::string> naming{"pass", "builtin", "file", "directional", "point", "spot"};
+    static const std::set<std::string> naming{"builtin", "file", "directional", "point", "spot"};
     for (const Value::Member& member : entry.members)
         if (naming.contains(member.key) && member.value.isScalar()) return &member;
     return nullptr;
@@ -65,6 +65,105 @@ MemberNames differences(const std::vector<Value>& values, const std::vector<size
     return names;
 }
 
+/// Passes that change an image of indirect light, and what they make of it.
+const std::map<std::string, std::string>& imageFilters() {
+    static const std::map<std::string, std::string> words{{"accumulate", "accumulated"},
+                                                          {"filter_irradiance", "filtered"}};
+    return words;
+}
+
+/// A pass of a chain: its name and its parameters as texts, e.g. "spp 4". Inputs are parameters, too.
+struct ChainPass {
+    std::string name;
+    std::vector<std::string> parameters;
+};
+
+struct Chain {
+    std::string main;                   ///< The last pass that is no image filter, or else the last one.
+    std::vector<std::string> filtered;  ///< What the passes after it do.
+    std::vector<ChainPass> passes;      ///< The main pass, then the others from the last one to the first.
+    std::vector<std::string> hidden;    ///< What differs from chains with this main pass, in this order.
+    std::vector<std::string> shown;     ///< Of these, what the label has.
+
+    std::string label() const {
+        std::string text = main;
+        for (const std::string& detail : shown) text += ", " + detail;
+        for (const std::string& word : filtered) text += ", " + word;
+        return text;
+    }
+    void show(std::vector<std::string>::iterator detail) {
+        shown.push_back(*detail);
+        hidden.erase(detail);
+    }
+};
+
+ChainPass chainPass(const Value& entry) {
+    if (entry.isScalar()) return {entry.scalar, {}};
+    ChainPass pass;
+    for (const auto& [key, value] : entry.members) {
+        if (key == "pass")
+            pass.name = value.scalar;
+        else if (key == "inputs" && value.isMap())
+            for (const auto& [port, source] : value.members) pass.parameters.push_back(port + " " + source.text());
+        else if (key != "id")
+            pass.parameters.push_back(key + " " + value.text());
+    }
+    return pass;
+}
+
+Chain chainOf(const Value& value) {
+    Chain chain;
+    for (const Value& entry : value.isList() ? value.items : std::vector{value})
+        chain.passes.insert(chain.passes.begin(), chainPass(entry));
+    const auto isFilter = [](const ChainPass& pass) { return imageFilters().contains(pass.name); };
+    auto main = std::ranges::find_if_not(chain.passes, isFilter);
+    if (main == chain.passes.end()) main = chain.passes.begin();
+    for (auto filter = chain.passes.begin(); filter != main; ++filter)
+        chain.filtered.insert(chain.filtered.begin(), imageFilters().at(filter->name));
+    if (main != chain.passes.end()) {
+        chain.main = main->name;
+        std::rotate(chain.passes.begin(), main, main + 1);
+    }
+    return chain;
+}
+
+/// Finds what differs among chains with the same main pass, and shows the first of its parameters.
+void findDetails(const std::vector<Chain*>& chains) {
+    std::map<std::string, size_t> counts;  // Of the chains with a pass, "name", or a parameter, "name.spp 4".
+    for (const Chain* chain : chains) {
+        std::set<std::string> texts;
+        for (const ChainPass& pass : chain->passes) {
+            texts.insert(pass.name);
+            for (const std::string& parameter : pass.parameters) texts.insert(pass.name + "." + parameter);
+        }
+        for (const std::string& text : texts) ++counts[text];
+    }
+    for (Chain* chain : chains)
+        for (const ChainPass& pass : chain->passes) {
+            if (!imageFilters().contains(pass.name) && counts[pass.name] < chains.size())
+                chain->hidden.push_back(pass.name);
+            for (const std::string& parameter : pass.parameters)
+                if (counts[pass.name + "." + parameter] < chains.size()) chain->hidden.push_back(parameter);
+            if (&pass == &chain->passes.front() && !chain->hidden.empty()) chain->show(chain->hidden.begin());
+        }
+}
+
+/// Shows one more detail of each chain that not all of these have. @return whether there was any.
+bool showMore(const std::vector<Chain*>& chains) {
+    std::map<std::string, size_t> counts;
+    for (const Chain* chain : chains)
+        for (const std::string& detail : std::set(chain->hidden.begin(), chain->hidden.end())) ++counts[detail];
+    bool isAny = false;
+    for (Chain* chain : chains) {
+        const auto detail =
+            std::ranges::find_if(chain->hidden, [&](const std::string& text) { return counts[text] < chains.size(); });
+        if (detail == chain->hidden.end()) continue;
+        chain->show(detail);
+        isAny = true;
+    }
+    return isAny;
+}
+
 std::map<std::string, std::vector<size_t>> groupsOf(const std::vector<std::string>& labels) {
     std::map<std::string, std::vector<size_t>> groups;
     for (size_t i = 0; i < labels.size(); ++i) groups[labels[i]].push_back(i);
@@ -72,6 +171,28 @@ std::map<std::string, std::vector<size_t>> groupsOf(const std::vector<std::strin
 }
 
 }  // namespace
+
+std::vector<std::string> chainLabels(const std::vector<Value>& values) {
+    std::vector<Chain> chains;
+    std::map<std::string, std::vector<Chain*>> byMain;
+    for (const Value& value : values) chains.push_back(chainOf(value));
+    for (Chain& chain : chains) byMain[chain.main].push_back(&chain);
+    for (const auto& [main, group] : byMain) findDetails(group);
+
+    std::vector<std::string> labels;
+    for (bool isDone = false; !isDone;) {
+        isDone = true;
+        std::map<std::string, std::vector<Chain*>> byLabel;
+        for (Chain& chain : chains) byLabel[chain.label()].push_back(&chain);
+        for (const auto& [text, group] : byLabel)
+            if (group.size() > 1 && showMore(group)) isDone = false;
+    }
+    for (const Chain& chain : chains) labels.push_back(chain.label());
+    for (const auto& [text, group] : groupsOf(labels))
+        if (group.size() > 1)
+            for (const size_t i : group) labels[i] = values[i].text();
+    return labels;
+}
 
 std::vector<std::string> valueLabels(const std::vector<Value>& values) {
     std::vector<std::string> labels;

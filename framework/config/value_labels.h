@@ -8,9 +8,15 @@
 namespace voxray {
 
 /// Short, distinct labels of the values of a sweep's axis, for names of variants and for tables. The label of
-/// a map is its pass, scene, file or type of light; that of a list of maps has the labels of its entries,
+/// a map is its scene, file or type of light; that of a list of maps has the labels of its entries,
 /// joined by " + "; that of an empty list is "none". If labels are equal, differing members are appended, or
 /// the full text is used. Equal values have equal labels.
 std::vector<std::string> valueLabels(const std::vector<Value>& values);
+
+/// As valueLabels(), of passes and chains of passes. A chain's label is its last pass, followed by "filtered"
+/// or "accumulated" if only passes that do so come after it: "path_trace, spp 4, filtered". Where the sweep
+/// has several chains with this last pass, its first parameter that differs among them is told, and as many
+/// more parameters and passes, from the end of the chain, as tell the chains apart.
+std::vector<std::string> chainLabels(const std::vector<Value>& chains);
 
 }  // namespace voxray

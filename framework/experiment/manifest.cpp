@@ -155,16 +155,18 @@ std::string manifestJson(const ManifestData& data) {
     json["auto"] = {{"tracer", data.tracer}, {"device", data.device.name}};
     json["requested"] = {{"tracer", enumName(experiment.setup.general.tracer)},
                          {"device", data.requestedDevice.empty() ? "best" : data.requestedDevice}};
-    // Names are unique, so that they are appended without a search
-    Json::object_t graphs, inputs;
+    // Ids are unique, so that they are appended without a search
+    Json::object_t names, graphs, inputs;
     // By image, then by variant
     std::map<std::string, std::map<std::string, std::vector<std::string>>> noise;
     for (const Variant& variant : data.study->variants) {
-        const std::string& name = variant.name;
-        graphs.emplace_back(name, Json::parse(variant.resolved.json(-1)));
-        inputs.emplace_back(name, Json{{"scene", variant.sceneKey}, {"reference", variant.referenceHash}});
-        for (const auto& [image, parameters] : variant.noiseParameters) noise[image][name] = parameters;
+        const std::string& id = variant.id;
+        names.emplace_back(id, variant.name);
+        graphs.emplace_back(id, Json::parse(variant.resolved.json(-1)));
+        inputs.emplace_back(id, Json{{"scene", variant.sceneKey}, {"reference", variant.referenceHash}});
+        for (const auto& [image, parameters] : variant.noiseParameters) noise[image][id] = parameters;
     }
+    json["names"] = std::move(names);
     json["variants"] = std::move(graphs);
     json["inputs"] = std::move(inputs);
     json["noise_parameters"] = noise;
@@ -179,7 +181,7 @@ std::string identityOf(const ManifestData& data) {
     Hasher hasher;
     hasher.add(data.version).add(data.commit).add(data.study->experiment.config.json());
     for (const Variant& variant : data.study->variants)
-        hasher.add(variant.name).add(variant.sceneKey).add(variant.referenceHash);
+        hasher.add(variant.id).add(variant.sceneKey).add(variant.referenceHash);
     return hasher.hex();
 }
 

@@ -147,8 +147,8 @@ std::vector<VariantResult> failedRows(std::vector<std::string>& missing, const s
                                       const Experiment& experiment, const ResultsFolder& target) {
     std::vector<VariantResult> rows;
     if (missing.empty()) return rows;
-    std::map<std::string, std::vector<std::string>> sweepValues;
-    for (SweepPoint& variant : expandSweep(experiment)) sweepValues[variant.name] = std::move(variant.values);
+    std::map<std::string, SweepPoint> variants;  // By their ids.
+    for (SweepPoint& variant : expandSweep(experiment)) variants[variant.id] = std::move(variant);
     std::map<std::string, std::string> hashes;  // Hash of each variant's reference.
     for (const auto& [name, keys] : sources[0].manifest["inputs"].items())
         hashes[name] = keys.at("reference").get<std::string>();
@@ -160,7 +160,9 @@ std::vector<VariantResult> failedRows(std::vector<std::string>& missing, const s
         VariantResult row;
         row.variant = name;
         row.error = isVariant ? record.error : failure->part + ": " + record.error;
-        row.sweepValues = sweepValues[name];
+        const SweepPoint& variant = variants[name];
+        row.name = variant.name.empty() ? name : variant.name;
+        row.sweepValues = variant.values;
         const auto recordedOr = [&](const std::string& text, const char* key) {
             return isVariant ? text : sources[0].manifest.at(key).get<std::string>();
         };
@@ -234,7 +236,7 @@ RunSummary mergeResults(const std::vector<fs::path>& folders, const fs::path& ou
     summary.total = found.size() + missing.size();
     summary.ok = found.size();
     for (VariantResult& failed : failedRows(missing, sources, experiment, target)) {
-        fmt::print(stderr, "voxray: warning: '{}' failed: {}\n", failed.variant, failed.error);
+        fmt::print(stderr, "voxray: warning: '{}' failed: {}\n", failed.name, failed.error);
         rows.push_back(std::move(failed));
         ++summary.failed;
     }

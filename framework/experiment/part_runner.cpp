@@ -15,8 +15,8 @@ namespace {
 /// A line for the terminal: costs, then the first two metrics. Scores of indirect light, in which methods
 /// differ, are before those of the whole image.
 std::string outcome(const VariantResult& r) {
-    if (!r.ok) return fmt::format("{}: failed: {}", r.variant, r.error);
-    std::string line = fmt::format("{}: build {:.1f} ms, frame {:.1f} ms", r.variant, r.buildMs, r.frameMs.median);
+    if (!r.ok) return fmt::format("{}: failed: {}", r.name, r.error);
+    std::string line = fmt::format("{}: build {:.1f} ms, frame {:.1f} ms", r.name, r.buildMs, r.frameMs.median);
     for (const Metric& metric : metrics().first(2)) {
         const auto total = r.scores.find(metric.name);
         if (total == r.scores.end()) continue;
@@ -143,7 +143,8 @@ bool PartRunner::runVariant(Variant& variant, Progress& progress) {
     if (!failure.empty()) {
         VariantResult& failed = variant.result.emplace();
         failed.error = failure;
-        failed.variant = variant.name;
+        failed.variant = variant.id;
+        failed.name = variant.name;
         failed.device = session.device().info().name;
         failed.tracer = session.tracerName(variant.setup);
         failed.sweepValues = variant.values;
@@ -151,7 +152,7 @@ bool PartRunner::runVariant(Variant& variant, Progress& progress) {
     variant.result->session = prepared_.manifest().started;
     if (failure.empty()) {
         const VariantInputs inputs = prepared_.inputsOf(variant);
-        folder_.writeImages(variant.name, [&](const std::filesystem::path& path) {
+        folder_.writeImages(variant.id, [&](const std::filesystem::path& path) {
             writeVariantImages(path, images, variant.setup.image);
             writeFileAtomically(path / "result.json", resultJson(*variant.result, inputs));
         });

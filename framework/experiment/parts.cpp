@@ -134,8 +134,8 @@ std::vector<Part> partsOf(PreparedExperiment& prepared, uint32_t referenceParts)
     for (size_t v = 0; v < all.size(); ++v) {
         Part variant;
         variant.kind = Part::Kind::Variant;
-        variant.id = "variant." + all[v].name;
-        variant.writes = "images/" + all[v].name + "/result.json";
+        variant.id = "variant." + all[v].id;
+        variant.writes = "images/" + all[v].id + "/result.json";
         variant.variant = v;
         for (const uint32_t frame : referenceFrames(prepared, all[v].setup)) {
             const std::string hash = prepared.session().referenceHashOf(prepared.study(), all[v].setup, frame);

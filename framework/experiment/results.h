@@ -21,7 +21,8 @@ struct FrameScores {
 
 /// The result of a variant: its row of results.csv.
 struct VariantResult {
-    std::string variant;
+    std::string variant;  ///< Its id, SweepPoint::id.
+    std::string name;     ///< SweepPoint::name.
     bool ok = false;
     std::string error;  ///< Why it failed.
     std::string device;

@@ -99,14 +99,14 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
     };
     if (measure.secondSeed) addLights(seedMetrics());
     if (measure.compareEvery > 0) addLights(temporalMetrics());
-    std::vector<std::string> header{"variant", "status", "error", "device", "tracer"};
+    std::vector<std::string> header{"variant", "name", "status", "error", "device", "tracer"};
     append(header, sweepKeys);
     append(header, kCostColumns);
     append(header, namesOf(columns));
 
     std::string text = csvLine(header);
     for (const VariantResult& r : results) {
-        std::vector<std::string> fields{r.variant, r.ok ? "ok" : "failed", r.error, r.device, r.tracer};
+        std::vector<std::string> fields{r.variant, r.name, r.ok ? "ok" : "failed", r.error, r.device, r.tracer};
         append(fields, r.sweepValues);
         if (r.ok)
             append(fields, {numberText(r.buildMs), numberText(r.frameMs.median), numberText(r.frameMs.p05),

@@ -95,6 +95,7 @@ Json scoresJson(const Scores& scores, const std::string& suffix) {
 std::string resultJson(const VariantResult& r, const VariantInputs& inputs) {
     Json json;
     json["variant"] = r.variant;
+    json["name"] = r.name;
     json["device"] = r.device;
     json["tracer"] = r.tracer;
     json["sweep_values"] = r.sweepValues;
@@ -136,6 +137,7 @@ std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text)
         VariantResult r;
         r.ok = true;
         r.variant = json.at("variant").get<std::string>();
+        r.name = json.value("name", r.variant);
         r.device = json.at("device").get<std::string>();
         r.tracer = json.at("tracer").get<std::string>();
         r.sweepValues = json.at("sweep_values").get<std::vector<std::string>>();

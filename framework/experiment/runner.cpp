@@ -101,8 +101,9 @@ void Run::abort(const std::string& why) {
 
 void Run::loadFinished() {
     for (Variant& variant : prepared_.variants()) {
-        auto result = folder_.finished(variant.name, prepared_.inputsOf(variant));
+        auto result = folder_.finished(variant.id, prepared_.inputsOf(variant));
         if (!result || !parts_.hasReferenceImages(variant)) continue;
+        result->name = variant.name;
         variant.result = std::move(result);
         ++summary_.resumed;
     }
@@ -178,7 +179,7 @@ std::vector<std::string> Run::timingWarnings() {
 bool isFinished(const Part& part, PreparedExperiment& prepared, const ResultsFolder& folder, const PartRunner& parts) {
     if (part.kind == Part::Kind::Reference) return ReferenceParts(folder.path()).has(part.hash, part.samples);
     const Variant& variant = prepared.variants()[part.variant];
-    return folder.finished(variant.name, prepared.inputsOf(variant)) && parts.hasReferenceImages(variant);
+    return folder.finished(variant.id, prepared.inputsOf(variant)) && parts.hasReferenceImages(variant);
 }
 
 /// Renders one part into a folder that may have others.

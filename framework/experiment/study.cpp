@@ -54,7 +54,7 @@ void removeDuplicates(Study& study) {
     std::vector<std::map<std::string, Value>> values(keys.size());  // Values of each swept parameter by label.
     for (size_t a = 0; a < keys.size(); ++a) {
         const Value& swept = study.experiment.sweep.members[a].value;
-        const std::vector<std::string> labels = sweepLabels(swept);
+        const std::vector<std::string> labels = sweepLabels(keys[a], swept);
         std::vector<Value> all = sweepValues(swept);
         for (size_t i = 0; i < labels.size(); ++i) values[a].emplace(labels[i], std::move(all[i]));
     }
@@ -71,7 +71,7 @@ void removeDuplicates(Study& study) {
             reasons[a] = why;
         }
         if (!unique.insert(variant.values).second) return true;
-        variant.name = names.next(variant.values);
+        names.name(variant);
         return false;
     });
     for (size_t a = 0; a < keys.size(); ++a)

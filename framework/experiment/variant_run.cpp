@@ -206,7 +206,8 @@ VariantImages renderVariant(Variant& variant, const Study& study, Session& sessi
     images.indirect = std::move(frames[0].indirect);
     frames.erase(frames.begin());
     images.laterFrames = std::move(frames);
-    result.variant = variant.name;
+    result.variant = variant.id;
+    result.name = variant.name;
     result.ok = true;
     result.device = device.info().name;
     result.sweepValues = variant.values;

@@ -17,20 +17,20 @@ AXIS = "explained"  # the pass that the sweep swaps for whole graphs; report/exp
 
 
 def chosen(variants: list[dict], name: str | None) -> dict:
-    """The variant of that name, or the only one whose name ends so after a '-': `lookup` of `indirect-lookup`."""
-    names = [variant["name"] for variant in variants]
+    """The variant of that id or name, or the only one whose id ends so after a '-': `lookup` of `cornell-lookup`."""
+    names = [variant["id"] for variant in variants]
     for variant in variants:
-        if variant["name"] == name or (not name and len(variants) == 1):
+        if name in (variant["id"], variant["name"]) or (not name and len(variants) == 1):
             return variant
     if not name:
         raise UsageError(f"the config has {len(names)} variants, and explain takes one: choose it with --variant, "
                       f"as in --variant {names[-1]}")
-    endings = [variant for variant in variants if variant["name"].endswith("-" + name)]
+    endings = [variant for variant in variants if variant["id"].endswith("-" + name)]
     if len(endings) == 1:
         return endings[0]
     if endings:
         raise UsageError(f"--variant: '{name}' ends the names of {len(endings)} variants: "
-                      + ", ".join(variant["name"] for variant in endings))
+                      + ", ".join(variant["id"] for variant in endings))
     raise UsageError(f"--variant: no variant '{name}'{did_you_mean(name, names)}")
 
 

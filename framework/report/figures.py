@@ -98,7 +98,7 @@ def _chart_rows(compared, scene: Scene, cost: int) -> list[list]:
     fronts = {int(i) for front in scene.fronts(cost, compared.first).values() for i in front}
     rows = [[compared.methods[scene.methods[i]].name, label, scene.costs[cost, i], *scene.errors[compared.first, :, i], int(i in fronts)]
             for i, label in enumerate(scene.labels) if scene.usable[cost, compared.first, i]]
-    return [["method", "variant", CHARTED[cost], *(f"{compared.errors[compared.first].metric.key}{end}" for end in ("", "_low", "_high")), "on front"],
+    return [["method", "name", CHARTED[cost], *(f"{compared.errors[compared.first].metric.key}{end}" for end in ("", "_low", "_high")), "on front"],
             *rows]
 
 

@@ -98,6 +98,8 @@ def _read_variants(path: Path, warnings: list[str]) -> pd.DataFrame:
     for column in _TEXT:
         if column not in table:
             table[column] = ""
+    if "name" not in table:  # of an older version
+        table["name"] = table["variant"]
     _to_numbers(table, _COST)
 
     # A resumed run may have written a variant again: its last row holds.

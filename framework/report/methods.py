@@ -20,7 +20,7 @@ _LAYOUT = "layout"  # the parameter that makes two methods of the same passes
 
 @dataclass
 class Method:
-    """`chain`: its passes, those of several layouts with theirs; `names`: the variants' own."""
+    """`chain`: its passes, those of several layouts with theirs; `names`: what its variants are called."""
 
     chain: tuple[str, ...]
     names: list[str] = field(default_factory=list)
@@ -41,7 +41,7 @@ def methods_of(runs: list[Results]) -> tuple[list[Method], list[dict[str, int]]]
     methods: dict[tuple, Method] = {}
     found: list[dict[str, Method]] = []
     for run in runs:
-        names = dict(_own_names(run))
+        names = dict(_method_names(run))
         found.append({variant: methods.setdefault(chain := _chain(run, variant), Method(chain)) for variant in names})
         for variant, method in found[-1].items():
             method.names.append(names[variant])
@@ -56,12 +56,12 @@ def styles_of(methods: list[Method]) -> list[Style]:
     return [Style(CATEGORY_COLORS[i % len(CATEGORY_COLORS)], list(MARKERS)[i % len(MARKERS)]) for i in range(len(methods))]
 
 
-def _own_names(run: Results) -> Iterator[tuple[str, str]]:
-    """(variant, what the config calls it): the names that a sweep swaps, without numbers and scenes."""
+def _method_names(run: Results) -> Iterator[tuple[str, str]]:
+    """(variant, its name without numbers and scenes that the sweep varies): "" where it varies nothing else."""
     keys = [key for key in run.sweep_keys if key.split(".")[0] != "scene" and not is_numeric(run.ok[key][run.ok[key] != "-"])]
     columns = zip(*(run.ok[key] for key in keys)) if keys else [()] * len(run.ok)
-    for variant, values in zip(run.ok["variant"], columns):
-        yield variant, ", ".join(value for value in values if value != "-") or variant
+    for variant, name, values in zip(run.ok["variant"], run.ok["name"], columns):
+        yield variant, ", ".join(value for value in values if value != "-") or ("" if run.sweep_keys else name)
 
 
 def _chain(run: Results, variant: str) -> tuple[str, ...]:

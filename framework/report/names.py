@@ -1,14 +1,11 @@
-"""What variants are called on the page: by a number and by what differs between them."""
+"""What variants are called on the page: by a number and by the name that the run gave them."""
 
 from __future__ import annotations
 
 import os
 from dataclasses import dataclass
 
-import pandas as pd
-
 from report import text
-from report.ranking import is_numeric
 from report.results import Results
 
 
@@ -23,12 +20,10 @@ class Family:
 
 @dataclass(frozen=True)
 class Names:
-    """For each variant its number in the table, and its short name. `tell_values`: short names consist of the values that
-    the sweep varied."""
+    """For each variant its number in the table, and its name in results.csv."""
 
     numbers: dict[str, str]
     short: dict[str, str]
-    tell_values: bool = False
 
     def full(self, variant: str) -> str:
         """Number and short name, as sentences call it."""
@@ -45,17 +40,9 @@ class Names:
 
 
 def names_of(results: Results) -> Names:
-    """Numbers in the order of the table. Short names tell what the sweep varied; where that does not tell variants
-    apart, they are the variants' own."""
+    """Numbers in the order of the table."""
     variants = list(results.variants["variant"])
-    keys = [key for key in results.sweep_keys if results.variants[key].nunique() > 1]
-    columns = {key: _values(results.variants[key], key) for key in keys}
-    short = {name: ", ".join(filter(None, values))
-             for name, values in zip(variants, zip(*columns.values()) if columns else [()] * len(variants))}
-    tell_values = len(set(short.values())) == len(variants) and "" not in short.values()
-    if not tell_values:
-        short = {name: name for name in variants}
-    return Names({name: str(i) for i, name in enumerate(variants, 1)}, short, tell_values)
+    return Names({variant: str(i) for i, variant in enumerate(variants, 1)}, dict(zip(variants, results.variants["name"])))
 
 
 def families_of(results: Results, names: Names) -> list[Family]:
@@ -66,12 +53,6 @@ def families_of(results: Results, names: Names) -> list[Family]:
         groups.setdefault(key or (name,), []).append(name)
     return [Family(_common(members, names), members, tuple(p[0] for p in key if isinstance(p, tuple)))
             for key, members in groups.items()]
-
-
-def _values(column: pd.Series, key: str) -> list[str]:
-    """What a sweep key's values add to names; "" where a variant does without such a pass."""
-    name = f"{key.rpartition('.')[2]} " if is_numeric(column[column != "-"]) else ""
-    return ["" if value == "-" else name + value for value in column]
 
 
 def _common(members: list[str], names: Names) -> str:

@@ -21,7 +21,7 @@ _MAX_LISTED = 12  # variants that a note names
 _MAX_ROWS = 500  # of the table that are in sight at first: browsers take long to lay out thousands
 # Entries of the manifest
 _SHOWN_ELSEWHERE = ("identity", "config", "metrics", "seed_metrics", "temporal_metrics", "warnings", "baselines", "reference",
-                    "references", "variants", "noise_parameters", "sessions", "inputs")
+                    "references", "names", "variants", "noise_parameters", "sessions", "inputs")
 
 
 def render(results: Results, wanted: list[str] | None = None) -> str:
@@ -38,7 +38,7 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
     anchors = _anchors(names, shown)
     styles, legends, curves = style.variant_styles(results, families)
     colors = style.pass_colors(results)
-    columns = table.columns_of(results, lights, names)
+    columns = table.columns_of(results, lights)
     labels = _point_labels(results, names)
     drawn, not_drawn = charts.error_charts(results, lights)
     sequence = parts.sequence(results, shown, lights, styles, names, anchors)
@@ -148,8 +148,8 @@ def _manifest_of(results: Results, shown: Results) -> dict:
 
     noise = {image: own(section(section(results.manifest, "noise_parameters"), image))
              for image in section(results.manifest, "noise_parameters")}
-    return {key: {"variants": own(section(results.manifest, "variants")), "noise_parameters": noise}.get(key, value)
-            for key, value in results.manifest.items()}
+    shown_entries = {key: own(section(results.manifest, key)) for key in ("names", "variants")} | {"noise_parameters": noise}
+    return {key: shown_entries.get(key, value) for key, value in results.manifest.items()}
 
 
 def _provenance(results: Results) -> list[tuple[str, str]]:

@@ -52,7 +52,7 @@ def errors_of(run: Results, wanted: str) -> list[Error]:
 class Scene:
     """The variants that were compared with one reference on one machine.
 
-    methods: the index of each variant's; labels: their names; costs: shape (COSTS, variants); errors: value and ends of the
+    methods: the index of each variant's; labels: the variants' names; costs: shape (COSTS, variants); errors: value and ends of the
     95 % interval, shape (errors, 3, variants); usable: whether both are above 0 and the image is better than a black and a
     constant one, shape (COSTS, errors, variants); pictures: the run and the folder of each variant's images.
     """
@@ -108,10 +108,10 @@ def scenes_of(runs: list[Results], members: list[dict[str, int]], errors: list[E
                 rows.setdefault(key, []).append(row)
                 named.setdefault(key, (scene_names[variant], _run_name(run)))
         for key, indices in rows.items():
-            names = [table["variant"].iloc[row] for row in indices]
+            variants, labels = (table[column].iloc[indices].tolist() for column in ("variant", "name"))
             groups.setdefault(key, []).append(Scene(
-                named[key][0], machine, np.array([of[name] for name in names]), names, costs[:, indices], values[:, :, indices],
-                usable[:, :, indices], [(run, name) for name in names]))
+                named[key][0], machine, np.array([of[variant] for variant in variants]), labels, costs[:, indices],
+                values[:, :, indices], usable[:, :, indices], [(run, variant) for variant in variants]))
     scenes = [_joined(parts) for parts in groups.values()]
     names = _unique_names([(*named[key], key[1]) for key in groups])
     return [replace(scene, name=name) for scene, name in zip(scenes, names)]

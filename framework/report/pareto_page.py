@@ -89,14 +89,15 @@ def render(compared: Comparison, with_images: bool = True) -> str:
 
 
 def csv_lines(compared: Comparison):
-    """Every variant of all runs: scene, method, machine, variant, costs, errors and their intervals."""
+    """Every variant of all runs: scene, method, machine, id, name, costs, errors and their intervals."""
     order = sorted(range(len(compared.errors)), key=lambda i: i != compared.first)
     keys = ["one_minus_ssim" if error.metric.key == "ssim" else error.metric.key for error in compared.errors]
-    yield ["scene", "method", "machine", "variant", *COSTS, *(f"{keys[i]}{end}" for i in order for end in ("", "_low", "_high"))]
+    yield ["scene", "method", "machine", "variant", "name", *COSTS, *(f"{keys[i]}{end}" for i in order for end in ("", "_low", "_high"))]
     for scene in compared.scenes:
-        for i, label in enumerate(scene.labels):
+        for i, (_, variant) in enumerate(scene.pictures):
             numbers = [*scene.costs[:, i], *scene.errors[order, :, i].ravel()]
-            yield [scene.name, compared.methods[scene.methods[i]].name, scene.machine, label, *(f"{value:.9g}" for value in numbers)]
+            yield [scene.name, compared.methods[scene.methods[i]].name, scene.machine, variant, scene.labels[i],
+                   *(f"{value:.9g}" for value in numbers)]
 
 
 def sentences(compared: Comparison) -> list[str]:

@@ -28,15 +28,16 @@ def selected(results: Results, lights: list[str], names: Names, wanted: list[str
     @throws ReportError where a word is none of these.
     """
     variants = list(results.variants["variant"])
-    of_number = {number: name for name, number in names.numbers.items()}
+    meant = {called: name for of in (names.short, names.numbers) for name, called in of.items()}
+    meant |= {name: name for name in variants}
     chosen = set()
     for word in wanted or [ALL if _all_fit(results, lights) else FRONT]:
         if word == FRONT:
             chosen.update(_that_fit(results, lights))
         elif word == ALL:
             chosen.update(variants)
-        elif word in names.numbers or word in of_number:
-            chosen.add(word if word in names.numbers else of_number[word])
+        elif word in meant:
+            chosen.add(meant[word])
         else:
             raise ReportError(f"--images: '{word}' is neither '{FRONT}' nor '{ALL}', nor the number or the name of a variant")
     return [name for name in variants if name in chosen]

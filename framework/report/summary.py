@@ -6,7 +6,7 @@ import math
 
 from report import equal_error, noise, text
 from report.comparisons import comparisons
-from report.names import Family, Names, families_of, names_of
+from report.names import Family, Names, families_of
 from report.ranking import all_beaten, score_marks
 from report.results import LIGHTS, Results
 
@@ -60,7 +60,7 @@ def _by_scene(compared: list[tuple[str, Results]], light: str, metric, names: Na
     saves most time. Errors and times of two scenes don't compare."""
     sentences = []
     for scene, results in compared:
-        own = Names(names.numbers, names_of(results).short)
+        own = Names(names.numbers, {name: short.removeprefix(f"{scene}, ") for name, short in names.short.items()})
         scores = _scores(results, light, metric)
         if len(scores) < 2:
             continue

@@ -74,7 +74,7 @@ class Row:
     full_name: str = ""
 
 
-def columns_of(results: Results, lights: list[str], names: Names) -> list[Column]:
+def columns_of(results: Results, lights: list[str]) -> list[Column]:
     """The columns after the number and the name, without scores that no variant and no baseline has: time, error, its
     bias and noise, and energy first, then the other scores and costs, last what the sweep varied."""
     metrics = results.metrics[:1] + results.seed_metrics
@@ -88,8 +88,7 @@ def columns_of(results: Results, lights: list[str], names: Names) -> list[Column
         return columns
     # Numbers are there to sort by; words stand in the names
     numeric = [key for key in results.sweep_keys if ranking.is_numeric(results.variants[key])]
-    shown = numeric if names.tell_values else results.sweep_keys
-    return columns + [Column(key, key, "varied by the sweep", align_text=key not in numeric) for key in shown]
+    return columns + [Column(key, key, "varied by the sweep") for key in numeric]
 
 
 def score_columns(results: Results, lights: list[str], metrics: tuple[Metric, ...], region: str = "") -> list[Column]:

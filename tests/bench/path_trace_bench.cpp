@@ -74,7 +74,7 @@ void pathTraceRival(benchmark::State& state, const std::string& scene) {
         const std::filesystem::path file = test::sourceRoot() / "configs/bench/rivals_lookup.yaml";
         const Experiment config = loadExperiment(file);
         const Value& axis = *config.sweep.find("scene");
-        const std::vector<std::string> labels = sweepLabels(axis);
+        const std::vector<std::string> labels = sweepLabels("scene", axis);
         const auto place = std::find(labels.begin(), labels.end(), scene);
         if (place == labels.end()) throw Error("{} has no scene '{}'", file.string(), scene);
         const Value chosen = sweepValues(axis)[size_t(place - labels.begin())];

@@ -159,9 +159,9 @@ class Validate(CommandTest):
             "sweep:\n  voxelize.resolution: [8, 16]\n", sweep))
         self.assertEqual(self.expect(0, "validate", "same.yaml").stderr, "")
         warnings = self.expect(0, "validate", "same.yaml", "--set", "reference.bounces=4").stderr
-        for method in ("lookup", "more-cones", "cache", "vpls", "mirrors", "paths"):
-            self.assertIn(f"(gather_irradiance-{method})", warnings)
-        self.assertRegex(warnings, r"same\.yaml:8: .*'bounces: 3'.*\(gather_irradiance-rays and 2 more\)")
+        for method in ("lookup", "more cones", "cache", "vpls", "mirrors", "paths"):
+            self.assertIn(f"({method})", warnings)
+        self.assertRegex(warnings, r"same\.yaml:8: .*'bounces: 3'.*\(rays and 2 more\)")
 
     def test_profile_and_set(self):
         self.write("tiny.yaml", TINY)

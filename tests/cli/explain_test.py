@@ -51,7 +51,7 @@ class Explain(CommandTest):
 
         # Stopped before its end, it goes on to the same page
         page = self.bytes("out", "explain.html")
-        shutil.rmtree(self.path("out", "images", "explained-gather"))
+        shutil.rmtree(self.path("out", "images", "gather"))
         done = self.expect(0, "explain", "room.yaml", "--tracer", "embree", "--out", "out", "--resume", "--set", change)
         finished, all_of_them = re.search(r"(\d+) of (\d+) variants were finished already", done.stdout).groups()
         self.assertEqual(int(finished), int(all_of_them) - 1)
@@ -71,8 +71,8 @@ class Usage(CommandTest):
         self.expect(0, "explain", "room.yaml", "--dry-run", "--variant", "8")
         self.expect(2, "explain", "room.yaml", "--dry-run", "--variant", "6")
         listed = self.expect(0, "explain", "room.yaml", "--dry-run", "--variant", "resolution-8").stdout
-        for name in ("as-it-is", "injection", "gather", "injection-gather", "injection-gather-voxelization-upsampling"):
-            self.assertIn(f"explained-{name}", listed)
+        for name in ("as it is", "injection", "gather", "injection + gather", "injection + gather + voxelization + upsampling"):
+            self.assertIn(name, listed)
 
     def test_what_has_no_counterpart_is_refused(self):
         self.write("room.yaml", CONFIG.replace("  - {pass: gather_rays, id: indirect}", "  - {pass: gather_rays, id: indirect}\n  - {pass: accumulate}"))

@@ -24,7 +24,8 @@ class Plan(CommandTest):
         self.assertEqual(plan["config"]["seed"], 9)
         self.assertEqual((plan["reference"]["spp"], plan["reference"]["light"]), (8, "all"))
         self.assertEqual(plan["axes"], [{"path": "voxelize.resolution", "place": "tiny.yaml:14"}])
-        self.assertEqual([variant["name"] for variant in plan["variants"]], ["resolution-8", "resolution-16"])
+        self.assertEqual([variant["name"] for variant in plan["variants"]], ["resolution 8", "resolution 16"])
+        self.assertEqual([variant["id"] for variant in plan["variants"]], ["resolution-8", "resolution-16"])
         self.assertIn("indirect_nrmse", plan["columns"])
         for variant, resolution in zip(plan["variants"], (8, 16)):
             self.assertEqual(variant["values"], [str(resolution)])
@@ -46,7 +47,7 @@ class Only(CommandTest):
         names = lambda *choices: [variant["name"] for variant in json.loads(self.expect(
             0, "plan", "tiny.yaml", *(word for choice in choices for word in ("--only", choice))).stdout)["variants"]]
         self.assertEqual(len(names()), 3)
-        self.assertEqual(names("voxelize.resolution=16", "gather_irradiance=lookup"), ["resolution-16_gather_irradiance-lookup"])
+        self.assertEqual(names("voxelize.resolution=16", "gather_irradiance=lookup"), ["resolution 16, lookup"])
         # Passes that other values need are no mistake
         one = ("validate", "tiny.yaml", "--set", "sweep.voxelize.resolution=null")
         self.assertIn("is never run", self.expect(0, *one, "--set", "sweep.gather_irradiance=[{pass: path_trace, spp: 1, light: indirect}]").stderr)

@@ -13,7 +13,7 @@ import unittest
 
 from support import PROGRAM, TINY, CommandTest
 
-COST_COLUMNS = ["variant", "status", "error", "device", "tracer", "voxelize.resolution", "build_ms",
+COST_COLUMNS = ["variant", "name", "status", "error", "device", "tracer", "voxelize.resolution", "build_ms",
                 "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays"]
 PASS_COLUMNS = ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes",
                 "scratch_bytes", "dispatches", "host_waits", "host_bytes"]
@@ -77,7 +77,7 @@ class Results(Run):
         done = self.run_tiny("out", "--validate", "--aovs", report=True)
         self.assertIn("report.html", done.stdout)
         self.assertNotIn("replaces", done.stdout)
-        self.assertRegex(done.stdout, r"resolution-8: build [\d.]+ ms, frame [\d.]+ ms, indirect nRMSE [\d.]+ \(total [\d.]+\), ")
+        self.assertRegex(done.stdout, r"resolution 8: build [\d.]+ ms, frame [\d.]+ ms, indirect nRMSE [\d.]+ \(total [\d.]+\), ")
         manifest = self.json("out", "manifest.json")
         self.assertTrue(manifest["validation"])
         self.assertEqual([metric["name"] for metric in manifest["metrics"]], self.metrics())
@@ -88,6 +88,8 @@ class Results(Run):
         self.assertIn("nrmse_low", scores)
         self.assertEqual(self.header("out", "passes.csv"), PASS_COLUMNS)
         rows = self.rows("out", "results.csv")
+        self.assertEqual([row["name"] for row in rows], ["resolution 8", "resolution 16"])
+        self.assertEqual(manifest["names"], dict(zip(VARIANTS, ["resolution 8", "resolution 16"])))
         self.assertEqual([row["variant"] for row in rows], VARIANTS)
         self.assertEqual([row["voxelize.resolution"] for row in rows], ["8", "16"])
         self.assertEqual({row["status"] for row in rows}, {"ok"})
@@ -112,7 +114,7 @@ class Results(Run):
             "indirect": dict.fromkeys(VARIANTS, ["inject.rays_per_light"]),
             "final": dict.fromkeys(VARIANTS, ["inject.rays_per_light", "direct_shadow_rays.light_samples"])})
         page = self.bytes("out", "report.html").decode()
-        self.assertIn("resolution-16", page)
+        self.assertIn("resolution 16", page)
         self.assertIn("Bias and noise are not told apart: set measure.second_seed: true.", page)
         self.assertNotRegex(page, r"(src|href)=[\"']https?:")
 
@@ -131,7 +133,7 @@ class Results(Run):
     def test_dry_run_renders_nothing(self):
         done = self.run_tiny("out", "--dry-run")
         for variant in VARIANTS:
-            self.assertIn(variant, done.stdout)
+            self.assertIn(variant.replace("-", " "), done.stdout)
         self.assertFalse(os.path.exists(self.path("out", "results.csv")))
 
     def test_dry_run_warns_as_a_run_does(self):

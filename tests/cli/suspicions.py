@@ -47,5 +47,5 @@ WARNINGS = {
     "a mask of all that is in view": (VIEW_TO_MASKS, NARROW_VIEW.replace("material: grey", "max_roughness: 1"), 21,
         "measure.masks.floor"),
     "a variant that needs more memory": (SWEEP + "measure: {frames: 2",
-        "sweep:\n  voxelize.resolution: [16, 1024]\nmeasure: {memory_limit_mb: 40, frames: 2", 21, "resolution-1024"),
+        "sweep:\n  voxelize.resolution: [16, 1024]\nmeasure: {memory_limit_mb: 40, frames: 2", 21, "resolution 1024"),
 }

@@ -71,9 +71,8 @@ def copy_results(images, names):
         first = json.load(file)
     for name in names[1:]:
         shutil.copytree(os.path.join(images, names[0]), os.path.join(images, name))
-        values = [part.rpartition("-")[2] for part in name.split("_")[-1:]]
-        rays = name.removeprefix("rays_per_light-").partition("_")[0]
-        result = dict(first, variant=name, sweep_values=[rays, *values], frame_ms=[x * (1 + int(rays) / 256) for x in first["frame_ms"]])
+        rays, resolution = name.split("-")[1::2]
+        result = dict(first, variant=name, name=f"rays_per_light {rays}, resolution {resolution}", sweep_values=[rays, resolution], frame_ms=[x * (1 + int(rays) / 256) for x in first["frame_ms"]])
         with open(os.path.join(images, name, "result.json"), "w", encoding="utf-8") as file:
             json.dump(result, file)
 

@@ -202,7 +202,7 @@ TEST_F(RunTest, ComposedScenesHaveReferencesOfTheirOwn) {
     EXPECT_EQ(Truth::runs, 4);
     EXPECT_EQ(run(sweep).ok, 4u);
     EXPECT_EQ(Truth::runs, 4);
-    EXPECT_EQ(cell("add-plane_override-null", "scene.add"), "plane");
+    EXPECT_EQ(cell("add-plane-override-null", "scene.add"), "plane");
 }
 
 TEST_F(RunTest, ChainsOfPassesRunInPlaceOfOne) {
@@ -213,9 +213,9 @@ TEST_F(RunTest, ChainsOfPassesRunInPlaceOfOne) {
                             "sweep:\n  c: [constant, [witness, {pass: constant, value: 0.5}]]\n",
                         "fake.yaml");
     EXPECT_EQ(runExperiment(experiment, options(), registry()).ok, 2u);
-    EXPECT_NEAR(std::stod(cell("c-witness-constant", "nrmse")), 0.5, 1e-6);
-    EXPECT_CONTAINS(readTextFile(root_ / "out" / "passes.csv"), "c-witness-constant,witness,build,");
-    EXPECT_CONTAINS(readTextFile(root_ / "out" / "passes.csv"), "c-witness-constant,c,frame,");
+    EXPECT_NEAR(std::stod(cell("constant-value-0.5", "nrmse")), 0.5, 1e-6);
+    EXPECT_CONTAINS(readTextFile(root_ / "out" / "passes.csv"), "constant-value-0.5,witness,build,");
+    EXPECT_CONTAINS(readTextFile(root_ / "out" / "passes.csv"), "constant-value-0.5,c,frame,");
 }
 
 TEST(ComposedSceneLoader, WarnsOfAdditionsInAnotherUnit) {

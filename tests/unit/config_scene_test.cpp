@@ -93,7 +93,7 @@ TEST(ComposedScene, SweepsCompose) {
     EXPECT_TRUE(variants[0].setup.scene.additions.empty());
     EXPECT_EQ(variants[4].setup.scene.additions.size(), 2u);
     EXPECT_EQ(variants[5].setup.scene.overrides[0].change.settings.roughness, 1);
-    EXPECT_EQ(variants[0].name, "add-none_override-grey-roughness-0");
-    EXPECT_EQ(variants[2].name, "add-dragon.glb_override-grey-roughness-0");
+    EXPECT_EQ(variants[0].name, "add none, override {grey: {roughness: 0}}");
+    EXPECT_EQ(variants[2].id, "add-dragon.glb-override-grey-roughness-0");
     EXPECT_EQ(variants[4].values[0], "dragon.glb + plane");
 }

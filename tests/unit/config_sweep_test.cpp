@@ -42,9 +42,10 @@ TEST(Sweep, CartesianProductInFileOrder) {
         "  voxelize.resolution: [32, 64]\n"
         "  inject: [inject_light_rays, inject_camera_rays, {pass: inject_rsm, write: max}]\n");
     ASSERT_EQ(variants.size(), 6u);
-    EXPECT_EQ(variants[0].name, "resolution-32_inject-inject_light_rays");
-    EXPECT_EQ(variants[1].name, "resolution-32_inject-inject_camera_rays");
-    EXPECT_EQ(variants[5].name, "resolution-64_inject-inject_rsm");
+    EXPECT_EQ(variants[0].name, "resolution 32, inject_light_rays");
+    EXPECT_EQ(variants[1].name, "resolution 32, inject_camera_rays");
+    EXPECT_EQ(variants[5].name, "resolution 64, inject_rsm");
+    EXPECT_EQ(variants[5].id, "resolution-64-inject_rsm");
     EXPECT_EQ(variants[5].values, (std::vector<std::string>{"64", "inject_rsm"}));
 
     // The swapped pass keeps the id and takes nothing over from the old one
@@ -70,7 +71,7 @@ TEST(Sweep, ChainReplacesOnePassAndItsLastKeepsTheId) {
     EXPECT_EQ(variants[1].setup.graph.text(),
               "[{pass: voxelize, resolution: 64}, {pass: place_surfels}, {pass: inject_voxel_rays, id: "
               "inject, paths_per_point: 4, write: max}]");
-    EXPECT_EQ(variants[1].name, "inject-place_surfels-inject_voxel_rays_write-max");
+    EXPECT_EQ(variants[1].name, "inject_voxel_rays, write max");
 
     EXPECT_CONTAINS(sweepError("  inject: [[]]\n"), "demo.yaml:7: inject: ");
     EXPECT_CONTAINS(sweepError("  inject: [[[a]]]\n"), "demo.yaml:7: inject: ");
@@ -85,11 +86,10 @@ TEST(Sweep, AParameterOfAChainsPassVariesVariantsThatHaveIt) {
         "  voxelize.resolution: [32, 64]\n");
     std::vector<std::string> names;
     for (const SweepPoint& variant : variants) names.push_back(variant.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"inject-inject_rsm_resolution-32", "inject-inject_rsm_resolution-64",
-                                               "inject-place_surfels-inject_voxel_rays_count-10_resolution-32",
-                                               "inject-place_surfels-inject_voxel_rays_count-10_resolution-64",
-                                               "inject-place_surfels-inject_voxel_rays_count-20_resolution-32",
-                                               "inject-place_surfels-inject_voxel_rays_count-20_resolution-64"}));
+    EXPECT_EQ(names, (std::vector<std::string>{
+                         "inject_rsm, resolution 32", "inject_rsm, resolution 64",
+                         "inject_voxel_rays, count 10, resolution 32", "inject_voxel_rays, count 10, resolution 64",
+                         "inject_voxel_rays, count 20, resolution 32", "inject_voxel_rays, count 20, resolution 64"}));
     EXPECT_EQ(variants[0].values, (std::vector<std::string>{"inject_rsm", "-", "32"}));
     EXPECT_EQ(variants[0].setup.graph.text(), "[{pass: voxelize, resolution: 32}, {pass: inject_rsm, id: inject}]");
     EXPECT_EQ(variants[4].setup.graph.items[1].text(), "{pass: place_surfels, count: 20}");
@@ -108,13 +108,31 @@ TEST(Sweep, LabelsTellWhatDiffers) {
     };
     using Texts = std::vector<std::string>;
     EXPECT_EQ(labels("[{pass: a, n: 1, m: 2}, {pass: a, n: 3, m: 2}, {pass: b, n: 1}]"),
-              (Texts{"a n 1", "a n 3", "b"}));
-    EXPECT_EQ(labels("[[{pass: a, n: 1}, b], [{pass: a, n: 2}, b], [b, {pass: a}]]"),
-              (Texts{"a n 1 + b", "a n 2 + b", "b + a"}));
-    EXPECT_EQ(labels("[a, {pass: a, n: 1}]"), (Texts{"a", "a n 1"}));
+              (Texts{"a, n 1", "a, n 3", "b"}));
+    EXPECT_EQ(labels("[a, {pass: a, n: 1}]"), (Texts{"a", "a, n 1"}));
+    EXPECT_EQ(labels("[{pass: a, inputs: {noise: x}}, {pass: a, inputs: {noise: y}}]"),
+              (Texts{"a, noise x", "a, noise y"}));
+
+    // A chain is named by its last pass, or by the one that a filter follows
+    EXPECT_EQ(labels("[[{pass: a, n: 1}, b], [{pass: a, n: 2}, b], [b, {pass: a}]]"), (Texts{"b, n 1", "b, n 2", "a"}));
+    EXPECT_EQ(labels("[[a, b], [a, c, b], [a, c, d]]"), (Texts{"b", "b, c", "d"}));
+    EXPECT_EQ(labels("[gather_cones, {pass: path_trace, spp: 1}, {pass: path_trace, spp: 4}, "
+                     "[{pass: path_trace, spp: 4}, filter_irradiance], "
+                     "[{pass: path_trace, spp: 4}, accumulate, filter_irradiance]]"),
+              (Texts{"gather_cones", "path_trace, spp 1", "path_trace, spp 4", "path_trace, spp 4, filtered",
+                     "path_trace, spp 4, accumulated, filtered"}));
+    EXPECT_EQ(labels("[[{pass: rays, n: 1, m: 8}, gather, filter_irradiance], "
+                     "[{pass: rays, n: 2, m: 8}, gather, filter_irradiance], "
+                     "[{pass: rays, n: 2, m: 4}, gather, filter_irradiance]]"),
+              (Texts{"gather, n 1, filtered", "gather, n 2, m 8, filtered", "gather, n 2, m 4, filtered"}));
+
+    // What is said of others does not change if one is added
+    EXPECT_EQ(labels("[{pass: a, n: 1}, {pass: a, n: 3}, {pass: b, n: 1}, [{pass: c, n: 5}, d], d]"),
+              (Texts{"a, n 1", "a, n 3", "b", "d, c", "d"}));
 
     // Not enough: the whole text
-    EXPECT_EQ(labels("[[{pass: a}, b], 'a + b', c]"), (Texts{"[{pass: a}, b]", "\"a + b\"", "c"}));
+    EXPECT_EQ(labels("[[{pass: a}, b], [{pass: a, id: x}, b], c]"),
+              (Texts{"[{pass: a}, b]", "[{pass: a, id: x}, b]", "c"}));
 }
 
 TEST(Sweep, AMapNamesItsValues) {
@@ -124,7 +142,7 @@ TEST(Sweep, AMapNamesItsValues) {
         "    from the camera: [place_surfels, {pass: inject_camera_rays, bounces: 2}]\n"
         "  voxelize.resolution: {coarse: 32, fine: 64}\n");
     ASSERT_EQ(variants.size(), 4u);
-    EXPECT_EQ(variants[0].name, "inject-from-lights_resolution-coarse");
+    EXPECT_EQ(variants[0].name, "from lights, coarse");
     EXPECT_EQ(variants[3].values, (std::vector<std::string>{"from the camera", "fine"}));
     EXPECT_EQ(variants[3].setup.graph.text(),
               "[{pass: voxelize, resolution: 64}, {pass: place_surfels}, {pass: inject_camera_rays, bounces: 2, id: "
@@ -158,7 +176,7 @@ TEST(Sweep, NamesWithDotsAreOneKey) {
              {"Wood: {roughness: 0.1}, Wood.001: {roughness: 0.5}", "scene.override.Wood.001.metallic"}}) {
         const auto variants = variantsOf(overrides, axis);
         ASSERT_EQ(variants.size(), 2u);
-        EXPECT_EQ(variants[1].name, "metallic-1");
+        EXPECT_EQ(variants[1].name, "metallic 1");
         const MaterialOverride& changed = variants[1].setup.scene.overrides.back();
         EXPECT_EQ(changed.material, "Wood.001");
         EXPECT_EQ(changed.change.settings.metallic, 1);
@@ -172,13 +190,24 @@ TEST(Sweep, NamesAreSafeAndUnique) {
     const auto variants = expand(
         "  inject.write: ['a/b', 'a:b', '../x', \"\xc3\xa9\", '']\n"
         "  scene: [{builtin: cornell, lights: area}, {builtin: cornell, lights: spot}]\n");
-    std::set<std::string> names;
+    std::set<std::string> names, ids;
     for (const SweepPoint& v : variants) {
         EXPECT_TRUE(names.insert(v.name).second) << v.name;
-        EXPECT_EQ(v.name.find_first_of("/:\\ "), std::string::npos) << v.name;
-        EXPECT_LE(v.name.size(), 140u);
+        EXPECT_TRUE(ids.insert(v.id).second) << v.id;
+        EXPECT_EQ(v.id.find_first_of("/:\\, "), std::string::npos) << v.id;
+        EXPECT_LE(v.id.size(), 140u);
     }
     EXPECT_EQ(names.size(), 10u);
+
+    // The config's keys are told as they are, numbers with the axis
+    const auto named = expand("  inject: {\"rays: 1/pixel\": a, 4: a b}\n  seed: {7: 7, on: 8}\n");
+    EXPECT_EQ(named[0].name, "rays: 1/pixel, seed 7");
+    EXPECT_EQ(named[0].id, "rays-1-pixel-seed-7");
+    EXPECT_EQ(named[3].name, "inject 4, on");
+
+    // Names that differ in signs which no id has
+    const auto alike = expand("  inject: {a b: a, a-b: b}\n");
+    EXPECT_EQ(alike[1].id, "a-b-2");
 }
 
 TEST(Sweep, Errors) {

@@ -59,7 +59,7 @@ TEST_F(RunTest, ColumnsAreTheDocumentedOnes) {
     run("sweep: {constant.value: [1]}\n");
     // Every metric, the ends of its interval right after it; the total light's, then the indirect light's.
     std::string expected =
-        "variant,status,error,device,tracer,constant.value,build_ms,frame_ms_median,frame_ms_p05,"
+        "variant,name,status,error,device,tracer,constant.value,build_ms,frame_ms_median,frame_ms_p05,"
         "frame_ms_p95,memory_bytes,peak_bytes,rays";
     for (const std::string light : {",", ",indirect_"})
         for (const Metric& metric : metrics()) {
@@ -365,7 +365,7 @@ TEST_F(RunTest, DryRunRendersNothing) {
     testing::internal::CaptureStdout();
     EXPECT_EQ(run("sweep: {constant.megabytes: [0, 64]}\n", o).exitStatus(), 0);
     const std::string text = testing::internal::GetCapturedStdout();
-    EXPECT_CONTAINS(text, "megabytes-64");
+    EXPECT_CONTAINS(text, "megabytes 64");
     EXPECT_CONTAINS(text, "64.0 MiB");
     EXPECT_EQ(Constant::runs, 0);
     EXPECT_FALSE(fs::exists(root_ / "out"));

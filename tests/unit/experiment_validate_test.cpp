@@ -49,7 +49,7 @@ TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
                   registry);
     std::vector<std::string> names;
     for (const Variant& variant : wired.variants) names.push_back(variant.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"b-constant", "b-veil_value-4", "b-veil_value-5"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"constant", "veil, value 4", "veil, value 5"}));
     EXPECT_EQ(wired.variants[0].values, (std::vector<std::string>{"constant", "-"}));
 
     // A whole pass neither, where nothing of what stands in its place runs
@@ -62,7 +62,7 @@ TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
                   registry);
     names.clear();
     for (const Variant& variant : swapped.variants) names.push_back(variant.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"b-constant", "a-x_b-veil", "a-y_b-constant", "a-y_b-veil"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"constant", "x, veil", "y, constant", "y, veil"}));
 
     // One that changes nothing anywhere is a mistake; an image that is written over is told first
     expectError("graph:\n  - {pass: constant, id: unseen}\n  - {pass: constant}\nsweep:\n  unseen.value: [1, 2]\n",
@@ -189,10 +189,11 @@ TEST(Results, CsvQuotesByRfc4180) {
 
     VariantResult failed;
     failed.variant = "v";
+    failed.name = "v, w";
     failed.error = "x, \"y\"";
     failed.sweepValues = {"[1, 2]"};
     const std::string text = resultsCsv({failed}, {"a.b"}, {});
-    EXPECT_CONTAINS(text, "v,failed,\"x, \"\"y\"\"\",,,\"[1, 2]\",,,,,,,");
+    EXPECT_CONTAINS(text, "v,\"v, w\",failed,\"x, \"\"y\"\"\",,,\"[1, 2]\",,,,,,,");
 }
 
 TEST(Results, NumbersKeepNineDigits) {
@@ -210,7 +211,7 @@ TEST(Results, MetricsThatWereNotAskedForStayEmpty) {
     MeasureSettings measure;
     measure.metrics = {"nrmse"};
     // Columns of scores: an empty one for each metric but one, and for the ends of intervals.
-    std::string expected = "v,ok,,,,0,0,0,0,0,0,0";
+    std::string expected = "v,,ok,,,,0,0,0,0,0,0,0";
     for (const std::string score : {"0.5", "0.75"})
         for (const Metric& metric : metrics()) {
             expected += "," + (std::string(metric.name) == "nrmse" ? score : "");
@@ -223,6 +224,7 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     VariantResult r;
     r.ok = true;
     r.variant = "odd \"name\" \xc3\xa9\n";
+    r.name = "odd, 1";
     r.sweepValues = {"1", "[2, 3]"};
     r.session = "2026-01-01T10:00:00Z";
     r.buildMs = 1.0 / 3;
@@ -236,6 +238,7 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     const VariantInputs inputs{{"seed", "3"}, {"graph", "{a: \"b\"}"}};
     const auto [back, backInputs] = parseResultJson(resultJson(r, inputs));
     EXPECT_EQ(back.variant, r.variant);
+    EXPECT_EQ(back.name, r.name);
     EXPECT_EQ(back.sweepValues, r.sweepValues);
     EXPECT_EQ(back.session, r.session);
     EXPECT_EQ(back.buildMs, r.buildMs);

@@ -21,9 +21,9 @@ class Sheet(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.run_folder, self.picture = Path(folder.name) / "run", Path(folder.name) / "sheet.png"
-        rows = [made_up.variant("b", 10, 0.3, gather="lookup"), made_up.failed("c", "no", gather="rays"),
-                made_up.variant("a", 10, 0.2, gather="a name too long for one line below its image")]
-        made_up.write_results(self.run_folder, rows, made_up.manifest(["gather"]), images=False)
+        rows = [made_up.variant("b", 10, 0.3, name="lookup"), made_up.failed("c", "no", name="rays"),
+                made_up.variant("a", 10, 0.2, name="a name too long for one line below its image")]
+        made_up.write_results(self.run_folder, rows, made_up.manifest([]), images=False)
         for folder, color in COLORS.items():
             path = self.run_folder / "images" / folder / "indirect.png"
             path.parent.mkdir(parents=True, exist_ok=True)

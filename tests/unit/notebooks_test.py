@@ -36,7 +36,7 @@ class Notebooks(unittest.TestCase):
         made_up.write_results(self.directory, made_up.sweep_of_two_keys(), made_up.manifest(["voxelize.resolution", "inject"]), images=False)
         picture = self.directory / "chart.png"
         said = self.run_notebook("read_results", self.directory, picture)
-        self.assertLess(said.index("light_rays-256"), said.index("rsm-64"))  # by rising error
+        self.assertLess(said.index("resolution 256, light_rays"), said.index("resolution 64, rsm"))  # by rising error
         self.assert_picture(picture)
 
     def test_memory_of_the_octree_is_drawn_of_a_benchmark(self):
@@ -83,7 +83,7 @@ class Notebooks(unittest.TestCase):
 
     def test_the_pareto_chart_is_drawn_of_the_table_of_many_runs(self):
         measured, picture = self.directory / "methods.csv", self.directory / "chart.png"
-        columns = ["scene", "method", "machine", "variant", "frame", "rays", "nrmse", "nrmse_low", "nrmse_high"]
+        columns = ["scene", "method", "machine", "name", "frame", "rays", "nrmse", "nrmse_low", "nrmse_high"]
         rows = [dict(zip(columns, (scene, method, "a CPU", f"{method}-{ms}", ms, 1000, error, 0.9 * error, 1.1 * error)))
                 for scene in ("cornell", "sponza")
                 for method, ms, error in (("cones", 10, 0.5), ("cones", 30, 0.4), ("rays", 20, 0.3), ("rays", 40, 0.2))]

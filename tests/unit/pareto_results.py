@@ -50,19 +50,20 @@ def write(directory: Path, scenes=SCENES, copies: int = 1, images: bool = True, 
             for copy in range(copies):
                 luck = 2 ** random.normal(0, 0.4, 2) if copies > 1 else np.ones(2)
                 for i, end in enumerate(ends):
-                    name = f"scene-{scene}_{method}{end}_{copy}".replace(", ", "-").replace(" ", "-")
+                    name = ", ".join([scene, method + end, *([f"seed {copy}"] if copies > 1 else [])])
+                    variant = name.replace(", ", "-").replace(" ", "-")
                     ms = frame * 3.2**i / speed * (1 + s / 3) * luck[0]
                     error = most * (least / most) ** (i / max(1, len(ends) - 1)) / accuracy * luck[1]
-                    row = made_up.variant(name, ms, error, error, scene=scene, **({"seed": str(copy)} if copies > 1 else {}))
+                    row = made_up.variant(variant, ms, error, error, name=name, scene=scene, **({"seed": str(copy)} if copies > 1 else {}))
                     row |= {"indirect": method + end, "build_ms": (build + light * (1 + i)) / 4, "memory_bytes": 2**20 * (8 + build / 10 + 3 * light**0.5)}
                     row["indirect_relmse"] *= bright
                     for key in ("nrmse", "relmse"):
                         row |= made_up.spread(f"indirect_{key}", 0.93 * row[f"indirect_{key}"], 1.07 * row[f"indirect_{key}"])
                     rows.append(row)
-                    graphs[name] = graph(chain, 4**i)
-                    passes += [{"variant": name, "pass": kind, "phase": "build", "ms_median": part / 4, "voxel_steps": 0}
+                    graphs[variant] = graph(chain, 4**i)
+                    passes += [{"variant": variant, "pass": kind, "phase": "build", "ms_median": part / 4, "voxel_steps": 0}
                                for kind, part in (("voxelize", build), ("inject_light_rays", light * (1 + i)))]
-                    passes.append({"variant": name, "pass": "gather_rays", "phase": "frame", "ms_median": ms, "voxel_steps": 100 * ms})
+                    passes.append({"variant": variant, "pass": "gather_rays", "phase": "frame", "ms_median": ms, "voxel_steps": 100 * ms})
     run = made_up.manifest(["scene", "indirect", *(["seed"] if copies > 1 else [])])
     run["config"]["name"] = "compare"
     run["variants"] = graphs

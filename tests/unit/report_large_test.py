@@ -33,7 +33,7 @@ def write(directory: Path, count: int) -> None:
     for i in range(count):
         ms = 10 ** random.uniform(0, 3)
         error = 0.5 * ms**-0.3 * 10 ** random.uniform(0, 1)
-        row = made_up.variant(f"resolution-{sizes[i % 5]}_method-{i // 5}", ms, error, 1.3 * error,
+        row = made_up.variant(f"resolution-{sizes[i % 5]}-method-{i // 5}", ms, error, 1.3 * error,
                               **{"voxelize.resolution": sizes[i % 5], "method": f"method {i // 5}"})
         for key in ("nrmse", "relmse", "indirect_nrmse", "indirect_relmse"):
             row.update(made_up.spread(key, 0.9 * row[key], 1.1 * row[key]))

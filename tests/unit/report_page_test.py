@@ -49,7 +49,7 @@ class FullRun(unittest.TestCase):
 
     def test_the_table_begins_with_time_error_and_energy(self):
         results = load(self.directory)
-        columns = [column.heading for column in table.columns_of(results, ["indirect"], names.names_of(results))]
+        columns = [column.heading for column in table.columns_of(results, ["indirect"])]
         self.assertEqual([heading.split("\u00a0")[0] for heading in columns[:4]],
                          ["frame, ms", "nRMSE", "mean ratio", "relMSE"])
 
@@ -160,11 +160,7 @@ class PartOfARun(ReportTest):
     def test_words_of_the_sweep_stand_in_names_alone(self):
         rows = [made_up.variant(f"{n}-{word}", n, 0.3, size=n, method=word) for n in (8, 16) for word in ("a", "b")]
         results = load(made_up.write_results(self.directory, rows, made_up.manifest(["size", "method"]), images=False))
-        named = names.names_of(results)
-        self.assertEqual([column.key for column in table.columns_of(results, [], named)][-2:], ["rays", "size"])
-        # Names that don't tell them leave them to columns.
-        named = names.Names(named.numbers, {name: name for name in named.short})
-        self.assertEqual([column.key for column in table.columns_of(results, [], named)][-2:], ["size", "method"])
+        self.assertEqual([column.key for column in table.columns_of(results, [])][-2:], ["rays", "size"])
 
     def test_zero_and_infinite_scores_are_named_not_drawn(self):
         perfect = made_up.variant("perfect", 10, 0.0)

@@ -161,7 +161,7 @@ class Pareto(unittest.TestCase):
         run = load(pareto_results.write(self.root / "compare", images=False))
         found, [members] = methods.methods_of([run])
         self.assertEqual([method.name for method in found], list(pareto_results.METHODS))
-        self.assertEqual(found[members["scene-sponza_rays-16-a-pixel_0"]].name, "rays")
+        self.assertEqual(found[members["sponza-rays-16-a-pixel"]].name, "rays")
         self.assertEqual([method.name for method in found if method.is_rival], ["filtered paths"])
         self.assertEqual(found[5].chain, ("inject_light_rays", "filter_voxels (dense)", "gather_cones"))
         # Where variants' names have no words in common, by the gather and by what tells them apart
@@ -171,6 +171,11 @@ class Pareto(unittest.TestCase):
         run["variants"] = {row["variant"]: [{"pass": kind} for kind in chain] for row, chain in zip(rows, chains)}
         found, _ = methods.methods_of([load(made_up.write_results(self.root / "plain", rows, run, images=False))] * 2)
         self.assertEqual([method.name for method in found], ["gather rays, filtered", "c", "d", "e"])
+        # Numbers that a sweep varies name no method
+        rows = [made_up.variant(f"spp-{spp}", 1, 0.1, 0.1, name=f"spp {spp}", spp=spp) for spp in (1, 4)]
+        run = {**made_up.manifest(["spp"]), "variants": {row["variant"]: [{"pass": kind} for kind in PATHS] for row in rows}}
+        numbers, _ = methods.methods_of([load(made_up.write_results(self.root / "numbers", rows, run, images=False))])
+        self.assertEqual([method.name for method in numbers], ["path trace, filtered"])
         found[0].names, found[1].names = [], []
         methods._give_names(found)
         self.assertEqual([method.name for method in found], ["gather rays, filtered", "gather rays, filtered (merge voxels)", "d", "e"])
@@ -221,7 +226,7 @@ class Pareto(unittest.TestCase):
         with open(out.with_suffix(".csv"), newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual([row["method"] for row in rows], ["p", "r"])
-        self.assertEqual(list(rows[0])[10:13], ["relmse", "relmse_low", "relmse_high"])
+        self.assertEqual(list(rows[0])[11:14], ["relmse", "relmse_low", "relmse_high"])
         self.assertEqual([float(rows[1][key]) for key in ("frame", "nrmse_low", "one_minus_ssim")], [10, 0.0475, 0.025])
 
     def test_images_are_of_all_variants_or_of_those_on_a_front(self):
@@ -230,6 +235,7 @@ class Pareto(unittest.TestCase):
         compared = self.compare(self.root / "few")
         [few] = pareto_page._pictures(compared)
         self.assertEqual(len(few), 42)
+        self.assertEqual((compared.scenes[0].labels[0], compared.scenes[0].pictures[0][1]), ("cornell, lookup, links", "cornell-lookup-links"))
         self.assertTrue(all(uri.startswith("data:image/jpeg;base64,") for uris in few.values() for uri in uris))
         with mock.patch.object(pareto_page, "_MAX_PICTURES", 40):
             self.assertTrue(5 < len(pareto_page._pictures(compared)[0]) < 40)
@@ -256,7 +262,7 @@ class Pareto(unittest.TestCase):
         with open(out / "cornell-frame.csv", newline="", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         self.assertEqual(len(rows), 41)
-        self.assertEqual(list(rows[0]), ["method", "variant", "frame", "nrmse", "nrmse_low", "nrmse_high", "on front"])
+        self.assertEqual(list(rows[0]), ["method", "name", "frame", "nrmse", "nrmse_low", "nrmse_high", "on front"])
 
     def test_what_cannot_be_read(self):
         folder = self.run_of("room", {"p": (PATHS, 100, 0.1)})

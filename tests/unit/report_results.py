@@ -40,9 +40,9 @@ def spread(column: str, low: float, high: float) -> dict[str, float]:
     return {f"{column}_low": low, f"{column}_high": high}
 
 
-def variant(name: str, frame_ms: float, error: float, indirect: float | None = None, **sweep) -> dict:
+def variant(id: str, frame_ms: float, error: float, indirect: float | None = None, **sweep) -> dict:
     """A row of results.csv of a finished variant; `indirect` is its error in the indirect light."""
-    row = {"variant": name, "status": "ok", "error": "", "device": "llvmpipe", "tracer": "embree", **sweep,
+    row = {"variant": id, "status": "ok", "error": "", "device": "llvmpipe", "tracer": "embree", **sweep,
            "build_ms": 2 * frame_ms, "frame_ms_median": frame_ms, "frame_ms_p05": 0.95 * frame_ms,
            "frame_ms_p95": 1.05 * frame_ms, "memory_bytes": 2**24 * frame_ms,
            "peak_bytes": 2**25 * frame_ms, "rays": 262144, **scores(error)}
@@ -51,9 +51,9 @@ def variant(name: str, frame_ms: float, error: float, indirect: float | None = N
     return row
 
 
-def failed(name: str, error: str, **sweep) -> dict:
+def failed(id: str, error: str, **sweep) -> dict:
     """A row of results.csv of a failed variant."""
-    return {"variant": name, "status": "failed", "error": error, "device": "llvmpipe", "tracer": "embree",
+    return {"variant": id, "status": "failed", "error": error, "device": "llvmpipe", "tracer": "embree",
             **sweep}
 
 
@@ -127,7 +127,8 @@ def write_results(directory: Path, rows: list[dict], run: dict | None, *, refere
                   indirect: bool = True, images: bool = True, floats: bool = False,
                   size: tuple[int, int] = SIZE) -> Path:
     """Writes a results folder; `run` is its manifest, None for none. `floats`: with EXR files of radiance()."""
-    text = ("variant", "status", "error", "device", "tracer")
+    rows = [{"name": row["variant"], **row} for row in rows]
+    text = ("variant", "name", "status", "error", "device", "tracer")
     numbers = [*COSTS, *SCORES, *(f"indirect_{key}" for key in SCORES)]
     ends = ("_low", "_high")
     numbers += [key for row in rows[:1] for key in row
@@ -165,13 +166,13 @@ def sweep_of_two_keys() -> list[dict]:
     table = ((64, "light_rays", 12.0, 0.62, 0.95), (128, "light_rays", 21.0, 0.35, 0.50),
              (256, "light_rays", 60.0, 0.211, 0.300), (64, "rsm", 9.0, 0.70, 1.3),
              (128, "rsm", 16.0, 0.44, 0.61), (256, "rsm", 44.0, 0.217, 0.310))
-    rows = [variant(f"{inject}-{resolution}", ms, error, indirect, **{"voxelize.resolution": resolution,
-                    "inject": inject}) for resolution, inject, ms, error, indirect in table]
+    rows = [variant(f"{inject}-{resolution}", ms, error, indirect, **{"name": f"resolution {resolution}, {inject}",
+                    "voxelize.resolution": resolution, "inject": inject}) for resolution, inject, ms, error, indirect in table]
     for row in rows:
         for light in ("", "indirect_"):
             row.update(spread(f"{light}nrmse", 0.97 * row[f"{light}nrmse"], 1.03 * row[f"{light}nrmse"]))
     error = "pass 'voxelize': needs 34.4 GiB, the device has 7.7 GiB; lower resolution"
-    return rows + [failed("rsm-2048", error, **{"voxelize.resolution": 2048, "inject": "rsm"})]
+    return rows + [failed("rsm-2048", error, **{"name": "resolution 2048, rsm", "voxelize.resolution": 2048, "inject": "rsm"})]
 
 
 if __name__ == "__main__":

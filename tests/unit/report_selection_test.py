@@ -78,12 +78,14 @@ class Selection(ReportTest):
     def test_the_manifest_lists_the_graphs_of_those_that_are_shown(self):
         run = made_up.manifest([])
         run["variants"] = {name: [{"pass": f"pass_of_{name}"}] for name in "abcde"}
+        run["names"] = {name: f"name of {name}" for name in "abcde"}
         run["noise_parameters"] = {"final": {name: [f"{name}.rays"] for name in "abcde"}}
         self.write(run=run)
         source = page.render(load(self.directory), ["b"])
         self.assertIn("pass_of_b", source)
         self.assertIn("b.rays", source)
-        for word in ("pass_of_a", "c.rays"):
+        self.assertEqual(source.count("name of b"), 1)
+        for word in ("pass_of_a", "c.rays", "name of d"):
             self.assertNotIn(word, source)
 
 

@@ -32,8 +32,8 @@ class Table(unittest.TestCase):
         self.folder = folder.name
         lookup = {"gbuffer": 10, "gather_surfels": 40, "direct": 1000}
         write(self.folder, [
-            ("path_trace spp 4", 0.2, {"gbuffer": 10, "paths": 90, "filter_irradiance": 100}, {}),
-            ("path_trace spp 16", 0.1, {"gbuffer": 10, "paths": 690, "filter_irradiance": 100}, {}),
+            ("path_trace, spp 4, filtered", 0.2, {"gbuffer": 10, "paths": 90, "filter_irradiance": 100}, {}),
+            ("path_trace, spp 16, filtered", 0.1, {"gbuffer": 10, "paths": 690, "filter_irradiance": 100}, {}),
             ("lookup, coarse", 0.2, lookup, {"inject_radiosity": 50, "link_surfels": 1000}),
             ("lookup, fine", 0.05, {"gbuffer": 10, "gather_surfels": 190}, {"inject_radiosity": 200}),
         ])

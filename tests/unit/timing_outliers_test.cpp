@@ -9,7 +9,7 @@ namespace {
 
 VariantResult timesOf(const char* name, double buildMs, double p05, double p95) {
     VariantResult result;
-    result.variant = name;
+    result.name = name;
     result.ok = true;
     result.buildMs = buildMs;
     result.frameMs = {p05, 0.5 * (p05 + p95), p95};

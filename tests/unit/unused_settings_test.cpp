@@ -50,11 +50,11 @@ TEST(UnusedSettings, AreRefusedWhereTheyStand) {
 TEST(UnusedSettings, StayWhereASweepUsesThem) {
     const std::string methods = "sweep: {voxelize.method: [exact, three_axis]";
     EXPECT_EQ(namesOf(wired(graphWith(", samples_per_voxel_edge: 4") + methods + "}\n")),
-              (std::vector<std::string>{"method-exact", "method-three_axis"}));
+              (std::vector<std::string>{"method exact", "method three_axis"}));
     // Exact voxels come once
     EXPECT_EQ(namesOf(wired(graphWith("") + methods + ", voxelize.samples_per_voxel_edge: [1, 2]}\n")),
-              (std::vector<std::string>{"method-exact", "method-three_axis_samples_per_voxel_edge-1",
-                                        "method-three_axis_samples_per_voxel_edge-2"}));
+              (std::vector<std::string>{"method exact", "method three_axis, samples_per_voxel_edge 1",
+                                        "method three_axis, samples_per_voxel_edge 2"}));
 }
 
 TEST(UnusedSettings, ShadowMapsAreForAllPointsAndTakeNoSamples) {

@@ -40,7 +40,7 @@ std::vector<std::string> timingOutliers(const std::vector<TimedVariant>& variant
         const auto& [fastest, slowest] = worst->second;
         warnings.push_back(
             fmt::format("times were disturbed: the same build took {:.1f} ms in '{}' and {:.1f} ms in '{}': {}",
-                        fastest->buildMs, fastest->variant, slowest->buildMs, slowest->variant, kAdvice));
+                        fastest->buildMs, fastest->name, slowest->buildMs, slowest->name, kAdvice));
     }
 
     std::vector<TimedVariant> uneven;
@@ -51,7 +51,7 @@ std::vector<std::string> timingOutliers(const std::vector<TimedVariant>& variant
     if (uneven.empty()) return warnings;
     const VariantResult& most = *std::ranges::max_element(uneven, {}, frameRatio)->result;
     warnings.push_back(fmt::format(
-        "times were disturbed: frames of '{}' took {:.1f} to {:.1f} ms (5th to 95th percentile){}: {}", most.variant,
+        "times were disturbed: frames of '{}' took {:.1f} to {:.1f} ms (5th to 95th percentile){}: {}", most.name,
         most.frameMs.p05, most.frameMs.p95,
         uneven.size() > 1 ? fmt::format(", and those of {} more differ as much", uneven.size() - 1) : "", kAdvice));
     return warnings;
