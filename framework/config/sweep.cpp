@@ -37,6 +37,8 @@ bool isPassPath(const std::string& path) {
     return path.find('.') == std::string::npos && std::ranges::count(configKeys(), path) == 0;
 }
 
+/// The text as the name of a folder: not empty, without a leading '-' or '.', and none of a reference's folders,
+/// which begin with "reference".
 std::string fileSafe(const std::string& text) {
     std::string safe;
     for (const char c : text) {
@@ -44,11 +46,13 @@ std::string fileSafe(const std::string& text) {
                              c == '.' || c == '-';
         if (isPlain)
             safe += c;
-        else if (safe.empty() || safe.back() != '-')
+        else if (!safe.empty() && safe.back() != '-')
             safe += '-';
     }
     while (!safe.empty() && safe.back() == '-') safe.pop_back();
-    return safe;
+    safe.erase(0, safe.find_first_not_of('-'));
+    const bool isTaken = safe.empty() || safe.front() == '.' || safe.starts_with("reference");
+    return isTaken ? "variant" + (safe.empty() ? "" : "-" + safe) : safe;
 }
 
 std::vector<Axis> readAxes(const Experiment& experiment) {
@@ -63,6 +67,9 @@ std::vector<Axis> readAxes(const Experiment& experiment) {
         const std::set<std::string> unique(axes.back().texts.begin(), axes.back().texts.end());
         if (unique.size() != axes.back().texts.size())
             throw UsageError(list.where, "sweep.{}: a value appears twice", path);
+        if (unique.contains(kNoValue))
+            throw UsageError(list.where, "sweep.{}: '{}' names no value, it stands for variants without one", path,
+                             kNoValue);
         for (size_t i = 0; i < list.members.size(); ++i)
             for (size_t j = 0; j < i; ++j)
                 if (list.members[i].value == list.members[j].value)
@@ -84,8 +91,8 @@ std::vector<size_t> choose(const std::vector<Axis>& axes, size_t index) {
     return chosen;
 }
 
-/// Whether the axis replaces a whole pass.
-bool replacesPass(const Axis& axis) {
+/// Whether the axis sets a whole pass or another whole entry of the config, before parameters are set in it.
+bool setsWholeEntry(const Axis& axis) {
     return axis.path.find('.') == std::string::npos;
 }
 
@@ -96,22 +103,22 @@ void setValue(Value& config, const Axis& axis, size_t chosen) {
     applyOverride(config, axis.path, value, Merge::Replace);
 }
 
-/// Configs without sweep and with replaced passes, shared by variants that differ only in other values.
+/// Configs without sweep and with whole entries replaced, shared by variants that differ only in other values.
 class BaseConfigs {
  public:
     BaseConfigs(const Experiment& experiment, const std::vector<Axis>& axes) : axes_(axes), plain_(experiment.config) {
         plain_.erase("sweep");
     }
 
-    /// @param chosen index of the value of each axis; axes that replace no pass are ignored.
+    /// @param chosen index of the value of each axis; axes that set parameters are ignored.
     const Value& with(std::vector<size_t> chosen) {
         for (size_t a = 0; a < axes_.size(); ++a)
-            if (!replacesPass(axes_[a])) chosen[a] = 0;
+            if (!setsWholeEntry(axes_[a])) chosen[a] = 0;
         const auto [config, isNew] = configs_.try_emplace(chosen);
         if (isNew) {
             config->second = plain_;
             for (size_t a = 0; a < axes_.size(); ++a)
-                if (replacesPass(axes_[a])) setValue(config->second, axes_[a], chosen[a]);
+                if (setsWholeEntry(axes_[a])) setValue(config->second, axes_[a], chosen[a]);
         }
         return config->second;
     }
@@ -123,7 +130,7 @@ class BaseConfigs {
  private:
     const std::vector<Axis>& axes_;
     Value plain_;
-    std::map<std::vector<size_t>, Value> configs_;  ///< By the indices of replaced passes.
+    std::map<std::vector<size_t>, Value> configs_;  ///< By the indices of values of whole entries.
 };
 
 std::string shortened(const std::string& id) {
@@ -132,7 +139,8 @@ std::string shortened(const std::string& id) {
 }
 
 bool isNumber(const std::string& text) {
-    return !text.empty() && text.find_first_not_of("0123456789.-+e") == std::string::npos;
+    return text.find_first_of("0123456789") != std::string::npos &&
+           text.find_first_not_of("0123456789.-+e") == std::string::npos;
 }
 
 }  // namespace
@@ -207,7 +215,7 @@ std::vector<SweepPoint> expandSweep(const Experiment& experiment) {
         variant.config = configs.with(chosen);
         bool isRepeat = false;
         for (size_t a = 0; a < axes.size(); ++a) {
-            if (!replacesPass(axes[a])) {
+            if (!setsWholeEntry(axes[a])) {
                 if (isKnown[a] && !hasTarget(variant.config, axes[a].path)) {
                     isRepeat = isRepeat || chosen[a] > 0;
                     variant.values.push_back(kNoValue);

@@ -43,11 +43,11 @@ class VariantNames {
     void name(SweepPoint& variant);
 
  private:
-    struct Axis {
+    struct AxisLabel {
         std::string label;
         bool isWord;  ///< Its values' labels need no parameter before them, unless they are numbers.
     };
-    std::vector<Axis> axes_;
+    std::vector<AxisLabel> axes_;
     std::set<std::string> names_, ids_;
 };
 

@@ -147,9 +147,10 @@ std::vector<VariantResult> failedRows(std::vector<std::string>& missing, const s
                                       const Experiment& experiment, const ResultsFolder& target) {
     std::vector<VariantResult> rows;
     if (missing.empty()) return rows;
-    std::map<std::string, SweepPoint> variants;  // By their ids.
-    for (SweepPoint& variant : expandSweep(experiment)) variants[variant.id] = std::move(variant);
-    std::map<std::string, std::string> hashes;  // Hash of each variant's reference.
+    std::map<std::string, std::vector<std::string>> values;  // Of the sweep, by the variants' ids.
+    for (SweepPoint& variant : expandSweep(experiment)) values[variant.id] = std::move(variant.values);
+    const Json names = sources[0].manifest.value("names", Json::object());  // Absent from older runs
+    std::map<std::string, std::string> hashes;                              // Hash of each variant's reference.
     for (const auto& [name, keys] : sources[0].manifest["inputs"].items())
         hashes[name] = keys.at("reference").get<std::string>();
     std::erase_if(missing, [&](const std::string& name) {
@@ -160,9 +161,10 @@ std::vector<VariantResult> failedRows(std::vector<std::string>& missing, const s
         VariantResult row;
         row.variant = name;
         row.error = isVariant ? record.error : failure->part + ": " + record.error;
-        const SweepPoint& variant = variants[name];
-        row.name = variant.name.empty() ? name : variant.name;
-        row.sweepValues = variant.values;
+        row.name = names.value(name, name);
+        if (const auto found = values.find(name); found != values.end()) row.sweepValues = found->second;
+        // A variant that lost a value without effect has another id than the sweep gives it
+        row.sweepValues.resize(sweepKeys(experiment).size(), kNoValue);
         const auto recordedOr = [&](const std::string& text, const char* key) {
             return isVariant ? text : sources[0].manifest.at(key).get<std::string>();
         };

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-NONE = "-"  # in position of a value that does not reach a variant, as framework/config/sweep.h has it
+NONE = "-"  # in place of a value that does not reach a variant, as framework/config/sweep.h has it
 SLACK = 1.15  # the largest expected error over the target at which a variant is tried at full size
 GUESS = 2.0  # the same for a small trial of a variant that was not tried: its expected error is less certain
 WORTHWHILE = 0.7  # the fraction of a full trial's cost above which a small one is not run
@@ -61,14 +61,14 @@ class Model:
     LINE, BEND, TOGETHER, NOISE, LENGTH = 4.0, 1.0, 0.3, 1e-3, 0.5
 
     def __init__(self, positions: list[tuple[float, ...]], values: list[float]):
-        self._places = np.array(positions, dtype=float).reshape(len(positions), -1)
+        self._positions = np.array(positions, dtype=float).reshape(len(positions), -1)
         logarithms = np.log(np.maximum(np.array(values, dtype=float), 1e-12))
         self._mean = float(logarithms.mean())
-        covariance = self._covariance(self._places) + self.NOISE * np.eye(len(positions))
+        covariance = self._covariance(self._positions) + self.NOISE * np.eye(len(positions))
         self._weights = np.linalg.solve(covariance, logarithms - self._mean)
 
     def _covariance(self, others: np.ndarray) -> np.ndarray:
-        a, b = others[:, None, :] - 0.5, self._places[None, :, :] - 0.5
+        a, b = others[:, None, :] - 0.5, self._positions[None, :, :] - 0.5
         bend = np.exp(-0.5 * ((a - b) / self.LENGTH) ** 2)
         return (self.LINE * a * b + self.BEND * bend).sum(axis=-1) + self.TOGETHER * bend.prod(axis=-1)
 

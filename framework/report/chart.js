@@ -131,9 +131,9 @@ function makeChart(host, shown, open = () => {}) {
             const marks = one.marks ?? one.line, isMarked = new Set(marks);
             // Strokes of no length with round ends: one path for thousands of points
             group.append("path").attr("class", "dots").attr("fill", "none").attr("d", one.points.filter((p) => !isMarked.has(p)).map((p) => `M${position(p)}h0`).join(""));
-            group.append("path").attr("class", "line").attr("fill", "none").attr("d", one.line.length ? `M${one.line.map(position).join("L")}` : "");
+            group.append("path").attr("class", "curve").attr("fill", "none").attr("d", one.line.length ? `M${one.line.map(position).join("L")}` : "");
             if (content.hasBars) {
-                group.append("path").attr("class", "bars").attr("d", marks.filter((p) => !p.isFaint).map((p) =>
+                group.append("path").attr("class", "spans").attr("d", marks.filter((p) => !p.isFaint).map((p) =>
                     `M${x(p.xLow)},${y(p.y)}H${x(p.xHigh)}M${x(p.x)},${p.low > 0 ? y(p.low) : bottom}V${y(p.high)}`).join(""));
             }
             for (const p of marks) {

@@ -71,11 +71,11 @@ def error_charts(results: Results, lights: list[str]) -> tuple[list[dict], set[t
 
 def frame_chart(rows: pd.DataFrame, column: str, label: str, results: Results, light: str = "") -> dict:
     """One line for each variant, over frames. `rows` has the columns variant, frame and `column`."""
-    index = {name: i for i, name in enumerate(results.ok["variant"])}
+    index = {variant: i for i, variant in enumerate(results.ok["variant"])}
+    names = dict(zip(results.ok["variant"], results.ok["name"]))
     lines, means = [], []
-    for variant, frames in rows.groupby("variant", sort=False):
-        frames = frames.sort_values("frame")
-        lines.append([index[variant], frames["frame"], frames[column]])
-        means.append(f"{variant}: {text.figures(frames[column].mean())} on average")
+    for variant, frames in rows[rows["variant"].isin(index)].groupby("variant", sort=False):
+        frames = frames[frames["frame"].notna()].sort_values("frame")
+        lines.append([index[variant], frames["frame"].astype(int), frames[column]])
+        means.append(f"{names[variant]}: {text.figures(frames[column].mean())} on average")
     return {"light": light, "lines": lines, "xLabel": "measured frame", "yLabel": label, "text": f"{label} over frames; {', '.join(means)}"}
-

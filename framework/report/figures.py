@@ -116,7 +116,7 @@ def _matrix(compared, cost: int) -> Figure:
     for (row, s), value in np.ndenumerate(values):
         _, low, high, reached = cells[s, order[row]]
         if math.isnan(value):
-            axes.text(s, row, "–" if compared.measured[s, order[row]] else "", ha="center", va="center", color="#777777")
+            axes.text(s, row, "–" if compared.measured[s, order[row]] and compared.speed_ups.count[0, cost, compared.first, s] else "", ha="center", va="center", color="#777777")
             continue
         if low <= 1 <= high and order[row] != compared.speed_ups.rivals[0]:
             axes.add_patch(matplotlib.patches.Rectangle((s - 0.5, row - 0.5), 1, 1, fill=False, hatch="////", linewidth=0, edgecolor="#00000055"))

@@ -73,7 +73,7 @@ function pick(s, m) {
 // --- The charts
 
 function contentOf(scene) {
-    const { cost, error, rival } = { cost: state.cost, error: state.error, rival: rivalMethod() };
+    const { cost, error } = state, rival = rivalMethod();
     const [value, low, high] = scene.error[error];
     const fronts = scene.fronts[cost][error], series = new Map();
     scene.method.forEach((m, index) => {

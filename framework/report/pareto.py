@@ -149,11 +149,12 @@ def speed_ups(scenes: list[Scene], methods: list[Method], rivals: list[int], err
     for s, scene in enumerate(scenes):
         for cost, error in np.ndindex(len(CHARTED), error_count):
             fronts = scene.fronts(cost, error)
-            compared = [(i, rival) for i, rival in enumerate(rivals) if rival in fronts]
+            # Memory does not rise with accuracy, so that its own front would have few errors
+            fronts_by_time = {rival: scene.front((scene.methods == rival) & scene.usable[cost, error], 0, error) for rival in rivals}
+            compared = [(i, rival) for i, rival in enumerate(rivals) if rival in fronts and len(fronts_by_time[rival])]
             if not compared:
                 continue
-            # Memory does not rise with accuracy, so that its own front would have few errors
-            targets = [scene.front((scene.methods == rival) & scene.usable[cost, error], 0, error) for _, rival in compared]
+            targets = [fronts_by_time[rival] for _, rival in compared]
             begins = np.cumsum([0, *map(len, targets)])
             value, low, high = scene.errors[error][:, np.concatenate(targets)]
             spent = np.concatenate([_log_cost_at(scene.errors[error, 0, target], *scene.curve(fronts[rival], cost, error))

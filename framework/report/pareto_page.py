@@ -110,7 +110,7 @@ def sentences(compared: Comparison) -> list[str]:
         wins: dict[str, list[str]] = {}  # by method: scenes
         for s, scene in enumerate(compared.scenes):
             found = _winner(compared, s, CHARTED.index(cost), worst)
-            if found and found[1][2] >= 1:
+            if found and found[1][0] >= 1:
                 method, (value, low, high, _) = found
                 wins.setdefault(method, []).append(f"{scene.name} ({'' if low > 1 else '≈ '}{text.figures(value, 2)}×)")
             elif compared.measured[s, compared.rival]:
@@ -218,7 +218,7 @@ def _rival_tables(compared: Comparison) -> list[dict]:
                 is_open = any(low <= 1 <= high for _, low, high in ratios)
                 equal.append([compared.methods[m].name, scene.name, min(values), max(values), len(values), "≈" if is_open else ""])
     return [{"title": "Most accurate variant that is no slower than filtered path tracing at its error",
-             "note": "ties: other variants whose intervals reach this one's error. never: path tracing has no variant of as little error.",
+             "note": "ties: other variants whose intervals overlap this one's. never: path tracing has no variant of as little error.",
              "head": ["scene", "variant", "ties", "frame, ms", "path tracing, ms", *(error.label for error in compared.errors)], "rows": best},
             {"title": f"{label} at equal time of a frame", "note": "The least error in no more time than filtered path tracing takes, over that "
              "one's; below 1 the method is more accurate. ≈: the intervals leave that open.",

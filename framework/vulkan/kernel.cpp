@@ -126,18 +126,21 @@ void compile(const std::vector<PassProgram*>& programs, Device& device, const Sh
 
     forEachInParallel(pending.size(), [&](size_t i) {
         PassProgram& program = *pending[i];
-        std::vector<ShaderModule> stages;
-        Hasher hash;
+        std::vector<const ShaderModule*> stages;
+        Hasher hash;  // Without defines, whose effect is in the SPIR-V
         for (const std::string& file : program.files_) {
             const auto source = std::ranges::lower_bound(sources, Source{file, program.defines_});
-            const ShaderModule& module = stages.emplace_back(modules[size_t(source - sources.begin())]);
+            const ShaderModule& module = *stages.emplace_back(&modules[size_t(source - sources.begin())]);
             hash.add(file).addPlain(module.spirv.size());
             hash.add(module.spirv.data(), module.spirv.size() * sizeof(uint32_t));
         }
         for (const auto& [name, value] : program.constants_) hash.add(name).addPlain(value);
         program.addState(hash);
-        program.program_ =
-            device.programCache().get(hash.hex(), [&] { return program.make(device, stages, program.constants_); });
+        program.program_ = device.programCache().get(hash.hex(), [&] {
+            std::vector<ShaderModule> copies;
+            for (const ShaderModule* stage : stages) copies.push_back(*stage);
+            return program.make(device, copies, program.constants_);
+        });
     });
 }
 

@@ -23,9 +23,4 @@ std::shared_ptr<const Program> ProgramCache::get(const std::string& key, const s
     return programs_.emplace(key, std::move(made)).first->second;
 }
 
-void ProgramCache::clear() {
-    const std::lock_guard lock(mutex_);
-    programs_.clear();
-}
-
 }  // namespace voxray

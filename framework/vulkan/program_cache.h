@@ -17,7 +17,6 @@ class ProgramCache {
     /// The program of that key, made unless it is there. From any thread.
     /// @param key of everything that the program depends on, besides the device.
     std::shared_ptr<const Program> get(const std::string& key, const std::function<Program()>& make);
-    void clear();
 
  private:
     std::mutex mutex_;

@@ -11,8 +11,8 @@ layout(scalar) writeonly buffer Contributions { vec4 data[]; } contributions;  /
 layout(push_constant, scalar) uniform Push {
     uint count;
     uint kind;
-    uint light;    // Of punctual lights, else the index of the sample.
-    uint samples;  // Of the source by each surfel.
+    uint light;    // Index of the punctual light; of other sources the index of the sample.
+    uint samples;  // Samples of the source per surfel.
     uint emitterCount;
     uint seed;
 } push;

@@ -57,9 +57,10 @@ uint cubeFace(vec3 v) {
 // @param depth of the texel, as stored. @param normal on the side that faces the light.
 bool texelPassesShadowTest(LightView view, uint resolution, ivec2 texel, float depth, vec3 position, vec3 normal) {
     const TexelRay ray = texelRay(view, texelCenter(view, resolution, texel));
-    const float cosine = dot(ray.direction, normal);
+    // Change of the height over the tangent plane per meter of depth
+    const float slope = dot(ray.direction, normal);
     const float planeDepth =
-        cosine < 0.0 ? min(dot(position - ray.origin, normal) / cosine, view.farthest) : view.farthest;
+        slope < 0.0 ? min(dot(position - ray.origin, normal) / slope, view.farthest) : view.farthest;
     const float texelDepth = depth * view.farthest;
     const float width = texelWidth(view, resolution) * (view.parallel != 0u ? 1.0 : texelDepth);
     return texelDepth + 0.5 * width >= planeDepth;

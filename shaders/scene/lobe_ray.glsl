@@ -7,8 +7,8 @@
 
 struct LobeRay {
     vec3 direction;    // Unit length.
-    vec3
-        weight;  // BRDF times cosine over the density: reflected over incident radiance; 0 for a ray below the surface.
+    // BRDF times cosine over the density: reflected over incident radiance; 0 for a ray below the surface.
+    vec3 weight;
     float solidAngle;  // Of the ray's footprint, sr; 0 for a mirror.
 };
 

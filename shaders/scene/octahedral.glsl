@@ -9,10 +9,12 @@ uint toOctahedral(vec3 n) {
     return packSnorm2x16(on.z >= 0.0 ? on.xy : (1.0 - abs(on.yx)) * signs(on.xy));
 }
 
-vec3 fromOctahedral(uint bits) {
-    const vec2 on = unpackSnorm2x16(bits);
+// @param on coordinates on the octahedron, from -1 to 1.
+vec3 octahedralDirection(vec2 on) {
     const float z = 1.0 - abs(on.x) - abs(on.y);
     return normalize(vec3(z >= 0.0 ? on : (1.0 - abs(on.yx)) * signs(on), z));
 }
+
+vec3 fromOctahedral(uint bits) { return octahedralDirection(unpackSnorm2x16(bits)); }
 
 #endif

@@ -14,7 +14,7 @@
 #define VOXRAY_VOXEL_DISTANCES_GLSL
 
 #define MAX_DISTANCE 7
-#define MAX_DISTANCES 0xffffff00u  // An empty cell with MAX_DISTANCE in each octant.
+#define EMPTY_CELL_MAX_DISTANCE 0xffffff00u  // An empty cell with MAX_DISTANCE in each octant.
 
 // Cells along each axis; a cell is 2^level voxels wide.
 ivec3 cellCount(uvec3 resolution, int level) { return ivec3((resolution + ((1u << level) - 1u)) >> level); }

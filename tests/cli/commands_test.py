@@ -127,7 +127,7 @@ class Validate(CommandTest):
 
     def test_a_run_refuses_what_validate_does(self):
         """Of each stage of reading one; mistakes.py has the others."""
-        for old, new, line, name in (("  - {pass: gbuffer}", "\t- {pass: gbuffer}", 6, ""), ("width: 32", "widht: 32", 3, "'width'"),
+        for old, new, line, name in (("  - {pass: gbuffer}", "\t- {pass: gbuffer}", 6, "spaces"), ("width: 32", "widht: 32", 3, "'width'"),
                                      ("pass: composite", "pass: compsite", 11, "'composite'"),
                                      ("rays_per_light: 4096", "rays_per_light: 0", 8, "rays_per_light"),
                                      ("[8, 16]", "[8, -16]", 14, "resolution"),

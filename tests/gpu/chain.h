@@ -185,6 +185,7 @@ inline const ImageF& pathTraced(const std::string& scene, const std::string& par
 
 /// Mean difference of two images over the mean of the second.
 inline double meanDifference(const ImageF& a, const ImageF& b) {
+    if (a.data.size() != b.data.size()) throw Error("images of {} and {} values", a.data.size(), b.data.size());
     double total = 0;
     for (size_t i = 0; i < b.data.size(); ++i) total += std::abs(double(a.data[i]) - double(b.data[i]));
     return total / double(b.data.size()) / mean(b);

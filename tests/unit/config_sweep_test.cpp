@@ -208,9 +208,16 @@ TEST(Sweep, NamesAreSafeAndUnique) {
     // Names that differ in signs which no id has
     const auto alike = expand("  inject: {a b: a, a-b: b}\n");
     EXPECT_EQ(alike[1].id, "a-b-2");
+
+    // Ids are folders next to those of references
+    const auto folders = expand("  inject: {reference: a, reference.2: b, α: c, -x: d, .tmp: e, e: f}\n");
+    const std::vector<std::string> expected{
+        "variant-reference", "variant-reference.2", "variant", "x", "variant-.tmp", "e"};
+    for (size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(folders.at(i).id, expected[i]);
 }
 
 TEST(Sweep, Errors) {
+    EXPECT_CONTAINS(sweepError("  inject: {\"-\": a, b: b}\n"), "'-'");
     EXPECT_CONTAINS(sweepError("  reference.spp: [1, 2]\n"), "demo.yaml:7: sweep: ");
     EXPECT_CONTAINS(sweepError("  voxelise.resolution: [1]\n"), "'voxelize'");
     EXPECT_CONTAINS(sweepError("  image.widht: [1]\n"), "demo.yaml:7: image: ");

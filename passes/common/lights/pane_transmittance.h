@@ -19,7 +19,7 @@ class PaneTransmittance {
     /// Multiplies the throughput of rays by the transmittance of all panes along them.
     /// @param throughput RGB of ray i: three floats from index i * `stride` on
     /// @param hits where rays end; nullptr: at their tMax
-    void apply(PassContext& context, const Buffer& rays, const Buffer& carried, uint32_t stride, uint32_t count,
+    void apply(PassContext& context, const Buffer& rays, const Buffer& throughput, uint32_t stride, uint32_t count,
                const Buffer* hits = nullptr) const;
 
  private:

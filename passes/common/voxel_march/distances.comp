@@ -34,12 +34,12 @@ uint cellWord(ivec3 cell, uint index) {
     }
     voxelBricks.words[2u * index] = bits.x;
     voxelBricks.words[2u * index + 1u] = bits.y;
-    return mask == 0u ? MAX_DISTANCES : mask;
+    return mask == 0u ? EMPTY_CELL_MAX_DISTANCE : mask;
 }
 #elif defined(OF_NODES)
 uint cellWord(ivec3 cell, uint index) {
     const uint word = octree.table.data[octreeTableEntry(cell, uint(push.level))];
-    return word == 0u ? MAX_DISTANCES : word;
+    return word == 0u ? EMPTY_CELL_MAX_DISTANCE : word;
 }
 #else
 // Extends distances by one axis: to the largest d such that each of the d cells from this one on along the axis has a

@@ -1,7 +1,7 @@
 // Trilinear interpolation between the voxels of one level. The including layout has declared
 //  - radianceVoxels;
 //  - NO_VALUE: of a voxel that is empty or outside;
-//  - vec4 radianceValue(uint slot, uint face): the stored value. `face`: 0 to 5 for +x -x +y -y +z -z, 0 with one value
+//  - vec4 radianceValue(uint index, uint face): the stored value. `face`: 0 to 5 for +x -x +y -y +z -z, 0 with one value
 //    for all.
 #ifndef VOXRAY_RADIANCE_INTERPOLATION_GLSL
 #define VOXRAY_RADIANCE_INTERPOLATION_GLSL
@@ -17,7 +17,7 @@ ivec3 cornerVoxel(uint level, vec3 position, out vec3 fraction) {
     return ivec3(corner);
 }
 
-// Radiance and opacity along `direction`, interpolated between the eight voxels of a block, which are stored at `slot`.
+// Radiance and opacity along `direction`, interpolated between the eight voxels of a block, whose values are at `indices`, by octant.
 vec4 interpolateBlock(uint indices[8], vec3 fraction, vec3 direction) {
     vec4 value[8];
     vec4 sum = vec4(0.0);

@@ -130,7 +130,8 @@ void main() {
             texels += 1.0;
         }
         surface.position /= texels;
-        const vec3 brdf = surface.albedo / (float(TEXELS) * PI);
+        // Lambert's BRDF times the surface's fraction of the pixel
+        const vec3 weightedBrdf = surface.albedo / (float(TEXELS) * PI);
 
         WeightedSum unoccluded, occluded;
         lookUp(surface, unoccluded, occluded);
@@ -139,17 +140,17 @@ void main() {
             // The ray begins at a texel, since the mean position need not lie on the surface
             const float rayOffset = texelFetch(position, texelOfPixel(pixel, firstTexel), 0).w;
             const uint ambiguous = atomicAdd(count.value, 1u);
-            surfaces.data[ambiguous] = AmbiguousSurface(brdf * unoccluded.irradiance / unoccluded.weights,
-                                                        brdf * occluded.irradiance / occluded.weights, firstAmbiguous);
+            surfaces.data[ambiguous] = AmbiguousSurface(weightedBrdf * unoccluded.irradiance / unoccluded.weights,
+                                                        weightedBrdf * occluded.irradiance / occluded.weights, firstAmbiguous);
             occlusionRays.data[ambiguous] = occlusionRay(origin + rayOffset * ng, ng, push.grid.voxelSize);
             firstAmbiguous = ambiguous;
             continue;
         }
 #endif
         if (unoccluded.weights + occluded.weights > 0.0)
-            sum += brdf * (unoccluded.irradiance + occluded.irradiance) / (unoccluded.weights + occluded.weights);
+            sum += weightedBrdf * (unoccluded.irradiance + occluded.irradiance) / (unoccluded.weights + occluded.weights);
         else
-            sum += brdf * voxelIrradiance(push.grid, surface.position, ng, 1.0, false);
+            sum += weightedBrdf * voxelIrradiance(push.grid, surface.position, ng, 1.0, false);
     }
     imageStore(result, pixel, vec4(sum, 1.0));
 #if TESTS_OCCLUSION

@@ -21,16 +21,11 @@ uvec4 packSurface(Surface s, float area) {
     return uvec4(floatBitsToUint(s.position), g.x | (g.y << 9) | (n.x << 18) | (n.y << 24) | ((quarters - 1u) << 30));
 }
 
-vec3 decodeOctahedral(vec2 on) {
-    const float z = 1.0 - abs(on.x) - abs(on.y);
-    return normalize(vec3(z >= 0.0 ? on : (1.0 - abs(on.yx)) * signs(on), z));
-}
-
 Surface unpackSurface(uvec4 bits) {
     Surface s;
     s.position = uintBitsToFloat(bits.xyz);
-    s.geometricNormal = decodeOctahedral((vec2((uvec2(bits.w) >> uvec2(0, 9)) & 511u) - 256.0) / 255.0);
-    s.normal = decodeOctahedral((vec2((uvec2(bits.w) >> uvec2(18, 24)) & 63u) - 32.0) / 31.0);
+    s.geometricNormal = octahedralDirection((vec2((uvec2(bits.w) >> uvec2(0, 9)) & 511u) - 256.0) / 255.0);
+    s.normal = octahedralDirection((vec2((uvec2(bits.w) >> uvec2(18, 24)) & 63u) - 32.0) / 31.0);
     return s;
 }
 
