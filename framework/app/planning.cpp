@@ -28,7 +28,7 @@ void planExperiment(const std::filesystem::path& file, const ConfigArguments& ar
     registerPasses(registry);
     options.scenes = arguments.scenes;
     options.sourceRoot = sourceRoot();
-    options.tracePreview = pathTracedPreview;
+    options.previewTracer = pathTracedPreview;
     PreparedExperiment prepared(loadStudy(file, arguments.config, registry), options);
     for (const std::string& warning : prepared.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     use(prepared);

@@ -74,7 +74,7 @@ int run(const RunArguments& arguments) {
         RunOptions options = arguments.options;
         options.scenes = arguments.scenes;
         options.sourceRoot = sourceRoot();
-        options.tracePreview = pathTracedPreview;
+        options.previewTracer = pathTracedPreview;
         if (experiments.size() > 1 && !options.out.empty()) options.out /= nameOf(i);
         const RunSummary summary = runExperiment(std::move(experiments[i]), options);
         printSummary(summary, options);

@@ -89,7 +89,8 @@ void checkPassNames(const Experiment& experiment, const Registry& registry) {
             }
 }
 
-void checkUnsweptConfig(const Experiment& experiment, const std::vector<Variant>& variants, const Registry& registry) {
+void checkGraphWithoutSweep(const Experiment& experiment, const std::vector<Variant>& variants,
+                            const Registry& registry) {
     for (const Value& entry : experiment.setup.graph.items) {
         if (!entry.find("pass")) continue;
         checkEntry(registry, entry);
