@@ -11,6 +11,7 @@
 #include "passes/surfels/surfels_by_voxel.h"
 #include "scene/shapes.h"
 #include "tests/physics/voxels_read.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -29,6 +30,14 @@ TEST(Radiosity, BouncesSumToTheGeometricSeries) {
     EXPECT_NEAR(fluxOfRoom("2", 16) / (8 * kPi * 0.875), 1.0, 0.01);
     // One ray from each surfel is noisy, not biased.
     EXPECT_NEAR(fluxOfRoom("2", 1) / (8 * kPi * 0.875), 1.0, 0.03);
+}
+
+TEST(Radiosity, MorePointsThanIndicesAreRefused) {
+    EXPECT_ERROR(
+        "points are more than 268435456",
+        Chain("white_room", "{}",
+              graphYaml({"voxelize, resolution: 450, visibility_rays: 0", "place_surfels, points_per_voxel: 256"}), 4,
+              4));
 }
 
 TEST(Radiosity, IsLinearInLight) {
