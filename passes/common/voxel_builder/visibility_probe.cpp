@@ -10,6 +10,7 @@ namespace {
 
 constexpr uint32_t kBatchPoints = 1u << 18;
 constexpr uint64_t kCounts = 9;  // Per voxel, as in count_visible_points.comp.
+constexpr uint32_t kMaxPointsPerVoxel = (1u << 16) - 1;
 
 struct ProbePoint {  // As in probe_point.glsl.
     glm::vec3 position;
@@ -45,6 +46,8 @@ Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels, c
     // In batches: the host lists probes of all triangles; the device drops those outside `voxels`, traces two
     // rays to each remaining one, and counts those whose surfaces they reach.
     const Buffer candidates(context.device, "visibility probes", kBatchPoints * sizeof(glm::uvec2));
+    const Buffer overflow(context.device, "overflow of visibility counts", sizeof(uint32_t));
+    stream.fill(overflow, 0);
     const Buffer pointCount(context.device, "number of visibility probes", sizeof(uint32_t));
     const Buffer rays(context.device, "visibility rays", 2ull * kBatchPoints * sizeof(Ray));
     const Buffer hits(context.device, "visibility results", 2ull * kBatchPoints * sizeof(Hit));
@@ -74,6 +77,7 @@ Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels, c
                           {"rays", rays},
                           {"hits", hits},
                           {"counts", counts},
+                          {"overflow", overflow},
                           {"count", count}});
     };
     for (const uint32_t triangle : triangles) {
@@ -84,7 +88,9 @@ Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels, c
         }
     }
     probe();
-    stream.finish();
+    if (stream.readAs<uint32_t>(overflow, 1)[0] != 0)
+        throw Error("a voxel has more than {} visibility probes: raise 'resolution', or lower 'visibility_rays'",
+                    kMaxPointsPerVoxel);
     return counts;
 }
 
