@@ -1,7 +1,6 @@
 #include "passes/common/voxel_builder/visibility_probe.h"
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 
 #include "passes/common/compute/random_seed.h"
 
@@ -21,12 +20,10 @@ struct ProbePoint {  // As in probe_point.glsl.
 /// the mean over triangles is right: up where the fraction plus the triangle's van der Corput number reach 1.
 /// Consecutive triangles have well distributed numbers.
 uint64_t pointsOn(const Geometry& g, const gpu::VoxelGrid& grid, uint32_t triangle, uint32_t pointsPerFace) {
-    const glm::uvec3 v = g.triangles[triangle];
-    const glm::dvec3 p0 = g.positions[v.x], p1 = g.positions[v.y], p2 = g.positions[v.z];
     const double face = double(grid.voxelSize) * grid.voxelSize;
     uint32_t reversed = 0;
     for (uint32_t bit = 0; bit < 32; ++bit) reversed |= (triangle >> bit & 1u) << (31 - bit);
-    const double points = 0.5 * glm::length(glm::cross(p1 - p0, p2 - p0)) / face * pointsPerFace;
+    const double points = triangleArea(g, triangle) / face * pointsPerFace;
     return uint64_t(points + double(reversed) / 4294967296.0);
 }
 
