@@ -4,7 +4,7 @@
 mirror_borders.py RUN [--truth VARIANT]
 
 RUN: a folder that `voxray run CONFIG --aovs` wrote. VARIANT: the variant whose mirror rays go through triangles alone. A row for
-each variant with cells. Pairs of neighbouring pixels of the mirror are told apart by what three quarters or more of each pixel's
+each variant with cells. Pairs of neighboring pixels of the mirror are told apart by what three quarters or more of each pixel's
 rays ended on: borders, triangles in one and cells in the other; triangles, in both; cells, in both. Of luminance, over the mean of
 VARIANT's over the mirror:
 

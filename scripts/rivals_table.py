@@ -23,7 +23,7 @@ sys.path.append(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", 
 from report.rows import read_rows  # noqa: E402
 
 LEFT_OUT = {"direct", "composite"}
-SHARED = {"gbuffer", "filter_irradiance"}
+SHARED = {"gbuffer", "indirect"}  # In variants with gather rays and with paths 'indirect' is the filter.
 LIGHT = {"inject", "few_rays", "inject_radiosity", "smooth_surfels", "update_radiance_cache", "sample_vpls", "select_vpls"}
 ERRORS = ("indirect_nrmse", "indirect_relmse")
 
@@ -93,7 +93,7 @@ def speed_up(ms, error, points):
 
 def samples_of(passes, row):
     """Samples a pixel of filtered path tracing, None for another method."""
-    return int(re.search(r"\bspp (\d+)", row["indirect"])[1]) if any(p["pass"] == "paths" for p in passes) else None
+    return int(re.search(r"^filtered paths, (\d+)$", row["indirect"])[1]) if any(p["pass"] == "paths" for p in passes) else None
 
 
 def is_no_slower(ms, error, rivals):

@@ -163,7 +163,8 @@ std::string manifestJson(const ManifestData& data) {
         const std::string& id = variant.id;
         names.emplace_back(id, variant.name);
         graphs.emplace_back(id, Json::parse(variant.resolved.json(-1)));
-        inputs.emplace_back(id, Json{{"scene", variant.sceneKey}, {"reference", variant.referenceHash}});
+        inputs.emplace_back(
+            id, Json{{"scene", variant.sceneKey}, {"reference", variant.referenceHash}, {"values", variant.values}});
         for (const auto& [image, parameters] : variant.noiseParameters) noise[image][id] = parameters;
     }
     json["names"] = std::move(names);

@@ -54,12 +54,12 @@ void removeDuplicates(Study& study) {
     std::vector<std::map<std::string, Value>> valuesByLabel(keys.size());  // For each swept parameter.
     for (size_t a = 0; a < keys.size(); ++a) {
         const Value& swept = study.experiment.sweep.members[a].value;
-        const std::vector<std::string> labels = sweepLabels(keys[a], swept);
+        const std::vector<std::string> labels = sweepLabels(keys[a], swept, study.registry->filterLabels());
         std::vector<Value> all = sweepValues(swept);
         for (size_t i = 0; i < labels.size(); ++i) valuesByLabel[a].emplace(labels[i], std::move(all[i]));
     }
     std::set<std::vector<std::string>> unique;
-    VariantNames names(study.experiment);
+    VariantNames names(study.experiment, study.registry->filterLabels());
     std::vector<std::string> reasons(keys.size());
     std::erase_if(study.variants, [&](Variant& variant) {
         for (size_t a = 0; a < keys.size(); ++a) {
@@ -142,7 +142,7 @@ Study makeStudy(Experiment experiment, const Registry& registry) {
     checkPassNames(experiment, registry);
     Study study;
     study.registry = &registry;
-    for (SweepPoint& point : expandSweep(experiment)) {
+    for (SweepPoint& point : expandSweep(experiment, registry.filterLabels())) {
         checkLightSwitchTimes(point.setup.scene, experiment.measure);
         study.variants.emplace_back(std::move(point), registry);
     }

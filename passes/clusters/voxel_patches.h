@@ -24,8 +24,8 @@ struct VoxelPatches : Resource {
     Buffer firstGroup;        ///< First group of each voxel; then the number of groups.
     Buffer groups;            ///< gpu::SurfaceGroup each.
     LargeBuffer materials;    ///< PackedVoxelMaterial of each group's surfaces.
-    Buffer firstNeighbour;    ///< First element of each group in `neighbours`; then the number of elements.
-    LargeBuffer neighbours;   ///< Groups in the 26 voxels around that a group sees; NO_GROUP: occluded.
+    Buffer firstNeighbor;     ///< First element of each group in `neighbors`; then the number of elements.
+    LargeBuffer neighbors;    ///< Groups in the 26 voxels around that a group sees; NO_GROUP: occluded.
     Buffer components;        ///< gpu::ClusterComponent each.
     Buffer memberGroups;      ///< Groups sorted by component, ascending within each.
     Buffer componentOfGroup;  ///< Component of each group, or NO_COMPONENT where its voxel has no cluster.
@@ -42,12 +42,12 @@ struct VoxelPatches : Resource {
     }
     /// Frees the buffers.
     void clear() {
-        surfels = {}, surfelIndex = {}, firstGroup = {}, groups = {}, materials = {}, firstNeighbour = {};
-        neighbours = {}, components = {}, memberGroups = {}, componentOfGroup = {}, previousGroupIndex = {};
+        surfels = {}, surfelIndex = {}, firstGroup = {}, groups = {}, materials = {}, firstNeighbor = {};
+        neighbors = {}, components = {}, memberGroups = {}, componentOfGroup = {}, previousGroupIndex = {};
     }
     uint64_t bytes() const {
         return surfels.bytes() + surfelIndex.bytes() + firstGroup.bytes() + groups.bytes() + materials.bytes() +
-               firstNeighbour.bytes() + neighbours.bytes() + components.bytes() + memberGroups.bytes() +
+               firstNeighbor.bytes() + neighbors.bytes() + components.bytes() + memberGroups.bytes() +
                componentOfGroup.bytes() + previousGroupIndex.bytes();
     }
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }

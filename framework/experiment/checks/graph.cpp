@@ -110,7 +110,7 @@ void checkSweptPasses(const Study& study) {
                 return variant.values[a] == label && std::ranges::count(variant.culledPasses, axes[a].key) == 0;
             });
         };
-        const std::vector<std::string> labels = sweepLabels(axes[a].key, axes[a].value);
+        const std::vector<std::string> labels = sweepLabels(axes[a].key, axes[a].value, study.registry->filterLabels());
         const auto run = std::ranges::find_if(labels, isRun);
         const auto idle = std::ranges::find_if_not(labels, isRun);
         if (run == labels.end() || idle == labels.end()) continue;

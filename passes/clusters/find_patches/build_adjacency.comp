@@ -1,4 +1,4 @@
-// Counts the candidates for neighbours of each surface group: groups in the 26 adjacent voxels whose surfaces face one
+// Counts the candidates for neighbors of each surface group: groups in the 26 adjacent voxels whose surfaces face one
 // of the same six directions, and which are both occluded or both unoccluded. LIST: stores them. Rays test their
 // visibility later.
 #include "passes/clusters/grouped_surfels.glsl"
@@ -11,9 +11,9 @@ layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer FirstGroup { uint data[]; } firstGroup;
 layout(scalar) readonly buffer GroupMaterialsRef { VoxelMaterials groupMaterials; };
 #ifdef LIST
-readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
-layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
-layout(scalar) readonly buffer GroupOfEntryRef { LargeUints groupOfEntry; };  // The group of each neighbour entry.
+readonly buffer FirstNeighbor { uint data[]; } firstNeighbor;
+layout(scalar) readonly buffer NeighborsRef { LargeUints neighbors; };
+layout(scalar) readonly buffer GroupOfEntryRef { LargeUints groupOfEntry; };  // The group of each neighbor entry.
 #else
 // One for each group, and a last 0, where the prefix sum leaves the total.
 writeonly buffer Counts { uint data[]; } counts;
@@ -38,12 +38,12 @@ void main() {
         for (int i = 0; i < 27; ++i) {
             const uint voxel = voxelNumber(push.grid, center + ivec3(i % 3, i / 3 % 3, i / 9) - 1);
             if (i == 13 || voxel == NO_VOXEL) continue;
-            for (uint neighbour = firstGroup.data[voxel]; neighbour < firstGroup.data[voxel + 1u]; ++neighbour) {
-                if (groups.data[neighbour].isOccluded != groups.data[group].isOccluded) continue;
-                if (!faceSameDirection(m, unpackMaterial(groupMaterials.data[neighbour]))) continue;
+            for (uint neighbor = firstGroup.data[voxel]; neighbor < firstGroup.data[voxel + 1u]; ++neighbor) {
+                if (groups.data[neighbor].isOccluded != groups.data[group].isOccluded) continue;
+                if (!faceSameDirection(m, unpackMaterial(groupMaterials.data[neighbor]))) continue;
 #ifdef LIST
-                neighbours.data[firstNeighbour.data[group] + count] = neighbour;
-                groupOfEntry.data[firstNeighbour.data[group] + count] = group;
+                neighbors.data[firstNeighbor.data[group] + count] = neighbor;
+                groupOfEntry.data[firstNeighbor.data[group] + count] = group;
 #endif
                 ++count;
             }

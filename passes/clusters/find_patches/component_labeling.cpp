@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "passes/common/compute/bit_words.h"
 #include "passes/common/compute/uint_bytes.h"
 
 namespace voxray {
@@ -21,7 +22,7 @@ ComponentLabeling::ComponentLabeling(ProgramOwner& owner)
 
 void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters, VoxelPatches& patches) {
     Device& device = stream.device();
-    const uint32_t groups = patches.groupCount, words = (groups + 31) / 32;
+    const uint32_t groups = patches.groupCount, words = uint32_t(bitWords(groups));
     const Buffer labels(device, "labels of surface groups", uintBytes(groups));
     const Buffer changed(device, "labels that changed", uintBytes(1));
     stream.dispatch(iota_, groups, {{"values", labels}, {"count", groups}});
@@ -29,8 +30,8 @@ void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters
         stream.fill(changed, 0);
         stream.dispatch(propagateLabels_, groups,
                         {{"groups", patches.groups},
-                         {"firstNeighbour", patches.firstNeighbour},
-                         {"NeighboursRef", patches.neighbours.ref()},
+                         {"firstNeighbor", patches.firstNeighbor},
+                         {"NeighborsRef", patches.neighbors.ref()},
                          {"clusterOfVoxel", clusters.clusterOfVoxel},
                          {"labels", labels},
                          {"changed", changed},

@@ -13,7 +13,7 @@ class ComponentLabeling {
  public:
     explicit ComponentLabeling(ProgramOwner& owner);
 
-    /// Fills the components of `patches`, whose groups and neighbours are given. Waits for the device.
+    /// Fills the components of `patches`, whose groups and neighbors are given. Waits for the device.
     void run(CommandStream& stream, const VoxelClusters& clusters, VoxelPatches& patches);
 
  private:

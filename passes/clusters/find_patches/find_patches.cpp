@@ -41,7 +41,7 @@ class FindPatches final : public Pass {
     /// Numbers the groups of all voxels and their patches.
     void listGroups(PassContext& context, const SurfelsByVoxel& surfelsByVoxel);
     /// Lists the groups in adjacent voxels that each group sees.
-    void findNeighbours(PassContext& context);
+    void findNeighbors(PassContext& context);
 
     bool isUpdate() const { return updateCache_ && updateCache_->isActive(); }
 
@@ -56,24 +56,24 @@ class FindPatches final : public Pass {
     std::optional<GroupUpdateCache> updateCache_;  ///< For scenes with moving surfaces.
     // The same shaders for updates, in which results of the previous build are reused
     Kernel updateSurfels_{*this, "init_surfels.comp", {{"UPDATE", "1"}}};
-    Kernel updateNeighbourRays_{*this, "generate_neighbour_rays.comp", {{"UPDATE", "1"}}};
-    Kernel updateNeighbours_{*this, "remove_occluded_neighbours.comp", {{"UPDATE", "1"}}};
+    Kernel updateNeighborRays_{*this, "generate_neighbor_rays.comp", {{"UPDATE", "1"}}};
+    Kernel updateNeighbors_{*this, "remove_occluded_neighbors.comp", {{"UPDATE", "1"}}};
     Kernel initSurfels_{*this, "init_surfels.comp"};
     Kernel sortSurfels_{*this, "sort_surfels.comp"};
     Kernel listGroups_{*this, "list_groups.comp"};
     Kernel averageMaterials_{*this, "average_materials.comp"};
     Kernel numberPatches_{*this, "number_patches.comp"};
-    Kernel countNeighbours_{*this, "build_adjacency.comp"};
-    Kernel listNeighbours_{*this, "build_adjacency.comp", {{"LIST", "1"}}};
-    Kernel generateNeighbourRays_{*this, "generate_neighbour_rays.comp"};
-    Kernel removeOccludedNeighbours_{*this, "remove_occluded_neighbours.comp"};
+    Kernel countNeighbors_{*this, "build_adjacency.comp"};
+    Kernel listNeighbors_{*this, "build_adjacency.comp", {{"LIST", "1"}}};
+    Kernel generateNeighborRays_{*this, "generate_neighbor_rays.comp"};
+    Kernel removeOccludedNeighbors_{*this, "remove_occluded_neighbors.comp"};
     RayBatch batch_;  ///< Scratch.
 };
 
 void FindPatches::plan(PassPlan& plan) {
     batch_.plan(plan, plan[surfels_].hasOccludedSurfels);
     const bool surfacesMove = !movingInstanceRanges(plan.frame.scene->geometry).empty();
-    for (Kernel* kernel : {&updateSurfels_, &updateNeighbourRays_, &updateNeighbours_}) kernel->compileIf(surfacesMove);
+    for (Kernel* kernel : {&updateSurfels_, &updateNeighborRays_, &updateNeighbors_}) kernel->compileIf(surfacesMove);
     if (surfacesMove) updateCache_.emplace(*this);
 }
 
@@ -92,7 +92,7 @@ void FindPatches::record(PassContext& context) {
     groupSurfels(context, surfelsByVoxel);
     listGroups(context, surfelsByVoxel);
     surfelsByVoxel = {};
-    findNeighbours(context);
+    findNeighbors(context);
     labeling_.run(context.stream, context[clusters_], patches);
     if (updateCache_) {
         updateCache_->finishUpdate();
@@ -173,7 +173,7 @@ void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& surfels
     stream.finish();
 }
 
-void FindPatches::findNeighbours(PassContext& context) {
+void FindPatches::findNeighbors(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
     VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
@@ -184,35 +184,35 @@ void FindPatches::findNeighbours(PassContext& context) {
                              {"firstGroup", patches.firstGroup},
                              {"GroupMaterialsRef", patches.materials.ref()},
                              {"groupCount", groups}};
-    patches.firstNeighbour = Buffer(context.device, "first neighbours of surface groups", uintBytes(groups + 1));
-    context.dispatch(countNeighbours_, groups + 1, {adjacency.all(), {"counts", patches.firstNeighbour}});
-    const uint32_t neighbours = prefixSum_.run(stream, patches.firstNeighbour, patches.firstNeighbour, groups + 1);
-    patches.neighbours = LargeBuffer(context.device, "neighbours of surface groups", uintBytes(neighbours));
-    const LargeBuffer groupOfEntry(context.device, "group of each neighbour entry", uintBytes(neighbours));
-    context.dispatch(listNeighbours_, groups + 1,
+    patches.firstNeighbor = Buffer(context.device, "first neighbors of surface groups", uintBytes(groups + 1));
+    context.dispatch(countNeighbors_, groups + 1, {adjacency.all(), {"counts", patches.firstNeighbor}});
+    const uint32_t neighbors = prefixSum_.run(stream, patches.firstNeighbor, patches.firstNeighbor, groups + 1);
+    patches.neighbors = LargeBuffer(context.device, "neighbors of surface groups", uintBytes(neighbors));
+    const LargeBuffer groupOfEntry(context.device, "group of each neighbor entry", uintBytes(neighbors));
+    context.dispatch(listNeighbors_, groups + 1,
                      {adjacency.all(),
-                      {"firstNeighbour", patches.firstNeighbour},
-                      {"NeighboursRef", patches.neighbours.ref()},
+                      {"firstNeighbor", patches.firstNeighbor},
+                      {"NeighborsRef", patches.neighbors.ref()},
                       {"GroupOfEntryRef", groupOfEntry.ref()}});
-    std::vector<Binding> reusedVisibility, previousNeighbours;
+    std::vector<Binding> reusedVisibility, previousNeighbors;
     if (isUpdate()) {
-        reusedVisibility = updateCache_->neighbourRayBindings();
-        previousNeighbours = updateCache_->previousNeighbourBindings(patches);
+        reusedVisibility = updateCache_->neighborRayBindings();
+        previousNeighbors = updateCache_->previousNeighborBindings(patches);
     }
-    RayBatch::inBatches(neighbours, [&](uint32_t first, uint32_t count) {
-        context.dispatch(isUpdate() ? updateNeighbourRays_ : generateNeighbourRays_, count,
+    RayBatch::inBatches(neighbors, [&](uint32_t first, uint32_t count) {
+        context.dispatch(isUpdate() ? updateNeighborRays_ : generateNeighborRays_, count,
                          {reusedVisibility,
                           {"groups", patches.groups},
-                          {"NeighboursRef", patches.neighbours.ref()},
+                          {"NeighborsRef", patches.neighbors.ref()},
                           {"GroupOfEntryRef", groupOfEntry.ref()},
                           {"rays", batch_.rays},
                           {"first", first},
                           {"count", count}});
         context.tracer.occluded(stream, batch_.rays, batch_.occluded, count);
-        context.dispatch(isUpdate() ? updateNeighbours_ : removeOccludedNeighbours_, count,
-                         {previousNeighbours,
+        context.dispatch(isUpdate() ? updateNeighbors_ : removeOccludedNeighbors_, count,
+                         {previousNeighbors,
                           {"occluded", batch_.occluded},
-                          {"NeighboursRef", patches.neighbours.ref()},
+                          {"NeighborsRef", patches.neighbors.ref()},
                           ifUsed({"GroupOfEntryRef", groupOfEntry.ref()}),
                           {"first", first},
                           {"count", count}});

@@ -1,5 +1,5 @@
 // One iteration of label propagation, which finds connected components: each group takes the least label of its
-// neighbours in the same cluster. The result does not depend on the order of threads: labels converge to the least
+// neighbors in the same cluster. The result does not depend on the order of threads: labels converge to the least
 // index of the groups of a component.
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/large_buffer.glsl"
@@ -7,8 +7,8 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
-layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
+readonly buffer FirstNeighbor { uint data[]; } firstNeighbor;
+layout(scalar) readonly buffer NeighborsRef { LargeUints neighbors; };
 readonly buffer ClusterOfVoxel { uint data[]; } clusterOfVoxel;
 buffer Labels { uint data[]; } labels;
 buffer Changed { uint count; } changed;
@@ -19,10 +19,10 @@ void main() {
     if (group >= push.groupCount) return;
     const uint cluster = clusterOfVoxel.data[groups.data[group].voxel];
     uint label = labels.data[labels.data[group]];
-    for (uint i = firstNeighbour.data[group]; i < firstNeighbour.data[group + 1u]; ++i) {
-        const uint neighbour = neighbours.data[i];
-        if (neighbour == NO_GROUP || clusterOfVoxel.data[groups.data[neighbour].voxel] != cluster) continue;
-        label = min(label, labels.data[neighbour]);
+    for (uint i = firstNeighbor.data[group]; i < firstNeighbor.data[group + 1u]; ++i) {
+        const uint neighbor = neighbors.data[i];
+        if (neighbor == NO_GROUP || clusterOfVoxel.data[groups.data[neighbor].voxel] != cluster) continue;
+        label = min(label, labels.data[neighbor]);
     }
     if (label == labels.data[group]) return;
     labels.data[group] = label;

@@ -1,4 +1,4 @@
-// Filters the irradiance of patches by binomial weights over the same face of neighbouring surface groups (Cosin and
+// Filters the irradiance of patches by binomial weights over the same face of neighboring surface groups (Cosin and
 // Patow 2022, section 4.4; the paper's filter also crosses walls). LIT_ONLY: unlit patches are excluded.
 #include "passes/clusters/gather_clusters/listed_groups.glsl"
 #include "passes/clusters/group_patches.glsl"
@@ -9,8 +9,8 @@ layout(local_size_x = 64) in;
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PatchValues { vec3 data[]; };
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;  // Per voxel.
-readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
-layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
+readonly buffer FirstNeighbor { uint data[]; } firstNeighbor;
+layout(scalar) readonly buffer NeighborsRef { LargeUints neighbors; };
 layout(scalar) readonly buffer GatheredRef { PatchValues gathered; };
 layout(scalar) readonly buffer FilteredRef { PatchValues filtered; };
 layout(push_constant) uniform Push { uint count; } push;
@@ -42,10 +42,10 @@ void main() {
     for (uint face = 0u; face < 6u; ++face) sums[face] = vec4(0.0);
     addPatches(group, binomialWeight(vec3(0.0)), sums);
     const vec3 center = vec3(coordinates.data[group.voxel]);
-    for (uint k = firstNeighbour.data[number]; k < firstNeighbour.data[number + 1u]; ++k) {
-        if (neighbours.data[k] == NO_GROUP) continue;
-        const SurfaceGroup neighbour = groups.data[neighbours.data[k]];
-        addPatches(neighbour, binomialWeight(vec3(coordinates.data[neighbour.voxel]) - center), sums);
+    for (uint k = firstNeighbor.data[number]; k < firstNeighbor.data[number + 1u]; ++k) {
+        if (neighbors.data[k] == NO_GROUP) continue;
+        const SurfaceGroup neighbor = groups.data[neighbors.data[k]];
+        addPatches(neighbor, binomialWeight(vec3(coordinates.data[neighbor.voxel]) - center), sums);
     }
     uint patchNumber = group.firstPatch;
     for (uint face = 0u; face < 6u; ++face)

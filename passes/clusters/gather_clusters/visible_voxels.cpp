@@ -70,8 +70,8 @@ VisibleVoxels::NewVoxels VisibleVoxels::find(PassContext& context, const GBuffer
     for (uint32_t i = 0; i < steps; ++i) {
         const uint32_t end = found.groupCounts.back();
         context.dispatch(dilate_, end - first,
-                         {{"firstNeighbour", patches.firstNeighbour},
-                          {"NeighboursRef", patches.neighbours.ref()},
+                         {{"firstNeighbor", patches.firstNeighbor},
+                          {"NeighborsRef", patches.neighbors.ref()},
                           {"isListed", isListed_},
                           {"listedGroups", listedGroups_},
                           {"count", count_},

@@ -10,6 +10,7 @@
 #include "passes/clusters/cluster_light.h"
 #include "passes/clusters/inject_clusters/component_face_types.h"
 #include "passes/clusters/inject_clusters/lit_points.h"
+#include "passes/common/compute/bit_words.h"
 #include "passes/common/compute/compaction.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/lights/light_sources.h"
@@ -213,7 +214,7 @@ void InjectClusters::bouncePatches(PassContext& context, ClusterLight& light) {
 uint32_t InjectClusters::listSendingFaces(PassContext& context, const Buffer& componentFaces,
                                           const Buffer& sendingFaces) const {
     const VoxelPatches& patches = context[patches_];
-    const uint32_t words = (kFaces * patches.componentCount + 31) / 32;
+    const uint32_t words = uint32_t(bitWords(kFaces * patches.componentCount));
     const Buffer flags(context.device, "flags of sending faces", std::max(words, 1u) * sizeof(uint32_t));
     context.stream.fill(flags, 0);
     context.dispatch(flagSendingFaces_, patches.componentCount,

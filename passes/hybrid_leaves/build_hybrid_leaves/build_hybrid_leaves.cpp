@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "graph/registry.h"
+#include "passes/common/compute/bit_words.h"
 #include "passes/common/compute/large_buffer.h"
 #include "passes/common/compute/prefix_sum.h"
 #include "passes/common/triangle_voxelizer/triangle_voxelizer.h"
@@ -44,7 +45,7 @@ std::vector<uint32_t> maskedTriangles(const SceneState& state) {
 }
 
 uint32_t wordsPerGrid(uint32_t m, uint32_t levels) {
-    return (gridCells(m, 0, levels) + 31) / 32;
+    return uint32_t(bitWords(gridCells(m, 0, levels)));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ namespace voxray {
 class Accumulate final : public Pass {
  public:
     static constexpr const char* kName = "accumulate";
+    static constexpr const char* kFilterLabel = "accumulated";
     static constexpr const char* kHelp =
         "Averages a gather's irradiance over frames by temporal reprojection. "
         "The history of a surface point is looked up at its image position in the previous frame. "

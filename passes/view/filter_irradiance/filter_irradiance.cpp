@@ -19,6 +19,7 @@ constexpr uint32_t kMeanLevels = 3;  // Neighborhoods whose means are compared h
 class FilterIrradiance final : public Pass {
  public:
     static constexpr const char* kName = "filter_irradiance";
+    static constexpr const char* kFilterLabel = "filtered";
     static constexpr const char* kHelp =
         "Denoises a gather's irradiance along surfaces and multiplies by albedo. "
         "The noisy irradiance is that of a gather (gather_rays, path_trace). "

@@ -6,7 +6,7 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
+layout(scalar) readonly buffer NeighborsRef { LargeUints neighbors; };
 layout(scalar) readonly buffer GroupOfEntryRef { LargeUints groupOfEntry; };
 #ifdef UPDATE
 readonly buffer ReusablePreviousIndex { uint data[]; } reusablePreviousIndex;
@@ -28,8 +28,8 @@ void main() {
     }
 #endif
     const vec3 origin = groups.data[group].pointAbove;
-    const vec3 toNeighbour = groups.data[neighbours.data[push.first + i]].pointAbove - origin;
-    rays.data[i] = dot(toNeighbour, toNeighbour) > 0.0
-                       ? Ray(origin, 0.0, normalize(toNeighbour), length(toNeighbour))
+    const vec3 toNeighbor = groups.data[neighbors.data[push.first + i]].pointAbove - origin;
+    rays.data[i] = dot(toNeighbor, toNeighbor) > 0.0
+                       ? Ray(origin, 0.0, normalize(toNeighbor), length(toNeighbor))
                        : kNoRay;
 }
