@@ -14,13 +14,12 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-from report import methods, pages, text
+from report import pages, style, text
 from report.pareto import CHARTED, COSTS, Scene
 
 _COLUMN, _FULL = 84.5 / 25.4, 178 / 25.4  # widths of acmart, inches
-_COLORS = ("#2a6fdb", "#d2600a", "#0f8577", "#b5369a", "#947000", "#6b4fd0", "#cc3344", "#557324")  # style.css: c0 to c7
-_FOLDS = LinearSegmentedColormap.from_list("folds", ["#b35806", "#f5a859", "#f4f4f4", "#8db7dc", "#1f5a9c"])
-_MOST_FOLD = 16  # at which colors are strongest
+_FOLDS = LinearSegmentedColormap.from_list("folds", [style.VALUES[f"f{i}"] for i in range(5)])
+_MOST_FOLD = float(style.VALUES["most-fold"])  # at which colors are strongest
 _RC = {"font.size": 7, "axes.linewidth": 0.5, "xtick.major.width": 0.5, "ytick.major.width": 0.5, "xtick.minor.width": 0.3,
        "ytick.minor.width": 0.3, "hatch.linewidth": 0.4, "text.parse_math": False,
        "pdf.fonttype": 42, "svg.fonttype": "path", "svg.hashsalt": "voxray"}  # TrueType in PDF; outlines in SVG
@@ -58,15 +57,15 @@ def _chart(compared, scene: Scene, cost: int) -> Figure:
     axes.grid(True, color="#dddddd", linewidth=0.4)
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
-    ends = []
+    ends, styles = [], style.styles(len(compared.methods))
     for method, front in scene.fronts(cost, error).items():
-        style, is_rival = methods.styles_of(compared.methods)[method], method == compared.rival
-        color = _COLORS[int(style.color[1:])]
+        own, is_rival = styles[method], method == compared.rival
+        color = style.VALUES[own.color]
         members = (scene.methods == method) & scene.usable[cost, error]
         axes.plot(scene.costs[cost, members], scene.errors[error, 0, members], ".", color=color, markersize=2, alpha=0.4, markeredgewidth=0)
         x, (y, low, high) = scene.costs[cost, front], scene.errors[error][:, front]
         axes.vlines(x, np.maximum(low, 1e-3 * y), high, color=color, linewidth=0.4, alpha=0.6)
-        axes.plot(x, y, style.marker, linestyle="-", color=color, linewidth=1.6 if is_rival else 0.8, markersize=3.5 if is_rival else 2.8,
+        axes.plot(x, y, own.marker, linestyle="-", color=color, linewidth=1.6 if is_rival else 0.8, markersize=3.5 if is_rival else 2.8,
                   markeredgecolor="white", markeredgewidth=0.3)
         ends.append((compared.methods[method].name, x[-1], y[-1], color, "bold" if is_rival else "normal"))
     _label(axes, ends)

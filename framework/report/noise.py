@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from report import text
-from report.names import Names
+from report.methods import FILTER
 from report.results import LIGHTS, Results, section
 
 _IMAGES = {"total": "final", "indirect": "indirect"}  # light -> image, as the manifest calls it
-_FILTERS = {"filter_irradiance", "accumulate"}  # passes whose bias may fall with the noise of what they filter
+_FILTERS = {FILTER, "accumulate"}  # passes whose bias may fall with the noise of what they filter
 
 
-def sentences(results: Results, light: str, names: Names) -> list[str]:
+def sentences(results: Results, light: str) -> list[str]:
     """Whether bias or noise is the larger part of each variant's nRMSE, which a second seed tells; without one,
     that it is not told where a variant has a pass that is noisy. @param light "indirect" or "total"."""
     finished = results.ok.set_index("variant")
@@ -27,9 +27,9 @@ def sentences(results: Results, light: str, names: Names) -> list[str]:
     biased = [name for name in bias.index if bias[name] >= noise[name]]
     said = []
     if noisy:
-        said.append(f"Noise is the larger part of the error of {names.listed(noisy)}{_advice(results, light, noisy)}")
+        said.append(f"Noise is the larger part of the error of {results.listed(noisy)}{_advice(results, light, noisy)}")
     if biased:
-        said.append(_of_bias(results, biased, "the others'" if noisy else "every variant's", names))
+        said.append(_of_bias(results, biased, "the others'" if noisy else "every variant's"))
     return [" ".join(said)]
 
 
@@ -45,14 +45,14 @@ def _split(results: Results, light: str):
     return split if len(split) == 2 and split[0].notna().any() else None
 
 
-def _of_bias(results: Results, biased: list[str], whose: str, names: Names) -> str:
+def _of_bias(results: Results, biased: list[str], whose: str) -> str:
     filtered = [name for name in biased if any(entry.get("pass") in _FILTERS for entry in results.graph_of(name))]
     said = f"Bias is the larger part of {whose} error"
     if not filtered:
         return f"{said}: more rays don't lower it."
     if len(filtered) == len(biased):
         return f"{said}: more rays lower it only as far as a filter blurs less where there is less noise."
-    return (f"{said}: more rays don't lower it. Part of that of {names.listed(filtered)} is their filter's blur, which gets less "
+    return (f"{said}: more rays don't lower it. Part of that of {results.listed(filtered)} is their filter's blur, which gets less "
             "where there is less noise.")
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from report.methods import Method
-from report.ranking import all_beaten, pareto_front
+from report.ranking import all_beaten, log_cost_at, pareto_front
 from report.results import LIGHTS, Metric, Results, interval_ends, section
 from report.setting import scenes_of as names_of_scenes
 
@@ -21,7 +21,6 @@ COSTS = {"frame": "time of one frame, ms", "frame + light": "time of one frame w
          "voxel steps": "voxels that rays traversed"}
 CHARTED = tuple(COSTS)[:4]
 _ERRORS = ("nrmse", "relmse", "flip", "ssim")
-_LEAST = 1e-12  # what stands for an error of 0 on a logarithmic axis
 
 
 @dataclass(frozen=True)
@@ -42,10 +41,12 @@ class Error:
         return np.array(ends, dtype=float)
 
 
-def errors_of(run: Results, wanted: str) -> list[Error]:
-    """The errors that methods are compared by, `wanted` among them where the run has it."""
-    return [Error(metric) for metric in run.metrics
-            if metric.key in _ERRORS or metric.key == wanted and metric.better == "low"]
+def errors_of(runs: list[Results], wanted: str) -> list[Error]:
+    """The errors that methods are compared by, `wanted` among them where any run has it."""
+    metrics: dict[str, Metric] = {}
+    for metric in (metric for run in runs for metric in run.metrics):
+        metrics.setdefault(metric.key, metric)
+    return [Error(metric) for key, metric in metrics.items() if key in _ERRORS or key == wanted and metric.better == "low"]
 
 
 @dataclass
@@ -157,13 +158,13 @@ def speed_ups(scenes: list[Scene], methods: list[Method], rivals: list[int], err
             targets = [fronts_by_time[rival] for _, rival in compared]
             begins = np.cumsum([0, *map(len, targets)])
             value, low, high = scene.errors[error][:, np.concatenate(targets)]
-            spent = np.concatenate([_log_cost_at(scene.errors[error, 0, target], *scene.curve(fronts[rival], cost, error))
+            spent = np.concatenate([log_cost_at(scene.errors[error, 0, target], *scene.curve(fronts[rival], cost, error))
                                     for (_, rival), target in zip(compared, targets)])
             present, logs = list(fronts), []
             # At an end: the one's least error against the other's largest
             for errors, end in ((value, 0), (low, 2), (high, 1)):
                 limits = [scene.front(scene.methods == method, cost, error, end) for method in present]
-                logs.append(spent - np.array([_log_cost_at(errors, *scene.curve(front, cost, error, end)) for front in limits]))
+                logs.append(spent - np.array([log_cost_at(errors, *scene.curve(front, cost, error, end)) for front in limits]))
             is_reached = ~np.isnan(logs[0])
             # An end that is not reached leaves it open whether the method gets there at all
             logs[1], logs[2] = np.where(np.isnan(logs[1]), -np.inf, logs[1]), np.where(np.isnan(logs[2]), np.inf, logs[2])
@@ -197,7 +198,7 @@ def best_point(scene: Scene, rival: int, rejected: set[int], cost: int, error: i
     if not len(front) or not len(found):
         return None
     costs, errors = scene.curve(front, cost, error)
-    spent = np.exp(_log_cost_at(scene.errors[error, 0, found], costs, errors))
+    spent = np.exp(log_cost_at(scene.errors[error, 0, found], costs, errors))
     found, spent = (values[np.isnan(spent) | (scene.costs[cost, found] <= spent)] for values in (found, spent))
     if not len(found):
         return None
@@ -218,15 +219,6 @@ def beaten_methods(scenes: list[Scene], methods: list[Method], cost: int, error:
         return bool(((cheaper > 0) & (highs[cheaper - 1] < scene.errors[error, 1, members])).all()) if len(rivals) else not len(members)
     present = [[scene for scene in scenes if method in scene.methods] for method in range(len(methods))]
     return [method for method, those in enumerate(present) if those and all(is_beaten(scene, method) for scene in those)]
-
-
-def _log_cost_at(errors: np.ndarray, costs: np.ndarray, reached: np.ndarray) -> np.ndarray:
-    """Logarithm of the cost of each error, interpolated on a front, logarithm over logarithm; that of the cheapest variant
-    where it has less error already, NaN where none has as little."""
-    reached = np.maximum(reached, _LEAST)
-    with np.errstate(all="ignore"):
-        found = np.interp(-np.log(np.maximum(errors, 0)), -np.log(reached), np.log(costs))
-    return np.where(errors < reached[-1], np.nan, found)
 
 
 def _nanmedian(values: np.ndarray, axis: int) -> np.ndarray:

@@ -1,17 +1,18 @@
-"""What the numbers say: the best of a column, its ties, what a black image beats, the Pareto front."""
+"""What the numbers say: the best of a column, its ties, what a black image beats, the Pareto front, costs of an error."""
 
 from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Mapping
 
+import numpy as np
 import pandas as pd
 
-from report.comparisons import comparisons
 from report.results import BASELINES, Metric, Results, interval_ends, interval_of
+from report.setting import comparisons
 
 COST_COLUMNS = ("build_ms", "frame_ms_median", "memory_bytes")
+_LEAST = 1e-12  # what stands for an error of 0 on a logarithmic axis
 
 
 def score_marks(results: Results, metric: Metric, column: str) -> dict[str, str]:
@@ -32,17 +33,17 @@ def _score_marks(results: Results, metric: Metric, column: str) -> dict[str, str
     if len(ranks) < 2:
         return {}
     best = ranks.idxmin()
-    equal = {name for name, rank in ranks.items() if rank == ranks[best]}
+    equal = set(ranks.index[ranks == ranks[best]])
     if metric.has_interval:
         low, high = interval_ends(rows.loc[ranks.index], column)
         ties = set(low.index[low <= high.min()])
     else:
-        floors = {name: metric.rank(results.noise(column, results.reference_of(name))) for name in ranks.index}
-        ties = {name for name, rank in ranks.items() if rank <= floors[name]}
+        floors = [metric.rank(results.noise(column, results.reference_of(name))) for name in ranks.index]
+        ties = set(ranks.index[ranks <= floors])
         ties = ties if best in ties else set()
     if ties - equal:
         return dict.fromkeys(ties | equal, "tie")
-    black = results.baseline_scores("black", results.reference_of(best)).get(column, math.nan)
+    black = results.baseline("black", column, results.reference_of(best))
     if len(equal) == len(ranks) and math.isclose(rows[column][best], black, rel_tol=1e-6):  # Tables round to 9 digits
         return {}
     return dict.fromkeys(equal, "best")
@@ -51,56 +52,38 @@ def _score_marks(results: Results, metric: Metric, column: str) -> dict[str, str
 def cost_marks(results: Results, column: str) -> dict[str, str]:
     """Marks of one cost, lower is better, among variants of the same scene and reference; none where some variant has no
     such cost at all, for nothing is cheaper than that. Frame times tie where the fastest one's p95 reaches this median."""
-    return {name: mark for _, compared in comparisons(results) for name, mark in _cost_marks(compared, column).items()}
-
-
-def _cost_marks(results: Results, column: str) -> dict[str, str]:
-    rows = results.ok.set_index("variant")
-    costs = rows[column].dropna()
-    if len(costs) < 2 or (costs == 0).any():
-        return {}
-    fastest = costs.idxmin()
-    spread = rows.loc[fastest, "frame_ms_p95"] if column == "frame_ms_median" else math.nan
-    reach = max(costs[fastest], spread) if math.isfinite(spread) else costs[fastest]
-    marks = {name: "tie" for name, cost in costs.items() if cost <= reach}
-    marks.update({name: "best" for name, cost in costs.items() if cost == costs[fastest]})
+    marks = {}
+    for _, compared in comparisons(results):
+        rows = compared.ok.set_index("variant")
+        costs = rows[column].dropna()
+        if len(costs) < 2 or (costs == 0).any():
+            continue
+        least = costs.min()
+        reach = rows["frame_ms_p95"][costs.idxmin()] if column == "frame_ms_median" else least
+        marks |= {name: "best" if cost == least else "tie" for name, cost in costs.items() if cost <= max(least, reach)}
     return marks
 
 
-def beaten_by(results: Results, metric: Metric, column: str, row: Mapping) -> list[str]:
-    """Which of the black and the constant image score better than a variant against its reference, `row` of
-    results.csv; with intervals, those whose interval lies wholly on the better side.
+def all_beaten(results: Results, metric: Metric, column: str) -> dict[str, list[str]]:
+    """Which of the black and the constant image score better than a variant against its reference, for the variants that
+    either beats; with intervals, those whose interval lies wholly on the better side.
 
     The mean ratio is left out: the constant image has the right mean by construction.
     """
-    if metric.better == "one" or math.isnan(row[column]):
-        return []
-    limits = _baseline_ranks(results, metric, column, results.reference_of(row["variant"]))
-    own = min(map(metric.rank, interval_of(row, column)))
-    return [name for name, limit in limits.items() if limit < own]
-
-
-def all_beaten(results: Results, metric: Metric, column: str) -> dict[str, list[str]]:
-    """beaten_by() of each variant that finished, without those that neither image beats."""
     if metric.better == "one":
         return {}
-    limits: dict[int, dict[str, float]] = {}  # by reference
+    low, high = interval_ends(results.ok, column)
+    limits: dict[int, dict[str, float]] = {}  # the worse end of what each image scores, by reference
     found = {}
-    for name, value, *ends in zip(results.ok["variant"], results.ok[column], *interval_ends(results.ok, column)):
-        if math.isnan(value):
-            continue
+    for name, own in zip(results.ok["variant"], low if metric.better == "low" else -high):
         reference = results.reference_of(name)
         if id(reference) not in limits:
-            limits[id(reference)] = _baseline_ranks(results, metric, column, reference)
-        own = min(map(metric.rank, ends))
-        if beaten := [baseline for baseline, limit in limits[id(reference)].items() if limit < own]:
+            limits[id(reference)] = {
+                image: max(map(metric.rank, interval_of(results.baseline_scores(image, reference), column)))
+                for image in BASELINES}
+        if beaten := [image for image, limit in limits[id(reference)].items() if limit < own]:
             found[name] = beaten
     return found
-
-
-def _baseline_ranks(results: Results, metric: Metric, column: str, reference: dict | None) -> dict[str, float]:
-    """The worse end of what the black and the constant image score."""
-    return {name: max(map(metric.rank, interval_of(results.baseline_scores(name, reference), column))) for name in BASELINES}
 
 
 def pareto_front(points: list[tuple[float, float]]) -> list[int]:
@@ -132,7 +115,17 @@ def pareto_layers(points: list[tuple[float, float]], count: int) -> list[int]:
     return [index for front in fronts for index in front][:count]
 
 
+def log_cost_at(errors, costs, reached) -> np.ndarray:
+    """The logarithm of the cost of each error, interpolated on a front, logarithm over logarithm; that of the cheapest
+    point where it has less error already, NaN where none has as little.
+
+    @param costs, reached Costs and errors of the front, by rising cost."""
+    reached = np.maximum(reached, _LEAST)
+    with np.errstate(all="ignore"):
+        found = np.interp(-np.log(np.maximum(errors, 0)), -np.log(reached), np.log(costs))
+    return np.where(errors < reached[-1], np.nan, found)
+
+
 def is_numeric(values: pd.Series) -> bool:
     """Whether every value of a sweep key is a finite number."""
-    numbers = pd.to_numeric(values, errors="coerce")
-    return bool(len(values)) and bool(numbers.map(math.isfinite).all())
+    return bool(len(values)) and bool(np.isfinite(pd.to_numeric(values, errors="coerce")).all())

@@ -5,12 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 
-from report import half_floats
-from report.comparisons import comparisons
-from report.film import film_bytes
-from report.names import Names
+from report.images import BYTES_OF_EXR, film_bytes
 from report.ranking import pareto_front
 from report.results import IMAGES, LIGHTS, ReportError, Results, folder_of, interval_ends
+from report.setting import comparisons
 
 FRONT, ALL = "front", "all"
 _MAX_BYTES = 50e6  # of images and rows in a page: charts and the text of some hundred variants take less than 10 MB
@@ -20,7 +18,7 @@ _MAX_VARIANTS = 500
 _TEXT_BYTES = 4 / 3  # of a byte in base64
 
 
-def selected(results: Results, lights: list[str], names: Names, wanted: list[str]) -> list[str]:
+def selected(results: Results, lights: list[str], wanted: list[str]) -> list[str]:
     """The variants to show in detail, in the order of the table.
 
     @param wanted "front" (those on the Pareto front of a chart, as many as fit into a page), "all", numbers or names of
@@ -28,8 +26,8 @@ def selected(results: Results, lights: list[str], names: Names, wanted: list[str
     @throws ReportError where a word is none of these.
     """
     variants = list(results.variants["variant"])
-    meant = {called: name for of in (names.short, names.numbers) for name, called in of.items()}
-    meant |= {name: name for name in variants}
+    meant = {called: name for of in (results.names, results.numbers) for name, called in of.items()}
+    meant |= dict(zip(variants, variants))
     chosen = set()
     for word in wanted or [ALL if _all_fit(results, lights) else FRONT]:
         if word == FRONT:
@@ -47,7 +45,7 @@ def front_of(results: Results, lights: list[str]) -> list[str]:
     """The variants on the Pareto front of any chart, of each scene and reference its own; those on most fronts first."""
     counts = dict.fromkeys(results.variants["variant"], 0)
     for _, compared in comparisons(results):
-        for column in (LIGHTS[light] + metric.key for light in lights for metric in results.metrics[:3]):
+        for column in (LIGHTS[light] + metric.key for light in lights for metric in results.charted):
             _, high = interval_ends(compared.ok, column)
             for build in (0.0, compared.ok["build_ms"]):
                 points = [(cost, error, name) for cost, error, name in zip(compared.ok["frame_ms_median"] + build, high,
@@ -61,7 +59,7 @@ def front_of(results: Results, lights: list[str]) -> list[str]:
 def with_floats(results: Results, lights: list[str], shown: list[str]) -> set[str]:
     """The folders whose images the page has as half floats: those of the references and of all shown variants where they fit,
     else of those on a Pareto front, as many as fit."""
-    references = {folder_of(record) for record in results.references()}
+    references = {folder_of(record) for record in results.references}
     left = min(_MAX_FLOAT_BYTES, _bytes_left(results, lights) - sum(_bytes(results, name, lights) for name in shown))
     left -= sum(_float_bytes(results, folder, lights) for folder in references)
     if left < 0:
@@ -74,7 +72,7 @@ def with_floats(results: Results, lights: list[str], shown: list[str]) -> set[st
 def _float_bytes(results: Results, folder: str, lights: list[str]) -> float:
     """About what the half floats of a folder's images take in the page."""
     paths = [results.image(folder, IMAGES[light][0].replace(".png", ".exr")) for light in lights]
-    return _TEXT_BYTES * half_floats.BYTES_OF_EXR * sum(path.stat().st_size for path in paths if path)
+    return _TEXT_BYTES * BYTES_OF_EXR * sum(path.stat().st_size for path in paths if path)
 
 
 def _fitting(names: Iterable[str], bytes_of: Callable[[str], float], left: float) -> list[str]:
@@ -90,7 +88,7 @@ def _fitting(names: Iterable[str], bytes_of: Callable[[str], float], left: float
 
 def _bytes_left(results: Results, lights: list[str]) -> float:
     """What the images of variants may take."""
-    references = sum(_bytes(results, folder_of(record), lights) for record in results.references())
+    references = sum(_bytes(results, folder_of(record), lights) for record in results.references)
     return _MAX_BYTES - references - _ROW_BYTES * len(results.variants)
 
 

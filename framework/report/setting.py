@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from report import motion, text
 from report.results import Results, section
 
@@ -22,18 +24,23 @@ def setting_of(results: Results) -> list[tuple[str, str]]:
     return [fact for fact in facts if fact[1]]
 
 
-def scene_of(results: Results, row) -> str:
-    """A short name of the scene that a variant shows: the sweep's, where it varies the scene, else the config's."""
-    swept = [str(row[key]) for key in results.sweep_keys if key.split(".")[0] == "scene" and str(row[key]) != "-"]
-    return ", ".join(swept) or _scene(section(section(results.manifest, "config"), "scene")) or "scene"
-
-
 def scenes_of(results: Results) -> list[str]:
-    """The same of each variant."""
-    keys = [key for key in results.sweep_keys if key.split(".")[0] == "scene"]
-    if not keys:
-        return [scene_of(results, {})] * len(results.variants)
-    return [scene_of(results, dict(zip(keys, values))) for values in zip(*(results.variants[key] for key in keys))]
+    """A short name of the scene that each variant shows: the sweep's, where it varies the scene, else the config's."""
+    own = _scene(section(section(results.manifest, "config"), "scene")) or "scene"
+    swept = results.variants[[key for key in results.sweep_keys if key.split(".")[0] == "scene"]].astype(str)
+    return [", ".join(value for value in row if value != "-") or own for row in swept.to_numpy()]
+
+
+def comparisons(results: Results) -> list[tuple[str, Results]]:
+    """The variants of one scene and one reference at a time, for errors and times of others don't compare, each with a name
+    that no other has, in the order of the table. Other tables than `variants` are left whole."""
+    keys = [(scene, results.reference_folder(variant) or "")
+            for scene, variant in zip(scenes_of(results), results.variants["variant"])]
+    different = list(dict.fromkeys(keys))
+    scenes = [scene for scene, _ in different]
+    return [(scene if scenes.count(scene) == 1 else f"{scene} ({folder})",
+             replace(results, variants=results.variants[[key == (scene, folder) for key in keys]]))
+            for scene, folder in different]
 
 
 def _is_swept(results: Results, fact: str) -> bool:

@@ -41,7 +41,8 @@ class Row:
 @dataclass(frozen=True)
 class Cell:
     """A method in a row. value: relative, NaN where the method did not run. picture, truth: PNGs, of what it shows and
-    of what it should show, None where there is none. remedies: the value with finer settings, by their name."""
+    of what it should show, None where there is none. remedies: the value with finer settings, by their name.
+    is_undecided: whether its interval of 95 % holds the limit."""
 
     row: Row
     method: str
@@ -50,6 +51,7 @@ class Cell:
     picture: Path | None
     truth: Path | None
     remedies: tuple[tuple[str, float], ...] = ()
+    is_undecided: bool = False
 
     @property
     def limit(self) -> float:
@@ -58,6 +60,13 @@ class Cell:
     @property
     def fails(self) -> bool:
         return not self.value <= self.limit
+
+    @property
+    def over(self) -> float:
+        """The value over its limit; infinite where the method did not run."""
+        if math.isnan(self.value) or self.limit == 0:
+            return math.inf if self.fails else 0.0
+        return self.value / self.limit
 
     @property
     def helping(self) -> list[tuple[str, float]]:
@@ -192,7 +201,8 @@ def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, st
             cell = Cell(row, method, MEASURES[row.measure][0](variant, row.scale), "", results.image(name, png),
                         results.image(truth, png) if truth else None)
             if cell.fails:
-                cell = replace(cell, reason=_undecided(cell, entry) or reason_of(reasons, row, method))
+                undecided = _undecided(cell, entry)
+                cell = replace(cell, reason=undecided or reason_of(reasons, row, method), is_undecided=bool(undecided))
             cells.append(cell)
     return cells
 

@@ -1,21 +1,24 @@
-"""The sentences on top of the page: numbers and short names."""
+"""The sentences on top of the page."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+
+import pandas as pd
 
 from report import equal_error, noise, text
-from report.comparisons import comparisons
-from report.names import Family, Names, families_of
+from report.methods import families_of
 from report.ranking import all_beaten, score_marks
-from report.results import LIGHTS, Results
+from report.results import LIGHTS, Metric, Results
+from report.setting import comparisons
 
 _TENTH_DB = 10.0  # a tenth of a squared error, in dB
 _MAX_MISSING = 6  # variants that are listed by name
 _MAX_SESSIONS = 4  # that are told apart
 
 
-def summary(results: Results, light: str, families: list[Family], names: Names) -> list[str]:
+def summary(results: Results, light: str) -> list[str]:
     """Sentences on the best error, the time at equal error, the fastest variant and what failed.
 
     @param light "indirect" or "total".
@@ -23,23 +26,21 @@ def summary(results: Results, light: str, families: list[Family], names: Names) 
     total, finished = len(results.variants), len(results.ok)
     if total == 0:
         return ["No variant has finished yet."]
-    sentences = []
+    said = []
     if failed := total - finished:
         of = "" if unfinished(results) else f"{finished} of {_count(total, 'variant')} finished. "
-        sentences.append(f"{of}{_count(failed, 'variant')} failed; the reason stands below the table.")
+        said.append(f"{of}{_count(failed, 'variant')} failed; the reason stands below the table.")
     metric = results.metrics[0] if results.metrics else None
     compared = comparisons(results)
-    if len(compared) > 1:
-        sentences += _by_scene(compared, light, metric, names) if metric else []
-        sentences += noise.sentences(results, light, names) if metric else []
-        return sentences + _sessions(results) + _worse_than_nothing(results, light, names)
-    if metric:
-        sentences += _lowest_error(results, light, metric, names)
-        found = equal_error.speed_up(results, light, metric, families)
-        sentences += [equal_error.sentence(found, results, light, metric, names)] if found else []
-        sentences += noise.sentences(results, light, names)
-    sentences += _fastest(results, light, names) + _sessions(results)
-    return sentences + _worse_than_nothing(results, light, names)
+    if metric and len(compared) > 1:
+        said += _by_scene(compared, light, metric)
+    elif metric:
+        said += _lowest_error(results, light, metric)
+        found = equal_error.speed_up(results, light, metric, families_of(results))
+        said += [equal_error.sentence(found, results, light, metric)] if found else []
+    said += noise.sentences(results, light) if metric else []
+    said += _fastest(results, light) if len(compared) == 1 else []
+    return said + _sessions(results) + _worse_than_nothing(results, light)
 
 
 def unfinished(results: Results) -> str:
@@ -55,52 +56,56 @@ def unfinished(results: Results) -> str:
     return said
 
 
-def _by_scene(compared: list[tuple[str, Results]], light: str, metric, names: Names) -> list[str]:
-    """A short sentence for each scene with several variants: its lowest error, and what path tracing takes for an error as low as the method's that
-    saves most time. Errors and times of two scenes don't compare."""
+def _by_scene(compared: list[tuple[str, Results]], light: str, metric: Metric) -> list[str]:
+    """A sentence for each scene with several variants: its lowest error, and what path tracing takes for an error as low
+    as that of the method that saves most time."""
     sentences = []
     for scene, results in compared:
-        own = Names(names.numbers, {name: short.removeprefix(f"{scene}, ") for name, short in names.short.items()})
+        results = replace(results, names={key: name.removeprefix(f"{scene}, ") for key, name in results.names.items()})
         scores = _scores(results, light, metric)
         if len(scores) < 2:
             continue
         best = scores.map(metric.rank).idxmin()
         ties = _ties(results, light, metric)
         also = f" (ties with {len(ties) - 1} more)" if best in ties and len(ties) > 1 else ""
-        said = f"{scene}: lowest {metric.label} {text.figures(scores[best])}, {own.full(best)}{also}."
-        found = equal_error.speed_up(results, light, metric, families_of(results, own))
-        if found:
-            said += (f" For the error of {own.full(found.variant)} path tracing takes {found.about}{found.bound}"
-                     f"{text.figures(found.factor, 2)} times as long as its {text.figures(found.ms)} ms a frame{found.span}"
+        said = f"{scene}: lowest {metric.label} {text.figures(scores[best])}, {results.full(best)}{also}."
+        if found := equal_error.speed_up(results, light, metric, families_of(results)):
+            said += (f" For the error of {results.full(found.variant)} path tracing takes {found.times} as its "
+                     f"{text.figures(found.ms)} ms a frame{found.span}"
                      f"{'' if found.is_faster or found.is_undecided else ', and no other method is faster'}.")
         sentences.append(said)
-    if sentences and metric.meaning:
-        sentences[0] = f"Of the {light} light, {sentences[0]} {metric.label}: {metric.meaning.split(';')[0]}."
+    if sentences:
+        sentences[0] = f"Of the {light} light, {sentences[0]}{_meaning(metric)}"
     return sentences
 
 
-def _scores(results: Results, light: str, metric):
+def _meaning(metric: Metric) -> str:
+    return f" {metric.label}: {metric.meaning.split(';')[0]}." if metric.meaning else ""
+
+
+def _scores(results: Results, light: str, metric: Metric) -> pd.Series:
     return results.ok.set_index("variant")[LIGHTS[light] + metric.key].dropna()
 
 
-def _ties(results: Results, light: str, metric) -> list[str]:
+def _ties(results: Results, light: str, metric: Metric) -> list[str]:
     marks = score_marks(results, metric, LIGHTS[light] + metric.key)
     return [name for name in results.ok["variant"] if marks.get(name) == "tie"]
 
 
-def _lowest_error(results: Results, light: str, metric, names: Names) -> list[str]:
+def _lowest_error(results: Results, light: str, metric: Metric) -> list[str]:
     scores, ties = _scores(results, light, metric), _ties(results, light, metric)
     if scores.empty:
         return []
-    best = scores.map(metric.rank).idxmin()
-    explained = f" {metric.label}: {metric.meaning.split(';')[0]}." if metric.meaning else ""
+    said = f"Lowest {metric.label} of the {light} light: "
     if not ties:
-        return [f"Lowest {metric.label} of the {light} light: {names.full(best)}, {text.figures(scores[best])}.{explained}"]
-    ends = dict.fromkeys(map(text.figures, (scores[ties].min(), scores[ties].max())))
-    span = f" at {next(iter(ends))}" if len(ends) == 1 else f", from {' to '.join(ends)}"
-    found = f"Lowest {metric.label} of the {light} light: {names.listed(ties)} tie{span}."
-    advice = _what_tells_apart(results, light, ties) if 2 * len(ties) > len(scores) else ""
-    return [found + advice + explained]
+        best = scores.map(metric.rank).idxmin()
+        said += f"{results.full(best)}, {text.figures(scores[best])}."
+    else:
+        ends = dict.fromkeys(map(text.figures, (scores[ties].min(), scores[ties].max())))
+        span = f" at {next(iter(ends))}" if len(ends) == 1 else f", from {' to '.join(ends)}"
+        said += f"{results.listed(ties)} tie{span}."
+        said += _what_tells_apart(results, light, ties) if 2 * len(ties) > len(scores) else ""
+    return [said + _meaning(metric)]
 
 
 def _what_tells_apart(results: Results, light: str, ties: list[str]) -> str:
@@ -134,20 +139,20 @@ def _of_edges(results: Results, light: str, ties: list[str]) -> str:
             "samples_per_pixel_edge: 2 four")
 
 
-def _fastest(results: Results, light: str, names: Names) -> list[str]:
+def _fastest(results: Results, light: str) -> list[str]:
     """The fastest of those that are better than no image at all, where some are."""
-    rows = results.ok.set_index("variant", drop=False)
-    rows = rows[rows["frame_ms_median"].notna()]
+    rows = results.ok.set_index("variant").dropna(subset="frame_ms_median")
     if rows.empty:
         return []
-    beaten = {name for metric in results.metrics[:1] for name in all_beaten(results, metric, LIGHTS[light] + metric.key)}
-    usable = [name for name in rows.index if name not in beaten]
-    times = rows.loc[usable or list(rows.index), "frame_ms_median"]
+    beaten = {name for metric in results.metrics[:1]
+              for name in all_beaten(results, metric, LIGHTS[light] + metric.key)}
+    usable = rows[~rows.index.isin(beaten)]
     but = ", of those better than a constant image" if 0 < len(usable) < len(rows) else ""
-    reach = max(times.min(), rows.loc[times.idxmin(), "frame_ms_p95"])
-    ties = [name for name, ms in times.items() if ms <= reach and name != times.idxmin()]
-    tied = f"; within its spread {names.listed(ties)}" if ties else ""
-    return [f"Fastest frame{but}: {names.full(times.idxmin())}, {text.figures(times.min())} ms{tied}."]
+    times = (rows if usable.empty else usable)["frame_ms_median"]
+    first = times.idxmin()
+    ties = [name for name in times.index[times <= max(times.min(), rows["frame_ms_p95"][first])] if name != first]
+    tied = f"; within its spread {results.listed(ties)}" if ties else ""
+    return [f"Fastest frame{but}: {results.full(first)}, {text.figures(times.min())} ms{tied}."]
 
 
 def _sessions(results: Results) -> list[str]:
@@ -157,21 +162,21 @@ def _sessions(results: Results) -> list[str]:
         return []
     told = [f"{_count(len(names), 'variant')} of {began or 'an unknown time'}" for began, names in sessions[:_MAX_SESSIONS]]
     more = f" and {len(sessions) - _MAX_SESSIONS} more" if len(sessions) > _MAX_SESSIONS else ""
-    return [f"Times come from {len(sessions)} processes, for the run was resumed or done in parts ({', '.join(told)}{more}): compare those of "
-            "different ones only where the machine was equally idle."]
+    return [f"Times come from {len(sessions)} processes, for the run was resumed or done in parts ({', '.join(told)}{more}): "
+            "compare those of different ones only where the machine was equally idle."]
 
 
-def _worse_than_nothing(results: Results, light: str, names: Names) -> list[str]:
+def _worse_than_nothing(results: Results, light: str) -> list[str]:
     # Variants that are worse in the same metrics share a sentence.
     worse: dict[str, list[str]] = {}
-    for metric in results.metrics[:3]:
+    for metric in results.charted:
         for name in all_beaten(results, metric, LIGHTS[light] + metric.key):
             worse.setdefault(name, []).append(metric.label)
-    sentences = []
-    for measures in dict.fromkeys(map(tuple, worse.values())):
-        found = [name for name, its in worse.items() if tuple(its) == measures]
-        sentences.append(f"Worse than a black or a constant image in {text.joined(measures)}: {names.listed(found)}.")
-    return sentences
+    groups: dict[tuple[str, ...], list[str]] = {}
+    for name, labels in worse.items():
+        groups.setdefault(tuple(labels), []).append(name)
+    return [f"Worse than a black or a constant image in {text.joined(labels)}: {results.listed(names)}."
+            for labels, names in groups.items()]
 
 
 def _count(count: int, noun: str) -> str:

@@ -20,7 +20,7 @@ def figures(value: float, digits: int = 3) -> str:
         return "∞" if value > 0 else "−∞"
     if value == 0:
         return "0"
-    exponent = math.floor(math.log10(abs(value)))
+    exponent = int(f"{value:.{digits - 1}e}".partition("e")[2])  # of the rounded value
     if not -5 <= exponent < 6:
         return f"{value:.{digits - 1}e}"
     return f"{value:,.{max(digits - 1 - exponent, 0)}f}".replace(",", "\u202f")
@@ -74,7 +74,9 @@ def size(value: float) -> str:
 
 
 def breakable(value: str) -> Markup:
-    """`value` as HTML that may be broken after the marks between its words; copied, it is `value` again."""
+    """`value` as HTML that may be broken after the marks between its words; copied, it is `value` again. HTML stays."""
+    if isinstance(value, Markup):
+        return value
     return Markup(re.sub(r"([,=._/])", r"\1<wbr>", str(escape(value))))
 
 

@@ -105,7 +105,7 @@ class Explain(unittest.TestCase):
         self.write({"gather": 0.8 * self.noise[0], "injection": 0.4 * self.noise[1]}, [stage("gather"), stage("injection")])
         self.assertRegex(self.make(), r"^\d\d % of relMSE is the gather: more of gather")
         page = Page((self.directory / "explain.html").read_text(encoding="utf-8"))
-        self.assertEqual(page.count("div", "waterfall"), 2)
+        self.assertEqual(page.count("div", "bar-track"), 2)
         self.assertEqual(page.count("img", "sharp"), 1 + 2 + 1 + 3)  # Whole, parts, rest; previews.
         self.assertFalse([source for source in page.attributes("src") if not source.startswith("data:")])
         self.assertFalse(page.attributes("href"))

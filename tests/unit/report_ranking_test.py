@@ -7,7 +7,7 @@ import unittest
 
 from report_support import FLIP, NRMSE, Page, ReportTest, made_up
 
-from report import equal_error, names, page, ranking, summary, table
+from report import equal_error, methods, page, ranking, summary, table
 from report.load import load
 from report.results import Metric, interval_of
 
@@ -19,8 +19,7 @@ class Comparing(ReportTest):
         return load(made_up.write_results(self.directory, rows, run, images=False))
 
     def summary(self, results):
-        named = names.names_of(results)
-        return summary.summary(results, "total", names.families_of(results, named), named)
+        return summary.summary(results, "total")
 
     def test_scores_whose_intervals_overlap_tie_and_none_is_the_best(self):
         rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.23), ("c", 0.25))]
@@ -109,16 +108,16 @@ class Comparing(ReportTest):
         records = [{"folder": "a", "variants": ["paths"]}, {"folder": "b", "variants": ["rays", "lookup"]}]
         self.assertEqual(ranking.cost_marks(self.results(rows, references=records), "build_ms"), {"lookup": "best"})
         results = self.results(rows)
-        named = names.names_of(results)
-        shown = table.variant_rows(results, table.columns_of(results, ["total"]), named, dict.fromkeys(named.numbers, "x"))
-        headings = [column.key for column in table.columns_of(results, ["total"])]
-        self.assertEqual([row.cells[headings.index("build_ms")].text for row in shown], ["–", "20.0", "10.0"])
+        columns = table.columns_of(results, ["total"])
+        shown = table.results_table(results, "", columns, dict.fromkeys(results.numbers, "x"))
+        index = 2 + [column.key for column in columns].index("build_ms")
+        self.assertEqual([row[index].text for row in shown.rows], ["–", "20.0", "10.0"])
 
     def test_worse_than_a_black_image(self):
         def beaten(metric, value, low=math.nan, high=math.nan):
             row = made_up.variant("a", 10, 0.1) | {metric.key: value}
             results = self.results([row | made_up.spread(metric.key, low, high)])
-            return ranking.beaten_by(results, metric, metric.key, results.ok.iloc[0])
+            return ranking.all_beaten(results, metric, metric.key).get("a", [])
 
         self.assertEqual(beaten(NRMSE, 1.0), ["constant"])
         self.assertEqual(beaten(NRMSE, 2.0), ["black", "constant"])
@@ -136,8 +135,7 @@ class Comparing(ReportTest):
         rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.26), ("b", 0.28), ("c", 0.28), ("d", 0.25))]
         results = self.results(rows, references=[first, second])
         self.assertEqual(ranking.score_marks(results, FLIP, "flip"), {"a": "best", "c": "tie", "d": "tie"})
-        beaten = [ranking.beaten_by(results, NRMSE, "nrmse", row) for _, row in results.ok.iterrows()]
-        self.assertEqual(beaten, [[], [], ["constant"], []])
+        self.assertEqual(ranking.all_beaten(results, NRMSE, "nrmse"), {"c": ["constant"]})
         shown = Page(page.render(results))
         for words in ("a black image (reference)", "a black image (reference.2)",
                       "the reference's own noise (reference.2)"):
@@ -151,9 +149,8 @@ class Comparing(ReportTest):
         graphs = {name: [{"pass": "path_trace" if "paths" in name else "gather", "id": "indirect", "spp": name}]
                   + [{"pass": "filter", "id": "filter"}] * ("filtered" in name) for name, _, _ in points}
         results = self.results(rows, sweep_keys=["method"], variants=graphs)
-        named = names.names_of(results)
-        families = names.families_of(results, named)
-        self.assertEqual([family.name for family in families], ["lookup", "paths", "filtered paths"])
+        families = methods.families_of(results)
+        self.assertEqual([method.name for method, _ in families], ["lookup", "paths", "filtered paths"])
         # 0.3 takes raw paths 10 / 0.3² = 111 ms and filtered ones 20 (0.5 / 0.3)⁴ = 154 ms.
         self.assertIn("At equal nRMSE of the total light: a frame of 1 (lookup) takes 10.0 ms, one of paths 111 ms: "
                       "11 times as long. Once for each scene or light, 1 is built in 20.0 ms, too.", self.summary(results))

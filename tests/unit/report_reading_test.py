@@ -74,8 +74,8 @@ class Writing(ReportTest):
     def test_numbers_for_a_reader(self):
         self.assertEqual([text.ratio(x) for x in (0.99831, 1.00259, 0, 0.0123456, 12.345, math.nan)],
                          ["0.998", "1.003", "0", "0.0123", "12.3", "–"])
-        self.assertEqual([text.figures(x) for x in (0.0123456, 12.345, 1234.5, 0, math.nan, math.inf, 1e-9)],
-                         ["0.0123", "12.3", "1\u202f234", "0", "–", "∞", "1.00e-09"])
+        self.assertEqual([text.figures(x) for x in (0.0123456, 12.345, 1234.5, 9.9999, 0, math.nan, math.inf, 1e-9)],
+                         ["0.0123", "12.3", "1\u202f234", "10.0", "0", "–", "∞", "1.00e-09"])
         self.assertEqual(text.size(3 * 2**20), "3.00 MiB")
         self.assertEqual(text.count(262144), "262 k")
         self.assertEqual(text.breakable("a.b=<i>"), "a.<wbr>b=<wbr>&lt;i&gt;")
