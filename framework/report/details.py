@@ -127,7 +127,7 @@ def _variant(results: Results, row: Mapping, passes: pd.DataFrame | None, lights
              ("rays", text.count(row["rays"])))
     graph = section(results.manifest, "variants").get(name)
     return Variant(*called, "", facts, views, _timeline(f"Passes of {results.names[name]}", passes, colors)
-                   if passes is not None else None, results.reference_folder(name) or "", text.yaml_like(graph) if graph else "")
+                   if passes is not None else None, results.reference_folder(name) or "", text.yaml_of(graph) if graph else "")
 
 
 def error_of(row: Mapping) -> str:

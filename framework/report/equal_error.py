@@ -52,30 +52,15 @@ class SpeedUp:
         return self.reached.milliseconds / self.ms
 
     @property
-    def bound(self) -> str:
-        """"more than " where path tracing does not reach the error at all, "at most " where all of it has less."""
-        return {"": "", ">": "more than ", "<": "at most "}[self.reached.bound]
-
-    @property
-    def is_faster(self) -> bool:
-        return self.reached.bound != "<" and self.factor > 1
+    def is_open(self) -> bool:
+        """Whether a bound leaves open which of the two is faster."""
+        return self.reached.bound == ("<" if self.factor > 1 else ">")
 
     @property
     def is_significant(self) -> bool:
         """Whether the intervals of both errors leave no doubt of which one is faster."""
         return (self.least.bound != "<" and self.least.milliseconds > self.ms
                 or self.most.bound != ">" and self.most.milliseconds < self.ms)
-
-    @property
-    def is_undecided(self) -> bool:
-        """Whether a bound leaves open which of the two is faster."""
-        return self.reached.bound == ("<" if self.factor > 1 else ">")
-
-    @property
-    def times(self) -> str:
-        """The factor, ≈ before one that may lie on either side of 1, by the intervals."""
-        about = "" if self.is_significant or self.bound else "≈ "
-        return f"{about}{self.bound}{text.figures(self.factor, 2)} times as long"
 
     @property
     def span(self) -> str:
@@ -117,26 +102,20 @@ def speed_up(results: Results, light: str, metric: Metric, families: list[tuple[
     found = [SpeedUp(name, row["frame_ms_median"], *fastest(row[column], curves), fastest(high[name], of_low)[1],
                      fastest(low[name], of_high)[1])
              for name, row in rows.iterrows() if curves and name not in traced and name not in beaten]
-    return max(found, key=lambda entry: (entry.is_faster, entry.is_undecided, entry.factor), default=None)
+    return max(found, key=lambda entry: (entry.reached.bound != "<" and entry.factor > 1, entry.is_open, entry.factor),
+               default=None)
 
 
-def sentence(found: SpeedUp, results: Results, light: str, metric: Metric) -> str:
-    """What a frame of the method and of the fastest path-traced method take, and the build of a method that is faster."""
-    head = f"At equal {metric.label} of the {light} light"
-    who, ms, rival_ms = (results.full(found.variant), text.figures(found.ms), text.figures(found.reached.milliseconds))
-    is_open = "" if found.is_significant else "; the intervals of their errors leave open which one is faster"
-    if found.is_undecided:
-        of, has = ("fastest", "less") if found.bound == "at most " else ("slowest", "more")
-        return (f"{head} it is open whether path tracing is faster than {who}, {ms} ms a frame: the {of} "
-                f"variant of {found.rival.name} takes {rival_ms} ms and has {has} error.")
-    if not found.is_faster:
-        return (f"{head} path tracing is as fast as all other methods or faster: a frame of {who} takes {ms} ms, one of "
-                f"{found.rival.name} {found.bound}{rival_ms} ms{is_open}.")
-    rival, short = f"one of {found.rival.name}", ""
-    if found.bound:
-        rival, short = "path tracing", " (all its variants have a higher error)"
+def sentence(found: SpeedUp, results: Results) -> str:
+    """What path tracing takes for a variant's error, and whether that leaves open which of the two is faster."""
     build = results.ok.set_index("variant").loc[found.variant, "build_ms"]
-    number = results.numbers[found.variant]
-    apart = f". Once for each scene or light, {number} is built in {text.figures(build)} ms, too" if build > 0 else ""
-    return (f"{head}: a frame of {who} takes {ms} ms, {rival} {found.bound}{rival_ms} ms: {found.times}{found.span}"
-            f"{short}{is_open}{apart}.")
+    bound = {"": "", ">": "more than ", "<": "at most "}[found.reached.bound]
+    about = "" if found.is_significant or bound else "≈ "
+    if found.is_open or not found.is_significant:
+        end = "; that leaves open which one is faster"
+    else:
+        end = "" if found.factor > 1 else ", and no other method is faster"
+    return (f"For the error of {results.full(found.variant)}, {text.figures(found.ms)} ms a frame"
+            f"{f' and {text.figures(build)} ms of build' if build > 0 else ''}, path tracing ({found.rival.name}) takes "
+            f"{bound}{text.figures(found.reached.milliseconds)} ms a frame: {about}{bound}{text.figures(found.factor, 2)} "
+            f"times as long{found.span}{end}.")

@@ -60,7 +60,7 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
         sequence=sequence, values=parts.value_table(shown), bars=parts.bar_groups(shown, colors, anchors), reference=reference,
         viewer=_viewer(results, variants, reference), variants=variants, left_out=len(results.variants) - len(variants),
         error_gradient=images.gradient(images.ERROR_COLORS), provenance=_provenance(results),
-        config=text.yaml_like(results.manifest["config"]) if results.manifest.get("config") else "",
+        config=text.yaml_of(results.manifest["config"]) if results.manifest.get("config") else "",
         warnings=results.warnings)
 
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-import pandas as pd
-
 from report import equal_error, noise, text
 from report.methods import families_of
 from report.ranking import all_beaten, score_marks
@@ -30,15 +28,12 @@ def summary(results: Results, light: str) -> list[str]:
     if failed := total - finished:
         of = "" if unfinished(results) else f"{finished} of {_count(total, 'variant')} finished. "
         said.append(f"{of}{_count(failed, 'variant')} failed; the reason stands below the table.")
-    metric = results.metrics[0] if results.metrics else None
     compared = comparisons(results)
-    if metric and len(compared) > 1:
-        said += _by_scene(compared, light, metric)
-    elif metric:
-        said += _lowest_error(results, light, metric)
-        found = equal_error.speed_up(results, light, metric, families_of(results))
-        said += [equal_error.sentence(found, results, light, metric)] if found else []
-    said += noise.sentences(results, light) if metric else []
+    for metric in results.metrics[:1]:
+        found = list(filter(None, (_of_scene(scene, of, len(compared) > 1, light, metric) for scene, of in compared)))
+        if found:
+            found[0] = f"Of the {light} light, {found[0]}" + (f" {metric.label}: {metric.meaning.split(';')[0]}." if metric.meaning else "")
+        said += found + noise.sentences(results, light)
     said += _fastest(results, light) if len(compared) == 1 else []
     return said + _sessions(results) + _worse_than_nothing(results, light)
 
@@ -56,56 +51,25 @@ def unfinished(results: Results) -> str:
     return said
 
 
-def _by_scene(compared: list[tuple[str, Results]], light: str, metric: Metric) -> list[str]:
-    """A sentence for each scene with several variants: its lowest error, and what path tracing takes for an error as low
-    as that of the method that saves most time."""
-    sentences = []
-    for scene, results in compared:
-        results = replace(results, names={key: name.removeprefix(f"{scene}, ") for key, name in results.names.items()})
-        scores = _scores(results, light, metric)
-        if len(scores) < 2:
-            continue
-        best = scores.map(metric.rank).idxmin()
-        ties = _ties(results, light, metric)
-        also = f" (ties with {len(ties) - 1} more)" if best in ties and len(ties) > 1 else ""
-        said = f"{scene}: lowest {metric.label} {text.figures(scores[best])}, {results.full(best)}{also}."
-        if found := equal_error.speed_up(results, light, metric, families_of(results)):
-            said += (f" For the error of {results.full(found.variant)} path tracing takes {found.times} as its "
-                     f"{text.figures(found.ms)} ms a frame{found.span}"
-                     f"{'' if found.is_faster or found.is_undecided else ', and no other method is faster'}.")
-        sentences.append(said)
-    if sentences:
-        sentences[0] = f"Of the {light} light, {sentences[0]}{_meaning(metric)}"
-    return sentences
-
-
-def _meaning(metric: Metric) -> str:
-    return f" {metric.label}: {metric.meaning.split(';')[0]}." if metric.meaning else ""
-
-
-def _scores(results: Results, light: str, metric: Metric) -> pd.Series:
-    return results.ok.set_index("variant")[LIGHTS[light] + metric.key].dropna()
+def _of_scene(scene: str, results: Results, has_others: bool, light: str, metric: Metric) -> str:
+    """The lowest error in a scene, and what path tracing takes for an error as low as that of the method that saves most
+    time. "" of a scene without errors, or with a single one among other scenes."""
+    results = replace(results, names={key: name.removeprefix(f"{scene}, ") for key, name in results.names.items()})
+    scores = results.ok.set_index("variant")[LIGHTS[light] + metric.key].dropna()
+    if len(scores) <= has_others:
+        return ""
+    best, ties = scores.map(metric.rank).idxmin(), _ties(results, light, metric)
+    own = scores[ties or [best]]
+    who = f"{results.listed(ties)} tie" if ties else results.full(best)
+    said = f"{f'{scene}: ' if has_others else ''}lowest {metric.label} {' to '.join(dict.fromkeys(map(text.figures, (own.min(), own.max()))))}, {who}."
+    said += _what_tells_apart(results, light, ties) if 2 * len(ties) > len(scores) else ""
+    found = equal_error.speed_up(results, light, metric, families_of(results))
+    return f"{said} {equal_error.sentence(found, results)}" if found else said
 
 
 def _ties(results: Results, light: str, metric: Metric) -> list[str]:
     marks = score_marks(results, metric, LIGHTS[light] + metric.key)
     return [name for name in results.ok["variant"] if marks.get(name) == "tie"]
-
-
-def _lowest_error(results: Results, light: str, metric: Metric) -> list[str]:
-    scores, ties = _scores(results, light, metric), _ties(results, light, metric)
-    if scores.empty:
-        return []
-    said = f"Lowest {metric.label} of the {light} light: "
-    if not ties:
-        best = scores.map(metric.rank).idxmin()
-        said += f"{results.full(best)}, {text.figures(scores[best])}."
-    else:
-        ends = dict.fromkeys(map(text.figures, (scores[ties].min(), scores[ties].max())))
-        span = f" at {next(iter(ends))}" if len(ends) == 1 else f", from {' to '.join(ends)}"
-        said += f"{results.listed(ties)} tie{span}."
-        said += _what_tells_apart(results, light, ties) if 2 * len(ties) > len(scores) else ""
-    return [said + _meaning(metric)]
 
 
 def _what_tells_apart(results: Results, light: str, ties: list[str]) -> str:
@@ -123,20 +87,7 @@ def _what_tells_apart(results: Results, light: str, ties: list[str]) -> str:
         now = f", now {spp}" if spp else ""
         return f" Most variants tie: more samples in the reference tell them apart (raise reference.spp{now})."
     return (" Most variants tie, and not for the reference's noise, which is less than a tenth of their squared error: they "
-            f"share an error{_of_edges(results, light, ties)}. ./voxray explain CONFIG says which stage it comes from.")
-
-
-def _of_edges(results: Results, light: str, ties: list[str]) -> str:
-    """What to say where variants tie in the total and not in indirect light, and the g-buffer sees one point of a pixel."""
-    gbuffers = [entry for name in ties for entry in results.graph_of(name) if entry.get("pass") == "gbuffer"]
-    sees_one = any(entry.get("samples_per_pixel_edge", 1) == 1 for entry in gbuffers)
-    metric = results.metrics[0]
-    if light != "total" or not sees_one or LIGHTS["indirect"] + metric.key not in results.ok:
-        return ""
-    if set(_ties(results, "indirect", metric)).issuperset(ties):
-        return ""
-    return (" of direct light, for their indirect light differs; of an edge within a pixel gbuffer sees one point, and with "
-            "samples_per_pixel_edge: 2 four")
+            "share an error. ./voxray explain CONFIG says which stage it comes from.")
 
 
 def _fastest(results: Results, light: str) -> list[str]:

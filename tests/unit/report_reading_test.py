@@ -80,12 +80,13 @@ class Writing(ReportTest):
         self.assertEqual(text.count(262144), "262 k")
         self.assertEqual(text.breakable("a.b=<i>"), "a.<wbr>b=<wbr>&lt;i&gt;")
 
-    def test_config_as_yaml_like_text(self):
+    def test_config_as_yaml(self):
         config = {"name": "x y", "image": {"width": 8}, "list": [1, 2], "graph": [{"pass": "a", "n": 1}],
                   "none": None, "quoted": "a: b", "empty": {}}
-        self.assertEqual(text.yaml_like(config), 'name: x y\nimage:\n  width: 8\nlist: [1, 2]\ngraph:\n'
-                         '  - pass: a\n    n: 1\nnone: null\nquoted: "a: b"\nempty: {}')
-        self.assertEqual(text.yaml_like(["null", "true", None]), '["null", "true", null]')
+        self.assertEqual(text.yaml_of(config), "name: x y\nimage: {width: 8}\nlist: [1, 2]\ngraph:\n"
+                         "- {pass: a, n: 1}\nnone: null\nquoted: 'a: b'\nempty: {}")
+        self.assertEqual([text.plain(value) for value in ("null", ["null", None], 0.5, True)],
+                         ["null", "['null', null]", "0.5", "true"])
 
 
 if __name__ == "__main__":
