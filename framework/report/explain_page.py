@@ -17,7 +17,6 @@ from report.results import IMAGES, Results
 from report.table import Table
 
 _SCRIPTS = ("d3", "toolkit.js")
-_SIGNED_COLORS = "RdBu_r"  # blue: the stage takes light away, red: it adds light
 _SMALL = 0.1  # of the whole error: a rest that needs no word
 _WIDE = 0.12  # of the bar: a part that has room for its name
 
@@ -58,7 +57,7 @@ def render(results: Results, rendered: Images, explained: list[Explained]) -> st
         sentences=[line for one in explained for line in _sentences(one)], colors=colors,
         bars=Bars("Parts of the error, % of the whole", [_bar(one, colors) for one in explained]), tables=[*map(_table, explained), counterparts, sets],
         previews=_previews(results, rendered), parts=_part_images(rendered, explained[0], scale), scale=text.figures(scale, 2),
-        directory=str(results.directory), gradient=images.gradient(_SIGNED_COLORS))
+        directory=str(results.directory))
 
 
 def csv_lines(explained: list[Explained]):
@@ -123,7 +122,7 @@ def _scale(rendered: Images) -> float:
 
 def _signed(difference: np.ndarray, scale: float) -> Picture:
     shade = np.clip(difference.mean(axis=-1) / scale, -1, 1) * 0.5 + 0.5
-    return images.embed_image(Image.fromarray(images.colors(_SIGNED_COLORS, shade)))
+    return images.embed_image(Image.fromarray(images.colors(images.SIGNED_ERROR_COLORS, shade)))
 
 
 def _part_images(rendered: Images, one: Explained, scale: float) -> list[Shown]:

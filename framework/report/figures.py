@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import LinearSegmentedColormap, LogNorm
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
@@ -94,41 +95,39 @@ def _label(axes, ends: list[tuple]) -> None:
 
 
 def _chart_rows(compared, scene: Scene, cost: int) -> list[list]:
-    fronts = {int(i) for front in scene.fronts(cost, compared.first).values() for i in front}
-    rows = [[compared.methods[scene.methods[i]].name, label, scene.costs[cost, i], *scene.errors[compared.first, :, i], int(i in fronts)]
-            for i, label in enumerate(scene.labels) if scene.usable[cost, compared.first, i]]
-    return [["method", "name", CHARTED[cost], *(f"{compared.errors[compared.first].metric.key}{end}" for end in ("", "_low", "_high")), "on front"],
-            *rows]
+    error, key = compared.first, compared.errors[compared.first].metric.key
+    fronts = np.concatenate([[], *scene.fronts(cost, error).values()])
+    rows = [[compared.methods[scene.methods[i]].name, scene.labels[i], scene.costs[cost, i], *scene.errors[error, :, i], int(i in fronts)]
+            for i in np.flatnonzero(scene.usable[cost, error])]
+    return [["method", "name", CHARTED[cost], key, f"{key}_low", f"{key}_high", "on front"], *rows]
 
 
 def _order(compared, cost: int) -> list[int]:
-    medians = np.nan_to_num(compared.speed_ups.medians(compared.measured)[0, cost, compared.first])
-    return sorted(range(len(medians)), key=lambda method: -medians[method])
+    return np.argsort(-np.nan_to_num(compared.speed_ups.medians(compared.measured)[0, cost, compared.first]), kind="stable").tolist()
 
 
 def _matrix(compared, cost: int) -> Figure:
-    order, cells = _order(compared, cost), compared.speed_ups.factors[0, cost, compared.first]
+    found, order = compared.speed_ups, _order(compared, cost)
+    cells, counts = found.factors[0, cost, compared.first][:, order].swapaxes(0, 1), found.count[0, cost, compared.first]
     figure = Figure(figsize=(_FULL, 0.5 + 0.17 * len(order)))
     axes = figure.add_axes((0.2, 0.02, 0.78, 1 - 0.42 / figure.get_figheight()))
-    values = cells[:, order, 0].T
-    axes.imshow(values, cmap=_FOLDS, norm=LogNorm(1 / _MOST_FOLD, _MOST_FOLD), aspect="auto")
-    for (row, s), value in np.ndenumerate(values):
-        _, low, high, reached = cells[s, order[row]]
-        if math.isnan(value):
-            axes.text(s, row, "–" if compared.measured[s, order[row]] and compared.speed_ups.count[0, cost, compared.first, s] else "", ha="center", va="center", color="#777777")
-            continue
-        if low <= 1 <= high and order[row] != compared.speed_ups.rivals[0]:
-            axes.add_patch(matplotlib.patches.Rectangle((s - 0.5, row - 0.5), 1, 1, fill=False, hatch="////", linewidth=0, edgecolor="#00000055"))
-        part = "" if reached == compared.speed_ups.count[0, cost, compared.first, s] else f" ({reached:.0f}/{compared.speed_ups.count[0, cost, compared.first, s]})"
-        axes.text(s, row, text.figures(value, 2) + part, ha="center", va="center", color="white" if abs(math.log2(value)) > 3 else "black")
-    axes.set_xticks(range(len(compared.scenes)), [scene.name for scene in compared.scenes])
+    axes.imshow(cells[..., 0], cmap=_FOLDS, norm=LogNorm(1 / _MOST_FOLD, _MOST_FOLD), aspect="auto")
+    for row, s in np.ndindex(cells.shape[:2]):
+        value, low, high, reached = cells[row, s]
+        said, color = "–" if compared.measured[s, order[row]] and counts[s] else "", "#777777"
+        if not math.isnan(value):
+            said = text.figures(value, 2) + ("" if reached == counts[s] else f" ({reached:.0f}/{counts[s]})")
+            color = "white" if abs(math.log2(value)) > 3 else "black"
+        axes.text(s, row, said, ha="center", va="center", color=color)
+        if low <= 1 <= high and order[row] != found.rivals[0]:
+            axes.add_patch(Rectangle((s - 0.5, row - 0.5), 1, 1, fill=False, hatch="////", linewidth=0, edgecolor="#00000055"))
+    axes.set_xticks(range(len(counts)), [scene.name for scene in compared.scenes])
     axes.set_yticks(range(len(order)), [compared.methods[i].name for i in order])
-    axes.tick_params(length=0, labeltop=True, labelbottom=False)
-    axes.spines[:].set_visible(False)
-    axes.set_xticks(np.arange(-0.5, len(compared.scenes)), minor=True)
+    axes.set_xticks(np.arange(-0.5, len(counts)), minor=True)
     axes.set_yticks(np.arange(-0.5, len(order)), minor=True)
+    axes.tick_params(which="both", length=0, labeltop=True, labelbottom=False)
+    axes.spines[:].set_visible(False)
     axes.grid(which="minor", color="white", linewidth=1)
-    axes.tick_params(which="minor", length=0)
     return figure
 
 
@@ -136,5 +135,4 @@ def _matrix_rows(compared, cost: int) -> list[list]:
     found, error = compared.speed_ups, compared.first
     rows = [[compared.methods[i].name, scene.name, *found.factors[0, cost, error, s, i], found.count[0, cost, error, s]]
             for i in _order(compared, cost) for s, scene in enumerate(compared.scenes) if compared.measured[s, i]]
-    rival = compared.methods[found.rivals[0]].name
-    return [["method", "scene", f"factor over {rival}", "low", "high", "errors reached", "of"], *rows]
+    return [["method", "scene", f"factor over {compared.methods[found.rivals[0]].name}", "low", "high", "errors reached", "of"], *rows]

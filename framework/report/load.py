@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from report.results import BETTER, LIGHTS, Metric, ReportError, Results, entries, interval_columns, masks_of, section
+from report.results import BETTER, LIGHTS, Metric, ReportError, Results, entries, interval_columns, masks_of, section, texts
 
 _TEXT = ("variant", "status", "error", "device", "tracer")
 _COST = ("build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes",
@@ -26,17 +26,15 @@ def load(directory: str | Path) -> Results:
     directory = Path(directory)
     warnings: list[str] = []
     variants = _read_variants(directory / "results.csv", warnings)
-    times = "the time of each pass is"
     if not (directory / "passes.csv").is_file():
-        warnings.append(f"passes.csv is missing: {times} not shown.")
-    passes = _read_optional(directory / "passes.csv", ("variant", "pass", "phase"), times, warnings)
+        warnings.append("passes.csv is missing: the time of each pass is not shown.")
+    passes, values, frames = (_read_optional(directory / f"{name}.csv", columns, left_out, warnings) for name, columns, left_out in (
+        ("passes", ("variant", "pass", "phase"), "the time of each pass is"),
+        ("values", ("variant", "pass", "name", "frame", "value"), "what passes reported is"),
+        ("frames", ("variant", "frame"), "errors over frames are")))
     _to_numbers(passes, _PASS_NUMBERS)
-    # Most runs have neither of these
-    values = _read_optional(directory / "values.csv", ("variant", "pass", "name", "frame", "value"), "what passes reported is",
-                            warnings)
     _to_numbers(values, ("frame", "value"))
     values = values[values["value"].notna()]
-    frames = _read_optional(directory / "frames.csv", ("variant", "frame"), "errors over frames are", warnings)
     manifest = _read_manifest(directory / "manifest.json", warnings)
 
     # The manifest names kinds of passes, metrics and sweep keys.
@@ -54,10 +52,8 @@ def load(directory: str | Path) -> Results:
     scores += [end for column in scores for end in interval_columns(column) if end in variants or end in frames]
     _to_numbers(variants, scores)
     _to_numbers(frames, ["frame", *scores])
-    declared = manifest.get("sweep_keys")
-    sweep_keys = [str(key) for key in declared if str(key) in variants.columns] if isinstance(declared, list) else []
-    own = manifest.get("warnings")
-    warnings = [str(text) for text in own] + warnings if isinstance(own, list) else warnings
+    sweep_keys = [key for key in texts(manifest, "sweep_keys") if key in variants]
+    warnings = texts(manifest, "warnings") + warnings
     numbers = {variant: str(i) for i, variant in enumerate(variants["variant"], 1)}
     names = dict(zip(variants["variant"], variants["name"]))
     results = Results(directory, variants, numbers, names, passes, values, frames, manifest, metrics, seeds, temporal,

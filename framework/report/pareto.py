@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
@@ -88,34 +88,34 @@ class Scene:
 def scenes_of(runs: list[Results], members: list[dict[str, int]], errors: list[Error], light: str) -> list[Scene]:
     """The variants of all runs that have an error, by what they are compared with (references of one hash are one image) and
     by machine, for times of two machines don't compare. `members`: see methods_of()."""
-    groups: dict[tuple[str, str], list[Scene]] = {}
-    named: dict[tuple[str, str], tuple[str, str]] = {}
-    for run, of in zip(runs, members):
-        table = run.ok
-        costs = _costs(run, table)
-        values, is_worse = np.full((len(errors), 3, len(table)), np.nan), np.zeros((len(errors), len(table)), dtype=bool)
-        for i, error in enumerate(errors):
-            if any(metric.key == error.metric.key for metric in run.metrics):
-                values[i] = error.of(table, light)
-                is_worse[i] = table["variant"].isin(list(all_beaten(run, error.metric, LIGHTS[light] + error.metric.key)))
-        is_known = (costs > 0) & np.isfinite(costs)
-        usable = is_known[:, None] & ((values[:, 0] > 0) & np.isfinite(values[:, 0]) & ~is_worse)[None]
-        scene_names = dict(zip(run.variants["variant"], names_of_scenes(run)))
-        machine = str(run.manifest.get("device", ""))
-        rows: dict[tuple[str, str], list[int]] = {}
-        for row, variant in enumerate(table["variant"]):
-            if np.isfinite(values[:, 0, row]).any():
-                key = (str((run.reference_of(variant) or {}).get("hash")), machine)
-                rows.setdefault(key, []).append(row)
-                named.setdefault(key, (scene_names[variant], _run_name(run)))
-        for key, indices in rows.items():
-            variants, labels = (table[column].iloc[indices].tolist() for column in ("variant", "name"))
-            groups.setdefault(key, []).append(Scene(
-                named[key][0], machine, np.array([of[variant] for variant in variants]), labels, costs[:, indices],
-                values[:, :, indices], usable[:, :, indices], [(run, variant) for variant in variants]))
-    scenes = [_joined(parts) for parts in groups.values()]
-    names = _unique_names([(*named[key], key[1]) for key in groups])
-    return [replace(scene, name=name) for scene, name in zip(scenes, names)]
+    parts = [_variants(run, of, errors, light) for run, of in zip(runs, members)]
+    costs, values, usable = (np.concatenate([arrays[i] for _, *arrays in parts], axis=-1) for i in range(3))
+    table = pd.concat([rows for rows, *_ in parts], ignore_index=True)
+    table["run"] = np.repeat(range(len(runs)), [len(rows) for rows, *_ in parts])
+    groups = table[np.isfinite(values[:, 0]).any(axis=0)].groupby(["reference", "machine"], sort=False)
+    first = groups[["scene", "of", "machine"]].first()
+    return [Scene(name, rows["machine"].iloc[0], rows["method"].to_numpy(), rows["name"].tolist(), costs[:, rows.index],
+                  values[:, :, rows.index], usable[:, :, rows.index], [(runs[i], variant) for i, variant in zip(rows["run"], rows["variant"])])
+            for name, (_, rows) in zip(_unique_names(first.to_numpy().tolist()), groups)]
+
+
+def _variants(run: Results, members: dict[str, int], errors: list[Error], light: str):
+    """The variants of a run as rows, and their costs, errors and which of these are usable, as Scene has them."""
+    table = run.ok
+    costs = _costs(run, table)
+    values, is_worse = np.full((len(errors), 3, len(table)), np.nan), np.zeros((len(errors), len(table)), dtype=bool)
+    for i, error in enumerate(errors):
+        if error.metric.key in [metric.key for metric in run.metrics]:
+            values[i] = error.of(table, light)
+            is_worse[i] = table["variant"].isin(list(all_beaten(run, error.metric, LIGHTS[light] + error.metric.key)))
+    is_known = (costs > 0) & np.isfinite(costs)
+    usable = is_known[:, None] & ((values[:, 0] > 0) & np.isfinite(values[:, 0]) & ~is_worse)[None]
+    rows = table[["variant", "name"]].assign(
+        method=table["variant"].map(members), machine=str(run.manifest.get("device", "")),
+        scene=table["variant"].map(dict(zip(run.variants["variant"], names_of_scenes(run)))),
+        of=str(section(run.manifest, "config").get("name") or run.directory.name),
+        reference=[str((run.reference_of(variant) or {}).get("hash")) for variant in table["variant"]])
+    return rows, costs, values, usable
 
 
 @dataclass(frozen=True)
@@ -242,20 +242,10 @@ def _costs(run: Results, table: pd.DataFrame) -> np.ndarray:
                      table["rays"], total(passes, "voxel_steps")], dtype=float)
 
 
-def _joined(parts: list[Scene]) -> Scene:
-    arrays = {key: np.concatenate([getattr(part, key) for part in parts], axis=-1) for key in ("methods", "costs", "errors", "usable")}
-    return replace(parts[0], labels=[label for part in parts for label in part.labels],
-                   pictures=[picture for part in parts for picture in part.pictures], **arrays)
-
-
-def _unique_names(keys: list[tuple[str, str, str]]) -> list[str]:
+def _unique_names(keys: list[list[str]]) -> list[str]:
     """Of (scene, run, machine). The same scene may have several references: other cameras, lights, sizes."""
     names = [scene for scene, *_ in keys]
     for i in (2, 1):
         names = [f"{name} ({key[i]})" if len({other[i] for other, same in zip(keys, names) if same == name}) > 1 else name
                  for key, name in zip(keys, names)]
     return [f"{name} {names[:i + 1].count(name)}" if names.count(name) > 1 else name for i, name in enumerate(names)]
-
-
-def _run_name(run: Results) -> str:
-    return str(section(run.manifest, "config").get("name") or run.directory.name)

@@ -116,8 +116,8 @@ class Results:
         """When each process that measured finished variants began (UTC, "" where that is unknown), and these variants. More
         than one where the run was resumed."""
         finished = set(self.ok["variant"])
-        found = [(str(entry.get("started", "")), [name for name in entry["variants"] if name in finished])
-                 for entry in entries(self.manifest, "sessions") if isinstance(entry.get("variants"), list)]
+        found = [(str(entry.get("started", "")), [name for name in texts(entry, "variants") if name in finished])
+                 for entry in entries(self.manifest, "sessions")]
         return [(began, names) for began, names in found if names]
 
     def lights(self) -> list[str]:
@@ -140,11 +140,7 @@ class Results:
 
     @functools.cached_property
     def _references_by_variant(self) -> dict[str, dict]:
-        found = {}
-        for record in self.references:
-            for variant in record["variants"] if isinstance(record.get("variants"), list) else ():
-                found.setdefault(str(variant), record)
-        return found
+        return {variant: record for record in reversed(self.references) for variant in texts(record, "variants")}
 
     def reference_folder(self, variant: str) -> str | None:
         """The folder below images/ of a variant's reference, None where it is unknown."""
@@ -229,6 +225,12 @@ def entries(parent: dict, key: str) -> list[dict]:
     """The objects in parent[key] where that is a list, [] otherwise."""
     value = parent.get(key)
     return [entry for entry in value if isinstance(entry, dict)] if isinstance(value, list) else []
+
+
+def texts(parent: dict, key: str) -> list[str]:
+    """The entries of parent[key] as text where that is a list, [] otherwise."""
+    value = parent.get(key)
+    return list(map(str, value)) if isinstance(value, list) else []
 
 
 def masks_of(manifest: dict) -> dict[str, dict]:
