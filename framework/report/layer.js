@@ -31,7 +31,7 @@ const watcher = new IntersectionObserver((entries) => {
         layers.get(target).forEach(isIntersecting ? drawLayer : releaseLayer);
     }
 }, { rootMargin: "500px" });
-onChange(["colors", "exposure", "show", "against", "left", "right", "light"], () => {
+onChange(["colors", "exposure", "show", "against", "light"], () => {
     for (const stage of inSight) layers.get(stage).forEach(drawLayer);
 });
 onChange(["exposure"], () => {

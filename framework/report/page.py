@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from report import charts, details, images, pages, parts, selection, style, table, text
-from report.results import IMAGES, Results, folder_of, number, section
+from report.results import Results, folder_of, number, section
 from report.setting import setting_of
 from report.summary import summary, unfinished
 
@@ -55,7 +55,7 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
         charts=list(enumerate(drawn)), frame_charts=list(enumerate(frame_charts, len(drawn))),
         value_charts=list(enumerate(value_charts, len(drawn) + len(frame_charts))), not_drawn=_listed(not_drawn, results),
         legends=legends, pass_colors=colors and colors | {"outside the passes": "var(--muted)"}, joined=bool(curves), numbered=labels is results.numbers,
-        copies=details.copies(shown, lights, variants), pictured=_pictured(results, lights, variants),
+        copies=details.copies(shown, lights, variants), others=_others(variants),
         regions=parts.regions(results, lights, anchors, lambda folder, name: details.picture(results, folder, name, images.embed)),
         sequence=sequence, values=parts.value_table(shown), bars=parts.bar_groups(shown, colors, anchors), reference=reference,
         viewer=_viewer(results, variants, reference), variants=variants, left_out=len(results.variants) - len(variants),
@@ -81,12 +81,10 @@ def _listed(not_drawn: set[tuple[str, str]], results: Results) -> list[str]:
     return listed[:_MAX_LISTED] + ([f"and {more} more"] if more > 0 else [])
 
 
-def _pictured(results: Results, lights, variants: list[details.Variant]) -> list[tuple[str, str]]:
-    """The references and variants whose images the page has: what ids of these begin with, and a name."""
-    found = [(folder, folder) for folder in dict.fromkeys(map(folder_of, results.references))
-             if any(results.image(folder, IMAGES[light][0]) for light in lights)]
-    return found + [(variant.anchor, f"{variant.number} {variant.name}") for variant in variants
-                    if any(view.image for view in variant.views)]
+def _others(variants: list[details.Variant]) -> list[tuple[str, str]]:
+    """The variants that others can be compared with: what ids of their images begin with, and a name."""
+    found = [(variant.anchor, f"{variant.number} {variant.name}") for variant in variants if any(view.image for view in variant.views)]
+    return found if len(found) > 1 else []
 
 
 def _viewer(results: Results, variants: list[details.Variant], reference: dict) -> dict:

@@ -1,8 +1,7 @@
-// Viewers: a variant's image with another one over it, by a slider, in turns or as its error; two images side by side.
+// Viewers: a variant's image with another one over it, by a slider, in turns or as its error.
 
 const viewers = [...document.querySelectorAll(".viewer")];
-const wordsOf = (name) => document.querySelector(`select[name="${name}"]`).selectedOptions[0].textContent;
-const nameOfOther = () => (state.against ? wordsOf("against") : "reference");
+const nameOfOther = () => (state.against ? document.querySelector('select[name="against"]').selectedOptions[0].textContent : "reference");
 const flip = () => set({ show: state.show === "variant" ? "other" : "variant" });
 onChange(["split"], () => root.style.setProperty("--split", `${state.split}%`));
 onChange(["zoom"], () => root.style.setProperty("--zoom", state.zoom));
@@ -44,20 +43,6 @@ for (const stage of document.querySelectorAll(".single-view")) {
     const image = stage.querySelector(".photo");
     addLayer(stage, () => [image]);
     addReadout(stage, () => [["reference", image]]);
-}
-
-const sides = [...document.querySelectorAll(".stage[data-side]")];
-const imageOn = (side) => byId(`${state[side]}-${state.light}`);
-for (const stage of sides) {
-    const { side } = stage.dataset;
-    addLayer(stage, () => [imageOn(side)]);
-    addReadout(stage, () => sides.map(({ dataset: each }) => [wordsOf(each.side), imageOn(each.side)]));
-    onChange([side, "light"], () => {
-        const image = imageOn(side);
-        if (!image) return;
-        const ratio = `${image.getAttribute("width")} / ${image.getAttribute("height")}`;
-        for (const part of [stage, stage.firstElementChild]) part.style.aspectRatio = ratio;
-    });
 }
 
 // Zoomed images move together, by the part of the way that they have.

@@ -180,13 +180,14 @@ class InABrowser(unittest.TestCase):
         self.assertTrue(self.browser.run("return document.querySelector('#variant-2 .cursor').checkVisibility()"))
 
     def test_the_pointer_reads_pixels_of_both_sides(self):
-        self.open("left=variant-2&right=variant-3")
-        stage = self.browser.driver.find_element(By.CSS_SELECTOR, '.stage[data-side="left"]')
+        self.open("against=variant-3")
+        stage = self.browser.driver.find_element(By.CSS_SELECTOR, "#variant-2 .viewer")
+        self.browser.run("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", stage)
         ActionChains(self.browser.driver).move_to_element(stage).perform()
-        said = self.said("#side-by-side .readout")
+        said = self.said("#variant-2 .readout")
         x, y = map(int, re.match(r"x (\d+), y (\d+)", said).groups())
         self.assertTrue(abs(x - SIZE[0] / 2) <= 1 and abs(y - SIZE[1] / 2) <= 1, said)
-        self.assertIn(f"2 b {self.numbers(0.3, x, y)} · 3 c {self.numbers(0.1, x, y)}", said)
+        self.assertIn(f"variant {self.numbers(0.3, x, y)} · 3 c {self.numbers(0.1, x, y)}", said)
 
     def test_images_of_other_sizes_are_compared_by_position(self):
         self.open()
