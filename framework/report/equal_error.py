@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from report import text
 from report.methods import Method
@@ -11,8 +11,7 @@ from report.ranking import all_beaten, log_cost_at, pareto_front
 from report.results import LIGHTS, Metric, Results, interval_ends
 
 
-@dataclass(frozen=True)
-class Reached:
+class Reached(NamedTuple):
     """The time in which variants of a method reach an error. `bound` is "" for an interpolated time, "<" where the
     fastest one has less error already, ">" where none has as little."""
 
@@ -32,8 +31,7 @@ def time_to_reach(error: float, points: list[tuple[float, float]]) -> Reached | 
     return Reached(math.exp(log_ms), "<" if error > errors[0] else "")
 
 
-@dataclass(frozen=True)
-class SpeedUp:
+class SpeedUp(NamedTuple):
     """How many times as long as a frame of a variant, `ms`, path tracing takes to reach its error.
 
     reached: the time of the path-traced method `rival`. least, most: that time at the ends of the intervals of both errors;

@@ -79,9 +79,10 @@ def _give_names(methods: list[Method]) -> None:
         groups: dict[str, list[Method]] = {}
         for method in methods:
             groups.setdefault(method.name, []).append(method)
-        renamed = {method.chain: rename(method, same) for name, same in groups.items() if len(same) > 1 or not name for method in same}
-        for method in methods:
-            method.name = renamed.get(method.chain, method.name)
+        for same in groups.values():
+            if len(same) > 1 or not same[0].name:
+                for method, name in zip(same, [rename(method, same) for method in same]):
+                    method.name = name
 
 
 def _by_gather(method: Method, _: list[Method]) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+import itertools
 import math
 from bisect import bisect_right
 
@@ -15,6 +17,15 @@ COST_COLUMNS = ("build_ms", "frame_ms_median", "memory_bytes")
 _LEAST = 1e-12  # what stands for an error of 0 on a logarithmic axis
 
 
+def _by_comparison(marks_of):
+    """Marks of variants of the same scene and reference alone: others don't compare."""
+    @functools.wraps(marks_of)
+    def of_all(results: Results, *arguments) -> dict[str, str]:
+        return {name: mark for _, compared in comparisons(results) for name, mark in marks_of(compared, *arguments).items()}
+    return of_all
+
+
+@_by_comparison
 def score_marks(results: Results, metric: Metric, column: str) -> dict[str, str]:
     """Marks of one score: variant -> "best" or "tie", among those that are compared with the same reference. No marks where
     fewer than two of these have one.
@@ -23,11 +34,6 @@ def score_marks(results: Results, metric: Metric, column: str) -> dict[str, str]
     the ties. Others tie where both reach their reference's noise floor: a perfect image would score no better.
     Scores that are equal to the last digit are all the best, but for those of images that are all black.
     """
-    return {name: mark for _, compared in comparisons(results)
-            for name, mark in _score_marks(compared, metric, column).items()}
-
-
-def _score_marks(results: Results, metric: Metric, column: str) -> dict[str, str]:
     rows = results.ok.set_index("variant")
     ranks = rows[column].map(metric.rank).dropna()
     if len(ranks) < 2:
@@ -44,24 +50,21 @@ def _score_marks(results: Results, metric: Metric, column: str) -> dict[str, str
     if ties - equal:
         return dict.fromkeys(ties | equal, "tie")
     black = results.baseline("black", column, results.reference_of(best))
-    if len(equal) == len(ranks) and math.isclose(rows[column][best], black, rel_tol=1e-6):  # Tables round to 9 digits
-        return {}
-    return dict.fromkeys(equal, "best")
+    is_black = len(equal) == len(ranks) and math.isclose(rows[column][best], black, rel_tol=1e-6)  # Tables round to 9 digits
+    return {} if is_black else dict.fromkeys(equal, "best")
 
 
+@_by_comparison
 def cost_marks(results: Results, column: str) -> dict[str, str]:
     """Marks of one cost, lower is better, among variants of the same scene and reference; none where some variant has no
     such cost at all, for nothing is cheaper than that. Frame times tie where the fastest one's p95 reaches this median."""
-    marks = {}
-    for _, compared in comparisons(results):
-        rows = compared.ok.set_index("variant")
-        costs = rows[column].dropna()
-        if len(costs) < 2 or (costs == 0).any():
-            continue
-        least = costs.min()
-        reach = rows["frame_ms_p95"][costs.idxmin()] if column == "frame_ms_median" else least
-        marks |= {name: "best" if cost == least else "tie" for name, cost in costs.items() if cost <= max(least, reach)}
-    return marks
+    rows = results.ok.set_index("variant")
+    costs = rows[column].dropna()
+    if len(costs) < 2 or (costs == 0).any():
+        return {}
+    least = costs.min()
+    reach = rows["frame_ms_p95"][costs.idxmin()] if column == "frame_ms_median" else least
+    return {name: "best" if cost == least else "tie" for name, cost in costs.items() if cost <= max(least, reach)}
 
 
 def all_beaten(results: Results, metric: Metric, column: str) -> dict[str, list[str]]:
@@ -88,13 +91,10 @@ def all_beaten(results: Results, metric: Metric, column: str) -> dict[str, list[
 
 def pareto_front(points: list[tuple[float, float]]) -> list[int]:
     """The indices of the (cost, error) points that no other dominates, by rising cost."""
-    front: list[int] = []
-    lowest = math.inf
-    for index in sorted(range(len(points)), key=points.__getitem__):
-        if points[index][1] < lowest:
-            front.append(index)
-            lowest = points[index][1]
-    return front
+    order = sorted(range(len(points)), key=points.__getitem__)
+    errors = [points[index][1] for index in order]
+    before = itertools.accumulate(errors, min, initial=math.inf)
+    return [index for index, error, lowest in zip(order, errors, before) if error < lowest]
 
 
 def pareto_layers(points: list[tuple[float, float]], count: int) -> list[int]:
@@ -102,17 +102,12 @@ def pareto_layers(points: list[tuple[float, float]], count: int) -> list[int]:
     and so on."""
     # Points come by rising cost: each is on the first front whose lowest error so far lies above its own. These lowest errors
     # rise from front to front, so that the front is found by bisection.
-    fronts: list[list[int]] = []
     lowest: list[float] = []
+    front_of: dict[int, int] = {}
     for index in sorted(range(len(points)), key=points.__getitem__):
-        error = points[index][1]
-        number = bisect_right(lowest, error)
-        if number == len(fronts):
-            fronts.append([])
-            lowest.append(error)
-        fronts[number].append(index)
-        lowest[number] = error
-    return [index for front in fronts for index in front][:count]
+        front = front_of[index] = bisect_right(lowest, points[index][1])
+        lowest[front:front + 1] = [points[index][1]]
+    return sorted(front_of, key=front_of.__getitem__)[:count]
 
 
 def log_cost_at(errors, costs, reached) -> np.ndarray:

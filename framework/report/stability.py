@@ -12,7 +12,7 @@ import numpy as np
 
 from report import exr_pixels
 from report.load import load
-from report.results import IMAGES, ReportError, Results, number
+from report.results import IMAGES, INTERVAL, ReportError, Results, number
 from report.rows import read_rows
 
 _LIMIT_COLUMNS = ("profile", "scene", "measure", "methods", "limit", "scale", "why")
@@ -152,11 +152,9 @@ def reason_of(reasons: list[dict[str, str]], row: Row, method: str) -> str:
 
 def _undecided(cell: Cell, scores: dict) -> str:
     """Says so where the limit lies within the value's interval of 95 %; else ""."""
-    column = _SCORES.get(cell.row.measure, "")
-    low, high = number(scores.get(f"{column}_low")), number(scores.get(f"{column}_high"))
-    if not low <= cell.limit <= high:
-        return ""
-    return f"undecided: the interval of 95 %, {100 * low:.2g} to {100 * high:.2g} %, holds the limit"
+    low, high = (number(scores.get(_SCORES.get(cell.row.measure, "") + end)) for end in INTERVAL)
+    said = f"undecided: the interval of 95 %, {100 * low:.2g} to {100 * high:.2g} %, holds the limit"
+    return said if low <= cell.limit <= high else ""
 
 
 def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, str]]) -> list[Cell]:
@@ -189,7 +187,7 @@ def with_remedies(cells: list[Cell], directory: Path, rows: list[Row]) -> list[C
     """The same, with what those that fail are with each remedy, runs in directory/remedies/REMEDY/METHOD/PROFILE."""
     found: dict[tuple[Row, str], list[tuple[str, float]]] = {}
     for folder in sorted((directory / "remedies").glob("*/*")):
-        for cell in _finished_cells(folder, rows, []):
+        for cell in cells_of(folder, rows, []):
             if not math.isnan(cell.value):
                 found.setdefault((cell.row, cell.method), []).append((folder.parent.name.replace("_", " "), cell.value))
     return [replace(cell, remedies=tuple(found.get((cell.row, cell.method), ()))) if cell.fails else cell for cell in cells]
@@ -197,24 +195,17 @@ def with_remedies(cells: list[Cell], directory: Path, rows: list[Row]) -> list[C
 
 def failing_of(cells: list[Cell]) -> dict[str, dict[str, list[str]]]:
     """The scenes of cells that fail but run, by profile and method."""
-    failing: dict[str, dict[str, dict[str, None]]] = {}
-    for cell in cells:
-        if cell.fails and not math.isnan(cell.value):
-            failing.setdefault(cell.row.profile, {}).setdefault(cell.method, {})[cell.row.scene] = None
-    return {profile: {method: list(scenes) for method, scenes in own.items()} for profile, own in failing.items()}
-
-
-def _finished_cells(directory: Path, rows: list[Row], reasons: list[dict[str, str]]) -> list[Cell]:
-    return [cell for profile in dict.fromkeys(row.profile for row in rows) if (directory / profile / "results.csv").is_file()
-            for cell in _profile_cells(load(directory / profile), [row for row in rows if row.profile == profile], reasons)]
+    failing: dict[str, dict[str, list[str]]] = {}
+    for profile, method, scene in dict.fromkeys((cell.row.profile, cell.method, cell.row.scene) for cell in cells
+                                                if cell.fails and not math.isnan(cell.value)):
+        failing.setdefault(profile, {}).setdefault(method, []).append(scene)
+    return failing
 
 
 def cells_of(directory: Path, rows: list[Row], reasons: list[dict[str, str]]) -> list[Cell]:
     """All cells of the runs in a folder, one folder a profile, in the order of the rows.
 
-    @throws ReportError where there is no run, or one of them has no scenes and methods.
+    @throws ReportError where one of them has no scenes and methods.
     """
-    cells = _finished_cells(directory, rows, reasons)
-    if not cells:
-        raise ReportError(f"{directory}: no profile of the limits has results there")
-    return cells
+    return [cell for profile in dict.fromkeys(row.profile for row in rows) if (directory / profile / "results.csv").is_file()
+            for cell in _profile_cells(load(directory / profile), [row for row in rows if row.profile == profile], reasons)]

@@ -5,10 +5,11 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 from report import images, pages, stability, table, text
+from report.results import ReportError
 from report.rows import markdown_table
 from report.stability import MEASURES, UNKNOWN, Cell, Row
 from report.table import Table
@@ -16,8 +17,7 @@ from report.table import Table
 _SCRIPTS = ("d3", "toolkit.js", "matrix.js", "stability.js")
 
 
-@dataclass(frozen=True)
-class Tables:
+class Tables(NamedTuple):
     """failing: scenes of cells that fail but run, by profile and method."""
 
     summary: str
@@ -31,16 +31,16 @@ def write(directory: Path, limits: Path, with_remedies: bool = False) -> Tables:
     @param limits what is measured in each scene and its limit; known reasons stand next to it, in LIMITS_reasons.csv
     @param with_remedies say what the runs in directory/remedies change
     @throws ReportError where there are no results or limits"""
-    reasons = stability.read_reasons(limits.with_name(limits.stem + "_reasons.csv"))
     rows = stability.read_limits(limits)
-    cells = stability.cells_of(directory, rows, reasons)
+    cells = stability.cells_of(directory, rows, stability.read_reasons(limits.with_name(limits.stem + "_reasons.csv")))
+    if not cells:
+        raise ReportError(f"{directory}: no profile of the limits has results there")
     if with_remedies:
         cells = stability.with_remedies(cells, directory, rows)
     tables = Tables(summary(cells), "\n".join(markdown(cells)) + "\n", stability.failing_of(cells))
-    pages.write_whole(directory / "stability.html", render(cells, directory))
-    pages.write_whole(directory / "stability.csv", pages.csv_text(csv_lines(cells)))
-    pages.write_whole(directory / "stability.md", tables.markdown)
-    pages.write_whole(directory / "failing.json", json.dumps(tables.failing, indent=1) + "\n")
+    for name, content in (("stability.html", render(cells, directory)), ("stability.csv", pages.csv_text(csv_lines(cells))),
+                          ("stability.md", tables.markdown), ("failing.json", json.dumps(tables.failing, indent=1) + "\n")):
+        pages.write_whole(directory / name, content)
     return tables
 
 
@@ -51,12 +51,10 @@ def percent(value: float) -> str:
 
 def reason(cell: Cell) -> str:
     """Why a cell fails, as far as it is known: the reason of the table, and what finer settings change."""
-    if not cell.remedies:
-        return cell.reason
-    told = [f"{percent(value)} % with {name}" for name, value in cell.helping]
-    if not told:
-        return f"{cell.reason}; no remedy lowers it by a tenth: " + ", ".join(f"{percent(value)} % with {name}" for name, value in cell.remedies)
-    return ", ".join(told) if cell.reason == UNKNOWN else f"{cell.reason}; " + ", ".join(told)
+    told = ", ".join(f"{percent(value)} % with {name}" for name, value in cell.helping or cell.remedies)
+    if cell.helping:
+        return told if cell.reason == UNKNOWN else f"{cell.reason}; {told}"
+    return f"{cell.reason}; no remedy lowers it by a tenth: {told}" if told else cell.reason
 
 
 def limits(row: Row) -> str:
