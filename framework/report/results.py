@@ -78,7 +78,7 @@ class Results:
     sweep_keys: list[str]
     warnings: list[str] = field(default_factory=list)
 
-    @property
+    @functools.cached_property
     def ok(self) -> pd.DataFrame:
         """The variants that finished."""
         return self.variants[self.variants["status"] == "ok"]

@@ -25,6 +25,10 @@ class Cell(NamedTuple):
     mark: str = ""
     link: str = ""
 
+    def classes(self, is_words: bool) -> str:
+        """For HTML."""
+        return f"{self.css} {self.mark} {'words' if is_words else ''}".strip()
+
 
 @dataclass
 class Table:
@@ -39,6 +43,10 @@ class Table:
 
     def __post_init__(self):
         self.headings = [heading if isinstance(heading, Cell) else Cell(heading) for heading in self.headings]
+
+    def add(self, *cells: Cell | str) -> None:
+        """Adds a row."""
+        self.rows.append(cells)
 
 
 class _Cost(NamedTuple):

@@ -74,9 +74,7 @@ def size(value: float) -> str:
 
 
 def breakable(value: str) -> Markup:
-    """`value` as HTML that may be broken after the marks between its words; copied, it is `value` again. HTML stays."""
-    if isinstance(value, Markup):
-        return value
+    """`value` as HTML that may be broken after the marks between its words; copied, it is `value` again."""
     return Markup(re.sub(r"([,=._/])", r"\1<wbr>", str(escape(value))))
 
 
