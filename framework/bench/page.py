@@ -184,7 +184,7 @@ def summary(data: dict) -> str:
 
 def render(data: dict, tables: list[Table]) -> str:
     """The whole page, self-contained."""
-    return pages.render("gpu.html.j2", folder=_HERE, title=title(data), summary=summary(data), data=data, tables=tables,
+    return pages.render("gpu.html.j2", folder=_HERE, title=title(data), summary=summary(data), measured=data, tables=tables,
                         strips=_strips(data), devices=data.get("devices", []))
 
 
