@@ -143,6 +143,19 @@ class SpeedUps:
         return np.where(found > 0, found, np.nan)
 
 
+    def best(self, methods: list[Method], cost: int, errors: list[int], scene: int) -> tuple[str, np.ndarray] | None:
+        """The method whose speed-up over the first rival, the lowest one by several errors, is largest, and that cell. Methods
+        that reach less than half of the rival's errors do not count, and neither do those that trace paths."""
+        cells = self.factors[0, cost, errors, scene]
+        is_reached = 2 * cells[..., 3] >= np.maximum(self.count[0, cost, errors, scene], 1)[:, None]
+        value = np.where(is_reached, cells[..., 0], np.nan).min(axis=0)
+        value[[method.traces_paths for method in methods]] = np.nan
+        if np.isnan(value).all():
+            return None
+        best = int(np.nanargmax(value))
+        return methods[best].name, cells[int(cells[:, best, 0].argmin()), best]
+
+
 def speed_ups(scenes: list[Scene], methods: list[Method], rivals: list[int], error_count: int) -> SpeedUps:
     factors = np.full((len(rivals), len(CHARTED), error_count, len(scenes), len(methods), 4), np.nan)
     factors[..., 3] = 0

@@ -111,7 +111,7 @@ def sentences(compared: Comparison) -> list[str]:
     for cost, need in _NEEDS.items():
         wins: dict[str, list[str]] = {}  # by method: scenes
         for s, scene in enumerate(compared.scenes):
-            found = _winner(compared, s, CHARTED.index(cost), worst)
+            found = compared.speed_ups.best(compared.methods, CHARTED.index(cost), worst, s)
             if found and found[1][0] >= 1:
                 method, (value, low, high, _) = found
                 wins.setdefault(method, []).append(f"{scene.name} ({'' if low > 1 else '≈ '}{text.figures(value, 2)}×)")
@@ -125,19 +125,6 @@ def sentences(compared: Comparison) -> list[str]:
         listed = [f"by {cost} in {'every scene' if len(names) == every > 1 else ', '.join(names)}" for cost, names in losses.items()]
         lines.append(f"Nothing beats filtered path tracing: {'; '.join(listed)}.")
     return lines
-
-
-def _winner(compared: Comparison, scene: int, cost: int, worst: list[int]) -> tuple[str, np.ndarray] | None:
-    """The method whose lower speed-up by several errors is largest, and that cell of the matrix. Methods that reach less than
-    half of the rival's errors do not count, and neither do those that trace paths."""
-    cells = compared.speed_ups.factors[0, cost, worst, scene]
-    is_reached = 2 * cells[..., 3] >= np.maximum(compared.speed_ups.count[0, cost, worst, scene], 1)[:, None]
-    value = np.where(is_reached, cells[..., 0], np.nan).min(axis=0)
-    value[[method.traces_paths for method in compared.methods]] = np.nan
-    if np.isnan(value).all():
-        return None
-    best = int(np.nanargmax(value))
-    return compared.methods[best].name, cells[int(cells[:, best, 0].argmin()), best]
 
 
 def _most_on_fronts(compared: Comparison) -> list[str]:

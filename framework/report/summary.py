@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from report import equal_error, noise, text
-from report.methods import families_of
+from report import noise, pareto, text
+from report.methods import methods_of
 from report.ranking import all_beaten, score_marks
 from report.results import LIGHTS, Metric, Results
 from report.setting import comparisons
@@ -52,8 +52,8 @@ def unfinished(results: Results) -> str:
 
 
 def _of_scene(scene: str, results: Results, has_others: bool, light: str, metric: Metric) -> str:
-    """The lowest error in a scene, and what path tracing takes for an error as low as that of the method that saves most
-    time. "" of a scene without errors, or with a single one among other scenes."""
+    """The lowest error in a scene, and how much faster than path tracing a method is. "" of a scene without errors, or with
+    a single one among other scenes."""
     results = replace(results, names={key: name.removeprefix(f"{scene}, ") for key, name in results.names.items()})
     scores = results.ok.set_index("variant")[LIGHTS[light] + metric.key].dropna()
     if len(scores) <= has_others:
@@ -63,8 +63,28 @@ def _of_scene(scene: str, results: Results, has_others: bool, light: str, metric
     who = f"{results.listed(ties)} tie" if ties else results.full(best)
     said = f"{f'{scene}: ' if has_others else ''}lowest {metric.label} {' to '.join(dict.fromkeys(map(text.figures, (own.min(), own.max()))))}, {who}."
     said += _what_tells_apart(results, light, ties) if 2 * len(ties) > len(scores) else ""
-    found = equal_error.speed_up(results, light, metric, families_of(results))
-    return f"{said} {equal_error.sentence(found, results)}" if found else said
+    return f"{said}{_speed_up(results, light, metric)}"
+
+
+def _speed_up(results: Results, light: str, metric: Metric) -> str:
+    """How much faster than path tracing, filtered where it was, the fastest method is at equal error, as on the page of
+    `voxray pareto`."""
+    methods, members = methods_of([results])
+    rivals = sorted((i for i, method in enumerate(methods) if method.traces_paths), key=lambda i: not methods[i].is_rival)
+    scenes = pareto.scenes_of([results], members, [pareto.Error(metric)], light) if rivals else []
+    found = pareto.speed_ups(scenes, methods, rivals[:1], 1)
+    best = found.best(methods, 0, [0], 0) if scenes else None
+    if best is None:
+        return ""
+    name, (value, low, high, reached) = best
+    rival, factor = methods[rivals[0]].name, text.figures(value, 2)
+    span = text.span(low, high) if 0 < low < high < math.inf else f"at least {text.figures(low, 2)}" if low > 0 else \
+        f"up to {text.figures(high, 2)}"
+    ends = f"{span} within the intervals" + ("; that leaves open which is faster" if low <= 1 <= high else "")
+    said = (f"{name} is {factor} times as fast as {rival}" if value > 1 else
+            f"no method is faster than {rival}; {name} comes nearest, {factor} times as fast")
+    return (f" At equal {metric.label} {said} ({f'{ends}; ' if low < high else ''}it reaches {reached:.0f} of "
+            f"{found.count[0, 0, 0, 0]} errors).")
 
 
 def _ties(results: Results, light: str, metric: Metric) -> list[str]:

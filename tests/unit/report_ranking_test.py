@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-import re
 import unittest
 
+import numpy as np
 from report_support import FLIP, NRMSE, Page, ReportTest, made_up
 
-from report import equal_error, methods, page, ranking, summary, table
+from report import page, ranking, summary, table
 from report.load import load
 from report.results import Metric, interval_of
 
@@ -136,68 +136,34 @@ class Comparing(ReportTest):
             self.assertIn(words, shown.text)
 
     def test_speed_up_at_equal_error(self):
-        # Raw paths' error falls with the root of their time, filtered ones' with the fourth root.
-        points = ([("lookup", 10, 0.3)] + [(f"paths, {spp} spp", 10.0 * spp, spp ** -0.5) for spp in (1, 4, 16)]
-                  + [(f"filtered paths, {spp} spp", 20.0 * spp, 0.5 * spp ** -0.25) for spp in (1, 16)])
-        rows = [made_up.variant(name, ms, error, method=name) for name, ms, error in points]
-        graphs = {name: [{"pass": "path_trace" if "paths" in name else "gather", "id": "indirect", "spp": name}]
-                  + [{"pass": "filter", "id": "filter"}] * ("filtered" in name) for name, _, _ in points}
-        results = self.results(rows, sweep_keys=["method"], variants=graphs)
-        families = methods.families_of(results)
-        self.assertEqual([method.name for method, _ in families], ["lookup", "paths", "filtered paths"])
-        # 0.3 takes raw paths 10 / 0.3² = 111 ms and filtered ones 20 (0.5 / 0.3)⁴ = 154 ms.
-        head = "For the error of 1 (lookup), 10.0 ms a frame and 20.0 ms of build, path tracing (paths) takes "
-        self.assertIn(head + "111 ms a frame: 11 times as long.", self.summary(results)[0])
-        # None reaches 0.2: the slowest of both methods are not enough. All have less than 2, which is no better than black.
-        for error, expected in ((0.2, head + "more than 160 ms a frame: more than 16 times as long."), (2.0, "")):
-            rows[0] |= {"nrmse": error}
-            said = self.summary(self.results(rows, sweep_keys=["method"], variants=graphs))[0]
-            self.assertIn(expected, said)
-            self.assertEqual("For the error" in said, bool(expected))
-
-        # Slower: by 0.3 in 111 ms, by the error of the fastest path in its 10 ms. Open: faster or slower than all of them.
-        def said_of(ms, error):
-            rows[0] |= {"frame_ms_median": ms, "nrmse": error}
-            results = self.results(rows, sweep_keys=["method"], variants=graphs)
-            return re.search("path tracing .paths. takes (.*?[^.0-9])[.] ", self.summary(results)[0])[1]
-
-        slower, is_open = ", and no other method is faster", "; that leaves open which one is faster"
-        # At an error above that of every path, too, unless it is no better than a constant image (0.9)
-        for row in rows[1:]:
-            row["nrmse"] *= 0.5
-        self.assertEqual(said_of(200, 0.15), "111 ms a frame: 0.56 times as long" + slower)
-        self.assertEqual(said_of(20, 0.6), "at most 10.0 ms a frame: at most 0.50 times as long" + slower)
-        self.assertEqual(said_of(5, 0.6), "at most 10.0 ms a frame: at most 2.0 times as long" + is_open)
-        self.assertEqual(said_of(400, 0.01), "more than 160 ms a frame: more than 0.40 times as long" + is_open)
-
-    def test_the_intervals_of_both_errors_are_in_the_speed_up(self):
-        # Paths' error falls with the root of their time: 1, 0.5 and 0.25 in 10, 40 and 160 ms.
-        def said_of(ms, own, of_paths):
-            """Of intervals as factors of the errors."""
-            rows = [made_up.variant("lookup", ms, 0.3)] + [made_up.variant(f"paths {spp}", 10.0 * spp, spp ** -0.5) for spp in (1, 4, 16)]
-            for row, (low, high) in zip(rows, [own] + [of_paths] * 3):
-                row.update(made_up.spread("nrmse", low * row["nrmse"], high * row["nrmse"]))
-            graphs = {row["variant"]: [{"pass": "path_trace" if "paths" in row["variant"] else "gather", "id": "i"}] for row in rows}
+        # Paths' error falls with the root of their time: 1, 0.5 and 0.25 in 10, 40 and 160 ms; 1 is worse than a constant image.
+        def said_of(own, filtered=False, width=1.0):
+            """@param own (ms, error) of lookups; width of all intervals as a factor"""
+            points = [(f"lookup {i}", *point) for i, point in enumerate(own)]
+            points += [(f"paths {spp}", 10.0 * spp, spp ** -0.5) for spp in (1, 4, 16)]
+            points += [(f"filtered {spp}", 5.0 * spp, spp ** -0.5) for spp in (4, 16)] * filtered
+            rows = [made_up.variant(name, ms, error) for name, ms, error in points]
+            for row in rows:
+                row.update(made_up.spread("nrmse", row["nrmse"] / width, row["nrmse"] * width))
+            chains = {"lookup": ["gather"], "paths": ["path_trace"], "filtered": ["path_trace", "filter_irradiance"]}
+            graphs = {row["variant"]: [{"pass": kind} for kind in chains[row["variant"].split()[0]]] for row in rows}
             said = self.summary(self.results(rows, variants=graphs))[0]
-            return said[said.index("takes "):said.index(" nRMSE: ")]
+            return said[said.find("At equal"):said.index(" nRMSE: ")] if "At equal" in said else ""
 
-        exact = (1, 1)
-        # 0.33 takes 92 ms, 0.27 137 ms; of paths that may have a tenth less or more error 74 ms, and more than 160 ms.
-        head, within = "takes 111 ms a frame: ", " within the errors' intervals)"
-        is_open = "; that leaves open which one is faster."
-        self.assertEqual(said_of(10, exact, exact), head + "11 times as long.")
-        self.assertEqual(said_of(10, (0.9, 1.1), exact), f"{head}11 times as long (9.2–14{within}.")
-        self.assertEqual(said_of(10, (0.9, 1.1), (0.9, 1.1)), f"{head}11 times as long (at least 7.4{within}.")
-        # 1.2 is more than the fastest path has, so that one of them may be faster; 0.27 is still reached, 0.15 is not.
-        self.assertEqual(said_of(10, (0.9, 4), exact), f"{head}≈ 11 times as long (up to 14{within}{is_open}")
-        self.assertEqual(said_of(10, (0.5, 4), exact), f"{head}≈ 11 times as long{is_open}")
-        self.assertEqual(said_of(100, (0.5, 1.1), exact), f"{head}≈ 1.1 times as long (at least 0.92{within}{is_open}")
-        # An interval that begins at 0: such paths may have any error, such a method none.
-        self.assertIn("11 times as long (at least 9.2", said_of(10, (0, 1.1), exact))
-        self.assertIn("≈ 11 times as long (up to 11", said_of(10, exact, (0, 1)))
-        # Slower: 0.27 takes 137 ms.
-        self.assertEqual(said_of(150, (0.9, 1.1), exact), f"{head}0.74 times as long (0.61–0.91{within}, and no other method is faster.")
-        self.assertIn(is_open, said_of(120, (0.9, 1.1), exact))
+        reached = "it reaches 2 of 2 errors)."
+        self.assertEqual(said_of([(10, 0.2)]), f"At equal nRMSE lookup 0 is 8.0 times as fast as paths ({reached}")
+        # Between 10 ms and 40 ms a lookup gets to 0.25 in 20 ms
+        self.assertEqual(said_of([(10, 0.5), (40, 0.125)]), f"At equal nRMSE lookup is 5.7 times as fast as paths ({reached}")
+        self.assertIn("8.0 times as fast as paths (it reaches 1 of 2 errors).", said_of([(5, 0.4)]))
+        self.assertIn("4.0 times as fast as filtered (", said_of([(10, 0.2)], filtered=True))
+        self.assertEqual(said_of([(10, 0.6)]), "")  # it gets to neither
+        self.assertIn("no method is faster than paths; lookup 0 comes nearest, 0.40 times as fast (" + reached, said_of([(200, 0.2)]))
+        # Errors that are a tenth less or more: of lookups time falls with the square of the error, too
+        own = [(10.0 * spp, 0.5 * spp ** -0.5) for spp in (0.5, 2, 8)]
+        self.assertIn("lookup is 4.0 times as fast as paths (2.7–5.9 within the intervals; " + reached, said_of(own, width=1.1))
+        own = [(45.0 * spp, 0.5 * spp ** -0.5) for spp in (0.5, 2, 8)]
+        self.assertIn("comes nearest, 0.89 times as fast (0.61–1.3 within the intervals; that leaves open which is faster; " + reached,
+                      said_of(own, width=1.1))
 
     def test_scenes_are_told_one_by_one(self):
         # The hall is slower and harder than the room, path tracing takes 4 and 8 times as long in them; a single setting of
@@ -216,20 +182,16 @@ class Comparing(ReportTest):
         self.assertEqual(ranking.cost_marks(results, "frame_ms_median"), {"room lookup": "best", "hall cones": "best"})
         said = self.summary(results)
         self.assertEqual(said[:2], [
-            "Of the total light, room: lowest nRMSE 0.100, 1 (lookup). For the error of 1 (lookup), 10.0 ms a frame and 20.0 ms of "
-            "build, path tracing (paths) takes 40.0 ms a frame: ≈ 4.0 times as long; that leaves open which one is faster. nRMSE: "
-            "what nRMSE measures.",
-            "hall: lowest nRMSE 0.300, 3 (lookup). For the error of 3 (lookup), 100 ms a frame and 200 ms of build, path tracing "
-            "(paths) takes 800 ms a frame: ≈ 8.0 times as long; that leaves open which one is faster."])
+            "Of the total light, room: lowest nRMSE 0.100, 1 (lookup). At equal nRMSE lookup is 4.0 times as fast as paths (up to "
+            "4.0 within the intervals; that leaves open which is faster; it reaches 1 of 1 errors). nRMSE: what nRMSE measures.",
+            "hall: lowest nRMSE 0.300, 3 (lookup). At equal nRMSE lookup is 8.0 times as fast as paths (up to 8.0 within the "
+            "intervals; that leaves open which is faster; it reaches 1 of 1 errors)."])
         self.assertNotIn("Fastest frame", " ".join(said))
 
-    def test_time_to_reach_an_error(self):
-        points = [(10, 0.4), (40, 0.2), (50, 0.3), (160, 0.1)]  # 50 ms are beaten by 40
-        for error, expected in ((0.2, (40, "")), (0.4, (10, "")), (0.5, (10, "<")), (0.05, (160, ">"))):
-            reached = equal_error.time_to_reach(error, points)
-            self.assertAlmostEqual(reached.milliseconds, expected[0])
-            self.assertEqual(reached.bound, expected[1])
-        self.assertIsNone(equal_error.time_to_reach(0.1, []))
+    def test_the_cost_of_an_error(self):
+        costs, reached = (10, 40, 160), (0.4, 0.2, 0.1)
+        for error, expected in ((0.2, 40), (0.4, 10), (0.5, 10), (0.2 * 2 ** -0.5, 80), (0.05, math.nan)):
+            np.testing.assert_allclose(np.exp(ranking.log_cost_at(error, costs, reached)), expected)
 
     def test_pareto_front(self):
         points = [(3, 1), (1, 5), (2, 5), (2, 3), (4, 1), (1, 6)]
