@@ -98,11 +98,11 @@ size_t addRegistered(Registry& registry, std::string_view folder, const std::str
     return count;
 }
 
-void Registry::add(const char* name, const std::string& family, const char* help, bool needsDevice,
+void Registry::add(const char* name, const std::string& family, const char* help, bool needsDevice, bool dependsOnLight,
                    const PassType& type) {
     if (find(name)) throw Error("two passes are called '{}': give one another kName", name);
-    kinds_.push_back(
-        {name, family, help, describeParams(*type.schema, type.defaults().get()), portsOf(type), needsDevice, type});
+    kinds_.push_back({name, family, help, describeParams(*type.schema, type.defaults().get()), portsOf(type),
+                      needsDevice, dependsOnLight, type});
 }
 
 void Registry::renamed(std::string oldName, std::string advice) {

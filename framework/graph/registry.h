@@ -43,6 +43,7 @@ struct PassKind {
     std::vector<ParameterDoc> parameters;
     std::vector<PortDoc> ports;  ///< All that it has with any values of its parameters.
     bool needsDevice = true;     ///< False: it runs where there is no Vulkan, too (Device::isHost()).
+    bool dependsOnLight = true;  ///< False: its outputs stay where lights alone change.
     PassType type;
 
     /// Makes a pass from its map in the config. @throws UsageError for an unknown or invalid parameter.
@@ -60,14 +61,16 @@ class Registry {
     /// P: see Pass. @throws Error for a name that another pass has.
     template <typename P>
     void add(const std::string& family = "") {
-        bool needsDevice = true;
+        bool needsDevice = true, dependsOnLight = true;
         if constexpr (requires { P::kNeedsDevice; }) needsDevice = P::kNeedsDevice;
+        if constexpr (requires { P::kDependsOnLight; }) dependsOnLight = P::kDependsOnLight;
         if constexpr (requires { typename P::Params; })
-            add(P::kName, family, P::kHelp, needsDevice, typeOf<typename P::Params>([](const void* p) {
+            add(P::kName, family, P::kHelp, needsDevice, dependsOnLight, typeOf<typename P::Params>([](const void* p) {
                     return make<P>(*static_cast<const typename P::Params*>(p));
                 }));
         else
-            add(P::kName, family, P::kHelp, needsDevice, typeOf<NoParams>([](const void*) { return make<P>(); }));
+            add(P::kName, family, P::kHelp, needsDevice, dependsOnLight,
+                typeOf<NoParams>([](const void*) { return make<P>(); }));
     }
 
     /// An old name, and advice for errors: renamed("gather_all", "gather with 'light: all'").
@@ -91,7 +94,8 @@ class Registry {
     static std::unique_ptr<Pass> make(const Params&... params) {
         return std::make_unique<P>(params...);
     }
-    void add(const char* name, const std::string& family, const char* help, bool needsDevice, const PassType& type);
+    void add(const char* name, const std::string& family, const char* help, bool needsDevice, bool dependsOnLight,
+             const PassType& type);
 
     std::vector<PassKind> kinds_;
     std::map<std::string, std::string> renamed_;

@@ -15,17 +15,13 @@ _MAX_LABELS = 80
 TIMES = {"frame": "one frame", "total": "build + one frame"}
 
 
-def variants(results: Results, styles: dict[str, Style], labels: dict[str, str], anchors: dict[str, str],
-             curves: list[list[str]]) -> dict:
-    """What all charts of a page share: how each finished variant is called and drawn, its times with their 5th and 95th
-    percentile, and the variants that a line joins."""
-    finished = list(results.ok["variant"])
-    index = {name: i for i, name in enumerate(finished)}
+def variants(results: Results, styles: dict[str, Style], labels: dict[str, str], anchors: dict[str, str]) -> dict:
+    """What all charts of a page share: how each finished variant is called and drawn, and its times with their 5th and 95th
+    percentile."""
     frame = [results.ok[f"frame_ms_{key}"] for key in ("median", "p05", "p95")]
-    return {"variants": [{"name": results.full(name), "number": results.numbers[name], "label": labels[name],
-                          "anchor": anchors[name], "color": styles[name].color, "mark": styles[name].mark} for name in finished],
-            "times": {"frame": frame, "total": [times + results.ok["build_ms"] for times in frame]},
-            "curves": [[index[name] for name in curve if name in index] for curve in curves]}
+    return {"variants": [{"name": results.full(name), "number": results.numbers[name], "label": labels[name], "anchor": anchors[name],
+                          "color": styles[name].color, "mark": styles[name].mark} for name in results.ok["variant"]],
+            "times": {"frame": frame, "total": [times + results.ok["build_ms"] for times in frame]}}
 
 
 def error_chart(results: Results, metric: Metric, light: str, time: str) -> tuple[dict | None, list[str]]:

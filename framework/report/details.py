@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from pathlib import Path
 from typing import NamedTuple
 
 import pandas as pd
@@ -29,8 +29,7 @@ class View(NamedTuple):
     film: images.Picture | None
 
 
-@dataclass(frozen=True)
-class Variant:
+class Variant(NamedTuple):
     """A variant of the run; where it failed, it has an error and nothing else."""
 
     number: str
@@ -56,18 +55,21 @@ class Copy(NamedTuple):
     facts: str
 
 
-def picture(results: Results, folder: str, name: str, embed: Callable) -> images.Picture | None:
-    """An image of a folder as `embed` makes it of its path; None, with a warning, where it is none."""
-    path = results.image(folder, name)
-    return _or_warning(results, lambda: embed(path)) if path else None
+def picture(results: Results, path: Path | list[Path] | None, embed: Callable) -> images.Picture | None:
+    """What `embed` makes of an image's path; None where there is none, with a warning where it is no image."""
+    try:
+        return embed(path) if path else None
+    except (ReportError, OSError) as error:
+        results.warnings.append(f"An image is not shown: {error}")
+        return None
 
 
 def photo(results: Results, folder: str, light: str, has_floats: bool) -> images.Picture | None:
     """A folder's image under a light, with its radiance as half floats where it has them and they are wanted."""
     name = IMAGES[light][0]
-    preview = picture(results, folder, name, images.embed)
+    preview = picture(results, results.image(folder, name), images.embed)
     exr = results.image(folder, name.replace(".png", ".exr")) if preview and has_floats else None
-    return exr and _or_warning(results, lambda: images.with_floats(preview, exr)) or preview
+    return picture(results, exr, lambda path: images.with_floats(preview, path)) or preview
 
 
 def variants(results: Results, lights: list[str], colors: dict[str, str], anchors: dict[str, str],
@@ -101,14 +103,6 @@ def copies(results: Results, lights: list[str], shown: list[Variant]) -> list[Co
     return found
 
 
-def _or_warning(results: Results, make: Callable) -> images.Picture | None:
-    try:
-        return make()
-    except (ReportError, OSError) as error:
-        results.warnings.append(f"An image is not shown: {error}")
-        return None
-
-
 def _variant(results: Results, row: Mapping, passes: pd.DataFrame | None, lights: list[str], colors: dict[str, str],
              anchors: dict[str, str], with_floats: set[str]) -> Variant:
     name = row["variant"]
@@ -116,8 +110,9 @@ def _variant(results: Results, row: Mapping, passes: pd.DataFrame | None, lights
     if row["status"] != "ok":
         return Variant(*called, error_of(row))
     views = tuple(View(light, photo(results, name, light, name in with_floats),
-                       picture(results, name, IMAGES[light][1], images.embed_error),
-                       _film(results, name, light) if light == lights[-1] else None) for light in lights)
+                       picture(results, results.image(name, IMAGES[light][1]), images.embed_error),
+                       picture(results, images.frames_of(results, name, light) if light == lights[-1] else None, images.film))
+                  for light in lights)
     if not any(view.image for view in views):
         results.warnings.append(f"Variant {name} has no image in its results.")
     facts = (("frame", f"{text.figures(row['frame_ms_median'])} ms (p05 {text.figures(row['frame_ms_p05'])}, "
@@ -135,11 +130,6 @@ def error_of(row: Mapping) -> str:
     return row["error"] or f"status is '{row['status']}', with no error text"
 
 
-def _film(results: Results, name: str, light: str) -> images.Picture | None:
-    frames = images.frames_of(results, name, light)
-    return _or_warning(results, lambda: images.film(frames)) if frames else None
-
-
 def _timeline(title: str, passes: pd.DataFrame, colors: dict[str, str]) -> Table:
     """Passes of a phase one after another, as they run, by their median times; both phases on one scale."""
     spent = passes["ms_median"].clip(lower=0).fillna(0)
@@ -148,7 +138,7 @@ def _timeline(title: str, passes: pd.DataFrame, colors: dict[str, str]) -> Table
     table = Table(title, ["pass", "phase", "timeline", *(heading for heading, _ in _PASS_COLUMNS.values())], words=(0, 1, 2))
     for row, start, ms in zip(passes.to_dict("records"), starts, spent):
         name = row["pass"] if row["pass"] == row["kind"] else f"{row['pass']} ({row['kind']})"
-        bar = Markup('<i class="chip bar" style="margin-left: {:.2f}%; width: {:.2f}%; background: {}"></i>')
+        bar = Markup('<i class="chip" style="margin-left: {:.2f}%; width: {:.2f}%; background: {}"></i>')
         table.rows.append([Cell(name, "name"), row["phase"], Cell(bar.format(start, part * ms, colors[row["kind"]]), "wide"),
                            *(write(row[key]) for key, (_, write) in _PASS_COLUMNS.items())])
     return table

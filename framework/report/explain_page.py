@@ -89,8 +89,6 @@ def _sentences(one: Explained) -> list[str]:
                         if abs(one.left) > _SMALL else "")
                      + f"What a stage brings depends on the others: {spread.stage.name} between {percent(spread.least)} and "
                        f"{percent(spread.most)}, by the order in which stages are swapped.")
-    lines += [f"Of {one.label}, the error grows by {percent(-part.share)} where {part.stage.name} is swapped: it hides what "
-              "other stages do wrong." for part in one.parts if part.high < -_SMALL / 2]
     return lines
 
 

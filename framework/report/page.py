@@ -20,7 +20,7 @@ _MAX_LISTED = 12  # variants that a note names
 _MAX_ROWS = 500  # of the table that are in sight at first: browsers take long to lay out thousands
 # Entries of the manifest
 _SHOWN_ELSEWHERE = ("identity", "config", "metrics", "seed_metrics", "temporal_metrics", "warnings", "baselines", "reference",
-                    "references", "names", "variants", "noise_parameters", "sessions", "inputs")
+                    "references", "names", "variants", "noise_parameters", "light_independent", "sessions", "inputs")
 
 
 def render(results: Results, wanted: list[str] | None = None) -> str:
@@ -35,14 +35,14 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
     # Where links to a variant lead: to its images, or to its row where the page has none
     in_detail = set(shown.variants["variant"])
     anchors = {name: f"{'variant' if name in in_detail else 'row'}-{number}" for name, number in results.numbers.items()}
-    styles, legends, curves = style.variant_styles(results)
+    styles, legends, joined = style.variant_styles(results)
     colors = style.pass_colors(results)
     columns = table.columns_of(results, lights)
     labels = _point_labels(results)
     drawn, not_drawn = charts.error_charts(results, lights)
     sequence, frame_charts = parts.sequence(results, shown, lights, styles, anchors) or (None, [])
     value_charts = parts.value_charts(shown, results)
-    chart_data = {"charts": [*drawn, *frame_charts, *value_charts], **charts.variants(results, styles, labels, anchors, curves)}
+    chart_data = {"charts": [*drawn, *frame_charts, *value_charts], "joined": joined, **charts.variants(results, styles, labels, anchors)}
     variants = details.variants(shown, lights, colors, anchors, with_floats)
     reference = _reference(results, lights, with_floats)
     split = [metric for metric in results.seed_metrics if any(column.metric == metric for column in columns)]
@@ -54,9 +54,9 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
                 if row["status"] != "ok"],
         charts=list(enumerate(drawn)), frame_charts=list(enumerate(frame_charts, len(drawn))),
         value_charts=list(enumerate(value_charts, len(drawn) + len(frame_charts))), not_drawn=_listed(not_drawn, results),
-        legends=legends, pass_colors=colors and colors | {"outside the passes": "var(--muted)"}, joined=bool(curves), numbered=labels is results.numbers,
+        legends=legends, pass_colors=colors and colors | {"outside the passes": "var(--muted)"}, joined=joined, numbered=labels is results.numbers,
         copies=details.copies(shown, lights, variants), others=_others(variants),
-        regions=parts.regions(results, lights, anchors, lambda folder, name: details.picture(results, folder, name, images.embed)),
+        regions=parts.regions(results, lights, anchors, lambda folder, name: details.picture(results, results.image(folder, name), images.embed)),
         sequence=sequence, values=parts.value_table(shown), bars=parts.bar_groups(shown, colors, anchors), reference=reference,
         viewer=_viewer(results, variants, reference), variants=variants, left_out=len(results.variants) - len(variants),
         error_gradient=images.gradient(images.ERROR_COLORS), provenance=_provenance(results),

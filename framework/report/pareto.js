@@ -154,17 +154,11 @@ byId("methods").append(...data.methods.map((method, m) => element("button", { ty
     showCharts(true);
 } }, "Show all methods"));
 
-const speedUps = foldedTable("Speed-ups of the matrix", "As the switches say; low and high: the ends by the intervals of both errors.", () => ({
-    head: ["method", "scene", "factor", "low", "high", "errors reached", "of"],
-    rows: data.scenes.flatMap((scene, s) => order().filter((m) => cellOf(s, m)).map((m) =>
-        [methodName(m), scene.name, ...cellOf(s, m), countOf(s)])),
-}));
-const variants = foldedTable("All variants", "The CSV next to the page has them with more digits, rays and voxel steps.", () => ({
-    head: ["scene", "method", "variant", ...data.costs.map((cost) => cost.name), ...data.errors.flatMap(({ name }) => [name, `${name} low`, `${name} high`])],
-    rows: data.scenes.flatMap((scene) => scene.label.map((label, i) =>
-        [scene.name, methodName(scene.method[i]), label, ...scene.cost.map((cost) => cost[i]), ...scene.error.flatMap((error) => error.map((end) => end[i]))])),
-}));
-byId("tables").append(speedUps.folded, variants.folded);
+const [speedUps, allVariants] = [...document.querySelectorAll("#tables details")].slice(-2);
+const showSpeedUps = fillFolded(speedUps, () => data.scenes.flatMap((scene, s) => order().filter((m) => cellOf(s, m)).map((m) =>
+    [methodName(m), scene.name, ...cellOf(s, m), countOf(s)])));
+fillFolded(allVariants, () => data.scenes.flatMap((scene) => scene.label.map((label, i) =>
+    [scene.name, methodName(scene.method[i]), label, ...scene.cost.map((costs) => costs[i]), ...scene.error.flatMap((error) => error.map((end) => end[i]))])));
 
 drawScale(byId("scale"));
 const charts = data.scenes.map(makeFigure);
@@ -172,7 +166,7 @@ readAddress();
 onChange(["cost", "error", "rival"], () => {
     showMatrix();
     for (const id of ["cell", "chain", "cell-images"]) byId(id).replaceChildren();
-    speedUps.show();
+    showSpeedUps();
 });
 onChange(["cost", "error"], () => showCharts());
 onChange(["rival"], () => showCharts(true));

@@ -10,16 +10,14 @@ import pandas as pd
 
 from report.methods import Method
 from report.ranking import all_beaten, log_cost_at, pareto_front
-from report.results import LIGHTS, Metric, Results, interval_ends, section
+from report.results import LIGHTS, Metric, Results, interval_ends, section, texts
 from report.setting import scenes_of as names_of_scenes
 
-# Build passes whose results do not depend on light; all others run again where it is new
-_LIGHT_INDEPENDENT = {"voxelize", "voxelize_clipmap", "voxelize_octree", "voxelize_packed", "place_surfels", "link_surfels",
-                      "cluster_voxels", "find_patches", "cluster_visibility", "build_hybrid_leaves"}
 COSTS = {"frame": "time of one frame, ms", "frame + light": "time of one frame with its light injected, ms",
          "build + frame": "time of build + one frame, ms", "memory": "device memory, bytes", "rays": "rays traced",
          "voxel steps": "voxels that rays traversed"}
 CHARTED = tuple(COSTS)[:4]
+_UNLIT = "light_independent"  # of the manifest: kinds of passes whose results do not depend on light
 _ERRORS = ("nrmse", "relmse", "flip", "ssim")
 
 
@@ -245,13 +243,15 @@ def _costs(run: Results, table: pd.DataFrame) -> np.ndarray:
     passes = run.passes
     keys = pd.Series(list(zip(passes["variant"], passes["pass"])), index=passes.index, dtype=object)
     is_again = keys.isin(set(keys[passes["phase"] == "frame"]))
-    is_lit = (passes["phase"] == "build") & ~passes["kind"].isin(_LIGHT_INDEPENDENT) & ~is_again
+    # Build passes that run again where light is new; runs of before the manifest told these have no such cost
+    is_lit = (passes["phase"] == "build") & ~passes["kind"].isin(texts(run.manifest, _UNLIT)) & ~is_again
+    of_light = 1 if _UNLIT in run.manifest else math.nan
 
     def total(rows: pd.DataFrame, column: str) -> pd.Series:
         sums = rows.groupby("variant")[column].sum() if column in rows and len(rows) else pd.Series(dtype=float)
         return table["variant"].map(sums).fillna(0.0)
     frame = table["frame_ms_median"]
-    return np.array([frame, frame + total(passes[is_lit], "ms_median"), frame + table["build_ms"], table["memory_bytes"],
+    return np.array([frame, frame + of_light * total(passes[is_lit], "ms_median"), frame + table["build_ms"], table["memory_bytes"],
                      table["rays"], total(passes, "voxel_steps")], dtype=float)
 
 

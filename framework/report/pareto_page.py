@@ -87,7 +87,7 @@ def render(compared: Comparison, with_images: bool = True) -> str:
         costs=list(enumerate(_SHORT.values())), errors=[(i, error.label) for i, error in enumerate(compared.errors)],
         first=compared.first, rivals=[(i, compared.methods[rival].name) for i, rival in enumerate(compared.speed_ups.rivals)],
         sentences=sentences(compared), has_rival=compared.rival is not None, notes=_notes(compared), light=compared.light,
-        tables=[_method_table(compared), *_rival_tables(compared)], runs=[str(run.directory) for run in compared.runs])
+        tables=[_method_table(compared), *_rival_tables(compared), *_filled_tables(compared)], runs=[str(run.directory) for run in compared.runs])
 
 
 def csv_lines(compared: Comparison):
@@ -192,6 +192,15 @@ def _method_table(compared: Comparison) -> Table:
                   for i, method in enumerate(compared.methods)],
                  "Beaten: in every scene each variant is worse than a black or a constant image, or another method costs no "
                  "more and its error's interval lies below.", (0, 1, 4))
+
+
+def _filled_tables(compared: Comparison) -> list[Table]:
+    """Tables whose rows the page's script writes: they follow its switches, or are long."""
+    errors = [f"{error.label}{end}" for error in compared.errors for end in ("", " low", " high")]
+    return [Table("Speed-ups of the matrix", ["method", "scene", "factor", "low", "high", "errors reached", "of"], words=(0, 1),
+                  note="As the switches say; low and high: the ends by the intervals of both errors."),
+            Table("All variants", ["scene", "method", "variant", *_SHORT.values(), *errors], words=(0, 1, 2),
+                  note="The CSV next to the page has them with more digits, rays and voxel steps.")]
 
 
 def _rival_tables(compared: Comparison) -> list[Table]:

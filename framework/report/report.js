@@ -9,11 +9,8 @@ function errorContent(chart) {
     const points = new Map(chart.drawn.map((i) => [i, {
         index: i, x: time[i], xLow: fast[i], xHigh: slow[i], y: value[i], low: low[i], high: high[i], isFaint: isFaint(i) }]));
     const series = d3.nest().key((p) => data.variants[p.index].color + data.variants[p.index].mark).entries([...points.values()])
-        .map(({ values }) => ({ ...data.variants[values[0].index], points: values, marks: values.filter((p) => marked.has(p.index)), line: [] }));
-    for (const curve of data.curves) {
-        const line = curve.map((i) => points.get(i)).filter((p) => p).sort((a, b) => a.x - b.x);
-        if (line.length) series.unshift({ ...data.variants[curve[0]], points: [], marks: [], line });
-    }
+        .map(({ values }) => ({ ...data.variants[values[0].index], points: values, marks: values.filter((p) => marked.has(p.index)),
+                                line: data.joined ? [...values].sort((a, b) => a.x - b.x) : [] }));
     return { ...chart, series, hasBars: true, front: chart.front.map((i) => [time[i], high[i]]),
              paths: [chart.marked.map((i) => points.get(i)).sort((a, b) => a.x - b.x)],
              labels: chart.labelled.map((i) => ({ text: data.variants[i].label, color: data.variants[i].color, point: points.get(i) })) };

@@ -51,11 +51,11 @@ def styles(count: int) -> list[Style]:
     return [Style(CATEGORY_COLORS[i % len(CATEGORY_COLORS)], list(MARKERS)[i % len(MARKERS)]) for i in range(count)]
 
 
-def variant_styles(results: Results) -> tuple[dict[str, Style], list[Legend], list[list[str]]]:
+def variant_styles(results: Results) -> tuple[dict[str, Style], list[Legend], bool]:
     """Color and mark tell the method; where there is one alone, the color tells the first sweep key and the mark the second.
 
-    @return the style of each variant, the legends, and the variants to join by a line: those of a method, where a single
-        key swaps methods.
+    @return the style of each variant, the legends, and whether lines join variants of a style: where a single key swaps
+        methods.
     """
     families, keys, rows = families_of(results), results.sweep_keys, results.variants
     found = dict.fromkeys(rows["variant"], Style(CATEGORY_COLORS[0]))  # failed ones are of no method
@@ -63,9 +63,9 @@ def variant_styles(results: Results) -> tuple[dict[str, Style], list[Legend], li
         own = styles(len(families))
         found |= {name: style for style, (_, names) in zip(own, families) for name in names}
         legend = Legend("method", [(method.name, style) for (method, _), style in zip(families, own)])
-        return found, [legend], [names for _, names in families if len(names) > 1 and len(keys) == 1]
+        return found, [legend], len(keys) == 1
     if not keys:
-        return found, [], []
+        return found, [], False
     color_of = dict(zip(_values(rows[keys[0]]), CATEGORY_COLORS * len(rows)))
     legends = [Legend(keys[0], [(value, Style(color)) for value, color in color_of.items()])]
     colors, markers = rows[keys[0]].map(color_of), ["o"] * len(rows)
@@ -73,7 +73,7 @@ def variant_styles(results: Results) -> tuple[dict[str, Style], list[Legend], li
         marker_of = dict(zip(_values(rows[keys[1]]), list(MARKERS) * len(rows)))
         legends.append(Legend(keys[1], [(value, Style("muted", marker)) for value, marker in marker_of.items()]))
         markers = rows[keys[1]].map(marker_of)
-    return dict(zip(rows["variant"], map(Style, colors, markers))), legends, []
+    return dict(zip(rows["variant"], map(Style, colors, markers))), legends, False
 
 
 def pass_colors(results: Results) -> dict[str, str]:

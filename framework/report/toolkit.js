@@ -84,21 +84,16 @@ document.addEventListener("click", ({ target }) => {
     }
 });
 
-// A folded table as macros.html.j2 has it. `content()` gives {head, rows} where it is unfolded.
-function foldedTable(title, note, content, most = 300) {
-    const body = element("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": title });
-    const folded = element("details", { class: "folded", ontoggle: show }, element("summary", {}, title), element("p", { class: "note" }, note),
-                           element("p", { class: "filter" }, element("button", { type: "button", class: "save" }, "Save as CSV"),
-                                   element("button", { type: "button", class: "all-rows" }, "Show all rows")), body);
+// A folded table (macros.html.j2) whose rows are made where it is unfolded. Returns a function that makes them anew.
+function fillFolded(folded, rowsOf, most = 300) {
+    const table = folded.querySelector("table");
+    const cellOf = (value) => element("td", typeof value === "string" ? { class: "words" } : { "data-sort": value ?? "none" }, String(figures(value)));
     function show() {
         if (!folded.open) return;
-        const { head, rows } = content(), alignment = (value) => (typeof value === "string" ? { class: "words" } : { "data-sort": value ?? "none" });
-        const headings = head.map((name, i) => element("th", { scope: "col", class: typeof rows[0]?.[i] === "string" && "words" },
-                                                       element("button", { type: "button" }, name)));
-        const table = element("table", { class: "results", "data-rows": most }, element("thead", {}, element("tr", {}, ...headings)),
-            element("tbody", {}, ...rows.map((row) => element("tr", {}, ...row.map((value) => element("td", alignment(value), String(figures(value))))))));
-        body.replaceChildren(table);
+        table.dataset.rows = most;
+        table.tBodies[0].replaceChildren(...rowsOf().map((row) => element("tr", {}, ...row.map(cellOf))));
         showRows(table);
     }
-    return { folded, show };
+    folded.addEventListener("toggle", show);
+    return show;
 }

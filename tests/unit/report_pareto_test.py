@@ -139,6 +139,11 @@ class Pareto(unittest.TestCase):
         [scene] = compared.scenes
         # Of a build of 200 ms `voxelize` takes 140; light does not change voxels
         np.testing.assert_allclose(scene.costs[:4, 1], (100, 156, 300, 2**24 * 100))
+        # An older run does not tell which passes depend on light
+        old = load(self.run_of("hall", {"p": (PATHS, 100, 0.1)}))
+        del old.manifest["light_independent"]
+        [scene_of_old] = Comparison.of([old], "nrmse", "indirect").scenes
+        np.testing.assert_allclose(scene_of_old.costs[:4, 0], (100, math.nan, 300, 2**24 * 100))
         self.assertEqual([error.label for error in compared.errors], ["nRMSE", "relMSE", "HDR-FLIP", "1 − SSIM"])
         np.testing.assert_allclose(scene.errors[:, 0, 1], (0.05, 0.0025, 0.025, 0.025))
         np.testing.assert_allclose(scene.errors[0, :, 1], (0.05, 0.0475, 0.0525))
