@@ -116,8 +116,8 @@ function makeChart(host, label, tell, open = () => {}) {
             .call(d3.axisLeft(y).tickValues(ticksOf(y)).tickFormat((v) => figures(v)).tickSize(margin.left + margin.right - width).tickPadding(6));
         for (const axis of [bottom, left]) axis.selectAll(".domain").remove();
         svg.append("text").attr("class", "title").attr("x", (margin.left + width - margin.right) / 2).attr("y", height - 8)
-            .attr("text-anchor", "middle").text(content.isLinear ? content.xLabel : `← cheaper   ${content.xLabel}`);
-        svg.append("text").attr("class", "title").attr("x", 6).attr("y", 13).text(content.isLinear ? content.yLabel : `${content.yLabel}   ↓ more accurate`);
+            .attr("text-anchor", "middle").text(content.isLinear ? content.xLabel : `${content.xLabel} (← cheaper)`);
+        svg.append("text").attr("class", "title").attr("x", 6).attr("y", 13).text(content.isLinear ? content.yLabel : `${content.yLabel} (↓ more accurate)`);
     }
 
     function drawPoints(inside) {

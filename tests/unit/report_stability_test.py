@@ -1,7 +1,9 @@
 """Tests of the tables of `voxray stability`, on runs whose numbers are known. Needs Debian's Python with pandas and Jinja2."""
 
+import base64
 import csv
 import json
+import re
 import sys
 import tempfile
 import unittest
@@ -232,6 +234,9 @@ class InABrowser(StabilityTest):
         self.assertEqual(self.browser.run(rows), ["wall", "room"])
         self.browser.run("document.querySelector('.folded th button').click()")
         self.assertEqual(self.browser.run(rows), ["room", "wall"])
+        # On paper the map has a page across
+        pdf = base64.b64decode(self.browser.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True})["data"])
+        self.assertTrue(any(int(width) > int(height) for width, height in re.findall(rb"/MediaBox \[0 0 (\d+) (\d+)\]", pdf)))
         self.browser.media("print")
         self.assertEqual(self.browser.run(heights), [True, True, False])
 
