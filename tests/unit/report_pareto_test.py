@@ -155,6 +155,8 @@ class Pareto(unittest.TestCase):
         self.assertEqual(np.isfinite(compared.scenes[1].errors[:, 0]).all(axis=1).tolist(), [True, False, False, False])
         self.assertEqual(self.cell(compared, RAYS, 1, error=1)[3:], (0, 0))
         pareto_page.render(compared)
+        # Whichever run comes first
+        self.assertEqual([error.metric.key for error in Comparison.of(both[::-1], "relmse", "indirect").errors], ["nrmse", "relmse", "flip", "ssim"])
 
     def test_images_worse_than_black_are_on_no_front(self):
         compared = self.compare(self.run_of("room", {"p": (PATHS, 100, 0.1), "r": (RAYS, 1, 1.9)}))
