@@ -171,6 +171,9 @@ std::string manifestJson(const ManifestData& data) {
     json["variants"] = std::move(graphs);
     json["inputs"] = std::move(inputs);
     json["noise_parameters"] = noise;
+    json["light_independent"] = Json::array();
+    for (const PassKind& kind : data.study->registry->kinds())
+        if (!kind.dependsOnLight) json["light_independent"].push_back(kind.name);
     for (const char* later : {"warnings", "notes"}) json[later] = nullptr;
     json["versions"] = {{"voxray", data.version}, {"driver", data.device.driver}, {"compiler", __VERSION__}};
     json["machine"] = {{"cpu", cpuName()}, {"cores", std::thread::hardware_concurrency()}};

@@ -46,6 +46,7 @@ struct PassKind {
     /// What names of variants say where it follows the pass whose result it denoises, such as "filtered". Empty: for no
     /// such pass.
     std::string filterLabel;
+    bool dependsOnLight = true;  ///< False: its outputs stay where lights alone change.
     PassType type;
 
     /// Makes a pass from its map in the config. @throws UsageError for an unknown or invalid parameter.
@@ -68,6 +69,7 @@ class Registry {
         kind.family = family;
         kind.help = P::kHelp;
         if constexpr (requires { P::kNeedsDevice; }) kind.needsDevice = P::kNeedsDevice;
+        if constexpr (requires { P::kDependsOnLight; }) kind.dependsOnLight = P::kDependsOnLight;
         if constexpr (requires { P::kFilterLabel; }) kind.filterLabel = P::kFilterLabel;
         if constexpr (requires { typename P::Params; })
             kind.type = typeOf<typename P::Params>(

@@ -61,6 +61,7 @@ class Results(Run):
         self.assertEqual(manifest["sweep_keys"], ["voxelize.resolution"])
         self.assertEqual(set(manifest["baselines"]), {"black", "constant"})
         self.assertIn("tracer", manifest["auto"])
+        self.assertEqual([name for name in ("voxelize", "inject_light_rays") if name in manifest["light_independent"]], ["voxelize"])
         self.assertEqual(manifest["noise_parameters"], {
             "indirect": dict.fromkeys(VARIANTS, ["inject.rays_per_light"]),
             "final": dict.fromkeys(VARIANTS, ["inject.rays_per_light", "direct_shadow_rays.light_samples"])})

@@ -62,6 +62,7 @@ struct EnumNames<HemisphereAxis> {
 class FindClusterVisibility final : public Pass {
  public:
     static constexpr const char* kName = "cluster_visibility";
+    static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Measures form factors from each patch to voxel clusters. "
         "Traces cosine-distributed rays from the surfels of each patch (find_patches: "

@@ -22,6 +22,7 @@ namespace voxray {
 class FindPatches final : public Pass {
  public:
     static constexpr const char* kName = "find_patches";
+    static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Splits voxels' surfels and clusters at walls thinner than a voxel. "
         "Surfels of a voxel that see each other form a surface group; "

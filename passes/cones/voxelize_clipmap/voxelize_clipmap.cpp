@@ -26,6 +26,7 @@ gpu::VoxelGrid levelGrid(gpu::VoxelGrid grid, uint32_t level, uint32_t windowSiz
 class VoxelizeClipmap final : public Pass {
  public:
     static constexpr const char* kName = "voxelize_clipmap";
+    static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Voxelizes the scene's surfaces into a clipmap around the camera, for light_clipmap. "
         "The coarsest level covers the whole scene, each finer level a window. "

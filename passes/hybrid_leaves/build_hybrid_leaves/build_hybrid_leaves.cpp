@@ -71,6 +71,7 @@ struct EnumNames<GridLevels> {
 class BuildHybridLeaves final : public Pass {
  public:
     static constexpr const char* kName = "build_hybrid_leaves";
+    static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Builds the leaves of a hybrid octree: triangles or finer voxels in surface voxels. "
         "Each leaf holds the list of its triangles or, if these exceed a capacity, a grid of finer voxels, "

@@ -22,6 +22,7 @@ constexpr uint64_t kPackedSurfelBytes = 2 * sizeof(uint32_t);
 class LinkSurfels final : public Pass {
  public:
     static constexpr const char* kName = "link_surfels";
+    static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Links the surfels that see each other, for radiosity. "
         "Rays find the links once for a geometry; light then travels along them (inject_radiosity). "
