@@ -7,8 +7,8 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
-layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
+readonly buffer FirstCandidate { uint data[]; } firstCandidate;
+layout(scalar) readonly buffer CandidatesRef { LargeUints candidates; };  // Neighbours; NO_GROUP: occluded.
 readonly buffer ClusterOfVoxel { uint data[]; } clusterOfVoxel;
 buffer Labels { uint data[]; } labels;
 buffer Changed { uint count; } changed;
@@ -19,8 +19,8 @@ void main() {
     if (group >= push.groupCount) return;
     const uint cluster = clusterOfVoxel.data[groups.data[group].voxel];
     uint label = labels.data[labels.data[group]];
-    for (uint i = firstNeighbour.data[group]; i < firstNeighbour.data[group + 1u]; ++i) {
-        const uint neighbour = neighbours.data[i];
+    for (uint i = firstCandidate.data[group]; i < firstCandidate.data[group + 1u]; ++i) {
+        const uint neighbour = candidates.data[i];
         if (neighbour == NO_GROUP || clusterOfVoxel.data[groups.data[neighbour].voxel] != cluster) continue;
         label = min(label, labels.data[neighbour]);
     }

@@ -1,15 +1,19 @@
-// Removes neighbours that are occluded from each other. UPDATE: copies the previous result for groups with unchanged
-// neighbourhoods, which have the same neighbours in the same order.
+// Removes candidates for neighbours that are occluded. UPDATE: uses the previous result for groups with unchanged
+// neighbourhoods, where the neighbours have the same bytes.
+#ifdef UPDATE
+#include "passes/clusters/neighbours.glsl"
+#else
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/large_buffer.glsl"
+#endif
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
 readonly buffer Occluded { uint data[]; } occluded;
-layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
+layout(scalar) readonly buffer CandidatesRef { LargeUints candidates; };
 #ifdef UPDATE
-layout(scalar) readonly buffer GroupOfEntryRef { LargeUints groupOfEntry; };
-readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
+layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
+layout(scalar) readonly buffer GroupOfCandidateRef { LargeUints groupOfCandidate; };
 readonly buffer ReusablePreviousIndex { uint data[]; } reusablePreviousIndex;
 readonly buffer PreviousFirstNeighbour { uint data[]; } previousFirstNeighbour;
 layout(scalar) readonly buffer PreviousNeighboursRef { LargeUints previousNeighbours; };
@@ -19,12 +23,15 @@ layout(push_constant) uniform Push {
     uint count;
 } push;
 
-bool isOccluded(uint i) {
+bool isOccludedCandidate(uint i) {
 #ifdef UPDATE
-    const uint group = groupOfEntry.data[push.first + i], previous = reusablePreviousIndex.data[group];
+    const uint group = groupOfCandidate.data[push.first + i], previous = reusablePreviousIndex.data[group];
     if (previous != NO_GROUP) {
-        const uint indexInList = push.first + i - firstNeighbour.data[group];
-        return previousNeighbours.data[previousFirstNeighbour.data[previous] + indexInList] == NO_GROUP;
+        const uint candidate = candidates.data[push.first + i];
+        const uint code = neighbourCode(groups.data[group], groups.data[candidate], candidate);
+        for (uint k = previousFirstNeighbour.data[previous]; k < previousFirstNeighbour.data[previous + 1u]; ++k)
+            if (byteOf(previousNeighbours.data[k / 4u], k) == code) return false;
+        return true;
     }
 #endif
     return occluded.data[i] != 0u;
@@ -32,5 +39,5 @@ bool isOccluded(uint i) {
 
 void main() {
     const uint i = linearIndex();
-    if (i < push.count && isOccluded(i)) neighbours.data[push.first + i] = NO_GROUP;
+    if (i < push.count && isOccludedCandidate(i)) candidates.data[push.first + i] = NO_GROUP;
 }

@@ -1,15 +1,16 @@
 // Dilates the list of groups by their neighbours, which an iteration of the filter reads.
-#include "passes/clusters/surface_group_types.h"
-#include "shaders/compute/large_buffer.glsl"
+#include "passes/clusters/neighbours.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
+layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
 layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
 buffer IsListed { uint data[]; } isListed;  // Per group.
 buffer ListedGroups { uint data[]; } listedGroups;
 buffer Count { uint value; } count;
-layout(push_constant) uniform Push {
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
     uint first;  // Index in the list of the first group that the previous step added.
     uint groupCount;  // Number of groups that it added.
 } push;
@@ -19,8 +20,8 @@ void main() {
     if (i >= push.groupCount) return;
     const uint group = listedGroups.data[push.first + i];
     for (uint k = firstNeighbour.data[group]; k < firstNeighbour.data[group + 1u]; ++k) {
-        const uint neighbour = neighbours.data[k];
-        if (neighbour != NO_GROUP && atomicExchange(isListed.data[neighbour], 1u) == 0u)
+        const uint neighbour = neighbourIndex(push.grid, groups.data[group], byteOf(neighbours.data[k / 4u], k));
+        if (atomicExchange(isListed.data[neighbour], 1u) == 0u)
             listedGroups.data[atomicAdd(count.value, 1u)] = neighbour;
     }
 }

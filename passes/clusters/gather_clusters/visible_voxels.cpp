@@ -70,7 +70,11 @@ VisibleVoxels::NewVoxels VisibleVoxels::find(PassContext& context, const GBuffer
     for (uint32_t i = 0; i < steps; ++i) {
         const uint32_t end = found.groupCounts.back();
         context.dispatch(dilate_, end - first,
-                         {{"firstNeighbour", patches.firstNeighbour},
+                         {voxels,
+                          {"coordinates", clusters.coordinates},
+                          {"groups", patches.groups},
+                          {"firstGroup", patches.firstGroup},
+                          {"firstNeighbour", patches.firstNeighbour},
                           {"NeighboursRef", patches.neighbours.ref()},
                           {"isListed", isListed_},
                           {"listedGroups", listedGroups_},
