@@ -14,7 +14,7 @@ namespace voxray {
 /// bits with an error of at most 1/255 of the largest channel (passes/surfels/radiosity.glsl). It contains
 /// reflected light only, not the emission of surfaces.
 struct ClusterLight : Resource {
-    Buffer components;    ///< 6 for each component: one for each face.
+    Buffer components;    ///< 1 for each component face.
     LargeBuffer patches;  ///< 1 for each patch.
     LargeBuffer direct;   ///< Direct irradiance (W/m²) of each patch, packed likewise.
 

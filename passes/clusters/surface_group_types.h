@@ -2,43 +2,61 @@
 #ifndef VOXRAY_SHARED_SURFACE_GROUP_TYPES_H
 #define VOXRAY_SHARED_SURFACE_GROUP_TYPES_H
 
-#include "shaders/shared/types.h"
+#include "shaders/voxels/voxel_packing.h"
+
+#ifdef __cplusplus
+#define VOXRAY_GROUP_FUNCTION inline
+#else
+#define VOXRAY_GROUP_FUNCTION
+#endif
 
 VOXRAY_SHARED_BEGIN
 
 #define NO_GROUP 0xffffffffu
 #define NO_COMPONENT 0xffffffffu
 
-// A surfel with the surface group that it belongs to.
-struct GroupedSurfel {
-    vec3 position;  // m, as Surfel's.
-    uint index;     // In the surfels of all chunks.
-    vec3 normal;    // Unit length, on the lit side.
-    uint id;        // That of Surfel: the same in every run.
-    vec3 reflectance;
-    uint voxel;
-    uint group;       // Before list_groups.comp: the index within its voxel.
-    float height;     // m, of the origin of visibility rays above the surface: half a voxel, or half the gap.
-    uint isOccluded;  // 1: another surface lies in front of it, closer than a voxel's width.
-};
+// Bits of SurfaceGroup::flags.
+#define GROUP_FACES 0x3fu  // One for each face +x -x +y -y +z -z at which the group has a patch.
+#define GROUP_OCCLUDED \
+    0x40u  // It lies in a gap narrower than a voxel. It sends and receives light, but the voxel's
+           // irradiance does not include it.
 
 // The surfels of a voxel that see each other, e.g. those on one face of a thin wall. It has a patch at each
-// of the voxel's six faces towards which its projected area is not 0.
+// of the voxel's six faces towards which its projected area is not 0. Its surfels and patches end where those of the
+// next group begin; one more element follows the last group.
 struct SurfaceGroup {
-    vec3 pointAbove;  // m: pointAbove() of its first surfel.
     uint voxel;
     uint firstSurfel;
-    uint surfelCount;
-    uint isOccluded;  // 1: in a gap narrower than a voxel. It sends and receives light, but the voxel's
-                      // irradiance does not include it.
-    uint faces;       // A bit for each face +x -x +y -y +z -z at which it has a patch.
     uint firstPatch;  // Index of its first patch; the others follow in the order of faces.
+    uint flags;
 };
 
-// The connected surface groups of a cluster.
+// Normal, reflectance and unoccluded area of a surface group: the words of PackedVoxelMaterial that have these.
+#define GROUP_MATERIAL_WORDS 6u
+struct PackedGroupMaterial {
+    uint words[GROUP_MATERIAL_WORDS];
+};
+
+VOXRAY_GROUP_FUNCTION PackedGroupMaterial packGroupMaterial(VoxelMaterial m) {
+    const PackedVoxelMaterial all = packMaterial(m);
+    PackedGroupMaterial p;
+    for (uint i = 0u; i < GROUP_MATERIAL_WORDS; ++i) p.words[i] = all.words[i];
+    return p;
+}
+
+// Other members than normal, reflectance and unoccluded area are 0.
+VOXRAY_GROUP_FUNCTION VoxelMaterial unpackGroupMaterial(PackedGroupMaterial p) {
+    PackedVoxelMaterial all;
+    for (uint i = 0u; i < MATERIAL_WORDS; ++i) all.words[i] = i < GROUP_MATERIAL_WORDS ? p.words[i] : 0u;
+    return unpackMaterial(all);
+}
+
+// The connected surface groups of a cluster. It has a face where one of its groups has a patch. Its members and faces
+// end where those of the next component begin; one more element follows the last component.
 struct ClusterComponent {
     uint firstMember;
-    uint memberCount;
+    uint firstFace;  // Index of its first face among those of all components; the others follow in their order.
+    uint faces;      // A bit for each, as GROUP_FACES.
 };
 
 VOXRAY_SHARED_END

@@ -1,5 +1,5 @@
 // Visibility lists of patches, shared by C++ and GLSL. An entry has a target and the number of rays that hit
-// it. Indices of targets: 6 * component + face for component faces, then 6 * components + patch for patches.
+// it. Targets are the faces of components by their index, then patches.
 #ifndef VOXRAY_SHARED_VISIBILITY_LIST_TYPES_H
 #define VOXRAY_SHARED_VISIBILITY_LIST_TYPES_H
 

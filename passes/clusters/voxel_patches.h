@@ -9,9 +9,12 @@ namespace voxray {
 
 /// Surfels, surface groups and patches of voxels, and components of clusters (find_patches):
 ///
-///     voxel   -> surface groups: its surfels that see each other, e.g. those on one face of a thin wall
-///     group   -> patches: one for each of the six faces at which it has area, in the order of faces
-///     cluster -> components: its connected groups; a thin wall has one on each of its faces
+///     voxel     -> surface groups: its surfels that see each other, e.g. those on one face of a thin wall
+///     group     -> patches: one for each of the six faces at which it has area, in the order of faces
+///     cluster   -> components: its connected groups; a thin wall has one on each of its faces
+///     component -> faces: one for each of the six at which one of its groups has a patch
+///
+/// What follows from the scene is not stored: surfels are evaluated where they are read (patch_surfels.glsl).
 struct VoxelPatches : Resource {
     std::string indexedBy() const override { return "voxels"; }
 
@@ -19,14 +22,14 @@ struct VoxelPatches : Resource {
     uint32_t patchCount = 0;
     uint32_t surfelCount = 0;
     uint32_t componentCount = 0;
-    LargeBuffer surfels;      ///< gpu::GroupedSurfel each, sorted by voxel, group and id.
-    LargeBuffer surfelIndex;  ///< Index in `surfels` of each surfel of place_surfels, or NO_GROUP.
+    uint32_t componentFaceCount = 0;
+    LargeBuffer surfelIds;    ///< Surfel::id of each, sorted by voxel, group and id.
     Buffer firstGroup;        ///< First group of each voxel; then the number of groups.
-    Buffer groups;            ///< gpu::SurfaceGroup each.
-    LargeBuffer materials;    ///< PackedVoxelMaterial of each group's surfaces.
+    Buffer groups;            ///< gpu::SurfaceGroup each; then one where surfels and patches end.
+    LargeBuffer materials;    ///< gpu::PackedGroupMaterial of each group's surfaces.
     Buffer firstNeighbor;     ///< First element of each group in `neighbors`; then the number of elements.
-    LargeBuffer neighbors;    ///< Groups in the 26 voxels around that a group sees; NO_GROUP: occluded.
-    Buffer components;        ///< gpu::ClusterComponent each.
+    LargeBuffer neighbors;    ///< Groups in the 26 voxels around that a group sees, a byte each (neighbors.glsl).
+    Buffer components;        ///< gpu::ClusterComponent each; then one where members and faces end.
     Buffer memberGroups;      ///< Groups sorted by component, ascending within each.
     Buffer componentOfGroup;  ///< Component of each group, or NO_COMPONENT where its voxel has no cluster.
     /// After an update for moving surfaces: index of each group in the previous build, or NO_GROUP where its
@@ -35,20 +38,20 @@ struct VoxelPatches : Resource {
 
     /// The bindings of shaders that process the patches of cluster components.
     std::vector<Binding> componentBindings() const {
-        return {{"VoxelMaterialsRef", materials.ref()},
+        return {{"GroupMaterialsRef", materials.ref()},
                 {"groups", groups},
                 {"components", components},
                 {"memberGroups", memberGroups}};
     }
     /// Frees the buffers.
     void clear() {
-        surfels = {}, surfelIndex = {}, firstGroup = {}, groups = {}, materials = {}, firstNeighbor = {};
+        surfelIds = {}, firstGroup = {}, groups = {}, materials = {}, firstNeighbor = {};
         neighbors = {}, components = {}, memberGroups = {}, componentOfGroup = {}, previousGroupIndex = {};
     }
     uint64_t bytes() const {
-        return surfels.bytes() + surfelIndex.bytes() + firstGroup.bytes() + groups.bytes() + materials.bytes() +
-               firstNeighbor.bytes() + neighbors.bytes() + components.bytes() + memberGroups.bytes() +
-               componentOfGroup.bytes() + previousGroupIndex.bytes();
+        return surfelIds.bytes() + firstGroup.bytes() + groups.bytes() + materials.bytes() + firstNeighbor.bytes() +
+               neighbors.bytes() + components.bytes() + memberGroups.bytes() + componentOfGroup.bytes() +
+               previousGroupIndex.bytes();
     }
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }
 };

@@ -7,6 +7,7 @@
 #include "passes/clusters/cluster_light.h"
 #include "passes/clusters/cluster_visibility.h"
 #include "passes/clusters/voxel_patches.h"
+#include "passes/surfels/surfels.h"
 #include "tests/physics/voxels_read.h"
 
 /// A graph whose voxels are lit through clusters, and what its tests read of it.
@@ -29,9 +30,32 @@ inline std::vector<std::string> clusterGraph(const std::string& inject, const st
             "gather_irradiance"};
 }
 
-/// Surface groups of a chain's voxels.
+/// Surfels in the order of VoxelPatches::surfelIds.
+inline std::vector<gpu::Surfel> readSurfels(Chain& chain) {
+    const Surfels& all = chain.get<Surfels>("surfels");
+    std::vector<gpu::Surfel> byId(2 * all.pointCount), sorted;
+    for (const Surfels::Chunk& chunk : all.chunks)
+        for (const gpu::Surfel& s : chain.read<gpu::Surfel>(chunk.surfels)) byId.at(s.id) = s;
+    for (const uint32_t id : chain.read<uint32_t>(chain.get<VoxelPatches>("patches").surfelIds))
+        sorted.push_back(byId.at(id));
+    return sorted;
+}
+
+/// Surface groups of a chain's voxels; then one where their surfels and patches end.
 inline std::vector<gpu::SurfaceGroup> readGroups(Chain& chain) {
     return chain.read<gpu::SurfaceGroup>(chain.get<VoxelPatches>("patches").groups);
+}
+
+/// By group: the point half a voxel above its first surfel, where visibility rays of unoccluded groups begin.
+inline std::vector<glm::vec3> pointsAbove(Chain& chain) {
+    const std::vector<gpu::Surfel> surfels = readSurfels(chain);
+    std::vector<glm::vec3> points;
+    for (const gpu::SurfaceGroup& group : readGroups(chain)) {
+        if (group.firstSurfel == surfels.size()) break;
+        const gpu::Surfel& s = surfels[group.firstSurfel];
+        points.push_back(s.position + 0.5f * chain.get<SurfaceVoxels>("voxels").grid.voxelSize * s.normal);
+    }
+    return points;
 }
 
 /// By patch: 6 * group + face.
@@ -39,7 +63,17 @@ inline std::vector<uint32_t> facesOfPatches(const std::vector<gpu::SurfaceGroup>
     std::vector<uint32_t> faces;
     for (uint32_t group = 0; group < groups.size(); ++group)
         for (uint32_t face = 0; face < 6; ++face)
-            if ((groups[group].faces >> face & 1u) != 0) faces.push_back(6 * group + face);
+            if ((groups[group].flags >> face & 1u) != 0) faces.push_back(6 * group + face);
+    return faces;
+}
+
+/// By component face: 6 * component + face.
+inline std::vector<uint32_t> facesOfComponents(Chain& chain) {
+    std::vector<uint32_t> faces;
+    const auto components = chain.read<gpu::ClusterComponent>(chain.get<VoxelPatches>("patches").components);
+    for (uint32_t component = 0; component + 1 < components.size(); ++component)
+        for (uint32_t face = 0; face < 6; ++face)
+            if ((components[component].faces >> face & 1u) != 0) faces.push_back(6 * component + face);
     return faces;
 }
 

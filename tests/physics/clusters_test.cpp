@@ -155,17 +155,18 @@ TEST(ClusterVisibility, CountsFormFactors) {
         const auto groups = chain.read<gpu::SurfaceGroup>(patches.groups);
         const auto components = chain.read<gpu::ClusterComponent>(patches.components);
         const auto memberGroups = chain.read<uint32_t>(patches.memberGroups);
-        const auto materials = chain.read<gpu::PackedVoxelMaterial>(patches.materials);
-        const auto faces = facesOfPatches(groups);
+        const auto materials = chain.read<gpu::PackedGroupMaterial>(patches.materials);
+        const auto above = pointsAbove(chain);
+        const auto faces = facesOfPatches(groups), targets = facesOfComponents(chain);
         const auto lists = readVisibilityLists(chain);
         double sum = 0, area = 0;
         for (size_t i = 0; i < lists.size(); ++i) {
             const uint32_t group = faces[i] / 6;
             if (faces[i] % 6 != 2 || c.coordinates[groups[group].voxel].y > 16) continue;
-            const double patchArea = gpu::unpackMaterial(materials[group]).unoccludedPositive.y;
+            const double patchArea = gpu::unpackGroupMaterial(materials[group]).unoccludedPositive.y;
             area += patchArea;
             for (const VisibilityEntry& entry : lists[i])
-                if (groups[memberGroups[components[entry.target / 6].firstMember]].pointAbove.y > 0.5f)
+                if (above[memberGroups[components[targets[entry.target] / 6].firstMember]].y > 0.5f)
                     sum += patchArea * entry.rays / 256;
         }
         std::printf("%s: form factor %.4f\n", visibility.c_str(), sum / area);
@@ -196,12 +197,13 @@ double leakIntoARoom(const std::string& visibility, const std::string& direct, c
                                        "rays: 64, near_distance: " + near + ", visibility: " + visibility,
                                        "2, direct: " + direct, "filter_passes: 2", "25")));
     const auto groups = readGroups(chain);
+    const auto above = pointsAbove(chain);
     const auto light = readRadiosity(chain);
     double inside = 0, outside = 0, insideCount = 0, outsideCount = 0;
-    for (size_t i = 0; i < groups.size(); ++i) {
+    for (size_t i = 0; i < above.size(); ++i) {
         double sum = 0;
-        for (int k = 0; k < std::popcount(groups[i].faces); ++k) sum += light[groups[i].firstPatch + size_t(k)];
-        const glm::vec3 p = groups[i].pointAbove;
+        for (uint32_t k = groups[i].firstPatch; k < groups[i + 1].firstPatch; ++k) sum += light[k];
+        const glm::vec3 p = above[i];
         const bool isInside = std::abs(p.x) < 2 && p.y > 0 && p.y < 2.5f && std::abs(p.z) < 2;
         (isInside ? inside : outside) += sum;
         (isInside ? insideCount : outsideCount) += 1;
@@ -241,10 +243,9 @@ TEST(ClusterVisibility, LookAlongTheNormalOfEachWallOfACorner) {
                                            "filter_passes: 0", "19")));
         Light light;
         light.flux = readFlux(chain, chain.get<VoxelIrradiance>("irradiance").indirect);
-        const auto surfels = chain.read<gpu::GroupedSurfel>(chain.get<VoxelPatches>("patches").surfels);
         light.faces.resize(light.flux.size() / 18);
         light.isAligned.resize(light.faces.size(), true);
-        for (const gpu::GroupedSurfel& s : surfels)
+        for (const gpu::Surfel& s : readSurfels(chain))
             for (int axis = 0; axis < 3; ++axis) {
                 const float cosine = s.normal[axis];
                 if (std::abs(cosine) > 0.999f)

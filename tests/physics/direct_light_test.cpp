@@ -69,7 +69,7 @@ TEST(EnvironmentCdf, OfAConstantMapIsThatOfSolidAngle) {
 }
 
 TEST(EnvironmentCdf, ReachesAsFarAsABrightTexelIsInterpolated) {
-    // Bilinear patches: 6/8 of a texel's own, 1/8 of either neighbour's. The map wraps horizontally.
+    // Bilinear patches: 6/8 of a texel's own, 1/8 of either neighbor's. The map wraps horizontally.
     const auto map = std::make_shared<ImageF>(8, 4, 3);
     for (int c = 0; c < 3; ++c) map->pixel(0, 1)[c] = 5.0f;
     const EnvironmentCdf cdf = environmentCdf({glm::vec3(1), map});

@@ -23,15 +23,15 @@ TEST(GatherClusters, KeepTheEnergyOfAFurnace) {
                         graphYaml(clusterGraph(kDirect, "target: 200", "rays: 64, near_distance: " + near,
                                                std::to_string(bounces) + ", direct: " + direct, "filter_passes: 0")));
             // All that is seen from within the box, and nothing from without.
-            const auto groups = readGroups(chain);
+            const auto above = pointsAbove(chain);
             uint32_t inside = 0, outside = 0;
-            const auto faces = facesOfPatches(groups);
+            const auto faces = facesOfPatches(readGroups(chain));
             const auto lists = readVisibilityLists(chain);
             ASSERT_EQ(lists.size(), faces.size());
             for (size_t patch = 0; patch < lists.size(); ++patch) {
                 uint32_t rays = 0;
                 for (const VisibilityEntry& entry : lists[patch]) rays += entry.rays;
-                const glm::vec3 p = glm::abs(groups[faces[patch] / 6].pointAbove);
+                const glm::vec3 p = glm::abs(above[faces[patch] / 6]);
                 const bool isInside = std::max({p.x, p.y, p.z}) < 1;
                 EXPECT_EQ(rays, isInside ? 64 : 0) << "patch " << patch;
                 ++(isInside ? inside : outside);
@@ -60,18 +60,18 @@ TEST(InjectClusters, KeepTheFluxInAGapNarrowerThanAVoxel) {
                                "inject_clusters, bounces: 4, direct: shadow_rays, light_samples: 64"}));
         const auto groups = readGroups(chain);
         const auto light = readRadiosity(chain);
-        const auto materials = chain.read<gpu::PackedVoxelMaterial>(chain.get<VoxelPatches>("patches").materials);
+        const auto materials = chain.read<gpu::PackedGroupMaterial>(chain.get<VoxelPatches>("patches").materials);
         const float voxelSize = chain.get<SurfaceVoxels>("voxels").grid.voxelSize;
         const auto faces = facesOfPatches(groups);
         ASSERT_EQ(light.size(), faces.size());
         double flux = 0, area = 0, outside = 0;
         for (size_t patch = 0; patch < faces.size(); ++patch) {
             const uint32_t group = faces[patch] / 6, face = faces[patch] % 6;
-            if (groups[group].isOccluded == 0) {
+            if ((groups[group].flags & GROUP_OCCLUDED) == 0) {
                 outside += light[patch];
                 continue;
             }
-            const gpu::VoxelMaterial m = gpu::unpackMaterial(materials[group]);
+            const gpu::VoxelMaterial m = gpu::unpackGroupMaterial(materials[group]);
             const glm::vec3& areas = face % 2 == 0 ? m.unoccludedPositive : m.unoccludedNegative;
             const double patchArea = areas[int(face / 2)] * voxelSize * voxelSize;
             area += patchArea;

@@ -28,13 +28,14 @@ std::string litGraph(const std::string& test, const std::string& resolution) {
 
 std::vector<LitPatch> litPatches(Chain& chain) {
     const auto groups = readGroups(chain);
-    const auto surfels = chain.read<gpu::GroupedSurfel>(chain.get<VoxelPatches>("patches").surfels);
+    const auto surfels = readSurfels(chain);
+    const auto above = pointsAbove(chain);
     const auto faces = facesOfPatches(groups);
     const auto light = readRadiosity(chain);
     std::vector<LitPatch> patches;
     for (size_t i = 0; i < faces.size(); ++i) {
-        const gpu::SurfaceGroup& group = groups[faces[i] / 6];
-        patches.push_back({group.pointAbove, faces[i] % 6, light[i], surfels[group.firstSurfel].normal});
+        const uint32_t group = faces[i] / 6;
+        patches.push_back({above[group], faces[i] % 6, light[i], surfels[groups[group].firstSurfel].normal});
     }
     return patches;
 }

@@ -147,12 +147,14 @@ TEST(ShowVoxels, CountsLitFacesAsListsTell) {
     const std::vector<bool> isLit = litPatches(chain);
     const auto faces = facesOfPatches(groups);
     const auto lists = readVisibilityLists(chain);
-    std::vector<uint32_t> litOfComponents(6 * components.size());
-    for (size_t i = 0; i < components.size(); ++i)
-        for (uint32_t k = 0; k < components[i].memberCount; ++k)
-            for (size_t p = groups[memberGroups[components[i].firstMember + k]].firstPatch;
-                 p < faces.size() && faces[p] / 6 == memberGroups[components[i].firstMember + k]; ++p)
-                litOfComponents[6 * i + faces[p] % 6] += isLit[p] ? 1 : 0;
+    const auto targets = facesOfComponents(chain);
+    std::vector<uint32_t> litOfComponents(targets.size());
+    for (size_t target = 0; target < targets.size(); ++target) {
+        const uint32_t component = targets[target] / 6;
+        for (uint32_t k = components[component].firstMember; k < components[component + 1].firstMember; ++k)
+            for (uint32_t p = groups[memberGroups[k]].firstPatch; p < groups[memberGroups[k] + 1].firstPatch; ++p)
+                if (faces[p] % 6 == targets[target] % 6) litOfComponents[target] += isLit[p] ? 1 : 0;
+    }
 
     const Voxels voxels(chain);
     const Camera& camera = chain.state().cameras.at(0);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "graph/registry.h"
 #include "passes/clusters/cluster_visibility.h"
+#include "passes/clusters/cluster_visibility/patch_surfel.h"
 #include "passes/clusters/cluster_visibility/ray_update_cache.h"
 #include "passes/clusters/voxel_patches.h"
 #include "passes/common/compute/bit_words.h"
@@ -16,6 +17,7 @@
 #include "passes/common/compute/prefix_sum.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/voxel_march/voxel_march.h"
+#include "passes/surfels/surfel_points.h"
 #include "trace/ray.h"
 
 namespace voxray {
@@ -26,9 +28,11 @@ constexpr uint32_t kChunkRays = 1u << 20;  // Rays of a chunk (a range of patche
 constexpr uint32_t kMaxCandidates = 4;
 constexpr uint32_t kMaxGroups = (1u << 28) - 1;  // Limit of packed_hit.glsl.
 
-/// The surfel now tested, and the groups of earlier ones that did not see the hit point. As in find_hit_groups.comp.
+/// The surfel now tested, its group, and the groups of earlier ones that did not see the hit point. As in
+/// find_hit_groups.comp.
 struct Candidate {
     uint32_t surfel;
+    uint32_t group;
     uint32_t rejectedGroups[kMaxCandidates];
 };
 
@@ -103,6 +107,8 @@ class FindClusterVisibility final : public Pass {
  private:
     bool listsPatches() const { return params_.nearDistance > 0; }
     bool tracesTriangles() const { return params_.visibility == RayTraversal::Triangles; }
+    /// Fills surfels_. Only rays through the scene end above surfels: others need no height of gaps.
+    void evaluateSurfels(PassContext& context);
     /// Builds the lists of `count` patches from `first` on.
     void buildChunk(PassContext& context, uint32_t first, uint32_t count);
     /// The bindings of patch_samples.glsl except `rayCount` and `round`.
@@ -119,6 +125,7 @@ class FindClusterVisibility final : public Pass {
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
     In<VoxelClusters> clusters_{*this, "clusters", "clusters; only their voxel coordinates are read"};
+    In<SurfelPoints> points_{*this, "surfel_points", "points of their surfaces"};
     In<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels"};
     Out<ClusterVisibility> visibility_{*this, "cluster_visibility", "visibility lists of patches"};
     std::optional<VoxelMarch> march_;  ///< For rays through voxels.
@@ -126,6 +133,9 @@ class FindClusterVisibility final : public Pass {
     std::optional<Compaction> compaction_;       ///< For scenes with moving surfaces.
     std::optional<RayUpdateCache> updateCache_;  ///< Likewise.
     uint64_t tracedRays_ = 0;                    ///< In the current call of record().
+    Kernel evaluateSurfels_{*this, "evaluate_surfels.comp"};
+    Kernel measureGaps_{*this, "measure_gaps.comp"};
+    bool measuresGaps_ = false;
     Kernel listPatchFaces_{*this, "list_patch_faces.comp"};
     Kernel marchRays_{*this, "march_voxels.comp"};
     Kernel listAllRays_{*this, "passes/clusters/iota.comp"};
@@ -135,6 +145,7 @@ class FindClusterVisibility final : public Pass {
     Kernel hitsToTargets_{*this, "hits_to_targets.comp"};
     Kernel mergeTargets_{*this, "merge_targets.comp"};
     Kernel packLists_{*this, "pack_lists.comp"};
+    LargeBuffer surfels_;  ///< gpu::PatchSurfel each, while the pass records.
     Buffer patchFaces_, packedHits_, targets_, entryCounts_, lostRays_;  ///< Scratch.
     Buffer flags_, listedRays_, rays_, hits_, candidates_, occlusionRays_, occluded_;
 };
@@ -160,6 +171,9 @@ void FindClusterVisibility::plan(PassPlan& plan) {
     const double entries =
         listsPatches() ? raysPerPatch : std::min(raysPerPatch, kEntriesPerSqrtRays * std::sqrt(raysPerPatch));
     plan.estimate(voxels.estimatedCount * kPatchesPerVoxel * (entries + cachedHits) * sizeof(uint32_t));
+    measuresGaps_ = tracesTriangles() && plan[points_].hasOccludedSurfels;
+    if (measuresGaps_) evaluateSurfels_.define({{"GAPS", "1"}});
+    measureGaps_.compileIf(measuresGaps_);
     marchRays_.compileIf(!tracesTriangles());
     for (Kernel* kernel : {&listAllRays_, &generateRays_, &findHitGroups_}) kernel->compileIf(tracesTriangles());
     if (!tracesTriangles()) {
@@ -189,9 +203,8 @@ void FindClusterVisibility::record(PassContext& context) {
     visibility.entryCount = 0;
     visibility.chunkAddresses = {};
     visibility.patchCount = patches.patchCount;
-    visibility.layout.firstPatchTarget = kFaces * patches.componentCount;
-    const uint64_t targets =
-        uint64_t(kFaces) * patches.componentCount + (listsPatches() ? uint64_t(patches.patchCount) : 0);
+    visibility.layout.firstPatchTarget = patches.componentFaceCount;
+    const uint64_t targets = uint64_t(patches.componentFaceCount) + (listsPatches() ? uint64_t(patches.patchCount) : 0);
     gpu::VisibilityListLayout& layout = visibility.layout;
     layout.entryBits = std::max(layout.rayBits + uint32_t(std::bit_width(targets)), 1u);
     if (layout.entryBits > 32)
@@ -209,6 +222,7 @@ void FindClusterVisibility::record(PassContext& context) {
         updateCache_->startUpdate(stream, voxels, context[clusters_], patches, *changed);
     else if (updateCache_)
         updateCache_->clear();
+    evaluateSurfels(context);
     const uint32_t count = patches.patchCount, perChunk = visibility.layout.patchesPerChunk;
     patchFaces_ = Buffer(context.device, "faces of patches", std::max(count, 1u) * sizeof(uint32_t));
     context.dispatch(listPatchFaces_, patches.groupCount,
@@ -217,7 +231,8 @@ void FindClusterVisibility::record(PassContext& context) {
     tracedRays_ = 0;
     for (uint32_t first = 0; first < count; first += perChunk)
         buildChunk(context, first, std::min(perChunk, count - first));
-    patchFaces_ = {};
+    stream.finish();
+    patchFaces_ = {}, surfels_ = {};
     if (updateCache_) updateCache_->store(stream, patches);
     if (march_) context.visitCounts.push_back(&march_->counts());
 
@@ -240,11 +255,34 @@ void FindClusterVisibility::record(PassContext& context) {
     if (updateCache_) context.report("rays traced, % of all", count > 0 ? 100 * double(tracedRays_) / rays : 0);
 }
 
+void FindClusterVisibility::evaluateSurfels(PassContext& context) {
+    const VoxelPatches& patches = context[patches_];
+    surfels_ = LargeBuffer(context.device, "surfels of patches",
+                           std::max<uint64_t>(patches.surfelCount, 1) * sizeof(gpu::PatchSurfel));
+    const SurfelPoints& points = context[points_];
+    const uint32_t batch = context[visibility_].layout.patchesPerChunk * params_.rays;
+    for (uint32_t first = 0; first < patches.surfelCount; first += batch) {
+        const uint32_t count = std::min(batch, patches.surfelCount - first);
+        const Bindings range{{"PatchSurfelsRef", surfels_.ref()}, {"first", first}, {"count", count}};
+        context.dispatch(evaluateSurfels_, count,
+                         {context.scene,
+                          points,
+                          range.all(),
+                          {"SurfelIdsRef", patches.surfelIds.ref()},
+                          ifUsed({"SidesRef", points.sides.ref()}),
+                          ifUsed({"rays", rays_}),
+                          {"voxelSize", context[voxels_].grid.voxelSize}});
+        if (!measuresGaps_) continue;
+        context.tracer.closestHit(context.stream, rays_, hits_, count);
+        context.dispatch(measureGaps_, count, {range.all(), {"hits", hits_}});
+    }
+}
+
 std::vector<Binding> FindClusterVisibility::rayBindings(PassContext& context, uint32_t firstPatch) const {
     const VoxelPatches& patches = context[patches_];
     return {{"patchFaces", patchFaces_},
             {"groups", patches.groups},
-            {"GroupedSurfelsRef", patches.surfels.ref()},
+            {"PatchSurfelsRef", surfels_.ref()},
             {"grid", context[voxels_].grid},
             {"lists", context[visibility_].layout},
             {"firstPatch", firstPatch},
@@ -283,7 +321,7 @@ uint32_t FindClusterVisibility::traceRays(PassContext& context, const std::vecto
                          {listedRays.all(),
                           context[voxels_],
                           {"firstGroup", patches.firstGroup},
-                          {"VoxelMaterialsRef", patches.materials.ref()},  // Of groups (patch_samples.glsl).
+                          {"GroupMaterialsRef", patches.materials.ref()},
                           {"hits", hits_},
                           {"candidates", candidates_},
                           {"occlusionRays", occlusionRays_},
@@ -304,7 +342,7 @@ void FindClusterVisibility::marchRays(PassContext& context, const std::vector<Bi
                      {march,
                       rays,
                       {"firstGroup", patches.firstGroup},
-                      {"VoxelMaterialsRef", patches.materials.ref()},
+                      {"GroupMaterialsRef", patches.materials.ref()},
                       {"packedHits", packedHits},
                       {"rayCount", count},
                       {"round", 0u}});
@@ -324,6 +362,7 @@ void FindClusterVisibility::buildChunk(PassContext& context, uint32_t first, uin
     context.dispatch(hitsToTargets_, rayCount,
                      {{"packedHits", packedHits},
                       {"groups", patches.groups},
+                      {"components", patches.components},
                       {"componentOfGroup", patches.componentOfGroup},
                       {"targets", targets_},
                       {"lostRays", lostRays_},

@@ -2,6 +2,7 @@
 // Each round selects the nearest surfel among groups not yet rejected and generates an occlusion ray to it. The next
 // round accepts the surfel's group if that ray is unoccluded and else rejects it.
 #include "passes/clusters/cluster_visibility/patch_samples.glsl"
+#include "passes/clusters/group_materials.glsl"
 #include "shaders/scene/scene.glsl"
 #include "passes/surfels/surfel_bias.glsl"
 #include "shaders/trace/ray_types.h"
@@ -14,6 +15,7 @@ const float FAR = 0.5;
 
 struct Candidate {
     uint surfel;
+    uint group;
     uint rejectedGroups[MAX_CANDIDATES];  // Per round.
 };
 
@@ -29,6 +31,7 @@ writeonly buffer PackedHits { uint data[]; } packedHits;
 struct NearestSurfel {
     float distance_;  // Squared, in voxels, plus surfelBias().
     uint surfel;
+    uint group;
     uint id;
 };
 
@@ -43,40 +46,40 @@ void searchVoxel(ivec3 voxel, vec3 position, vec3 normal, Candidate candidate, i
     if (number == NO_VOXEL) return;
     for (uint group = firstGroup.data[number]; group < firstGroup.data[number + 1u]; ++group) {
         if (isRejected(candidate, group)) continue;
-        const uint first = groups.data[group].firstSurfel;
-        for (uint i = first; i < first + groups.data[group].surfelCount; ++i) {
-            const GroupedSurfel s = groupedSurfels.data[i];
+        const uint end = groups.data[group + 1u].firstSurfel;
+        for (uint i = groups.data[group].firstSurfel; i < end; ++i) {
+            const PatchSurfel s = patchSurfels.data[i];
             if (dot(s.normal, normal) <= 0.0) continue;
             const vec3 offset = s.position - position;
             const float d = dot(offset, offset) / (push.grid.voxelSize * push.grid.voxelSize) +
                             surfelBias(position, normal, s.position, s.normal);
             if (d < nearest.distance_ || (d == nearest.distance_ && s.id < nearest.id))
-                nearest = NearestSurfel(d, i, s.id);
+                nearest = NearestSurfel(d, i, group, s.id);
         }
     }
 }
 
 // Searches the hit's voxel and, if the nearest surfel there is FAR, the 26 adjacent ones.
-uint nearestSurfel(vec3 position, vec3 normal, Candidate candidate) {
+NearestSurfel nearestSurfel(vec3 position, vec3 normal, Candidate candidate) {
     const ivec3 voxel = voxelAt(push.grid, position);
-    NearestSurfel nearest = NearestSurfel(1.0e30, NO_SURFEL, NO_SURFEL);
+    NearestSurfel nearest = NearestSurfel(1.0e30, NO_SURFEL, NO_GROUP, NO_SURFEL);
     searchVoxel(voxel, position, normal, candidate, nearest);
-    if (nearest.distance_ < FAR) return nearest.surfel;
+    if (nearest.distance_ < FAR) return nearest;
     for (int i = 0; i < 27; ++i)
         if (i != 13) searchVoxel(voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, position, normal, candidate, nearest);
-    return nearest.surfel;
+    return nearest;
 }
 
 // Packs the surfel's group and one of the faces at which both have area, sampled by the surfel's projected area.
-uint packSurfelHit(uint ray, GroupedSurfel s, float distance_) {
-    const VoxelMaterial m = voxelMaterial(s.group);
+uint packSurfelHit(uint ray, PatchSurfel s, uint group, float distance_) {
+    const VoxelMaterial m = groupMaterial(group);
     const vec3 groupArea = mix(m.unoccludedPositive, m.unoccludedNegative, lessThan(s.normal, vec3(0.0)));
     const vec3 area = mix(vec3(0.0), s.normal * s.normal, greaterThan(groupArea, vec3(0.0)));
     const float sum = area.x + area.y + area.z;
-    if (sum == 0.0) return packHitAtDistance(s.group, NO_FACE, distance_);
+    if (sum == 0.0) return packHitAtDistance(group, NO_FACE, distance_);
     const float threshold = sampleHitFace(ray) * sum;
     const uint axis = threshold < area.x ? 0u : threshold < area.x + area.y || area.z == 0.0 ? 1u : 2u;
-    return packHitAtDistance(s.group, faceOf(s.normal, axis), distance_);
+    return packHitAtDistance(group, faceOf(s.normal, axis), distance_);
 }
 
 void main() {
@@ -89,13 +92,13 @@ void main() {
     if (push.round > 0u) {
         candidate = candidates.data[i];
         if (candidate.surfel == NO_SURFEL) return;
-        const GroupedSurfel s = groupedSurfels.data[candidate.surfel];
         if (occluded.data[i] == 0u) {
-            packedHits.data[ray] = packSurfelHit(ray, s, hit.t / push.grid.voxelSize);
+            packedHits.data[ray] = packSurfelHit(ray, patchSurfels.data[candidate.surfel], candidate.group,
+                                                 hit.t / push.grid.voxelSize);
             candidates.data[i].surfel = NO_SURFEL;
             return;
         }
-        candidate.rejectedGroups[push.round - 1u] = s.group;
+        candidate.rejectedGroups[push.round - 1u] = candidate.group;
     }
     candidates.data[i].surfel = NO_SURFEL;
     if (hit.triangle == NO_HIT) {
@@ -105,14 +108,19 @@ void main() {
     const vec3 direction = rays.data[i].direction;
     const SurfacePoint p = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
     const vec3 normal = dot(p.geometricNormal, direction) > 0.0 ? -p.geometricNormal : p.geometricNormal;
-    candidate.surfel = push.round < MAX_CANDIDATES ? nearestSurfel(p.position, normal, candidate) : NO_SURFEL;
+    candidate.surfel = NO_SURFEL;
+    if (push.round < MAX_CANDIDATES) {
+        const NearestSurfel nearest = nearestSurfel(p.position, normal, candidate);
+        candidate.surfel = nearest.surfel;
+        candidate.group = nearest.group;
+    }
     if (candidate.surfel == NO_SURFEL) {
         packedHits.data[ray] = HIT_NO_GROUP;
         return;
     }
     candidates.data[i] = candidate;
     // The origin lies on the ray, which is unoccluded up to its hit
-    const GroupedSurfel s = groupedSurfels.data[candidate.surfel];
+    const PatchSurfel s = patchSurfels.data[candidate.surfel];
     const vec3 origin = p.position - min(0.5 * hit.t, s.height) * direction;
     const vec3 toSurfel = pointAbove(s) - origin;
     if (dot(toSurfel, toSurfel) > 0.0)

@@ -8,6 +8,7 @@ layout(local_size_x = 64) in;
 
 readonly buffer PackedHits { uint data[]; } packedHits;
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
+layout(scalar) readonly buffer Components { ClusterComponent data[]; } components;
 readonly buffer ComponentOfGroup { uint data[]; } componentOfGroup;
 layout(scalar) writeonly buffer Targets { uint data[]; } targets;
 buffer LostRays { uint counts[2]; } lostRays;  // Numbers of rays with HIT_NOTHING and with HIT_NO_GROUP.
@@ -20,7 +21,7 @@ uint targetOf(uint packedHit) {
     const uint group = hitGroup(packedHit), face = hitFace(packedHit), component = componentOfGroup.data[group];
     if (component == NO_COMPONENT || face == NO_FACE || !hasPatch(groups.data[group], face)) return NO_TARGET;
     return isNear(packedHit) ? push.lists.firstPatchTarget + patchIndex(groups.data[group], face)
-                             : 6u * component + face;
+                             : componentFaceIndex(components.data[component], face);
 }
 
 void main() {

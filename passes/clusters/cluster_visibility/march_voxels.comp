@@ -2,6 +2,8 @@
 // BRESENHAM: visits the voxels of a 3D Bresenham line, one for each step along the longest axis, which misses voxels of
 // which the ray only cuts a corner (Cosin and Patow 2022, section 4.3).
 #include "passes/clusters/cluster_visibility/patch_samples.glsl"
+#include "passes/clusters/group_materials.glsl"
+#include "passes/clusters/group_patches.glsl"
 #include "passes/clusters/visible_face.glsl"
 #include "shaders/voxel_march/voxel_march.glsl"
 layout(local_size_x = 64) in;
@@ -12,7 +14,7 @@ writeonly buffer PackedHits { uint data[]; } packedHits;
 // Origin of a ray: above the surfel, at a height over the plane through its voxel's center perpendicular to its normal.
 // The height is half a voxel for an axis-aligned plane, which is above its layer of voxels. A slanted plane intersects
 // voxels that extend higher; isOwnSurface() skips these.
-vec3 marchOrigin(GroupedSurfel s, ivec3 voxel) {
+vec3 marchOrigin(PatchSurfel s, ivec3 voxel) {
     const vec3 size = abs(s.normal), center = push.grid.origin + push.grid.voxelSize * (vec3(voxel) + 0.5);
     const float height = dot(size, vec3(1.0)) - 0.5 * max(size.x, max(size.y, size.z)) + VOXEL_MARGIN;
     return s.position + (height * push.grid.voxelSize - dot(s.position - center, s.normal)) * s.normal;
@@ -38,8 +40,8 @@ bool isOwnSurface(MarchingRay ray, ivec3 offset, VoxelMaterial m) {
 // Area of a group that is visible to the ray, by axis. The origin of a ray in a corner of a room lies in the voxels of
 // the other wall, in front of its surface: groups that face away are skipped until the ray has left these voxels.
 vec3 visibleAreas(uint group, MarchingRay ray, ivec3 voxel) {
-    if (groups.data[group].isOccluded == 1u) return vec3(0.0);
-    const VoxelMaterial m = voxelMaterial(group);
+    if (isOccluded(groups.data[group])) return vec3(0.0);
+    const VoxelMaterial m = groupMaterial(group);
     if (ray.isInLayer && isFlat(m) && dot(m.normal, ray.direction) > 0.0) return vec3(0.0);
     return isOwnSurface(ray, voxel - ray.startVoxel, m) ? vec3(0.0) : projectedFaceAreas(m, ray.direction);
 }
@@ -54,7 +56,7 @@ bool hitVoxel(uint rayNumber, MarchingRay ray, ivec3 voxel, float distance_, out
     if (sum == 0.0) return false;
     float remaining = sampleHitFace(rayNumber) * sum;
     for (uint group = firstGroup.data[number]; group < firstGroup.data[number + 1u]; ++group) {
-        const VoxelMaterial m = voxelMaterial(group);
+        const VoxelMaterial m = groupMaterial(group);
         const vec3 areas = visibleAreas(group, ray, voxel);
         const float area = dot(areas, vec3(1.0));
         if (area == 0.0) continue;
@@ -67,7 +69,7 @@ bool hitVoxel(uint rayNumber, MarchingRay ray, ivec3 voxel, float distance_, out
 
 #ifdef BRESENHAM
 uint marchRay(uint rayNumber) {
-    const GroupedSurfel s = sampleSurfel(rayNumber);
+    const PatchSurfel s = sampleSurfel(rayNumber);
     const ivec3 startVoxel = voxelAt(push.grid, s.position);
     MarchingRay ray = MarchingRay(s.normal, sampleDirection(rayNumber, s), startVoxel, true);
     const vec3 start = gridCoordinates(push.grid, marchOrigin(s, startVoxel)), size = abs(ray.direction);
@@ -93,7 +95,7 @@ float exitDistance(ivec3 voxel, vec3 origin, vec3 direction) {
 }
 
 uint marchRay(uint rayNumber) {
-    const GroupedSurfel s = sampleSurfel(rayNumber);
+    const PatchSurfel s = sampleSurfel(rayNumber);
     const ivec3 startVoxel = voxelAt(push.grid, s.position);
     MarchingRay ray = MarchingRay(s.normal, sampleDirection(rayNumber, s), startVoxel, true);
     const vec3 origin = marchOrigin(s, startVoxel);

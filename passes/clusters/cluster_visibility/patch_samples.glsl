@@ -1,11 +1,10 @@
-// Origins and directions of rays from patches. Each patch of a chunk has raysPerPatch consecutive rays. The materials
-// bound to shaders/voxels/voxels.glsl are those of surface groups.
+// Origins and directions of rays from patches. Each patch of a chunk has raysPerPatch consecutive rays.
 #include "passes/clusters/cluster_visibility/packed_hit.glsl"
-#include "passes/clusters/grouped_surfels.glsl"
+#include "passes/clusters/cluster_visibility/patch_surfel.h"
+#include "passes/clusters/surface_group_types.h"
 #include "passes/clusters/visibility_list_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
-#include "shaders/voxel_march/surface_segment.glsl"
 #include "shaders/voxels/face.glsl"
 #include "shaders/voxels/voxels.glsl"
 
@@ -28,37 +27,36 @@ uint rayFace(uint ray) { return patchFaces.data[push.firstPatch + ray / push.lis
 // Seed of a patch's sequence 0 (direction), 1 (origin) or 2 (face of the hit). It depends on a surfel's id instead of
 // the group's index, which changes in updates.
 uint raySeed(uint ray, uint sequence) {
-    const uint surfelId = groupedSurfels.data[groups.data[rayGroup(ray)].firstSurfel].id;
+    const uint surfelId = patchSurfels.data[groups.data[rayGroup(ray)].firstSurfel].id;
     return hashCombine(hashCombine(hashCombine(push.seed, sequence), surfelId), rayFace(ray));
 }
 
 // Projected area of a surfel at a face, as a fraction of its area: squared cosine, 0 for faces behind it.
-float areaAtFace(GroupedSurfel s, uint face) {
+float areaAtFace(PatchSurfel s, uint face) {
     const float cosine = s.normal[face >> 1];
     return (face & 1u) == (cosine < 0.0 ? 1u : 0u) ? cosine * cosine : 0.0;
 }
 
 // The surfel at the origin of a ray: one of the group's, with probability proportional to areaAtFace().
-GroupedSurfel sampleSurfel(uint ray) {
+PatchSurfel sampleSurfel(uint ray) {
     const uint face = rayFace(ray);
-    const SurfaceGroup group = groups.data[rayGroup(ray)];
+    const uint first = groups.data[rayGroup(ray)].firstSurfel, end = groups.data[rayGroup(ray) + 1u].firstSurfel;
     float totalArea = 0.0;
-    for (uint i = 0u; i < group.surfelCount; ++i)
-        totalArea += areaAtFace(groupedSurfels.data[group.firstSurfel + i], face);
+    for (uint i = first; i < end; ++i) totalArea += areaAtFace(patchSurfels.data[i], face);
     float remaining = totalArea * sobol2(ray % push.lists.raysPerPatch, raySeed(ray, 1u)).x;
-    uint sampled = group.firstSurfel;
-    for (uint i = 0u; i < group.surfelCount; ++i) {
-        const float area = areaAtFace(groupedSurfels.data[group.firstSurfel + i], face);
+    uint sampled = first;
+    for (uint i = first; i < end; ++i) {
+        const float area = areaAtFace(patchSurfels.data[i], face);
         if (area == 0.0) continue;
-        sampled = group.firstSurfel + i;
+        sampled = i;
         remaining -= area;
         if (remaining < 0.0) break;
     }
-    return groupedSurfels.data[sampled];
+    return patchSurfels.data[sampled];
 }
 
 // Cosine-distributed about the surfel's normal or the face's axis.
-vec3 sampleDirection(uint ray, GroupedSurfel s) {
+vec3 sampleDirection(uint ray, PatchSurfel s) {
     const vec3 axis = push.aboutFaceAxis == 1u ? faceNormal(rayFace(ray)) : s.normal;
     return cosineDirection(sobol2(ray % push.lists.raysPerPatch, raySeed(ray, 0u)), axis);
 }

@@ -41,7 +41,7 @@ bool intersects(Ray ray, Box box) {
 bool intersectsChangedBox(uint ray, uint packedHit) {
     Ray r = patchRay(ray);
     if (hitsGroup(packedHit)) {
-        const vec3 toGroup = groupedSurfels.data[groups.data[hitGroup(packedHit)].firstSurfel].position - r.origin;
+        const vec3 toGroup = patchSurfels.data[groups.data[hitGroup(packedHit)].firstSurfel].position - r.origin;
         r.tMax = min(r.tMax, length(toGroup) + 3.5 * push.grid.voxelSize);
     }
     if (!intersects(r, boxes.data[0])) return false;

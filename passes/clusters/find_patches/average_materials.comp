@@ -3,14 +3,15 @@
 //
 // The voxel's unoccluded area is divided among unoccluded groups. Occluded groups exist only with 'sides: all', where
 // each sample point has two surfels. Each of them stands for area / number of points.
-#include "passes/clusters/grouped_surfels.glsl"
+#include "passes/clusters/find_patches/grouped_surfel.h"
+#include "passes/clusters/group_materials.glsl"
+#include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer FirstGroup { uint data[]; } firstGroup;
-layout(scalar) readonly buffer GroupMaterialsRef { VoxelMaterials groupMaterials; };
 writeonly buffer PatchCounts { uint data[]; } patchCounts;  // Per group.
 layout(push_constant) uniform Push { uint voxels; } push;
 
@@ -31,25 +32,27 @@ void main() {
     const uint first = firstGroup.data[voxel], end = firstGroup.data[voxel + 1u];
     vec3 voxelPositive = vec3(0.0), voxelNegative = vec3(0.0);
     float samplePoints = 0.0;  // Half of the surfels: with 'sides: all' each point has two.
-    for (uint group = first; group < end; ++group) {
-        samplePoints += 0.5 * float(groups.data[group].surfelCount);
-        for (uint i = 0u; i < groups.data[group].surfelCount && groups.data[group].isOccluded == 0u; ++i)
-            addFaceWeights(groupedSurfels.data[groups.data[group].firstSurfel + i].normal, voxelPositive,
-                           voxelNegative);
+    for (uint number = first; number < end; ++number) {
+        const SurfaceGroup group = groups.data[number];
+        const uint endSurfel = groups.data[number + 1u].firstSurfel;
+        samplePoints += 0.5 * float(endSurfel - group.firstSurfel);
+        for (uint i = group.firstSurfel; i < endSurfel && !isOccluded(group); ++i)
+            addFaceWeights(groupedSurfels.data[i].normal, voxelPositive, voxelNegative);
     }
     const VoxelMaterial whole = voxelMaterial(voxel);
-    for (uint group = first; group < end; ++group) {
+    for (uint number = first; number < end; ++number) {
+        const SurfaceGroup group = groups.data[number];
         VoxelMaterial m = whole;
         vec3 positive = vec3(0.0), negative = vec3(0.0);
         m.albedo = m.normal = vec3(0.0);
-        const uint surfelCount = groups.data[group].surfelCount;
+        const uint surfelCount = groups.data[number + 1u].firstSurfel - group.firstSurfel;
         for (uint i = 0u; i < surfelCount; ++i) {
-            const GroupedSurfel s = groupedSurfels.data[groups.data[group].firstSurfel + i];
+            const GroupedSurfel s = groupedSurfels.data[group.firstSurfel + i];
             addFaceWeights(s.normal, positive, negative);
             m.albedo += s.reflectance / float(surfelCount);
             m.normal += s.normal / float(surfelCount);
         }
-        if (groups.data[group].isOccluded == 1u) {
+        if (isOccluded(group)) {
             // These members hold the area of occluded groups, too
             m.unoccludedPositive = whole.area / samplePoints * positive;
             m.unoccludedNegative = whole.area / samplePoints * negative;
@@ -57,14 +60,13 @@ void main() {
             m.unoccludedPositive = fractionOf(positive, voxelPositive, whole.unoccludedPositive);
             m.unoccludedNegative = fractionOf(negative, voxelNegative, whole.unoccludedNegative);
         }
-        m.area = dot(m.unoccludedPositive + m.unoccludedNegative, vec3(1.0));
-        const PackedVoxelMaterial packed = packMaterial(m);
-        groupMaterials.data[group] = packed;
-        const VoxelMaterial stored = unpackMaterial(packed);
+        const PackedGroupMaterial packed = packGroupMaterial(m);
+        groupMaterials.data[number] = packed;
+        const VoxelMaterial stored = unpackGroupMaterial(packed);
         uint faces = 0u;
         for (uint face = 0u; face < 6u; ++face)
             if (unoccluded(stored, face) > 0.0) faces |= 1u << face;
-        groups.data[group].faces = faces;
-        patchCounts.data[group] = uint(bitCount(faces));
+        groups.data[number].flags = group.flags | faces;
+        patchCounts.data[number] = uint(bitCount(faces));
     }
 }

@@ -1,7 +1,8 @@
 // Counts the candidates for neighbors of each surface group: groups in the 26 adjacent voxels whose surfaces face one
 // of the same six directions, and which are both occluded or both unoccluded. LIST: stores them. Rays test their
 // visibility later.
-#include "passes/clusters/grouped_surfels.glsl"
+#include "passes/clusters/group_materials.glsl"
+#include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
@@ -9,11 +10,10 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer FirstGroup { uint data[]; } firstGroup;
-layout(scalar) readonly buffer GroupMaterialsRef { VoxelMaterials groupMaterials; };
 #ifdef LIST
-readonly buffer FirstNeighbor { uint data[]; } firstNeighbor;
-layout(scalar) readonly buffer NeighborsRef { LargeUints neighbors; };
-layout(scalar) readonly buffer GroupOfEntryRef { LargeUints groupOfEntry; };  // The group of each neighbor entry.
+readonly buffer FirstCandidate { uint data[]; } firstCandidate;
+layout(scalar) readonly buffer CandidatesRef { LargeUints candidates; };
+layout(scalar) readonly buffer GroupOfCandidateRef { LargeUints groupOfCandidate; };
 #else
 // One for each group, and a last 0, where the prefix sum leaves the total.
 writeonly buffer Counts { uint data[]; } counts;
@@ -33,17 +33,17 @@ void main() {
     if (group > push.groupCount) return;
     uint count = 0u;
     if (group < push.groupCount) {
-        const VoxelMaterial m = unpackMaterial(groupMaterials.data[group]);
+        const VoxelMaterial m = groupMaterial(group);
         const ivec3 center = ivec3(coordinates.data[groups.data[group].voxel]);
         for (int i = 0; i < 27; ++i) {
             const uint voxel = voxelNumber(push.grid, center + ivec3(i % 3, i / 3 % 3, i / 9) - 1);
             if (i == 13 || voxel == NO_VOXEL) continue;
             for (uint neighbor = firstGroup.data[voxel]; neighbor < firstGroup.data[voxel + 1u]; ++neighbor) {
-                if (groups.data[neighbor].isOccluded != groups.data[group].isOccluded) continue;
-                if (!faceSameDirection(m, unpackMaterial(groupMaterials.data[neighbor]))) continue;
+                if (isOccluded(groups.data[neighbor]) != isOccluded(groups.data[group])) continue;
+                if (!faceSameDirection(m, groupMaterial(neighbor))) continue;
 #ifdef LIST
-                neighbors.data[firstNeighbor.data[group] + count] = neighbor;
-                groupOfEntry.data[firstNeighbor.data[group] + count] = group;
+                candidates.data[firstCandidate.data[group] + count] = neighbor;
+                groupOfCandidate.data[firstCandidate.data[group] + count] = group;
 #endif
                 ++count;
             }

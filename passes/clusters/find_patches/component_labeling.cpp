@@ -1,6 +1,5 @@
 #include "passes/clusters/find_patches/component_labeling.h"
 
-#include <algorithm>
 #include <bit>
 
 #include "passes/common/compute/bit_words.h"
@@ -18,9 +17,11 @@ ComponentLabeling::ComponentLabeling(ProgramOwner& owner)
       flagRoots_(owner, "flag_component_roots.comp"),
       numberComponents_(owner, "number_components.comp"),
       assignComponents_(owner, "assign_components.comp"),
-      initComponents_(owner, "init_components.comp") {}
+      initComponents_(owner, "init_components.comp"),
+      numberFaces_(owner, "number_component_faces.comp") {}
 
-void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters, VoxelPatches& patches) {
+void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters, const NeighborCandidates& candidates,
+                            VoxelPatches& patches) {
     Device& device = stream.device();
     const uint32_t groups = patches.groupCount, words = uint32_t(bitWords(groups));
     const Buffer labels(device, "labels of surface groups", uintBytes(groups));
@@ -30,8 +31,8 @@ void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters
         stream.fill(changed, 0);
         stream.dispatch(propagateLabels_, groups,
                         {{"groups", patches.groups},
-                         {"firstNeighbor", patches.firstNeighbor},
-                         {"NeighborsRef", patches.neighbors.ref()},
+                         {"firstCandidate", candidates.first},
+                         {"CandidatesRef", candidates.groups.ref()},
                          {"clusterOfVoxel", clusters.clusterOfVoxel},
                          {"labels", labels},
                          {"changed", changed},
@@ -56,8 +57,6 @@ void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters
     Buffer keys(device, "components of groups", uintBytes(groups));
     patches.componentOfGroup = Buffer(device, "components of groups", uintBytes(groups));
     patches.memberGroups = Buffer(device, "groups by component", uintBytes(groups));
-    patches.components =
-        Buffer(device, "components of clusters", std::max(patches.componentCount, 1u) * sizeof(gpu::ClusterComponent));
     stream.dispatch(assignComponents_, groups,
                     {{"labels", labels},
                      {"componentOfRoot", componentOfRoot},
@@ -67,15 +66,30 @@ void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters
                      {"groupCount", groups},
                      {"components", patches.componentCount}});
     radixSort_.record(stream, keys, patches.memberGroups, groups, uint32_t(std::bit_width(patches.componentCount)));
-    const Buffer memberCounts(device, "group counts of components", uintBytes(patches.componentCount));
-    const Buffer firstMembers(device, "first groups of components", uintBytes(patches.componentCount));
-    histogram_.record(stream, patches.componentOfGroup, memberCounts, groups, patches.componentCount);
-    prefixSum_.run(stream, memberCounts, firstMembers, patches.componentCount);
-    stream.dispatch(initComponents_, patches.componentCount,
-                    {{"memberCounts", memberCounts},
+    stream.finish();
+    radixSort_.freeScratch();
+    listComponents(stream, patches);
+}
+
+void ComponentLabeling::listComponents(CommandStream& stream, VoxelPatches& patches) {
+    Device& device = stream.device();
+    const uint32_t count = patches.componentCount;
+    const Buffer firstMembers(device, "first groups of components", uintBytes(count + 1));
+    histogram_.record(stream, patches.componentOfGroup, firstMembers, patches.groupCount, count + 1);
+    prefixSum_.run(stream, firstMembers, firstMembers, count + 1);
+    patches.components =
+        Buffer(device, "components of clusters", (uint64_t(count) + 1) * sizeof(gpu::ClusterComponent));
+    const Buffer firstFaces(device, "first faces of components", uintBytes(count + 1));
+    stream.dispatch(initComponents_, count + 1,
+                    {{"groups", patches.groups},
+                     {"memberGroups", patches.memberGroups},
                      {"firstMembers", firstMembers},
                      {"components", patches.components},
-                     {"count", patches.componentCount}});
+                     {"faceCounts", firstFaces},
+                     {"count", count}});
+    patches.componentFaceCount = prefixSum_.run(stream, firstFaces, firstFaces, count + 1);
+    stream.dispatch(numberFaces_, count + 1,
+                    {{"firstFaces", firstFaces}, {"components", patches.components}, {"count", count}});
     stream.finish();
 }
 

@@ -7,10 +7,12 @@
 #include "graph/registry.h"
 #include "passes/clusters/find_patches/component_labeling.h"
 #include "passes/clusters/find_patches/group_update_cache.h"
+#include "passes/clusters/find_patches/grouped_surfel.h"
 #include "passes/clusters/find_patches/surfel_grouping.h"
 #include "passes/clusters/voxel_clusters.h"
 #include "passes/clusters/voxel_patches.h"
 #include "passes/common/compute/uint_bytes.h"
+#include "passes/surfels/surfel_points.h"
 #include "passes/surfels/surfel_sort.h"
 
 namespace voxray {
@@ -37,17 +39,21 @@ class FindPatches final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Finds the group of each surfel within its voxel.
+    /// Evaluates all surfels. Those of a chunk that do not exist have no voxel.
+    Surfels evaluateSurfels(PassContext& context) const;
+    /// Sorts the surfels by voxel and finds the group of each within its voxel.
     void groupSurfels(PassContext& context, SurfelsByVoxel& surfelsByVoxel);
-    /// Numbers the groups of all voxels and their patches.
+    /// Numbers the groups of all voxels and their patches, and stores the surfels.
     void listGroups(PassContext& context, const SurfelsByVoxel& surfelsByVoxel);
     /// Lists the groups in adjacent voxels that each group sees.
-    void findNeighbors(PassContext& context);
+    NeighborCandidates findNeighbors(PassContext& context);
+    /// Stores these lists.
+    void packNeighbors(PassContext& context, const NeighborCandidates& candidates);
 
     bool isUpdate() const { return updateCache_ && updateCache_->isActive(); }
 
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
-    In<Surfels> surfels_{*this, "surfels", "points of their surfaces"};
+    In<SurfelPoints> points_{*this, "surfel_points", "points of their surfaces"};
     In<VoxelClusters> clusters_{*this, "clusters", "clusters of surface voxels"};
     Out<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels"};
     SurfelSort sort_{*this};
@@ -59,20 +65,25 @@ class FindPatches final : public Pass {
     Kernel updateSurfels_{*this, "init_surfels.comp", {{"UPDATE", "1"}}};
     Kernel updateNeighborRays_{*this, "generate_neighbor_rays.comp", {{"UPDATE", "1"}}};
     Kernel updateNeighbors_{*this, "remove_occluded_neighbors.comp", {{"UPDATE", "1"}}};
+    Kernel evaluateSurfels_{*this, "evaluate_surfels.comp"};
     Kernel initSurfels_{*this, "init_surfels.comp"};
     Kernel sortSurfels_{*this, "sort_surfels.comp"};
     Kernel listGroups_{*this, "list_groups.comp"};
     Kernel averageMaterials_{*this, "average_materials.comp"};
     Kernel numberPatches_{*this, "number_patches.comp"};
-    Kernel countNeighbors_{*this, "build_adjacency.comp"};
-    Kernel listNeighbors_{*this, "build_adjacency.comp", {{"LIST", "1"}}};
+    Kernel countCandidates_{*this, "build_adjacency.comp"};
+    Kernel listCandidates_{*this, "build_adjacency.comp", {{"LIST", "1"}}};
     Kernel generateNeighborRays_{*this, "generate_neighbor_rays.comp"};
     Kernel removeOccludedNeighbors_{*this, "remove_occluded_neighbors.comp"};
-    RayBatch batch_;  ///< Scratch.
+    Kernel storeIds_{*this, "store_ids.comp"};
+    Kernel countKeptNeighbors_{*this, "pack_neighbors.comp"};
+    Kernel packNeighbors_{*this, "pack_neighbors.comp", {{"LIST", "1"}}};
+    RayBatch batch_;       ///< Scratch.
+    LargeBuffer surfels_;  ///< gpu::GroupedSurfel each, sorted by voxel, group and id, while the pass records.
 };
 
 void FindPatches::plan(PassPlan& plan) {
-    batch_.plan(plan, plan[surfels_].hasOccludedSurfels);
+    batch_.plan(plan, plan[points_].hasOccludedSurfels);
     const bool surfacesMove = !movingInstanceRanges(plan.frame.scene->geometry).empty();
     for (Kernel* kernel : {&updateSurfels_, &updateNeighborRays_, &updateNeighbors_}) kernel->compileIf(surfacesMove);
     if (surfacesMove) updateCache_.emplace(*this);
@@ -89,12 +100,13 @@ void FindPatches::record(PassContext& context) {
         updateCache_->startUpdate(context.stream, voxels, patches, *changed);
     patches.clear();
     SurfelsByVoxel surfelsByVoxel;
-    sort_.run(context.stream, context[surfels_], voxels.voxelCount, surfelsByVoxel);
     groupSurfels(context, surfelsByVoxel);
     listGroups(context, surfelsByVoxel);
     surfelsByVoxel = {};
-    findNeighbors(context);
-    labeling_.run(context.stream, context[clusters_], patches);
+    const NeighborCandidates candidates = findNeighbors(context);
+    surfels_ = {};
+    labeling_.run(context.stream, context[clusters_], candidates, patches);
+    packNeighbors(context, candidates);
     if (updateCache_) {
         updateCache_->finishUpdate();
         updateCache_->storeVoxels(context.stream, voxels);
@@ -103,36 +115,57 @@ void FindPatches::record(PassContext& context) {
     context.report("surface groups of a voxel", double(patches.groupCount) / voxels.voxelCount);
     context.report("patches for each voxel", double(patches.patchCount) / voxels.voxelCount);
     context.report("cluster components", patches.componentCount);
+    context.report("faces of cluster components", patches.componentFaceCount);
     context.report("bytes of surface groups", double(patches.bytes()));
+}
+
+Surfels FindPatches::evaluateSurfels(PassContext& context) const {
+    constexpr uint32_t kPoints = Surfels::kMaxChunkSurfels / 2;
+    const SurfelPoints& points = context[points_];
+    Surfels surfels;
+    for (uint32_t first = 0; first < points.count; first += kPoints) {
+        const uint32_t batch = std::min(kPoints, points.count - first);
+        surfels.chunks.push_back(
+            {Buffer(context.device, "surfels", 2 * batch * sizeof(gpu::Surfel)), 2 * batch, 2 * first});
+        context.dispatch(evaluateSurfels_, batch,
+                         {context.scene,
+                          context[voxels_],
+                          points,
+                          {"SidesRef", points.sides.ref()},
+                          {"surfels", surfels.chunks.back().surfels},
+                          {"firstPoint", first},
+                          {"points", batch}});
+    }
+    surfels.count = 2 * uint64_t(points.count);
+    return surfels;
 }
 
 void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& surfelsByVoxel) {
     const SurfaceVoxels& voxels = context[voxels_];
-    VoxelPatches& patches = context[patches_];
+    const SurfelPoints& points = context[points_];
     CommandStream& stream = context.stream;
-    patches.surfelCount = surfelsByVoxel.sortedCount;
-    patches.surfels = LargeBuffer(context.device, "surfels by group",
-                                  std::max(surfelsByVoxel.sortedCount, 1u) * sizeof(gpu::GroupedSurfel));
+    Surfels surfels = evaluateSurfels(context);
+    sort_.run(stream, surfels, voxels.voxelCount, surfelsByVoxel);
+    surfelsByVoxel.sorted = {};
+    const uint32_t count = context[patches_].surfelCount = surfelsByVoxel.sortedCount;
+    surfels_ =
+        LargeBuffer(context.device, "surfels by group", std::max<uint64_t>(count, 1) * sizeof(gpu::GroupedSurfel));
     std::vector<Binding> storedGroups;
     if (isUpdate()) storedGroups = updateCache_->surfelBindings(context[clusters_]);
-    uint32_t firstIndex = 0;
-    for (const Surfels::Chunk& chunk : context[surfels_].chunks) {
+    for (const Surfels::Chunk& chunk : surfels.chunks)
         context.dispatch(isUpdate() ? updateSurfels_ : initSurfels_, chunk.count,
                          {storedGroups,
                           {"surfels", chunk.surfels},
                           {"SortedIndicesRef", surfelsByVoxel.sortedIndices.ref()},
-                          {"GroupedSurfelsRef", patches.surfels.ref()},
+                          {"GroupedSurfelsRef", surfels_.ref()},
                           {"grid", voxels.grid},
                           {"count", chunk.count},
-                          {"firstIndex", firstIndex}});
-        firstIndex += chunk.count;
-    }
+                          {"firstIndex", chunk.firstIndex}});
     stream.finish();
-    patches.surfelIndex = std::move(surfelsByVoxel.sortedIndices);
-    surfelsByVoxel.sorted = {};
-    grouping_.run(context, batch_, voxels, context[surfels_].hasOccludedSurfels, surfelsByVoxel, patches);
-    // Each sample point has up to two surfels: one on each side
-    if (updateCache_) updateCache_->storeSurfels(stream, patches, 2 * context[surfels_].pointCount);
+    surfelsByVoxel.sortedIndices = {};
+    surfels.chunks.clear();
+    grouping_.run(context, batch_, voxels, points.hasOccludedSurfels, surfelsByVoxel, surfels_);
+    if (updateCache_) updateCache_->storeSurfels(stream, surfels_, count, 2 * uint64_t(points.count));
 }
 
 void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& surfelsByVoxel) {
@@ -144,37 +177,43 @@ void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& surfels
     context.dispatch(sortSurfels_, count + 1,
                      {{"surfelRanges", surfelsByVoxel.ranges},
                       {"counts", patches.firstGroup},
-                      {"GroupedSurfelsRef", patches.surfels.ref()},
+                      {"GroupedSurfelsRef", surfels_.ref()},
                       {"voxels", count}});
-    patches.groupCount = prefixSum_.run(stream, patches.firstGroup, patches.firstGroup, count + 1);
-    const uint64_t groups = std::max(patches.groupCount, 1u);
-    patches.groups = Buffer(context.device, "surface groups", groups * sizeof(gpu::SurfaceGroup));
-    patches.materials =
-        LargeBuffer(context.device, "materials of surface groups", groups * sizeof(gpu::PackedVoxelMaterial));
-    context.dispatch(listGroups_, count,
+    patches.surfelIds = LargeBuffer(context.device, "ids of surfels", uintBytes(patches.surfelCount));
+    context.dispatch(storeIds_, patches.surfelCount,
+                     {{"GroupedSurfelsRef", surfels_.ref()},
+                      {"SurfelIdsRef", patches.surfelIds.ref()},
+                      {"surfels", patches.surfelCount}});
+    const uint32_t groups = patches.groupCount =
+        prefixSum_.run(stream, patches.firstGroup, patches.firstGroup, count + 1);
+    patches.groups = Buffer(context.device, "surface groups", (uint64_t(groups) + 1) * sizeof(gpu::SurfaceGroup));
+    patches.materials = LargeBuffer(context.device, "materials of surface groups",
+                                    std::max<uint64_t>(groups, 1) * sizeof(gpu::PackedGroupMaterial));
+    context.dispatch(listGroups_, count + 1,
                      {{"surfelRanges", surfelsByVoxel.ranges},
                       {"firstGroup", patches.firstGroup},
-                      {"SurfelIndexRef", patches.surfelIndex.ref()},
                       {"groups", patches.groups},
-                      {"GroupedSurfelsRef", patches.surfels.ref()},
-                      {"voxels", count}});
-    const Buffer patchCounts(context.device, "patch counts of surface groups", uintBytes(groups));
+                      {"GroupedSurfelsRef", surfels_.ref()},
+                      {"voxels", count},
+                      {"surfelCount", patches.surfelCount}});
+    const Buffer patchCounts(context.device, "patch counts of surface groups", uintBytes(groups + 1));
+    stream.fill(patchCounts, 0);
     context.dispatch(averageMaterials_, count,
                      {voxels,
                       {"groups", patches.groups},
                       {"firstGroup", patches.firstGroup},
                       {"GroupMaterialsRef", patches.materials.ref()},
                       {"patchCounts", patchCounts},
-                      {"GroupedSurfelsRef", patches.surfels.ref()},
+                      {"GroupedSurfelsRef", surfels_.ref()},
                       {"voxels", count}});
-    patches.patchCount = prefixSum_.run(stream, patchCounts, patchCounts, patches.groupCount);
-    context.dispatch(numberPatches_, patches.groupCount,
-                     {{"firstPatches", patchCounts}, {"groups", patches.groups}, {"groupCount", patches.groupCount}});
+    patches.patchCount = prefixSum_.run(stream, patchCounts, patchCounts, groups + 1);
+    context.dispatch(numberPatches_, groups + 1,
+                     {{"firstPatches", patchCounts}, {"groups", patches.groups}, {"groupCount", groups}});
     if (isUpdate()) updateCache_->findPreviousGroupIndices(stream, voxels, context[clusters_], patches);
     stream.finish();
 }
 
-void FindPatches::findNeighbors(PassContext& context) {
+NeighborCandidates FindPatches::findNeighbors(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
     VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
@@ -185,27 +224,29 @@ void FindPatches::findNeighbors(PassContext& context) {
                              {"firstGroup", patches.firstGroup},
                              {"GroupMaterialsRef", patches.materials.ref()},
                              {"groupCount", groups}};
-    patches.firstNeighbor = Buffer(context.device, "first neighbors of surface groups", uintBytes(groups + 1));
-    context.dispatch(countNeighbors_, groups + 1, {adjacency.all(), {"counts", patches.firstNeighbor}});
-    const uint32_t neighbors = prefixSum_.run(stream, patches.firstNeighbor, patches.firstNeighbor, groups + 1);
-    patches.neighbors = LargeBuffer(context.device, "neighbors of surface groups", uintBytes(neighbors));
-    const LargeBuffer groupOfEntry(context.device, "group of each neighbor entry", uintBytes(neighbors));
-    context.dispatch(listNeighbors_, groups + 1,
+    NeighborCandidates candidates;
+    candidates.first = Buffer(context.device, "first candidates for neighbors", uintBytes(groups + 1));
+    context.dispatch(countCandidates_, groups + 1, {adjacency.all(), {"counts", candidates.first}});
+    candidates.count = prefixSum_.run(stream, candidates.first, candidates.first, groups + 1);
+    candidates.groups = LargeBuffer(context.device, "candidates for neighbors", uintBytes(candidates.count));
+    const LargeBuffer groupOfCandidate(context.device, "group of each candidate", uintBytes(candidates.count));
+    context.dispatch(listCandidates_, groups + 1,
                      {adjacency.all(),
-                      {"firstNeighbor", patches.firstNeighbor},
-                      {"NeighborsRef", patches.neighbors.ref()},
-                      {"GroupOfEntryRef", groupOfEntry.ref()}});
+                      {"firstCandidate", candidates.first},
+                      {"CandidatesRef", candidates.groups.ref()},
+                      {"GroupOfCandidateRef", groupOfCandidate.ref()}});
     std::vector<Binding> reusedVisibility, previousNeighbors;
     if (isUpdate()) {
         reusedVisibility = updateCache_->neighborRayBindings();
-        previousNeighbors = updateCache_->previousNeighborBindings(patches);
+        previousNeighbors = updateCache_->previousNeighborBindings(context[clusters_], patches);
     }
-    RayBatch::inBatches(neighbors, [&](uint32_t first, uint32_t count) {
+    RayBatch::inBatches(candidates.count, [&](uint32_t first, uint32_t count) {
         context.dispatch(isUpdate() ? updateNeighborRays_ : generateNeighborRays_, count,
                          {reusedVisibility,
                           {"groups", patches.groups},
-                          {"NeighborsRef", patches.neighbors.ref()},
-                          {"GroupOfEntryRef", groupOfEntry.ref()},
+                          {"GroupedSurfelsRef", surfels_.ref()},
+                          {"CandidatesRef", candidates.groups.ref()},
+                          {"GroupOfCandidateRef", groupOfCandidate.ref()},
                           {"rays", batch_.rays},
                           {"first", first},
                           {"count", count}});
@@ -213,11 +254,33 @@ void FindPatches::findNeighbors(PassContext& context) {
         context.dispatch(isUpdate() ? updateNeighbors_ : removeOccludedNeighbors_, count,
                          {previousNeighbors,
                           {"occluded", batch_.occluded},
-                          {"NeighborsRef", patches.neighbors.ref()},
-                          ifUsed({"GroupOfEntryRef", groupOfEntry.ref()}),
+                          {"CandidatesRef", candidates.groups.ref()},
+                          ifUsed({"GroupOfCandidateRef", groupOfCandidate.ref()}),
                           {"first", first},
                           {"count", count}});
     });
+    stream.finish();
+    return candidates;
+}
+
+void FindPatches::packNeighbors(PassContext& context, const NeighborCandidates& candidates) {
+    VoxelPatches& patches = context[patches_];
+    CommandStream& stream = context.stream;
+    const uint32_t groups = patches.groupCount;
+    const Bindings kept{
+        {"firstCandidate", candidates.first}, {"CandidatesRef", candidates.groups.ref()}, {"groupCount", groups}};
+    patches.firstNeighbor = Buffer(context.device, "first neighbors of surface groups", uintBytes(groups + 1));
+    context.dispatch(countKeptNeighbors_, groups + 1, {kept.all(), {"counts", patches.firstNeighbor}});
+    const uint32_t neighbors = prefixSum_.run(stream, patches.firstNeighbor, patches.firstNeighbor, groups + 1);
+    patches.neighbors = LargeBuffer(context.device, "neighbors of surface groups", uintBytes((neighbors + 3) / 4));
+    stream.fill(patches.neighbors, 0);
+    context.dispatch(packNeighbors_, groups + 1,
+                     {kept.all(),
+                      {"coordinates", context[clusters_].coordinates},
+                      {"groups", patches.groups},
+                      {"firstGroup", patches.firstGroup},
+                      {"firstNeighbor", patches.firstNeighbor},
+                      {"NeighborsRef", patches.neighbors.ref()}});
     stream.finish();
 }
 

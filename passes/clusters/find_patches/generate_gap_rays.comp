@@ -1,5 +1,5 @@
 // Generates rays from occluded surfels without a group across the gap in front of them.
-#include "passes/clusters/grouped_surfels.glsl"
+#include "passes/clusters/find_patches/grouped_surfel.h"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/occlusion_ray.glsl"
 layout(local_size_x = 64) in;

@@ -1,5 +1,5 @@
 // Generates visibility rays from each surfel without a group to the seed of its voxel's new group.
-#include "passes/clusters/grouped_surfels.glsl"
+#include "passes/clusters/find_patches/grouped_surfel.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;

@@ -55,9 +55,12 @@ std::vector<Binding> GroupUpdateCache::neighborRayBindings() const {
     return {{"reusablePreviousIndex", reusablePreviousIndex_}};
 }
 
-std::vector<Binding> GroupUpdateCache::previousNeighborBindings(const VoxelPatches& patches) const {
+std::vector<Binding> GroupUpdateCache::previousNeighborBindings(const VoxelClusters& clusters,
+                                                                const VoxelPatches& patches) const {
     return {{"reusablePreviousIndex", reusablePreviousIndex_},
-            {"firstNeighbor", patches.firstNeighbor},
+            {"coordinates", clusters.coordinates},
+            {"groups", patches.groups},
+            {"firstGroup", patches.firstGroup},
             {"previousFirstNeighbor", firstNeighbor_},
             {"PreviousNeighborsRef", neighbors_.ref()}};
 }
@@ -68,13 +71,13 @@ void GroupUpdateCache::finishUpdate() {
     isActive_ = false;
 }
 
-void GroupUpdateCache::storeSurfels(CommandStream& stream, const VoxelPatches& patches, uint64_t idCount) {
+void GroupUpdateCache::storeSurfels(CommandStream& stream, const LargeBuffer& surfels, uint32_t count,
+                                    uint64_t idCount) {
     ensureSize(storedGroups_, stream.device(), "groups of surfels",
                std::max<uint64_t>(idCount, 1) * sizeof(gpu::StoredGroup));
-    stream.dispatch(storeSurfelGroups_, patches.surfelCount,
-                    {{"GroupedSurfelsRef", patches.surfels.ref()},
-                     {"StoredGroupsRef", storedGroups_.ref()},
-                     {"surfels", patches.surfelCount}});
+    stream.dispatch(
+        storeSurfelGroups_, count,
+        {{"GroupedSurfelsRef", surfels.ref()}, {"StoredGroupsRef", storedGroups_.ref()}, {"surfels", count}});
 }
 
 void GroupUpdateCache::storeVoxels(CommandStream& stream, const SurfaceVoxels& voxels) {

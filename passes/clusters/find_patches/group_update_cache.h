@@ -34,12 +34,13 @@ class GroupUpdateCache {
     void findPreviousGroupIndices(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
                                   VoxelPatches& patches);
     std::vector<Binding> neighborRayBindings() const;
-    std::vector<Binding> previousNeighborBindings(const VoxelPatches& patches) const;
+    std::vector<Binding> previousNeighborBindings(const VoxelClusters& clusters, const VoxelPatches& patches) const;
     /// Frees what startUpdate() moved. The stream must have finished.
     void finishUpdate();
 
-    /// Call before groups are numbered, after the stream has finished. @param idCount upper bound of ids.
-    void storeSurfels(CommandStream& stream, const VoxelPatches& patches, uint64_t idCount);
+    /// Call before groups are numbered, after the stream has finished. @param surfels gpu::GroupedSurfel each.
+    /// @param idCount upper bound of ids.
+    void storeSurfels(CommandStream& stream, const LargeBuffer& surfels, uint32_t count, uint64_t idCount);
     void storeVoxels(CommandStream& stream, const SurfaceVoxels& voxels);
 
  private:

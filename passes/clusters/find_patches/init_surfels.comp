@@ -1,6 +1,6 @@
 // Writes the surfels of a chunk, sorted by voxel, without a group. UPDATE: those of unchanged voxels get their
 // previous one.
-#include "passes/clusters/grouped_surfels.glsl"
+#include "passes/clusters/find_patches/grouped_surfel.h"
 #include "passes/clusters/find_patches/stored_group.h"
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -33,9 +33,9 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
-    const uint index = push.firstIndex + i, sorted = sortedIndices.data[index];
-    if (sorted == NO_GROUP) return;
+    if (s.voxel == NO_VOXEL) return;
     const StoredGroup initial = initialGroup(s);
-    groupedSurfels.data[sorted] = GroupedSurfel(s.position, index, s.normal, s.id, s.reflectance, s.voxel,
-                                                initial.group, initial.height, s.area == 0.0 ? 1u : 0u);
+    groupedSurfels.data[sortedIndices.data[push.firstIndex + i]] =
+        GroupedSurfel(s.position, s.id, s.normal, s.voxel, s.reflectance, initial.group, initial.height,
+                      s.area == 0.0 ? 1u : 0u);
 }

@@ -1,5 +1,5 @@
 // Assigns surfels that see the seed of their voxel's new group to that group.
-#include "passes/clusters/grouped_surfels.glsl"
+#include "passes/clusters/find_patches/grouped_surfel.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

@@ -1,27 +1,28 @@
-// Lists the surface groups of each voxel and stores the sorted index of each of their surfels.
-#include "passes/clusters/grouped_surfels.glsl"
-#include "shaders/compute/large_buffer.glsl"
+// Lists the surface groups of each voxel; behind the last one, where their surfels end.
+#include "passes/clusters/find_patches/grouped_surfel.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
 readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;  // First and end surfel of each voxel.
 readonly buffer FirstGroup { uint data[]; } firstGroup;
-layout(scalar) readonly buffer SurfelIndexRef { LargeUints surfelIndex; };
 layout(scalar) writeonly buffer Groups { SurfaceGroup data[]; } groups;
-layout(push_constant) uniform Push { uint voxels; } push;
+layout(push_constant) uniform Push {
+    uint voxels;
+    uint surfelCount;
+} push;
 
 void main() {
     const uint voxel = linearIndex();
-    if (voxel >= push.voxels) return;
+    if (voxel > push.voxels) return;
+    if (voxel == push.voxels) {
+        groups.data[firstGroup.data[voxel]] = SurfaceGroup(voxel, push.surfelCount, 0u, 0u);
+        return;
+    }
     const uint end = surfelRanges.data[voxel].y;
     uint i = surfelRanges.data[voxel].x;
     for (uint group = firstGroup.data[voxel]; group < firstGroup.data[voxel + 1u]; ++group) {
-        const uint first = i, groupInVoxel = groupedSurfels.data[i].group;
-        for (; i < end && groupedSurfels.data[i].group == groupInVoxel; ++i) {
-            groupedSurfels.data[i].group = group;
-            surfelIndex.data[groupedSurfels.data[i].index] = i;
-        }
-        const GroupedSurfel s = groupedSurfels.data[first];
-        groups.data[group] = SurfaceGroup(pointAbove(s), voxel, first, i - first, s.isOccluded, 0u, 0u);
+        const GroupedSurfel first = groupedSurfels.data[i];
+        groups.data[group] = SurfaceGroup(voxel, i, 0u, first.isOccluded == 1u ? GROUP_OCCLUDED : 0u);
+        while (i < end && groupedSurfels.data[i].group == first.group) ++i;
     }
 }

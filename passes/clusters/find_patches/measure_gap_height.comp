@@ -1,5 +1,5 @@
 // Sets the height of visibility rays above occluded surfels to half of the gap in front of them.
-#include "passes/clusters/grouped_surfels.glsl"
+#include "passes/clusters/find_patches/grouped_surfel.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;

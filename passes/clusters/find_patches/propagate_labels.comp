@@ -7,8 +7,8 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-readonly buffer FirstNeighbor { uint data[]; } firstNeighbor;
-layout(scalar) readonly buffer NeighborsRef { LargeUints neighbors; };
+readonly buffer FirstCandidate { uint data[]; } firstCandidate;
+layout(scalar) readonly buffer CandidatesRef { LargeUints candidates; };  // Neighbors; NO_GROUP: occluded.
 readonly buffer ClusterOfVoxel { uint data[]; } clusterOfVoxel;
 buffer Labels { uint data[]; } labels;
 buffer Changed { uint count; } changed;
@@ -19,8 +19,8 @@ void main() {
     if (group >= push.groupCount) return;
     const uint cluster = clusterOfVoxel.data[groups.data[group].voxel];
     uint label = labels.data[labels.data[group]];
-    for (uint i = firstNeighbor.data[group]; i < firstNeighbor.data[group + 1u]; ++i) {
-        const uint neighbor = neighbors.data[i];
+    for (uint i = firstCandidate.data[group]; i < firstCandidate.data[group + 1u]; ++i) {
+        const uint neighbor = candidates.data[i];
         if (neighbor == NO_GROUP || clusterOfVoxel.data[groups.data[neighbor].voxel] != cluster) continue;
         label = min(label, labels.data[neighbor]);
     }

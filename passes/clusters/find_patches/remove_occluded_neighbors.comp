@@ -1,15 +1,19 @@
-// Removes neighbors that are occluded from each other. UPDATE: copies the previous result for groups with unchanged
-// neighborhoods, which have the same neighbors in the same order.
+// Removes candidates for neighbors that are occluded. UPDATE: uses the previous result for groups with unchanged
+// neighborhoods, where the neighbors have the same bytes.
+#ifdef UPDATE
+#include "passes/clusters/neighbors.glsl"
+#else
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/large_buffer.glsl"
+#endif
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
 readonly buffer Occluded { uint data[]; } occluded;
-layout(scalar) readonly buffer NeighborsRef { LargeUints neighbors; };
+layout(scalar) readonly buffer CandidatesRef { LargeUints candidates; };
 #ifdef UPDATE
-layout(scalar) readonly buffer GroupOfEntryRef { LargeUints groupOfEntry; };
-readonly buffer FirstNeighbor { uint data[]; } firstNeighbor;
+layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
+layout(scalar) readonly buffer GroupOfCandidateRef { LargeUints groupOfCandidate; };
 readonly buffer ReusablePreviousIndex { uint data[]; } reusablePreviousIndex;
 readonly buffer PreviousFirstNeighbor { uint data[]; } previousFirstNeighbor;
 layout(scalar) readonly buffer PreviousNeighborsRef { LargeUints previousNeighbors; };
@@ -19,12 +23,15 @@ layout(push_constant) uniform Push {
     uint count;
 } push;
 
-bool isOccluded(uint i) {
+bool isOccludedCandidate(uint i) {
 #ifdef UPDATE
-    const uint group = groupOfEntry.data[push.first + i], previous = reusablePreviousIndex.data[group];
+    const uint group = groupOfCandidate.data[push.first + i], previous = reusablePreviousIndex.data[group];
     if (previous != NO_GROUP) {
-        const uint indexInList = push.first + i - firstNeighbor.data[group];
-        return previousNeighbors.data[previousFirstNeighbor.data[previous] + indexInList] == NO_GROUP;
+        const uint candidate = candidates.data[push.first + i];
+        const uint code = neighborCode(groups.data[group], groups.data[candidate], candidate);
+        for (uint k = previousFirstNeighbor.data[previous]; k < previousFirstNeighbor.data[previous + 1u]; ++k)
+            if (byteOf(previousNeighbors.data[k / 4u], k) == code) return false;
+        return true;
     }
 #endif
     return occluded.data[i] != 0u;
@@ -32,5 +39,5 @@ bool isOccluded(uint i) {
 
 void main() {
     const uint i = linearIndex();
-    if (i < push.count && isOccluded(i)) neighbors.data[push.first + i] = NO_GROUP;
+    if (i < push.count && isOccludedCandidate(i)) candidates.data[push.first + i] = NO_GROUP;
 }

@@ -1,5 +1,5 @@
 // Makes the first surfel of each voxel that has no group the seed of a new group.
-#include "passes/clusters/grouped_surfels.glsl"
+#include "passes/clusters/find_patches/grouped_surfel.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

@@ -1,5 +1,5 @@
 // Sorts each voxel's surfels by group, and counts its groups.
-#include "passes/clusters/grouped_surfels.glsl"
+#include "passes/clusters/find_patches/grouped_surfel.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

@@ -1,5 +1,5 @@
 // Stores the group of each surfel for the next update, indexed by the surfel's id.
-#include "passes/clusters/grouped_surfels.glsl"
+#include "passes/clusters/find_patches/grouped_surfel.h"
 #include "passes/clusters/find_patches/stored_group.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

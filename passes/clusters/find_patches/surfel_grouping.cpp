@@ -6,7 +6,8 @@
 namespace voxray {
 namespace {
 
-/// Limit of unoccluded and of occluded groups in a voxel. All remaining surfels join the last one.
+/// Limit of unoccluded and of occluded groups in a voxel, as in neighbors.glsl. All remaining surfels join the last
+/// one.
 constexpr uint32_t kMaxGroupsPerVoxel = 8;
 
 }  // namespace
@@ -25,31 +26,31 @@ SurfelGrouping::SurfelGrouping(ProgramOwner& owner)
       joinGroup_(owner, "join_group.comp") {}
 
 void SurfelGrouping::run(PassContext& context, const RayBatch& batch, const SurfaceVoxels& voxels, bool hasOccluded,
-                         const SurfelsByVoxel& surfelsByVoxel, const VoxelPatches& patches) const {
-    groupByVisibility(context, batch, voxels.voxelCount, surfelsByVoxel, patches, false);
+                         const SurfelsByVoxel& surfelsByVoxel, const LargeBuffer& surfels) const {
+    groupByVisibility(context, batch, voxels.voxelCount, surfelsByVoxel, surfels, false);
     if (!hasOccluded) return;
-    measureGaps(context, batch, voxels.grid.voxelSize, patches);
-    groupByVisibility(context, batch, voxels.voxelCount, surfelsByVoxel, patches, true);
+    measureGaps(context, batch, voxels.grid.voxelSize, surfelsByVoxel.sortedCount, surfels);
+    groupByVisibility(context, batch, voxels.voxelCount, surfelsByVoxel, surfels, true);
 }
 
-void SurfelGrouping::measureGaps(PassContext& context, const RayBatch& batch, float voxelSize,
-                                 const VoxelPatches& patches) const {
-    RayBatch::inBatches(patches.surfelCount, [&](uint32_t first, uint32_t count) {
+void SurfelGrouping::measureGaps(PassContext& context, const RayBatch& batch, float voxelSize, uint32_t surfelCount,
+                                 const LargeBuffer& surfels) const {
+    RayBatch::inBatches(surfelCount, [&](uint32_t first, uint32_t count) {
         context.dispatch(generateGapRays_, count,
                          {{"rays", batch.rays},
-                          {"GroupedSurfelsRef", patches.surfels.ref()},
+                          {"GroupedSurfelsRef", surfels.ref()},
                           {"first", first},
                           {"count", count},
                           {"voxelSize", voxelSize}});
         context.tracer.closestHit(context.stream, batch.rays, batch.hits, count);
         context.dispatch(
             measureGapHeight_, count,
-            {{"hits", batch.hits}, {"GroupedSurfelsRef", patches.surfels.ref()}, {"first", first}, {"count", count}});
+            {{"hits", batch.hits}, {"GroupedSurfelsRef", surfels.ref()}, {"first", first}, {"count", count}});
     });
 }
 
 void SurfelGrouping::groupByVisibility(PassContext& context, const RayBatch& batch, uint32_t voxels,
-                                       const SurfelsByVoxel& surfelsByVoxel, const VoxelPatches& patches,
+                                       const SurfelsByVoxel& surfelsByVoxel, const LargeBuffer& surfels,
                                        bool occluded) const {
     CommandStream& stream = context.stream;
     const Buffer seeds(context.device, "seeds of surface groups", uintBytes(voxels));
@@ -61,23 +62,23 @@ void SurfelGrouping::groupByVisibility(PassContext& context, const RayBatch& bat
                          {{"surfelRanges", surfelsByVoxel.ranges},
                           {"seeds", seeds},
                           {"remaining", remaining},
-                          {"GroupedSurfelsRef", patches.surfels.ref()},
+                          {"GroupedSurfelsRef", surfels.ref()},
                           {"voxels", voxels},
                           {"round", round},
                           {"groupsOccluded", occluded}});
         if (stream.readAs<uint32_t>(remaining, 1)[0] == 0) break;
-        RayBatch::inBatches(patches.surfelCount, [&](uint32_t first, uint32_t count) {
+        RayBatch::inBatches(surfelsByVoxel.sortedCount, [&](uint32_t first, uint32_t count) {
             context.dispatch(generateVisibilityRays_, count,
                              {{"seeds", seeds},
                               {"rays", batch.rays},
-                              {"GroupedSurfelsRef", patches.surfels.ref()},
+                              {"GroupedSurfelsRef", surfels.ref()},
                               {"first", first},
                               {"count", count},
                               {"groupsOccluded", occluded}});
             context.tracer.occluded(stream, batch.rays, batch.occluded, count);
             context.dispatch(joinGroup_, count,
                              {{"occluded", batch.occluded},
-                              {"GroupedSurfelsRef", patches.surfels.ref()},
+                              {"GroupedSurfelsRef", surfels.ref()},
                               {"first", first},
                               {"count", count},
                               {"round", round},

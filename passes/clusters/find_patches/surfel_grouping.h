@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "graph/pass.h"
-#include "passes/clusters/voxel_patches.h"
+#include "passes/common/voxels/voxels.h"
 #include "passes/surfels/surfels_by_voxel.h"
 
 namespace voxray {
@@ -32,16 +32,18 @@ class SurfelGrouping {
  public:
     explicit SurfelGrouping(ProgramOwner& owner);
 
-    /// Groups the surfels of `patches` that have no group yet: first unoccluded ones, then occluded ones.
+    /// Groups the surfels that have no group yet: first unoccluded ones, then occluded ones.
     /// @param hasOccluded whether there are occluded surfels. @param surfelsByVoxel the surfels of each voxel.
+    /// @param surfels gpu::GroupedSurfel each.
     void run(PassContext& context, const RayBatch& batch, const SurfaceVoxels& voxels, bool hasOccluded,
-             const SurfelsByVoxel& surfelsByVoxel, const VoxelPatches& patches) const;
+             const SurfelsByVoxel& surfelsByVoxel, const LargeBuffer& surfels) const;
 
  private:
-    void measureGaps(PassContext& context, const RayBatch& batch, float voxelSize, const VoxelPatches& patches) const;
+    void measureGaps(PassContext& context, const RayBatch& batch, float voxelSize, uint32_t surfelCount,
+                     const LargeBuffer& surfels) const;
     /// Groups only occluded or only unoccluded surfels.
     void groupByVisibility(PassContext& context, const RayBatch& batch, uint32_t voxels,
-                           const SurfelsByVoxel& surfelsByVoxel, const VoxelPatches& patches, bool occluded) const;
+                           const SurfelsByVoxel& surfelsByVoxel, const LargeBuffer& surfels, bool occluded) const;
 
     Kernel generateGapRays_, measureGapHeight_, selectSeed_, generateVisibilityRays_, joinGroup_;
 };

@@ -1,19 +1,20 @@
 // Filters the irradiance of patches by binomial weights over the same face of neighboring surface groups (Cosin and
 // Patow 2022, section 4.4; the paper's filter also crosses walls). LIT_ONLY: unlit patches are excluded.
 #include "passes/clusters/gather_clusters/listed_groups.glsl"
-#include "passes/clusters/group_patches.glsl"
-#include "shaders/compute/large_buffer.glsl"
+#include "passes/clusters/neighbors.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PatchValues { vec3 data[]; };
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;  // Per voxel.
 readonly buffer FirstNeighbor { uint data[]; } firstNeighbor;
 layout(scalar) readonly buffer NeighborsRef { LargeUints neighbors; };
 layout(scalar) readonly buffer GatheredRef { PatchValues gathered; };
 layout(scalar) readonly buffer FilteredRef { PatchValues filtered; };
-layout(push_constant) uniform Push { uint count; } push;
+layout(push_constant, scalar) uniform Push {
+    VoxelGrid grid;
+    uint count;
+} push;
 
 // Weights are 1 2 1 along each axis.
 float binomialWeight(vec3 offset) {
@@ -41,11 +42,10 @@ void main() {
     vec4 sums[6];
     for (uint face = 0u; face < 6u; ++face) sums[face] = vec4(0.0);
     addPatches(group, binomialWeight(vec3(0.0)), sums);
-    const vec3 center = vec3(coordinates.data[group.voxel]);
     for (uint k = firstNeighbor.data[number]; k < firstNeighbor.data[number + 1u]; ++k) {
-        if (neighbors.data[k] == NO_GROUP) continue;
-        const SurfaceGroup neighbor = groups.data[neighbors.data[k]];
-        addPatches(neighbor, binomialWeight(vec3(coordinates.data[neighbor.voxel]) - center), sums);
+        const uint code = byteOf(neighbors.data[k / 4u], k);
+        addPatches(groups.data[neighborIndex(push.grid, group, code)], binomialWeight(vec3(neighborOffset(code))),
+                   sums);
     }
     uint patchNumber = group.firstPatch;
     for (uint face = 0u; face < 6u; ++face)

@@ -167,7 +167,9 @@ void GatherClusters::gather(PassContext& context, const VisibleVoxels::NewVoxels
         const uint32_t count = voxels.groupCounts[steps - 1 - i];
         context.dispatch(filterIrradiance_, count,
                          {listedGroups,
+                          context[voxels_],
                           {"groups", patches.groups},
+                          {"firstGroup", patches.firstGroup},
                           {"coordinates", context[clusters_].coordinates},
                           {"firstNeighbor", patches.firstNeighbor},
                           {"NeighborsRef", patches.neighbors.ref()},
@@ -183,7 +185,7 @@ void GatherClusters::gather(PassContext& context, const VisibleVoxels::NewVoxels
                      {newVoxels,
                       {"groups", patches.groups},
                       {"firstGroup", patches.firstGroup},
-                      {"VoxelMaterialsRef", patches.materials.ref()},
+                      {"GroupMaterialsRef", patches.materials.ref()},
                       {"GatheredRef", gathered_.ref()},
                       {"PatchDirectRef", light.direct.ref()},
                       {"DirectRef", result.direct.ref()},

@@ -1,7 +1,7 @@
 // Gathers the irradiance of the patches of surface groups along their visibility lists.
 #include "passes/clusters/gather_clusters/listed_groups.glsl"
 #include "passes/clusters/gather_patch.glsl"
-#include "passes/clusters/group_patches.glsl"
+#include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
@@ -16,8 +16,7 @@ layout(push_constant, scalar) uniform Push {
 void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
-    const SurfaceGroup group = groups.data[groupIndex(i)];
-    const uint end = group.firstPatch + uint(bitCount(group.faces));
-    for (uint patchNumber = group.firstPatch; patchNumber < end; ++patchNumber)
+    const uint group = groupIndex(i), end = groups.data[group + 1u].firstPatch;
+    for (uint patchNumber = groups.data[group].firstPatch; patchNumber < end; ++patchNumber)
         gathered.data[patchNumber] = gatherPatch(push.lists, patchNumber);
 }

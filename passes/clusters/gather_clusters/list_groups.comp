@@ -1,5 +1,5 @@
 // Lists the unoccluded surface groups of the new voxels, in any order.
-#include "passes/clusters/surface_group_types.h"
+#include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
@@ -16,7 +16,7 @@ void main() {
     if (i >= push.voxels) return;
     const uint voxel = newVoxels.data[i];
     for (uint group = firstGroup.data[voxel]; group < firstGroup.data[voxel + 1u]; ++group) {
-        if (groups.data[group].isOccluded == 1u) continue;
+        if (isOccluded(groups.data[group])) continue;
         isListed.data[group] = 1u;
         listedGroups.data[atomicAdd(count.value, 1u)] = group;
     }

@@ -1,5 +1,6 @@
-// Stores flux and unoccluded area of voxels' faces: sums over the patches of their unoccluded surface groups, whose
-// materials are bound. A thread processes a pair of opposite faces of a voxel.
+// Stores flux and unoccluded area of voxels' faces: sums over the patches of their unoccluded surface groups. A
+// thread processes a pair of opposite faces of a voxel.
+#include "passes/clusters/group_materials.glsl"
 #include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/radiosity.glsl"
@@ -36,8 +37,8 @@ void main() {
     float faceArea[2] = float[](0.0, 0.0);
     for (uint number = firstGroup.data[voxel]; number < firstGroup.data[voxel + 1u]; ++number) {
         const SurfaceGroup group = groups.data[number];
-        if (group.isOccluded == 1u) continue;
-        const VoxelMaterial m = voxelMaterial(number);
+        if (isOccluded(group)) continue;
+        const VoxelMaterial m = groupMaterial(number);
         for (uint k = 0u; k < 2u; ++k) {
             const uint face = 2u * axis + k;
             if (!hasPatch(group, face)) continue;

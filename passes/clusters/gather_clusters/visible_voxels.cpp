@@ -70,7 +70,11 @@ VisibleVoxels::NewVoxels VisibleVoxels::find(PassContext& context, const GBuffer
     for (uint32_t i = 0; i < steps; ++i) {
         const uint32_t end = found.groupCounts.back();
         context.dispatch(dilate_, end - first,
-                         {{"firstNeighbor", patches.firstNeighbor},
+                         {voxels,
+                          {"coordinates", clusters.coordinates},
+                          {"groups", patches.groups},
+                          {"firstGroup", patches.firstGroup},
+                          {"firstNeighbor", patches.firstNeighbor},
                           {"NeighborsRef", patches.neighbors.ref()},
                           {"isListed", isListed_},
                           {"listedGroups", listedGroups_},

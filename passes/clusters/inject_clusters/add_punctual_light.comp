@@ -1,19 +1,37 @@
 // Adds the unshadowed irradiance of a punctual light to the surfels of lit voxels: those of which the light sees a
 // point, unless a surface in the adjacent voxel towards the light occludes it (Cosin and Patow 2022, figure 10).
 #include "passes/clusters/inject_clusters/lit_points.glsl"
-#include "passes/clusters/grouped_surfels.glsl"
+#include "passes/clusters/group_materials.glsl"
+#include "passes/clusters/group_patches.glsl"
 #include "passes/clusters/voxel_point_rays.glsl"
+#include "passes/surfels/surfel_points.glsl"
 layout(local_size_x = 64) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SurfelValues { vec3 data[]; };
 readonly buffer FirstGroup { uint data[]; } firstGroup;
+layout(scalar) readonly buffer SurfelIdsRef { LargeUints surfelIds; };
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(scalar) readonly buffer SurfelIrradianceRef { SurfelValues surfelIrradiance; };
 
+struct LitSurfel {
+    vec3 position;
+    vec3 normal;
+};
+
+LitSurfel litSurfel(uint i) {
+    const uint id = surfelIds.data[i];
+    const SurfacePoint p = surfacePointOf(id / 2u, push.pointSeed);
+    const vec3 normal = surfelNormal(p, id % 2u);
+    return LitSurfel(surfelPosition(p, normal), normal);
+}
+
+// Half a voxel in front of an unoccluded surfel.
+vec3 pointAbove(LitSurfel s) { return s.position + 0.5 * push.grid.voxelSize * s.normal; }
+
 // Whether each of two groups is in front of the other, tested with their first surfels.
 bool faceEachOther(SurfaceGroup a, SurfaceGroup b) {
-    const GroupedSurfel p = groupedSurfels.data[a.firstSurfel], q = groupedSurfels.data[b.firstSurfel];
-    return dot(p.normal, b.pointAbove - p.position) > 0.0 && dot(q.normal, a.pointAbove - q.position) > 0.0;
+    const LitSurfel p = litSurfel(a.firstSurfel), q = litSurfel(b.firstSurfel);
+    return dot(p.normal, pointAbove(q) - p.position) > 0.0 && dot(q.normal, pointAbove(p) - q.position) > 0.0;
 }
 
 // Whether light from `direction` is occluded by the back of a group in `voxel` that faces the given group. A group that
@@ -21,7 +39,7 @@ bool faceEachOther(SurfaceGroup a, SurfaceGroup b) {
 bool isOccludedBy(uint voxel, SurfaceGroup group, vec3 direction) {
     if (voxel == NO_VOXEL) return false;
     for (uint occluder = firstGroup.data[voxel]; occluder < firstGroup.data[voxel + 1u]; ++occluder)
-        if (groups.data[occluder].isOccluded == 0u && dot(voxelMaterial(occluder).normal, direction) < 0.0 &&
+        if (!isOccluded(groups.data[occluder]) && dot(groupMaterial(occluder).normal, direction) < 0.0 &&
             faceEachOther(group, groups.data[occluder]))
             return true;
     return false;
@@ -38,9 +56,10 @@ void main() {
     for (uint number = firstGroup.data[voxel]; number < firstGroup.data[voxel + 1u]; ++number) {
         const SurfaceGroup group = groups.data[number];
         // No point around the voxel lies in its gaps
-        if (group.isOccluded == 1u || isOccludedBy(towardsLight, group, direction)) continue;
-        for (uint k = group.firstSurfel; k < group.firstSurfel + group.surfelCount; ++k) {
-            const GroupedSurfel surfel = groupedSurfels.data[k];
+        if (isOccluded(group) || isOccludedBy(towardsLight, group, direction)) continue;
+        const uint end = groups.data[number + 1u].firstSurfel;
+        for (uint k = group.firstSurfel; k < end; ++k) {
+            const LitSurfel surfel = litSurfel(k);
             const LightSample l = samplePunctual(light, surfel.position);
             surfelIrradiance.data[k] += l.irradiance * max(dot(surfel.normal, l.direction), 0.0);
         }

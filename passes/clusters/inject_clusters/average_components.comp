@@ -1,7 +1,8 @@
 // Averages the radiosity of component faces over their patches, weighted by area (Cosin and Patow 2022, section 4.4:
-// irradiance is pulled up to clusters). The materials bound are those of groups. The order of summation is the same in
+// irradiance is pulled up to clusters). The order of summation is the same in
 // each run. Patches smaller than SMALL_FACE_AREA, whose radiosity is a ratio of two small samples and may be much too
 // bright, get the mean.
+#include "passes/clusters/group_materials.glsl"
 #include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/radiosity.glsl"
@@ -18,22 +19,24 @@ layout(push_constant) uniform Push { uint count; } push;
 void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
-    const uint first = components.data[i].firstMember, count = components.data[i].memberCount;
+    const ClusterComponent component = components.data[i];
+    const uint first = component.firstMember, end = components.data[i + 1u].firstMember;
     for (uint face = 0u; face < 6u; ++face) {
+        if ((component.faces >> face & 1u) == 0u) continue;
         vec3 sum = vec3(0.0);
         float totalArea = 0.0;
-        for (uint k = 0u; k < count; ++k) {
-            const uint group = memberGroups.data[first + k];
+        for (uint k = first; k < end; ++k) {
+            const uint group = memberGroups.data[k];
             if (!hasPatch(groups.data[group], face)) continue;
-            const float area = unoccluded(voxelMaterial(group), face);
+            const float area = unoccluded(groupMaterial(group), face);
             sum += area * unpackRadiosity(radiosity.data[patchIndex(groups.data[group], face)]);
             totalArea += area;
         }
         const uint mean = packRadiosity(totalArea > 0.0 ? sum / totalArea : vec3(0.0));
-        componentRadiosity.data[6u * i + face] = mean;
-        for (uint k = 0u; k < count; ++k) {
-            const uint group = memberGroups.data[first + k];
-            if (hasPatch(groups.data[group], face) && unoccluded(voxelMaterial(group), face) < SMALL_FACE_AREA)
+        componentRadiosity.data[componentFaceIndex(component, face)] = mean;
+        for (uint k = first; k < end; ++k) {
+            const uint group = memberGroups.data[k];
+            if (hasPatch(groups.data[group], face) && unoccluded(groupMaterial(group), face) < SMALL_FACE_AREA)
                 radiosity.data[patchIndex(groups.data[group], face)] = mean;
         }
     }

@@ -1,7 +1,6 @@
 // Averages the direct irradiance of each patch over its group's surfels, weighted by their projected area at its face.
-#include "passes/clusters/grouped_surfels.glsl"
 #include "passes/clusters/group_patches.glsl"
-#include "shaders/compute/large_buffer.glsl"
+#include "passes/surfels/surfel_points.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/radiosity.glsl"
 #include "shaders/voxels/face.glsl"
@@ -9,9 +8,13 @@ layout(local_size_x = 64) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SurfelValues { vec3 data[]; };
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
+layout(scalar) readonly buffer SurfelIdsRef { LargeUints surfelIds; };
 layout(scalar) readonly buffer SurfelIrradianceRef { SurfelValues surfelIrradiance; };
 layout(scalar) readonly buffer PatchDirectRef { LargeUints patchDirect; };
-layout(push_constant) uniform Push { uint count; } push;
+layout(push_constant) uniform Push {
+    uint count;
+    uint pointSeed;
+} push;
 
 void main() {
     const uint i = linearIndex();
@@ -19,8 +22,10 @@ void main() {
     const SurfaceGroup group = groups.data[i];
     vec4 sums[6];
     for (uint face = 0u; face < 6u; ++face) sums[face] = vec4(0.0);
-    for (uint k = group.firstSurfel; k < group.firstSurfel + group.surfelCount; ++k) {
-        const vec3 normal = groupedSurfels.data[k].normal;
+    const uint end = groups.data[i + 1u].firstSurfel;
+    for (uint k = group.firstSurfel; k < end; ++k) {
+        const uint id = surfelIds.data[k];
+        const vec3 normal = surfelNormal(surfacePointOf(id / 2u, push.pointSeed), id % 2u);
         for (uint axis = 0u; axis < 3u; ++axis)
             sums[faceOf(normal, axis)] += normal[axis] * normal[axis] * vec4(surfelIrradiance.data[k], 1.0);
     }

@@ -7,8 +7,9 @@
 VOXRAY_SHARED_BEGIN
 
 struct ComponentFace {
-    float area;       // Sum over its patches, in units of a voxel's face.
+    uint number;      // 6 * component + face.
     uint patchCount;  // Number of the component's patches at this face.
+    float area;       // Sum over these, in units of a voxel's face.
 };
 
 VOXRAY_SHARED_END

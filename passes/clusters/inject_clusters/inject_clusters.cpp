@@ -10,18 +10,18 @@
 #include "passes/clusters/cluster_light.h"
 #include "passes/clusters/inject_clusters/component_face_types.h"
 #include "passes/clusters/inject_clusters/lit_points.h"
-#include "passes/common/compute/bit_words.h"
-#include "passes/common/compute/compaction.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/lights/light_sources.h"
 #include "passes/common/lights/pane_transmittance.h"
 #include "passes/surfels/surfel_direct_light.h"
-#include "passes/surfels/surfels.h"
+#include "passes/surfels/surfel_points.h"
+#include "passes/surfels/surfel_types.h"
 
 namespace voxray {
 namespace {
 
 constexpr uint64_t kIrradianceBytes = 4 * sizeof(float);
+constexpr uint32_t kChunkSurfels = 1u << 16;  // Lit at a time; they and their shadow rays take 10 MiB.
 
 }  // namespace
 
@@ -85,7 +85,6 @@ class InjectClusters final : public Pass {
     };
 
     explicit InjectClusters(const Params& params) : params_(params) {
-        if (bouncesComponents()) compaction_.emplace(*this);
         if (isInjected()) return;
         if (testsPoints())
             litPoints_.emplace(*this);
@@ -103,22 +102,20 @@ class InjectClusters final : public Pass {
     void readInjected(PassContext& context, const ClusterLight& light);
     /// The same by shadow rays.
     void measure(PassContext& context, const ClusterLight& light);
-    /// Computes irradiance of surfels by a shadow ray from each surfel.
+    /// Computes irradiance of surfels, in the order of VoxelPatches::surfelIds, by a shadow ray from each.
     void traceSurfels(PassContext& context, const LargeBuffer& surfelIrradiance);
     /// Computes radiosity from initialIrradiance_ and, if `hasBounced`, bouncedIrradiance_.
     void reflect(PassContext& context, bool hasBounced);
     /// Compute all bounces, of each patch or between component faces.
     void bouncePatches(PassContext& context, ClusterLight& light);
     void bounceComponents(PassContext& context, ClusterLight& light);
-    /// Computes areas of component faces and lists those with area. @return their number.
-    uint32_t listSendingFaces(PassContext& context, const Buffer& componentFaces, const Buffer& sendingFaces) const;
     /// Computes radiosity of patches after bounces between component faces.
     void scatter(PassContext& context, const ClusterLight& light, const Buffer& bouncedRadiosity) const;
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
     In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at voxels' surfaces", isInjected()};
-    In<Surfels> surfels_{*this, "surfels", "points where irradiance is measured", !isInjected()};
+    In<SurfelPoints> points_{*this, "surfel_points", "points where irradiance is measured", !isInjected()};
     In<VoxelClusters> clusters_{*this, "clusters", "coordinates of voxels", params_.litTest == LitTest::Points};
     In<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels"};
     In<ClusterVisibility> visibility_{*this, "cluster_visibility", "visibility lists of patches"};
@@ -126,26 +123,27 @@ class InjectClusters final : public Pass {
     std::vector<LightSource> sources_;
     std::optional<SurfelDirectLight> surfelLight_;  ///< For `lit_test: surfels`.
     std::optional<LitPoints> litPoints_;            ///< For `lit_test: points`.
-    std::optional<Compaction> compaction_;          ///< For bounces between components.
     Kernel gatherPatches_{*this, "gather_patches.comp"};
     Kernel readInjected_{*this, "read_injected.comp"};
-    Kernel reorderIrradiance_{*this, "reorder_irradiance.comp"};
+    Kernel evaluateSurfels_{*this, "evaluate_surfels.comp"};
+    Kernel storeSurfelIrradiance_{*this, "store_surfel_irradiance.comp"};
     Kernel averageSurfels_{*this, "average_surfels.comp"};
     Kernel reflectPatches_{*this, "reflect_patches.comp"};
     Kernel averageComponents_{*this, "average_components.comp"};
-    Kernel flagSendingFaces_{*this, "flag_sending_faces.comp"};
+    Kernel listComponentFaces_{*this, "list_component_faces.comp"};
     Kernel bounceComponents_{*this, "bounce_components.comp"};
     Kernel scatterRadiosity_{*this, "scatter_radiosity.comp"};
     LargeBuffer initialIrradiance_, bouncedIrradiance_;
-    Buffer chunkIrradiance_;  ///< Scratch: direct irradiance of a chunk of surfels.
+    Buffer chunkSurfels_, chunkIrradiance_;  ///< Scratch: a chunk of surfels and their direct irradiance.
 };
 
 void InjectClusters::plan(PassPlan& plan) {
     readInjected_.compileIf(isInjected());
-    reorderIrradiance_.compileIf(!isInjected() && !testsPoints());
+    for (Kernel* kernel : {&evaluateSurfels_, &storeSurfelIrradiance_})
+        kernel->compileIf(!isInjected() && !testsPoints());
     averageSurfels_.compileIf(!isInjected());
     gatherPatches_.compileIf(params_.bounces > 0 && !bouncesComponents());
-    for (Kernel* kernel : {&flagSendingFaces_, &bounceComponents_, &scatterRadiosity_})
+    for (Kernel* kernel : {&listComponentFaces_, &bounceComponents_, &scatterRadiosity_})
         kernel->compileIf(bouncesComponents());
 
     requireClearPanes(*plan.frame.scene, kName);
@@ -157,9 +155,9 @@ void InjectClusters::plan(PassPlan& plan) {
     plan[light_].lightBounces = params_.bounces;
     sources_ = requireLightSources(*plan.frame.scene, kName);
     if (!testsPoints()) {
-        surfelLight_->plan(plan, Surfels::kMaxChunkSurfels);
-        plan.scratchBuffer(chunkIrradiance_, "direct irradiance of surfels",
-                           Surfels::kMaxChunkSurfels * kIrradianceBytes);
+        surfelLight_->plan(plan, kChunkSurfels);
+        plan.scratchBuffer(chunkSurfels_, "surfels to light", kChunkSurfels * sizeof(gpu::Surfel));
+        plan.scratchBuffer(chunkIrradiance_, "direct irradiance of surfels", kChunkSurfels * kIrradianceBytes);
         return;
     }
     if (std::ranges::any_of(sources_, [](const LightSource& s) { return s.kind != LightSource::Punctual; }))
@@ -178,7 +176,7 @@ void InjectClusters::record(PassContext& context) {
     const auto make = [&](auto& buffer, const char* name, uint64_t count) {
         ensureSize(buffer, context.device, name, ClusterLight::bytes(count));
     };
-    make(light.components, "radiosity of components", uint64_t(kFaces) * patches.componentCount);
+    make(light.components, "radiosity of components", patches.componentFaceCount);
     make(light.patches, "radiosity of patches", patches.patchCount);
     make(light.direct, "direct irradiance of patches", patches.patchCount);
     make(initialIrradiance_, "initial irradiance of patches", patches.patchCount);
@@ -211,45 +209,32 @@ void InjectClusters::bouncePatches(PassContext& context, ClusterLight& light) {
     bouncedIrradiance_ = {};
 }
 
-uint32_t InjectClusters::listSendingFaces(PassContext& context, const Buffer& componentFaces,
-                                          const Buffer& sendingFaces) const {
-    const VoxelPatches& patches = context[patches_];
-    const uint32_t words = uint32_t(bitWords(kFaces * patches.componentCount));
-    const Buffer flags(context.device, "flags of sending faces", std::max(words, 1u) * sizeof(uint32_t));
-    context.stream.fill(flags, 0);
-    context.dispatch(flagSendingFaces_, patches.componentCount,
-                     {patches.componentBindings(),
-                      {"componentFaces", componentFaces},
-                      {"flags", flags},
-                      {"componentCount", patches.componentCount}});
-    return compaction_->run(context.stream, flags, sendingFaces, words);
-}
-
 void InjectClusters::bounceComponents(PassContext& context, ClusterLight& light) {
     const VoxelPatches& patches = context[patches_];
     const ClusterVisibility& visibility = context[visibility_];
     CommandStream& stream = context.stream;
-    const uint64_t faces = uint64_t(kFaces) * patches.componentCount, bytes = ClusterLight::bytes(faces);
+    const uint32_t faces = patches.componentFaceCount;
+    const uint64_t bytes = ClusterLight::bytes(faces);
     const Buffer componentFaces(context.device, "areas of component faces",
                                 std::max<uint64_t>(faces, 1) * sizeof(gpu::ComponentFace));
-    const Buffer sendingFaces(context.device, "sending faces", bytes);
     const Buffer initialRadiosity(context.device, "initial radiosity of components", bytes);
     const Buffer bouncedRadiosity(context.device, "bounced radiosity of components", bytes);
     Buffer newRadiosity(context.device, "radiosity of components after a bounce", bytes);
-    const uint32_t count = listSendingFaces(context, componentFaces, sendingFaces);
+    context.dispatch(
+        listComponentFaces_, patches.componentCount,
+        {patches.componentBindings(), {"componentFaces", componentFaces}, {"componentCount", patches.componentCount}});
     stream.copy(light.components, initialRadiosity, bytes);
     stream.copy(light.components, newRadiosity, bytes);
     for (uint32_t i = 0; i < params_.bounces; ++i) {
-        context.dispatch(bounceComponents_, count,
+        context.dispatch(bounceComponents_, faces,
                          {gatherBindings(visibility, light),
                           patches.componentBindings(),
                           {"componentFaces", componentFaces},
-                          {"sendingFaces", sendingFaces},
                           {"initialRadiosity", initialRadiosity},
                           {"bouncedRadiosity", bouncedRadiosity},
                           {"newRadiosity", newRadiosity},
                           {"lists", visibility.layout},
-                          {"faceCount", count},
+                          {"faceCount", faces},
                           {"maxSamples", params_.bouncePatches},
                           {"seed", randomSeed(context.frame, i + 1)}});
         stream.finish();
@@ -292,13 +277,16 @@ void InjectClusters::measure(PassContext& context, const ClusterLight& light) {
                                        std::max(patches.surfelCount, 1u) * sizeof(glm::vec3));
     if (testsPoints()) {
         stream.fill(surfelIrradiance, 0);
-        litPoints_->measure(context, sources_, context[voxels_], context[clusters_], patches, surfelIrradiance);
+        litPoints_->measure(context, sources_, context[voxels_], context[clusters_], context[points_], patches,
+                            surfelIrradiance);
     } else {
         traceSurfels(context, surfelIrradiance);
     }
     context.dispatch(averageSurfels_, patches.groupCount,
-                     {{"groups", patches.groups},
-                      {"GroupedSurfelsRef", patches.surfels.ref()},
+                     {context.scene,
+                      context[points_],
+                      {"groups", patches.groups},
+                      {"SurfelIdsRef", patches.surfelIds.ref()},
                       {"SurfelIrradianceRef", surfelIrradiance.ref()},
                       {"PatchDirectRef", light.direct.ref()},
                       {"count", patches.groupCount}});
@@ -309,17 +297,21 @@ void InjectClusters::measure(PassContext& context, const ClusterLight& light) {
 void InjectClusters::traceSurfels(PassContext& context, const LargeBuffer& surfelIrradiance) {
     const VoxelPatches& patches = context[patches_];
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
-    uint32_t firstIndex = 0;
-    for (const Surfels::Chunk& chunk : context[surfels_].chunks) {
-        surfelLight_->measure(context, sources_, chunk.surfels, chunk.count, params_.lightSamples, seed,
-                              chunkIrradiance_);
-        context.dispatch(reorderIrradiance_, chunk.count,
+    for (uint32_t first = 0; first < patches.surfelCount; first += kChunkSurfels) {
+        const uint32_t count = std::min(kChunkSurfels, patches.surfelCount - first);
+        context.dispatch(evaluateSurfels_, count,
+                         {context.scene,
+                          context[points_],
+                          {"SurfelIdsRef", patches.surfelIds.ref()},
+                          {"surfels", chunkSurfels_},
+                          {"first", first},
+                          {"count", count}});
+        surfelLight_->measure(context, sources_, chunkSurfels_, count, params_.lightSamples, seed, chunkIrradiance_);
+        context.dispatch(storeSurfelIrradiance_, count,
                          {{"direct", chunkIrradiance_},
-                          {"SurfelIndexRef", patches.surfelIndex.ref()},
                           {"SurfelIrradianceRef", surfelIrradiance.ref()},
-                          {"count", chunk.count},
-                          {"firstIndex", firstIndex}});
-        firstIndex += chunk.count;
+                          {"first", first},
+                          {"count", count}});
     }
 }
 
@@ -327,7 +319,7 @@ void InjectClusters::reflect(PassContext& context, bool hasBounced) {
     const VoxelPatches& patches = context[patches_];
     const ClusterLight& light = context[light_];
     context.dispatch(reflectPatches_, patches.groupCount,
-                     {{"VoxelMaterialsRef", patches.materials.ref()},
+                     {{"GroupMaterialsRef", patches.materials.ref()},
                       {"groups", patches.groups},
                       {"InitialIrradianceRef", initialIrradiance_.ref()},
                       {"BouncedIrradianceRef", hasBounced ? bouncedIrradiance_.ref() : initialIrradiance_.ref()},

@@ -6,7 +6,7 @@ LitPoints::LitPoints(ProgramOwner& owner)
     : generateRays_(owner, "generate_shadow_rays.comp"), addLight_(owner, "add_punctual_light.comp") {}
 
 void LitPoints::measure(PassContext& context, const std::vector<LightSource>& sources, const SurfaceVoxels& voxels,
-                        const VoxelClusters& clusters, const VoxelPatches& patches,
+                        const VoxelClusters& clusters, const SurfelPoints& points, const VoxelPatches& patches,
                         const LargeBuffer& surfelIrradiance) const {
     for (const LightSource& source : sources) {
         const auto batchBindings = [&](const VoxelPointRays::Batch& batch) {
@@ -20,16 +20,17 @@ void LitPoints::measure(PassContext& context, const std::vector<LightSource>& so
                 .all();
         };
         const auto generate = [&](const VoxelPointRays::Batch& batch) {
-            context.dispatch(generateRays_, batch.voxels * kPoints, {batchBindings(batch)});
+            context.dispatch(generateRays_, batch.voxels * kPoints, {batchBindings(batch), {"pointSeed", points.seed}});
         };
         const auto add = [&](const VoxelPointRays::Batch& batch) {
             context.dispatch(addLight_, batch.voxels,
                              {batchBindings(batch),
-                              {"VoxelMaterialsRef", patches.materials.ref()},
+                              points,
+                              {"GroupMaterialsRef", patches.materials.ref()},
                               {"occluded", rays_.occluded()},
                               {"firstGroup", patches.firstGroup},
                               {"groups", patches.groups},
-                              {"GroupedSurfelsRef", patches.surfels.ref()},
+                              {"SurfelIdsRef", patches.surfelIds.ref()},
                               {"SurfelIrradianceRef", surfelIrradiance.ref()}});
         };
         rays_.trace(context, voxels.voxelCount, generate, add);

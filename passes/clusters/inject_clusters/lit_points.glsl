@@ -10,4 +10,5 @@ layout(push_constant, scalar) uniform Push {
     uint firstVoxel;
     uint voxels;
     uint light;
+    uint pointSeed;
 } push;

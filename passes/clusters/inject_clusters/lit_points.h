@@ -5,6 +5,7 @@
 #include "passes/clusters/voxel_patches.h"
 #include "passes/clusters/voxel_point_rays.h"
 #include "passes/common/lights/light_sources.h"
+#include "passes/surfels/surfel_points.h"
 
 namespace voxray {
 
@@ -16,9 +17,11 @@ class LitPoints {
     explicit LitPoints(ProgramOwner& owner);
 
     void plan(PassPlan& plan) { rays_.plan(plan); }
-    /// Adds irradiance, W/m², to that of VoxelPatches::surfels, 3 floats each. @param sources punctual.
+    /// Adds irradiance, W/m², to that of surfels in the order of VoxelPatches::surfelIds, 3 floats each.
+    /// @param sources punctual.
     void measure(PassContext& context, const std::vector<LightSource>& sources, const SurfaceVoxels& voxels,
-                 const VoxelClusters& clusters, const VoxelPatches& patches, const LargeBuffer& surfelIrradiance) const;
+                 const VoxelClusters& clusters, const SurfelPoints& points, const VoxelPatches& patches,
+                 const LargeBuffer& surfelIrradiance) const;
 
  private:
     static constexpr uint32_t kPoints = 18;  ///< As in lit_points.glsl.

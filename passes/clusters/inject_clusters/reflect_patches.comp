@@ -1,8 +1,8 @@
-// Computes the radiosity of each patch: reflectance of its surface group (whose materials are bound) times irradiance.
-#include "passes/clusters/group_patches.glsl"
+// Computes the radiosity of each patch: reflectance of its surface group times irradiance.
+#include "passes/clusters/group_materials.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/radiosity.glsl"
-#include "shaders/voxels/voxels.glsl"
+#include "shaders/compute/large_buffer.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
@@ -17,10 +17,9 @@ layout(push_constant) uniform Push {
 void main() {
     const uint i = linearIndex();
     if (i >= push.groupCount) return;
-    const SurfaceGroup group = groups.data[i];
-    const vec3 albedo = voxelMaterial(i).albedo;
-    const uint end = group.firstPatch + uint(bitCount(group.faces));
-    for (uint patchNumber = group.firstPatch; patchNumber < end; ++patchNumber) {
+    const vec3 albedo = groupMaterial(i).albedo;
+    const uint end = groups.data[i + 1u].firstPatch;
+    for (uint patchNumber = groups.data[i].firstPatch; patchNumber < end; ++patchNumber) {
         vec3 irradiance = unpackRadiosity(initialIrradiance.data[patchNumber]);
         if (push.hasBounced == 1u) irradiance += unpackRadiosity(bouncedIrradiance.data[patchNumber]);
         radiosity.data[patchNumber] = packRadiosity(albedo * irradiance);

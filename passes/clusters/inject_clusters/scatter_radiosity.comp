@@ -1,5 +1,6 @@
 // Computes the radiosity of patches after bounces between components: the reflected initial irradiance of the patch
 // plus the bounced radiosity of its component face. Small patches get the radiosity of their component face.
+#include "passes/clusters/group_materials.glsl"
 #include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -20,13 +21,14 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.componentCount) return;
     const ClusterComponent component = components.data[i];
-    for (uint k = component.firstMember; k < component.firstMember + component.memberCount; ++k) {
+    const uint end = components.data[i + 1u].firstMember;
+    for (uint k = component.firstMember; k < end; ++k) {
         const uint number = memberGroups.data[k];
         const SurfaceGroup group = groups.data[number];
-        const VoxelMaterial m = voxelMaterial(number);
+        const VoxelMaterial m = groupMaterial(number);
         for (uint face = 0u; face < 6u; ++face) {
             if (!hasPatch(group, face)) continue;
-            const uint patchNumber = patchIndex(group, face), target = 6u * i + face;
+            const uint patchNumber = patchIndex(group, face), target = componentFaceIndex(component, face);
             const vec3 reflected = m.albedo * unpackRadiosity(initialIrradiance.data[patchNumber]);
             radiosity.data[patchNumber] =
                 unoccluded(m, face) < SMALL_FACE_AREA

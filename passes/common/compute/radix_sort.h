@@ -11,10 +11,12 @@ class RadixSort {
  public:
     explicit RadixSort(ProgramOwner& owner);
 
-    /// Sorts the first `count` pairs in place. Its scratch remains allocated for the next call. @param
-    /// keyBits significant bits of keys, 1 to 32: fewer need fewer passes. @throws Error for more than 2^27
-    /// pairs.
+    /// Sorts the first `count` pairs in place. Its scratch remains allocated for the next call, until
+    /// freeScratch(). @param keyBits significant bits of keys, 1 to 32: fewer need fewer passes.
+    /// @throws Error for more than 2^27 pairs.
     void record(CommandStream& stream, Buffer& keys, Buffer& values, uint32_t count, uint32_t keyBits = 32);
+    /// The stream must have finished.
+    void freeScratch() { sortedKeys_ = {}, sortedValues_ = {}, counts_ = {}, blockSums_ = {}; }
 
  private:
     PrefixSum prefixSum_;

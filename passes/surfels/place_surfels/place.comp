@@ -1,35 +1,33 @@
 // Two surfels at each point, one on either side of the surface, and the rays that test whether they are occluded. Rays
 // of invalid surfels are inactive.
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/scene/sampling.glsl"
-#include "shaders/scene/scene.glsl"
 #include "passes/surfels/occlusion_ray.glsl"
+#include "passes/surfels/surfel_points.glsl"
 #include "passes/surfels/surfel_types.h"
 #include "shaders/voxels/voxels.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer PointTriangles { uint data[]; } pointTriangles;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(scalar) writeonly buffer Candidates { Surfel data[]; } candidates;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint firstPoint;
     uint points;
-    uint seed;
+    uint pointSeed;
 } push;
 
 void main() {
     const uint i = linearIndex();
     if (i >= push.points) return;
-    const SurfacePoint p = surfacePoint(pointTriangles.data[i], trianglePoint(sobol2(push.firstPoint + i, push.seed)));
+    const SurfacePoint p = surfacePointOf(push.firstPoint + i, push.pointSeed);
     const uint voxel = voxelNumber(push.grid, voxelAt(push.grid, p.position));
     const GpuMaterial m = sceneMaterials.data[p.material];
     const bool isCut = alphaCut(m, p);
     const vec3 albedo = clamp(diffuseAlbedo(m, p, 0.0), 0.0, 1.0);
     for (uint side = 0u; side < 2u; ++side) {
         Surfel s;
-        s.normal = side == 0u ? p.geometricNormal : -p.geometricNormal;
-        s.position = p.position + p.offset * s.normal;
+        s.normal = surfelNormal(p, side);
+        s.position = surfelPosition(p, s.normal);
         s.voxel = voxel;
         s.id = 2u * (push.firstPoint + i) + side;
         s.reflectance = albedo;

@@ -8,9 +8,11 @@
 #include "base/error.h"
 #include "graph/registry.h"
 #include "passes/common/compute/random_seed.h"
+#include "passes/common/compute/uint_bytes.h"
 #include "passes/common/voxels/voxels.h"
 #include "passes/surfels/static_voxels.h"
 #include "passes/surfels/surface_points.h"
+#include "passes/surfels/surfel_points.h"
 #include "passes/surfels/surfels.h"
 
 namespace voxray {
@@ -18,6 +20,8 @@ namespace {
 
 constexpr uint32_t kBatchPoints = Surfels::kMaxChunkSurfels / 2;
 constexpr uint64_t kMaxPoints = 1u << 28;
+constexpr uint32_t kSurfelsPerWord = 16;  // As SURFELS_PER_WORD of surfel_points.glsl; words of batches are whole.
+static_assert(2 * kBatchPoints % kSurfelsPerWord == 0);
 
 }  // namespace
 
@@ -65,14 +69,19 @@ class PlaceSurfels final : public Pass {
  private:
     /// Constant over time where some surfaces are static.
     PointDensity density(const Geometry& geometry, const SurfaceVoxels& voxels);
+    /// Store the surfels of a batch of points that were placed and tested. @return their number.
+    uint32_t storeSides(PassContext& context, uint32_t firstPoint, uint32_t batch) const;
+    uint32_t storeSurfels(PassContext& context, uint32_t batch) const;
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
     Out<Surfels> surfels_{*this, "surfels", "points that measure irradiance"};
+    Out<SurfelPoints> points_{*this, "surfel_points", "the same, to be evaluated where they are read"};
     Kernel place_{*this, "place.comp"};
+    Kernel storeSides_{*this, "store_sides.comp"};
     Kernel compact_{*this, "compact_surfels.comp"};
-    std::optional<uint32_t> staticVoxels_;  ///< Voxels with static surfaces, where others move.
-    Buffer triangles_, rays_, occluded_, candidates_, compacted_, count_;  ///< Scratch, of a batch of points.
+    std::optional<uint32_t> staticVoxels_;                     ///< Voxels with static surfaces, where others move.
+    Buffer rays_, occluded_, candidates_, compacted_, count_;  ///< Scratch, of a batch of points.
 };
 
 PointDensity PlaceSurfels::density(const Geometry& geometry, const SurfaceVoxels& voxels) {
@@ -97,70 +106,105 @@ PointDensity PlaceSurfels::density(const Geometry& geometry, const SurfaceVoxels
 void PlaceSurfels::plan(PassPlan& plan) {
     const SurfaceVoxels& voxels = plan[voxels_];
     Surfels& surfels = plan[surfels_];
+    SurfelPoints& points = plan[points_];
     surfels.estimatedCount = 2.0 * params_.pointsPerVoxel * voxels.estimatedCount;
     surfels.hasOccludedSurfels = params_.sides == SurfelSides::All && voxels.unoccludedAreaOnly;
-    plan.estimate(surfels.estimatedCount * sizeof(gpu::Surfel));
-    plan.scratchBuffer(triangles_, "surfels' triangles", kBatchPoints * sizeof(uint32_t));
+    points.hasOccludedSurfels = surfels.hasOccludedSurfels;
+    storeSides_.compileIf(points.isRead);
+    compact_.compileIf(surfels.isRead);
+    if (surfels.isRead) plan.estimate(surfels.estimatedCount * sizeof(gpu::Surfel));
+    if (points.isRead) plan.estimate(surfels.estimatedCount / 2 * (sizeof(uint32_t) + 0.5));
     plan.scratchBuffer(rays_, "visibility rays", Surfels::kMaxChunkSurfels * sizeof(Ray));
     plan.scratchBuffer(occluded_, "visibility results", Surfels::kMaxChunkSurfels * sizeof(uint32_t));
     plan.scratchBuffer(candidates_, "surfel candidates", Surfels::kMaxChunkSurfels * sizeof(gpu::Surfel));
-    plan.scratchBuffer(compacted_, "surfels of a batch", Surfels::kMaxChunkSurfels * sizeof(gpu::Surfel));
+    if (surfels.isRead)
+        plan.scratchBuffer(compacted_, "surfels of a batch", Surfels::kMaxChunkSurfels * sizeof(gpu::Surfel));
     plan.scratchBuffer(count_, "number of surfels", sizeof(uint32_t));
 }
 
 void PlaceSurfels::record(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
     Surfels& surfels = context[surfels_];
+    SurfelPoints& points = context[points_];
     CommandStream& stream = context.stream;
     const std::optional<std::vector<Box>>& changed = context.frame.changed;
-    if (changed && changed->empty() && !surfels.chunks.empty()) {  // Light alone has changed.
+    if (changed && changed->empty() && !context.isFirstRun()) {  // Light alone has changed.
         context.markOutputsUnchanged();
         return;
     }
     surfels.chunks.clear();
     surfels.count = 0;
+    points.triangles = {}, points.sides = {};
     const Geometry& geometry = context.frame.scene->geometry;
     const std::vector<uint32_t> triangles = distributePoints(geometry, density(geometry, voxels));
-    const uint64_t points = surfels.pointCount = triangles.size();
-    for (uint64_t first = 0; first < points; first += kBatchPoints) {
-        const uint32_t batch = uint32_t(std::min<uint64_t>(kBatchPoints, points - first));
-        stream.upload(triangles_, std::as_bytes(std::span(triangles).subspan(first, batch)));
+    points.count = uint32_t(surfels.pointCount = triangles.size());
+    points.seed = randomSeed(context.frame);
+    points.triangles = LargeBuffer(context.device, "triangles of points", uintBytes(points.count));
+    if (points.count > 0) stream.upload(points.triangles, triangles);
+    if (points.isRead)
+        points.sides = LargeBuffer(context.device, "sides of points",
+                                   uintBytes((2 * uint64_t(points.count) + kSurfelsPerWord - 1) / kSurfelsPerWord));
+    uint64_t count = 0;
+    for (uint32_t first = 0; first < points.count; first += kBatchPoints) {
+        const uint32_t batch = std::min(kBatchPoints, points.count - first);
         context.dispatch(place_, batch,
                          {context.scene,
                           voxels,
-                          {"pointTriangles", triangles_},
+                          points,
                           {"rays", rays_},
                           {"candidates", candidates_},
-                          {"firstPoint", uint32_t(first)},
-                          {"points", batch},
-                          {"seed", randomSeed(context.frame)}});
+                          {"firstPoint", first},
+                          {"points", batch}});
         if (voxels.unoccludedAreaOnly)
             context.tracer.occluded(stream, rays_, occluded_, 2 * batch);
         else
             stream.fill(occluded_, 0);
-        stream.fill(count_, 0);
-        context.dispatch(compact_, 2 * batch,
-                         {{"rays", rays_},
-                          {"occluded", occluded_},
-                          {"candidates", candidates_},
-                          {"surfels", compacted_},
-                          {"count", count_},
-                          {"candidateCount", 2 * batch},
-                          {"includeOccluded", params_.sides == SurfelSides::All}});
-        const uint32_t count = stream.readAs<uint32_t>(count_, 1)[0];
-        if (count == 0) continue;
-        surfels.chunks.push_back(
-            {Buffer(context.device, "surfels", count * sizeof(gpu::Surfel)), count, uint32_t(surfels.count)});
-        stream.copy(compacted_, surfels.chunks.back().surfels, count * sizeof(gpu::Surfel));
-        surfels.count += count;
+        if (points.isRead) count += storeSides(context, first, batch);
+        if (surfels.isRead) count += storeSurfels(context, batch);
     }
     stream.finish();
-    if (surfels.chunks.empty())
+    if (!points.isRead) points.triangles = {};
+    if (count == 0)
         throw Error(
             "place_surfels: "
             "every surface has another within one voxel ({:.3g} m) before it, so none is open to light; "
             "raise voxelize's 'resolution', set its 'visibility_rays: 0', or place_surfels's 'sides: all'",
             voxels.grid.voxelSize);
+}
+
+uint32_t PlaceSurfels::storeSides(PassContext& context, uint32_t firstPoint, uint32_t batch) const {
+    CommandStream& stream = context.stream;
+    stream.fill(count_, 0);
+    context.dispatch(storeSides_, (2 * batch + kSurfelsPerWord - 1) / kSurfelsPerWord,
+                     {{"rays", rays_},
+                      {"occluded", occluded_},
+                      {"SidesRef", context[points_].sides.ref()},
+                      {"count", count_},
+                      {"firstWord", 2 * firstPoint / kSurfelsPerWord},
+                      {"candidateCount", 2 * batch},
+                      {"includeOccluded", params_.sides == SurfelSides::All}});
+    return stream.readAs<uint32_t>(count_, 1)[0];
+}
+
+uint32_t PlaceSurfels::storeSurfels(PassContext& context, uint32_t batch) const {
+    Surfels& surfels = context[surfels_];
+    CommandStream& stream = context.stream;
+    stream.fill(count_, 0);
+    context.dispatch(compact_, 2 * batch,
+                     {{"rays", rays_},
+                      {"occluded", occluded_},
+                      {"candidates", candidates_},
+                      {"surfels", compacted_},
+                      {"count", count_},
+                      {"candidateCount", 2 * batch},
+                      {"includeOccluded", params_.sides == SurfelSides::All}});
+    const uint32_t count = stream.readAs<uint32_t>(count_, 1)[0];
+    if (count == 0) return 0;
+    surfels.chunks.push_back(
+        {Buffer(context.device, "surfels", count * sizeof(gpu::Surfel)), count, uint32_t(surfels.count)});
+    stream.copy(compacted_, surfels.chunks.back().surfels, count * sizeof(gpu::Surfel));
+    surfels.count += count;
+    return count;
 }
 
 VOXRAY_REGISTER_PASS(PlaceSurfels);

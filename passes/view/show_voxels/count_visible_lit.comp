@@ -30,7 +30,7 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const SurfaceGroup group = groups.data[i];
-    if (group.isOccluded == 1u) return;
+    if (isOccluded(group)) return;
     uint patchNumber = group.firstPatch;
     for (uint face = 0u; face < 6u; ++face)
         if (hasPatch(group, face))

@@ -1,23 +1,16 @@
 #include "passes/view/show_voxels/lit_faces.h"
 
-#include <algorithm>
+#include "passes/common/compute/uint_bytes.h"
 
 namespace voxray {
-namespace {
-
-uint64_t faceCountBytes(uint64_t count) {
-    return kFaces * std::max<uint64_t>(count, 1) * sizeof(uint32_t);
-}
-
-}  // namespace
 
 LitFaces::LitFaces(ProgramOwner& owner)
     : countLitPatches_(owner, "count_lit_patches.comp"), countVisibleLit_(owner, "count_visible_lit.comp") {}
 
 void LitFaces::count(CommandStream& stream, uint32_t voxels, const VoxelPatches& patches,
                      const ClusterVisibility& visibility, const ClusterLight& light) {
-    ensureSize(litPatches_, stream.device(), "lit patches of components", faceCountBytes(patches.componentCount));
-    ensureSize(visibleLitPatches_, stream.device(), "lit patches that faces see", faceCountBytes(voxels));
+    ensureSize(litPatches_, stream.device(), "lit patches of components", uintBytes(patches.componentFaceCount));
+    ensureSize(visibleLitPatches_, stream.device(), "lit patches that faces see", uintBytes(uint64_t(kFaces) * voxels));
     stream.dispatch(countLitPatches_, patches.componentCount,
                     {{"groups", patches.groups},
                      {"components", patches.components},

@@ -1,5 +1,6 @@
-// Sums the area of each component face, and sets a bit if it has area and sends light.
+// Lists the faces of components, and sums their areas.
 #include "passes/clusters/inject_clusters/component_face_types.h"
+#include "passes/clusters/group_materials.glsl"
 #include "passes/clusters/group_patches.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -9,23 +10,22 @@ layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(scalar) readonly buffer Components { ClusterComponent data[]; } components;
 layout(scalar) readonly buffer MemberGroups { uint data[]; } memberGroups;
 layout(scalar) writeonly buffer ComponentFaces { ComponentFace data[]; } componentFaces;
-buffer Flags { uint words[]; } flags;  // Must be 0 before.
 layout(push_constant) uniform Push { uint componentCount; } push;
 
 void main() {
     const uint i = linearIndex();
     if (i >= push.componentCount) return;
     const ClusterComponent component = components.data[i];
+    const uint end = components.data[i + 1u].firstMember;
     for (uint face = 0u; face < 6u; ++face) {
-        ComponentFace componentFace = ComponentFace(0.0, 0u);
-        for (uint k = component.firstMember; k < component.firstMember + component.memberCount; ++k) {
+        if ((component.faces >> face & 1u) == 0u) continue;
+        ComponentFace componentFace = ComponentFace(6u * i + face, 0u, 0.0);
+        for (uint k = component.firstMember; k < end; ++k) {
             const uint group = memberGroups.data[k];
             if (!hasPatch(groups.data[group], face)) continue;
-            componentFace.area += unoccluded(voxelMaterial(group), face);
+            componentFace.area += unoccluded(groupMaterial(group), face);
             ++componentFace.patchCount;
         }
-        const uint index = 6u * i + face;
-        componentFaces.data[index] = componentFace;
-        if (componentFace.area > 0.0) atomicOr(flags.words[index / 32u], 1u << index % 32u);
+        componentFaces.data[componentFaceIndex(component, face)] = componentFace;
     }
 }

@@ -1,0 +1,31 @@
+// Evaluates a range of the surfels of patches. GAPS: generates rays from occluded ones across the gap in front of them.
+#include "passes/clusters/cluster_visibility/patch_surfel.h"
+#include "passes/surfels/occlusion_ray.glsl"
+#include "passes/surfels/surfel_points.glsl"
+#include "shaders/compute/linear_index.glsl"
+layout(local_size_x = 64) in;
+
+layout(scalar) readonly buffer SurfelIdsRef { LargeUints surfelIds; };
+#ifdef GAPS
+layout(scalar) readonly buffer SidesRef { LargeUints sides; };
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+#endif
+layout(push_constant) uniform Push {
+    uint first;
+    uint count;
+    uint pointSeed;
+    float voxelSize;  // m
+} push;
+
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.count) return;
+    const uint id = surfelIds.data[push.first + i];
+    const SurfacePoint p = surfacePointOf(id / 2u, push.pointSeed);
+    const vec3 normal = surfelNormal(p, id % 2u), position = surfelPosition(p, normal);
+    patchSurfels.data[push.first + i] = PatchSurfel(position, id, normal, 0.5 * push.voxelSize);
+#ifdef GAPS
+    const bool isOccluded = sideOf(sides.data[id / SURFELS_PER_WORD], id) == SURFEL_OCCLUDED;
+    rays.data[i] = isOccluded ? occlusionRay(position, normal, push.voxelSize) : kNoRay;
+#endif
+}
