@@ -62,7 +62,7 @@ SceneOnDevice& Session::scene(const Setup& setup) {
 void Session::goToFrame(const Setup& setup, Frame& frame, int fromCompared) {
     PreparedScene& prepared = scene_->prepared;
     sceneMoved_ = true;
-    frame.changed = SceneLoader::goToFrame(prepared, setup.scene, fromCompared);
+    frame.changedRegions = SceneLoader::goToFrame(prepared, setup.scene, fromCompared);
     ++frame.sceneVersion;
     frame.camera = prepared.camera;
     updateGpuScene(stream_, prepared.state, scene_->gpu);
@@ -75,7 +75,7 @@ Frame Session::enterFrame(const Setup& setup, uint32_t number, uint64_t seed) {
     Frame frame = frameOf(setup, onDevice.prepared, seed);
     if (number > 0 && changesInTime(setup.scene)) {
         goToFrame(setup, frame, int(number));
-        frame.changed.reset();
+        frame.changedRegions.reset();
     }
     frame.camera.position += float(number) * frame.cameraMove;
     return frame;

@@ -43,7 +43,7 @@ class Session {
     /// Updates the scene on the device and `frame` to a frame whose index is relative to the compared one.
     void goToFrame(const Setup& setup, Frame& frame, int fromCompared);
 
-    /// A frame of the scene's sequence by its index; the scene on the device is updated to it. Frame::changed
+    /// A frame of the scene's sequence by its index; the scene on the device is updated to it. Frame::changedRegions
     /// is not set, since it is the first frame of a graph.
     Frame enterFrame(const Setup& setup, uint32_t number, uint64_t seed);
 

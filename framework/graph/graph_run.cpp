@@ -106,7 +106,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
     /// Timestamps and counters of a pass, which are read when all passes have run.
     struct Pending {
         uint32_t begin, end;
-        std::vector<const Buffer*> visitCounts;
+        std::vector<const Buffer*> marchCounters;
     };
     std::vector<PassSample> samples;
     std::vector<Pending> pending;  ///< One per sample.
@@ -141,19 +141,19 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         for (const PassContext::Value& value : sample.reported)
             if (!std::isfinite(value.value))
                 throw Error("pass '{}' reported {} as '{}'", node.id, value.value, value.name);
-        pending.push_back({begin, end, std::move(context.visitCounts)});
+        pending.push_back({begin, end, std::move(context.marchCounters)});
         if (checkFinite) checkFiniteOutputs(node, stream);
     }
     stream.finish();
     for (size_t i = 0; i < samples.size(); ++i) {
         samples[i].milliseconds = stream.millisecondsBetween(pending[i].begin, pending[i].end);
         uint64_t visits = 0;
-        for (const Buffer* counts : pending[i].visitCounts) {
+        for (const Buffer* counts : pending[i].marchCounters) {
             const std::vector<uint64_t> stepsAndVisits = stream.readAs<uint64_t>(*counts, 2);
             samples[i].voxelSteps += stepsAndVisits[0];
             visits += stepsAndVisits[1];
         }
-        if (!pending[i].visitCounts.empty()) samples[i].reported.push_back({"voxel visits", double(visits)});
+        if (!pending[i].marchCounters.empty()) samples[i].reported.push_back({"voxel visits", double(visits)});
     }
     return samples;
 }

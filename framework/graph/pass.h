@@ -43,8 +43,8 @@ struct Frame {
     SamplePart samples;
     /// Where surfaces appeared, disappeared or moved since the build phase ran last (old and new bounds, by
     /// instance); nullopt: everything is new.
-    std::optional<std::vector<Box>> changed;
-    /// Incremented when surfaces or lights change, with `changed`.
+    std::optional<std::vector<Box>> changedRegions;
+    /// Incremented when surfaces or lights change, with `changedRegions`.
     uint64_t sceneVersion = 0;
     /// Called by long passes with their progress, 0 to 1; false asks them to stop with an Error.
     std::function<bool(double)> progress;
@@ -139,7 +139,7 @@ class PassContext : public PortAccess {
     uint64_t extraRays = 0;
     /// Counters of voxel marches (shaders/voxel_march), read when all passes have run: two 64-bit numbers,
     /// steps and words read. They become the pass's voxel_steps and the value "voxel visits".
-    std::vector<const Buffer*> visitCounts;
+    std::vector<const Buffer*> marchCounters;
 
     struct Value {
         std::string name;

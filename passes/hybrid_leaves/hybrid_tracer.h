@@ -40,7 +40,7 @@ class HybridTracer final : public RayTracer {
     void setStarts(const Buffer* starts) { starts_ = starts; }
     /// Of bricks or octree.
     size_t memoryBytes() const override { return march_.memoryBytes(); }
-    /// Steps and node visits (PassContext::visitCounts), and ray-triangle tests, since begin(): 64 bits each.
+    /// Steps and node visits (PassContext::marchCounters), and ray-triangle tests, since begin(): 64 bits each.
     const Buffer& counts() const { return march_.counts(); }
     const Buffer& testCounts() const { return testCounts_; }
 

@@ -131,7 +131,7 @@ void PathTracePass::record(PassContext& context) {
     const Frame& frame = context.frame;
     options_.seed = frame.seed + context.frameIndex;
     context.stream.finish();
-    if (frame.changed && !frame.changed->empty()) embree_->update();
+    if (frame.changedRegions && !frame.changedRegions->empty()) embree_->update();
     PathTraceResult result = pathTrace(*frame.scene, *embree_, frame.camera, options_, frame.progress);
     context.extraRays = result.rays;
     for (const RenderedImage& image : images_)

@@ -71,7 +71,7 @@ class Chain {
 
     /// Changes the scene in place, takes over what the change says that it changed, and renders a frame.
     void update(const std::function<std::vector<Box>(SceneState&)>& change) {
-        frame_.changed = change(*state_);
+        frame_.changedRegions = change(*state_);
         ++frame_.sceneVersion;
         updateGpuScene(stream_, *state_, scene_);
         tracer_->update(stream_);
@@ -81,13 +81,13 @@ class Chain {
 
     /// The build phase once more, with everything new.
     void rebuild() {
-        frame_.changed.reset();
+        frame_.changedRegions.reset();
         buildSamples = run(Phase::Build);
     }
 
     /// The build phase once more with surfaces as they are: light is injected again.
     void relight() {
-        frame_.changed.emplace();
+        frame_.changedRegions.emplace();
         ++frame_.sceneVersion;
         buildSamples = run(Phase::Build);
     }

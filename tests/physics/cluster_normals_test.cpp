@@ -38,9 +38,10 @@ NormalCounts countNormals(const std::shared_ptr<const Scene>& scene, const std::
                            "cluster_voxels, target: 8, normals: open_space, ties: " + ties}),
                 16, 16);
     const PassSample& sample = chain.buildSamples.at(1);
-    NormalCounts counts{.tied = reported(sample, "voxels with several equally open directions, %"),
-                        .decided = reported(sample, "voxels whose tie fragments break in another way, %"),
-                        .changed = reported(sample, "voxels whose normal differs from the area-weighted one, %")};
+    NormalCounts counts{
+        .tied = reported(sample, "voxels with a tie for the least occupied direction, %"),
+        .decided = reported(sample, "voxels where fragments choose another direction than the area-weighted normal, %"),
+        .changed = reported(sample, "voxels whose normal differs from the area-weighted one, %")};
     for (const gpu::VoxelCluster& cluster :
          chain.read<gpu::VoxelCluster>(chain.get<VoxelClusters>("clusters").clusters)) {
         const float up = cluster.seedNormal.y;

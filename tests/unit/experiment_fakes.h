@@ -198,7 +198,7 @@ class Witness : public Pass {
     void plan(PassPlan&) override {}
     void record(PassContext& context) override {
         const SceneState& state = *context.frame.scene;
-        const auto& changed = context.frame.changed;
+        const auto& changed = context.frame.changedRegions;
         sights.push_back({state.geometry.positions.back(), state.lights.back().position,
                           changed ? int(changed->size()) : -1, context.frameIndex});
     }

@@ -31,7 +31,7 @@ class MutualVisibility final : public Pass {
                           {"seen", context[seen_].image},
                           {"grid", voxels.grid},
                           {"pixel", glm::uvec2(params_.x, params_.y)}});
-        context.visitCounts.push_back(&march_.counts());
+        context.marchCounters.push_back(&march_.counts());
     }
 
  private:

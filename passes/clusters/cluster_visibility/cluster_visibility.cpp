@@ -24,7 +24,7 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kChunkRays = 1u << 20;  // Rays of a chunk (a range of patches), which take at most 32 MiB.
-/// For each hit, up to 4 surfels are tried in turn, until one sees the hit point.
+/// A hit belongs to the surface group of the first nearby surfel that sees the hit point; up to 4 are tried.
 constexpr uint32_t kMaxCandidates = 4;
 constexpr uint32_t kMaxGroups = (1u << 28) - 1;  // Limit of packed_hit.glsl.
 
@@ -36,8 +36,8 @@ struct Candidate {
     uint32_t rejectedGroups[kMaxCandidates];
 };
 
-/// Mean numbers for estimates of memory. Rays of a patch often hit the same cluster: lists without patches
-/// were measured to grow with the square root of the number of rays (docs/papers/cosin2022.md).
+/// Mean numbers for estimates of memory. Measured: with 'near_distance: 0', which leaves only clusters in lists, a list
+/// grows with the square root of the number of rays, since many rays hit the same cluster (docs/papers/cosin2022.md).
 constexpr double kPatchesPerVoxel = 6, kEntriesPerSqrtRays = 4;
 
 }  // namespace
@@ -141,7 +141,7 @@ class FindClusterVisibility final : public Pass {
     Kernel listAllRays_{*this, "passes/clusters/iota.comp"};
     Kernel generateRays_{*this, "generate_patch_rays.comp"};
     Kernel findHitGroups_{*this, "find_hit_groups.comp"};
-    // A list target is a face of a cluster component or a patch
+    // A list target is a patch, or a cluster component together with the one of the six directions that the ray hits
     Kernel hitsToTargets_{*this, "hits_to_targets.comp"};
     Kernel mergeTargets_{*this, "merge_targets.comp"};
     Kernel packLists_{*this, "pack_lists.comp"};
@@ -198,7 +198,7 @@ void FindClusterVisibility::record(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
     const VoxelPatches& patches = context[patches_];
     ClusterVisibility& visibility = context[visibility_];
-    const std::optional<std::vector<Box>>& changed = context.frame.changed;
+    const std::optional<std::vector<Box>>& changed = context.frame.changedRegions;
     visibility.chunks.clear();
     visibility.entryCount = 0;
     visibility.chunkAddresses = {};
@@ -234,7 +234,7 @@ void FindClusterVisibility::record(PassContext& context) {
     stream.finish();
     patchFaces_ = {}, surfels_ = {};
     if (updateCache_) updateCache_->store(stream, patches);
-    if (march_) context.visitCounts.push_back(&march_->counts());
+    if (march_) context.marchCounters.push_back(&march_->counts());
 
     std::vector<uint64_t> addresses;
     for (const ClusterVisibility::Chunk& chunk : visibility.chunks)
@@ -284,7 +284,7 @@ std::vector<Binding> FindClusterVisibility::rayBindings(PassContext& context, ui
             {"groups", patches.groups},
             {"PatchSurfelsRef", surfels_.ref()},
             {"grid", context[voxels_].grid},
-            {"lists", context[visibility_].layout},
+            {"listLayout", context[visibility_].layout},
             {"firstPatch", firstPatch},
             {"seed", randomSeed(context.frame)},
             {"nearDistance", params_.nearDistance},
@@ -366,10 +366,10 @@ void FindClusterVisibility::buildChunk(PassContext& context, uint32_t first, uin
                       {"componentOfGroup", patches.componentOfGroup},
                       {"targets", targets_},
                       {"lostRays", lostRays_},
-                      {"lists", visibility.layout},
+                      {"listLayout", visibility.layout},
                       {"rays", rayCount}});
 
-    const Bindings lists{{"targets", targets_}, {"lists", visibility.layout}, {"patches", count}};
+    const Bindings lists{{"targets", targets_}, {"listLayout", visibility.layout}, {"patchCount", count}};
     context.dispatch(mergeTargets_, uint64_t(count) + 1, {lists.all(), {"entryCounts", entryCounts_}});
     ClusterVisibility::Chunk chunk;
     chunk.offsets = Buffer(context.device, "offsets of visibility lists", (count + 1) * sizeof(uint32_t));

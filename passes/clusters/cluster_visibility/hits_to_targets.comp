@@ -13,14 +13,14 @@ readonly buffer ComponentOfGroup { uint data[]; } componentOfGroup;
 layout(scalar) writeonly buffer Targets { uint data[]; } targets;
 buffer LostRays { uint counts[2]; } lostRays;  // Numbers of rays with HIT_NOTHING and with HIT_NO_GROUP.
 layout(push_constant, scalar) uniform Push {
-    VisibilityListLayout lists;
+    VisibilityListLayout listLayout;
     uint rays;
 } push;
 
 uint targetOf(uint packedHit) {
     const uint group = hitGroup(packedHit), face = hitFace(packedHit), component = componentOfGroup.data[group];
     if (component == NO_COMPONENT || face == NO_FACE || !hasPatch(groups.data[group], face)) return NO_TARGET;
-    return isNear(packedHit) ? push.lists.firstPatchTarget + patchIndex(groups.data[group], face)
+    return isNear(packedHit) ? push.listLayout.firstPatchTarget + patchIndex(groups.data[group], face)
                              : componentFaceIndex(components.data[component], face);
 }
 

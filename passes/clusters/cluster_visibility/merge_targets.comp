@@ -8,8 +8,8 @@ layout(scalar) buffer Targets { uint data[]; } targets;
 // One for each patch, and a last 0, where the prefix sum leaves the total.
 layout(scalar) writeonly buffer EntryCounts { uint data[]; } entryCounts;
 layout(push_constant, scalar) uniform Push {
-    VisibilityListLayout lists;
-    uint patches;
+    VisibilityListLayout listLayout;
+    uint patchCount;
 } push;
 
 // Restores the order of a max-heap of `count` targets in which element `node` may be too small.
@@ -36,23 +36,23 @@ void heapSort(uint first, uint count) {
 
 void main() {
     const uint number = linearIndex();
-    if (number > push.patches) return;
+    if (number > push.patchCount) return;
     uint entries = 0u;
-    if (number < push.patches) {
-        const uint first = number * push.lists.raysPerPatch;
-        heapSort(first, push.lists.raysPerPatch);
+    if (number < push.patchCount) {
+        const uint first = number * push.listLayout.raysPerPatch;
+        heapSort(first, push.listLayout.raysPerPatch);
         uint target = targets.data[first], rays = 0u;
-        for (uint i = 0u; i < push.lists.raysPerPatch && target != NO_TARGET; ++i) {
+        for (uint i = 0u; i < push.listLayout.raysPerPatch && target != NO_TARGET; ++i) {
             const uint next = targets.data[first + i];
             if (next == target) {
                 ++rays;
                 continue;
             }
-            targets.data[first + entries++] = packEntry(push.lists, target, rays);
+            targets.data[first + entries++] = packEntry(push.listLayout, target, rays);
             target = next;
             rays = 1u;
         }
-        if (target != NO_TARGET) targets.data[first + entries++] = packEntry(push.lists, target, rays);
+        if (target != NO_TARGET) targets.data[first + entries++] = packEntry(push.listLayout, target, rays);
     }
     entryCounts.data[number] = entries;
 }

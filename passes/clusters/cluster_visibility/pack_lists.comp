@@ -7,19 +7,19 @@ layout(scalar) readonly buffer Targets { uint data[]; } targets;  // Output of m
 layout(scalar) readonly buffer Offsets { uint data[]; } offsets;
 layout(scalar) buffer Entries { uint data[]; } entries;  // Must be 0 before.
 layout(push_constant, scalar) uniform Push {
-    VisibilityListLayout lists;
-    uint patches;
+    VisibilityListLayout listLayout;
+    uint patchCount;
 } push;
 
 void main() {
     const uint number = linearIndex();
-    if (number >= push.patches) return;
+    if (number >= push.patchCount) return;
     const uint first = offsets.data[number], end = offsets.data[number + 1u];
     for (uint i = first; i < end; ++i) {
-        const uint entry = targets.data[number * push.lists.raysPerPatch + i - first];
-        const uint bit = i * push.lists.entryBits, word = bit / 32u, shift = bit % 32u;
+        const uint entry = targets.data[number * push.listLayout.raysPerPatch + i - first];
+        const uint bit = i * push.listLayout.entryBits, word = bit / 32u, shift = bit % 32u;
         // A word may hold entries of two patches
         atomicOr(entries.data[word], entry << shift);
-        if (shift + push.lists.entryBits > 32u) atomicOr(entries.data[word + 1u], entry >> (32u - shift));
+        if (shift + push.listLayout.entryBits > 32u) atomicOr(entries.data[word + 1u], entry >> (32u - shift));
     }
 }

@@ -12,7 +12,7 @@ layout(scalar) readonly buffer PatchFaces { uint data[]; } patchFaces;  // 6 * g
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
-    VisibilityListLayout lists;
+    VisibilityListLayout listLayout;
     uint firstPatch;     // First patch of the chunk.
     uint rayCount;       // Number of rays in the chunk or in the list.
     uint seed;
@@ -21,8 +21,8 @@ layout(push_constant, scalar) uniform Push {
     uint round;          // Used by find_hit_groups.comp.
 } push;
 
-uint rayGroup(uint ray) { return patchFaces.data[push.firstPatch + ray / push.lists.raysPerPatch] / 6u; }
-uint rayFace(uint ray) { return patchFaces.data[push.firstPatch + ray / push.lists.raysPerPatch] % 6u; }
+uint rayGroup(uint ray) { return patchFaces.data[push.firstPatch + ray / push.listLayout.raysPerPatch] / 6u; }
+uint rayFace(uint ray) { return patchFaces.data[push.firstPatch + ray / push.listLayout.raysPerPatch] % 6u; }
 
 // Seed of a patch's sequence 0 (direction), 1 (origin) or 2 (face of the hit). It depends on a surfel's id instead of
 // the group's index, which changes in updates.
@@ -43,7 +43,7 @@ PatchSurfel sampleSurfel(uint ray) {
     const uint first = groups.data[rayGroup(ray)].firstSurfel, end = groups.data[rayGroup(ray) + 1u].firstSurfel;
     float totalArea = 0.0;
     for (uint i = first; i < end; ++i) totalArea += areaAtFace(patchSurfels.data[i], face);
-    float remaining = totalArea * sobol2(ray % push.lists.raysPerPatch, raySeed(ray, 1u)).x;
+    float remaining = totalArea * sobol2(ray % push.listLayout.raysPerPatch, raySeed(ray, 1u)).x;
     uint sampled = first;
     for (uint i = first; i < end; ++i) {
         const float area = areaAtFace(patchSurfels.data[i], face);
@@ -58,11 +58,11 @@ PatchSurfel sampleSurfel(uint ray) {
 // Cosine-distributed about the surfel's normal or the face's axis.
 vec3 sampleDirection(uint ray, PatchSurfel s) {
     const vec3 axis = push.aboutFaceAxis == 1u ? faceNormal(rayFace(ray)) : s.normal;
-    return cosineDirection(sobol2(ray % push.lists.raysPerPatch, raySeed(ray, 0u)), axis);
+    return cosineDirection(sobol2(ray % push.listLayout.raysPerPatch, raySeed(ray, 0u)), axis);
 }
 
 // Random number in [0, 1) that selects one of the faces at the ray's hit.
-float sampleHitFace(uint ray) { return toUnit(hashCombine(raySeed(ray, 2u), ray % push.lists.raysPerPatch)); }
+float sampleHitFace(uint ray) { return toUnit(hashCombine(raySeed(ray, 2u), ray % push.listLayout.raysPerPatch)); }
 
 // @param distance_ in voxels.
 uint packHitAtDistance(uint group, uint face, float distance_) {

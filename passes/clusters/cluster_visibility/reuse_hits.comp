@@ -17,13 +17,13 @@ writeonly buffer PackedHits { uint data[]; } packedHits;
 buffer Flags { uint words[]; } flags;  // Must be 0 before.
 
 uint previousHit(uint ray) {
-    const uint patchNumber = push.firstPatch + ray / push.lists.raysPerPatch;
+    const uint patchNumber = push.firstPatch + ray / push.listLayout.raysPerPatch;
     const uint group = patchFaces.data[patchNumber] / 6u;
     if (previousFirstPatches.data[group] == NO_GROUP) return HIT_UNKNOWN;
     const uint previous = previousFirstPatches.data[group] + patchNumber - groups.data[group].firstPatch;
     const uint packedHit =
-        previousHits.data[previous / push.lists.patchesPerChunk]
-            .data[previous % push.lists.patchesPerChunk * push.lists.raysPerPatch + ray % push.lists.raysPerPatch];
+        previousHits.data[previous / push.listLayout.patchesPerChunk]
+            .data[previous % push.listLayout.patchesPerChunk * push.listLayout.raysPerPatch + ray % push.listLayout.raysPerPatch];
     // The position of a hit without a group is not stored
     if (!hitsGroup(packedHit)) return packedHit == HIT_NO_GROUP ? HIT_UNKNOWN : packedHit;
     const uint newGroup = newGroupIndex.data[hitGroup(packedHit)];

@@ -1,6 +1,6 @@
 // Fragment callback: adds the angles between a fragment's normal and the axes to its voxel's sums (Cosin and Patow
 // 2022, figure 7). A fragment is the part of a triangle in a voxel. Integer sums do not depend on the order.
-#include "passes/clusters/cluster_voxels/angles_to_axes.glsl"
+#include "passes/clusters/cluster_voxels/fragment_angle_sums.glsl"
 #include "passes/common/triangle_voxelizer/exact.glsl"
 #include "shaders/voxels/voxels.glsl"
 
@@ -12,6 +12,6 @@ void processFragment(TriangleFragment f) {
     if (!clipFragment(f, c) || c.area < kMargin) return;
     const vec3 angles = acos(clamp(surfacePoint(f.triangle, c.center).normal, -1.0, 1.0));
     const uvec3 units = uvec3(round(angles * voxelizer.fixedPointScale));
-    for (uint k = 0u; k < 3u; ++k) atomicAdd(anglesToAxes.data[ANGLE_SUMS * voxel + k], units[k]);
-    atomicAdd(anglesToAxes.data[ANGLE_SUMS * voxel + 3u], 1u);
+    for (uint k = 0u; k < 3u; ++k) atomicAdd(fragmentAngleSums.data[ANGLE_SUMS * voxel + k], units[k]);
+    atomicAdd(fragmentAngleSums.data[ANGLE_SUMS * voxel + 3u], 1u);
 }

@@ -1,8 +1,8 @@
 #include <optional>
 
 #include "graph/registry.h"
-#include "passes/clusters/cluster_voxels/angles_to_axes.h"
 #include "passes/clusters/cluster_voxels/cluster_list.h"
+#include "passes/clusters/cluster_voxels/fragment_angle_sums.h"
 #include "passes/clusters/cluster_voxels/slic_clustering.h"
 #include "passes/clusters/voxel_clusters.h"
 
@@ -24,7 +24,7 @@ class ClusterVoxels final : public Pass {
     using Params = ClusterParams;
 
     explicit ClusterVoxels(const Params& params) : params_(params) {
-        if (params.usesFragments()) anglesToAxes_.emplace(*this);
+        if (params.usesFragments()) fragmentAngleSums_.emplace(*this);
     }
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
@@ -33,14 +33,15 @@ class ClusterVoxels final : public Pass {
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
     Out<VoxelClusters> clusters_{*this, "clusters", "clusters of surface voxels"};
-    std::optional<AnglesToAxes> anglesToAxes_;  ///< For `ties: fragments`.
+    std::optional<FragmentAngleSums>
+        fragmentAngleSums_;  ///< For `ties: fragments`, which breaks ties between least occupied directions.
     SlicClustering clustering_{*this, params_};
     ClusterList list_{*this};
     Kernel listVoxels_{*this, "passes/common/voxels/list_voxels.comp"};
 };
 
 void ClusterVoxels::plan(PassPlan& plan) {
-    if (anglesToAxes_) anglesToAxes_->plan(plan);
+    if (fragmentAngleSums_) fragmentAngleSums_->plan(plan);
 }
 
 void ClusterVoxels::record(PassContext& context) {
@@ -52,8 +53,8 @@ void ClusterVoxels::record(PassContext& context) {
     clusters.coordinates = Buffer(context.device, "coordinates of voxels", voxels.voxelCount * sizeof(glm::uvec3));
     const uint32_t words = uint32_t(voxels.words());
     context.dispatch(listVoxels_, words, {voxels, {"voxelCoordinates", clusters.coordinates}, {"words", words}});
-    AnglesToAxes::Sums angleSums;
-    if (anglesToAxes_) angleSums = anglesToAxes_->measure(context, voxels);
+    FragmentAngleSums::Sums angleSums;
+    if (fragmentAngleSums_) angleSums = fragmentAngleSums_->measure(context, voxels);
     const SlicClustering::Result slic = clustering_.run(stream, voxels, clusters.coordinates, angleSums);
     list_.build(stream, voxels.voxelCount, slic, clusters);
     context.report("clusters", clusters.count);
@@ -66,8 +67,9 @@ void ClusterVoxels::record(PassContext& context) {
     };
     // Surfaces disagree if the normals in the voxel differ too much for a mean
     reportPercent("voxels whose surfaces disagree, %", counts.disagreeing);
-    reportPercent("voxels with several equally open directions, %", counts.tied);
-    reportPercent("voxels whose tie fragments break in another way, %", counts.decidedByFragments);
+    reportPercent("voxels with a tie for the least occupied direction, %", counts.tied);
+    reportPercent("voxels where fragments choose another direction than the area-weighted normal, %",
+                  counts.decidedByFragments);
     reportPercent("voxels whose normal differs from the area-weighted one, %", counts.changed);
 }
 

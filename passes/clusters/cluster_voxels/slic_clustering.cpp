@@ -13,6 +13,7 @@ constexpr uint64_t kSumBytes = 7 * sizeof(uint64_t);  // For each seed (cluster_
 /// Rounds of independent-set selection; O(log n) are expected, about ten (Luby 1986).
 constexpr uint32_t kMaxIndependentSetRounds = 256;
 
+/// The least occupied direction is the one of the six axis directions with the fewest occupied voxels in front.
 Defines normalDefines(const ClusterParams& params) {
     Defines defines;
     if (params.normals == ClusterNormals::LeastOccupiedDirection) defines.emplace("LEAST_OCCUPIED_DIRECTION", "1");
@@ -39,9 +40,9 @@ SlicClustering::SlicClustering(ProgramOwner& owner, const ClusterParams& params)
       joinNearestCluster_(owner, "join_nearest_cluster.comp") {}
 
 glm::uvec3 SlicClustering::seedGridResolution(const gpu::VoxelGrid& grid, uint32_t voxelCount) const {
-    // Seeds lie on a grid of cells w voxels wide; `initial` counts those of a cube as wide as the longest axis. On a
-    // flat surface a cell holds w² voxels, hence w = sqrt(voxels / target). With `first` clusters are wider
-    // than a cell (their search box is 2w wide at reach 1), so w is halved
+    // Seeds lie on a grid of cells w voxels wide. `initial` is the number of seeds in a cube whose edge is the grid's
+    // longest axis. On a flat surface a cell holds w² voxels, hence w = sqrt(voxels / target). With 'assign: first',
+    // clusters are wider than a cell, because their search box is 2w wide at 'reach: 1'; so w is halved
     const uint32_t seedsPerCube = params_.initial, targetClusters = params_.target;
     const double longest = std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z});
     double width = longest / std::cbrt(double(std::max(seedsPerCube, 1u)));
@@ -53,7 +54,7 @@ glm::uvec3 SlicClustering::seedGridResolution(const gpu::VoxelGrid& grid, uint32
 }
 
 void SlicClustering::findNormals(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates,
-                                 const AnglesToAxes::Sums& angleSums, Result& result) const {
+                                 const FragmentAngleSums::Sums& angleSums, Result& result) const {
     const uint32_t count = voxels.voxelCount;
     result.normals = Buffer(stream.device(), "voxel normals", count * sizeof(glm::vec3));
     Buffer counts;
@@ -65,7 +66,7 @@ void SlicClustering::findNormals(CommandStream& stream, const SurfaceVoxels& vox
                     {voxels,
                      ifUsed({"coordinates", coordinates}),
                      ifUsed({"counts", counts}),
-                     ifUsed({"anglesToAxes", angleSums.angles}),
+                     ifUsed({"fragmentAngleSums", angleSums.angles}),
                      {"normals", result.normals},
                      {"count", count},
                      {"fixedPointScale", angleSums.fixedPointScale}});
@@ -73,12 +74,13 @@ void SlicClustering::findNormals(CommandStream& stream, const SurfaceVoxels& vox
 }
 
 SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceVoxels& voxels,
-                                           const Buffer& coordinates, const AnglesToAxes::Sums& angleSums) const {
+                                           const Buffer& coordinates, const FragmentAngleSums::Sums& angleSums) const {
     Device& device = stream.device();
     const uint32_t count = voxels.voxelCount;
     const glm::uvec3 seedGrid = seedGridResolution(voxels.grid, count);
     if (product(seedGrid) > 1u << 26)
-        throw Error("cluster_voxels: {} seeds are too many; lower 'initial' or 'target'", product(seedGrid));
+        throw Error("cluster_voxels: {} seeds are too many; lower 'initial' (seeds in a cube) or 'target' (clusters)",
+                    product(seedGrid));
     Result result;
     result.seedCount = uint32_t(product(seedGrid));
     findNormals(stream, voxels, coordinates, angleSums, result);

@@ -6,7 +6,7 @@
 
 #include "base/schema.h"
 #include "graph/pass.h"
-#include "passes/clusters/cluster_voxels/angles_to_axes.h"
+#include "passes/clusters/cluster_voxels/fragment_angle_sums.h"
 #include "passes/clusters/voxel_clusters.h"
 
 namespace voxray {
@@ -134,12 +134,12 @@ class SlicClustering {
     };
     /// @param coordinates of voxels. @param angleSums if usesFragments(). Waits for the device.
     Result run(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates,
-               const AnglesToAxes::Sums& angleSums) const;
+               const FragmentAngleSums::Sums& angleSums) const;
 
  private:
     /// Fills `normals` and `normalCounts` of the result.
     void findNormals(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& coordinates,
-                     const AnglesToAxes::Sums& angleSums, Result& result) const;
+                     const FragmentAngleSums::Sums& angleSums, Result& result) const;
     /// Resolution of the uniform grid of seeds.
     glm::uvec3 seedGridResolution(const gpu::VoxelGrid& grid, uint32_t voxelCount) const;
 

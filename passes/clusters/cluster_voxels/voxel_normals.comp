@@ -5,7 +5,7 @@
 #include "shaders/voxels/face.glsl"
 #include "shaders/voxels/voxels.glsl"
 #ifdef FRAGMENTS
-#include "passes/clusters/cluster_voxels/angles_to_axes.glsl"
+#include "passes/clusters/cluster_voxels/fragment_angle_sums.glsl"
 #endif
 layout(local_size_x = 64) in;
 
@@ -20,7 +20,7 @@ layout(scalar) buffer Counts {
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint count;
-    float fixedPointScale;  // Units of anglesToAxes in a radian.
+    float fixedPointScale;  // Units of fragmentAngleSums in a radian.
 } push;
 
 // A plane of area A and unit normal n has area A n² at each face in front of it, so the square roots of the areas are
@@ -73,8 +73,8 @@ uint nearestFace(uint faces, vec3 normal) {
 #ifdef FRAGMENTS
 // Sum of the angles between a face's normal and those of a voxel's fragments, in units of 1 / push.fixedPointScale rad.
 float angleTo(uint voxel, uint face) {
-    const float positive = float(anglesToAxes.data[ANGLE_SUMS * voxel + (face >> 1)]);
-    const float pi = 3.14159265358979 * push.fixedPointScale * float(anglesToAxes.data[ANGLE_SUMS * voxel + 3u]);
+    const float positive = float(fragmentAngleSums.data[ANGLE_SUMS * voxel + (face >> 1)]);
+    const float pi = 3.14159265358979 * push.fixedPointScale * float(fragmentAngleSums.data[ANGLE_SUMS * voxel + 3u]);
     return (face & 1u) == 0u ? positive : pi - positive;
 }
 
@@ -83,7 +83,7 @@ uint facesNearestToFragments(uint voxel, uint faces) {
     float least = 1.0e30;
     for (uint face = 0u; face < 6u; ++face)
         if ((faces >> face & 1u) != 0u) least = min(least, angleTo(voxel, face));
-    const float tolerance = 1.0e-3 * push.fixedPointScale * float(anglesToAxes.data[ANGLE_SUMS * voxel + 3u]);
+    const float tolerance = 1.0e-3 * push.fixedPointScale * float(fragmentAngleSums.data[ANGLE_SUMS * voxel + 3u]);
     uint nearest = 0u;
     for (uint face = 0u; face < 6u; ++face)
         if ((faces >> face & 1u) != 0u && angleTo(voxel, face) <= least + tolerance) nearest |= 1u << face;

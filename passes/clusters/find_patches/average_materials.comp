@@ -1,8 +1,9 @@
 // Averages the material of each surface group over its surfels: its mean normal and reflectance and, for each face, its
-// share of the voxel's projected area. A group has a patch at each face onto which it projects area.
+// share of the voxel's area at that face (area times the squared component of the normal). A group has a patch at each
+// face where it has area.
 //
 // The voxel's unoccluded area is divided among unoccluded groups. Occluded groups exist only with 'sides: all', where
-// each sample point has two surfels. Each of them stands for area / number of points.
+// each sample point has two surfels; each surfel then stands for the voxel's area / its number of sample points.
 #include "passes/clusters/find_patches/grouped_surfel.h"
 #include "passes/clusters/group_materials.glsl"
 #include "passes/clusters/group_patches.glsl"
@@ -13,7 +14,7 @@ layout(local_size_x = 64) in;
 layout(scalar) buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer FirstGroup { uint data[]; } firstGroup;
 writeonly buffer PatchCounts { uint data[]; } patchCounts;  // Per group.
-layout(push_constant) uniform Push { uint voxels; } push;
+layout(push_constant) uniform Push { uint voxelCount; } push;
 
 // Divides a surfel's weight of 1 among the three faces that its normal points to, by the squares of its components.
 void addFaceWeights(vec3 normal, inout vec3 positive, inout vec3 negative) {
@@ -22,13 +23,13 @@ void addFaceWeights(vec3 normal, inout vec3 positive, inout vec3 negative) {
     negative += mix(vec3(0.0), weight, lessThan(normal, vec3(0.0)));
 }
 
-vec3 fractionOf(vec3 groupSum, vec3 voxelSum, vec3 area) {
+vec3 shareOfArea(vec3 groupSum, vec3 voxelSum, vec3 area) {
     return mix(area * groupSum / voxelSum, vec3(0.0), equal(groupSum, vec3(0.0)));
 }
 
 void main() {
     const uint voxel = linearIndex();
-    if (voxel >= push.voxels) return;
+    if (voxel >= push.voxelCount) return;
     const uint first = firstGroup.data[voxel], end = firstGroup.data[voxel + 1u];
     vec3 voxelPositive = vec3(0.0), voxelNegative = vec3(0.0);
     float samplePoints = 0.0;  // Half of the surfels: with 'sides: all' each point has two.
@@ -57,8 +58,8 @@ void main() {
             m.unoccludedPositive = whole.area / samplePoints * positive;
             m.unoccludedNegative = whole.area / samplePoints * negative;
         } else {
-            m.unoccludedPositive = fractionOf(positive, voxelPositive, whole.unoccludedPositive);
-            m.unoccludedNegative = fractionOf(negative, voxelNegative, whole.unoccludedNegative);
+            m.unoccludedPositive = shareOfArea(positive, voxelPositive, whole.unoccludedPositive);
+            m.unoccludedNegative = shareOfArea(negative, voxelNegative, whole.unoccludedNegative);
         }
         const PackedGroupMaterial packed = packGroupMaterial(m);
         groupMaterials.data[number] = packed;

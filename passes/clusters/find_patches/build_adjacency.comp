@@ -1,5 +1,5 @@
-// Counts the candidates for neighbors of each surface group: groups in the 26 adjacent voxels whose surfaces face one
-// of the same six directions, and which are both occluded or both unoccluded. LIST: stores them. Rays test their
+// Counts the candidates for neighbors of each surface group: groups in the 26 adjacent voxels that have area
+// at a common face, and are both occluded or both unoccluded. LIST: stores them. Rays test their
 // visibility later.
 #include "passes/clusters/group_materials.glsl"
 #include "passes/clusters/group_patches.glsl"
@@ -15,7 +15,7 @@ readonly buffer FirstCandidate { uint data[]; } firstCandidate;
 layout(scalar) readonly buffer CandidatesRef { LargeUints candidates; };
 layout(scalar) readonly buffer GroupOfCandidateRef { LargeUints groupOfCandidate; };
 #else
-// One for each group, and a last 0, where the prefix sum leaves the total.
+// One for each group, then a 0, which the prefix sum replaces by the total.
 writeonly buffer Counts { uint data[]; } counts;
 #endif
 layout(push_constant, scalar) uniform Push {
@@ -23,7 +23,8 @@ layout(push_constant, scalar) uniform Push {
     uint groupCount;
 } push;
 
-bool faceSameDirection(VoxelMaterial a, VoxelMaterial b) {
+// Areas of occluded groups are stored in the same members.
+bool haveCommonFace(VoxelMaterial a, VoxelMaterial b) {
     const vec3 area = min(a.unoccludedPositive, b.unoccludedPositive) + min(a.unoccludedNegative, b.unoccludedNegative);
     return any(greaterThan(area, vec3(0.0)));
 }
@@ -40,7 +41,7 @@ void main() {
             if (i == 13 || voxel == NO_VOXEL) continue;
             for (uint neighbor = firstGroup.data[voxel]; neighbor < firstGroup.data[voxel + 1u]; ++neighbor) {
                 if (isOccluded(groups.data[neighbor]) != isOccluded(groups.data[group])) continue;
-                if (!faceSameDirection(m, groupMaterial(neighbor))) continue;
+                if (!haveCommonFace(m, groupMaterial(neighbor))) continue;
 #ifdef LIST
                 candidates.data[firstCandidate.data[group] + count] = neighbor;
                 groupOfCandidate.data[firstCandidate.data[group] + count] = group;

@@ -17,7 +17,8 @@
 
 namespace voxray {
 
-/// Splits the surfels of each voxel into surface groups: surfels that see each other. Splits clusters into connected
+/// Splits the surfels of each voxel into surface groups: surfels with an unobstructed line between points half a voxel
+/// above them. Splits clusters into connected
 /// components of these groups, so that light does not leak through walls thinner than a voxel. A patch is the
 /// projection of a surface group onto one of its voxel's six faces. An extension of Cosin and Patow 2022, who
 /// have one surface in each voxel: docs/clusters.md, "How it works".
@@ -27,12 +28,12 @@ class FindPatches final : public Pass {
     static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Splits voxels' surfels and clusters at walls thinner than a voxel. "
-        "Surfels of a voxel that see each other form a surface group; "
+        "Surfels of a voxel with an unobstructed line between points half a voxel above them form a surface group; "
         "clusters are split into connected components of these groups. "
         "So the two surfaces of a wall thinner than a voxel have separate light (cluster_visibility, inject_clusters, "
         "gather_clusters). If place_surfels has 'sides: all', surfaces inside narrow gaps also form groups, "
-        "and exchange light. Biased by: voxel size (rays start half a voxel above the surface, "
-        "so they miss lower occluders and leave those surfels in one group). "
+        "and exchange light. Biased by: voxel size (rays start half a voxel above the surface "
+        "and miss lower walls; surfels on both sides of such a wall stay in one group). "
         "Noisy by: points_per_voxel (a surface without a surfel gets no group). Source: docs/clusters.md.";
 
     void plan(PassPlan& plan) override;
@@ -56,18 +57,18 @@ class FindPatches final : public Pass {
     In<SurfelPoints> points_{*this, "surfel_points", "points of their surfaces"};
     In<VoxelClusters> clusters_{*this, "clusters", "clusters of surface voxels"};
     Out<VoxelPatches> patches_{*this, "patches", "surface groups and patches of voxels"};
-    SurfelSort sort_{*this};
+    SurfelSort sortByVoxel_{*this};
     PrefixSum prefixSum_{*this, PrefixSum::Input::Uints};
     SurfelGrouping grouping_{*this};
     ComponentLabeling labeling_{*this};
     std::optional<GroupUpdateCache> updateCache_;  ///< For scenes with moving surfaces.
-    // The same shaders for updates, in which results of the previous build are reused
+    // Variants of shaders below (UPDATE), which reuse results of the previous build
     Kernel updateSurfels_{*this, "init_surfels.comp", {{"UPDATE", "1"}}};
     Kernel updateNeighborRays_{*this, "generate_neighbor_rays.comp", {{"UPDATE", "1"}}};
     Kernel updateNeighbors_{*this, "remove_occluded_neighbors.comp", {{"UPDATE", "1"}}};
     Kernel evaluateSurfels_{*this, "evaluate_surfels.comp"};
     Kernel initSurfels_{*this, "init_surfels.comp"};
-    Kernel sortSurfels_{*this, "sort_surfels.comp"};
+    Kernel sortByGroupAndCount_{*this, "sort_surfels.comp"};
     Kernel listGroups_{*this, "list_groups.comp"};
     Kernel averageMaterials_{*this, "average_materials.comp"};
     Kernel numberPatches_{*this, "number_patches.comp"};
@@ -92,8 +93,8 @@ void FindPatches::plan(PassPlan& plan) {
 void FindPatches::record(PassContext& context) {
     if (!context.inputsChanged()) return;
     const SurfaceVoxels& voxels = context[voxels_];
-    const std::optional<std::vector<Box>>& changed = context.frame.changed;
-    if (!voxels.unoccludedAreaOnly)
+    const std::optional<std::vector<Box>>& changed = context.frame.changedRegions;
+    if (!voxels.areasAreUnoccluded)
         throw Error("{}: needs the unoccluded area of voxels: set voxelize's 'visibility_rays' to 1 or more", kName);
     VoxelPatches& patches = context[patches_];
     if (updateCache_ && changed && !context.isFirstRun())
@@ -145,7 +146,7 @@ void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& surfelsByVo
     const SurfelPoints& points = context[points_];
     CommandStream& stream = context.stream;
     Surfels surfels = evaluateSurfels(context);
-    sort_.run(stream, surfels, voxels.voxelCount, surfelsByVoxel);
+    sortByVoxel_.run(stream, surfels, voxels.voxelCount, surfelsByVoxel);
     surfelsByVoxel.sorted = {};
     const uint32_t count = context[patches_].surfelCount = surfelsByVoxel.sortedCount;
     surfels_ =
@@ -156,13 +157,13 @@ void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& surfelsByVo
         context.dispatch(isUpdate() ? updateSurfels_ : initSurfels_, chunk.count,
                          {storedGroups,
                           {"surfels", chunk.surfels},
-                          {"SortedIndicesRef", surfelsByVoxel.sortedIndices.ref()},
+                          {"SortedPositionsRef", surfelsByVoxel.sortedPositions.ref()},
                           {"GroupedSurfelsRef", surfels_.ref()},
                           {"grid", voxels.grid},
                           {"count", chunk.count},
                           {"firstIndex", chunk.firstIndex}});
     stream.finish();
-    surfelsByVoxel.sortedIndices = {};
+    surfelsByVoxel.sortedPositions = {};
     surfels.chunks.clear();
     grouping_.run(context, batch_, voxels, points.hasOccludedSurfels, surfelsByVoxel, surfels_);
     if (updateCache_) updateCache_->storeSurfels(stream, surfels_, count, 2 * uint64_t(points.count));
@@ -174,11 +175,11 @@ void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& surfels
     CommandStream& stream = context.stream;
     const uint32_t count = voxels.voxelCount;
     patches.firstGroup = Buffer(context.device, "first groups of voxels", uintBytes(count + 1));
-    context.dispatch(sortSurfels_, count + 1,
+    context.dispatch(sortByGroupAndCount_, count + 1,
                      {{"surfelRanges", surfelsByVoxel.ranges},
                       {"counts", patches.firstGroup},
                       {"GroupedSurfelsRef", surfels_.ref()},
-                      {"voxels", count}});
+                      {"voxelCount", count}});
     patches.surfelIds = LargeBuffer(context.device, "ids of surfels", uintBytes(patches.surfelCount));
     context.dispatch(storeIds_, patches.surfelCount,
                      {{"GroupedSurfelsRef", surfels_.ref()},
@@ -194,7 +195,7 @@ void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& surfels
                       {"firstGroup", patches.firstGroup},
                       {"groups", patches.groups},
                       {"GroupedSurfelsRef", surfels_.ref()},
-                      {"voxels", count},
+                      {"voxelCount", count},
                       {"surfelCount", patches.surfelCount}});
     const Buffer patchCounts(context.device, "patch counts of surface groups", uintBytes(groups + 1));
     stream.fill(patchCounts, 0);
@@ -205,7 +206,7 @@ void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& surfels
                       {"GroupMaterialsRef", patches.materials.ref()},
                       {"patchCounts", patchCounts},
                       {"GroupedSurfelsRef", surfels_.ref()},
-                      {"voxels", count}});
+                      {"voxelCount", count}});
     patches.patchCount = prefixSum_.run(stream, patchCounts, patchCounts, groups + 1);
     context.dispatch(numberPatches_, groups + 1,
                      {{"firstPatches", patchCounts}, {"groups", patches.groups}, {"groupCount", groups}});

@@ -7,14 +7,14 @@ readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;  // First and end s
 readonly buffer FirstGroup { uint data[]; } firstGroup;
 layout(scalar) writeonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(push_constant) uniform Push {
-    uint voxels;
+    uint voxelCount;
     uint surfelCount;
 } push;
 
 void main() {
     const uint voxel = linearIndex();
-    if (voxel > push.voxels) return;
-    if (voxel == push.voxels) {
+    if (voxel > push.voxelCount) return;
+    if (voxel == push.voxelCount) {
         groups.data[firstGroup.data[voxel]] = SurfaceGroup(voxel, push.surfelCount, 0u, 0u);
         return;
     }

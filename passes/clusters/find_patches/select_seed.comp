@@ -7,14 +7,14 @@ readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;  // First and end s
 writeonly buffer Seeds { uint data[]; } seeds;  // Surfel of each voxel.
 buffer Remaining { uint count; } remaining;     // Number of voxels with a new seed.
 layout(push_constant) uniform Push {
-    uint voxels;
+    uint voxelCount;
     uint round;
     uint groupsOccluded;  // 1: only occluded surfels are grouped. 0: only unoccluded ones.
 } push;
 
 void main() {
     const uint voxel = linearIndex();
-    if (voxel >= push.voxels) return;
+    if (voxel >= push.voxelCount) return;
     for (uint i = surfelRanges.data[voxel].x; i < surfelRanges.data[voxel].y; ++i) {
         const GroupedSurfel s = groupedSurfels.data[i];
         if (s.group != NO_GROUP || s.isOccluded != push.groupsOccluded) continue;

@@ -5,13 +5,13 @@ layout(local_size_x = 64) in;
 
 readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;    // First and end surfel of each voxel.
 writeonly buffer Counts { uint data[]; } counts;  // Per voxel, then 0 for the prefix sum.
-layout(push_constant) uniform Push { uint voxels; } push;
+layout(push_constant) uniform Push { uint voxelCount; } push;
 
 void main() {
     const uint voxel = linearIndex();
-    if (voxel > push.voxels) return;
+    if (voxel > push.voxelCount) return;
     uint groups = 0u;
-    if (voxel < push.voxels) {
+    if (voxel < push.voxelCount) {
         const uint first = surfelRanges.data[voxel].x, end = surfelRanges.data[voxel].y;
         // Insertion sort is stable: within a group surfels stay sorted by id
         for (uint i = first; i < end; ++i) {

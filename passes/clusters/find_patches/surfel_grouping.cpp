@@ -63,7 +63,7 @@ void SurfelGrouping::groupByVisibility(PassContext& context, const RayBatch& bat
                           {"seeds", seeds},
                           {"remaining", remaining},
                           {"GroupedSurfelsRef", surfels.ref()},
-                          {"voxels", voxels},
+                          {"voxelCount", voxels},
                           {"round", round},
                           {"groupsOccluded", occluded}});
         if (stream.readAs<uint32_t>(remaining, 1)[0] == 0) break;

@@ -161,7 +161,7 @@ void GatherClusters::gather(PassContext& context, const VisibleVoxels::NewVoxels
                       listedGroups,
                       {"groups", patches.groups},
                       {"GatheredRef", gathered_.ref()},
-                      {"lists", visibility.layout},
+                      {"listLayout", visibility.layout},
                       {"count", groups}});
     for (uint32_t i = 0; i < steps; ++i) {
         const uint32_t count = voxels.groupCounts[steps - 1 - i];

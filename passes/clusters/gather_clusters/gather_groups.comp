@@ -9,7 +9,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PatchValues 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(scalar) readonly buffer GatheredRef { PatchValues gathered; };  // W/m²
 layout(push_constant, scalar) uniform Push {
-    VisibilityListLayout lists;
+    VisibilityListLayout listLayout;
     uint count;
 } push;
 
@@ -18,5 +18,5 @@ void main() {
     if (i >= push.count) return;
     const uint group = groupIndex(i), end = groups.data[group + 1u].firstPatch;
     for (uint patchNumber = groups.data[group].firstPatch; patchNumber < end; ++patchNumber)
-        gathered.data[patchNumber] = gatherPatch(push.lists, patchNumber);
+        gathered.data[patchNumber] = gatherPatch(push.listLayout, patchNumber);
 }

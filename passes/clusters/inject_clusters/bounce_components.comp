@@ -18,7 +18,7 @@ layout(scalar) readonly buffer InitialRadiosity { uint data[]; } initialRadiosit
 layout(scalar) writeonly buffer BouncedRadiosity { uint data[]; } bouncedRadiosity;  // What this bounce adds.
 layout(scalar) writeonly buffer NewRadiosity { uint data[]; } newRadiosity;
 layout(push_constant, scalar) uniform Push {
-    VisibilityListLayout lists;
+    VisibilityListLayout listLayout;
     uint faceCount;
     uint maxSamples;
     uint seed;
@@ -49,7 +49,7 @@ void main() {
         }
         const VoxelMaterial m = groupMaterial(group);
         const float weight = usesAll ? unoccluded(m, face) : step_;
-        sum += weight * m.albedo * gatherPatch(push.lists, patchIndex(groups.data[group], face));
+        sum += weight * m.albedo * gatherPatch(push.listLayout, patchIndex(groups.data[group], face));
         weightSum += weight;
     }
     sum /= weightSum;

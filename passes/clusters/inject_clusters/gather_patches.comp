@@ -5,11 +5,11 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer IrradianceRef { LargeUints irradiance; };
 layout(push_constant, scalar) uniform Push {
-    VisibilityListLayout lists;
-    uint patches;
+    VisibilityListLayout listLayout;
+    uint patchCount;
 } push;
 
 void main() {
     const uint i = linearIndex();
-    if (i < push.patches) irradiance.data[i] = packRadiosity(gatherPatch(push.lists, i));
+    if (i < push.patchCount) irradiance.data[i] = packRadiosity(gatherPatch(push.listLayout, i));
 }

@@ -201,8 +201,8 @@ void InjectClusters::bouncePatches(PassContext& context, ClusterLight& light) {
         context.dispatch(gatherPatches_, visibility.patchCount,
                          {gatherBindings(visibility, light),
                           {"IrradianceRef", bouncedIrradiance_.ref()},
-                          {"lists", visibility.layout},
-                          {"patches", visibility.patchCount}});
+                          {"listLayout", visibility.layout},
+                          {"patchCount", visibility.patchCount}});
         reflect(context, true);
         context.stream.finish();
     }
@@ -233,7 +233,7 @@ void InjectClusters::bounceComponents(PassContext& context, ClusterLight& light)
                           {"initialRadiosity", initialRadiosity},
                           {"bouncedRadiosity", bouncedRadiosity},
                           {"newRadiosity", newRadiosity},
-                          {"lists", visibility.layout},
+                          {"listLayout", visibility.layout},
                           {"faceCount", faces},
                           {"maxSamples", params_.bouncePatches},
                           {"seed", randomSeed(context.frame, i + 1)}});

@@ -35,7 +35,7 @@ void VoxelBuilder::build(PassContext& context, SurfaceVoxels& voxels) {
 SurfaceVoxels VoxelBuilder::update(PassContext& context, const VoxelRegion& region, SurfaceVoxels& voxels) {
     SurfaceVoxels rebuilt;
     rebuilt.grid = voxels.grid;
-    rebuilt.unoccludedAreaOnly = voxels.unoccludedAreaOnly;
+    rebuilt.areasAreUnoccluded = voxels.areasAreUnoccluded;
     rebuilt.occupancy = Buffer(context.device, "voxel occupancy", voxels.occupancy.bytes());
     rebuilt.rank = Buffer(context.device, "voxel ranks", voxels.rank.bytes());
     voxelize(context, region, rebuilt, &voxels);

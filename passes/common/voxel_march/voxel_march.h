@@ -46,7 +46,7 @@ class VoxelMarch {
     Defines defines() const;
     /// For shaders/voxel_march/voxel_march.glsl.
     std::vector<Binding> bindings() const;
-    /// Steps and visits since begin(), 64 bits each (PassContext::visitCounts).
+    /// Steps and visits since begin(), 64 bits each (PassContext::marchCounters).
     const Buffer& counts() const { return counts_; }
 
     uint64_t memoryBytes() const;

@@ -24,7 +24,7 @@ inline VoxelBox windowVoxels(const gpu::VoxelGrid& grid) {
 struct SurfaceVoxels : Resource {
     gpu::VoxelGrid grid{};
     /// Areas are those of unoccluded sides of surfaces, and light on occluded sides must be ignored.
-    bool unoccludedAreaOnly = false;
+    bool areasAreUnoccluded = false;
     uint32_t voxelCount = 0;    ///< Occupied voxels; known after the voxelizing pass has run.
     double estimatedCount = 0;  ///< Estimate of it for memory; known from plan() on.
     Buffer occupancy;           ///< A bit per voxel of the grid's window.

@@ -71,7 +71,7 @@ void VoxelizeClipmap::plan(PassPlan& plan) {
     clipmap.levels.resize(clipmap.windows.firstWhole() + 1);
     for (uint32_t level = 0; level < clipmap.levels.size(); ++level) {
         SurfaceVoxels& voxels = clipmap.levels[level].voxels;
-        voxels.unoccludedAreaOnly = params_.visibilityRays > 0;
+        voxels.areasAreUnoccluded = params_.visibilityRays > 0;
         voxels.grid = levelGrid(finest, level, params_.clipmapResolution);
         VoxelBuilder::planVoxels(plan, voxels);
     }
@@ -82,7 +82,7 @@ void VoxelizeClipmap::record(PassContext& context) {
     const Frame& frame = context.frame;
     ClipmapVoxels& clipmap = context[clipmap_];
     const bool moved = frame.sceneVersion != sceneVersion_;
-    const bool changesAreKnown = !moved || (frame.sceneVersion == sceneVersion_ + 1 && frame.changed);
+    const bool changesAreKnown = !moved || (frame.sceneVersion == sceneVersion_ + 1 && frame.changedRegions);
     const std::vector<gpu::ClipmapWindow> previous = changesAreKnown ? windows_ : std::vector<gpu::ClipmapWindow>();
     windows_.clear();
     uint64_t updated = 0;
@@ -97,7 +97,8 @@ void VoxelizeClipmap::record(PassContext& context) {
             builder_.build(context, voxels);
         } else {
             level.boxes = scrolledIn(previous[l], windows_[l]);
-            if (moved) std::ranges::copy(changedVoxels(voxels.grid, *frame.changed), std::back_inserter(level.boxes));
+            if (moved)
+                std::ranges::copy(changedVoxels(voxels.grid, *frame.changedRegions), std::back_inserter(level.boxes));
             if (!level.boxes.empty())
                 level.updated = builder_.update(context, VoxelRegion(voxels.grid, level.boxes), voxels);
         }

@@ -179,7 +179,7 @@ void BuildHybridLeaves::plan(PassPlan& plan) {
 void BuildHybridLeaves::record(PassContext& context) {
     if (!context.inputsChanged()) return;
     const SurfaceVoxels& surface = context[voxels_];
-    const std::optional<std::vector<Box>>& changed = context.frame.changed;
+    const std::optional<std::vector<Box>>& changed = context.frame.changedRegions;
     const bool canUpdate = updateCache_ && changed && !context.isFirstRun();
     HybridLeaves& leaves = context[leaves_];
     if (canUpdate) {

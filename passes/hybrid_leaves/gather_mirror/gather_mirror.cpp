@@ -202,7 +202,7 @@ void GatherMirror::record(PassContext& context) {
     if (!hybridTracer_) return;
     context.report("mirror rays that hit cells of grids", double(cellHitCount_));
     if (continuesAsCones()) context.report("mirror rays that went on as cones", double(coneCount_));
-    context.visitCounts.push_back(&hybridTracer_->counts());
+    context.marchCounters.push_back(&hybridTracer_->counts());
 }
 
 void GatherMirror::updateFaceIrradiance(PassContext& context) {

@@ -84,7 +84,7 @@ void LightPaths::trace(PassContext& context, const SurfaceVoxels& voxels, const 
                                      &hits_);
 
         // Occlusion of the hits, where only unoccluded area counts
-        if (voxels.unoccludedAreaOnly) {
+        if (voxels.areasAreUnoccluded) {
             stream.dispatch(generateOcclusionRays_, batch.count,
                             {context.scene,
                              {"rays", rays_},

@@ -108,7 +108,7 @@ void PlaceSurfels::plan(PassPlan& plan) {
     Surfels& surfels = plan[surfels_];
     SurfelPoints& points = plan[points_];
     surfels.estimatedCount = 2.0 * params_.pointsPerVoxel * voxels.estimatedCount;
-    surfels.hasOccludedSurfels = params_.sides == SurfelSides::All && voxels.unoccludedAreaOnly;
+    surfels.hasOccludedSurfels = params_.sides == SurfelSides::All && voxels.areasAreUnoccluded;
     points.hasOccludedSurfels = surfels.hasOccludedSurfels;
     storeSides_.compileIf(points.isRead);
     compact_.compileIf(surfels.isRead);
@@ -127,7 +127,7 @@ void PlaceSurfels::record(PassContext& context) {
     Surfels& surfels = context[surfels_];
     SurfelPoints& points = context[points_];
     CommandStream& stream = context.stream;
-    const std::optional<std::vector<Box>>& changed = context.frame.changed;
+    const std::optional<std::vector<Box>>& changed = context.frame.changedRegions;
     if (changed && changed->empty() && !context.isFirstRun()) {  // Light alone has changed.
         context.markOutputsUnchanged();
         return;
@@ -155,7 +155,7 @@ void PlaceSurfels::record(PassContext& context) {
                           {"candidates", candidates_},
                           {"firstPoint", first},
                           {"points", batch}});
-        if (voxels.unoccludedAreaOnly)
+        if (voxels.areasAreUnoccluded)
             context.tracer.occluded(stream, rays_, occluded_, 2 * batch);
         else
             stream.fill(occluded_, 0);

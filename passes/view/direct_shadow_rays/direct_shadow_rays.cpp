@@ -174,7 +174,7 @@ void DirectShadowRays::record(PassContext& context) {
     }
     if (voxelTracer_) {
         context.extraRays += tracer->raysTraced() - raysBefore;
-        context.visitCounts.push_back(&voxelTracer_->march().counts());
+        context.marchCounters.push_back(&voxelTracer_->march().counts());
     }
 }
 

@@ -10,17 +10,17 @@ layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer LitPatches { uint data[]; } litPatches;
 buffer VisibleLitPatches { uint data[]; } visibleLitPatches;  // By voxel and face: the count plus 1; 0: no patch.
 layout(push_constant, scalar) uniform Push {
-    VisibilityListLayout lists;
+    VisibilityListLayout listLayout;
     uint count;
 } push;
 
 uint countVisibleLit(uint number) {
     uint lit = 0u;
-    for (VisibilityListIterator it = visibilityListOf(push.lists, number); nextEntry(push.lists, it);) {
-        const uint target = entryTarget(push.lists, it.entry);
-        if (target < push.lists.firstPatchTarget)
+    for (VisibilityListIterator it = visibilityListOf(push.listLayout, number); nextEntry(push.listLayout, it);) {
+        const uint target = entryTarget(push.listLayout, it.entry);
+        if (target < push.listLayout.firstPatchTarget)
             lit += litPatches.data[target];
-        else if (isLit(target - push.lists.firstPatchTarget))
+        else if (isLit(target - push.listLayout.firstPatchTarget))
             ++lit;
     }
     return lit;

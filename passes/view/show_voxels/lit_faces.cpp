@@ -25,7 +25,7 @@ void LitFaces::count(CommandStream& stream, uint32_t voxels, const VoxelPatches&
                      {"PatchDirectRef", light.direct.ref()},
                      {"litPatches", litPatches_},
                      {"visibleLitPatches", visibleLitPatches_},
-                     {"lists", visibility.layout},
+                     {"listLayout", visibility.layout},
                      {"count", patches.groupCount}});
 }
 

@@ -124,7 +124,7 @@ void ShowVoxels::record(PassContext& context) {
                       {"view", cameraView(context.frame, context.frame.pixels())},
                       {"show", params_.show},
                       {"redAt", params_.redAt}});
-    context.visitCounts.push_back(&march_->counts());
+    context.marchCounters.push_back(&march_->counts());
 }
 
 Binding ShowVoxels::updateValues(PassContext& context) {

@@ -64,7 +64,7 @@ std::unique_ptr<TriangleVoxelizer> VoxelizePass::makeVoxelizer() {
 void VoxelizePass::plan(PassPlan& plan) {
     const Geometry& geometry = plan.frame.scene->geometry;
     SurfaceVoxels& v = plan[voxels_];
-    v.unoccludedAreaOnly = params_.visibilityRays > 0;
+    v.areasAreUnoccluded = params_.visibilityRays > 0;
     v.grid = makeVoxelGrid(geometry.region.min, geometry.region.max, params_.resolution);
     v.grid.directions = params_.directions;
     v.estimatedCount = estimateVoxels(geometry, v.grid);
@@ -75,7 +75,7 @@ void VoxelizePass::plan(PassPlan& plan) {
 
 void VoxelizePass::record(PassContext& context) {
     SurfaceVoxels& v = context[voxels_];
-    const std::optional<std::vector<Box>>& changed = context.frame.changed;
+    const std::optional<std::vector<Box>>& changed = context.frame.changedRegions;
     if (!changed || !v.materials)
         builder_.build(context, v);
     else if (!changed->empty())

@@ -230,11 +230,11 @@ void GatherVpls::record(PassContext& context) {
                       {"block", params_.block}});
     if (voxelTracer_) {
         context.extraRays += voxelTracer_->raysTraced() - voxelRaysBefore;
-        context.visitCounts.push_back(&voxelTracer_->march().counts());
+        context.marchCounters.push_back(&voxelTracer_->march().counts());
     }
     if (hybridTracer_) {
         context.extraRays += hybridTracer_->raysTraced() - hybridRaysBefore;
-        context.visitCounts.push_back(&hybridTracer_->counts());
+        context.marchCounters.push_back(&hybridTracer_->counts());
     }
     if (resolve_) resolve_->record(context, gbuffer, noisy.irradiance, context[indirect_].image);
 }

@@ -191,7 +191,7 @@ void SampleVpls::record(PassContext& context) {
             tracePaths(context, s, *source, firstPath);
     if (voxelTracer_) {
         context.extraRays += voxelTracer_->raysTraced() - voxelRaysBefore;
-        context.visitCounts.push_back(&voxelTracer_->march().counts());
+        context.marchCounters.push_back(&voxelTracer_->march().counts());
     }
     vpls.activeCount = compaction_.run(stream, flags_, vpls.activeIndices, uint32_t(flags_.bytes() / sizeof(uint32_t)));
     context.report("vpls", vpls.activeCount);

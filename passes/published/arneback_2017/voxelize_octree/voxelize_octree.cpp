@@ -114,7 +114,7 @@ void VoxelizeOctree::plan(PassPlan& plan) {
 void VoxelizeOctree::record(PassContext& context) {
     BrickOctree& octree = context[octree_];
     CommandStream& stream = context.stream;
-    const std::optional<std::vector<Box>>& changed = context.frame.changed;
+    const std::optional<std::vector<Box>>& changed = context.frame.changedRegions;
     if (hasStatic_ && changed && changed->empty()) {
         context.markOutputsUnchanged();
         return;

@@ -1,4 +1,4 @@
-#include "passes/clusters/cluster_voxels/angles_to_axes.h"
+#include "passes/clusters/cluster_voxels/fragment_angle_sums.h"
 
 #include <algorithm>
 #include <numbers>
@@ -18,18 +18,18 @@ float angleScale(size_t triangles) {
 
 }  // namespace
 
-AnglesToAxes::AnglesToAxes(ProgramOwner& owner)
+FragmentAngleSums::FragmentAngleSums(ProgramOwner& owner)
     : voxelizer_(makeExactVoxelizer()),
       accumulate_(voxelizer_->makeProgram(owner, "passes/clusters/cluster_voxels/accumulate_angles")) {}
 
-AnglesToAxes::Sums AnglesToAxes::measure(PassContext& context, const SurfaceVoxels& voxels) {
+FragmentAngleSums::Sums FragmentAngleSums::measure(PassContext& context, const SurfaceVoxels& voxels) {
     const Geometry& geometry = context.frame.scene->geometry;
     Sums sums{Buffer(context.device, "angles of fragments", uintBytes(4 * uint64_t(voxels.voxelCount))),
               angleScale(geometry.triangles.size())};
     context.stream.fill(sums.angles, 0);
     const VoxelRegion region(voxels.grid);
     voxelizer_->select(context, voxels.grid, region, region.triangles(geometry));
-    voxelizer_->run(context, *accumulate_, voxels.grid, voxels.bindings({{"anglesToAxes", sums.angles}}),
+    voxelizer_->run(context, *accumulate_, voxels.grid, voxels.bindings({{"fragmentAngleSums", sums.angles}}),
                     sums.fixedPointScale);
     context.stream.finish();
     voxelizer_->release();

@@ -1,3 +1,3 @@
 // Per voxel: sums of the angles between its fragments' normals and +x, +y and +z, and the number of fragments.
 #define ANGLE_SUMS 4u
-buffer AnglesToAxes { uint data[]; } anglesToAxes;
+buffer FragmentAngleSums { uint data[]; } fragmentAngleSums;
