@@ -14,7 +14,6 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.realpath
 from matplotlib import font_manager
 from PIL import Image, ImageDraw, ImageFont
 from report.load import load
-from report.names import names_of
 from report.results import ReportError
 
 GAP, LINE, FONT_SIZE, COLORS = 4, 17, 13, 256  # pixels, pixels, pixels, of the palette
@@ -22,8 +21,7 @@ GAP, LINE, FONT_SIZE, COLORS = 4, 17, 13, 256  # pixels, pixels, pixels, of the 
 
 def tiles(results, image):
     """Names and images of the reference and of the variants. @throws ReportError where one is missing."""
-    short = names_of(results).short
-    folders = {"reference": "reference", **{variant: short[variant] for variant in results.ok["variant"]}}
+    folders = {"reference": "reference", **{variant: results.names[variant] for variant in results.ok["variant"]}}
     found = []
     for folder, name in folders.items():
         path = results.image(folder, image)

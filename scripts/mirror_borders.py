@@ -4,7 +4,7 @@
 mirror_borders.py RUN [--truth VARIANT]
 
 RUN: a folder that `voxray run CONFIG --aovs` wrote. VARIANT: the variant whose mirror rays go through triangles alone. A row for
-each variant with cells. Pairs of neighbouring pixels of the mirror are told apart by what three quarters or more of each pixel's
+each variant with cells. Pairs of neighboring pixels of the mirror are told apart by what three quarters or more of each pixel's
 rays ended on: borders, triangles in one and cells in the other; triangles, in both; cells, in both. Of luminance, over the mean of
 VARIANT's over the mirror:
 
@@ -19,6 +19,7 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.realpath(__file__))), "framework"))
 import numpy
 from report import exr_pixels
+from report.rows import markdown_table
 
 LUMINANCE = (0.2126, 0.7152, 0.0722)
 SURE = 0.75  # Part of a pixel's rays.
@@ -56,7 +57,7 @@ def main():
     options = parser.parse_args()
     images = os.path.join(options.run, "images")
     truth = luminance(os.path.join(images, options.truth, "final.exr"))
-    print("| variant | borders | step | gradient: borders | triangles | cells |\n| --- | --- | --- | --- | --- | --- |")
+    rows = []
     for variant in sorted(os.listdir(images)):
         path = os.path.join(images, variant, "aovs.mirror.exr")
         if variant == options.truth or not os.path.exists(path):
@@ -65,7 +66,8 @@ def main():
         if not ends["ends.cells"].any():
             continue
         found, count = measure(luminance(os.path.join(images, variant, "final.exr")), truth, ends)
-        print(f"| {variant} | {count} | " + " | ".join(f"{found[k]:.4f}" for k in ("step", "borders", "triangles", "cells")) + " |")
+        rows.append([variant, str(count), *(f"{found[k]:.4f}" for k in ("step", "borders", "triangles", "cells"))])
+    print("\n".join(markdown_table(["variant", "borders", "step", "gradient: borders", "triangles", "cells"], rows)))
 
 
 if __name__ == "__main__":

@@ -20,10 +20,11 @@ import sys
 
 sys.dont_write_bytecode = True
 sys.path.append(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "framework"))
-from report.rows import read_rows  # noqa: E402
+from report.ranking import log_cost_at, pareto_front  # noqa: E402
+from report.rows import markdown_table, read_rows  # noqa: E402
 
 LEFT_OUT = {"direct", "composite"}
-SHARED = {"gbuffer", "filter_irradiance"}
+SHARED = {"gbuffer", "indirect"}  # In variants with gather rays and with paths 'indirect' is the filter.
 LIGHT = {"inject", "few_rays", "inject_radiosity", "smooth_surfels", "update_radiance_cache", "sample_vpls", "select_vpls"}
 ERRORS = ("indirect_nrmse", "indirect_relmse")
 
@@ -64,25 +65,16 @@ def frame_time(passes):
 
 def front(points):
     """Of points (ms, error) those that no other one beats, from fast to slow."""
-    best = []
-    for ms, error in sorted(points):
-        if not best or error < best[-1][1]:
-            best.append((ms, error))
-    return best
+    return [points[i] for i in pareto_front(points)]
 
 
 def time_to(error, points):
-    """(ms in which a front reaches an error, ">" where its fastest point already has less); None where none has as little."""
-    if not points or points[-1][1] > error:
+    """(ms in which a front reaches an error, ">" where its fastest point already has as little); None where none has."""
+    if not points:
         return None
-    if points[0][1] <= error:
-        return points[0][0], ">"
-    for (ms0, error0), (ms1, error1) in zip(points, points[1:]):
-        if error1 <= error < error0:
-            # An error that can't be told from none is reached at the slower point, no sooner.
-            at = math.log(error0 / error) / math.log(error0 / error1) if error1 > 0 else 1
-            return ms0 * (ms1 / ms0) ** at, ""
-    raise AssertionError("errors of a front decrease")
+    times, errors = zip(*points)
+    ms = math.exp(log_cost_at(error, times, errors))
+    return None if math.isnan(ms) else (ms, ">" if errors[0] <= error else "")
 
 
 def speed_up(ms, error, points):
@@ -93,7 +85,7 @@ def speed_up(ms, error, points):
 
 def samples_of(passes, row):
     """Samples a pixel of filtered path tracing, None for another method."""
-    return int(re.search(r"\bspp (\d+)", row["indirect"])[1]) if any(p["pass"] == "paths" for p in passes) else None
+    return int(re.search(r"^filtered paths, (\d+)$", row["indirect"])[1]) if any(p["pass"] == "paths" for p in passes) else None
 
 
 def is_no_slower(ms, error, rivals):
@@ -105,8 +97,7 @@ def is_no_slower(ms, error, rivals):
 def best(folder):
     """Of each scene and method the variant of the least nRMSE among those that are no slower than filtered path tracing
     at the same nRMSE."""
-    yield "| scene | method | variant | ms | nRMSE / relMSE / mean ratio |"
-    yield "|" + " --- |" * 5
+    rows = []
     for scene, found in variants(folder).items():
         rivals = front([(frame_time(passes), float(row["indirect_nrmse"]))
                         for passes, row in found if samples_of(passes, row)])
@@ -115,19 +106,19 @@ def best(folder):
                     for passes, row in found if any(p["pass"] == gather for p in passes)]
             fast = [entry for entry in mine if is_no_slower(entry[1], entry[0], rivals)]
             if mine and not fast:
-                yield f"| {scene} | {title} | none | | |"
+                rows.append([scene, title, "none", "", ""])
             elif fast:
                 error, ms, row = min(fast, key=lambda entry: entry[:2])
-                yield (f"| {scene} | {title} | {row['indirect']} | {ms:.0f} | {error:.3f} / {float(row['indirect_relmse']):.4f} / "
-                       f"{float(row['indirect_mean_ratio']):.3f} |")
+                scores = f"{error:.3f} / {float(row['indirect_relmse']):.4f} / {float(row['indirect_mean_ratio']):.3f}"
+                rows.append([scene, title, row["indirect"], f"{ms:.0f}", scores])
+    return markdown_table(["scene", "method", "variant", "ms", "nRMSE / relMSE / mean ratio"], rows)
 
 
 def table(folder):
     scenes = variants(folder)
     present = {p["pass"] for found in scenes.values() for passes, _ in found for p in passes}
     columns = [column for column in COLUMNS if column[1] in present]
-    yield "| scene | spp | ms | nRMSE / relMSE | " + " | ".join(title for title, _, _, _ in columns) + " |"
-    yield "|" + " --- |" * (4 + len(columns))
+    rows = []
     for scene, found in scenes.items():
         fronts = {}
         for title, gather, counts_build, left_out in columns:
@@ -144,7 +135,8 @@ def table(folder):
                                 for name in ERRORS)
                      for title, _, _, left_out in columns]
             errors = " / ".join(f"{float(row[name]):.3f}" for name in ERRORS)
-            yield f"| {scene} | {samples} | {ms:.0f} | {errors} | {' | '.join(cells)} |"
+            rows.append([scene, str(samples), f"{ms:.0f}", errors, *cells])
+    return markdown_table(["scene", "spp", "ms", "nRMSE / relMSE", *(title for title, *_ in columns)], rows)
 
 
 if __name__ == "__main__":

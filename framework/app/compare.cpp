@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -12,6 +11,7 @@
 #include "app/commands.h"
 #include "app/config_options.h"
 #include "base/error.h"
+#include "base/lower_case.h"
 #include "base/suggest.h"
 #include "base/value.h"
 #include "image/image.h"
@@ -132,8 +132,7 @@ std::vector<ImageF> readHalves(const std::filesystem::path& path, const ImageF& 
 
 /// Whether a file has 8-bit values, as previews do.
 bool isPreview(const std::filesystem::path& file) {
-    std::string end = file.extension().string();
-    std::ranges::transform(end, end.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const std::string end = lowerCase(file.extension().string());
     return end == ".png" || end == ".jpg" || end == ".jpeg";
 }
 

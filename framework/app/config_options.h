@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "config/config.h"
 #include "experiment/runner.h"
@@ -15,6 +16,7 @@ namespace voxray {
 /// Common arguments of all commands that read a config and its scene.
 struct ConfigArguments {
     ConfigOptions config;
+    std::vector<std::string> only;  ///< "axis=value" of --only: selected values of the sweep.
     std::filesystem::path scenes;
 };
 
@@ -27,16 +29,21 @@ inline void addConfigOptions(CLI::App& command, ConfigArguments& arguments) {
         ->type_name("PATH=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    command.add_option("--scenes", arguments.scenes, "Folder in which scene files are looked for first.")
+        ->type_name("DIR")
+        ->check(CLI::ExistingDirectory.description(""));
+}
+
+/// The same of all commands that read the sweep, too.
+inline void addSweepOptions(CLI::App& command, ConfigArguments& arguments) {
+    addConfigOptions(command, arguments);
     command
-        .add_option("--only", arguments.config.only,
+        .add_option("--only", arguments.only,
                     "AXIS=VALUE: run this value of an axis of the sweep, and others that are named so. "
                     "May be given many times.")
         ->type_name("AXIS=VALUE")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    command.add_option("--scenes", arguments.scenes, "Folder in which scene files are looked for first.")
-        ->type_name("DIR")
-        ->check(CLI::ExistingDirectory.description(""));
 }
 
 inline bool isSceneFile(const std::filesystem::path& what) {

@@ -51,7 +51,7 @@ void addJobsCommand(CLI::App& app, int&) {
         ->add_option("--claim", arguments->claim,
                      "Make this results folder, and keep it for the parts of this experiment.")
         ->type_name("DIR");
-    addConfigOptions(*command, *arguments);
+    addSweepOptions(*command, *arguments);
     addDeviceOptions(*command, arguments->options);
     command->callback([arguments] {
         planExperiment(arguments->file, *arguments, arguments->options, [&](PreparedExperiment& prepared) {

@@ -97,7 +97,7 @@ void addTuneCommand(CLI::App& app, int&) {
     addFlag(command, "--resume", "Keep the trials that an earlier search finished.");
     addDeviceOptions(command, values->run);
     addText(command, "--out", "DIR", "Folder of trials; default results/tune_<experiment>.");
-    addConfigOptions(command, *values);
+    addSweepOptions(command, *values);
 }
 
 void addExplainCommand(CLI::App& app, int&) {
@@ -111,7 +111,7 @@ void addExplainCommand(CLI::App& app, int&) {
     addText(command, "--variant", "NAME",
             "Which variant of the config's sweep is explained, by its name in results.csv or the end of it, "
             "as in lookup for cornell-lookup.");
-    addConfigOptions(command, *values);
+    addSweepOptions(command, *values);
     addRunOptions(command, values->run, "Results folder; default results/explain_<experiment>.");
 }
 
@@ -130,7 +130,7 @@ void addStabilityCommand(CLI::App& app, int&) {
     addFlag(command, "--remedies",
             "Run what fails again with finer settings, one kind at a time, and say which of them lowers each error; "
             "they stand next to the matrix, in a file that ends in _remedies.json.");
-    addConfigOptions(command, *values);
+    addSweepOptions(command, *values);
     addRunOptions(command, values->run,
                   "Folder of the tables and of a results folder for each profile; default results/stability.");
 }
@@ -150,7 +150,7 @@ void addSweepCommand(CLI::App& app, int&) {
     addText(command, "--program", "COMMAND",
             "What starts Voxray in a job, as in 'apptainer exec voxray.sif voxray'. Default: this program.");
     addFlag(command, "--print", "Print Snakemake's command line, in place of starting it.");
-    addConfigOptions(command, *values);
+    addSweepOptions(command, *values);
     addDeviceOptions(command, values->run);
 }
 

@@ -72,11 +72,11 @@ void addPlanCommand(CLI::App& app, int&) {
                                            "its variants with their values and graphs, the sweep's axes, "
                                            "the columns of results.csv.");
     command->add_option("CONFIG", arguments->file, "Config file.")->required();
-    addConfigOptions(*command, *arguments);
+    addSweepOptions(*command, *arguments);
     command->callback([arguments] {
         Registry registry;
         registerPasses(registry);
-        const Study study = loadStudy(arguments->file, arguments->config, registry);
+        const Study study = loadStudy(arguments->file, arguments->config, arguments->only, registry);
         fmt::print("{}\n", planValue(study, arguments->file).json(-1));
     });
 }

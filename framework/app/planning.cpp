@@ -11,12 +11,14 @@
 
 namespace voxray {
 
-Study loadStudy(const std::filesystem::path& file, const ConfigOptions& options, const Registry& registry) {
-    Study study = makeStudy(loadExperiment(file, options), registry);
-    if (options.only.empty()) return study;
-    ConfigOptions allOptions = options;
-    allOptions.only.clear();
-    const Study all = makeStudy(loadExperiment(file, allOptions), registry);
+Study loadStudy(const std::filesystem::path& file, const ConfigOptions& options, const std::vector<std::string>& only,
+                const Registry& registry) {
+    const Experiment experiment = loadExperiment(file, options);
+    Study all = makeStudy(experiment, registry);
+    if (only.empty()) return all;
+    Value config = experiment.config;
+    selectSweepValues(config, only, registry.filterLabels());
+    Study study = makeStudy(withConfig(experiment, std::move(config)), registry);
     for (const auto& [id, count] : cullCounts(study))
         if (runsSomewhere(all, id)) study.excludedPasses.push_back(id);
     return study;
@@ -28,8 +30,8 @@ void planExperiment(const std::filesystem::path& file, const ConfigArguments& ar
     registerPasses(registry);
     options.scenes = arguments.scenes;
     options.sourceRoot = sourceRoot();
-    options.tracePreview = pathTracedPreview;
-    PreparedExperiment prepared(loadStudy(file, arguments.config, registry), options);
+    options.previewTracer = pathTracedPreview;
+    PreparedExperiment prepared(loadStudy(file, arguments.config, arguments.only, registry), options);
     for (const std::string& warning : prepared.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     use(prepared);
 }

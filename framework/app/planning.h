@@ -9,8 +9,9 @@
 namespace voxray {
 
 /// Reads a config and makes its study. Passes that run only in variants excluded by --only are recorded, so
-/// that they are not reported as unused.
-Study loadStudy(const std::filesystem::path& file, const ConfigOptions& options, const Registry& registry);
+/// that they are not reported as unused. @param only choices of selectSweepValues().
+Study loadStudy(const std::filesystem::path& file, const ConfigOptions& options, const std::vector<std::string>& only,
+                const Registry& registry);
 
 /// Plans the experiment of a config as a run does, prints warnings, and calls `use`.
 /// @throws UsageError as loadExperiment(), makeStudy() and runExperiment().

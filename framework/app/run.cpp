@@ -56,7 +56,7 @@ int run(const RunArguments& arguments) {
     // Check all configs before the first one runs
     std::vector<Study> experiments;
     for (const std::filesystem::path& config : arguments.configs) {
-        experiments.push_back(loadStudy(config, arguments.config, registry));
+        experiments.push_back(loadStudy(config, arguments.config, arguments.only, registry));
         for (const std::string& profile : profileNames(config))
             makeStudy(loadExperiment(config, {profile, {}}), registry);
     }
@@ -74,7 +74,7 @@ int run(const RunArguments& arguments) {
         RunOptions options = arguments.options;
         options.scenes = arguments.scenes;
         options.sourceRoot = sourceRoot();
-        options.tracePreview = pathTracedPreview;
+        options.previewTracer = pathTracedPreview;
         if (experiments.size() > 1 && !options.out.empty()) options.out /= nameOf(i);
         const RunSummary summary = runExperiment(std::move(experiments[i]), options);
         printSummary(summary, options);
@@ -92,7 +92,7 @@ void addRunCommand(CLI::App& app, int& status) {
     auto arguments = std::make_shared<RunArguments>();
     RunOptions& options = arguments->options;
     command->add_option("CONFIG", arguments->configs, "Config files.")->required();
-    addConfigOptions(*command, *arguments);
+    addSweepOptions(*command, *arguments);
     addRunOptions(*command, options,
                   "Results folder; default results/<experiment>. With many configs, each gets a folder in it.");
     command->add_flag("--aovs", options.aovs,

@@ -77,7 +77,7 @@ std::vector<std::pair<double, size_t>> materialUses(const SceneState& state) {
     std::vector<std::pair<double, size_t>> uses(state.scene->materials.size());
     for (size_t i = 0; i < g.triangles.size(); ++i) {
         auto& [area, count] = uses[g.triangleMaterials[i]];
-        area += double(triangleArea(g, g.triangles[i]));
+        area += triangleArea(g, uint32_t(i));
         ++count;
     }
     return uses;

@@ -50,8 +50,9 @@ struct ConfigCheck {
 /// Checks a config with the given profile, or without a profile and again with each of its profiles. Each
 /// warning is reported once, with the first profile that has it.
 /// @throws UsageError for the first error.
-void validate(const std::filesystem::path& config, const ConfigOptions& options, SceneLoader& loader,
+void validate(const std::filesystem::path& config, const ConfigArguments& arguments, SceneLoader& loader,
               CameraViewChecks& views, const Registry& registry, ConfigCheck& outcome) {
+    const ConfigOptions& options = arguments.config;
     std::vector<std::string> profiles{options.profile};
     if (options.profile.empty())
         for (const std::string& name : profileNames(config)) profiles.push_back(name);
@@ -60,7 +61,7 @@ void validate(const std::filesystem::path& config, const ConfigOptions& options,
     for (const std::string& profile : profiles) {
         const std::string under =
             profile.empty() || profile == options.profile ? "" : fmt::format(" (with --profile {})", profile);
-        Study study = loadStudy(config, {profile, options.assignments, options.only}, registry);
+        Study study = loadStudy(config, {profile, options.assignments}, arguments.only, registry);
         planVariants(study, loader, views, capableDevice());
         for (const std::string& warning : study.warnings)
             if (reported.insert(warning).second)
@@ -117,7 +118,7 @@ int validateAll(const ValidateArguments& arguments) {
                 const std::filesystem::path& config = arguments.configs[i];
                 loader.searchIn(sceneFolders(arguments.scenes, sourceRoot(), config));
                 try {
-                    validate(config, arguments.config, loader, views, registry, outcomes[i]);
+                    validate(config, arguments, loader, views, registry, outcomes[i]);
                 } catch (const Error& error) {
                     outcomes[i].messages += fmt::format("voxray: error: {}\n", error.what());
                 }
@@ -139,7 +140,7 @@ void addValidateCommand(CLI::App& app, int& status) {
         app.add_subcommand("validate", "Check configs and all their profiles, scenes included, without rendering.");
     auto arguments = std::make_shared<ValidateArguments>();
     command->add_option("CONFIG", arguments->configs, "Config files.")->required();
-    addConfigOptions(*command, *arguments);
+    addSweepOptions(*command, *arguments);
     command->callback([arguments, &status] { status = validateAll(*arguments); });
 }
 

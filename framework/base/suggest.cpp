@@ -4,25 +4,22 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
+
+#include "base/lower_case.h"
 
 namespace voxray {
 namespace {
 
-bool isSame(char a, char b) {
-    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-}
-
-// Optimal string alignment distance: insertions, deletions, substitutions, transpositions. Case-insensitive.
+// Optimal string alignment distance: insertions, deletions, substitutions, transpositions.
 size_t editDistance(std::string_view a, std::string_view b) {
     std::vector<std::vector<size_t>> d(a.size() + 1, std::vector<size_t>(b.size() + 1));
     for (size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
     for (size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
     for (size_t i = 1; i <= a.size(); ++i) {
         for (size_t j = 1; j <= b.size(); ++j) {
-            const size_t substitution = d[i - 1][j - 1] + (isSame(a[i - 1], b[j - 1]) ? 0 : 1);
+            const size_t substitution = d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
             d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, substitution});
-            if (i > 1 && j > 1 && isSame(a[i - 1], b[j - 2]) && isSame(a[i - 2], b[j - 1]))
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
                 d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
         }
     }
@@ -32,11 +29,12 @@ size_t editDistance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest(std::string_view word, std::span<const std::string> candidates) {
+    const std::string lowerWord = lowerCase(std::string(word));
     std::string best;
     size_t bestDistance = std::max<size_t>(1, word.size() / 3) + 1;
     for (const std::string& candidate : candidates) {
         if (candidate == word) continue;  // Valid elsewhere.
-        const size_t distance = editDistance(word, candidate);
+        const size_t distance = editDistance(lowerWord, lowerCase(candidate));
         if (distance < bestDistance) {
             bestDistance = distance;
             best = candidate;

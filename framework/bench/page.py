@@ -2,36 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from pathlib import Path
 
 from bench import processes
 from report import pages, text
 from report.rows import markdown_table
+from report.table import Cell, Table
 
 _HERE = Path(__file__).resolve().parent
 _FAR = 0.01  # a mean ratio so far from 1 is marked
-
-
-@dataclass(frozen=True)
-class Cell:
-    text: str
-    css: str = ""
-    title: str = ""
-
-
-@dataclass
-class Table:
-    """`words`: which columns hold words, not numbers."""
-
-    title: str
-    headings: list[str]
-    rows: list[list[Cell]] = field(default_factory=list)
-    note: str = ""
-    words: tuple[int, ...] = (0,)
-
-    def add(self, *cells: str | Cell) -> None:
-        self.rows.append([cell if isinstance(cell, Cell) else Cell(cell) for cell in cells])
 
 
 def number(value: float | None, digits: int = 3) -> str:
@@ -108,7 +87,7 @@ def _difference(row: dict | None) -> Cell:
     if row is None:
         return Cell("")
     if "error" in row:
-        return Cell("failed", "worse", row["error"])
+        return Cell("failed", "worse", title=row["error"])
     if row["same_bytes"]:
         return Cell("same bytes", "tie")
     ratio = row["mean_ratio"]
@@ -162,7 +141,7 @@ def papers_tables(data: dict) -> list[Table]:
                       note=f"The paper's numbers, and ours without a GPU, stand in {paper['page']}. Last columns: median ms of each pass.")
         for row in paper["variants"]:
             if "error" in row:
-                table.add(row["variant"], Cell("failed", "worse", row["error"]), *[""] * (5 + len(stages)))
+                table.add(row["variant"], Cell("failed", "worse", title=row["error"]), *[""] * (5 + len(stages)))
                 continue
             table.add(row["variant"], number(row["build_ms"]), number(row["frame_ms"]),
                       f"{number(row['frame_ms_p05'])} to {number(row['frame_ms_p95'])}", size(row["memory_bytes"]),
@@ -184,11 +163,12 @@ def markdown(data: dict, tables: list[Table]) -> str:
     for table in tables:
         lines += [f"## {table.title}", ""]
         lines += [table.note, ""] if table.note else []
-        lines += [*markdown_table(table.headings, (map(_plain, row) for row in table.rows)), ""]
+        lines += [*markdown_table([heading.text for heading in table.headings], (map(_plain, row) for row in table.rows)), ""]
     return "\n".join(lines)
 
 
-def _plain(cell: Cell) -> str:
+def _plain(cell: Cell | str) -> str:
+    cell = cell if isinstance(cell, Cell) else Cell(cell)
     words = cell.text.replace("\n", "; ").replace("|", "\\|")
     return f"**{words}**" if cell.css == "worse" and words else words
 
@@ -204,7 +184,7 @@ def summary(data: dict) -> str:
 
 def render(data: dict, tables: list[Table]) -> str:
     """The whole page, self-contained."""
-    return pages.render("gpu.html.j2", folder=_HERE, title=title(data), summary=summary(data), data=data, tables=tables,
+    return pages.render("gpu.html.j2", folder=_HERE, title=title(data), summary=summary(data), measured=data, tables=tables,
                         strips=_strips(data), devices=data.get("devices", []))
 
 

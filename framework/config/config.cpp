@@ -4,7 +4,6 @@
 
 #include "base/suggest.h"
 #include "config/overrides.h"
-#include "config/sweep.h"
 #include "config/yaml.h"
 
 namespace voxray {
@@ -202,7 +201,6 @@ Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
     Value config = root;
     if (!options.profile.empty()) applyProfile(config, options.profile);
     for (const std::string& assignment : options.assignments) applyAssignment(config, assignment);
-    selectSweepValues(config, options.only);
     Experiment experiment = readExperiment(std::move(config));
     checkEmptyBlocks(root, experiment.config);
     experiment.warnings = axesWithoutEffect(root, experiment);
@@ -266,6 +264,13 @@ Experiment loadExperiment(const std::filesystem::path& path, const ConfigOptions
     Experiment experiment = readWithOptions(readConfig(path), options);
     experiment.file = path;
     return experiment;
+}
+
+Experiment withConfig(const Experiment& experiment, Value config) {
+    Experiment changed = readExperiment(std::move(config));
+    changed.file = experiment.file;
+    changed.warnings = experiment.warnings;
+    return changed;
 }
 
 std::vector<std::string> profileNames(const std::filesystem::path& path) {

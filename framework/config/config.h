@@ -31,7 +31,6 @@ struct Experiment {
 struct ConfigOptions {
     std::string profile;                   ///< Empty: none.
     std::vector<std::string> assignments;  ///< "path=value" of --set, applied in order after the profile.
-    std::vector<std::string> only = {};    ///< "axis=value" of --only: selected values of the sweep.
 };
 
 /// Reads and checks a config including all its profiles, except the graph's passes and the contents of scene
@@ -42,6 +41,9 @@ Experiment loadExperiment(const std::filesystem::path& path, const ConfigOptions
 Experiment parseExperiment(const std::string& yaml, const std::string& fileName, const ConfigOptions& options = {});
 /// Reads a config with all overrides applied.
 Experiment readExperiment(Value config);
+
+/// The experiment with other contents of its config: after selectSweepValues().
+Experiment withConfig(const Experiment& experiment, Value config);
 
 /// Names of a config's profiles, in the file's order.
 std::vector<std::string> profileNames(const std::filesystem::path& path);

@@ -7,7 +7,6 @@
 #include "base/files.h"
 #include "base/suggest.h"
 #include "config/overrides.h"
-#include "config/value_labels.h"
 
 namespace voxray {
 namespace {
@@ -55,7 +54,7 @@ std::string fileSafe(const std::string& text) {
     return isTaken ? "variant" + (safe.empty() ? "" : "-" + safe) : safe;
 }
 
-std::vector<Axis> readAxes(const Experiment& experiment) {
+std::vector<Axis> readAxes(const Experiment& experiment, const FilterLabels& filters) {
     std::vector<Axis> axes;
     std::map<std::string, int> labels;
     for (const auto& [path, list] : experiment.sweep.members) {
@@ -63,7 +62,7 @@ std::vector<Axis> readAxes(const Experiment& experiment) {
         const std::string label = lastKey(experiment.config, path);
         ++labels[label];
         const bool isWord = list.isMap() || isPassPath(path) || path == "scene";
-        axes.push_back({path, label, isWord, sweepValues(list), sweepLabels(path, list), list.where});
+        axes.push_back({path, label, isWord, sweepValues(list), sweepLabels(path, list, filters), list.where});
         const std::set<std::string> unique(axes.back().texts.begin(), axes.back().texts.end());
         if (unique.size() != axes.back().texts.size())
             throw UsageError(list.where, "sweep.{}: a value appears twice", path);
@@ -157,14 +156,14 @@ std::vector<Value> sweepValues(const Value& axis) {
     return values;
 }
 
-std::vector<std::string> sweepLabels(const std::string& path, const Value& axis) {
-    if (!axis.isMap()) return isPassPath(path) ? chainLabels(axis.items) : valueLabels(axis.items);
+std::vector<std::string> sweepLabels(const std::string& path, const Value& axis, const FilterLabels& filters) {
+    if (!axis.isMap()) return isPassPath(path) ? chainLabels(axis.items, filters) : valueLabels(axis.items);
     std::vector<std::string> names;
     for (const auto& member : axis.members) names.push_back(member.key);
     return names;
 }
 
-void selectSweepValues(Value& config, const std::vector<std::string>& choices) {
+void selectSweepValues(Value& config, const std::vector<std::string>& choices, const FilterLabels& filters) {
     std::map<std::string, std::set<std::string>> chosen;
     for (const std::string& choice : choices) {
         const size_t equals = choice.find('=');
@@ -178,7 +177,7 @@ void selectSweepValues(Value& config, const std::vector<std::string>& choices) {
         std::vector<std::string> names;
         for (const auto& member : sweep ? sweep->members : std::vector<Value::Member>()) names.push_back(member.key);
         if (!axis) throw UsageError("--only: the sweep has no axis '{}'{}", path, didYouMean(path, names));
-        const std::vector<std::string> labels = sweepLabels(path, *axis);
+        const std::vector<std::string> labels = sweepLabels(path, *axis, filters);
         for (const std::string& value : values)
             if (std::ranges::count(labels, value) == 0)
                 throw UsageError("--only: '{}' has no value '{}'{}", path, value, didYouMean(value, labels));
@@ -192,8 +191,8 @@ void selectSweepValues(Value& config, const std::vector<std::string>& choices) {
     }
 }
 
-std::vector<SweepPoint> expandSweep(const Experiment& experiment) {
-    const std::vector<Axis> axes = readAxes(experiment);
+std::vector<SweepPoint> expandSweep(const Experiment& experiment, const FilterLabels& filters) {
+    const std::vector<Axis> axes = readAxes(experiment, filters);
     size_t count = 1;
     for (const Axis& axis : axes) {
         count *= axis.values.size();
@@ -229,13 +228,13 @@ std::vector<SweepPoint> expandSweep(const Experiment& experiment) {
         variant.setup = readSetup(variant.config);
         variants.push_back(std::move(variant));
     }
-    VariantNames names(experiment);
+    VariantNames names(experiment, filters);
     for (SweepPoint& variant : variants) names.name(variant);
     return variants;
 }
 
-VariantNames::VariantNames(const Experiment& experiment) {
-    for (const auto& axis : readAxes(experiment)) axes_.push_back({axis.label, axis.isWord});
+VariantNames::VariantNames(const Experiment& experiment, const FilterLabels& filters) {
+    for (const auto& axis : readAxes(experiment, filters)) axes_.push_back({axis.label, axis.isWord});
 }
 
 void VariantNames::name(SweepPoint& variant) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "config/config.h"
+#include "config/value_labels.h"
 
 namespace voxray {
 
@@ -25,12 +26,12 @@ std::vector<Value> sweepValues(const Value& axis);
 
 /// Labels of an axis' values, as in SweepPoint::values: their keys in a map, else chainLabels() where the
 /// axis replaces a pass, or valueLabels(). @param path of the axis.
-std::vector<std::string> sweepLabels(const std::string& path, const Value& axis);
+std::vector<std::string> sweepLabels(const std::string& path, const Value& axis, const FilterLabels& filters);
 
 /// Removes all values of a config's sweep except the selected ones. Axes without a selected value are
 /// unchanged.
 /// @param choices "axis=label" with labels of sweepLabels(). @throws UsageError for one that doesn't exist.
-void selectSweepValues(Value& config, const std::vector<std::string>& choices);
+void selectSweepValues(Value& config, const std::vector<std::string>& choices, const FilterLabels& filters);
 
 /// Label of an axis that a variant doesn't have.
 inline constexpr const char* kNoValue = "-";
@@ -39,7 +40,7 @@ inline constexpr const char* kNoValue = "-";
 /// config, a pass or a scene by its label alone, any other value by its parameter too: "resolution 64".
 class VariantNames {
  public:
-    explicit VariantNames(const Experiment& experiment);
+    VariantNames(const Experiment& experiment, const FilterLabels& filters);
     void name(SweepPoint& variant);
 
  private:
@@ -56,6 +57,6 @@ class VariantNames {
 /// each of the other variants occurs once, with "-" as its value. An axis is `<id>.<parameter>`, `<id>`
 /// (replaces the pass by another one or by a chain), `scene...`, `image...`, `seed` or `tracer`.
 /// @throws UsageError for another axis, an invalid value, or over 10,000 variants.
-std::vector<SweepPoint> expandSweep(const Experiment& experiment);
+std::vector<SweepPoint> expandSweep(const Experiment& experiment, const FilterLabels& filters);
 
 }  // namespace voxray

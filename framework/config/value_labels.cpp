@@ -65,21 +65,19 @@ MemberNames differences(const std::vector<Value>& values, const std::vector<size
     return names;
 }
 
-/// Passes that change an image of indirect light, and what they make of it.
-const std::map<std::string, std::string>& imageFilters() {
-    static const std::map<std::string, std::string> words{{"accumulate", "accumulated"},
-                                                          {"filter_irradiance", "filtered"}};
-    return words;
-}
+/// A parameter of a pass; inputs are parameters, too.
+struct ChainParameter {
+    std::string name, value;
+    std::string text() const { return name + " " + value; }
+};
 
-/// A pass of a chain: its name and its parameters as texts, e.g. "spp 4". Inputs are parameters, too.
 struct ChainPass {
     std::string name;
-    std::vector<std::string> parameters;
+    std::vector<ChainParameter> parameters;
 };
 
 struct Chain {
-    std::string main;                   ///< The last pass that is no image filter, or else the last one.
+    std::string main;                   ///< The last pass that is no filter, or else the last one.
     std::vector<std::string> filtered;  ///< What the passes after it do.
     std::vector<ChainPass> passes;      ///< The main pass, then the others from the last one to the first.
     std::vector<std::string> hidden;    ///< What differs from chains with this main pass, in this order.
@@ -104,22 +102,22 @@ ChainPass chainPass(const Value& entry) {
         if (key == "pass")
             pass.name = value.scalar;
         else if (key == "inputs" && value.isMap())
-            for (const auto& [port, source] : value.members) pass.parameters.push_back(port + " " + source.text());
+            for (const auto& [port, source] : value.members) pass.parameters.push_back({port, source.text()});
         else if (key != "id")
-            pass.parameters.push_back(key + " " + value.text());
+            pass.parameters.push_back({key, value.text()});
     }
     return pass;
 }
 
-Chain chainOf(const Value& value) {
+Chain chainOf(const Value& value, const FilterLabels& filters) {
     Chain chain;
     for (const Value& entry : value.isList() ? value.items : std::vector{value})
         chain.passes.insert(chain.passes.begin(), chainPass(entry));
-    const auto isFilter = [](const ChainPass& pass) { return imageFilters().contains(pass.name); };
+    const auto isFilter = [&](const ChainPass& pass) { return filters.contains(pass.name); };
     auto main = std::ranges::find_if_not(chain.passes, isFilter);
     if (main == chain.passes.end()) main = chain.passes.begin();
     for (auto filter = chain.passes.begin(); filter != main; ++filter)
-        chain.filtered.insert(chain.filtered.begin(), imageFilters().at(filter->name));
+        chain.filtered.insert(chain.filtered.begin(), filters.at(filter->name));
     if (main != chain.passes.end()) {
         chain.main = main->name;
         std::rotate(chain.passes.begin(), main, main + 1);
@@ -128,22 +126,28 @@ Chain chainOf(const Value& value) {
 }
 
 /// Finds what differs among chains with the same main pass, and shows the first of its parameters.
-void findDetails(const std::vector<Chain*>& chains) {
+void findDetails(const std::vector<Chain*>& chains, const FilterLabels& filters) {
     std::map<std::string, size_t> counts;  // Of the chains with a pass, "name", or a parameter, "name.spp 4".
+    std::map<std::string, std::set<std::string>> owners;  // Passes with a parameter, by its name.
     for (const Chain* chain : chains) {
         std::set<std::string> texts;
         for (const ChainPass& pass : chain->passes) {
             texts.insert(pass.name);
-            for (const std::string& parameter : pass.parameters) texts.insert(pass.name + "." + parameter);
+            for (const ChainParameter& parameter : pass.parameters) {
+                texts.insert(pass.name + "." + parameter.text());
+                owners[parameter.name].insert(pass.name);
+            }
         }
         for (const std::string& text : texts) ++counts[text];
     }
     for (Chain* chain : chains)
         for (const ChainPass& pass : chain->passes) {
-            if (!imageFilters().contains(pass.name) && counts[pass.name] < chains.size())
-                chain->hidden.push_back(pass.name);
-            for (const std::string& parameter : pass.parameters)
-                if (counts[pass.name + "." + parameter] < chains.size()) chain->hidden.push_back(parameter);
+            if (!filters.contains(pass.name) && counts[pass.name] < chains.size()) chain->hidden.push_back(pass.name);
+            for (const ChainParameter& parameter : pass.parameters) {
+                const std::string ownedText = pass.name + "." + parameter.text();
+                if (counts[ownedText] == chains.size()) continue;
+                chain->hidden.push_back(owners[parameter.name].size() > 1 ? ownedText : parameter.text());
+            }
             if (&pass == &chain->passes.front() && !chain->hidden.empty()) chain->show(chain->hidden.begin());
         }
 }
@@ -172,12 +176,12 @@ std::map<std::string, std::vector<size_t>> groupsOf(const std::vector<std::strin
 
 }  // namespace
 
-std::vector<std::string> chainLabels(const std::vector<Value>& values) {
+std::vector<std::string> chainLabels(const std::vector<Value>& values, const FilterLabels& filters) {
     std::vector<Chain> chains;
     std::map<std::string, std::vector<Chain*>> byMain;
-    for (const Value& value : values) chains.push_back(chainOf(value));
+    for (const Value& value : values) chains.push_back(chainOf(value, filters));
     for (Chain& chain : chains) byMain[chain.main].push_back(&chain);
-    for (const auto& [main, group] : byMain) findDetails(group);
+    for (const auto& [main, group] : byMain) findDetails(group, filters);
 
     std::vector<std::string> labels;
     for (bool isDone = false; !isDone;) {

@@ -74,7 +74,7 @@ std::string spaces(size_t count) {
     return fmt::format("{} space{}", count, count == 1 ? "" : "s");
 }
 
-/// Reports a last line whose key is aligned neither with its neighbours nor below a key without a value.
+/// Reports a last line whose key is aligned neither with its neighbors nor below a key without a value.
 std::optional<YamlFault> indentation(const std::vector<Line>& lines) {
     if (lines.size() < 2 || lines.back().key.empty() || lines.back().isEntry()) return {};
     const Line &line = lines.back(), &before = lines[lines.size() - 2];
@@ -123,8 +123,8 @@ bool isOfBlocks(const std::string& message) {
 /// The most common cause of a parser message, or "".
 std::string hintOf(const std::string& message) {
     static const std::vector<std::pair<std::string, std::string>> hints{
-        {"end of map not found", "is this line, or the one before, indented unlike its neighbours?"},
-        {"end of sequence not found", "is this line, or the one before, indented unlike its neighbours?"},
+        {"end of map not found", "is this line, or the one before, indented unlike its neighbors?"},
+        {"end of sequence not found", "is this line, or the one before, indented unlike its neighbors?"},
         {"end of map flow not found", "after a '{' before it a comma or the '}' is missing"},
         {"end of sequence flow not found", "after a '[' before it a comma or the ']' is missing"},
         {"illegal map value", "is a ':' missing in the line before?"}};

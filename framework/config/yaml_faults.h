@@ -10,7 +10,7 @@ struct YamlFault {
     std::string message;
 };
 
-/// Finds common mistakes: a tab in the indentation, a key with another indentation than its neighbours, a
+/// Finds common mistakes: a tab in the indentation, a key with another indentation than its neighbors, a
 /// second colon. For others it returns the parser's message with a hint.
 /// @param line 1-based, where the parser stopped; 0: unknown. @param message of the parser.
 YamlFault yamlFault(const std::string& text, int line, const std::string& message);

@@ -163,13 +163,17 @@ std::string manifestJson(const ManifestData& data) {
         const std::string& id = variant.id;
         names.emplace_back(id, variant.name);
         graphs.emplace_back(id, Json::parse(variant.resolved.json(-1)));
-        inputs.emplace_back(id, Json{{"scene", variant.sceneKey}, {"reference", variant.referenceHash}});
+        inputs.emplace_back(
+            id, Json{{"scene", variant.sceneKey}, {"reference", variant.referenceHash}, {"values", variant.values}});
         for (const auto& [image, parameters] : variant.noiseParameters) noise[image][id] = parameters;
     }
     json["names"] = std::move(names);
     json["variants"] = std::move(graphs);
     json["inputs"] = std::move(inputs);
     json["noise_parameters"] = noise;
+    json["light_independent"] = Json::array();
+    for (const PassKind& kind : data.study->registry->kinds())
+        if (!kind.dependsOnLight) json["light_independent"].push_back(kind.name);
     for (const char* later : {"warnings", "notes"}) json[later] = nullptr;
     json["versions"] = {{"voxray", data.version}, {"driver", data.device.driver}, {"compiler", __VERSION__}};
     json["machine"] = {{"cpu", cpuName()}, {"cores", std::thread::hardware_concurrency()}};

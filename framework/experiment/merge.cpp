@@ -10,7 +10,6 @@
 
 #include "base/files.h"
 #include "base/interrupt.h"
-#include "config/sweep.h"
 #include "config/yaml.h"
 #include "experiment/manifest.h"
 #include "experiment/reference.h"
@@ -144,27 +143,20 @@ std::optional<Failure> failureOf(const std::string& name, const std::string& has
 
 /// Rows of missing variants that failed. Removes them from `missing`, and copies their records to the target.
 std::vector<VariantResult> failedRows(std::vector<std::string>& missing, const std::vector<Source>& sources,
-                                      const Experiment& experiment, const ResultsFolder& target) {
+                                      const ResultsFolder& target) {
     std::vector<VariantResult> rows;
     if (missing.empty()) return rows;
-    std::map<std::string, std::vector<std::string>> values;  // Of the sweep, by the variants' ids.
-    for (SweepPoint& variant : expandSweep(experiment)) values[variant.id] = std::move(variant.values);
-    const Json names = sources[0].manifest.value("names", Json::object());  // Absent from older runs
-    std::map<std::string, std::string> hashes;                              // Hash of each variant's reference.
-    for (const auto& [name, keys] : sources[0].manifest["inputs"].items())
-        hashes[name] = keys.at("reference").get<std::string>();
+    const Json &inputs = sources[0].manifest["inputs"], &names = sources[0].manifest["names"];
     std::erase_if(missing, [&](const std::string& name) {
-        const auto failure = failureOf(name, hashes.at(name), sources);
+        const auto failure = failureOf(name, inputs.at(name).at("reference").get<std::string>(), sources);
         if (!failure) return false;
         const bool isVariant = failure->part.starts_with("variant.");
         const PartRecord& record = *failure->record;
         VariantResult row;
         row.variant = name;
         row.error = isVariant ? record.error : failure->part + ": " + record.error;
-        row.name = names.value(name, name);
-        if (const auto found = values.find(name); found != values.end()) row.sweepValues = found->second;
-        // A variant that lost a value without effect has another id than the sweep gives it
-        row.sweepValues.resize(sweepKeys(experiment).size(), kNoValue);
+        row.name = names.at(name).get<std::string>();
+        row.sweepValues = inputs.at(name).at("values").get<std::vector<std::string>>();
         const auto recordedOr = [&](const std::string& text, const char* key) {
             return isVariant ? text : sources[0].manifest.at(key).get<std::string>();
         };
@@ -237,7 +229,7 @@ RunSummary mergeResults(const std::vector<fs::path>& folders, const fs::path& ou
     summary.out = out;
     summary.total = found.size() + missing.size();
     summary.ok = found.size();
-    for (VariantResult& failed : failedRows(missing, sources, experiment, target)) {
+    for (VariantResult& failed : failedRows(missing, sources, target)) {
         fmt::print(stderr, "voxray: warning: '{}' failed: {}\n", failed.name, failed.error);
         rows.push_back(std::move(failed));
         ++summary.failed;

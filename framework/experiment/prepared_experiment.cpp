@@ -197,7 +197,7 @@ PreparedExperiment::PreparedExperiment(Study study, const RunOptions& options)
         session_->tracerName(variant.setup);
     }
     recordInputs();
-    CameraViewChecks viewChecks(options_.tracePreview);
+    CameraViewChecks viewChecks(options_.previewTracer);
     planVariants(study_, session_->loader(), viewChecks, session_->device().info(), selectedVariant());
 }
 
@@ -210,12 +210,14 @@ std::optional<size_t> PreparedExperiment::selectedVariant() {
 
 void PreparedExperiment::recordInputs() {
     manifest_.study = &study_;
-    std::vector<std::string> culledIds;
+    std::vector<std::string> culledPasses;
     for (const auto& [id, count] : cullCounts(study_))
-        if (runsSomewhere(study_, id)) culledIds.push_back(fmt::format("'{}' in {}", id, count));
-    if (!culledIds.empty())
-        manifest_.notes.push_back(fmt::format("left out, because no compared image depends on them: {} of {} variants",
-                                              fmt::join(culledIds, ", "), study_.variants.size()));
+        if (runsSomewhere(study_, id)) culledPasses.push_back(fmt::format("'{}' in {} variants", id, count));
+    if (!culledPasses.empty())
+        manifest_.notes.push_back(
+            fmt::format("passes left out of some of the {} variants, because no compared image depends "
+                        "on them there: {}",
+                        study_.variants.size(), fmt::join(culledPasses, ", ")));
     if (!study_.reference.isNull()) manifest_.referencePass = study_.reference.items[0];
     manifest_.device = session_->device().info();
     manifest_.requestedDevice = options_.deviceName;

@@ -23,7 +23,7 @@ struct RunOptions {
     std::string part;         ///< Do only this part of the experiment (parts.h); empty: all of them.
     bool untimed = false;     ///< Other parts run on the same machine: a warning says that times are unreliable.
     std::filesystem::path sourceRoot;
-    Preview tracePreview;  ///< Path traces previews on the host for checks of each view; empty: no such checks.
+    Preview previewTracer;  ///< Path traces previews on the host for checks of each view; empty: no such checks.
 };
 
 struct RunSummary {

@@ -18,8 +18,8 @@ std::vector<std::string> comparedPorts() {
     return {kComparedImage, kIndirectImage};
 }
 
-/// The id of a pass in a chain, the list of passes given as one swept value. A swept value may replace pass `id` by
-/// several passes. The last of them takes over `id`.
+/// A swept value may replace pass `id` by a chain (a list of passes), the last of which takes over `id`.
+/// @return the id of a pass of such a chain.
 std::string idInChain(const Value& pass, bool isLast, const std::string& id) {
     return isLast ? id : pass.isMap() ? passId(pass) : pass.scalar;
 }
@@ -51,20 +51,20 @@ std::string whyWithoutEffect(const Variant& variant, const std::string& paramete
 /// another's image, that error is reported, as the likely cause.
 void removeDuplicates(Study& study) {
     const std::vector<std::string> keys = sweepKeys(study.experiment);
-    std::vector<std::map<std::string, Value>> values(keys.size());  // Values of each swept parameter by label.
+    std::vector<std::map<std::string, Value>> valuesByLabel(keys.size());  // For each swept parameter.
     for (size_t a = 0; a < keys.size(); ++a) {
         const Value& swept = study.experiment.sweep.members[a].value;
-        const std::vector<std::string> labels = sweepLabels(keys[a], swept);
+        const std::vector<std::string> labels = sweepLabels(keys[a], swept, study.registry->filterLabels());
         std::vector<Value> all = sweepValues(swept);
-        for (size_t i = 0; i < labels.size(); ++i) values[a].emplace(labels[i], std::move(all[i]));
+        for (size_t i = 0; i < labels.size(); ++i) valuesByLabel[a].emplace(labels[i], std::move(all[i]));
     }
     std::set<std::vector<std::string>> unique;
-    VariantNames names(study.experiment);
+    VariantNames names(study.experiment, study.registry->filterLabels());
     std::vector<std::string> reasons(keys.size());
     std::erase_if(study.variants, [&](Variant& variant) {
         for (size_t a = 0; a < keys.size(); ++a) {
-            const auto chosen = values[a].find(variant.values[a]);
-            if (chosen == values[a].end()) continue;  // The variant has no value of the parameter.
+            const auto chosen = valuesByLabel[a].find(variant.values[a]);
+            if (chosen == valuesByLabel[a].end()) continue;  // The variant has no value of the parameter.
             const std::string why = whyWithoutEffect(variant, keys[a], chosen->second);
             if (why.empty()) continue;
             variant.values[a] = kNoValue;
@@ -116,7 +116,7 @@ Variant::Variant(SweepPoint point, const Registry& registry)
     if (!graph.writes(kComparedImage))
         throw UsageError(setup.graph.where, "graph: no pass writes '{}', the image that is compared; these can: {}",
                          kComparedImage, fmt::join(registry.writersOf(kComparedImage), ", "));
-    for (const char* part : kPartsOfLight) graph.checkReadsLastWriter(kComparedImage, part);
+    for (const char* part : kPartsOfLight) graph.checkReadsLatest(kComparedImage, part);
     unused = graph.unused();
     culledPasses = graph.cullUnused(comparedPorts());
     resolved = graph.resolved();
@@ -142,11 +142,11 @@ Study makeStudy(Experiment experiment, const Registry& registry) {
     checkPassNames(experiment, registry);
     Study study;
     study.registry = &registry;
-    for (SweepPoint& point : expandSweep(experiment)) {
+    for (SweepPoint& point : expandSweep(experiment, registry.filterLabels())) {
         checkLightSwitchTimes(point.setup.scene, experiment.measure);
         study.variants.emplace_back(std::move(point), registry);
     }
-    checkUnsweptConfig(experiment, study.variants, registry);
+    checkGraphWithoutSweep(experiment, study.variants, registry);
     study.experiment = std::move(experiment);
     study.reference = checkedReference(study);
     checkSweptPasses(study);

@@ -70,7 +70,7 @@ struct Study {
 /// and no scene file.
 /// @throws UsageError with file and line
 /// - for an invalid graph;
-/// - for a value of a swept parameter that is a pass on which no image depends, while another value's pass is used;
+/// - if the sweep replaces a pass, and no image depends on the pass of one value, but images depend on that of another;
 /// - for a pass that overwrites the compared image of an earlier pass without reading any of its outputs.
 Study makeStudy(Experiment experiment, const Registry& registry);
 

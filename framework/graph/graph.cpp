@@ -65,7 +65,7 @@ std::vector<Graph::PassInfo> Graph::passes() const {
     return infos;
 }
 
-void Graph::checkReadsLastWriter(const std::string& output, const std::string& input) const {
+void Graph::checkReadsLatest(const std::string& output, const std::string& input) const {
     const GraphNode *writer = lastWriter(nodes_, input), *reader = lastWriter(nodes_, output);
     if (!writer || !reader) return;
     const std::optional<size_t> port = inputNamed(*reader, input);

@@ -64,7 +64,7 @@ class Graph {
 
     /// Checks that the last writer of `output` reads the last one written of `input`, unless its `inputs`
     /// choose another. @throws UsageError with file and line: a pass writes `input` too late.
-    void checkReadsLastWriter(const std::string& output, const std::string& input) const;
+    void checkReadsLatest(const std::string& output, const std::string& input) const;
 
     /// An input of a pass, by the pass and the port.
     struct Input {

@@ -98,11 +98,11 @@ size_t addRegistered(Registry& registry, std::string_view folder, const std::str
     return count;
 }
 
-void Registry::add(const char* name, const std::string& family, const char* help, bool needsDevice,
-                   const PassType& type) {
-    if (find(name)) throw Error("two passes are called '{}': give one another kName", name);
-    kinds_.push_back(
-        {name, family, help, describeParams(*type.schema, type.defaults().get()), portsOf(type), needsDevice, type});
+void Registry::add(PassKind kind) {
+    if (find(kind.name)) throw Error("two passes are called '{}': give one another kName", kind.name);
+    kind.parameters = describeParams(*kind.type.schema, kind.type.defaults().get());
+    kind.ports = portsOf(kind.type);
+    kinds_.push_back(std::move(kind));
 }
 
 void Registry::renamed(std::string oldName, std::string advice) {
@@ -125,6 +125,13 @@ std::vector<std::string> Registry::writersOf(const std::string& port) const {
         if (has(true) && !has(false)) writers.push_back(kind.name);
     }
     return writers;
+}
+
+std::map<std::string, std::string> Registry::filterLabels() const {
+    std::map<std::string, std::string> labels;
+    for (const PassKind& kind : kinds_)
+        if (!kind.filterLabel.empty()) labels.emplace(kind.name, kind.filterLabel);
+    return labels;
 }
 
 const PassKind& Registry::require(const std::string& name, const TextLocation& where) const {

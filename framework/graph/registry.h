@@ -20,9 +20,9 @@ struct PortDoc : PortInfo {
 /// A kind of pass without its types, so that one function reads parameters of all kinds.
 struct PassType {
     using Params = std::unique_ptr<void, void (*)(void*)>;
-    const Schema* schema;
-    Params (*defaults)();
-    std::unique_ptr<Pass> (*make)(const void* params);
+    const Schema* schema = nullptr;
+    Params (*defaults)() = nullptr;
+    std::unique_ptr<Pass> (*make)(const void* params) = nullptr;
 };
 
 /// A pass made from a config.
@@ -43,6 +43,10 @@ struct PassKind {
     std::vector<ParameterDoc> parameters;
     std::vector<PortDoc> ports;  ///< All that it has with any values of its parameters.
     bool needsDevice = true;     ///< False: it runs where there is no Vulkan, too (Device::isHost()).
+    /// What names of variants say where it follows the pass whose result it denoises, such as "filtered". Empty: for no
+    /// such pass.
+    std::string filterLabel;
+    bool dependsOnLight = true;  ///< False: its outputs stay where lights alone change.
     PassType type;
 
     /// Makes a pass from its map in the config. @throws UsageError for an unknown or invalid parameter.
@@ -60,14 +64,19 @@ class Registry {
     /// P: see Pass. @throws Error for a name that another pass has.
     template <typename P>
     void add(const std::string& family = "") {
-        bool needsDevice = true;
-        if constexpr (requires { P::kNeedsDevice; }) needsDevice = P::kNeedsDevice;
+        PassKind kind;
+        kind.name = P::kName;
+        kind.family = family;
+        kind.help = P::kHelp;
+        if constexpr (requires { P::kNeedsDevice; }) kind.needsDevice = P::kNeedsDevice;
+        if constexpr (requires { P::kDependsOnLight; }) kind.dependsOnLight = P::kDependsOnLight;
+        if constexpr (requires { P::kFilterLabel; }) kind.filterLabel = P::kFilterLabel;
         if constexpr (requires { typename P::Params; })
-            add(P::kName, family, P::kHelp, needsDevice, typeOf<typename P::Params>([](const void* p) {
-                    return make<P>(*static_cast<const typename P::Params*>(p));
-                }));
+            kind.type = typeOf<typename P::Params>(
+                [](const void* p) { return make<P>(*static_cast<const typename P::Params*>(p)); });
         else
-            add(P::kName, family, P::kHelp, needsDevice, typeOf<NoParams>([](const void*) { return make<P>(); }));
+            kind.type = typeOf<NoParams>([](const void*) { return make<P>(); });
+        add(std::move(kind));
     }
 
     /// An old name, and advice for errors: renamed("gather_all", "gather with 'light: all'").
@@ -80,6 +89,8 @@ class Registry {
 
     /// Names of passes that write a port of this name without reading one of that name.
     std::vector<std::string> writersOf(const std::string& port) const;
+    /// PassKind::filterLabel by name, of those that have one.
+    std::map<std::string, std::string> filterLabels() const;
 
  private:
     template <typename Params>
@@ -91,7 +102,8 @@ class Registry {
     static std::unique_ptr<Pass> make(const Params&... params) {
         return std::make_unique<P>(params...);
     }
-    void add(const char* name, const std::string& family, const char* help, bool needsDevice, const PassType& type);
+    /// Fills in parameters and ports.
+    void add(PassKind kind);
 
     std::vector<PassKind> kinds_;
     std::map<std::string, std::string> renamed_;

@@ -4,18 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <map>
 
 #include "base/error.h"
+#include "base/lower_case.h"
 
 namespace voxray {
 namespace {
-
-std::string lowerCase(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text;
-}
 
 /// "View.Combined" and "R" of "View.Combined.R".
 std::pair<std::string, std::string> splitName(const std::string& channel) {

@@ -23,7 +23,7 @@ inline std::array<double, 3> pbrNeutral(std::array<double, 3> color) {
     if (peak <= compressionStart) return color;
     constexpr double headroom = 1 - compressionStart;
     const double newPeak = 1 - headroom * headroom / (peak + 1 - 2 * compressionStart);
-    const double saturation = 1 / (desaturation * (peak - newPeak) + 1);
+    const double saturation = 1 / (desaturation * (peak - newPeak) + 1);  // The rest is white, of the new peak.
     for (double& c : color) c = c * (newPeak / peak) * saturation + newPeak * (1 - saturation);
     return color;
 }

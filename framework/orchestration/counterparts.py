@@ -139,7 +139,7 @@ def passes_of(variant: dict, table: dict) -> Graph:
             continue
         if entry["pass"] not in known:
             raise UsageError(f"{place}: '{entry['pass']}' has no exact counterpart, so its error can't be told from the others': "
-                          f"swap it with --set {id_of(entry)}=OTHER, or add it to {TABLE}")
+                             f"swap it with --set {id_of(entry)}=OTHER, or add it to {TABLE}")
         graph.append(entry)
     return graph
 

@@ -49,7 +49,7 @@ def _nearest(word: str, candidates: list[str]) -> str:
 
 
 def _distance(a: str, b: str) -> int:
-    """Insertions, deletions, substitutions, swaps of neighbours."""
+    """Insertions, deletions, substitutions, swaps of neighbors."""
     rows = [list(range(len(b) + 1))]
     for i, x in enumerate(a, 1):
         row = [i]

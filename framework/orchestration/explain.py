@@ -24,13 +24,13 @@ def chosen(variants: list[dict], name: str | None) -> dict:
             return variant
     if not name:
         raise UsageError(f"the config has {len(names)} variants, and explain takes one: choose it with --variant, "
-                      f"as in --variant {names[-1]}")
+                         f"as in --variant {names[-1]}")
     endings = [variant for variant in variants if variant["id"].endswith("-" + name)]
     if len(endings) == 1:
         return endings[0]
     if endings:
         raise UsageError(f"--variant: '{name}' ends the names of {len(endings)} variants: "
-                      + ", ".join(variant["id"] for variant in endings))
+                         + ", ".join(variant["id"] for variant in endings))
     raise UsageError(f"--variant: no variant '{name}'{did_you_mean(name, names)}")
 
 
@@ -71,7 +71,7 @@ def main(program: Program, options: SimpleNamespace) -> int:
     plan = program.plan(options.config)
     if plan["reference"] is None:
         raise UsageError(f"{plan['place']}: there is no 'reference', so there is no error to explain: write one, as in "
-                      "{pass: path_trace, spp: 1024, bounces: 8}")
+                         "{pass: path_trace, spp: 1024, bounces: 8}")
     variant = chosen(plan["variants"], options.variant)
     swaps = plan_swaps(variant, program.passes, read_table())
     changes = assignments(plan, variant, swaps)

@@ -35,7 +35,7 @@ def lock(path: Path, results: Path) -> int:
         asked = struct.pack(_FLOCK, fcntl.F_WRLCK, os.SEEK_SET, 0, 0, 0)
         holder = struct.unpack(_FLOCK, fcntl.fcntl(descriptor, fcntl.F_GETLK, asked))[4]
         raise UsageError(f"{results}: process {holder} is writing results there; wait until it ends or choose another folder "
-                      "with --out") from error
+                         "with --out") from error
     return descriptor
 
 

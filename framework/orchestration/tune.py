@@ -70,12 +70,12 @@ def space_of(plan: dict) -> dict:
     """What is searched: the config without graph and sweep, axes by path, whether they swap a pass, the variants."""
     if plan["reference"] is None:
         raise UsageError(f"{plan['place']}: there is no 'reference', so there is no error to aim at: write one, as in "
-                      "{pass: path_trace, spp: 1024, bounces: 8}")
+                         "{pass: path_trace, spp: 1024, bounces: 8}")
     for axis in plan["axes"]:
         path = axis["path"]
         if path.partition(".")[0] in FIXED:
             raise UsageError(f"{axis['place']}: the sweep varies '{path}', and a search is for one graph: choose a value with "
-                          f"--set 'sweep.{path}=null' --set {path}=VALUE")
+                             f"--set 'sweep.{path}=null' --set {path}=VALUE")
     paths = [axis["path"] for axis in plan["axes"]]
     return {"config": {key: value for key, value in plan["config"].items() if key not in ("graph", "sweep")},
             "axes": paths, "swaps": ["." not in path for path in paths],

@@ -1,4 +1,3 @@
-"use strict";
 // A chart of numbers on logarithmic or linear axes: lines and marks with names next to them, all else faint.
 
 const reachOfPointer = 40; // pixels
@@ -9,9 +8,14 @@ let chartCount = 0;
 // front: [[x, y]], levels: [[name, y]], paths: [[point]], xLabel, yLabel, text, isLinear, hasBars}. A point is {index, x, y, low,
 // high, xLow, xHigh, isFaint}; line: those that a series joins; marks: those with a mark, its line's where it says nothing;
 // paths: along which arrow keys go.
-// shown(point) is called for the point under the pointer or the keyboard's, open(point) for a click on it or Enter.
-function makeChart(host, shown, open = () => {}) {
-    const id = `chart-${chartCount++}`;
+// label: what a screen reader says; tell(point): words of the point under the pointer or the keyboard's; open(point) is called for a
+// click on it or Enter.
+function makeChart(host, label, tell, open = () => {}) {
+    const id = `chart-${chartCount++}`, said = element("output", { class: "said", "aria-live": "polite" });
+    for (const [name, value] of Object.entries({ tabindex: 0, role: "group", "aria-roledescription": "chart", "aria-label": label })) {
+        host.setAttribute(name, value);
+    }
+    host.after(said);
     let content = null, zoom = null, current = null, size, x, y, nearest;
     host.addEventListener("pointermove", (event) => { if (event.pointerType !== "mouse" || !event.buttons) point(event); });
     host.addEventListener("pointerdown", (event) => point(event));
@@ -32,7 +36,7 @@ function makeChart(host, shown, open = () => {}) {
     function select(found) {
         current = found;
         mark();
-        shown(found);
+        said.textContent = tell(found);
     }
     function setZoom(domain) {
         zoom = domain;
@@ -112,8 +116,8 @@ function makeChart(host, shown, open = () => {}) {
             .call(d3.axisLeft(y).tickValues(ticksOf(y)).tickFormat((v) => figures(v)).tickSize(margin.left + margin.right - width).tickPadding(6));
         for (const axis of [bottom, left]) axis.selectAll(".domain").remove();
         svg.append("text").attr("class", "title").attr("x", (margin.left + width - margin.right) / 2).attr("y", height - 8)
-            .attr("text-anchor", "middle").text(content.isLinear ? content.xLabel : `← cheaper   ${content.xLabel}`);
-        svg.append("text").attr("class", "title").attr("x", 6).attr("y", 13).text(content.isLinear ? content.yLabel : `${content.yLabel}   ↓ more accurate`);
+            .attr("text-anchor", "middle").text(content.isLinear ? content.xLabel : `${content.xLabel} (← cheaper)`);
+        svg.append("text").attr("class", "title").attr("x", 6).attr("y", 13).text(content.isLinear ? content.yLabel : `${content.yLabel} (↓ more accurate)`);
     }
 
     function drawPoints(inside) {
@@ -192,7 +196,7 @@ function makeChart(host, shown, open = () => {}) {
             if (!keepZoom) zoom = null;
             current = current && (content.series.flatMap((one) => one.points).find((p) => p.index === current.index) ?? null);
             draw();
-            if (current) shown(current);
+            if (current) said.textContent = tell(current);
         },
         select(index) {
             const found = content.series.flatMap((one) => one.points).find((p) => p.index === index);

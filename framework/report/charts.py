@@ -6,28 +6,22 @@ import numpy as np
 import pandas as pd
 
 from report import text
-from report.names import Names
 from report.ranking import pareto_front, pareto_layers
 from report.results import BASELINES, LIGHTS, Metric, Results, interval_ends
-from report.style import MARKERS, Style
+from report.style import Style
 
 _MAX_MARKS = 250  # of more points the ones far from the Pareto front are small dots
 _MAX_LABELS = 80
-_MAX_METRICS = 3
 TIMES = {"frame": "one frame", "total": "build + one frame"}
 
 
-def variants(results: Results, styles: dict[str, Style], names: Names, labels: dict[str, str], anchors: dict[str, str],
-             curves: list[list[str]]) -> dict:
-    """What all charts of a page share: how each finished variant is called and drawn, its times with their 5th and 95th
-    percentile, and the variants that a line joins."""
-    finished = list(results.ok["variant"])
-    index = {name: i for i, name in enumerate(finished)}
+def variants(results: Results, styles: dict[str, Style], labels: dict[str, str], anchors: dict[str, str]) -> dict:
+    """What all charts of a page share: how each finished variant is called and drawn, and its times with their 5th and 95th
+    percentile."""
     frame = [results.ok[f"frame_ms_{key}"] for key in ("median", "p05", "p95")]
-    return {"variants": [{"name": names.full(name), "number": names.numbers[name], "label": labels[name], "anchor": anchors[name],
-                          "color": styles[name].color, "mark": MARKERS[styles[name].marker]} for name in finished],
-            "times": {"frame": frame, "total": [times + results.ok["build_ms"] for times in frame]},
-            "curves": [[index[name] for name in curve if name in index] for curve in curves]}
+    return {"variants": [{"name": results.full(name), "number": results.numbers[name], "label": labels[name], "anchor": anchors[name],
+                          "color": styles[name].color, "mark": styles[name].mark} for name in results.ok["variant"]],
+            "times": {"frame": frame, "total": [times + results.ok["build_ms"] for times in frame]}}
 
 
 def error_chart(results: Results, metric: Metric, light: str, time: str) -> tuple[dict | None, list[str]]:
@@ -61,7 +55,7 @@ def error_charts(results: Results, lights: list[str]) -> tuple[list[dict], set[t
     found, absent = [], set()
     for light in lights:
         for time in TIMES:
-            for metric in results.metrics[:_MAX_METRICS]:
+            for metric in results.charted:
                 chart, without = error_chart(results, metric, light, time)
                 if chart:
                     found.append(chart)
@@ -72,10 +66,9 @@ def error_charts(results: Results, lights: list[str]) -> tuple[list[dict], set[t
 def frame_chart(rows: pd.DataFrame, column: str, label: str, results: Results, light: str = "") -> dict:
     """One line for each variant, over frames. `rows` has the columns variant, frame and `column`."""
     index = {variant: i for i, variant in enumerate(results.ok["variant"])}
-    names = dict(zip(results.ok["variant"], results.ok["name"]))
     lines, means = [], []
     for variant, frames in rows[rows["variant"].isin(index)].groupby("variant", sort=False):
         frames = frames[frames["frame"].notna()].sort_values("frame")
         lines.append([index[variant], frames["frame"].astype(int), frames[column]])
-        means.append(f"{names[variant]}: {text.figures(frames[column].mean())} on average")
+        means.append(f"{results.names[variant]}: {text.figures(frames[column].mean())} on average")
     return {"light": light, "lines": lines, "xLabel": "measured frame", "yLabel": label, "text": f"{label} over frames; {', '.join(means)}"}

@@ -1,43 +1,32 @@
-"""The page of `voxray explain`: sentences, a waterfall of the error's parts, and an image of each."""
+"""The page of `voxray explain`: sentences, a bar of the error's parts, and an image of each."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 from PIL import Image
 
-from report import explain, images, pages, text
+from report import explain, images, pages, style, text
 from report.explain import Explained, Images, percent, sentence
 from report.images import Picture
 from report.load import load
+from report.parts import Bar, Bars, Segment
 from report.results import IMAGES, Results
-from report.style import CATEGORY_COLORS
+from report.table import Table
 
-_SIGNED_COLORS = "RdBu_r"  # blue: the stage takes light away, red: it adds light
+_SCRIPTS = ("d3", "toolkit.js")
 _SMALL = 0.1  # of the whole error: a rest that needs no word
+_WIDE = 0.12  # of the bar: a part that has room for its name
 
 
-@dataclass(frozen=True)
-class Shown:
+class Shown(NamedTuple):
     """An image with its caption."""
 
     picture: Picture
     title: str
     note: str
-
-
-@dataclass(frozen=True)
-class Step:
-    """A bar of a waterfall. left, width, and the ends and the mean of its stage's part over all orders: % of the track."""
-
-    name: str
-    share: str
-    color: str
-    left: float
-    width: float
-    orders: list[float] | None
 
 
 def write(directory: Path) -> str:
@@ -55,16 +44,20 @@ def render(results: Results, rendered: Images, explained: list[Explained]) -> st
     """The whole page, self-contained."""
     scale = _scale(rendered)
     config = results.manifest.get("config", {})
+    stages = [part.stage for part in explained[0].parts]
+    colors = {stage.name: style.background(i) for i, stage in enumerate(stages)} | {"rest": "var(--muted)"}
+    labels = [one.label for one in explained]
+    counterparts = Table("Counterparts", ["stage", "what its counterpart changes", "along with", "what lowers its error"],
+                         [(stage.name, ", ".join(stage.changes), ", ".join(stage.needs), stage.cure) for stage in stages],
+                         words=range(4))
+    sets = Table("Errors of all images that were rendered", ["swapped", *labels],
+                 [(_name_of(chosen), *(text.figures(one.errors[chosen]) for one in explained)) for chosen in rendered.of])
     return pages.render(
-        "explain.html.j2", name=str(config.get("name", "")).removeprefix("explain_"),
-        sentences=[line for one in explained for line in _sentences(one)],
-        waterfalls=[(one.label, _waterfall(one)) for one in explained],
-        tables=[(one.label, _rows(one)) for one in explained],
-        stages=[(stage.name, ", ".join(stage.changes), ", ".join(stage.needs), stage.cure)
-                for stage in (part.stage for part in explained[0].parts)],
+        "explain.html.j2", scripts=_SCRIPTS, name=str(config.get("name", "")).removeprefix("explain_"),
+        sentences=[line for one in explained for line in _sentences(one)], colors=colors,
+        bars=Bars("Parts of the error, % of the whole", [_bar(one, colors) for one in explained]), tables=[*map(_table, explained), counterparts, sets],
         previews=_previews(results, rendered), parts=_part_images(rendered, explained[0], scale), scale=text.figures(scale, 2),
-        sets=[(_name_of(chosen), *(text.figures(one.errors[chosen]) for one in explained)) for chosen in rendered.of],
-        labels=[one.label for one in explained], directory=str(results.directory), gradient=images.gradient(_SIGNED_COLORS))
+        directory=str(results.directory))
 
 
 def csv_lines(explained: list[Explained]):
@@ -96,33 +89,27 @@ def _sentences(one: Explained) -> list[str]:
                         if abs(one.left) > _SMALL else "")
                      + f"What a stage brings depends on the others: {spread.stage.name} between {percent(spread.least)} and "
                        f"{percent(spread.most)}, by the order in which stages are swapped.")
-    lines += [f"Of {one.label}, the error grows by {percent(-part.share)} where {part.stage.name} is swapped: it hides what "
-              "other stages do wrong." for part in one.parts if part.high < -_SMALL / 2]
     return lines
 
 
-def _rows(one: Explained) -> list[tuple[str, ...]]:
+def _table(one: Explained) -> Table:
     rows = [(part.stage.name, percent(part.share), f"{percent(part.low)} to {percent(part.high)}", percent(part.mean),
              f"{percent(part.least)} to {percent(part.most)}") for part in one.parts]
     total = sum(part.mean for part in one.parts)
-    return rows + [("rest", percent(one.rest), f"{percent(one.rest_low)} to {percent(one.rest_high)}", percent(1 - total), "")]
+    rows.append(("rest", percent(one.rest), f"{percent(one.rest_low)} to {percent(one.rest_high)}", percent(1 - total), ""))
+    return Table(f"Parts of {one.label}", ["stage", "swapped alone", "95 % interval", "in sequence, mean", "least and most, by order"],
+                 rows, "In sequence: over all orders in which stages can be swapped one after another.")
 
 
-def _waterfall(one: Explained) -> list[Step]:
-    """From the whole error down, a stage each."""
-    shares = [1.0, *(part.share for part in one.parts), one.rest]
-    levels = np.array([1.0, *(1.0 - np.cumsum([0.0, *shares[1:]]))])  # where each bar begins; the last one's end
-    ends = np.array([0.0, *levels[2:]])
-    ranges = [None, *((levels[i + 1] - part.most, levels[i + 1] - part.mean, levels[i + 1] - part.least) for i, part in enumerate(one.parts)), None]
-    drawn = [0.0, *levels, *(value for orders in ranges if orders for value in orders)]
-    low, width = min(drawn), max(drawn) - min(drawn)
-
-    def position(value: float) -> float:
-        return 100 * (value - low) / width
-    names = ["whole", *(part.stage.name for part in one.parts), "rest"]
-    colors = ["muted", *(CATEGORY_COLORS[i % len(CATEGORY_COLORS)] for i in range(len(one.parts))), "muted"]
-    return [Step(name, percent(share), color, position(min(begin, end)), 100 * abs(end - begin) / width, [position(value) for value in orders] if orders else None)
-            for name, share, color, begin, end, orders in zip(names, shares, colors, levels, ends, ranges)]
+def _bar(one: Explained, colors: dict[str, str]) -> Bar:
+    """Parts below 0 before the whole's 0 %, the others after it. All parts add up to 100 %."""
+    shares = {part.stage.name: part.share for part in one.parts} | {"rest": one.rest}
+    length = sum(map(abs, shares.values()))
+    ordered = sorted(shares.items(), key=lambda entry: entry[1] >= 0)
+    return Bar("", one.label, "", text.figures(one.whole), [
+        Segment(colors[name], 100 * abs(share) / length, f"{name}: {percent(share)}",
+                f"{name} {percent(share)}" if abs(share) / length > _WIDE else "", "below" if share < 0 else "")
+        for name, share in ordered])
 
 
 def _scale(rendered: Images) -> float:
@@ -133,7 +120,7 @@ def _scale(rendered: Images) -> float:
 
 def _signed(difference: np.ndarray, scale: float) -> Picture:
     shade = np.clip(difference.mean(axis=-1) / scale, -1, 1) * 0.5 + 0.5
-    return images.embed_image(Image.fromarray(images.colors(_SIGNED_COLORS, shade)))
+    return images.embed_image(Image.fromarray(images.colors(images.SIGNED_ERROR_COLORS, shade)))
 
 
 def _part_images(rendered: Images, one: Explained, scale: float) -> list[Shown]:

@@ -63,16 +63,14 @@ def read(path):
         channels[name] = numpy.empty((height, width), PIXEL_TYPES[kind])
         i += 16
 
-    blocks = -(-height // LINES_OF_BLOCK[compression])
     bytes_of_line = sum(width * c.dtype.itemsize for c in channels.values())
-    for offset in struct.unpack_from(f"<{blocks}Q", data, at):
+    for offset in struct.unpack_from(f"<{-(-height // LINES_OF_BLOCK[compression])}Q", data, at):
         y, size = struct.unpack_from("<ii", data, offset)
-        lines = min(LINES_OF_BLOCK[compression], y1 - y + 1)
-        block = data[offset + 8:offset + 8 + size]
-        if size < lines * bytes_of_line:
+        lines = range(y - y0, min(y - y0 + LINES_OF_BLOCK[compression], height))
+        block, position = data[offset + 8:offset + 8 + size], 0
+        if size < len(lines) * bytes_of_line:
             block = _unzip(block)
-        position = 0
-        for line in range(y - y0, y - y0 + lines):
+        for line in lines:
             for channel in channels.values():
                 channel[line] = numpy.frombuffer(block, channel.dtype, width, position)
                 position += width * channel.dtype.itemsize

@@ -11,16 +11,16 @@ import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import LinearSegmentedColormap, LogNorm
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
-from report import methods, pages, text
+from report import pages, style, text
 from report.pareto import CHARTED, COSTS, Scene
 
 _COLUMN, _FULL = 84.5 / 25.4, 178 / 25.4  # widths of acmart, inches
-_COLORS = ("#2a6fdb", "#d2600a", "#0f8577", "#b5369a", "#947000", "#6b4fd0", "#cc3344", "#557324")  # style.css: c0 to c7
-_FOLDS = LinearSegmentedColormap.from_list("folds", ["#b35806", "#f5a859", "#f4f4f4", "#8db7dc", "#1f5a9c"])
-_MOST_FOLD = 16  # at which colors are strongest
+_FOLDS = LinearSegmentedColormap.from_list("folds", [style.VALUES[f"f{i}"] for i in range(5)])
+_MOST_FOLD = float(style.VALUES["most-fold"])  # at which colors are strongest
 _RC = {"font.size": 7, "axes.linewidth": 0.5, "xtick.major.width": 0.5, "ytick.major.width": 0.5, "xtick.minor.width": 0.3,
        "ytick.minor.width": 0.3, "hatch.linewidth": 0.4, "text.parse_math": False,
        "pdf.fonttype": 42, "svg.fonttype": "path", "svg.hashsalt": "voxray"}  # TrueType in PDF; outlines in SVG
@@ -58,15 +58,15 @@ def _chart(compared, scene: Scene, cost: int) -> Figure:
     axes.grid(True, color="#dddddd", linewidth=0.4)
     axes.set_axisbelow(True)
     axes.spines[["top", "right"]].set_visible(False)
-    ends = []
+    ends, styles = [], style.styles(len(compared.methods))
     for method, front in scene.fronts(cost, error).items():
-        style, is_rival = methods.styles_of(compared.methods)[method], method == compared.rival
-        color = _COLORS[int(style.color[1:])]
+        own, is_rival = styles[method], method == compared.rival
+        color = style.VALUES[own.color]
         members = (scene.methods == method) & scene.usable[cost, error]
         axes.plot(scene.costs[cost, members], scene.errors[error, 0, members], ".", color=color, markersize=2, alpha=0.4, markeredgewidth=0)
         x, (y, low, high) = scene.costs[cost, front], scene.errors[error][:, front]
         axes.vlines(x, np.maximum(low, 1e-3 * y), high, color=color, linewidth=0.4, alpha=0.6)
-        axes.plot(x, y, style.marker, linestyle="-", color=color, linewidth=1.6 if is_rival else 0.8, markersize=3.5 if is_rival else 2.8,
+        axes.plot(x, y, own.marker, linestyle="-", color=color, linewidth=1.6 if is_rival else 0.8, markersize=3.5 if is_rival else 2.8,
                   markeredgecolor="white", markeredgewidth=0.3)
         ends.append((compared.methods[method].name, x[-1], y[-1], color, "bold" if is_rival else "normal"))
     _label(axes, ends)
@@ -95,41 +95,39 @@ def _label(axes, ends: list[tuple]) -> None:
 
 
 def _chart_rows(compared, scene: Scene, cost: int) -> list[list]:
-    fronts = {int(i) for front in scene.fronts(cost, compared.first).values() for i in front}
-    rows = [[compared.methods[scene.methods[i]].name, label, scene.costs[cost, i], *scene.errors[compared.first, :, i], int(i in fronts)]
-            for i, label in enumerate(scene.labels) if scene.usable[cost, compared.first, i]]
-    return [["method", "name", CHARTED[cost], *(f"{compared.errors[compared.first].metric.key}{end}" for end in ("", "_low", "_high")), "on front"],
-            *rows]
+    error, key = compared.first, compared.errors[compared.first].metric.key
+    fronts = np.concatenate([[], *scene.fronts(cost, error).values()])
+    rows = [[compared.methods[scene.methods[i]].name, scene.labels[i], scene.costs[cost, i], *scene.errors[error, :, i], int(i in fronts)]
+            for i in np.flatnonzero(scene.usable[cost, error])]
+    return [["method", "name", CHARTED[cost], key, f"{key}_low", f"{key}_high", "on front"], *rows]
 
 
 def _order(compared, cost: int) -> list[int]:
-    medians = np.nan_to_num(compared.speed_ups.medians(compared.measured)[0, cost, compared.first])
-    return sorted(range(len(medians)), key=lambda method: -medians[method])
+    return np.argsort(-np.nan_to_num(compared.speed_ups.medians(compared.measured)[0, cost, compared.first]), kind="stable").tolist()
 
 
 def _matrix(compared, cost: int) -> Figure:
-    order, cells = _order(compared, cost), compared.speed_ups.factors[0, cost, compared.first]
+    found, order = compared.speed_ups, _order(compared, cost)
+    cells, counts = found.factors[0, cost, compared.first][:, order].swapaxes(0, 1), found.count[0, cost, compared.first]
     figure = Figure(figsize=(_FULL, 0.5 + 0.17 * len(order)))
     axes = figure.add_axes((0.2, 0.02, 0.78, 1 - 0.42 / figure.get_figheight()))
-    values = cells[:, order, 0].T
-    axes.imshow(values, cmap=_FOLDS, norm=LogNorm(1 / _MOST_FOLD, _MOST_FOLD), aspect="auto")
-    for (row, s), value in np.ndenumerate(values):
-        _, low, high, reached = cells[s, order[row]]
-        if math.isnan(value):
-            axes.text(s, row, "–" if compared.measured[s, order[row]] and compared.speed_ups.count[0, cost, compared.first, s] else "", ha="center", va="center", color="#777777")
-            continue
-        if low <= 1 <= high and order[row] != compared.speed_ups.rivals[0]:
-            axes.add_patch(matplotlib.patches.Rectangle((s - 0.5, row - 0.5), 1, 1, fill=False, hatch="////", linewidth=0, edgecolor="#00000055"))
-        part = "" if reached == compared.speed_ups.count[0, cost, compared.first, s] else f" ({reached:.0f}/{compared.speed_ups.count[0, cost, compared.first, s]})"
-        axes.text(s, row, text.figures(value, 2) + part, ha="center", va="center", color="white" if abs(math.log2(value)) > 3 else "black")
-    axes.set_xticks(range(len(compared.scenes)), [scene.name for scene in compared.scenes])
+    axes.imshow(cells[..., 0], cmap=_FOLDS, norm=LogNorm(1 / _MOST_FOLD, _MOST_FOLD), aspect="auto")
+    for row, s in np.ndindex(cells.shape[:2]):
+        value, low, high, reached = cells[row, s]
+        said, color = "–" if compared.measured[s, order[row]] and counts[s] else "", "#777777"
+        if not math.isnan(value):
+            said = text.figures(value, 2) + ("" if reached == counts[s] else f" ({reached:.0f}/{counts[s]})")
+            color = "white" if abs(math.log2(value)) > 3 else "black"
+        axes.text(s, row, said, ha="center", va="center", color=color)
+        if low <= 1 <= high and order[row] != found.rivals[0]:
+            axes.add_patch(Rectangle((s - 0.5, row - 0.5), 1, 1, fill=False, hatch="////", linewidth=0, edgecolor="#00000055"))
+    axes.set_xticks(range(len(counts)), [scene.name for scene in compared.scenes])
     axes.set_yticks(range(len(order)), [compared.methods[i].name for i in order])
-    axes.tick_params(length=0, labeltop=True, labelbottom=False)
-    axes.spines[:].set_visible(False)
-    axes.set_xticks(np.arange(-0.5, len(compared.scenes)), minor=True)
+    axes.set_xticks(np.arange(-0.5, len(counts)), minor=True)
     axes.set_yticks(np.arange(-0.5, len(order)), minor=True)
+    axes.tick_params(which="both", length=0, labeltop=True, labelbottom=False)
+    axes.spines[:].set_visible(False)
     axes.grid(which="minor", color="white", linewidth=1)
-    axes.tick_params(which="minor", length=0)
     return figure
 
 
@@ -137,5 +135,4 @@ def _matrix_rows(compared, cost: int) -> list[list]:
     found, error = compared.speed_ups, compared.first
     rows = [[compared.methods[i].name, scene.name, *found.factors[0, cost, error, s, i], found.count[0, cost, error, s]]
             for i in _order(compared, cost) for s, scene in enumerate(compared.scenes) if compared.measured[s, i]]
-    rival = compared.methods[found.rivals[0]].name
-    return [["method", "scene", f"factor over {rival}", "low", "high", "errors reached", "of"], *rows]
+    return [["method", "scene", f"factor over {compared.methods[found.rivals[0]].name}", "low", "high", "errors reached", "of"], *rows]

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from report.results import BETTER, LIGHTS, Metric, ReportError, Results, interval_columns, masks_of, section
+from report.results import BETTER, LIGHTS, Metric, ReportError, Results, entries, interval_columns, masks_of, section, texts
 
 _TEXT = ("variant", "status", "error", "device", "tracer")
 _COST = ("build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes",
@@ -26,23 +26,21 @@ def load(directory: str | Path) -> Results:
     directory = Path(directory)
     warnings: list[str] = []
     variants = _read_variants(directory / "results.csv", warnings)
-    times = "the time of each pass is"
     if not (directory / "passes.csv").is_file():
-        warnings.append(f"passes.csv is missing: {times} not shown.")
-    passes = _read_optional(directory / "passes.csv", ("variant", "pass", "phase"), times, warnings)
+        warnings.append("passes.csv is missing: the time of each pass is not shown.")
+    passes, values, frames = (_read_optional(directory / f"{name}.csv", columns, left_out, warnings) for name, columns, left_out in (
+        ("passes", ("variant", "pass", "phase"), "the time of each pass is"),
+        ("values", ("variant", "pass", "name", "frame", "value"), "what passes reported is"),
+        ("frames", ("variant", "frame"), "errors over frames are")))
     _to_numbers(passes, _PASS_NUMBERS)
-    # Most runs have neither of these
-    values = _read_optional(directory / "values.csv", ("variant", "pass", "name", "frame", "value"), "what passes reported is",
-                            warnings)
     _to_numbers(values, ("frame", "value"))
     values = values[values["value"].notna()]
-    frames = _read_optional(directory / "frames.csv", ("variant", "frame"), "errors over frames are", warnings)
     manifest = _read_manifest(directory / "manifest.json", warnings)
 
     # The manifest names kinds of passes, metrics and sweep keys.
+    graphs = section(manifest, "variants")
     kinds = {(variant, str(entry.get("id", entry.get("pass")))): str(entry.get("pass"))
-             for variant, graph in section(manifest, "variants").items() if isinstance(graph, list)
-             for entry in graph if isinstance(entry, dict)}
+             for variant in graphs for entry in entries(graphs, variant)}
     passes["kind"] = [kinds.get(key, key[1]) for key in zip(passes["variant"], passes["pass"])]
     metrics = _metrics_of(manifest, "metrics")
     if not metrics:
@@ -54,12 +52,13 @@ def load(directory: str | Path) -> Results:
     scores += [end for column in scores for end in interval_columns(column) if end in variants or end in frames]
     _to_numbers(variants, scores)
     _to_numbers(frames, ["frame", *scores])
-    declared = manifest.get("sweep_keys")
-    sweep_keys = [str(key) for key in declared if str(key) in variants.columns] if isinstance(declared, list) else []
-    own = manifest.get("warnings")
-    warnings = [str(text) for text in own] + warnings if isinstance(own, list) else warnings
-    results = Results(directory, variants, passes, values, frames, manifest, metrics, seeds, temporal, sweep_keys, warnings)
-    if (count := len(results.references())) > 1:
+    sweep_keys = [key for key in texts(manifest, "sweep_keys") if key in variants]
+    warnings = texts(manifest, "warnings") + warnings
+    numbers = {variant: str(i) for i, variant in enumerate(variants["variant"], 1)}
+    names = dict(zip(variants["variant"], variants["name"]))
+    results = Results(directory, variants, numbers, names, passes, values, frames, manifest, metrics, seeds, temporal,
+                      sweep_keys, warnings)
+    if (count := len(results.references)) > 1:
         warnings.append(f"The variants have {count} different references, so their scores are not of one "
                         "image. Each is compared with its own one's noise, black and constant image; charts "
                         "don't show these.")
@@ -75,12 +74,10 @@ def _read_table(path: Path) -> pd.DataFrame:
 
 
 def _metrics_of(manifest: dict, key: str) -> tuple[Metric, ...]:
-    listed = manifest.get(key)
-    known = [entry for entry in (listed if isinstance(listed, list) else []) if isinstance(entry, dict)
-             and entry.get("better") in BETTER and isinstance(entry.get("name"), str)]
     return tuple(Metric(entry["name"], str(entry.get("label", entry["name"])), str(entry.get("unit", "")),
                         entry["better"], str(entry.get("meaning", "")), entry.get("interval") is True)
-                 for entry in known)
+                 for entry in entries(manifest, key)
+                 if entry.get("better") in BETTER and isinstance(entry.get("name"), str))
 
 
 def _to_numbers(table: pd.DataFrame, columns: Iterable[str]) -> None:
@@ -126,10 +123,10 @@ def _read_optional(path: Path, columns: Sequence[str], left_out: str, warnings: 
 def _read_manifest(path: Path, warnings: list[str]) -> dict:
     try:
         manifest = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        warnings.append(f"manifest.json cannot be read, so neither scores nor provenance are shown: {error}")
-        return {}
-    if not isinstance(manifest, dict):
-        warnings.append("manifest.json is not a JSON object, so neither scores nor provenance are shown.")
-        return {}
-    return manifest
+        if isinstance(manifest, dict):
+            return manifest
+        error = "it is no JSON object"
+    except (OSError, ValueError) as failure:
+        error = failure
+    warnings.append(f"manifest.json cannot be read, so neither scores nor provenance are shown: {error}")
+    return {}

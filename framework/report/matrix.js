@@ -1,25 +1,19 @@
-"use strict";
-// A matrix of factors: rows by columns, colored on both sides of 1.
+// A matrix of methods by scenes, colored on both sides of 1, on a logarithmic scale.
 
-const mostFold = 16; // at which colors are strongest
-const foldColor = d3.scaleLinear([-1, -0.5, 0, 0.5, 1], ["#b35806", "#f5a859", "#f4f4f4", "#8db7dc", "#1f5a9c"]).interpolate(d3.interpolateLab).clamp(true);
+const styleValue = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+const mostFold = Number(styleValue("most-fold")); // at which colors are strongest
+const foldColor = d3.scaleLinear([-1, -0.5, 0, 0.5, 1], d3.range(5).map((i) => styleValue(`f${i}`))).interpolate(d3.interpolateLab).clamp(true);
 const colorOf = (factor) => foldColor(Math.log(factor) / Math.log(mostFold));
-const isOpen = ([, low, high]) => low <= 1 && (high === null || high >= 1);
 const factorText = (factor) => d3.format(factor === 0 ? "d" : factor < 0.01 || factor >= 1e4 ? ".1e" : ",.2r")(factor);
 const inkOn = (color) => (d3.lab(color).l > 62 ? "#111" : "#fff");
 
-// columns: names; counts: of errors in each. rows: [{name, title, swatch, isSelf, cells: [null | 0 | [value, low, high, reached]], total}]. tell(row, column) is what a
-// cell says in words; onPick(row, column) is called by a click or Enter, onPoint likewise by pointer and arrow keys.
-function drawMatrix(host, { columns, counts, rows, totalName, tell, onPick, onPoint }) {
-    const best = columns.map((_, c) => d3.max(rows, ({ cells }) => (cells[c] && 2 * cells[c][3] >= counts[c] ? cells[c][0] : 0)));
-    const cells = rows.map((row, r) => row.cells.map((cell, c) => {
-        const made = element("td", { role: "gridcell", tabindex: "-1", "aria-label": tell(r, c) });
-        made.className = !cell ? "empty" : isOpen(cell) && !row.isSelf ? "open" : "";
-        made.textContent = cell ? factorText(cell[0]) : cell === 0 ? "–" : "";
-        if (cell && cell[3] < counts[c]) made.append(element("small", {}, `${cell[3]}/${counts[c]}`));
-        made.classList.toggle("best", Boolean(cell) && cell[0] === best[c]);
-        if (cell) made.style.backgroundColor = colorOf(cell[0]);
-        if (cell) made.style.color = inkOn(colorOf(cell[0]));
+// columns: names. rows: [{name, title, swatch, total, cells}]; a cell is {text, css, small, fold}, fold being what its color shows, null
+// for none. tell(row, column) is what a cell says in words; onPick(row, column) is called by a click or Enter, onPoint likewise by pointer
+// and arrow keys.
+function drawMatrix(host, { columns, rows, totalName, tell, onPick, onPoint }) {
+    const cells = rows.map((row, r) => row.cells.map(({ text, css, small, fold = null }, c) => {
+        const made = element("td", { role: "gridcell", tabindex: "-1", "aria-label": tell(r, c), class: css }, text, ...(small ? [element("small", {}, small)] : []));
+        if (fold !== null) Object.assign(made.style, { backgroundColor: colorOf(fold), color: inkOn(colorOf(fold)) });
         made.addEventListener("click", () => onPick(r, c));
         made.addEventListener("pointerenter", () => onPoint(r, c));
         made.addEventListener("focus", () => onPoint(r, c));
@@ -38,19 +32,15 @@ function drawMatrix(host, { columns, counts, rows, totalName, tell, onPick, onPo
         cells[r][c].tabIndex = 0;
         if (focus) cells[r][c].focus();
     }
-    const head = element("tr", {}, element("th"), ...columns.map((name) => element("th", { scope: "col" }, name)), element("th", { scope: "col" }, totalName));
-    const body = rows.map((row, r) => element("tr", {}, element("th", { scope: "row", title: row.title }, row.swatch, row.name), ...cells[r],
-                                              element("td", { class: "total" }, row.total === null ? "–" : factorText(row.total))));
+    const head = element("tr", {}, element("th"), ...[...columns, totalName].map((name) => element("th", { scope: "col" }, element("span", {}, name))));
+    const body = rows.map((row, r) => element("tr", {}, element("th", { scope: "row", title: row.title }, row.swatch ?? "", row.name), ...cells[r],
+                                              element("td", { class: "total" }, row.total)));
     host.replaceChildren(element("thead", {}, head), element("tbody", {}, ...body));
     if (cells.length) reach(0, 0, false);
 }
 
 // The scale of colors, as a bar with its ends and 1.
-function drawScale(host) {
-    const steps = d3.range(-1, 1.01, 0.125);
-    host.replaceChildren(element("span", {}, `1/${mostFold}`), ...steps.map((step) => {
-        const piece = element("i");
-        piece.style.backgroundColor = foldColor(step);
-        return piece;
-    }), element("span", {}, `${mostFold}`));
+function drawScale(host, [low, high] = [`1/${mostFold}`, mostFold]) {
+    const pieces = d3.range(-1, 1.01, 0.125).map((step) => element("i", { style: `background: ${foldColor(step)}` }));
+    host.replaceChildren(element("span", {}, low), ...pieces, element("span", {}, high));
 }

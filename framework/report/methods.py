@@ -1,19 +1,17 @@
-"""Methods of many runs: variants with the same chain of passes are one, and have one name, color and mark on a page."""
+"""Methods: variants with the same chain of passes are one, and have one name, color and mark on a page."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from report.names import common_words
 from report.ranking import is_numeric
 from report.results import Results
-from report.style import CATEGORY_COLORS, MARKERS, Style
 
-TRACED = "path_trace"
-_RIVAL = (TRACED, "filter_irradiance")  # what a user would pick instead of any method of voxels
+TRACED, FILTER = "path_trace", "filter_irradiance"
+_RIVAL = (TRACED, FILTER)  # what a user would pick instead of any method of voxels
 _OTHER_METHODS = ("inject_", "gather_", "sample_")  # what their passes begin with
-_FILTER = "filter_irradiance"
 _EVERYWHERE = {"gbuffer", "voxelize", "composite"}  # passes that tell nothing of a method
 _LAYOUT = "layout"  # the parameter that makes two methods of the same passes
 
@@ -51,9 +49,10 @@ def methods_of(runs: list[Results]) -> tuple[list[Method], list[dict[str, int]]]
     return listed, [{variant: position[method.chain] for variant, method in variants.items()} for variants in found]
 
 
-def styles_of(methods: list[Method]) -> list[Style]:
-    """A color and a mark for each method, of 24 that differ."""
-    return [Style(CATEGORY_COLORS[i % len(CATEGORY_COLORS)], list(MARKERS)[i % len(MARKERS)]) for i in range(len(methods))]
+def families_of(results: Results) -> list[tuple[Method, list[str]]]:
+    """The methods of one run, each with its variants that finished."""
+    methods, [members] = methods_of([results])
+    return [(method, [variant for variant, own in members.items() if own == i]) for i, method in enumerate(methods)]
 
 
 def _method_names(run: Results) -> Iterator[tuple[str, str]]:
@@ -80,20 +79,26 @@ def _give_names(methods: list[Method]) -> None:
         groups: dict[str, list[Method]] = {}
         for method in methods:
             groups.setdefault(method.name, []).append(method)
-        renamed = {method.chain: rename(method, same) for name, same in groups.items() if len(same) > 1 or not name for method in same}
-        for method in methods:
-            method.name = renamed.get(method.chain, method.name)
+        for same in groups.values():
+            if len(same) > 1 or not same[0].name:
+                for method, name in zip(same, [rename(method, same) for method in same]):
+                    method.name = name
 
 
 def _by_gather(method: Method, _: list[Method]) -> str:
     gather = next((kind for kind in reversed(method.chain) if kind.startswith(("gather_", TRACED))), method.chain[-1])
-    return gather.replace("_", " ") + (", filtered" if _FILTER in method.chain else "")
+    return gather.replace("_", " ") + (", filtered" if FILTER in method.chain else "")
 
 
 def _by_difference(method: Method, same: list[Method]) -> str:
     shared = set.intersection(*(set(other.chain) for other in same))
     apart = [kind.replace("_", " ") for kind in method.chain if kind not in shared]
     return f"{method.name} ({', '.join(apart)})" if apart else method.name
+
+
+def common_words(names: list[str]) -> str:
+    """The words that all names begin with."""
+    return " ".join(os.path.commonprefix([name.split() for name in names])).rstrip(",:+ ")
 
 
 def _by_number(method: Method, same: list[Method]) -> str:

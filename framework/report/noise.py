@@ -2,92 +2,79 @@
 
 from __future__ import annotations
 
+import pandas as pd
+
 from report import text
-from report.names import Names
-from report.results import LIGHTS, Results, section
+from report.methods import FILTER
+from report.results import LIGHTS, Results, section, texts
 
 _IMAGES = {"total": "final", "indirect": "indirect"}  # light -> image, as the manifest calls it
-_FILTERS = {"filter_irradiance", "accumulate"}  # passes whose bias may fall with the noise of what they filter
+_FILTERS = {FILTER, "accumulate"}  # passes whose bias may fall with the noise of what they filter
 
 
-def sentences(results: Results, light: str, names: Names) -> list[str]:
+def sentences(results: Results, light: str) -> list[str]:
     """Whether bias or noise is the larger part of each variant's nRMSE, which a second seed tells; without one,
     that it is not told where a variant has a pass that is noisy. @param light "indirect" or "total"."""
-    finished = results.ok.set_index("variant")
-    if not len(finished):
-        return []
-    split = _split(results, light)
-    if not split:
-        scores = finished[[LIGHTS[light] + metric.key for metric in results.metrics]]
-        is_noisy = scores.notna().any(axis=None) and any(
-            parameters_of(results, light, name) for name in finished.index)
+    is_noise = _is_noise(results, light)
+    if is_noise is None:
+        scores = results.ok[[LIGHTS[light] + metric.key for metric in results.metrics]]
+        is_noisy = scores.notna().any(axis=None) and any(_noisy_parameters(results, light, name) for name in results.ok["variant"])
         return ["Bias and noise are not told apart: set measure.second_seed: true."] if is_noisy else []
-    bias, noise = split
-    noisy = [name for name in bias.index if noise[name] > bias[name]]
-    biased = [name for name in bias.index if bias[name] >= noise[name]]
+    noisy, biased = list(is_noise.index[is_noise]), list(is_noise.index[~is_noise])
     said = []
     if noisy:
-        said.append(f"Noise is the larger part of the error of {names.listed(noisy)}{_advice(results, light, noisy)}")
+        said.append(f"Noise is the larger part of the error of {results.listed(noisy)}{_advice(results, light, noisy)}")
     if biased:
-        said.append(_of_bias(results, biased, "the others'" if noisy else "every variant's", names))
+        said.append(_of_bias(results, biased, "the others'" if noisy else "every variant's"))
     return [" ".join(said)]
 
 
 def dominated(results: Results, light: str) -> set[str]:
     """The variants whose own noise is the larger part of their error, where a second seed tells."""
-    split = _split(results, light)
-    return {name for name in split[0].index if split[1][name] > split[0][name]} if split else set()
+    is_noise = _is_noise(results, light)
+    return set() if is_noise is None else set(is_noise.index[is_noise])
 
 
-def _split(results: Results, light: str):
-    """Bias and noise of each finished variant; None without a second seed."""
+def _is_noise(results: Results, light: str) -> pd.Series | None:
+    """Whether noise is the larger part of each variant's error; None without a second seed."""
     split = [results.ok.set_index("variant")[LIGHTS[light] + metric.key] for metric in results.seed_metrics[:2]]
-    return split if len(split) == 2 and split[0].notna().any() else None
+    split = pd.concat(split, axis=1).dropna() if len(split) == 2 else pd.DataFrame()
+    return None if split.empty else split.iloc[:, 1] > split.iloc[:, 0]
 
 
-def _of_bias(results: Results, biased: list[str], whose: str, names: Names) -> str:
+def _of_bias(results: Results, biased: list[str], whose: str) -> str:
     filtered = [name for name in biased if any(entry.get("pass") in _FILTERS for entry in results.graph_of(name))]
-    said = f"Bias is the larger part of {whose} error"
+    said = f"Bias is the larger part of {whose} error: more rays"
     if not filtered:
-        return f"{said}: more rays don't lower it."
+        return f"{said} don't lower it."
     if len(filtered) == len(biased):
-        return f"{said}: more rays lower it only as far as a filter blurs less where there is less noise."
-    return (f"{said}: more rays don't lower it. Part of that of {names.listed(filtered)} is their filter's blur, which gets less "
-            "where there is less noise.")
+        return f"{said} lower it only as far as a filter blurs less where there is less noise."
+    return (f"{said} don't lower it. Part of that of {results.listed(filtered)} is their filter's blur, which gets less where "
+            "there is less noise.")
 
 
-def parameters_of(results: Results, light: str, variant: str) -> list[str]:
+def _noisy_parameters(results: Results, light: str, variant: str) -> list[str]:
     """The parameters whose larger values lower a variant's noise, "<id>.<parameter>", as the manifest lists them."""
-    images = section(section(results.manifest, "noise_parameters"), _IMAGES[light])
-    listed = images.get(variant)
-    return [str(path) for path in listed] if isinstance(listed, list) else []
+    return texts(section(section(results.manifest, "noise_parameters"), _IMAGES[light]), variant)
 
 
 def _advice(results: Results, light: str, noisy: list[str]) -> str:
-    # Grouped by kind, because one pass may have another id in each variant
-    values: dict[str, list] = {}
-    paths: dict[str, list[str]] = {}
+    """The parameters with their values, by kind of pass, because one pass may have another id in each variant."""
+    values: dict[str, set] = {}
+    paths: dict[str, set[str]] = {}
     for variant in noisy:
-        for path in parameters_of(results, light, variant):
+        graph = {entry.get("id", entry.get("pass")): entry for entry in results.graph_of(variant)}
+        for path in _noisy_parameters(results, light, variant):
             owner, _, parameter = path.rpartition(".")
-            entry = _entry(results, variant, owner)
+            entry = graph.get(owner, {})
             key = f"{entry.get('pass', owner)}.{parameter}"
-            values.setdefault(key, []).append(entry.get(parameter))
-            paths.setdefault(key, []).append(path)
+            paths.setdefault(key, set()).add(path)
+            values.setdefault(key, set()).update({entry.get(parameter)} if isinstance(entry.get(parameter), (int, float)) else ())
     if not values:
         return ". ./voxray passes PASS says what makes a pass noisy."
-    named = {key: paths[key][0] if len(set(paths[key])) == 1 else key for key in values}
-    return f"; it falls as these rise: {', '.join(_with_values(named[key], own) for key, own in values.items())}."
-
-
-def _entry(results: Results, variant: str, owner: str) -> dict:
-    """The pass of an id in a variant's graph, {} where the manifest does not tell."""
-    return next((entry for entry in results.graph_of(variant) if entry.get("id", entry.get("pass")) == owner), {})
-
-
-def _with_values(path: str, values: list) -> str:
-    numbers = sorted({value for value in values if isinstance(value, (int, float))})
-    if not numbers:
-        return path
-    ends = [text.plain(number) for number in (numbers[0], numbers[-1])]
-    return f"{path} (now {ends[0]})" if len(numbers) == 1 else f"{path} (now {ends[0]} to {ends[1]})"
+    told = []
+    for key, own in values.items():
+        ends = dict.fromkeys(map(text.plain, (min(own), max(own)))) if own else ()
+        name = paths[key].pop() if len(paths[key]) == 1 else key
+        told.append(f"{name} (now {' to '.join(ends)})" if ends else name)
+    return f"; it falls as these rise: {', '.join(told)}."

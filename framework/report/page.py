@@ -1,27 +1,26 @@
-"""Builds the page: turns results into what template.html.j2 shows."""
+"""Builds the report: turns results into what report.html.j2 shows."""
 
 from __future__ import annotations
 
-import json
 import math
+from dataclasses import replace
 
 import numpy as np
 
-from report import bars, charts, details, images, pages, parts, selection, style, table, text, values
-from report.names import Names, families_of, names_of
-from report.results import IMAGES, Metric, Results, folder_of, number, section
+from report import charts, details, images, pages, parts, selection, style, table, text
+from report.results import Results, folder_of, number, section
 from report.setting import setting_of
 from report.summary import summary, unfinished
 
-_SCRIPTS = ("d3", "tables.js", "chart.js", "state.js", "table.js", "pixels.js", "shade.js", "layer.js", "readout.js", "viewer.js", "pair.js",
-            "report_charts.js", "keys.js")  # in the order in which they run
+_SCRIPTS = ("d3", "toolkit.js", "chart.js", "state.js", "filter.js", "pixels.js", "shade.js", "layer.js", "readout.js", "viewer.js",
+            "report.js")  # in the order in which they run
 _LONGEST_POINT_LABEL = 18  # characters; longer names are drawn as the table's row numbers
 _MAX_NAMED_POINTS = 12
 _MAX_LISTED = 12  # variants that a note names
 _MAX_ROWS = 500  # of the table that are in sight at first: browsers take long to lay out thousands
 # Entries of the manifest
 _SHOWN_ELSEWHERE = ("identity", "config", "metrics", "seed_metrics", "temporal_metrics", "warnings", "baselines", "reference",
-                    "references", "names", "variants", "noise_parameters", "sessions", "inputs")
+                    "references", "names", "variants", "noise_parameters", "light_independent", "sessions", "inputs")
 
 
 def render(results: Results, wanted: list[str] | None = None) -> str:
@@ -29,94 +28,71 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
 
     @param wanted The variants to show with their images, as selected() reads it.
     """
-    warnings = list(results.warnings)
+    results = replace(results, warnings=list(results.warnings))
     lights = results.lights()
-    names = names_of(results)
-    families = families_of(results, names)
-    shown = results.only(selection.selected(results, lights, names, wanted or []))
+    shown = results.only(selection.selected(results, lights, wanted or []))
     with_floats = selection.with_floats(results, lights, list(shown.variants["variant"]))
-    anchors = _anchors(names, shown)
-    styles, legends, curves = style.variant_styles(results, families)
+    # Where links to a variant lead: to its images, or to its row where the page has none
+    in_detail = set(shown.variants["variant"])
+    anchors = {name: f"{'variant' if name in in_detail else 'row'}-{number}" for name, number in results.numbers.items()}
+    styles, legends, joined = style.variant_styles(results)
     colors = style.pass_colors(results)
     columns = table.columns_of(results, lights)
-    labels = _point_labels(results, names)
+    labels = _point_labels(results)
     drawn, not_drawn = charts.error_charts(results, lights)
-    sequence = parts.sequence(results, shown, lights, styles, names, anchors)
-    value_charts = values.value_charts(shown, results)
-    chart_data = {"charts": [*drawn, *(sequence.charts if sequence else ()), *value_charts],
-                  **charts.variants(results, styles, names, labels, anchors, curves)}
-    variants = details.variants(shown, lights, colors, names, anchors, with_floats, warnings)
-    reference = _reference(results, lights, with_floats, warnings)
-    thumbnails = details.thumbnails(shown, lights, variants)
-    manifest = _manifest_of(results, shown)
+    sequence, frame_charts = parts.sequence(results, shown, lights, styles, anchors) or (None, [])
+    value_charts = parts.value_charts(shown, results)
+    chart_data = {"charts": [*drawn, *frame_charts, *value_charts], "joined": joined, **charts.variants(results, styles, labels, anchors)}
+    variants = details.variants(shown, lights, colors, anchors, with_floats)
+    reference = _reference(results, lights, with_floats)
+    split = [metric for metric in results.seed_metrics if any(column.metric == metric for column in columns)]
     return pages.render(
-        "template.html.j2", scripts=_SCRIPTS, title=_title(results), setting=setting_of(results), lights=lights, light=lights[-1],
-        unfinished=unfinished(results),
-        summaries={light: summary(results, light, families, names) for light in lights},
-        columns=columns, metrics=[*results.metrics, *_split(results, columns)],
-        rows=table.variant_rows(results, columns, names, anchors),
-        baselines=table.baseline_rows(results, columns), noises=table.noise_rows(results, columns),
-        charts=chart_data["charts"], chart_data=pages.json_text(chart_data) if chart_data["charts"] else "",
-        error_charts=len(drawn), value_charts=len(value_charts), not_drawn=_listed(not_drawn, names), legends=legends,
-        markers=style.MARKERS, pass_colors=colors, joined=bool(curves), numbered=labels is names.numbers,
-        thumbnails=thumbnails, leads=details.leads(shown, lights, variants, thumbnails),
-        pictured=_pictured(results, lights, variants),
-        regions=parts.regions(results, lights, names, anchors,
-                              lambda folder, name: details.picture(results, folder, name, images.embed, warnings)),
-        sequence=sequence,
-        values=values.value_table(shown, names),
-        bars=bars.bar_groups(shown, colors, names, anchors), reference=reference,
-        viewer=_viewer(results, variants, reference),
-        variants=variants, max_rows=_MAX_ROWS, left_out=len(results.variants) - len(variants),
+        "report.html.j2", scripts=_SCRIPTS, data=chart_data, title=_title(results), setting=setting_of(results), lights=lights,
+        light=lights[-1], unfinished=unfinished(results), summaries={light: summary(results, light) for light in lights},
+        metrics=[*results.metrics, *split], results=table.results_table(results, "Results", columns, anchors), max_rows=_MAX_ROWS,
+        failed=[(results.full(row["variant"]), details.error_of(row)) for row in results.variants.to_dict("records")
+                if row["status"] != "ok"],
+        charts=list(enumerate(drawn)), frame_charts=list(enumerate(frame_charts, len(drawn))),
+        value_charts=list(enumerate(value_charts, len(drawn) + len(frame_charts))), not_drawn=_listed(not_drawn, results),
+        legends=legends, pass_colors=colors and colors | {"outside the passes": "var(--muted)"}, joined=joined, numbered=labels is results.numbers,
+        copies=details.copies(shown, lights, variants), others=_others(variants),
+        regions=parts.regions(results, lights, anchors, lambda folder, name: details.picture(results, results.image(folder, name), images.embed)),
+        sequence=sequence, values=parts.value_table(shown), bars=parts.bar_groups(shown, colors, anchors), reference=reference,
+        viewer=_viewer(results, variants, reference), variants=variants, left_out=len(results.variants) - len(variants),
         error_gradient=images.gradient(images.ERROR_COLORS), provenance=_provenance(results),
-        config=text.yaml_like(results.manifest["config"]) if results.manifest.get("config") else "",
-        manifest=json.dumps(manifest, indent=2, ensure_ascii=False) if manifest else "",
-        warnings=warnings)
-
-
-def _anchors(names: Names, shown: Results) -> dict[str, str]:
-    """Where a variant's links lead: to its images, or to its row where the page has none."""
-    in_detail = set(shown.variants["variant"])
-    return {name: f"{'variant' if name in in_detail else 'row'}-{number}" for name, number in names.numbers.items()}
+        config=text.yaml_of(results.manifest["config"]) if results.manifest.get("config") else "",
+        warnings=results.warnings)
 
 
 def _title(results: Results) -> str:
     return str(section(results.manifest, "config").get("name") or results.directory.resolve().name)
 
 
-def _split(results: Results, columns: list[table.Column]) -> list[Metric]:
-    """The metrics of a second seed, where the table has them."""
-    return [metric for metric in results.seed_metrics if any(column.metric == metric for column in columns)]
-
-
-def _point_labels(results: Results, names: Names) -> dict[str, str]:
+def _point_labels(results: Results) -> dict[str, str]:
     """Names where they can be read at points of a chart, else numbers."""
-    drawn = [names.short[name] for name in results.ok["variant"]]
+    drawn = [results.names[name] for name in results.ok["variant"]]
     is_legible = len(drawn) <= _MAX_NAMED_POINTS and all(len(name) <= _LONGEST_POINT_LABEL for name in drawn)
-    return names.short if is_legible else names.numbers
+    return results.names if is_legible else results.numbers
 
 
-def _listed(not_drawn: set[tuple[str, str]], names: Names) -> list[str]:
-    listed = sorted(f"{names.full(name)} ({what})" for name, what in not_drawn)
+def _listed(not_drawn: set[tuple[str, str]], results: Results) -> list[str]:
+    listed = sorted(f"{results.full(name)} ({what})" for name, what in not_drawn)
     more = len(listed) - _MAX_LISTED
     return listed[:_MAX_LISTED] + ([f"and {more} more"] if more > 0 else [])
 
 
-def _pictured(results: Results, lights, variants: list[details.Variant]) -> list[tuple[str, str]]:
-    """The references and variants whose images the page has: what ids of these begin with, and a name."""
-    references = [folder_of(record) for record in results.references()]
-    found = [(folder, folder) for folder in dict.fromkeys(references)
-             if any(results.image(folder, IMAGES[light][0]) for light in lights)]
-    return found + [(variant.anchor, f"{variant.number} {variant.name}") for variant in variants
-                    if any(view.image for view in variant.views)]
+def _others(variants: list[details.Variant]) -> list[tuple[str, str]]:
+    """The variants that others can be compared with: what ids of their images begin with, and a name."""
+    found = [(variant.anchor, f"{variant.number} {variant.name}") for variant in variants if any(view.image for view in variant.views)]
+    return found if len(found) > 1 else []
 
 
 def _viewer(results: Results, variants: list[details.Variant], reference: dict) -> dict:
     """How the viewers show radiance at first, and their false colors: `low` and `high` are the powers of ten between which
     the luminances of all half-float images lie."""
     pictures = [view.image for variant in variants for view in variant.views] + [view["picture"] for view in reference["views"]]
-    ranges = [picture.luminance for picture in pictures if picture and picture.luminance]
-    low, high = (np.log10([edge[i] for edge in ranges] or [1]) for i in (0, 1))
+    ranges = [picture.luminance for picture in pictures if picture and picture.luminance] or [(1, 1)]
+    low, high = np.log10(ranges).T
     first = math.floor(low.min())
     stops = number(results.manifest.get("exposure_stops"))
     return {"tone": "pbr_neutral" if results.manifest.get("tone") == "pbr_neutral" else "srgb",
@@ -124,32 +100,14 @@ def _viewer(results: Results, variants: list[details.Variant], reference: dict) 
             "luminance": images.gradient(images.LUMINANCE_COLORS, 33), "error": images.gradient(images.SIGNED_ERROR_COLORS, 33)}
 
 
-def _reference(results: Results, lights, with_floats, warnings) -> dict:
-    records = results.references()
+def _reference(results: Results, lights, with_floats) -> dict:
     facts = [(key.replace("_", " "), text.figures(value) if isinstance(value, float) else text.plain(value))
-             for key, value in records[0].items()]
-    folders = list(dict.fromkeys(folder_of(record) for record in records))
-    views = [{"folder": folder, "light": light,
-              "picture": details.photo(results, folder, light, folder in with_floats, warnings)}
-             for folder in folders for light in lights]
+             for key, value in results.references[0].items()]
+    views = [{"folder": folder, "light": light, "picture": details.photo(results, folder, light, folder in with_floats)}
+             for folder in dict.fromkeys(map(folder_of, results.references)) for light in lights]
     if not any(view["picture"] for view in views):
-        warnings.append("The reference's image is missing, so variants cannot be compared with it by eye.")
+        results.warnings.append("The reference's image is missing, so variants cannot be compared with it by eye.")
     return {"facts": facts, "views": views}
-
-
-def _manifest_of(results: Results, shown: Results) -> dict:
-    """The manifest, of what it lists for each variant that of the shown ones."""
-    names = set(shown.variants["variant"])
-    if len(names) == len(results.variants):
-        return results.manifest
-
-    def own(entries: dict) -> dict:
-        return {name: entry for name, entry in entries.items() if name in names}
-
-    noise = {image: own(section(section(results.manifest, "noise_parameters"), image))
-             for image in section(results.manifest, "noise_parameters")}
-    shown_entries = {key: own(section(results.manifest, key)) for key in ("names", "variants")} | {"noise_parameters": noise}
-    return {key: shown_entries.get(key, value) for key, value in results.manifest.items()}
 
 
 def _provenance(results: Results) -> list[tuple[str, str]]:

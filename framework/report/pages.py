@@ -21,15 +21,16 @@ _HERE = Path(__file__).resolve().parent
 _D3 = [Path(folder) / "d3/dist/d3.min.js" for folder in ("/usr/share/nodejs", "/usr/lib/node_modules", "/usr/local/lib/node_modules")]
 
 
-def render(template: str, *, scripts: Sequence[str] = (), folder: Path = _HERE, **values) -> str:
-    """The whole page. Templates extend page.html.j2, which has what all pages begin with.
+def render(template: str, *, scripts: Sequence[str] = (), data=None, folder: Path = _HERE, **values) -> str:
+    """The whole page. Templates extend page.html.j2, which has what all pages have.
 
-    @param scripts files of this folder, in the order in which they run; "d3" is that library. @param folder of the template"""
+    @param scripts files of this folder, in the order in which they run; "d3" is that library. @param data what they show
+    @param folder of the template"""
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader([folder, _HERE]), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
     environment.filters["breakable"] = text.breakable
     return environment.get_template(template).render(
-        style_css=_own("style.css"), scripts="\n".join(map(_own, scripts)), **values)
+        style_css=_own("style.css"), scripts="\n".join(map(_own, scripts)), data=json_text(data), **values)
 
 
 def _own(name: str) -> str:

@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 
 from report.methods import Method
-from report.ranking import all_beaten, pareto_front
-from report.results import LIGHTS, Metric, Results, interval_ends, section
+from report.ranking import all_beaten, log_cost_at, pareto_front
+from report.results import LIGHTS, Metric, Results, interval_ends, section, texts
 from report.setting import scenes_of as names_of_scenes
 
-# Build passes whose results do not depend on light; all others run again where it is new
-_LIGHT_INDEPENDENT = {"voxelize", "voxelize_clipmap", "voxelize_octree", "voxelize_packed", "place_surfels", "link_surfels",
-                      "cluster_voxels", "find_patches", "cluster_visibility", "build_hybrid_leaves"}
 COSTS = {"frame": "time of one frame, ms", "frame + light": "time of one frame with its light injected, ms",
          "build + frame": "time of build + one frame, ms", "memory": "device memory, bytes", "rays": "rays traced",
          "voxel steps": "voxels that rays traversed"}
 CHARTED = tuple(COSTS)[:4]
+_UNLIT = "light_independent"  # of the manifest: kinds of passes whose results do not depend on light
 _ERRORS = ("nrmse", "relmse", "flip", "ssim")
-_LEAST = 1e-12  # what stands for an error of 0 on a logarithmic axis
 
 
 @dataclass(frozen=True)
@@ -42,10 +39,12 @@ class Error:
         return np.array(ends, dtype=float)
 
 
-def errors_of(run: Results, wanted: str) -> list[Error]:
-    """The errors that methods are compared by, `wanted` among them where the run has it."""
-    return [Error(metric) for metric in run.metrics
-            if metric.key in _ERRORS or metric.key == wanted and metric.better == "low"]
+def errors_of(runs: list[Results], wanted: str) -> list[Error]:
+    """The errors that methods are compared by, `wanted` among them where any run has it."""
+    metrics: dict[str, Metric] = {}
+    for metric in (metric for run in runs for metric in run.metrics):
+        metrics.setdefault(metric.key, metric)
+    return [Error(metric) for key, metric in metrics.items() if key in _ERRORS or key == wanted and metric.better == "low"]
 
 
 @dataclass
@@ -87,34 +86,34 @@ class Scene:
 def scenes_of(runs: list[Results], members: list[dict[str, int]], errors: list[Error], light: str) -> list[Scene]:
     """The variants of all runs that have an error, by what they are compared with (references of one hash are one image) and
     by machine, for times of two machines don't compare. `members`: see methods_of()."""
-    groups: dict[tuple[str, str], list[Scene]] = {}
-    named: dict[tuple[str, str], tuple[str, str]] = {}
-    for run, of in zip(runs, members):
-        table = run.ok
-        costs = _costs(run, table)
-        values, is_worse = np.full((len(errors), 3, len(table)), np.nan), np.zeros((len(errors), len(table)), dtype=bool)
-        for i, error in enumerate(errors):
-            if any(metric.key == error.metric.key for metric in run.metrics):
-                values[i] = error.of(table, light)
-                is_worse[i] = table["variant"].isin(list(all_beaten(run, error.metric, LIGHTS[light] + error.metric.key)))
-        is_known = (costs > 0) & np.isfinite(costs)
-        usable = is_known[:, None] & ((values[:, 0] > 0) & np.isfinite(values[:, 0]) & ~is_worse)[None]
-        scene_names = dict(zip(run.variants["variant"], names_of_scenes(run)))
-        machine = str(run.manifest.get("device", ""))
-        rows: dict[tuple[str, str], list[int]] = {}
-        for row, variant in enumerate(table["variant"]):
-            if np.isfinite(values[:, 0, row]).any():
-                key = (str((run.reference_of(variant) or {}).get("hash")), machine)
-                rows.setdefault(key, []).append(row)
-                named.setdefault(key, (scene_names[variant], _run_name(run)))
-        for key, indices in rows.items():
-            variants, labels = (table[column].iloc[indices].tolist() for column in ("variant", "name"))
-            groups.setdefault(key, []).append(Scene(
-                named[key][0], machine, np.array([of[variant] for variant in variants]), labels, costs[:, indices],
-                values[:, :, indices], usable[:, :, indices], [(run, variant) for variant in variants]))
-    scenes = [_joined(parts) for parts in groups.values()]
-    names = _unique_names([(*named[key], key[1]) for key in groups])
-    return [replace(scene, name=name) for scene, name in zip(scenes, names)]
+    parts = [_variants(run, of, errors, light) for run, of in zip(runs, members)]
+    costs, values, usable = (np.concatenate([arrays[i] for _, *arrays in parts], axis=-1) for i in range(3))
+    table = pd.concat([rows for rows, *_ in parts], ignore_index=True)
+    table["run"] = np.repeat(range(len(runs)), [len(rows) for rows, *_ in parts])
+    groups = table[np.isfinite(values[:, 0]).any(axis=0)].groupby(["reference", "machine"], sort=False)
+    first = groups[["scene", "of", "machine"]].first()
+    return [Scene(name, rows["machine"].iloc[0], rows["method"].to_numpy(), rows["name"].tolist(), costs[:, rows.index],
+                  values[:, :, rows.index], usable[:, :, rows.index], [(runs[i], variant) for i, variant in zip(rows["run"], rows["variant"])])
+            for name, (_, rows) in zip(_unique_names(first.to_numpy().tolist()), groups)]
+
+
+def _variants(run: Results, members: dict[str, int], errors: list[Error], light: str):
+    """The variants of a run as rows, and their costs, errors and which of these are usable, as Scene has them."""
+    table = run.ok
+    costs = _costs(run, table)
+    values, is_worse = np.full((len(errors), 3, len(table)), np.nan), np.zeros((len(errors), len(table)), dtype=bool)
+    for i, error in enumerate(errors):
+        if error.metric.key in [metric.key for metric in run.metrics]:
+            values[i] = error.of(table, light)
+            is_worse[i] = table["variant"].isin(list(all_beaten(run, error.metric, LIGHTS[light] + error.metric.key)))
+    is_known = (costs > 0) & np.isfinite(costs)
+    usable = is_known[:, None] & ((values[:, 0] > 0) & np.isfinite(values[:, 0]) & ~is_worse)[None]
+    rows = table[["variant", "name"]].assign(
+        method=table["variant"].map(members), machine=str(run.manifest.get("device", "")),
+        scene=table["variant"].map(dict(zip(run.variants["variant"], names_of_scenes(run)))),
+        of=str(section(run.manifest, "config").get("name") or run.directory.name),
+        reference=[str((run.reference_of(variant) or {}).get("hash")) for variant in table["variant"]])
+    return rows, costs, values, usable
 
 
 @dataclass(frozen=True)
@@ -142,6 +141,19 @@ class SpeedUps:
         return np.where(found > 0, found, np.nan)
 
 
+    def best(self, methods: list[Method], cost: int, errors: list[int], scene: int) -> tuple[str, np.ndarray] | None:
+        """The method whose speed-up over the first rival, the lowest one by several errors, is largest, and that cell. Methods
+        that reach less than half of the rival's errors do not count, and neither do those that trace paths."""
+        cells = self.factors[0, cost, errors, scene]
+        is_reached = 2 * cells[..., 3] >= np.maximum(self.count[0, cost, errors, scene], 1)[:, None]
+        value = np.where(is_reached, cells[..., 0], np.nan).min(axis=0)
+        value[[method.traces_paths for method in methods]] = np.nan
+        if np.isnan(value).all():
+            return None
+        best = int(np.nanargmax(value))
+        return methods[best].name, cells[int(cells[:, best, 0].argmin()), best]
+
+
 def speed_ups(scenes: list[Scene], methods: list[Method], rivals: list[int], error_count: int) -> SpeedUps:
     factors = np.full((len(rivals), len(CHARTED), error_count, len(scenes), len(methods), 4), np.nan)
     factors[..., 3] = 0
@@ -157,13 +169,13 @@ def speed_ups(scenes: list[Scene], methods: list[Method], rivals: list[int], err
             targets = [fronts_by_time[rival] for _, rival in compared]
             begins = np.cumsum([0, *map(len, targets)])
             value, low, high = scene.errors[error][:, np.concatenate(targets)]
-            spent = np.concatenate([_log_cost_at(scene.errors[error, 0, target], *scene.curve(fronts[rival], cost, error))
+            spent = np.concatenate([log_cost_at(scene.errors[error, 0, target], *scene.curve(fronts[rival], cost, error))
                                     for (_, rival), target in zip(compared, targets)])
             present, logs = list(fronts), []
             # At an end: the one's least error against the other's largest
             for errors, end in ((value, 0), (low, 2), (high, 1)):
                 limits = [scene.front(scene.methods == method, cost, error, end) for method in present]
-                logs.append(spent - np.array([_log_cost_at(errors, *scene.curve(front, cost, error, end)) for front in limits]))
+                logs.append(spent - np.array([log_cost_at(errors, *scene.curve(front, cost, error, end)) for front in limits]))
             is_reached = ~np.isnan(logs[0])
             # An end that is not reached leaves it open whether the method gets there at all
             logs[1], logs[2] = np.where(np.isnan(logs[1]), -np.inf, logs[1]), np.where(np.isnan(logs[2]), np.inf, logs[2])
@@ -197,7 +209,7 @@ def best_point(scene: Scene, rival: int, rejected: set[int], cost: int, error: i
     if not len(front) or not len(found):
         return None
     costs, errors = scene.curve(front, cost, error)
-    spent = np.exp(_log_cost_at(scene.errors[error, 0, found], costs, errors))
+    spent = np.exp(log_cost_at(scene.errors[error, 0, found], costs, errors))
     found, spent = (values[np.isnan(spent) | (scene.costs[cost, found] <= spent)] for values in (found, spent))
     if not len(found):
         return None
@@ -220,15 +232,6 @@ def beaten_methods(scenes: list[Scene], methods: list[Method], cost: int, error:
     return [method for method, those in enumerate(present) if those and all(is_beaten(scene, method) for scene in those)]
 
 
-def _log_cost_at(errors: np.ndarray, costs: np.ndarray, reached: np.ndarray) -> np.ndarray:
-    """Logarithm of the cost of each error, interpolated on a front, logarithm over logarithm; that of the cheapest variant
-    where it has less error already, NaN where none has as little."""
-    reached = np.maximum(reached, _LEAST)
-    with np.errstate(all="ignore"):
-        found = np.interp(-np.log(np.maximum(errors, 0)), -np.log(reached), np.log(costs))
-    return np.where(errors < reached[-1], np.nan, found)
-
-
 def _nanmedian(values: np.ndarray, axis: int) -> np.ndarray:
     """np.nanmedian() that takes −∞ and says nothing of slices without a number."""
     ordered, count = np.sort(values, axis), (~np.isnan(values)).sum(axis, keepdims=True)
@@ -240,30 +243,22 @@ def _costs(run: Results, table: pd.DataFrame) -> np.ndarray:
     passes = run.passes
     keys = pd.Series(list(zip(passes["variant"], passes["pass"])), index=passes.index, dtype=object)
     is_again = keys.isin(set(keys[passes["phase"] == "frame"]))
-    is_lit = (passes["phase"] == "build") & ~passes["kind"].isin(_LIGHT_INDEPENDENT) & ~is_again
+    # Build passes that run again where light is new; runs of before the manifest told these have no such cost
+    is_lit = (passes["phase"] == "build") & ~passes["kind"].isin(texts(run.manifest, _UNLIT)) & ~is_again
+    of_light = 1 if _UNLIT in run.manifest else math.nan
 
     def total(rows: pd.DataFrame, column: str) -> pd.Series:
         sums = rows.groupby("variant")[column].sum() if column in rows and len(rows) else pd.Series(dtype=float)
         return table["variant"].map(sums).fillna(0.0)
     frame = table["frame_ms_median"]
-    return np.array([frame, frame + total(passes[is_lit], "ms_median"), frame + table["build_ms"], table["memory_bytes"],
+    return np.array([frame, frame + of_light * total(passes[is_lit], "ms_median"), frame + table["build_ms"], table["memory_bytes"],
                      table["rays"], total(passes, "voxel_steps")], dtype=float)
 
 
-def _joined(parts: list[Scene]) -> Scene:
-    arrays = {key: np.concatenate([getattr(part, key) for part in parts], axis=-1) for key in ("methods", "costs", "errors", "usable")}
-    return replace(parts[0], labels=[label for part in parts for label in part.labels],
-                   pictures=[picture for part in parts for picture in part.pictures], **arrays)
-
-
-def _unique_names(keys: list[tuple[str, str, str]]) -> list[str]:
+def _unique_names(keys: list[list[str]]) -> list[str]:
     """Of (scene, run, machine). The same scene may have several references: other cameras, lights, sizes."""
     names = [scene for scene, *_ in keys]
     for i in (2, 1):
         names = [f"{name} ({key[i]})" if len({other[i] for other, same in zip(keys, names) if same == name}) > 1 else name
                  for key, name in zip(keys, names)]
     return [f"{name} {names[:i + 1].count(name)}" if names.count(name) > 1 else name for i, name in enumerate(names)]
-
-
-def _run_name(run: Results) -> str:
-    return str(section(run.manifest, "config").get("name") or run.directory.name)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -10,13 +9,13 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from report import figures, images, methods, pages, pareto, text
+from report import figures, images, methods, pages, pareto, style, text
 from report.load import load
 from report.pareto import CHARTED, COSTS, Error, Scene
 from report.results import IMAGES, ReportError, Results
-from report.style import MARKERS
+from report.table import Cell, Table
 
-_SCRIPTS = ("d3", "tables.js", "matrix.js", "chart.js", "pareto.js")
+_SCRIPTS = ("d3", "toolkit.js", "state.js", "matrix.js", "chart.js", "pareto.js")
 _WORST_OF = ("nrmse", "relmse")  # the error that shows least gain counts
 _NEEDS = {"frame": "Still light (time of a frame)", "frame + light": "Light that changes (frame and its light)",
           "build + frame": "Surfaces that move (build and frame)"}
@@ -53,7 +52,7 @@ class Comparison:
 
     @staticmethod
     def of(runs: list[Results], error: str, light: str) -> Comparison:
-        errors = pareto.errors_of(runs[0], error)
+        errors = pareto.errors_of(runs, error)
         keys = [found.metric.key for found in errors]
         if error not in keys:
             raise ReportError(f"--error: '{error}' is none of {', '.join(keys)}")
@@ -83,9 +82,12 @@ class Comparison:
 def render(compared: Comparison, with_images: bool = True) -> str:
     """The whole page, self-contained."""
     pictures = _pictures(compared) if with_images else [{} for _ in compared.scenes]
-    return pages.render("pareto.html.j2", scripts=_SCRIPTS, data=pages.json_text(_data(compared)), pictures=pages.json_text(pictures),
-                        sentences=sentences(compared), has_rival=compared.rival is not None, notes=_notes(compared), light=compared.light,
-                        runs=[str(run.directory) for run in compared.runs])
+    return pages.render(
+        "pareto.html.j2", scripts=_SCRIPTS, data=_data(compared), pictures=pages.json_text(pictures),
+        costs=list(enumerate(_SHORT.values())), errors=[(i, error.label) for i, error in enumerate(compared.errors)],
+        first=compared.first, rivals=[(i, compared.methods[rival].name) for i, rival in enumerate(compared.speed_ups.rivals)],
+        sentences=sentences(compared), has_rival=compared.rival is not None, notes=_notes(compared), light=compared.light,
+        tables=[_method_table(compared), *_rival_tables(compared), *_filled_tables(compared)], runs=[str(run.directory) for run in compared.runs])
 
 
 def csv_lines(compared: Comparison):
@@ -109,7 +111,7 @@ def sentences(compared: Comparison) -> list[str]:
     for cost, need in _NEEDS.items():
         wins: dict[str, list[str]] = {}  # by method: scenes
         for s, scene in enumerate(compared.scenes):
-            found = _winner(compared, s, CHARTED.index(cost), worst)
+            found = compared.speed_ups.best(compared.methods, CHARTED.index(cost), worst, s)
             if found and found[1][0] >= 1:
                 method, (value, low, high, _) = found
                 wins.setdefault(method, []).append(f"{scene.name} ({'' if low > 1 else '≈ '}{text.figures(value, 2)}×)")
@@ -123,19 +125,6 @@ def sentences(compared: Comparison) -> list[str]:
         listed = [f"by {cost} in {'every scene' if len(names) == every > 1 else ', '.join(names)}" for cost, names in losses.items()]
         lines.append(f"Nothing beats filtered path tracing: {'; '.join(listed)}.")
     return lines
-
-
-def _winner(compared: Comparison, scene: int, cost: int, worst: list[int]) -> tuple[str, np.ndarray] | None:
-    """The method whose lower speed-up by several errors is largest, and that cell of the matrix. Methods that reach less than
-    half of the rival's errors do not count, and neither do those that trace paths."""
-    cells = compared.speed_ups.factors[0, cost, worst, scene]
-    is_reached = 2 * cells[..., 3] >= np.maximum(compared.speed_ups.count[0, cost, worst, scene], 1)[:, None]
-    value = np.where(is_reached, cells[..., 0], np.nan).min(axis=0)
-    value[[method.traces_paths for method in compared.methods]] = np.nan
-    if np.isnan(value).all():
-        return None
-    best = int(np.nanargmax(value))
-    return compared.methods[best].name, cells[int(cells[:, best, 0].argmin()), best]
 
 
 def _most_on_fronts(compared: Comparison) -> list[str]:
@@ -166,22 +155,20 @@ def _notes(compared: Comparison) -> list[str]:
 
 def _data(compared: Comparison) -> dict:
     """What the page's script shows."""
-    styles = methods.styles_of(compared.methods)
     found = compared.speed_ups
     counts = found.count[..., None] * np.broadcast_to(compared.measured, (*found.count.shape[:3], *compared.measured.shape))
     return {
-        "light": compared.light, "error": compared.first, "rivals": found.rivals, "count": found.count,
+        "light": compared.light, "rivals": found.rivals, "count": found.count,
         "costs": [{"key": cost, "name": _SHORT[cost], "label": COSTS[cost].replace("bytes", "MiB")} for cost in CHARTED],
         "errors": [{"key": error.metric.key, "name": error.label} for error in compared.errors],
-        "methods": [{"name": method.name, "chain": " + ".join(method.chain), "color": style.color, "mark": MARKERS[style.marker]}
-                    for method, style in zip(compared.methods, styles)],
+        "methods": [{"name": method.name, "chain": " + ".join(method.chain), "color": own.color, "mark": own.mark}
+                    for method, own in zip(compared.methods, style.styles(len(compared.methods)))],
         # null: not measured, 0: no error is reached
         "factors": _nested(found.factors, counts), "medians": found.medians(compared.measured),
         "scenes": [{"name": scene.name, "method": scene.methods, "label": scene.labels, "cost": scene.costs[:len(CHARTED)] / _UNITS, "error": scene.errors,
                     "fronts": [[scene.fronts(cost, error) for error in range(len(compared.errors))] for cost in range(len(CHARTED))],
                     "front": [[scene.front_of_all(cost, error) for error in range(len(compared.errors))] for cost in range(len(CHARTED))]}
-                   for scene in compared.scenes],
-        "tables": [_method_table(compared), *_rival_tables(compared)]}
+                   for scene in compared.scenes]}
 
 
 def _nested(factors: np.ndarray, counts: np.ndarray) -> list | None | int:
@@ -190,18 +177,33 @@ def _nested(factors: np.ndarray, counts: np.ndarray) -> list | None | int:
     return [_nested(*parts) for parts in zip(factors, counts)]
 
 
-def _method_table(compared: Comparison) -> dict:
+def _number(value: float) -> Cell:
+    return Cell(text.figures(value), sort=f"{value:.4g}")
+
+
+def _method_table(compared: Comparison) -> Table:
     fronts = _on_fronts(compared)
     beaten = {cost: set(pareto.beaten_methods(compared.scenes, compared.methods, CHARTED.index(cost), compared.first)) for cost in _NEEDS}
     variants = np.bincount(np.concatenate([scene.methods for scene in compared.scenes]), minlength=len(compared.methods))
-    return {"title": "Methods and their passes", "note": "Beaten: in every scene each variant is worse than a black or a constant image, or "
-            "another method costs no more and its error's interval lies below.",
-            "head": ["method", "passes", "variants", "scenes with it on the front", "beaten everywhere by"],
-            "rows": [[method.name, " + ".join(method.chain), int(variants[i]), fronts.get(i, 0),
-                      ", ".join(_SHORT[cost] for cost, those in beaten.items() if i in those)] for i, method in enumerate(compared.methods)]}
+    return Table("Methods and their passes",
+                 ["method", "passes", "variants", "scenes with it on the front", "beaten everywhere by"],
+                 [[method.name, " + ".join(method.chain), str(variants[i]), str(fronts.get(i, 0)),
+                   ", ".join(_SHORT[cost] for cost, those in beaten.items() if i in those)]
+                  for i, method in enumerate(compared.methods)],
+                 "Beaten: in every scene each variant is worse than a black or a constant image, or another method costs no "
+                 "more and its error's interval lies below.", (0, 1, 4))
 
 
-def _rival_tables(compared: Comparison) -> list[dict]:
+def _filled_tables(compared: Comparison) -> list[Table]:
+    """Tables whose rows the page's script writes: they follow its switches, or are long."""
+    errors = [f"{error.label}{end}" for error in compared.errors for end in ("", " low", " high")]
+    return [Table("Speed-ups of the matrix", ["method", "scene", "factor", "low", "high", "errors reached", "of"], words=(0, 1),
+                  note="As the switches say; low and high: the ends by the intervals of both errors."),
+            Table("All variants", ["scene", "method", "variant", *_SHORT.values(), *errors], words=(0, 1, 2),
+                  note="The CSV next to the page has them with more digits, rays and voxel steps.")]
+
+
+def _rival_tables(compared: Comparison) -> list[Table]:
     rival, error = compared.rival, compared.first
     if rival is None:
         return []
@@ -210,19 +212,22 @@ def _rival_tables(compared: Comparison) -> list[dict]:
     for scene in compared.scenes:
         if found := pareto.best_point(scene, rival, traced, 0, error):
             i, spent, bound, ties = found
-            best.append([scene.name, scene.labels[i], len(ties), scene.costs[0, i], "never" if bound == ">" else spent, *scene.errors[:, 0, i]])
+            best.append([scene.name, scene.labels[i], str(len(ties)), _number(scene.costs[0, i]),
+                         Cell("never", sort="inf") if bound == ">" else _number(spent), *map(_number, scene.errors[:, 0, i])])
         for m in np.unique(scene.methods):
             ratios = pareto.errors_at_equal_cost(scene, rival, m, 0, error)
             if ratios and m != rival:
                 values = [ratio[0] for ratio in ratios]
                 is_open = any(low <= 1 <= high for _, low, high in ratios)
-                equal.append([compared.methods[m].name, scene.name, min(values), max(values), len(values), "≈" if is_open else ""])
-    return [{"title": "Most accurate variant that is no slower than filtered path tracing at its error",
-             "note": "ties: other variants whose intervals overlap this one's. never: path tracing has no variant of as little error.",
-             "head": ["scene", "variant", "ties", "frame, ms", "path tracing, ms", *(error.label for error in compared.errors)], "rows": best},
-            {"title": f"{label} at equal time of a frame", "note": "The least error in no more time than filtered path tracing takes, over that "
-             "one's; below 1 the method is more accurate. ≈: the intervals leave that open.",
-             "head": ["method", "scene", "least", "greatest", "of times", "open"], "rows": equal}]
+                equal.append([compared.methods[m].name, scene.name, _number(min(values)), _number(max(values)),
+                              str(len(values)), "≈" if is_open else ""])
+    return [Table("Most accurate variant that is no slower than filtered path tracing at its error",
+                  ["scene", "variant", "ties", "frame, ms", "path tracing, ms", *(error.label for error in compared.errors)], best,
+                  "ties: other variants whose intervals overlap this one's. never: path tracing has no variant of as little error.",
+                  (0, 1)),
+            Table(f"{label} at equal time of a frame", ["method", "scene", "least", "greatest", "of times", "open"], equal,
+                  "The least error in no more time than filtered path tracing takes, over that one's; below 1 the method is more "
+                  "accurate. ≈: the intervals leave that open.", (0, 1))]
 
 
 def _pictures(compared: Comparison) -> list[dict]:
@@ -248,6 +253,4 @@ def _jpeg(run: Results, folder: str, name: str, is_map: bool = False) -> str:
     image.thumbnail((_WIDTH, 10 * _WIDTH))
     if is_map:
         image = Image.fromarray(images.colors(images.ERROR_COLORS, np.asarray(image, dtype=int)))
-    out = io.BytesIO()
-    image.save(out, "JPEG", quality=_JPEG_QUALITY)
-    return pages.data_uri(out.getvalue(), "image/jpeg")
+    return images.embed_image(image, "JPEG", quality=_JPEG_QUALITY).uri

@@ -11,6 +11,8 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from report import text
+
 
 class ReportError(Exception):
     """What keeps a report from being made: one line, what is wrong and what to do."""
@@ -48,6 +50,7 @@ class Results:
 
     variants: one row for each variant, columns as in results.csv; costs and scores are floats (NaN where absent),
         everything else text as written. Ordered as the run wrote them.
+    numbers, names: the number of each variant in the table, and what it is called.
     passes: one row for each variant, pass and phase, as in passes.csv, and the `kind` of the pass that has this id in
         the variant's graph; may be empty.
     frames: one row for each variant and compared frame, as in frames.csv, scores in columns; may be empty.
@@ -63,6 +66,8 @@ class Results:
 
     directory: Path
     variants: pd.DataFrame
+    numbers: dict[str, str]
+    names: dict[str, str]
     passes: pd.DataFrame
     values: pd.DataFrame
     frames: pd.DataFrame
@@ -73,7 +78,7 @@ class Results:
     sweep_keys: list[str]
     warnings: list[str] = field(default_factory=list)
 
-    @property
+    @functools.cached_property
     def ok(self) -> pd.DataFrame:
         """The variants that finished."""
         return self.variants[self.variants["status"] == "ok"]
@@ -85,6 +90,23 @@ class Results:
         return replace(self, **{name: table[table["variant"].isin(chosen)] for name, table in tables.items()})
 
     @property
+    def charted(self) -> tuple[Metric, ...]:
+        """The metrics that have a chart."""
+        return self.metrics[:3]
+
+    def full(self, variant: str) -> str:
+        """Number and name, as sentences call it."""
+        return f"{self.numbers[variant]} ({self.names[variant]})"
+
+    def listed(self, variants: list[str], limit: int = 6) -> str:
+        """Several variants by their numbers, up to three by their names too."""
+        if len(variants) <= 3:
+            return text.joined(map(self.full, variants))
+        numbers = [self.numbers[name] for name in variants]
+        more = len(numbers) - limit
+        return f"{', '.join(numbers[:limit])} and {more} more" if more > 0 else text.joined(numbers)
+
+    @property
     def missing(self) -> list[str]:
         """The variants that the manifest plans and that have no row, in its order."""
         known = set(self.variants["variant"])
@@ -93,11 +115,9 @@ class Results:
     def sessions(self) -> list[tuple[str, list[str]]]:
         """When each process that measured finished variants began (UTC, "" where that is unknown), and these variants. More
         than one where the run was resumed."""
-        listed = self.manifest.get("sessions")
         finished = set(self.ok["variant"])
-        found = [(str(entry.get("started", "")), [name for name in entry["variants"] if name in finished])
-                 for entry in (listed if isinstance(listed, list) else [])
-                 if isinstance(entry, dict) and isinstance(entry.get("variants"), list)]
+        found = [(str(entry.get("started", "")), [name for name in texts(entry, "variants") if name in finished])
+                 for entry in entries(self.manifest, "sessions")]
         return [(began, names) for began, names in found if names]
 
     def lights(self) -> list[str]:
@@ -109,28 +129,18 @@ class Results:
 
         return ["total"] + (["indirect"] if present("indirect") else [])
 
+    @functools.cached_property
     def references(self) -> list[dict]:
         """The records of the run's references; more than one where the sweep varies what is lit or seen."""
-        return self._references
-
-    @functools.cached_property
-    def _references(self) -> list[dict]:
-        listed = self.manifest.get("references")
-        records = [r for r in listed if isinstance(r, dict)] if isinstance(listed, list) else []
-        return records or [section(self.manifest, "reference")]
+        return entries(self.manifest, "references") or [section(self.manifest, "reference")]
 
     def reference_of(self, variant: str) -> dict | None:
         """The record of a variant's reference, None where several are and none names the variant."""
-        records = self.references()
-        return records[0] if len(records) == 1 else self._references_by_variant.get(variant)
+        return self.references[0] if len(self.references) == 1 else self._references_by_variant.get(variant)
 
     @functools.cached_property
     def _references_by_variant(self) -> dict[str, dict]:
-        found = {}
-        for record in self.references():
-            for variant in record["variants"] if isinstance(record.get("variants"), list) else ():
-                found.setdefault(str(variant), record)
-        return found
+        return {variant: record for record in reversed(self.references) for variant in texts(record, "variants")}
 
     def reference_folder(self, variant: str) -> str | None:
         """The folder below images/ of a variant's reference, None where it is unknown."""
@@ -139,8 +149,7 @@ class Results:
 
     def graph_of(self, variant: str) -> list[dict]:
         """The passes of a variant with their parameters, as the manifest lists them."""
-        graph = section(self.manifest, "variants").get(variant)
-        return [entry for entry in graph if isinstance(entry, dict)] if isinstance(graph, list) else []
+        return entries(section(self.manifest, "variants"), variant)
 
     def noise(self, column: str, reference: dict | None) -> float:
         """About what a perfect image scores against a noisy reference, NaN where the score is freed of noise."""
@@ -153,19 +162,14 @@ class Results:
     def baseline_scores(self, name: str, reference: dict | None) -> dict:
         """All scores of the "black" or the "constant" image against a reference."""
         own = section(reference or {}, "baselines")
-        if not own and len(self.references()) == 1:
+        if not own and len(self.references) == 1:
             own = section(self.manifest, "baselines")
         return section(own, name)
-
-    def masks(self) -> dict[str, dict]:
-        """The conditions of each mask by its name. Scores of its pixels have columns that end with @ and the name."""
-        return masks_of(self.manifest)
 
     @property
     def only_reference(self) -> dict | None:
         """The reference that all variants share, None where they have several."""
-        records = self.references()
-        return records[0] if len(records) == 1 else None
+        return self.references[0] if len(self.references) == 1 else None
 
     def image(self, folder: str, name: str) -> Path | None:
         """images/<folder>/<name>, None where there is no such file inside the run's images folder."""
@@ -217,6 +221,19 @@ def section(parent: dict, key: str) -> dict:
     return value if isinstance(value, dict) else {}
 
 
+def entries(parent: dict, key: str) -> list[dict]:
+    """The objects in parent[key] where that is a list, [] otherwise."""
+    value = parent.get(key)
+    return [entry for entry in value if isinstance(entry, dict)] if isinstance(value, list) else []
+
+
+def texts(parent: dict, key: str) -> list[str]:
+    """The entries of parent[key] as text where that is a list, [] otherwise."""
+    value = parent.get(key)
+    return list(map(str, value)) if isinstance(value, list) else []
+
+
 def masks_of(manifest: dict) -> dict[str, dict]:
+    """The conditions of each mask by its name. Scores of its pixels have columns that end with @ and the name."""
     masks = section(section(section(manifest, "config"), "measure"), "masks")
     return {name: conditions for name, conditions in masks.items() if isinstance(conditions, dict)}

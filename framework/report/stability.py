@@ -12,7 +12,8 @@ import numpy as np
 
 from report import exr_pixels
 from report.load import load
-from report.results import IMAGES, ReportError, Results, number
+from report.results import IMAGES, INTERVAL, ReportError, Results, number
+from report.rows import read_rows
 
 _LIMIT_COLUMNS = ("profile", "scene", "measure", "methods", "limit", "scale", "why")
 _REASON_COLUMNS = ("scene", "measure", "methods", "reason")
@@ -41,7 +42,8 @@ class Row:
 @dataclass(frozen=True)
 class Cell:
     """A method in a row. value: relative, NaN where the method did not run. picture, truth: PNGs, of what it shows and
-    of what it should show, None where there is none. remedies: the value with finer settings, by their name."""
+    of what it should show, None where there is none. remedies: the value with finer settings, by their name.
+    is_undecided: whether its interval of 95 % holds the limit."""
 
     row: Row
     method: str
@@ -50,6 +52,7 @@ class Cell:
     picture: Path | None
     truth: Path | None
     remedies: tuple[tuple[str, float], ...] = ()
+    is_undecided: bool = False
 
     @property
     def limit(self) -> float:
@@ -60,24 +63,16 @@ class Cell:
         return not self.value <= self.limit
 
     @property
+    def over(self) -> float:
+        """The value over its limit; infinite where the method did not run."""
+        if math.isnan(self.value) or self.limit == 0:
+            return math.inf if self.fails else 0.0
+        return self.value / self.limit
+
+    @property
     def helping(self) -> list[tuple[str, float]]:
         """Remedies that lower the value by a tenth or more, the best first."""
         return sorted((entry for entry in self.remedies if entry[1] <= 0.9 * self.value), key=lambda entry: entry[1])
-
-
-@dataclass(frozen=True)
-class Variant:
-    """A finished variant: its row of results.csv, its image, and that of the profile's first scene by the same method."""
-
-    scores: dict
-    image: Path | None
-    base: Path | None
-
-    def pixels(self) -> np.ndarray:
-        return _pixels(self.image)
-
-    def base_pixels(self) -> np.ndarray:
-        return _pixels(self.base)
 
 
 def _pixels(path: Path | None) -> np.ndarray:
@@ -85,33 +80,28 @@ def _pixels(path: Path | None) -> np.ndarray:
     return np.full((1, 1, 3), math.nan) if path is None else exr_pixels.rgb(path)
 
 
-def _leak(variant: Variant, scale: float) -> float:
-    return float(variant.pixels().mean()) / scale
+def _mean(_, image: np.ndarray, base: np.ndarray, scale: float) -> float:
+    return abs(image.mean() / (scale * base.mean()) - 1)
 
 
-def _mean(variant: Variant, scale: float) -> float:
-    base = float(variant.base_pixels().mean())
-    return abs(float(variant.pixels().mean()) / (scale * base) - 1) if base else math.nan
+def _image(_, image: np.ndarray, base: np.ndarray, scale: float) -> float:
+    return np.sqrt(((image / scale - base) ** 2).mean()) / base.mean() if base.shape == image.shape else math.nan
 
 
-def _image(variant: Variant, scale: float) -> float:
-    base, found = variant.base_pixels(), variant.pixels() / scale
-    if base.shape != found.shape or not base.mean():
-        return math.nan
-    return math.sqrt(float(((found - base) ** 2).mean())) / float(base.mean())
+def _score(column: str) -> Measure:
+    return lambda scores, *_: number(scores.get(column))
 
 
-def _score(column: str) -> Callable[[Variant, float], float]:
-    return lambda variant, _: number(variant.scores.get(column))
-
+# Of a row of results.csv, a variant's image and that of the profile's first scene by the same method, and the row's scale
+Measure = Callable[[dict, np.ndarray, np.ndarray, float], float]
 
 # Measures that are scores with an interval, and their columns.
 _SCORES = {"bias": "indirect_bias_nrmse", "drift": "indirect_temporal_bias", "flicker": "indirect_temporal_flicker"}
 
 # What is measured of the indirect light, and what that says.
-MEASURES: dict[str, tuple[Callable[[Variant, float], float], str]] = {
-    "leak": (_leak, "mean radiance where all is black, over that of the lit side"),
-    "energy": (lambda variant, _: abs(number(variant.scores.get("indirect_mean_ratio")) - 1),
+MEASURES: dict[str, tuple[Measure, str]] = {
+    "leak": (lambda _, image, base, scale: image.mean() / scale, "mean radiance where all is black, over that of the lit side"),
+    "energy": (lambda scores, *_: abs(number(scores.get("indirect_mean_ratio")) - 1),
                "mean radiance over the reference's, less 1, absolute"),
     "bias": (_score(_SCORES["bias"]), "error apart from noise (bias_nrmse), over the reference's mean"),
     "mean": (_mean, "mean radiance over that in the profile's first scene, less 1, absolute"),
@@ -123,12 +113,10 @@ MEASURES: dict[str, tuple[Callable[[Variant, float], float], str]] = {
 
 def _table(path: Path, columns: tuple[str, ...]) -> list[dict[str, str]]:
     try:
-        with open(path, newline="", encoding="utf-8") as file:
-            rows = list(csv.DictReader(file))
-            header = tuple(rows[0]) if rows else columns
+        rows = read_rows(path)
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise ReportError(f"{path}: cannot read: {error}") from error
-    if header != columns or any(None in row.values() for row in rows):
+    if any(tuple(row) != columns or None in row.values() for row in rows):
         raise ReportError(f"{path}: expected the columns {', '.join(columns)}")
     return rows
 
@@ -164,20 +152,17 @@ def reason_of(reasons: list[dict[str, str]], row: Row, method: str) -> str:
 
 def _undecided(cell: Cell, scores: dict) -> str:
     """Says so where the limit lies within the value's interval of 95 %; else ""."""
-    column = _SCORES.get(cell.row.measure, "")
-    low, high = number(scores.get(f"{column}_low")), number(scores.get(f"{column}_high"))
-    if not low <= cell.limit <= high:
-        return ""
-    return f"undecided: the interval of 95 %, {100 * low:.2g} to {100 * high:.2g} %, holds the limit"
+    low, high = (number(scores.get(_SCORES.get(cell.row.measure, "") + end)) for end in INTERVAL)
+    said = f"undecided: the interval of 95 %, {100 * low:.2g} to {100 * high:.2g} %, holds the limit"
+    return said if low <= cell.limit <= high else ""
 
 
 def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, str]]) -> list[Cell]:
     variants = results.variants.to_dict("records")
-    if not variants:
-        return []
-    if not {"scene", "method"} <= set(variants[0]):
+    if variants and not {"scene", "method"} <= set(variants[0]):
         raise ReportError(f"{results.directory}: its sweep has no axes 'scene' and 'method'")
-    exr, png = IMAGES["indirect"][0].replace(".png", ".exr"), IMAGES["indirect"][0]
+    png = IMAGES["indirect"][0]
+    pixels = {name: _pixels(results.image(name, png.replace(".png", ".exr"))) for name in results.ok["variant"]}
     first = {entry["method"]: entry["variant"] for entry in variants if entry["scene"] == variants[0]["scene"]}
     cells = []
     for row in rows:
@@ -187,12 +172,13 @@ def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, st
             if entry["status"] != "ok":
                 cells.append(Cell(row, method, math.nan, f"does not run: {entry['error']}", None, None))
                 continue
-            variant = Variant(entry, results.image(name, exr), results.image(base, exr) if base else None)
+            with np.errstate(all="ignore"):
+                value = float(MEASURES[row.measure][0](entry, pixels[name], pixels.get(base, _pixels(None)), row.scale))
             truth = base if row.measure in ("mean", "image") else results.reference_folder(name)
-            cell = Cell(row, method, MEASURES[row.measure][0](variant, row.scale), "", results.image(name, png),
-                        results.image(truth, png) if truth else None)
+            cell = Cell(row, method, value, "", results.image(name, png), results.image(truth, png) if truth else None)
             if cell.fails:
-                cell = replace(cell, reason=_undecided(cell, entry) or reason_of(reasons, row, method))
+                undecided = _undecided(cell, entry)
+                cell = replace(cell, reason=undecided or reason_of(reasons, row, method), is_undecided=bool(undecided))
             cells.append(cell)
     return cells
 
@@ -201,7 +187,7 @@ def with_remedies(cells: list[Cell], directory: Path, rows: list[Row]) -> list[C
     """The same, with what those that fail are with each remedy, runs in directory/remedies/REMEDY/METHOD/PROFILE."""
     found: dict[tuple[Row, str], list[tuple[str, float]]] = {}
     for folder in sorted((directory / "remedies").glob("*/*")):
-        for cell in _finished_cells(folder, rows, []):
+        for cell in cells_of(folder, rows, []):
             if not math.isnan(cell.value):
                 found.setdefault((cell.row, cell.method), []).append((folder.parent.name.replace("_", " "), cell.value))
     return [replace(cell, remedies=tuple(found.get((cell.row, cell.method), ()))) if cell.fails else cell for cell in cells]
@@ -210,29 +196,16 @@ def with_remedies(cells: list[Cell], directory: Path, rows: list[Row]) -> list[C
 def failing_of(cells: list[Cell]) -> dict[str, dict[str, list[str]]]:
     """The scenes of cells that fail but run, by profile and method."""
     failing: dict[str, dict[str, list[str]]] = {}
-    for cell in cells:
-        if cell.fails and not math.isnan(cell.value):
-            scenes = failing.setdefault(cell.row.profile, {}).setdefault(cell.method, [])
-            if cell.row.scene not in scenes:
-                scenes.append(cell.row.scene)
+    for profile, method, scene in dict.fromkeys((cell.row.profile, cell.method, cell.row.scene) for cell in cells
+                                                if cell.fails and not math.isnan(cell.value)):
+        failing.setdefault(profile, {}).setdefault(method, []).append(scene)
     return failing
-
-
-def _finished_cells(directory: Path, rows: list[Row], reasons: list[dict[str, str]]) -> list[Cell]:
-    cells: list[Cell] = []
-    for profile in dict.fromkeys(row.profile for row in rows):
-        if (directory / profile / "results.csv").is_file():
-            own = [row for row in rows if row.profile == profile]
-            cells += _profile_cells(load(directory / profile), own, reasons)
-    return cells
 
 
 def cells_of(directory: Path, rows: list[Row], reasons: list[dict[str, str]]) -> list[Cell]:
     """All cells of the runs in a folder, one folder a profile, in the order of the rows.
 
-    @throws ReportError where there is no run, or one of them has no scenes and methods.
+    @throws ReportError where one of them has no scenes and methods.
     """
-    cells = _finished_cells(directory, rows, reasons)
-    if not cells:
-        raise ReportError(f"{directory}: no profile of the limits has results there")
-    return cells
+    return [cell for profile in dict.fromkeys(row.profile for row in rows) if (directory / profile / "results.csv").is_file()
+            for cell in _profile_cells(load(directory / profile), [row for row in rows if row.profile == profile], reasons)]

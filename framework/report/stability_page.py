@@ -1,20 +1,23 @@
-"""The tables of `voxray stability`: a page, Markdown for a terminal or a document, and lines of a CSV file."""
+"""What `voxray stability` leaves: a page with a heat map, Markdown for a terminal or a document, and lines of a CSV file."""
 
 from __future__ import annotations
 
 import json
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
+from typing import NamedTuple
 
-from report import images, pages, stability, text
+from report import images, pages, stability, table, text
+from report.results import ReportError
 from report.rows import markdown_table
 from report.stability import MEASURES, UNKNOWN, Cell, Row
+from report.table import Table
+
+_SCRIPTS = ("d3", "toolkit.js", "matrix.js", "stability.js")
 
 
-@dataclass(frozen=True)
-class Tables:
+class Tables(NamedTuple):
     """failing: scenes of cells that fail but run, by profile and method."""
 
     summary: str
@@ -28,16 +31,16 @@ def write(directory: Path, limits: Path, with_remedies: bool = False) -> Tables:
     @param limits what is measured in each scene and its limit; known reasons stand next to it, in LIMITS_reasons.csv
     @param with_remedies say what the runs in directory/remedies change
     @throws ReportError where there are no results or limits"""
-    reasons = stability.read_reasons(limits.with_name(limits.stem + "_reasons.csv"))
     rows = stability.read_limits(limits)
-    cells = stability.cells_of(directory, rows, reasons)
+    cells = stability.cells_of(directory, rows, stability.read_reasons(limits.with_name(limits.stem + "_reasons.csv")))
+    if not cells:
+        raise ReportError(f"{directory}: no profile of the limits has results there")
     if with_remedies:
         cells = stability.with_remedies(cells, directory, rows)
     tables = Tables(summary(cells), "\n".join(markdown(cells)) + "\n", stability.failing_of(cells))
-    pages.write_whole(directory / "stability.html", render(cells, directory))
-    pages.write_whole(directory / "stability.csv", pages.csv_text(csv_lines(cells)))
-    pages.write_whole(directory / "stability.md", tables.markdown)
-    pages.write_whole(directory / "failing.json", json.dumps(tables.failing, indent=1) + "\n")
+    for name, content in (("stability.html", render(cells, directory)), ("stability.csv", pages.csv_text(csv_lines(cells))),
+                          ("stability.md", tables.markdown), ("failing.json", json.dumps(tables.failing, indent=1) + "\n")):
+        pages.write_whole(directory / name, content)
     return tables
 
 
@@ -48,12 +51,10 @@ def percent(value: float) -> str:
 
 def reason(cell: Cell) -> str:
     """Why a cell fails, as far as it is known: the reason of the table, and what finer settings change."""
-    if not cell.remedies:
-        return cell.reason
-    told = [f"{percent(value)} % with {name}" for name, value in cell.helping]
-    if not told:
-        return f"{cell.reason}; no remedy lowers it by a tenth: " + ", ".join(f"{percent(value)} % with {name}" for name, value in cell.remedies)
-    return ", ".join(told) if cell.reason == UNKNOWN else f"{cell.reason}; " + ", ".join(told)
+    told = ", ".join(f"{percent(value)} % with {name}" for name, value in cell.helping or cell.remedies)
+    if cell.helping:
+        return told if cell.reason == UNKNOWN else f"{cell.reason}; {told}"
+    return f"{cell.reason}; no remedy lowers it by a tenth: {told}" if told else cell.reason
 
 
 def limits(row: Row) -> str:
@@ -100,25 +101,55 @@ def csv_lines(cells: list[Cell]) -> Iterator[list]:
         yield [row.profile, row.scene, row.measure, cell.method, value, f"{cell.limit:g}", int(cell.fails), reason(cell)]
 
 
-def _table(cells: list[Cell]) -> list[tuple[Row, str, list[tuple[str, str, str]]]]:
-    """The rows with their limits, and text, CSS class and title of each of their cells."""
-    shown = []
-    for row, found in rows_of(cells):
-        entries = [("", "", "not run") if cell is None else
-                   (percent(cell.value), "worse" if cell.fails else "", reason(cell) or row.why) for cell in found]
-        shown.append((row, limits(row), entries))
-    return shown
+def _percent_cell(cell: Cell | None) -> table.Cell | str:
+    return "" if cell is None else table.Cell(percent(cell.value), "", f"{cell.value:.6g}", reason(cell) or cell.row.why,
+                                              mark="worse" if cell.fails else "")
+
+
+def _tables(cells: list[Cell]) -> list[Table]:
+    """All cells, and those that fail with their reasons."""
+    methods = methods_of(cells)
+    every = Table("All cells", ["scene", "measure", "limit", *methods, "why that limit"], words=(0, 1, 3 + len(methods)),
+                  note="In percent, of the indirect light. ▼: over the limit. A cell tells its reason under the pointer.",
+                  rows=[[row.scene, row.measure, limits(row), *map(_percent_cell, found), row.why] for row, found in rows_of(cells)])
+    failing = Table("Failing cells and their reasons", ["scene", "measure", "method", "value", "limit", "reason"], words=(0, 1, 2, 5),
+                    note="In percent, of the indirect light.",
+                    rows=[[cell.row.scene, cell.row.measure, cell.method, _percent_cell(cell), percent(cell.limit), reason(cell)]
+                          for cell in cells if cell.fails])
+    return [every, failing]
+
+
+def _words(cell: Cell) -> str:
+    value = percent(cell.value) if math.isnan(cell.value) else f"{percent(cell.value)} %, limit {percent(cell.limit)} %"
+    return f"{cell.row.measure} {value}" + (f" ({reason(cell)})" if cell.fails else "")
+
+
+def _data(cells: list[Cell]) -> dict:
+    """What the page's script shows: of each method and scene the measure that is furthest above its limit, or nearest to it.
+
+    @throws ReportError where an image is no PNG."""
+    scenes = list(dict.fromkeys(cell.row.scene for cell in cells))
+    groups: dict[tuple[str, str], list[Cell]] = {}
+    for cell in sorted(cells, key=lambda cell: -cell.over):
+        groups.setdefault((cell.method, cell.row.scene), []).append(cell)
+    pictures: dict[Path, int] = {}
+
+    def shown(method: str, scene: str) -> dict | None:
+        found = groups.get((method, scene))
+        if not found:
+            return None
+        worst = found[0]
+        said = f"{method} in {scene}: {'fails' if worst.fails else 'within its limit'}: {'; '.join(map(_words, found))}."
+        return {"over": worst.over, "fails": worst.fails, "open": worst.is_undecided, "words": said,
+                "images": [pictures.setdefault(path, len(pictures)) if path else None for path in (worst.truth, worst.picture)]}
+
+    rows = [{"name": method, "cells": [shown(method, scene) for scene in scenes]} for method in methods_of(cells)]
+    rows.sort(key=lambda row: sum(cell["fails"] for cell in row["cells"] if cell))
+    return {"scenes": scenes, "rows": rows, "pictures": [images.embed(path).uri for path in pictures]}
 
 
 def render(cells: list[Cell], directory: Path) -> str:
     """The whole page, self-contained. @throws ReportError where an image is no PNG."""
-    failing = [cell for cell in cells if cell.fails]
-    tally = [(method, sum(cell.method == method for cell in failing), sum(cell.method == method for cell in cells))
-             for method in methods_of(cells)]
-    embedded = {path: images.embed(path) for cell in failing for path in (cell.picture, cell.truth) if path}
-    return pages.render(
-        "stability.html.j2", summary=summary(cells), tally=tally,
-        methods=methods_of(cells), table=_table(cells), directory=str(directory),
-        measures=[(name, meaning) for name, (_, meaning) in MEASURES.items() if any(cell.row.measure == name for cell in cells)],
-        failing=[(cell, reason(cell), percent(cell.value), percent(cell.limit), embedded.get(cell.picture), embedded.get(cell.truth))
-                 for cell in failing])
+    present = {cell.row.measure for cell in cells}
+    return pages.render("stability.html.j2", scripts=_SCRIPTS, data=_data(cells), summary=summary(cells), tables=_tables(cells),
+                        directory=str(directory), measures=[(name, meaning) for name, (_, meaning) in MEASURES.items() if name in present])

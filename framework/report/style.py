@@ -1,20 +1,23 @@
-"""Which colour and marker stands for a variant or a pass, the same in every chart and legend of a page.
+"""Which color and mark stands for a method, a variant or a pass, the same in every chart and legend of a page.
 
-Colours are names of CSS variables of style.css, so that a chart follows the reader's light or dark scheme.
+Colors are names of CSS variables of style.css, so that a chart follows the reader's light or dark scheme.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import re
+from pathlib import Path
+from typing import NamedTuple
 
 import pandas as pd
 
-from report.names import Family
+from report.methods import families_of
 from report.ranking import is_numeric
 from report.results import Results
 
+_CSS = Path(__file__).with_name("style.css").read_text(encoding="utf-8")
+VALUES = dict(reversed(re.findall(r"--([\w-]+): ([^;]+);", _CSS)))  # of the light scheme, which comes first
 CATEGORY_COLORS = tuple(f"c{i}" for i in range(8))
-RAMP_COLORS = tuple(f"s{i}" for i in range(7))  # for numbers: from little to much
 # Matplotlib's marker -> the same shape as an SVG path round (0, 0), about 5 units in radius.
 MARKERS = {
     "o": "M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0z",
@@ -26,63 +29,61 @@ MARKERS = {
 }
 
 
-@dataclass(frozen=True)
-class Style:
+class Style(NamedTuple):
     color: str
-    marker: str
+    marker: str = "o"
+
+    @property
+    def mark(self) -> str:
+        """Its SVG path."""
+        return MARKERS[self.marker]
 
 
-@dataclass(frozen=True)
-class LegendEntry:
-    label: str
-    style: Style
-
-
-@dataclass(frozen=True)
-class Legend:
-    """One sweep key and how its values are shown."""
+class Legend(NamedTuple):
+    """What colors or marks tell, and of each its label."""
 
     key: str
-    entries: list[LegendEntry]
+    entries: list[tuple[str, Style]]
 
 
-def variant_styles(results: Results, families: list[Family]) -> tuple[dict[str, Style], list[Legend], list[list[str]]]:
-    """The style of each variant: colour by the first sweep key, marker by the second. Where a single key swaps methods
-    and some differ in parameters alone, colour by method.
+def styles(count: int) -> list[Style]:
+    """Pairs of a color and a mark, of which 24 differ."""
+    return [Style(CATEGORY_COLORS[i % len(CATEGORY_COLORS)], list(MARKERS)[i % len(MARKERS)]) for i in range(count)]
 
-    @return the styles, their legends, and the variants to join by a line.
+
+def variant_styles(results: Results) -> tuple[dict[str, Style], list[Legend], bool]:
+    """Color and mark tell the method; where there is one alone, the color tells the first sweep key and the mark the second.
+
+    @return the style of each variant, the legends, and whether lines join variants of a style: where a single key swaps
+        methods.
     """
-    table, keys = results.variants, results.sweep_keys
-    plain = Style(CATEGORY_COLORS[0], "o")
+    families, keys, rows = families_of(results), results.sweep_keys, results.variants
+    found = dict.fromkeys(rows["variant"], Style(CATEGORY_COLORS[0]))  # failed ones are of no method
+    if len(families) > 1:
+        own = styles(len(families))
+        found |= {name: style for style, (_, names) in zip(own, families) for name in names}
+        legend = Legend("method", [(method.name, style) for (method, _), style in zip(families, own)])
+        return found, [legend], len(keys) == 1
     if not keys:
-        return {name: plain for name in table["variant"]}, [], []
-    if len(keys) == 1 and not is_numeric(table[keys[0]]) and len(families) < len(results.ok):
-        style_of = {family.name: Style(CATEGORY_COLORS[i % len(CATEGORY_COLORS)], list(MARKERS)[i % len(MARKERS)])
-                    for i, family in enumerate(families)}
-        styles = dict.fromkeys(table["variant"], plain)  # failed ones are in no family
-        styles |= {name: style_of[family.name] for family in families for name in family.variants}
-        return styles, [Legend("method", [LegendEntry(*entry) for entry in style_of.items()])], \
-            [family.variants for family in families if len(family.variants) > 1]
-
-    colors = _colors(table[keys[0]])
-    shapes = list(MARKERS)
-    second = _values(table[keys[1]]) if keys[1:] else []
-    shape_of = {value: shapes[i % len(shapes)] for i, value in enumerate(second)}
-    legends = [Legend(keys[0], [LegendEntry(value, Style(color, "o")) for value, color in colors.items()])]
-    if shape_of:
-        legends.append(Legend(keys[1], [LegendEntry(v, Style("muted", m)) for v, m in shape_of.items()]))
-    styles = {row["variant"]: Style(colors[row[keys[0]]], shape_of[row[keys[1]]] if shape_of else "o")
-              for row in table[["variant", *keys]].to_dict("records")}
-    return styles, legends, []
+        return found, [], False
+    color_of = dict(zip(_values(rows[keys[0]]), CATEGORY_COLORS * len(rows)))
+    legends = [Legend(keys[0], [(value, Style(color)) for value, color in color_of.items()])]
+    colors, markers = rows[keys[0]].map(color_of), ["o"] * len(rows)
+    if len(keys) > 1:
+        marker_of = dict(zip(_values(rows[keys[1]]), list(MARKERS) * len(rows)))
+        legends.append(Legend(keys[1], [(value, Style("muted", marker)) for value, marker in marker_of.items()]))
+        markers = rows[keys[1]].map(marker_of)
+    return dict(zip(rows["variant"], map(Style, colors, markers))), legends, False
 
 
 def pass_colors(results: Results) -> dict[str, str]:
-    """The background of each kind of pass, as CSS, in the order in which passes.csv first names them. The colours that
+    """The background of each kind of pass, as CSS, in the order in which passes.csv first names them. The colors that
     are there once more come in stripes."""
-    return {name: _background(i) for i, name in enumerate(results.passes["kind"].unique())}
+    return {name: background(i) for i, name in enumerate(results.passes["kind"].unique())}
 
 
-def _background(index: int) -> str:
+def background(index: int) -> str:
+    """The background of the part of a bar with this index."""
     color = f"var(--{CATEGORY_COLORS[index % len(CATEGORY_COLORS)]})"
     gap, angle = divmod(index // len(CATEGORY_COLORS), 2)
     return color if index < len(CATEGORY_COLORS) else \
@@ -92,12 +93,3 @@ def _background(index: int) -> str:
 def _values(column: pd.Series) -> list[str]:
     values = list(column.unique())
     return sorted(values, key=float) if is_numeric(column) else values
-
-
-def _colors(column: pd.Series) -> dict[str, str]:
-    values = _values(column)
-    if not is_numeric(column):
-        return {value: CATEGORY_COLORS[i % len(CATEGORY_COLORS)] for i, value in enumerate(values)}
-    # Numbers take evenly spaced steps of the ramp.
-    last = max(len(values) - 1, 1)
-    return {value: RAMP_COLORS[round(i * (len(RAMP_COLORS) - 1) / last)] for i, value in enumerate(values)}

@@ -1,21 +1,22 @@
-"""The sentences on top of the page: numbers and short names."""
+"""The sentences on top of the page."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
-from report import equal_error, noise, text
-from report.comparisons import comparisons
-from report.names import Family, Names, families_of
+from report import noise, pareto, text
+from report.methods import methods_of
 from report.ranking import all_beaten, score_marks
-from report.results import LIGHTS, Results
+from report.results import LIGHTS, Metric, Results
+from report.setting import comparisons
 
 _TENTH_DB = 10.0  # a tenth of a squared error, in dB
 _MAX_MISSING = 6  # variants that are listed by name
 _MAX_SESSIONS = 4  # that are told apart
 
 
-def summary(results: Results, light: str, families: list[Family], names: Names) -> list[str]:
+def summary(results: Results, light: str) -> list[str]:
     """Sentences on the best error, the time at equal error, the fastest variant and what failed.
 
     @param light "indirect" or "total".
@@ -23,23 +24,18 @@ def summary(results: Results, light: str, families: list[Family], names: Names) 
     total, finished = len(results.variants), len(results.ok)
     if total == 0:
         return ["No variant has finished yet."]
-    sentences = []
+    said = []
     if failed := total - finished:
         of = "" if unfinished(results) else f"{finished} of {_count(total, 'variant')} finished. "
-        sentences.append(f"{of}{_count(failed, 'variant')} failed; the reason stands below the table.")
-    metric = results.metrics[0] if results.metrics else None
+        said.append(f"{of}{_count(failed, 'variant')} failed; the reason stands below the table.")
     compared = comparisons(results)
-    if len(compared) > 1:
-        sentences += _by_scene(compared, light, metric, names) if metric else []
-        sentences += noise.sentences(results, light, names) if metric else []
-        return sentences + _sessions(results) + _worse_than_nothing(results, light, names)
-    if metric:
-        sentences += _lowest_error(results, light, metric, names)
-        found = equal_error.speed_up(results, light, metric, families)
-        sentences += [equal_error.sentence(found, results, light, metric, names)] if found else []
-        sentences += noise.sentences(results, light, names)
-    sentences += _fastest(results, light, names) + _sessions(results)
-    return sentences + _worse_than_nothing(results, light, names)
+    for metric in results.metrics[:1]:
+        found = list(filter(None, (_of_scene(scene, of, len(compared) > 1, light, metric) for scene, of in compared)))
+        if found:
+            found[0] = f"Of the {light} light, {found[0]}" + (f" {metric.label}: {metric.meaning.split(';')[0]}." if metric.meaning else "")
+        said += found + noise.sentences(results, light)
+    said += _fastest(results, light) if len(compared) == 1 else []
+    return said + _sessions(results) + _worse_than_nothing(results, light)
 
 
 def unfinished(results: Results) -> str:
@@ -55,52 +51,45 @@ def unfinished(results: Results) -> str:
     return said
 
 
-def _by_scene(compared: list[tuple[str, Results]], light: str, metric, names: Names) -> list[str]:
-    """A short sentence for each scene with several variants: its lowest error, and what path tracing takes for an error as low as the method's that
-    saves most time. Errors and times of two scenes don't compare."""
-    sentences = []
-    for scene, results in compared:
-        own = Names(names.numbers, {name: short.removeprefix(f"{scene}, ") for name, short in names.short.items()})
-        scores = _scores(results, light, metric)
-        if len(scores) < 2:
-            continue
-        best = scores.map(metric.rank).idxmin()
-        ties = _ties(results, light, metric)
-        also = f" (ties with {len(ties) - 1} more)" if best in ties and len(ties) > 1 else ""
-        said = f"{scene}: lowest {metric.label} {text.figures(scores[best])}, {own.full(best)}{also}."
-        found = equal_error.speed_up(results, light, metric, families_of(results, own))
-        if found:
-            said += (f" For the error of {own.full(found.variant)} path tracing takes {found.about}{found.bound}"
-                     f"{text.figures(found.factor, 2)} times as long as its {text.figures(found.ms)} ms a frame{found.span}"
-                     f"{'' if found.is_faster or found.is_undecided else ', and no other method is faster'}.")
-        sentences.append(said)
-    if sentences and metric.meaning:
-        sentences[0] = f"Of the {light} light, {sentences[0]} {metric.label}: {metric.meaning.split(';')[0]}."
-    return sentences
+def _of_scene(scene: str, results: Results, has_others: bool, light: str, metric: Metric) -> str:
+    """The lowest error in a scene, and how much faster than path tracing a method is. "" of a scene without errors, or with
+    a single one among other scenes."""
+    results = replace(results, names={key: name.removeprefix(f"{scene}, ") for key, name in results.names.items()})
+    scores = results.ok.set_index("variant")[LIGHTS[light] + metric.key].dropna()
+    if len(scores) <= has_others:
+        return ""
+    best, ties = scores.map(metric.rank).idxmin(), _ties(results, light, metric)
+    own = scores[ties or [best]]
+    who = f"{results.listed(ties)} tie" if ties else results.full(best)
+    said = f"{f'{scene}: ' if has_others else ''}lowest {metric.label} {' to '.join(dict.fromkeys(map(text.figures, (own.min(), own.max()))))}, {who}."
+    said += _what_tells_apart(results, light, ties) if 2 * len(ties) > len(scores) else ""
+    return f"{said}{_speed_up(results, light, metric)}"
 
 
-def _scores(results: Results, light: str, metric):
-    return results.ok.set_index("variant")[LIGHTS[light] + metric.key].dropna()
+def _speed_up(results: Results, light: str, metric: Metric) -> str:
+    """How much faster than path tracing, filtered where it was, the fastest method is at equal error, as on the page of
+    `voxray pareto`."""
+    methods, members = methods_of([results])
+    rivals = sorted((i for i, method in enumerate(methods) if method.traces_paths), key=lambda i: not methods[i].is_rival)
+    scenes = pareto.scenes_of([results], members, [pareto.Error(metric)], light) if rivals else []
+    found = pareto.speed_ups(scenes, methods, rivals[:1], 1)
+    best = found.best(methods, 0, [0], 0) if scenes else None
+    if best is None:
+        return ""
+    name, (value, low, high, reached) = best
+    rival, factor = methods[rivals[0]].name, text.figures(value, 2)
+    span = text.span(low, high) if 0 < low < high < math.inf else f"at least {text.figures(low, 2)}" if low > 0 else \
+        f"up to {text.figures(high, 2)}"
+    ends = f"{span} within the intervals" + ("; that leaves open which is faster" if low <= 1 <= high else "")
+    said = (f"{name} is {factor} times as fast as {rival}" if value > 1 else
+            f"no method is faster than {rival}; {name} comes nearest, {factor} times as fast")
+    return (f" At equal {metric.label} {said} ({f'{ends}; ' if low < high else ''}it reaches {reached:.0f} of "
+            f"{found.count[0, 0, 0, 0]} errors).")
 
 
-def _ties(results: Results, light: str, metric) -> list[str]:
+def _ties(results: Results, light: str, metric: Metric) -> list[str]:
     marks = score_marks(results, metric, LIGHTS[light] + metric.key)
     return [name for name in results.ok["variant"] if marks.get(name) == "tie"]
-
-
-def _lowest_error(results: Results, light: str, metric, names: Names) -> list[str]:
-    scores, ties = _scores(results, light, metric), _ties(results, light, metric)
-    if scores.empty:
-        return []
-    best = scores.map(metric.rank).idxmin()
-    explained = f" {metric.label}: {metric.meaning.split(';')[0]}." if metric.meaning else ""
-    if not ties:
-        return [f"Lowest {metric.label} of the {light} light: {names.full(best)}, {text.figures(scores[best])}.{explained}"]
-    ends = dict.fromkeys(map(text.figures, (scores[ties].min(), scores[ties].max())))
-    span = f" at {next(iter(ends))}" if len(ends) == 1 else f", from {' to '.join(ends)}"
-    found = f"Lowest {metric.label} of the {light} light: {names.listed(ties)} tie{span}."
-    advice = _what_tells_apart(results, light, ties) if 2 * len(ties) > len(scores) else ""
-    return [found + advice + explained]
 
 
 def _what_tells_apart(results: Results, light: str, ties: list[str]) -> str:
@@ -118,36 +107,23 @@ def _what_tells_apart(results: Results, light: str, ties: list[str]) -> str:
         now = f", now {spp}" if spp else ""
         return f" Most variants tie: more samples in the reference tell them apart (raise reference.spp{now})."
     return (" Most variants tie, and not for the reference's noise, which is less than a tenth of their squared error: they "
-            f"share an error{_of_edges(results, light, ties)}. ./voxray explain CONFIG says which stage it comes from.")
+            "share an error. ./voxray explain CONFIG says which stage it comes from.")
 
 
-def _of_edges(results: Results, light: str, ties: list[str]) -> str:
-    """What to say where variants tie in the total and not in indirect light, and the g-buffer sees one point of a pixel."""
-    gbuffers = [entry for name in ties for entry in results.graph_of(name) if entry.get("pass") == "gbuffer"]
-    sees_one = any(entry.get("samples_per_pixel_edge", 1) == 1 for entry in gbuffers)
-    metric = results.metrics[0]
-    if light != "total" or not sees_one or LIGHTS["indirect"] + metric.key not in results.ok:
-        return ""
-    if set(_ties(results, "indirect", metric)).issuperset(ties):
-        return ""
-    return (" of direct light, for their indirect light differs; of an edge within a pixel gbuffer sees one point, and with "
-            "samples_per_pixel_edge: 2 four")
-
-
-def _fastest(results: Results, light: str, names: Names) -> list[str]:
+def _fastest(results: Results, light: str) -> list[str]:
     """The fastest of those that are better than no image at all, where some are."""
-    rows = results.ok.set_index("variant", drop=False)
-    rows = rows[rows["frame_ms_median"].notna()]
+    rows = results.ok.set_index("variant").dropna(subset="frame_ms_median")
     if rows.empty:
         return []
-    beaten = {name for metric in results.metrics[:1] for name in all_beaten(results, metric, LIGHTS[light] + metric.key)}
-    usable = [name for name in rows.index if name not in beaten]
-    times = rows.loc[usable or list(rows.index), "frame_ms_median"]
+    beaten = {name for metric in results.metrics[:1]
+              for name in all_beaten(results, metric, LIGHTS[light] + metric.key)}
+    usable = rows[~rows.index.isin(beaten)]
     but = ", of those better than a constant image" if 0 < len(usable) < len(rows) else ""
-    reach = max(times.min(), rows.loc[times.idxmin(), "frame_ms_p95"])
-    ties = [name for name, ms in times.items() if ms <= reach and name != times.idxmin()]
-    tied = f"; within its spread {names.listed(ties)}" if ties else ""
-    return [f"Fastest frame{but}: {names.full(times.idxmin())}, {text.figures(times.min())} ms{tied}."]
+    times = (rows if usable.empty else usable)["frame_ms_median"]
+    first = times.idxmin()
+    ties = [name for name in times.index[times <= max(times.min(), rows["frame_ms_p95"][first])] if name != first]
+    tied = f"; within its spread {results.listed(ties)}" if ties else ""
+    return [f"Fastest frame{but}: {results.full(first)}, {text.figures(times.min())} ms{tied}."]
 
 
 def _sessions(results: Results) -> list[str]:
@@ -157,21 +133,21 @@ def _sessions(results: Results) -> list[str]:
         return []
     told = [f"{_count(len(names), 'variant')} of {began or 'an unknown time'}" for began, names in sessions[:_MAX_SESSIONS]]
     more = f" and {len(sessions) - _MAX_SESSIONS} more" if len(sessions) > _MAX_SESSIONS else ""
-    return [f"Times come from {len(sessions)} processes, for the run was resumed or done in parts ({', '.join(told)}{more}): compare those of "
-            "different ones only where the machine was equally idle."]
+    return [f"Times come from {len(sessions)} processes, for the run was resumed or done in parts ({', '.join(told)}{more}): "
+            "compare those of different ones only where the machine was equally idle."]
 
 
-def _worse_than_nothing(results: Results, light: str, names: Names) -> list[str]:
+def _worse_than_nothing(results: Results, light: str) -> list[str]:
     # Variants that are worse in the same metrics share a sentence.
     worse: dict[str, list[str]] = {}
-    for metric in results.metrics[:3]:
+    for metric in results.charted:
         for name in all_beaten(results, metric, LIGHTS[light] + metric.key):
             worse.setdefault(name, []).append(metric.label)
-    sentences = []
-    for measures in dict.fromkeys(map(tuple, worse.values())):
-        found = [name for name, its in worse.items() if tuple(its) == measures]
-        sentences.append(f"Worse than a black or a constant image in {text.joined(measures)}: {names.listed(found)}.")
-    return sentences
+    groups: dict[tuple[str, ...], list[str]] = {}
+    for name, labels in worse.items():
+        groups.setdefault(tuple(labels), []).append(name)
+    return [f"Worse than a black or a constant image in {text.joined(labels)}: {results.listed(names)}."
+            for labels, names in groups.items()]
 
 
 def _count(count: int, noun: str) -> str:

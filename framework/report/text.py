@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
 from collections.abc import Iterable
 
+import yaml
 from markupsafe import Markup, escape
-
-_PLAIN = re.compile(r"[A-Za-z_/.][\w ./+-]*")
 
 
 def figures(value: float, digits: int = 3) -> str:
@@ -20,7 +18,7 @@ def figures(value: float, digits: int = 3) -> str:
         return "∞" if value > 0 else "−∞"
     if value == 0:
         return "0"
-    exponent = math.floor(math.log10(abs(value)))
+    exponent = int(f"{value:.{digits - 1}e}".partition("e")[2])  # of the rounded value
     if not -5 <= exponent < 6:
         return f"{value:.{digits - 1}e}"
     return f"{value:,.{max(digits - 1 - exponent, 0)}f}".replace(",", "\u202f")
@@ -57,20 +55,22 @@ def exact(value: float) -> str:
     return f"{int(value):,}".replace(",", "\u202f") if whole else figures(value, 4)
 
 
+def _scaled(value: float, step: float, units: str) -> tuple[float, str]:
+    while abs(value) >= step and len(units) > 1:
+        value, units = value / step, units[1:]
+    return value, units[0].strip()
+
+
 def count(value: float) -> str:
     """A whole number with its unit prefix: 1.05 M."""
-    for step, unit in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
-        if abs(value) >= step:
-            return f"{figures(value / step)} {unit}"
-    return figures(value)
+    scaled, unit = _scaled(value, 1000, " kMG")
+    return f"{figures(scaled)} {unit}".rstrip()
 
 
 def size(value: float) -> str:
     """Bytes with a binary unit."""
-    for step, unit in ((2**30, "GiB"), (2**20, "MiB"), (2**10, "KiB")):
-        if abs(value) >= step:
-            return f"{figures(value / step)} {unit}"
-    return figures(value) + ("" if math.isnan(value) else " B")
+    scaled, unit = _scaled(value, 1024, " KMG")
+    return "–" if math.isnan(value) else f"{figures(scaled)} {unit}{'iB' if unit else 'B'}"
 
 
 def breakable(value: str) -> Markup:
@@ -78,37 +78,12 @@ def breakable(value: str) -> Markup:
     return Markup(re.sub(r"([,=._/])", r"\1<wbr>", str(escape(value))))
 
 
-def yaml_like(value, indent: int = 0) -> str:
-    """A JSON value as YAML-like text, short lists and leaves on one line."""
-    pad = "  " * indent
-    if isinstance(value, dict) and value and not _is_short(value):
-        lines = []
-        for key, item in value.items():
-            nested = isinstance(item, (dict, list)) and item and not _is_short(item)
-            lines.append(f"{pad}{_scalar(key)}:" + (f"\n{yaml_like(item, indent + 1)}" if nested else
-                                                    f" {yaml_like(item)}"))
-        return "\n".join(lines)
-    if isinstance(value, list) and value and not _is_short(value):
-        return "\n".join(f"{pad}- {yaml_like(item, indent + 1).lstrip()}" for item in value)
-    if isinstance(value, dict):
-        return "{" + ", ".join(f"{_scalar(key)}: {yaml_like(item)}" for key, item in value.items()) + "}"
-    if isinstance(value, list):
-        return "[" + ", ".join(yaml_like(item) for item in value) + "]"
-    return _scalar(value)
+def yaml_of(value) -> str:
+    """A JSON value as YAML, what holds no list and no map on one line."""
+    dumped = yaml.safe_dump(value, sort_keys=False, allow_unicode=True, default_flow_style=None, width=120)
+    return dumped.removesuffix("...\n").strip()
 
 
 def plain(value) -> str:
-    """A JSON value for a reader: text without quotes, everything else YAML-like."""
-    return value if isinstance(value, str) else yaml_like(value)
-
-
-def _is_short(value) -> bool:
-    items = value.values() if isinstance(value, dict) else value
-    leaves = not any(isinstance(item, (dict, list)) for item in items)
-    return leaves and len(json.dumps(value)) <= (0 if isinstance(value, dict) else 90)
-
-
-def _scalar(value) -> str:
-    if isinstance(value, str) and _PLAIN.fullmatch(value) and value not in ("null", "true", "false"):
-        return value
-    return json.dumps(value, ensure_ascii=False)
+    """A JSON value for a reader: text without quotes, everything else as YAML."""
+    return value if isinstance(value, str) else yaml_of(value)

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
 
 #include "base/error.h"
@@ -246,6 +247,12 @@ SceneState evaluate(std::shared_ptr<const Scene> scenePointer, double timeSecond
     state.cameras = placeCameras(scene, world);
     state.scene = std::move(scenePointer);
     return state;
+}
+
+double triangleArea(const Geometry& geometry, uint32_t triangle) {
+    const glm::uvec3 v = geometry.triangles[triangle];
+    const glm::dvec3 a = geometry.positions[v.x], b = geometry.positions[v.y], c = geometry.positions[v.z];
+    return 0.5 * glm::length(glm::cross(b - a, c - a));
 }
 
 uint32_t instanceOf(const Geometry& geometry, uint32_t triangle) {

@@ -81,6 +81,9 @@ struct SceneState {
 /// 2^31.
 SceneState evaluate(std::shared_ptr<const Scene> scene, double timeSeconds, Playback playback = Playback::Frozen);
 
+/// Area of one side, m².
+double triangleArea(const Geometry& geometry, uint32_t triangle);
+
 /// The instance that a triangle belongs to.
 uint32_t instanceOf(const Geometry& geometry, uint32_t triangle);
 

@@ -8,6 +8,7 @@
 #include "scene/panes.h"
 #include "shaders/scene/scene_types.h"
 #include "trace/emission.h"
+#include "trace/environment_cdf.h"
 #include "trace/texture_lookup.h"
 #include "trace/uploaded.h"
 
@@ -138,6 +139,13 @@ ImageF environmentImage(const Environment& environment) {
     return scaled;
 }
 
+Image uploadedFloats(Device& device, CommandStream& stream, const char* name, const glm::uvec3& extent,
+                     const std::vector<float>& values) {
+    Image image(device, name, {.format = VK_FORMAT_R32_SFLOAT, .extent = extent});
+    stream.upload(image, std::as_bytes(std::span(values)));
+    return image;
+}
+
 }  // namespace
 
 uint64_t gpuSceneBytes(const SceneState& state) {
@@ -157,13 +165,20 @@ uint64_t gpuTextureBytes(const Scene& scene) {
 uint64_t gpuEnvironmentBytes(const Environment& environment) {
     ImageDesc desc;
     if (environment.map) desc.extent = {environment.map->width, environment.map->height, 1};
-    return imageBytes(desc);
+    const ImageDesc columns{VK_FORMAT_R32_SFLOAT, desc.extent};
+    const ImageDesc rows{VK_FORMAT_R32_SFLOAT, {desc.extent.y, 1, 1}};
+    return imageBytes(desc) + imageBytes(columns) + imageBytes(rows);
 }
 
 std::vector<Binding> GpuScene::bindings() const {
-    return {ifUsed({"sceneGeometry", geometry}), ifUsed({"sceneMaterials", materials}),
-            ifUsed({"sceneLights", lights}),     ifUsed({"sceneEmitters", emitters}),
-            ifUsed({"sceneTextures", textures}), ifUsed({"sceneEnvironment", environment, environmentSampler})};
+    return {ifUsed({"sceneGeometry", geometry}),
+            ifUsed({"sceneMaterials", materials}),
+            ifUsed({"sceneLights", lights}),
+            ifUsed({"sceneEmitters", emitters}),
+            ifUsed({"sceneTextures", textures}),
+            ifUsed({"sceneEnvironment", environment, environmentSampler}),
+            ifUsed({"sceneEnvironmentRows", environmentRows}),
+            ifUsed({"sceneEnvironmentColumns", environmentColumns})};
 }
 
 GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& state) {
@@ -201,6 +216,11 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
         Sampler(device, Filter::Linear, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
     stream.upload(scene.environment, std::as_bytes(std::span(environment.data)));
     scene.hasEnvironment = state.scene->environment.radiance != glm::vec3(0.0f);
+    EnvironmentCdf cdf = environmentCdf(state.scene->environment);
+    if (cdf.width == 0) cdf = {1, 1, {1.0f}, {1.0f}};
+    scene.environmentRows = uploadedFloats(device, stream, "environment rows", {cdf.height, 1, 1}, cdf.rows);
+    scene.environmentColumns =
+        uploadedFloats(device, stream, "environment columns", {cdf.width, cdf.height, 1}, cdf.columns);
 
     // Textures with mip levels; one white texel for a scene without textures.
     std::vector<TextureArray::Entry> entries;

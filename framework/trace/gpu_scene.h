@@ -23,6 +23,8 @@ struct GpuScene {
     TextureArray textures;     ///< All with full mip chains.
     Image environment;         ///< Equirectangular radiance, 1x1 for a constant one; black without one.
     Sampler environmentSampler;
+    Image environmentRows;     ///< EnvironmentCdf::rows, as one row; one texel without a map.
+    Image environmentColumns;  ///< EnvironmentCdf::columns; one texel without a map.
 
     uint32_t triangleCount = 0;
     uint32_t lightCount = 0;
@@ -40,7 +42,7 @@ struct GpuScene {
 
 /// Bytes that makeGpuScene allocates, without the environment.
 uint64_t gpuSceneBytes(const SceneState& state);
-/// Bytes of textures, and of the environment.
+/// Bytes of textures, and of the environment with its distribution.
 uint64_t gpuTextureBytes(const Scene& scene);
 uint64_t gpuEnvironmentBytes(const Environment& environment);
 

@@ -129,6 +129,9 @@ class Invocations {
     Invocations(glm::uvec2 pixels) : Invocations(glm::uvec3(pixels, 1)) {}
     Invocations(glm::uvec3 texels) : texels_(texels), isLinear_(false) {}
 
+    /// Whether it is a number of elements: shaders that count along one axis take it.
+    bool isLinear() const { return isLinear_; }
+
     glm::uvec3 groups(const glm::uvec3& localSize) const {
         if (!isLinear_) return (texels_ + localSize - 1u) / localSize;
         constexpr uint64_t kRow = 32768;

@@ -101,7 +101,13 @@ void CommandStream::discard() {
 }
 
 void CommandStream::dispatch(const Program& program, const Invocations& invocations, const Bindings& bindings) {
-    const glm::uvec3 groups = invocations.groups(program.localSize());
+    const glm::uvec3 local = program.localSize();
+    if (invocations.isLinear() && (local.y != 1 || local.z != 1))
+        throw Error(
+            "{}: dispatched by a number of elements, but its work groups are {}x{}x{}: leave out local_size_y "
+            "and local_size_z, or dispatch it by pixels",
+            program.name(), local.x, local.y, local.z);
+    const glm::uvec3 groups = invocations.groups(local);
     if (groups.x == 0 || groups.y == 0 || groups.z == 0) return;
     const uint32_t* limit = device_.properties().limits.maxComputeWorkGroupCount;
     if (groups.x > limit[0] || groups.y > limit[1] || groups.z > limit[2])

@@ -58,7 +58,8 @@ class CommandStream {
 
     /// Dispatches a compute program; nothing for 0 invocations.
     /// @throws Error naming program and member for a push constant that is missing or has another type or
-    /// size, and for a binding that the program doesn't declare.
+    /// size, for a binding that the program doesn't declare, and for a number of elements where the program's
+    /// work groups have more than one axis.
     void dispatch(const Program& program, const Invocations& invocations, const Bindings& bindings);
     /// Draws `vertexCount` vertices, `instanceCount` times.
     void draw(const Program& program, const RasterTargets& targets, uint32_t vertexCount, const Bindings& bindings,

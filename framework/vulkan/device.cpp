@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
 #include "base/byte_units.h"
+#include "base/lower_case.h"
 #include "vulkan/memory_pool.h"
 #include "vulkan/program_cache.h"
 #include "vulkan/size_error.h"
@@ -21,27 +21,18 @@ namespace {
 constexpr uint32_t kMaxTextures = 4096;
 constexpr uint64_t kMaxPooledBytes = 256ull << 20;
 
-std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    return text;
-}
-
-std::string join(const std::vector<std::string>& words) {
-    return fmt::format("{}", fmt::join(words, ", "));
-}
-
 /// The best device that qualifies and whose name contains `wanted`.
 DeviceSupport choose(std::vector<DeviceSupport> devices, const std::string& wanted) {
     std::vector<std::string> names;
     std::vector<DeviceInfo> refused;
     for (DeviceSupport& device : devices) {
         names.push_back(device.info.name);
-        if (lower(device.info.name).find(lower(wanted)) == std::string::npos) continue;
+        if (lowerCase(device.info.name).find(lowerCase(wanted)) == std::string::npos) continue;
         if (device.info.missing.empty()) return std::move(device);
         refused.push_back(device.info);
     }
     if (refused.empty() && !names.empty())
-        throw UsageError("no Vulkan device's name contains '{}'; devices: {}", wanted, join(names));
+        throw UsageError("no Vulkan device's name contains '{}'; devices: {}", wanted, fmt::join(names, ", "));
     throw Error("{}", whyNoDevice(refused));
 }
 
@@ -55,7 +46,7 @@ std::string whyNoDevice(const std::vector<DeviceInfo>& devices) {
     std::vector<std::string> lacks;
     for (const DeviceInfo& device : devices) {
         if (device.missing.empty()) return {};
-        lacks.push_back(fmt::format("'{}' lacks {}", device.name, join(device.missing)));
+        lacks.push_back(fmt::format("'{}' lacks {}", device.name, fmt::join(device.missing, ", ")));
     }
     return fmt::format("no Vulkan device qualifies: {}; a newer driver may have it, or {}", fmt::join(lacks, "; "),
                        kLavapipe);

@@ -82,7 +82,6 @@ class ShaderCompiler {
 /// A pipeline with its layout and reflected bindings. Move-only.
 class Program {
  public:
-    explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
     VkPipeline pipeline() const { return pipeline_; }
     VkPipelineLayout layout() const { return layout_; }
     VkPipelineBindPoint bindPoint() const { return bindPoint_; }

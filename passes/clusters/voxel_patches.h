@@ -27,8 +27,8 @@ struct VoxelPatches : Resource {
     Buffer firstGroup;        ///< First group of each voxel; then the number of groups.
     Buffer groups;            ///< gpu::SurfaceGroup each; then one where surfels and patches end.
     LargeBuffer materials;    ///< gpu::PackedGroupMaterial of each group's surfaces.
-    Buffer firstNeighbour;    ///< First element of each group in `neighbours`; then the number of elements.
-    LargeBuffer neighbours;   ///< Groups in the 26 voxels around that a group sees, a byte each (neighbours.glsl).
+    Buffer firstNeighbor;     ///< First element of each group in `neighbors`; then the number of elements.
+    LargeBuffer neighbors;    ///< Groups in the 26 voxels around that a group sees, a byte each (neighbors.glsl).
     Buffer components;        ///< gpu::ClusterComponent each; then one where members and faces end.
     Buffer memberGroups;      ///< Groups sorted by component, ascending within each.
     Buffer componentOfGroup;  ///< Component of each group, or NO_COMPONENT where its voxel has no cluster.
@@ -45,12 +45,12 @@ struct VoxelPatches : Resource {
     }
     /// Frees the buffers.
     void clear() {
-        surfelIds = {}, firstGroup = {}, groups = {}, materials = {}, firstNeighbour = {};
-        neighbours = {}, components = {}, memberGroups = {}, componentOfGroup = {}, previousGroupIndex = {};
+        surfelIds = {}, firstGroup = {}, groups = {}, materials = {}, firstNeighbor = {};
+        neighbors = {}, components = {}, memberGroups = {}, componentOfGroup = {}, previousGroupIndex = {};
     }
     uint64_t bytes() const {
-        return surfelIds.bytes() + firstGroup.bytes() + groups.bytes() + materials.bytes() + firstNeighbour.bytes() +
-               neighbours.bytes() + components.bytes() + memberGroups.bytes() + componentOfGroup.bytes() +
+        return surfelIds.bytes() + firstGroup.bytes() + groups.bytes() + materials.bytes() + firstNeighbor.bytes() +
+               neighbors.bytes() + components.bytes() + memberGroups.bytes() + componentOfGroup.bytes() +
                previousGroupIndex.bytes();
     }
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }

@@ -2,9 +2,8 @@
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
-#include <vector>
 
-#include "scene/scene.h"
+#include "trace/environment_cdf.h"
 
 namespace voxray::path_trace {
 
@@ -15,10 +14,10 @@ class EnvironmentLight {
     /// @param environment must outlive this object.
     explicit EnvironmentLight(const Environment& environment);
 
-    bool isBlack() const { return isBlack_; }
-    bool hasMap() const { return !columnCdfs_.empty(); }
+    bool isBlack() const { return !(cdf_.meanLuminance > 0.0f); }
+    bool hasMap() const { return cdf_.width > 0; }
     /// Mean luminance over all directions, W/(m² sr).
-    float meanLuminance() const { return meanLuminance_; }
+    float meanLuminance() const { return cdf_.meanLuminance; }
 
     /// Radiance from a unit `direction` that points away from the scene; the map is interpolated bilinearly.
     glm::vec3 radiance(const glm::vec3& direction) const;
@@ -32,11 +31,7 @@ class EnvironmentLight {
     float texelPdf(uint32_t x, uint32_t y, float sinTheta) const;
 
     const Environment* environment_;
-    uint32_t width_ = 0, height_ = 0;
-    bool isBlack_ = true;
-    float meanLuminance_ = 0.0f;
-    std::vector<float> rowCdf_;      ///< height + 1 entries.
-    std::vector<float> columnCdfs_;  ///< width + 1 entries per row.
+    EnvironmentCdf cdf_;
 };
 
 }  // namespace voxray::path_trace

@@ -1,6 +1,7 @@
 // Counts the surfels of each voxel.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/surfel_types.h"
+#include "shaders/voxels/voxel_types.h"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
@@ -11,5 +12,5 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const uint voxel = surfels.data[i].voxel;
-    if (voxel != 0xffffffffu) atomicAdd(counts.data[voxel], 1u);
+    if (voxel != NO_VOXEL) atomicAdd(counts.data[voxel], 1u);
 }

@@ -13,6 +13,7 @@ layout(push_constant, scalar) uniform Push {
     uint kind;
     uint light;    // Index of the punctual light; of other sources the index of the sample.
     uint samples;  // Samples of the source per surfel.
+    uint candidates;
     uint emitterCount;
     uint seed;
 } push;
@@ -21,8 +22,9 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
-    const LightSample l = sampleSource(push.kind, push.light, push.samples, push.emitterCount, s.position, s.normal,
-                                       s.id, push.seed);
+    const SourceSampling sampling = SourceSampling(push.samples, push.candidates, push.emitterCount);
+    const LightSample l =
+        sampleSource(push.kind, push.light, sampling, whiteReceiver(s.position, s.normal), s.id, push.seed);
     const vec3 irradiance = l.irradiance * max(dot(s.normal, l.direction), 0.0);
     rays.data[i] = Ray(s.position, 0.0, l.direction, any(greaterThan(irradiance, vec3(0.0))) ? l.reach : -1.0);
     contributions.data[i] = vec4(irradiance, 0.0);

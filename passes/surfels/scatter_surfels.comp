@@ -2,6 +2,7 @@
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/sorted_surfels.h"
 #include "passes/surfels/surfel_types.h"
+#include "shaders/voxels/voxel_types.h"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
@@ -17,7 +18,7 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
-    if (s.voxel == 0xffffffffu) return;
+    if (s.voxel == NO_VOXEL) return;
     sorted.data[atomicAdd(ends.data[s.voxel], 1u)] =
         SortedSurfel(s.position, push.firstIndex + i, s.normal, s.id | (s.area == 0.0 ? VOXRAY_OCCLUDED : 0u));
 }

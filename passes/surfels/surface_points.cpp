@@ -1,17 +1,9 @@
 #include "passes/surfels/surface_points.h"
 
-#include <glm/geometric.hpp>
-
 #include "scene/region_split.h"
 
 namespace voxray {
 namespace {
-
-double areaOf(const Geometry& g, uint32_t triangle) {
-    const glm::uvec3 v = g.triangles[triangle];
-    const glm::dvec3 p0 = g.positions[v.x], p1 = g.positions[v.y], p2 = g.positions[v.z];
-    return 0.5 * glm::length(glm::cross(p1 - p0, p2 - p0));
-}
 
 /// Calls visitStatic(triangle) for the region's static triangles, then visitMoving(triangle) for moving ones.
 template <typename Static, typename Moving>
@@ -34,7 +26,8 @@ void visitTriangles(const Geometry& g, const Static& visitStatic, const Moving& 
 SurfaceAreas surfaceAreas(const Geometry& g) {
     SurfaceAreas areas;
     visitTriangles(
-        g, [&](uint32_t t) { areas.ofStatic += areaOf(g, t); }, [&](uint32_t t) { areas.ofMoving += areaOf(g, t); });
+        g, [&](uint32_t t) { areas.ofStatic += triangleArea(g, t); },
+        [&](uint32_t t) { areas.ofMoving += triangleArea(g, t); });
     return areas;
 }
 
@@ -43,7 +36,7 @@ std::vector<uint32_t> distributePoints(const Geometry& g, const PointDensity& de
     if (density.area <= 0) return triangles;
     double cumulativeArea = 0;
     const auto distribute = [&](uint32_t triangle) {
-        cumulativeArea += areaOf(g, triangle);
+        cumulativeArea += triangleArea(g, triangle);
         while ((double(triangles.size()) + 0.5) / density.points * density.area <= cumulativeArea)
             triangles.push_back(triangle);
     };

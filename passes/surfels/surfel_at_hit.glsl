@@ -5,13 +5,14 @@
 #include "shaders/scene/scene.glsl"
 #include "passes/surfels/surfel_types.h"
 #include "shaders/trace/ray_types.h"
+#include "shaders/voxels/voxel_types.h"
 
 // The surfel at the hit of a ray from `origin`, on the side that the ray came from: shading normal, diffuse albedo,
 // area 1, no voxel; the caller sets id and parent. False where the ray hit nothing or a triangle without area.
 // `faceNormal`: unit geometric normal on the same side. `offset`: m; the position is on the surface, and rays may begin
 // that far along the face normal.
 bool surfelAtHit(Hit hit, vec3 origin, out Surfel s, out vec3 faceNormal, out float offset) {
-    s = Surfel(vec3(0.0), 0xffffffffu, vec3(0.0), 0u, vec3(0.0), 0u, 1.0);
+    s = Surfel(vec3(0.0), NO_VOXEL, vec3(0.0), 0u, vec3(0.0), 0u, 1.0);
     faceNormal = vec3(0.0);
     offset = 0.0;
     if (hit.triangle == NO_HIT) return false;

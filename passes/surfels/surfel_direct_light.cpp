@@ -1,6 +1,12 @@
 #include "passes/surfels/surfel_direct_light.h"
 
 namespace voxray {
+namespace {
+
+/// For a sample of an environment map (shaders/lights/lights.glsl): one by its radiance, one by cosine.
+constexpr uint32_t kEnvironmentCandidates = 2;
+
+}  // namespace
 
 SurfelDirectLight::SurfelDirectLight(ProgramOwner& owner)
     : generateRays_(owner, "generate_shadow_rays.comp"),
@@ -30,6 +36,7 @@ void SurfelDirectLight::measure(PassContext& context, const std::vector<LightSou
                               {"kind", source.kind},
                               {"light", punctual ? source.light : s},
                               {"samples", samples},
+                              {"candidates", source.kind == LightSource::Environment ? kEnvironmentCandidates : 1},
                               {"emitterCount", context.scene.emitterCount},
                               {"seed", seed + source.kind}});
             context.tracer.occluded(stream, rays_, occluded_, count);

@@ -2,6 +2,7 @@
 #include "shaders/compute/linear_index.glsl"
 #include "passes/surfels/surfel_types.h"
 #include "shaders/voxels/voxel_accumulator.glsl"
+#include "shaders/voxels/voxel_types.h"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
@@ -13,7 +14,7 @@ layout(push_constant) uniform Push {
 
 void main() {
     const uint i = linearIndex();
-    if (i >= push.count || surfels.data[i].voxel == 0xffffffffu || surfels.data[i].area == 0.0) return;
+    if (i >= push.count || surfels.data[i].voxel == NO_VOXEL || surfels.data[i].area == 0.0) return;
 #if WRITE == WRITE_AVERAGE
     const float weight = surfels.data[i].area;
 #else

@@ -2,9 +2,12 @@
 #ifndef VOXRAY_LIGHTS_GLSL
 #define VOXRAY_LIGHTS_GLSL
 
-#include "shaders/scene/sampling.glsl"
+#include "shaders/lights/environment_map.glsl"
+#include "shaders/lights/light_sampling_types.h"
 #include "shaders/lights/spherical_triangle.glsl"
+#include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
+#include "shaders/scene/specular.glsl"
 
 // As LightSource::Kind in passes/common/lights/light_sources.h.
 #define SOURCE_PUNCTUAL 0u
@@ -14,13 +17,17 @@
 struct LightSample {
     vec3 direction;   // Towards the light, unit length.
     float distance_;  // m
-    float reach;      // Length of the shadow ray, m: it ends in front of the light's surface.
-    vec3 irradiance;  // At normal incidence, over the sample's probability density, W/m².
+    float reach;       // Length of the shadow ray, m: it ends in front of the light's surface.
+    vec3 irradiance;   // At normal incidence, over the sample's probability density, W/m².
+    float solidAngle;  // One over that density, sr; 0 for a punctual light.
+    float height;      // Distance from the plane of an emissive surface, m; of other sources 1e30.
 };
 
 // Point: I / d²; spot: that times its falloff; directional: E.
 LightSample samplePunctual(GpuLight light, vec3 position) {
     LightSample s;
+    s.solidAngle = 0.0;
+    s.height = 1.0e30;
     if (light.type == LIGHT_DIRECTIONAL) {
         s.direction = -light.direction;
         s.distance_ = s.reach = 1.0e30;
@@ -47,49 +54,134 @@ uint pickEmitter(uint emitterCount, float u) {
     return low;
 }
 
-// A point on an emissive triangle, which is picked by power. Uniform over the triangle's solid angle: irradiance
-// L * solid angle / probability; where that angle is small, uniform over its area: L cos' area / (d² probability).
-LightSample sampleEmitters(uint emitterCount, vec3 position, float pick, vec2 u) {
-    const GpuEmitter emitter = sceneEmitters.data[pickEmitter(emitterCount, pick)];
+// A point on an emissive triangle: uniform over the solid angle of the triangle; where that is small, uniform over its
+// area, with a solid angle of cos' area / d².
+LightSample sampleEmitter(GpuEmitter emitter, vec3 position, vec2 u) {
     const uvec3 corners = triangleVertices(emitter.triangle);
-    const SphericalTriangle t =
-        sphericalTriangle(vertexPosition(corners.x) - position, vertexPosition(corners.y) - position,
-                          vertexPosition(corners.z) - position);
+    const vec3 p0 = vertexPosition(corners.x), p1 = vertexPosition(corners.y), p2 = vertexPosition(corners.z);
+    const SphericalTriangle t = sphericalTriangle(p0 - position, p1 - position, p2 - position);
     const bool isWide = t.solidAngle > MIN_SOLID_ANGLE;
-    const SurfacePoint e = surfacePoint(emitter.triangle, isWide ? sphericalTrianglePoint(t, u) : trianglePoint(u));
-    const GpuMaterial m = sceneMaterials.data[e.material];
-    const vec3 toLight = e.position - position;
+    const vec2 w = isWide ? sphericalTrianglePoint(t, u) : trianglePoint(u);
+    const vec3 point = interpolate(vec3(1.0 - w.x - w.y, w), p0, p1, p2), n = normalize(cross(p1 - p0, p2 - p0));
+    const GpuMaterial m = sceneMaterials.data[triangleMaterial(emitter.triangle)];
+    const vec3 toLight = point - position;
     LightSample s;
     s.distance_ = max(length(toLight), 1e-6);
-    s.reach = shadowRayLength(s.distance_, e.offset, position);
+    s.reach = shadowRayLength(s.distance_, max(planeOffset(p0, p1, p2, n), pointOffset(point)), position);
     s.direction = toLight / s.distance_;
-    float cosine = -dot(e.geometricNormal, s.direction);
+    float cosine = -dot(n, s.direction);
     if (m.doubleSided != 0u) cosine = abs(cosine);
-    const float angle =
+    s.height = max(s.distance_ * abs(cosine), 1e-6);
+    s.solidAngle =
         isWide ? float(cosine > 0.0) * t.solidAngle : max(cosine, 0.0) * emitter.area / (s.distance_ * s.distance_);
-    s.irradiance = emittedRadiance(m, e) * angle / emitter.probability;
+    s.irradiance = vec3(0.0);
+    if (s.solidAngle > 0.0) {
+        const bool isEven = m.emissiveTexture.texture == NO_TEXTURE && m.alphaMode != ALPHA_MASK;
+        s.irradiance = s.solidAngle * (isEven ? m.emission : emittedRadiance(m, surfacePoint(emitter.triangle, w)));
+    }
     return s;
 }
 
-// A sample of a light source for a surface point: of punctual light `light`, or sample `light` of `samples` samples of
-// the emissive surfaces (by power and solid angle) or of the environment (by cosine about `normal`). `index` of the
-// point selects its range of the Sobol sequence of `seed`. The irradiance is divided by `samples`, and is without the
-// cosine.
-LightSample sampleSource(uint kind, uint light, uint samples, uint emitterCount, vec3 position, vec3 normal, uint index,
-                         uint seed) {
-    if (kind == SOURCE_PUNCTUAL) return samplePunctual(sceneLights.data[light], position);
-    const uint point = index * samples + light;
-    const vec2 u = sobol2(point, hashCombine(seed, 0u));
+// A surface point that lights are sampled for, and how it reflects.
+struct Receiver {
+    vec3 position;    // m
+    vec3 normal;      // For shading, unit length.
+    vec3 faceNormal;  // Geometric, on the same side.
+    vec3 out_;        // Towards the viewer, unit length.
+    vec3 diffuse;     // Albedo.
+    Specular specular;
+};
+
+// One that reflects all light by Lambert's law. `normal` is also the geometric normal.
+Receiver whiteReceiver(vec3 position, vec3 normal) {
+    return Receiver(position, normal, normal, normal, vec3(1.0), Specular(vec3(0.0), 0.0, 1.0, 0.0, 0.0));
+}
+
+// How a source is sampled.
+struct SourceSampling {
+    uint samples;     // Of the source, for each point.
+    uint candidates;  // For each sample; at most MAX_LIGHT_CANDIDATES.
+    uint emitterCount;
+};
+
+// Candidates for a sample. If there are no more emitters than that, each is one candidate. A constant environment has
+// only one, which is distributed by cosine.
+uint candidateCount(uint kind, SourceSampling sampling) {
+    if (kind == SOURCE_EMITTERS) return min(sampling.candidates, sampling.emitterCount);
+    return hasEnvironmentMap() ? sampling.candidates : 1u;
+}
+
+// Emitter candidate k of `count`: emitter k if there are so many, else stratified by power. All take the same point u
+// of their triangles, so that samples are as even over each lamp as the sequence of u.
+LightSample emitterCandidate(uint k, uint count, uint emitterCount, vec3 position, float pick, vec2 u) {
+    const bool isEach = count == emitterCount;
+    const uint index = isEach ? k : pickEmitter(emitterCount, (float(k) + pick) / float(count));
+    const GpuEmitter emitter = sceneEmitters.data[index];
+    LightSample s = sampleEmitter(emitter, position, u);
+    const float weight = isEach ? 1.0 : 1.0 / (emitter.probability * float(count));
+    s.solidAngle *= weight;
+    s.irradiance *= weight;
+    return s;
+}
+
+// Environment candidate k of `count`: the first half is distributed as the map's radiance, the others by cosine, with
+// the weights of the balance heuristic (Veach 1997). `point`: of the Sobol sequence of `seed`.
+LightSample environmentCandidate(uint k, uint count, vec3 normal, uint point, uint seed) {
+    const uint fromMap = count / 2u, byCosine = count - fromMap;
     LightSample s;
-    if (kind == SOURCE_EMITTERS) {
-        s = sampleEmitters(emitterCount, position, sobol2(point, hashCombine(seed, 1u)).x, u);
+    float mapDensity = 0.0;
+    if (k < fromMap) {
+        s.direction = sampleEnvironmentMap(sobol2(point * fromMap + k, hashCombine(seed, 2u)), mapDensity);
     } else {
-        // Radiance over the density per projected solid angle, 1 / pi; without the cosine.
-        s.direction = cosineDirection(u, normal);
-        s.distance_ = s.reach = 1.0e30;
-        s.irradiance = environmentRadiance(s.direction) * PI / max(dot(normal, s.direction), 1e-6);
+        s.direction = cosineDirection(sobol2(point * byCosine + k - fromMap, hashCombine(seed, 0u)), normal);
+        if (fromMap > 0u) mapDensity = environmentMapDensity(s.direction);
     }
-    s.irradiance /= float(samples);
+    const float cosineDensity = max(dot(normal, s.direction), 1e-6) / PI;
+    s.distance_ = s.reach = s.height = 1.0e30;
+    s.solidAngle = 1.0 / (float(fromMap) * mapDensity + float(byCosine) * cosineDensity);
+    s.irradiance = environmentRadiance(s.direction) * s.solidAngle;
+    return s;
+}
+
+LightSample candidate(uint kind, uint k, uint count, SourceSampling sampling, Receiver r, uint point, uint seed) {
+    if (kind == SOURCE_ENVIRONMENT) return environmentCandidate(k, count, r.normal, point, seed);
+    return emitterCandidate(k, count, sampling.emitterCount, r.position, sobol2(point, hashCombine(seed, 1u)).x,
+                            sobol2(point, hashCombine(seed, 0u)));
+}
+
+// What the receiver reflects of an unoccluded sample: luminance of the light times that of the reflectance, so that it
+// is positive for every color of light that some color of the receiver would reflect.
+float reflectedLuminance(Receiver r, LightSample s) {
+    const float cosine = dot(r.normal, s.direction);
+    if (cosine <= 0.0 || dot(r.faceNormal, s.direction) <= 0.0) return 0.0;
+    return luminance(reflectance(r.diffuse, r.specular, r.normal, r.out_, s.direction)) * luminance(s.irradiance) *
+           cosine;
+}
+
+// A sample of a light source for a surface point: of punctual light `light`, or sample `light` of `sampling.samples`
+// of the emissive surfaces or of the environment. One of its candidates is selected in proportion to
+// reflectedLuminance(): resampled importance sampling (Talbot et al. 2005). `index` of the point selects its range of
+// the Sobol sequence of `seed`. The irradiance is divided by the number of samples, and is without the cosine.
+LightSample sampleSource(uint kind, uint light, SourceSampling sampling, Receiver r, uint index, uint seed) {
+    if (kind == SOURCE_PUNCTUAL) return samplePunctual(sceneLights.data[light], r.position);
+    const uint point = index * sampling.samples + light, count = candidateCount(kind, sampling);
+    uint selected = 0u;
+    float weight = 1.0;
+    if (count > 1u) {
+        float reflected[MAX_LIGHT_CANDIDATES];
+        float total = 0.0;
+        for (uint k = 0u; k < count; ++k)
+            total += reflected[k] = reflectedLuminance(r, candidate(kind, k, count, sampling, r, point, seed));
+        float rest = sobol2(point, hashCombine(seed, 1u)).y * total;
+        for (uint k = 0u; k < count && rest >= 0.0; ++k) {
+            if (reflected[k] > 0.0) selected = k;
+            rest -= reflected[k];
+        }
+        weight = total > 0.0 ? total / reflected[selected] : 0.0;
+    }
+    LightSample s = candidate(kind, selected, count, sampling, r, point, seed);
+    s.solidAngle *= weight;
+    s.irradiance *= weight / float(sampling.samples);
     return s;
 }
 

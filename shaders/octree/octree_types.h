@@ -16,8 +16,7 @@ VOXRAY_SHARED_BEGIN
 struct OctreeShape {
     uvec3 resolution;  // Voxels of the grid.
     uint levels;
-    uint nodeCount;                           // Of all levels, including NO_NODE.
-    uint firstLeaf;                           // Index of the first leaf; leaves come last.
+    uint nodeCount;                           // Of all levels, including NO_NODE. Leaves come last.
     uint tableLevel;                          // Finest level of the table.
     uint tableFirst[OCTREE_MAX_LEVELS + 1u];  // Index in the table of the first entry of level tableLevel + i.
 };

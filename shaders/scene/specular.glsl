@@ -73,6 +73,11 @@ vec3 specularNormal(vec3 normal, vec3 out_) {
     return cosOut < minCosine ? normalize(normal + out_ * (minCosine - cosOut)) : normal;
 }
 
+// Fraction of light from `direction` that the dielectric layer lets through to the diffuse lobe and out again.
+float diffuseTransmittance(Specular s, vec3 out_, vec3 direction) {
+    return hasSpecular(s) ? diffuseFraction(s, schlickWeight(dot(out_, normalize(out_ + direction)))) : 1.0;
+}
+
 // BRDF of both lobes for light from `direction`, 1/sr; without a perfect mirror's lobe, which no shadow ray hits.
 vec3 reflectance(vec3 diffuseAlbedo_, Specular s, vec3 n, vec3 out_, vec3 direction) {
     const vec3 diffuse = diffuseAlbedo_ / 3.14159265358979;

@@ -5,6 +5,8 @@
 
 #include "shaders/shared/types.h"
 
+#define NO_VOXEL 0xffffffffu  // In place of a surface voxel's number.
+
 VOXRAY_SHARED_BEGIN
 
 // A grid of cubic voxels, or a window of it. Voxel (x, y, z) spans origin + voxelSize * [x, x+1] and so on. A

@@ -6,8 +6,6 @@
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/voxels/voxel_packing.h"
 
-#define NO_VOXEL 0xffffffffu
-
 layout(scalar) readonly buffer VoxelOccupancy { uint words[]; } voxelOccupancy;
 layout(scalar) readonly buffer VoxelRank { uint before[]; } voxelRank;
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelMaterials { PackedVoxelMaterial data[]; };

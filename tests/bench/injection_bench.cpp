@@ -44,7 +44,7 @@ Cost inject(test::Chain& chain) {
     return {double(std::clock() - begin) / CLOCKS_PER_SEC, chain.buildSamples.back().milliseconds};
 }
 
-/// Injection with a large image over the same with a small one: medians of the ratios of neighbouring
+/// Injection with a large image over the same with a small one: medians of the ratios of neighboring
 /// runs, the first of which is now the one, now the other, so that what else the machine does falls on both.
 void injectionResolution(benchmark::State& state) {
     const auto small = sponza(320, 180), large = sponza(1280, 720);

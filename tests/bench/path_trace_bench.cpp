@@ -74,17 +74,16 @@ void pathTraceRival(benchmark::State& state, const std::string& scene) {
         const std::filesystem::path file = test::sourceRoot() / "configs/bench/rivals_lookup.yaml";
         const Experiment config = loadExperiment(file);
         const Value& axis = *config.sweep.find("scene");
-        const std::vector<std::string> labels = sweepLabels("scene", axis);
+        const std::vector<std::string> labels = sweepLabels("scene", axis, {});
         const auto place = std::find(labels.begin(), labels.end(), scene);
         if (place == labels.end()) throw Error("{} has no scene '{}'", file.string(), scene);
         const Value chosen = sweepValues(axis)[size_t(place - labels.begin())];
         SceneLoader loader(sceneFolders({}, test::sourceRoot(), file));
         const SceneState prepared = loader.prepare(readSceneSettings(chosen)).state;
 
-        const std::string name = std::filesystem::path(scene).stem();
         if (const char* folder = std::getenv("VOXRAY_EXPORT"))
-            exportGlb(prepared, std::filesystem::path(folder) / (name + ".glb"));
-        state.SetLabel(name);
+            exportGlb(prepared, std::filesystem::path(folder) / (scene + ".glb"));
+        state.SetLabel(scene);
         const ImageSettings& image = config.setup.image;
         const int64_t bounces = config.reference.find("bounces")->asInteger("reference.bounces");
         renderSeeds(state, prepared,
@@ -96,8 +95,8 @@ void pathTraceRival(benchmark::State& state, const std::string& scene) {
 
 BENCHMARK(pathTraceCornell)->Arg(0)->Arg(8)->Arg(64)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(4);
 BENCHMARK_CAPTURE(pathTraceRival, cornell, "cornell")->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(4);
-BENCHMARK_CAPTURE(pathTraceRival, sponza, "sponza.glb")->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(4);
-BENCHMARK_CAPTURE(pathTraceRival, dining_room, "dining-room.glb")
+BENCHMARK_CAPTURE(pathTraceRival, sponza, "sponza")->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(4);
+BENCHMARK_CAPTURE(pathTraceRival, dining_room, "dining_room")
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime()
     ->Iterations(4);

@@ -5,13 +5,18 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Queries { ivec3 voxel[]; } queries;
 layout(scalar) writeonly buffer Answers { uvec2 data[]; } answers;
-layout(push_constant) uniform Push { uint count; } push;
+layout(push_constant) uniform Push {
+    uint count;
+    uint firstLeaf;  // Its node.
+} push;
 
-// Index of a voxel's leaf among the leaves; 0xffffffff where the voxel is empty or outside the grid.
+#define NO_LEAF 0xffffffffu
+
+// Index of a voxel's leaf among the leaves; NO_LEAF where the voxel is empty or outside the grid.
 uint octreeLeaf(ivec3 voxel) {
-    if (any(lessThan(voxel, ivec3(0))) || any(greaterThanEqual(voxel, ivec3(octree.shape.resolution)))) return 0xffffffffu;
+    if (any(lessThan(voxel, ivec3(0))) || any(greaterThanEqual(voxel, ivec3(octree.shape.resolution)))) return NO_LEAF;
     const uint node = octreeChild(octreeWord(voxel >> 1, 1u), octantOf(voxel));
-    return node == NO_NODE ? 0xffffffffu : node - octree.shape.firstLeaf;
+    return node == NO_NODE ? NO_LEAF : node - push.firstLeaf;
 }
 
 void main() {

@@ -89,6 +89,13 @@ TEST_F(VulkanCompute, InvocationsAreFoldedIntoRows) {
     EXPECT_EQ(Invocations(glm::uvec3(5, 3, 0)).groups(cube).z, 0u);
 }
 
+TEST_F(VulkanCompute, ANumberOfElementsIsForShadersWithOneAxis) {
+    const Program program = computeProgram("vulkan_volume.comp");
+    CommandStream stream(device());
+    EXPECT_ERROR("vulkan_volume.comp: dispatched by a number of elements, but its work groups are 4x4x4",
+                 stream.dispatch(program, 64, {}));
+}
+
 TEST_F(VulkanCompute, DiscardedCommandsLeaveNoTrace) {
     const Program program = computeProgram("vulkan_scale.comp");
     const Buffer source(device(), "source", kCount * 4), target(device(), "target", kCount * 4);

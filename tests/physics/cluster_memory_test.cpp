@@ -38,11 +38,11 @@ TEST(ClusterMemory, CountsWhatExists) {
             // A group
             EXPECT_EQ(patches.groups.bytes() + patches.materials.bytes(),
                       kGroupBytes * patches.groupCount + sizeof(gpu::SurfaceGroup));
-            EXPECT_EQ(patches.memberGroups.bytes() + patches.componentOfGroup.bytes() + patches.firstNeighbour.bytes(),
+            EXPECT_EQ(patches.memberGroups.bytes() + patches.componentOfGroup.bytes() + patches.firstNeighbor.bytes(),
                       12ull * patches.groupCount + 4);
-            const uint32_t neighbours = chain.read<uint32_t>(patches.firstNeighbour).back();
-            EXPECT_GT(neighbours, patches.groupCount);
-            EXPECT_EQ(patches.neighbours.bytes(), words(8ull * neighbours));
+            const uint32_t neighbors = chain.read<uint32_t>(patches.firstNeighbor).back();
+            EXPECT_GT(neighbors, patches.groupCount);
+            EXPECT_EQ(patches.neighbors.bytes(), words(8ull * neighbors));
             // Light
             const ClusterLight& light = chain.get<ClusterLight>("cluster_light");
             EXPECT_EQ(light.patches.bytes() + light.direct.bytes(), 8ull * patches.patchCount);

@@ -269,13 +269,13 @@ TEST(FinalGather, RaysGoOnFromNearHits) {
     // A room in the sun whose voxels are as wide as its walls are thick: one holds a sill in the sun and the
     // dark wall below it.
     const auto state = builtin("window_room", "{slats: 0}");
-    const ImageF reference = pathTraced(state, 1024, 8, 32, 18);
+    const ImageF reference = pathTraced(state, 1024, 8, 64, 36);
     const auto run = [&](const std::string& nearField) {
         Chain chain(
             state,
             gatherGraph("inject_light_rays, rays_per_light: 2097152, bounces: 7", "rays_per_block: 128, block: 2",
                         {"gather_rays, near_field_cells: " + nearField}, "resolution: 64", "2"),
-            32, 18);
+            64, 36);
         return chain.image("indirect");
     };
     const double read = relMse(run("0"), reference), gone = relMse(run("2"), reference);

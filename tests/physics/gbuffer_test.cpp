@@ -31,7 +31,7 @@ std::vector<glm::vec4> texels(Chain& chain, const Image& image) {
     return out;
 }
 
-// Whether one surface fills a pixel and its neighbours: their normals agree.
+// Whether one surface fills a pixel and its neighbors: their normals agree.
 bool isSmooth(const std::vector<glm::vec4>& normals, int x, int y, int width, int height) {
     const glm::vec4 own = normals[size_t(y * width + x)];
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, height - 1); ++v)

@@ -75,6 +75,42 @@ TEST(LightPaths, MaterialsKeepTheEnergyOfTheirLobes) {
     EXPECT_EQ(sum(Lit(state, "resolution: 24", inject + ", caustics: false").indirect), 0.0);
 }
 
+TEST(LightPaths, SurfacesWithShadingNormalsScatterTheLightOfTheReference) {
+    // The sun on a floor whose normals are tilted by 40° towards it: the ceiling gets the floor's light
+    const auto scene = [](const Material& floor) {
+        SceneBuilder b("tilted");
+        b.quad("floor", {-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, b.material(floor));
+        b.quad("ceiling", {-0.5f, 2, -0.5f}, {1, 0, 0}, {0, 0, 1}, b.lambert("grey", glm::vec3(0.5f)));
+        b.directionalLight({-1, -1, 0}, glm::vec3(4));
+        b.camera({0, 0.5f, -0.3f}, {0, 2, 0}, 20);
+        const auto state = evaluated(b);
+        const float angle = float(40 * kPi / 180);
+        for (uint32_t t = 0; t < 2; ++t)
+            for (int corner = 0; corner < 3; ++corner)
+                state->geometry.attributes[state->geometry.triangles[t][corner]].normal = {std::sin(angle),
+                                                                                           std::cos(angle), 0};
+        return state;
+    };
+    const Material lambert{.name = "lambert", .metallic = 0, .specular = 0},
+        glossy{.name = "glossy", .metallic = 1, .roughness = 0.4f};
+    const auto compare = [&](const Material& floor, const std::vector<std::string>& injections) {
+        const State state = scene(floor);
+        const double reference = meanIndirect(*state, graphYaml({"path_trace, spp: 512, bounces: 1"}), 16, 16);
+        for (const std::string& inject : injections) {
+            const double injected =
+                meanIndirect(*state,
+                             graphYaml({"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 24",
+                                        inject + ", bounces: 1", "gather_irradiance"}),
+                             16, 16);
+            std::printf("%s, %s: %.4f of the reference\n", floor.name.c_str(), inject.c_str(), injected / reference);
+            EXPECT_NEAR(injected / reference, 1, 0.03) << inject;
+        }
+    };
+    const std::string rays = "inject_light_rays, rays_per_light: 524288";
+    compare(lambert, {rays, rays + ", secondary: material", "inject_rsm, rsm_resolution: 768"});
+    compare(glossy, {rays + ", secondary: material"});
+}
+
 TEST(LightPaths, WithoutSecondaryRaysThereIsDirectLightOnly) {
     Lit lit("white_room", "{intensity: 2}", "resolution: 16",
             "inject_light_rays, rays_per_light: 16384, secondary: none, bounces: 3");

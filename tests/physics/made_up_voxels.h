@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "passes/common/compute/bit_words.h"
 #include "passes/common/voxels/voxels.h"
 
 namespace voxray::test {
@@ -14,7 +15,7 @@ inline gpu::VoxelGrid madeUpGrid(glm::uvec3 resolution, float voxelSize) {
     grid.origin = {-1.25f, 0.5f, 3.0f};
     grid.voxelSize = voxelSize;
     grid.resolution = resolution;
-    grid.wordsPerRow = (resolution.x + 31) / 32;
+    grid.wordsPerRow = uint32_t(bitWords(resolution.x));
     grid.directions = 1;
     grid.windowSize = 1024;
     return grid;

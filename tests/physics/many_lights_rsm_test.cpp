@@ -68,6 +68,18 @@ TEST(ManyLights, OfReflectiveShadowMapsMoveWithTheLight) {
     EXPECT_LT(double(far), 0.02 * double(before.size()));
 }
 
+TEST(ManyLights, OfMoreReflectiveShadowMapsThanShadersCanIndexAreRefused) {
+    // Cubes of 43 point lights have 258 views of 2^24 texels
+    const auto message = [](int lights) {
+        SceneBuilder b("lights");
+        b.quad("ground", {-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, b.lambert("grey", glm::vec3(0.5f)));
+        for (int i = 0; i < lights; ++i) b.pointLight({0, 1, 0.01f * float(i)}, glm::vec3(1));
+        b.camera({0, 3, 3}, {0, 0, 0}, 60);
+        return errorOf([&] { Chain(evaluated(b), graphYaml({"render_rsm, rsm_resolution: 4096"}), 4, 4); });
+    };
+    EXPECT_CONTAINS(message(43), "258 views of lights, 4096x4096 texels each, are more than 2^32 texels");
+}
+
 TEST(ManyLights, OfReflectiveShadowMapsNameWhatHasNoViewpointAndWhatIsBlack) {
     EXPECT_ERROR("'first: light_rays'", Chain("cornell", "{lights: area}", rsmLights("", "bounces: 1")));
     EXPECT_ERROR("none of 1024 rays", Chain("white_room", "{albedo: 0}", rsmLights("", "bounces: 1")));

@@ -163,7 +163,8 @@ double rms(const ImageF& image) {
 
 TEST(MergedVoxels, WithoutToleranceGiveWhatVoxelsGive) {
     // But for faces that hold nothing: voxels pass over those, in a tree they have the value of a leaf
-    // nearby.
+    // nearby. Paths that continue from near hits read the tree by the same shader whatever lit the voxels, so that one
+    // injection is enough for them.
     std::vector<std::pair<std::string, std::string>> cases{{kLightRays, "2"}};
     for (const Injection& injection : kInjections) cases.emplace_back(injection.withBounces(2), "0");
     for (const auto& [inject, near] : cases) {

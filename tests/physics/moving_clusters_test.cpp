@@ -36,11 +36,11 @@ void expectSame(Chain& a, Chain& b) {
         expectSameBuffer(clustersA.*buffer, clustersB.*buffer);
     const auto &patchesA = a.get<VoxelPatches>("patches"), &patchesB = b.get<VoxelPatches>("patches");
     for (Buffer VoxelPatches::*buffer :
-         {&VoxelPatches::firstGroup, &VoxelPatches::groups, &VoxelPatches::firstNeighbour, &VoxelPatches::components,
+         {&VoxelPatches::firstGroup, &VoxelPatches::groups, &VoxelPatches::firstNeighbor, &VoxelPatches::components,
           &VoxelPatches::memberGroups, &VoxelPatches::componentOfGroup})
         expectSameBuffer(patchesA.*buffer, patchesB.*buffer);
     expectSameBuffer(patchesA.materials, patchesB.materials);
-    expectSameBuffer(patchesA.neighbours, patchesB.neighbours);
+    expectSameBuffer(patchesA.neighbors, patchesB.neighbors);
     const auto &listsA = a.get<ClusterVisibility>("cluster_visibility"),
                &listsB = b.get<ClusterVisibility>("cluster_visibility");
     ASSERT_EQ(listsA.chunks.size(), listsB.chunks.size());

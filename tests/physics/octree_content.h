@@ -221,7 +221,11 @@ class TestOctree {
         const Buffer out(device(), "answers", voxels.size() * sizeof(glm::uvec2));
         stream_.upload(in, voxels);
         stream_.dispatch(kernel, voxels.size(),
-                         {radiance, {"queries", in}, {"answers", out}, {"count", uint32_t(voxels.size())}});
+                         {radiance,
+                          {"queries", in},
+                          {"answers", out},
+                          {"count", uint32_t(voxels.size())},
+                          {"firstLeaf", first.front()}});
         return stream_.readAs<glm::uvec2>(out, voxels.size());
     }
 

@@ -174,7 +174,7 @@ TEST(Octree, IsContinuousWhereANodeIsMissing) {
 }
 
 TEST(Octree, HasNoSeams) {
-    // A smooth field, on a curved shell with one value a voxel and on a sheet with six: between neighbours a
+    // A smooth field, on a curved shell with one value a voxel and on a sheet with six: between neighbors a
     // hundredth of a voxel apart the largest change across the faces of voxels and nodes of any size is as
     // inside of them.
     const auto field = [](glm::ivec3 v) {
@@ -217,9 +217,9 @@ TEST(Octree, HasNoSeams) {
 TEST(Octree, UniformPartsCollapse) {
     // A solid block, uniform but for one voxel, and something random next to it.
     for (const uint32_t directions : {1u, 6u}) {
-        const Content neighbour = randomContent({64, 32, 32}, directions, 0.1);
+        const Content neighbor = randomContent({64, 32, 32}, directions, 0.1);
         const Content content({64, 32, 32}, directions, [&](glm::ivec3 v) {
-            if (v.x >= 32) return neighbour.at(0, v);
+            if (v.x >= 32) return neighbor.at(0, v);
             // What hides what is behind it stays the same in each direction at every size; of a mean all
             // does.
             return grey(v == glm::ivec3(9, 20, 30) ? 3.0 : 2.0, directions == 1 ? 0.75 : 1.0);

@@ -65,7 +65,7 @@ std::string lightGraph(const std::string& resolution) {
 }
 
 TEST(BrickOctreeCount, OneVoxelHasTwentySixNeighborsOnEachLevel) {
-    // Voxel 3 of 0 to 7, its parent 1 of 0 to 3, 0 of 0 and 1: there all eight nodes are neighbours.
+    // Voxel 3 of 0 to 7, its parent 1 of 0 to 3, 0 of 0 and 1: there all eight nodes are neighbors.
     VoxelBits bits(glm::uvec3(8));
     bits.mark(glm::ivec3(3));
     const BrickOctreeCount count = countBrickOctree(bits), alone = countBrickOctree(bits, false);
@@ -134,7 +134,7 @@ void expectLinked(const Nodes& nodes) {
     EXPECT_TRUE(std::ranges::all_of(hasBrick, [](bool b) { return b; }));
 }
 
-TEST(PublishedOctree, LinksNodesToChildrenAndNeighbours) {
+TEST(PublishedOctree, LinksNodesToChildrenAndNeighbors) {
     Chain chain("cornell", "{lights: point}", treeGraph("13"));
     expectLinked(Nodes(chain));
 }

@@ -7,10 +7,11 @@
 #include "image/metrics.h"
 #include "passes/common/voxels/voxels.h"
 #include "passes/surfels/surfel_links.h"
-#include "passes/surfels/surfel_neighbours.h"
+#include "passes/surfels/surfel_neighbors.h"
 #include "passes/surfels/surfels_by_voxel.h"
 #include "scene/shapes.h"
 #include "tests/physics/voxels_read.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -29,6 +30,14 @@ TEST(Radiosity, BouncesSumToTheGeometricSeries) {
     EXPECT_NEAR(fluxOfRoom("2", 16) / (8 * kPi * 0.875), 1.0, 0.01);
     // One ray from each surfel is noisy, not biased.
     EXPECT_NEAR(fluxOfRoom("2", 1) / (8 * kPi * 0.875), 1.0, 0.03);
+}
+
+TEST(Radiosity, MorePointsThanIndicesAreRefused) {
+    EXPECT_ERROR(
+        "points are more than 268435456",
+        Chain("white_room", "{}",
+              graphYaml({"voxelize, resolution: 450, visibility_rays: 0", "place_surfels, points_per_voxel: 256"}), 4,
+              4));
 }
 
 TEST(Radiosity, IsLinearInLight) {
@@ -61,13 +70,13 @@ TEST(Radiosity, LinksHoldWhatRaysSee) {
     EXPECT_NEAR(double(inside) / links.surfelCount, 0.5, 0.01);
 }
 
-TEST(Radiosity, NeighboursAreTheSurfelsWithinAVoxel) {
+TEST(Radiosity, NeighborsAreTheSurfelsWithinAVoxel) {
     Chain chain("clutter", "{}",
                 graphYaml({"voxelize, resolution: 12", "place_surfels, sides: all", "link_surfels, rays_per_surfel: 1",
                            "inject_radiosity, bounces: 1", "smooth_surfels"}));
-    const SurfelNeighbours& neighbours = chain.get<SurfelNeighbours>("neighbours");
-    const auto begins = chain.read<uint32_t>(neighbours.begins);
-    const auto pairs = chain.read<glm::uvec2>(neighbours.pairs);
+    const SurfelNeighbors& neighbors = chain.get<SurfelNeighbors>("neighbors");
+    const auto begins = chain.read<uint32_t>(neighbors.begins);
+    const auto pairs = chain.read<glm::uvec2>(neighbors.pairs);
     const auto surfels = chain.read<gpu::SortedSurfel>(chain.get<SurfelsByVoxel>("surfels_by_voxel").sorted);
     const float size = chain.get<SurfaceVoxels>("voxels").grid.voxelSize;
     ASSERT_EQ(begins.size(), surfels.size() + 1);

@@ -68,7 +68,7 @@ Lattice leafLattice(const Lattice& centers) {
     return result;
 }
 
-/// The next level's: 1/4 1/2 1/4 along each axis; on the border of the grid, where the neighbour that would
+/// The next level's: 1/4 1/2 1/4 along each axis; on the border of the grid, where the neighbor that would
 /// bring its half of the rest is missing, 1/4 1/4.
 Lattice coarser(const Lattice& finer) {
     Lattice result((glm::uvec3(finer.nodes) + 1u) / 2u);

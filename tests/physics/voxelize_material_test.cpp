@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "tests/physics/voxels_read.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -147,6 +148,25 @@ TEST(VoxelizeMaterial, AlphaMasksLeaveHoles) {
         EXPECT_NEAR(area * voxels.grid.voxelSize * voxels.grid.voxelSize, 1.0, 0.06) << method;
         EXPECT_NEAR(opacity / count, 0.5, 0.12) << method;
     }
+}
+
+/// Voxelizes so many layers of the size of the grid, all in its one voxel: each has 9/16 of a face's area.
+void voxelizeLayers(int count, const std::string& visibilityRays) {
+    SceneBuilder b("layers");
+    const uint32_t grey = b.lambert("grey", glm::vec3(0.5f));
+    for (int i = 0; i < count; ++i)
+        b.quad("layer", {-1, 0.5f * float(i) / float(count), -1}, {0, 0, 2}, {2, 0, 0}, grey);
+    b.pointLight({0, 0.9f, 0}, glm::vec3(1));
+    b.camera({0, 3, 3}, {0, 0, 0}, 60);
+    Chain(evaluated(b), graphYaml({"voxelize, resolution: 1, visibility_rays: " + visibilityRays}), 4, 4);
+}
+
+TEST(VoxelizeMaterial, SumsThatOverflowAreRefused) {
+    // Areas of 2047 faces are those of 3639 layers; 65,535 points, 256 a face, those of 455
+    EXPECT_NO_THROW(voxelizeLayers(3600, "0"));
+    EXPECT_ERROR("more than 2047 times the area of its face: raise 'resolution'", voxelizeLayers(3700, "0"));
+    EXPECT_NO_THROW(voxelizeLayers(440, "256"));
+    EXPECT_ERROR("more than 65535 visibility probes: raise 'resolution'", voxelizeLayers(480, "256"));
 }
 
 TEST(VoxelizeMaterial, OpacityIsTheFractionOfSubSamples) {

@@ -100,11 +100,11 @@ std::string mutate(std::mt19937& random) {
 TEST(ConfigMutation, ReadsOrGivesOneUsageError) {
     std::mt19937 random(20240607);
     int accepted = 0, refused = 0;
-    ASSERT_NO_THROW(expandSweep(parseExperiment(kSeed, "seed.yaml", {"small", {}})));
+    ASSERT_NO_THROW(expandSweep(parseExperiment(kSeed, "seed.yaml", {"small", {}}), {}));
     for (int i = 0; i < 2000; ++i) {
         const std::string text = mutate(random);
         try {
-            expandSweep(parseExperiment(text, "mutated.yaml"));
+            expandSweep(parseExperiment(text, "mutated.yaml"), {});
             ++accepted;
         } catch (const UsageError& error) {
             ++refused;

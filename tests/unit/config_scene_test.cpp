@@ -84,11 +84,13 @@ TEST(ComposedScene, ErrorsNamePlaceAndNearestWord) {
 }
 
 TEST(ComposedScene, SweepsCompose) {
-    const std::vector<SweepPoint> variants = expandSweep(parseExperiment(
-        withScene("") + "sweep:\n"
-                        "  scene.add: [[], [{file: dragon.glb}], [{file: dragon.glb}, {builtin: plane}]]\n"
-                        "  scene.override: [{grey: {roughness: 0}}, {grey: {roughness: 1}}]\n",
-        "demo.yaml"));
+    const std::vector<SweepPoint> variants = expandSweep(
+        parseExperiment(withScene("") +
+                            "sweep:\n"
+                            "  scene.add: [[], [{file: dragon.glb}], [{file: dragon.glb}, {builtin: plane}]]\n"
+                            "  scene.override: [{grey: {roughness: 0}}, {grey: {roughness: 1}}]\n",
+                        "demo.yaml"),
+        {});
     ASSERT_EQ(variants.size(), 6u);
     EXPECT_TRUE(variants[0].setup.scene.additions.empty());
     EXPECT_EQ(variants[4].setup.scene.additions.size(), 2u);

@@ -12,16 +12,18 @@ using namespace voxray;
 
 namespace {
 
+const FilterLabels kFilters{{"accumulate", "accumulated"}, {"filter_irradiance", "filtered"}};
+
 std::vector<SweepPoint> expand(const std::string& sweep) {
-    return expandSweep(
-        parseExperiment("name: demo\n"
-                        "scene: {builtin: cornell, lights: area}\n"
-                        "graph:\n"
-                        "  - {pass: voxelize, resolution: 64}\n"
-                        "  - {pass: inject_light_rays, id: inject, write: average}\n"
-                        "sweep:\n" +
-                            sweep,
-                        "demo.yaml"));
+    return expandSweep(parseExperiment("name: demo\n"
+                                       "scene: {builtin: cornell, lights: area}\n"
+                                       "graph:\n"
+                                       "  - {pass: voxelize, resolution: 64}\n"
+                                       "  - {pass: inject_light_rays, id: inject, write: average}\n"
+                                       "sweep:\n" +
+                                           sweep,
+                                       "demo.yaml"),
+                       kFilters);
 }
 
 std::string sweepError(const std::string& sweep) {
@@ -126,6 +128,11 @@ TEST(Sweep, LabelsTellWhatDiffers) {
                      "[{pass: rays, n: 2, m: 4}, gather, filter_irradiance]]"),
               (Texts{"gather, n 1, filtered", "gather, n 2, m 8, filtered", "gather, n 2, m 4, filtered"}));
 
+    // A parameter that two of the chains' passes have is told with its pass
+    EXPECT_EQ(labels("[[{pass: a, n: 1}, {pass: b, n: 3}], [{pass: a, n: 2}, {pass: b, n: 3}], "
+                     "[{pass: a, n: 2}, {pass: b, n: 4}]]"),
+              (Texts{"b, b.n 3, a.n 1", "b, b.n 3, a.n 2", "b, b.n 4"}));
+
     // What is said of others does not change if one is added
     EXPECT_EQ(labels("[{pass: a, n: 1}, {pass: a, n: 3}, {pass: b, n: 1}, [{pass: c, n: 5}, d], d]"),
               (Texts{"a, n 1", "a, n 3", "b", "d, c", "d"}));
@@ -167,7 +174,8 @@ TEST(Sweep, NamesWithDotsAreOneKey) {
     const auto variantsOf = [](const std::string& overrides, const std::string& axis) {
         return expandSweep(parseExperiment("name: demo\nscene: {builtin: cornell, override: {" + overrides +
                                                "}}\ngraph: [{pass: voxelize}]\nsweep: {" + axis + ": [0, 1]}\n",
-                                           "demo.yaml"));
+                                           "demo.yaml"),
+                           kFilters);
     };
     // In quotes anywhere; without them where the config has the name already, the longest of several
     for (const auto& [overrides, axis] : std::vector<std::pair<std::string, std::string>>{

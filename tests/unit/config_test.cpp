@@ -320,7 +320,7 @@ TEST(Yaml, MergeKeysBringWhatTheMapLacks) {
     }
 }
 
-TEST(Yaml, KeysThatAreIndentedUnlikeTheirNeighbours) {
+TEST(Yaml, KeysThatAreIndentedUnlikeTheirNeighbors) {
     const auto failure = [](const std::string& text) {
         return errorOf<UsageError>([&] { parseYaml(text, "f.yaml"); });
     };

@@ -30,7 +30,7 @@ TEST(ShippedConfigs, ReadAndValidate) {
             SCOPED_TRACE(entry.path().string() + " " + profile);
             try {
                 const Study wired = makeStudy(loadExperiment(entry.path(), {profile, {}}), registry);
-                SceneLoader loader({});
+                SceneLoader loader({entry.path().parent_path()});
                 for (const Variant& variant : wired.variants)
                     if (!needsFiles(variant.setup.scene)) loader.prepare(variant.setup.scene);
             } catch (const Error& error) {

@@ -168,6 +168,19 @@ class Relay : public Pass {
     Out<FrameImage> extra_{*this, "extra", "What it makes of it."};
 };
 
+/// Reads the image and writes it again.
+class Veil : public Pass {
+ public:
+    static constexpr const char* kName = "veil";
+    static constexpr const char* kHelp = "Over an image.";
+    void plan(PassPlan&) override {}
+    void record(PassContext&) override {}
+
+ private:
+    In<FrameImage> before_{*this, "final", "The image."};
+    Out<FrameImage> final_{*this, "final", "The image again."};
+};
+
 /// Runs in the build phase and notes what it sees of the scene.
 class Witness : public Pass {
  public:
@@ -223,6 +236,7 @@ inline Registry registry() {
     registry.add<Constant>();
     registry.add<Truth>();
     registry.add<Relay>();
+    registry.add<Veil>();
     registry.add<Witness>();
     registry.add<Layers>();
     return registry;

@@ -23,25 +23,11 @@ void expectError(const std::string& graph, std::initializer_list<const char*> pa
     for (const char* part : parts) EXPECT_CONTAINS(message, part);
 }
 
-/// Reads the image and writes it again.
-class Veil : public Pass {
- public:
-    static constexpr const char* kName = "veil";
-    static constexpr const char* kHelp = "Over an image.";
-    void plan(PassPlan&) override {}
-    void record(PassContext&) override {}
-
- private:
-    In<FrameImage> before_{*this, "final", "The image."};
-    Out<FrameImage> final_{*this, "final", "The image again."};
-};
-
 }  // namespace
 
 TEST(Validate, AParameterOfAPassThatIsLeftOutMakesNoMoreVariants) {
     // Of two passes that write the image the last one counts, unless it reads the first one's
-    Registry registry = fakes::registry();
-    registry.add<Veil>();
+    const Registry registry = fakes::registry();
     const auto wired =
         makeStudy(parseExperiment("name: x\nscene: {builtin: cornell}\ngraph:\n  - {pass: constant, id: a}\n"
                                   "  - {pass: constant, id: b}\nsweep: {b: [constant, veil], a.value: [4, 5]}\n",

@@ -155,15 +155,15 @@ TEST(GraphWiring, TakesTheNearestEarlierWriter) {
 
 TEST(GraphWiring, WhatIsChangedAfterItWasReadIsRefused) {
     const std::string late = "- {pass: make_voxels}\n- {pass: light_voxels}\n- {pass: make_voxels, id: late}\n";
-    const std::string message = errorOf<UsageError>([&] { graph(late).checkReadsLastWriter("light", "voxels"); });
+    const std::string message = errorOf<UsageError>([&] { graph(late).checkReadsLatest("light", "voxels"); });
     EXPECT_CONTAINS(message, "g.yaml:3: late: ");
     EXPECT_CONTAINS(message, "'late'");
 
     // In order, chosen on purpose, or not made of it at all
-    graph("- {pass: make_voxels}\n- {pass: light_voxels}\n").checkReadsLastWriter("light", "voxels");
+    graph("- {pass: make_voxels}\n- {pass: light_voxels}\n").checkReadsLatest("light", "voxels");
     graph("- {pass: make_voxels, id: a}\n- {pass: light_voxels, inputs: {voxels: a}}\n- {pass: make_voxels}\n")
-        .checkReadsLastWriter("light", "voxels");
-    graph("- {pass: make_voxels}\n- {pass: sum_up}\n").checkReadsLastWriter("light", "voxels");
+        .checkReadsLatest("light", "voxels");
+    graph("- {pass: make_voxels}\n- {pass: sum_up}\n").checkReadsLatest("light", "voxels");
 }
 
 TEST(GraphWiring, SortsWritersBeforeReaders) {

@@ -201,6 +201,22 @@ TEST_F(RunInParts, AFailedVariantIsAnErrorAndARowOfTheMerge) {
     EXPECT_EQ(cell("fail-true", "status"), "absent");
 }
 
+TEST_F(RunInParts, AFailedVariantKeepsItsValuesWhereAnAxisIsIdle) {
+    // No image of 'plain' depends on 'under', whose values make no more variants of it
+    const std::string sweep =
+        "sweep:\n"
+        "  constant:\n"
+        "    plain: [{pass: constant, id: under}, {pass: constant, fail: true}]\n"
+        "    veiled: [{pass: constant, id: under}, veil]\n"
+        "  under.value: [0.25, 0.5]\n";
+    runPart(parts(1, sweep)[0].id, "out", sweep);
+    EXPECT_ERROR("the pass gave up", runPart("variant.plain", "out", sweep));
+    EXPECT_EQ(runPart("merge", "out", sweep).failed, 1u);
+    EXPECT_EQ(cell("plain", "name"), "plain");
+    EXPECT_EQ(cell("plain", "constant"), "plain");
+    EXPECT_EQ(cell("plain", "under.value"), "-");
+}
+
 TEST_F(RunInParts, FoldersOfSeveralMachinesAreMerged) {
     const std::string sweep = "sweep: {image.width: [8, 16]}\n";
     run(sweep);

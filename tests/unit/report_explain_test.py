@@ -14,6 +14,7 @@ import numpy as np
 sys.dont_write_bytecode = True
 sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "framework"), str(Path(__file__).resolve().parent)]
 
+import browser  # noqa: E402
 import report_results as made_up  # noqa: E402
 from exr_writer import exr  # noqa: E402
 from report import explain, explain_page  # noqa: E402
@@ -105,7 +106,7 @@ class Explain(unittest.TestCase):
         self.write({"gather": 0.8 * self.noise[0], "injection": 0.4 * self.noise[1]}, [stage("gather"), stage("injection")])
         self.assertRegex(self.make(), r"^\d\d % of relMSE is the gather: more of gather")
         page = Page((self.directory / "explain.html").read_text(encoding="utf-8"))
-        self.assertEqual(page.count("div", "waterfall"), 2)
+        self.assertEqual(page.count("div", "bar-track"), 2)
         self.assertEqual(page.count("img", "sharp"), 1 + 2 + 1 + 3)  # Whole, parts, rest; previews.
         self.assertFalse([source for source in page.attributes("src") if not source.startswith("data:")])
         self.assertFalse(page.attributes("href"))
@@ -114,6 +115,24 @@ class Explain(unittest.TestCase):
         self.assertEqual([row["stage"] for row in rows[:5]], ["whole", "gather", "injection", "rest", "all swapped"])
         parts = [float(row["part"]) for row in rows[1:4]]
         self.assertTrue(math.isclose(sum(parts), float(rows[0]["part"]), rel_tol=1e-6))
+
+    @unittest.skipIf(browser.MISSING, browser.MISSING)
+    def test_parts_below_0_stand_before_the_others(self):
+        self.write({"a": 0.8 * self.noise[0], "b": -0.2 * self.noise[0]}, [stage("a"), stage("b")])
+        self.make()
+        window = browser.Browser()
+        self.addCleanup(window.close)
+        for width in (1400, 400):
+            window.resize(width, 800)
+            window.open(self.directory / "explain.html")
+            parts = window.run("return [...document.querySelector('.bar-track').children].map((part) =>"
+                               " [part.title.split(':')[0], part.className, part.getBoundingClientRect().width])")
+            self.assertEqual([part[:2] for part in parts], [["b", "below"], ["a", ""], ["rest", ""]])
+            # Of (0.8 - 0.2)² swapping b brings 0.36 - 0.64, swapping a 0.36 - 0.04; the rest is what these leave, 0.32
+            for (*_, length), part in zip(parts, (0.28, 0.32, 0.32)):
+                self.assertAlmostEqual(length / sum(width for *_, width in parts), part / 0.92, delta=0.03)
+            self.assertLessEqual(window.run("return document.documentElement.scrollWidth"), width)
+        self.assertEqual(window.console(), [])
 
     def test_what_is_no_whole_run_is_refused(self):
         self.write({"a": 0.8 * self.noise[0]}, [stage("a")])

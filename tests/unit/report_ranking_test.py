@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 import unittest
 
+import numpy as np
 from report_support import FLIP, NRMSE, Page, ReportTest, made_up
 
-from report import equal_error, names, page, ranking, summary, table
+from report import page, ranking, summary, table
 from report.load import load
 from report.results import Metric, interval_of
 
@@ -19,8 +20,7 @@ class Comparing(ReportTest):
         return load(made_up.write_results(self.directory, rows, run, images=False))
 
     def summary(self, results):
-        named = names.names_of(results)
-        return summary.summary(results, "total", names.families_of(results, named), named)
+        return summary.summary(results, "total")
 
     def test_scores_whose_intervals_overlap_tie_and_none_is_the_best(self):
         rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.2), ("b", 0.23), ("c", 0.25))]
@@ -29,7 +29,7 @@ class Comparing(ReportTest):
         results = self.results(rows)
         self.assertEqual(ranking.score_marks(results, NRMSE, "nrmse"), {"a": "tie", "b": "tie"})
         self.assertEqual(self.summary(results)[0],
-                         "Lowest nRMSE of the total light: 1 (a) and 2 (b) tie, from 0.200 to 0.230. Most variants tie: more "
+                         "Of the total light, lowest nRMSE 0.200 to 0.230, 1 (a) and 2 (b) tie. Most variants tie: more "
                          "samples in the reference tell them apart (raise reference.spp, now 64). nRMSE: what nRMSE measures.")
         # The reference's noise is a tenth of their squared error where it lies 10 dB above.
         for floor, explains in ((35.6, False), (35.8, True)):  # the ties have 26 and 25.4 dB
@@ -38,17 +38,10 @@ class Comparing(ReportTest):
             self.assertEqual(("voxray explain" in said, "raise reference.spp" in said), (explains, not explains), said)
         # Less noise of their own is asked for before a better reference
         grainy = [dict(row, bias_nrmse=0.1, noise_nrmse=0.2) for row in rows]
-        self.assertIn("tie, from 0.200 to 0.230. Most variants tie, within noise of their own.", self.summary(self.results(grainy))[0])
-        # Where indirect light does not tie, edges that the g-buffer sees one point of are named
-        apart = [dict(row, **{"indirect_nrmse": error}, **made_up.spread("indirect_nrmse", error, error))
-                 for row, error in zip(rows, (0.1, 0.2, 0.3))]
-        for samples, told in ((1, True), (2, False)):
-            graphs = {row["variant"]: [{"pass": "gbuffer", "samples_per_pixel_edge": samples}] for row in rows}
-            said = self.summary(self.results(apart, reference=noise, variants=graphs))[0]
-            self.assertEqual("of an edge within a pixel gbuffer sees one point" in said, told, said)
+        self.assertIn("tie. Most variants tie, within noise of their own.", self.summary(self.results(grainy))[0])
         # Ties that look alike have one number.
         alike = [dict(row, nrmse=0.2 + 0.0001 * i) for i, row in enumerate(rows[:2])]
-        self.assertIn(": 1 (a) and 2 (b) tie at 0.200.", self.summary(self.results(alike))[0])
+        self.assertIn("lowest nRMSE 0.200, 1 (a) and 2 (b) tie.", self.summary(self.results(alike))[0])
         # Told apart, and without intervals: one is the best.
         del rows[1]
         self.assertEqual(ranking.score_marks(self.results(rows), NRMSE, "nrmse"), {"a": "best"})
@@ -109,16 +102,16 @@ class Comparing(ReportTest):
         records = [{"folder": "a", "variants": ["paths"]}, {"folder": "b", "variants": ["rays", "lookup"]}]
         self.assertEqual(ranking.cost_marks(self.results(rows, references=records), "build_ms"), {"lookup": "best"})
         results = self.results(rows)
-        named = names.names_of(results)
-        shown = table.variant_rows(results, table.columns_of(results, ["total"]), named, dict.fromkeys(named.numbers, "x"))
-        headings = [column.key for column in table.columns_of(results, ["total"])]
-        self.assertEqual([row.cells[headings.index("build_ms")].text for row in shown], ["–", "20.0", "10.0"])
+        columns = table.columns_of(results, ["total"])
+        shown = table.results_table(results, "", columns, dict.fromkeys(results.numbers, "x"))
+        index = 2 + [column.key for column in columns].index("build_ms")
+        self.assertEqual([row[index].text for row in shown.rows], ["–", "20.0", "10.0"])
 
     def test_worse_than_a_black_image(self):
         def beaten(metric, value, low=math.nan, high=math.nan):
             row = made_up.variant("a", 10, 0.1) | {metric.key: value}
             results = self.results([row | made_up.spread(metric.key, low, high)])
-            return ranking.beaten_by(results, metric, metric.key, results.ok.iloc[0])
+            return ranking.all_beaten(results, metric, metric.key).get("a", [])
 
         self.assertEqual(beaten(NRMSE, 1.0), ["constant"])
         self.assertEqual(beaten(NRMSE, 2.0), ["black", "constant"])
@@ -136,77 +129,41 @@ class Comparing(ReportTest):
         rows = [made_up.variant(name, 10, error) for name, error in (("a", 0.26), ("b", 0.28), ("c", 0.28), ("d", 0.25))]
         results = self.results(rows, references=[first, second])
         self.assertEqual(ranking.score_marks(results, FLIP, "flip"), {"a": "best", "c": "tie", "d": "tie"})
-        beaten = [ranking.beaten_by(results, NRMSE, "nrmse", row) for _, row in results.ok.iterrows()]
-        self.assertEqual(beaten, [[], [], ["constant"], []])
+        self.assertEqual(ranking.all_beaten(results, NRMSE, "nrmse"), {"c": ["constant"]})
         shown = Page(page.render(results))
         for words in ("a black image (reference)", "a black image (reference.2)",
                       "the reference's own noise (reference.2)"):
             self.assertIn(words, shown.text)
 
     def test_speed_up_at_equal_error(self):
-        # Raw paths' error falls with the root of their time, filtered ones' with the fourth root.
-        points = ([("lookup", 10, 0.3)] + [(f"paths, {spp} spp", 10.0 * spp, spp ** -0.5) for spp in (1, 4, 16)]
-                  + [(f"filtered paths, {spp} spp", 20.0 * spp, 0.5 * spp ** -0.25) for spp in (1, 16)])
-        rows = [made_up.variant(name, ms, error, method=name) for name, ms, error in points]
-        graphs = {name: [{"pass": "path_trace" if "paths" in name else "gather", "id": "indirect", "spp": name}]
-                  + [{"pass": "filter", "id": "filter"}] * ("filtered" in name) for name, _, _ in points}
-        results = self.results(rows, sweep_keys=["method"], variants=graphs)
-        named = names.names_of(results)
-        families = names.families_of(results, named)
-        self.assertEqual([family.name for family in families], ["lookup", "paths", "filtered paths"])
-        # 0.3 takes raw paths 10 / 0.3² = 111 ms and filtered ones 20 (0.5 / 0.3)⁴ = 154 ms.
-        self.assertIn("At equal nRMSE of the total light: a frame of 1 (lookup) takes 10.0 ms, one of paths 111 ms: "
-                      "11 times as long. Once for each scene or light, 1 is built in 20.0 ms, too.", self.summary(results))
-        # None reaches 0.2: the slowest of both families are not enough. All have less than 2.
-        for error, expected in ((0.2, "path tracing more than 160 ms: more than 16 times as long (all its variants have a higher error). Once for each scene or light, 1 is built in 20.0 ms, too."), (2.0, None)):
-            rows[0] |= {"nrmse": error}
-            said = [s for s in self.summary(self.results(rows, sweep_keys=["method"], variants=graphs)) if "equal" in s]
-            self.assertEqual([s.endswith(expected) for s in said], [True] if expected else [])
+        # Paths' error falls with the root of their time: 1, 0.5 and 0.25 in 10, 40 and 160 ms; 1 is worse than a constant image.
+        def said_of(own, filtered=False, width=1.0):
+            """@param own (ms, error) of lookups; width of all intervals as a factor"""
+            points = [(f"lookup {i}", *point) for i, point in enumerate(own)]
+            points += [(f"paths {spp}", 10.0 * spp, spp ** -0.5) for spp in (1, 4, 16)]
+            points += [(f"filtered {spp}", 5.0 * spp, spp ** -0.5) for spp in (4, 16)] * filtered
+            rows = [made_up.variant(name, ms, error) for name, ms, error in points]
+            for row in rows:
+                row.update(made_up.spread("nrmse", row["nrmse"] / width, row["nrmse"] * width))
+            chains = {"lookup": ["gather"], "paths": ["path_trace"], "filtered": ["path_trace", "filter_irradiance"]}
+            graphs = {row["variant"]: [{"pass": kind} for kind in chains[row["variant"].split()[0]]] for row in rows}
+            said = self.summary(self.results(rows, variants=graphs))[0]
+            return said[said.find("At equal"):said.index(" nRMSE: ")] if "At equal" in said else ""
 
-        # Slower: by 0.3 in 111 ms, by the error of the fastest path in its 10 ms. Open: faster or slower than all of them.
-        def said_of(ms, error):
-            rows[0] |= {"frame_ms_median": ms, "nrmse": error}
-            results = self.results(rows, sweep_keys=["method"], variants=graphs)
-            return [said for said in self.summary(results) if "At equal" in said]
-
-        head = "At equal nRMSE of the total light "
-        slower = head + "path tracing is as fast as all other methods or faster: a frame of 1 (lookup) takes "
-        is_open = head + "it is open whether path tracing is faster than 1 (lookup), "
-        # At an error above that of every path, too, unless it is no better than a constant image (0.9)
-        for row in rows[1:]:
-            row["nrmse"] *= 0.5
-        self.assertEqual(said_of(200, 0.15), [slower + "200 ms, one of paths 111 ms."])
-        self.assertEqual(said_of(20, 0.6), [slower + "20.0 ms, one of paths at most 10.0 ms."])
-        self.assertEqual(said_of(5, 0.6), [is_open + "5.00 ms a frame: the fastest variant of paths takes 10.0 ms and has less error."])
-        self.assertEqual(said_of(400, 0.01), [is_open + "400 ms a frame: the slowest variant of paths takes 160 ms and has more error."])
-
-    def test_the_intervals_of_both_errors_are_in_the_speed_up(self):
-        # Paths' error falls with the root of their time: 1, 0.5 and 0.25 in 10, 40 and 160 ms.
-        def said_of(ms, own, of_paths):
-            """Of intervals as factors of the errors."""
-            rows = [made_up.variant("lookup", ms, 0.3)] + [made_up.variant(f"paths {spp}", 10.0 * spp, spp ** -0.5) for spp in (1, 4, 16)]
-            for row, (low, high) in zip(rows, [own] + [of_paths] * 3):
-                row.update(made_up.spread("nrmse", low * row["nrmse"], high * row["nrmse"]))
-            graphs = {row["variant"]: [{"pass": "path_trace" if "paths" in row["variant"] else "gather", "id": "i"}] for row in rows}
-            return next(said for said in self.summary(self.results(rows, variants=graphs)) if "At equal" in said)
-
-        exact = (1, 1)
-        # 0.33 takes 92 ms, 0.27 137 ms; of paths that may have a tenth less or more error 74 ms, and more than 160 ms.
-        self.assertIn(" 111 ms: 11 times as long. Once", said_of(10, exact, exact))
-        self.assertIn(" 111 ms: 11 times as long (9.2–14 within the errors' intervals). Once", said_of(10, (0.9, 1.1), exact))
-        self.assertIn(" 111 ms: 11 times as long (at least 7.4 within the errors' intervals). Once", said_of(10, (0.9, 1.1), (0.9, 1.1)))
-        # 1.2 is more than the fastest path has, so that one of them may be faster; 0.27 is still reached, 0.15 is not.
-        is_open = "; the intervals of their errors leave open which one is faster. Once"
-        self.assertIn(" 111 ms: ≈ 11 times as long (up to 14 within the errors' intervals)" + is_open, said_of(10, (0.9, 4), exact))
-        self.assertIn(" 111 ms: ≈ 11 times as long" + is_open, said_of(10, (0.5, 4), exact))
-        self.assertIn(" 111 ms: ≈ 1.1 times as long (at least 0.92 within the errors' intervals)" + is_open, said_of(100, (0.5, 1.1), exact))
-        # An interval that begins at 0: such paths may have any error, such a method none.
-        self.assertIn(" 111 ms: 11 times as long (at least 9.2 within", said_of(10, (0, 1.1), exact))
-        self.assertIn(" 111 ms: ≈ 11 times as long (up to 11 within", said_of(10, exact, (0, 1)))
-        # Slower: 0.27 takes 137 ms.
-        slower = "path tracing is as fast as all other methods or faster: a frame of 1 (lookup) takes "
-        self.assertIn(slower + "150 ms, one of paths 111 ms.", said_of(150, (0.9, 1.1), exact))
-        self.assertIn(slower + "120 ms, one of paths 111 ms; the intervals", said_of(120, (0.9, 1.1), exact))
+        reached = "it reaches 2 of 2 errors)."
+        self.assertEqual(said_of([(10, 0.2)]), f"At equal nRMSE lookup 0 is 8.0 times as fast as paths ({reached}")
+        # Between 10 ms and 40 ms a lookup gets to 0.25 in 20 ms
+        self.assertEqual(said_of([(10, 0.5), (40, 0.125)]), f"At equal nRMSE lookup is 5.7 times as fast as paths ({reached}")
+        self.assertIn("8.0 times as fast as paths (it reaches 1 of 2 errors).", said_of([(5, 0.4)]))
+        self.assertIn("4.0 times as fast as filtered (", said_of([(10, 0.2)], filtered=True))
+        self.assertEqual(said_of([(10, 0.6)]), "")  # it gets to neither
+        self.assertIn("no method is faster than paths; lookup 0 comes nearest, 0.40 times as fast (" + reached, said_of([(200, 0.2)]))
+        # Errors that are a tenth less or more: of lookups time falls with the square of the error, too
+        own = [(10.0 * spp, 0.5 * spp ** -0.5) for spp in (0.5, 2, 8)]
+        self.assertIn("lookup is 4.0 times as fast as paths (2.7–5.9 within the intervals; " + reached, said_of(own, width=1.1))
+        own = [(45.0 * spp, 0.5 * spp ** -0.5) for spp in (0.5, 2, 8)]
+        self.assertIn("comes nearest, 0.89 times as fast (0.61–1.3 within the intervals; that leaves open which is faster; " + reached,
+                      said_of(own, width=1.1))
 
     def test_scenes_are_told_one_by_one(self):
         # The hall is slower and harder than the room, path tracing takes 4 and 8 times as long in them; a single setting of
@@ -225,19 +182,16 @@ class Comparing(ReportTest):
         self.assertEqual(ranking.cost_marks(results, "frame_ms_median"), {"room lookup": "best", "hall cones": "best"})
         said = self.summary(results)
         self.assertEqual(said[:2], [
-            "Of the total light, room: lowest nRMSE 0.100, 1 (lookup). For the error of 1 (lookup) path tracing takes ≈ 4.0 times "
-            "as long as its 10.0 ms a frame. nRMSE: what nRMSE measures.",
-            "hall: lowest nRMSE 0.300, 3 (lookup). For the error of 3 (lookup) path tracing takes ≈ 8.0 times as long as its 100 "
-            "ms a frame."])
+            "Of the total light, room: lowest nRMSE 0.100, 1 (lookup). At equal nRMSE lookup is 4.0 times as fast as paths (up to "
+            "4.0 within the intervals; that leaves open which is faster; it reaches 1 of 1 errors). nRMSE: what nRMSE measures.",
+            "hall: lowest nRMSE 0.300, 3 (lookup). At equal nRMSE lookup is 8.0 times as fast as paths (up to 8.0 within the "
+            "intervals; that leaves open which is faster; it reaches 1 of 1 errors)."])
         self.assertNotIn("Fastest frame", " ".join(said))
 
-    def test_time_to_reach_an_error(self):
-        points = [(10, 0.4), (40, 0.2), (50, 0.3), (160, 0.1)]  # 50 ms are beaten by 40
-        for error, expected in ((0.2, (40, "")), (0.4, (10, "")), (0.5, (10, "<")), (0.05, (160, ">"))):
-            reached = equal_error.time_to_reach(error, points)
-            self.assertAlmostEqual(reached.milliseconds, expected[0])
-            self.assertEqual(reached.bound, expected[1])
-        self.assertIsNone(equal_error.time_to_reach(0.1, []))
+    def test_the_cost_of_an_error(self):
+        costs, reached = (10, 40, 160), (0.4, 0.2, 0.1)
+        for error, expected in ((0.2, 40), (0.4, 10), (0.5, 10), (0.2 * 2 ** -0.5, 80), (0.05, math.nan)):
+            np.testing.assert_allclose(np.exp(ranking.log_cost_at(error, costs, reached)), expected)
 
     def test_pareto_front(self):
         points = [(3, 1), (1, 5), (2, 5), (2, 3), (4, 1), (1, 6)]

@@ -74,18 +74,19 @@ class Writing(ReportTest):
     def test_numbers_for_a_reader(self):
         self.assertEqual([text.ratio(x) for x in (0.99831, 1.00259, 0, 0.0123456, 12.345, math.nan)],
                          ["0.998", "1.003", "0", "0.0123", "12.3", "–"])
-        self.assertEqual([text.figures(x) for x in (0.0123456, 12.345, 1234.5, 0, math.nan, math.inf, 1e-9)],
-                         ["0.0123", "12.3", "1\u202f234", "0", "–", "∞", "1.00e-09"])
+        self.assertEqual([text.figures(x) for x in (0.0123456, 12.345, 1234.5, 9.9999, 0, math.nan, math.inf, 1e-9)],
+                         ["0.0123", "12.3", "1\u202f234", "10.0", "0", "–", "∞", "1.00e-09"])
         self.assertEqual(text.size(3 * 2**20), "3.00 MiB")
         self.assertEqual(text.count(262144), "262 k")
         self.assertEqual(text.breakable("a.b=<i>"), "a.<wbr>b=<wbr>&lt;i&gt;")
 
-    def test_config_as_yaml_like_text(self):
+    def test_config_as_yaml(self):
         config = {"name": "x y", "image": {"width": 8}, "list": [1, 2], "graph": [{"pass": "a", "n": 1}],
                   "none": None, "quoted": "a: b", "empty": {}}
-        self.assertEqual(text.yaml_like(config), 'name: x y\nimage:\n  width: 8\nlist: [1, 2]\ngraph:\n'
-                         '  - pass: a\n    n: 1\nnone: null\nquoted: "a: b"\nempty: {}')
-        self.assertEqual(text.yaml_like(["null", "true", None]), '["null", "true", null]')
+        self.assertEqual(text.yaml_of(config), "name: x y\nimage: {width: 8}\nlist: [1, 2]\ngraph:\n"
+                         "- {pass: a, n: 1}\nnone: null\nquoted: 'a: b'\nempty: {}")
+        self.assertEqual([text.plain(value) for value in ("null", ["null", None], 0.5, True)],
+                         ["null", "['null', null]", "0.5", "true"])
 
 
 if __name__ == "__main__":

@@ -84,6 +84,7 @@ def manifest(sweep_keys: list[str]) -> dict:
             "reference": {"pass": "path_trace", "spp": 64, "seconds": 12.5, "cached": False,
                           "hash": "0123abcd", "flip_noise": 0.01, "ssim_noise": 0.98,
                           "indirect_flip_noise": 0.02},
+            "light_independent": ["voxelize", "place_surfels", "link_surfels", "cluster_voxels", "build_hybrid_leaves"],
             "baselines": baselines, "auto": {"tracer": "embree"}, "warnings": [],
             "versions": {"glslang": "15"}, "machine": {"cpu": "a CPU", "cores": 2}}
 

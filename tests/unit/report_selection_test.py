@@ -7,7 +7,7 @@ from unittest import mock
 
 from report_support import Page, ReportTest, made_up, numbers_of
 
-from report import charts, details, make_report, names, page, ranking, selection, style
+from report import charts, details, make_report, ranking, selection, style
 from report.load import load
 
 
@@ -20,7 +20,7 @@ def five() -> list[dict]:
 class Selection(ReportTest):
     def selected(self, *wanted: str) -> str:
         results = load(self.directory)
-        return "".join(selection.selected(results, results.lights(), names.names_of(results), list(wanted)))
+        return "".join(selection.selected(results, results.lights(), list(wanted)))
 
     def write(self, rows=None, run=None, **options):
         made_up.write_results(self.directory, rows or five(), run or made_up.manifest([]), indirect=False, **options)
@@ -68,25 +68,12 @@ class Selection(ReportTest):
         shown = Page(source)
         self.assertIn("2 variants are not shown with their images", shown.text)
         ids, links = shown.attributes("id"), shown.attributes("href")
-        links += [f"#{variant['anchor']}" for variant in numbers_of(source, "chart-data")["variants"]]
+        links += [f"#{variant['anchor']}" for variant in numbers_of(source)["variants"]]
         self.assertEqual([name for name in ids if name.startswith("variant-") and name.count("-") == 1],
                          ["variant-1", "variant-2", "variant-4"])
         self.assertEqual([name for name in ids if name.startswith("row-")], [f"row-{i}" for i in range(1, 6)])
         self.assertIn("#row-3", links)
         self.assertLessEqual(set(links), {f"#{name}" for name in ids})
-
-    def test_the_manifest_lists_the_graphs_of_those_that_are_shown(self):
-        run = made_up.manifest([])
-        run["variants"] = {name: [{"pass": f"pass_of_{name}"}] for name in "abcde"}
-        run["names"] = {name: f"name of {name}" for name in "abcde"}
-        run["noise_parameters"] = {"final": {name: [f"{name}.rays"] for name in "abcde"}}
-        self.write(run=run)
-        source = page.render(load(self.directory), ["b"])
-        self.assertIn("pass_of_b", source)
-        self.assertIn("b.rays", source)
-        self.assertEqual(source.count("name of b"), 1)
-        for word in ("pass_of_a", "c.rays", "name of d"):
-            self.assertNotIn(word, source)
 
 
 class Layers(unittest.TestCase):
@@ -101,12 +88,10 @@ class Timeline(ReportTest):
     def test_passes_of_a_phase_follow_one_another(self):
         made_up.write_results(self.directory, [made_up.variant("a", 10, 0.3)], made_up.manifest([]), images=False)
         results = load(self.directory)
-        named = names.names_of(results)
-        passes = details.variants(results, ["total"], style.pass_colors(results), named, {"a": "x"}, set(), [])[0].passes
+        passes = details.variants(results, ["total"], style.pass_colors(results), {"a": "x"}, set())[0].passes
         # Of 20 ms of build 14 and 5.6, of 10 ms a frame 2, 7 and 0.5; the build is the longest phase
-        for row, start, width in zip(passes, (0, 14, 0, 2, 9), (14, 5.6, 2, 7, 0.5)):
-            self.assertAlmostEqual(row.start, 100 * start / 19.6, places=6, msg=row.name)
-            self.assertAlmostEqual(row.percent, 100 * width / 19.6, places=6, msg=row.name)
+        for row, start, width in zip(passes.rows, (0, 14, 0, 2, 9), (14, 5.6, 2, 7, 0.5)):
+            self.assertIn(f"margin-left: {100 * start / 19.6:.2f}%; width: {100 * width / 19.6:.2f}%", row[2].text)
 
 
 class ManyPoints(ReportTest):

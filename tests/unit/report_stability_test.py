@@ -1,7 +1,9 @@
 """Tests of the tables of `voxray stability`, on runs whose numbers are known. Needs Debian's Python with pandas and Jinja2."""
 
+import base64
 import csv
 import json
+import re
 import sys
 import tempfile
 import unittest
@@ -12,11 +14,16 @@ import numpy as np
 sys.dont_write_bytecode = True
 sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "framework"), str(Path(__file__).resolve().parent)]
 
+import browser  # noqa: E402
 import report_results as made_up  # noqa: E402
 from exr_writer import exr  # noqa: E402
-from report import stability, stability_page  # noqa: E402
+from report import pages, stability, stability_page  # noqa: E402
 from report.results import ReportError  # noqa: E402
 from report_support import Page  # noqa: E402
+
+if not browser.MISSING:
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.keys import Keys
 
 SHIPPED = Path(__file__).resolve().parents[2] / "configs" / "stability"
 LIMITS = """\
@@ -36,7 +43,7 @@ wall,leak,cones,wide cones pass
 """
 
 
-class Stability(unittest.TestCase):
+class StabilityTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
@@ -65,6 +72,8 @@ class Stability(unittest.TestCase):
         reasons = stability.read_reasons(self.limits.with_name("limits_reasons.csv"))
         return {(cell.row.scene, cell.row.measure, cell.method): cell for cell in stability.cells_of(self.root, rows, reasons)}
 
+
+class Stability(StabilityTest):
     def test_leaks_are_parts_of_the_lit_side_and_cones_have_a_limit_of_their_own(self):
         self.profile("leak", {("wall", "rays"): (0.001, {}), ("wall", "cones dense"): (0.001, {}), ("wall", "lookup"): (0.0, {}),
                               ("wall", "cones octree"): (0.004, {})})
@@ -145,9 +154,9 @@ class Stability(unittest.TestCase):
                          [("rays", "0.0005", "1"), ("cones", "", "1"), ("rays", "0.05", "0")])
         source = (self.root / "stability.html").read_text(encoding="utf-8")
         page = Page(source)
-        self.assertEqual(page.count("td", "worse"), 2)
+        self.assertEqual(page.count("td", "worse"), 2 + 2)  # in the table of all cells, and in that of those that fail
         self.assertIn("does not run: out of memory", page.text)
-        self.assertNotIn("http", source.replace("http-equiv", ""))
+        self.assertNotIn("http", source.replace(pages._own("d3"), "").replace("http-equiv", ""))
 
     def test_what_can_not_be_read_is_said_in_a_line(self):
         for text, part in (("scene,limit\nroom,1\n", "expected the columns"),
@@ -167,6 +176,69 @@ class Stability(unittest.TestCase):
         for entry in stability.read_reasons(SHIPPED / "matrix_reasons.csv"):
             self.assertTrue(any(entry["scene"] in ("", row.scene) and entry["measure"] in ("", row.measure) for row in rows), entry)
         self.assertEqual(stability_page.limits(rows[0]), "0.010; 0.10 for cones")
+
+
+@unittest.skipIf(browser.MISSING, browser.MISSING)
+class InABrowser(StabilityTest):
+    """Two methods in two scenes; one cell is empty, one method does not run in a scene."""
+
+    def setUp(self):
+        super().setUp()
+        self.profile("leak", {("wall", "rays"): (0.001, {}), ("wall", "cones"): ("out of memory", {})})
+        self.profile("bias", {("room", "rays"): (1.0, {"indirect_bias_nrmse": 0.09, "indirect_bias_nrmse_low": 0.07,
+                                                       "indirect_bias_nrmse_high": 0.11})})
+        stability_page.write(self.root, self.limits)
+        self.browser = browser.Browser()
+        self.addCleanup(self.browser.close)
+
+    def text(self, selector):
+        return self.browser.run("return document.querySelector(arguments[0]).textContent", selector)
+
+    def press(self, *keys):
+        ActionChains(self.browser.driver).send_keys(*keys).perform()
+
+    def test_the_map_is_read_by_keys_and_by_pointer(self):
+        for width in (1400, 400):
+            self.browser.resize(width, 800)
+            self.browser.console()
+            self.browser.open(self.root / "stability.html")
+            self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), width)
+            cells = self.browser.run("return [...document.querySelectorAll('#matrix tbody tr')].map((row) =>"
+                                     " [...row.cells].map((cell) => [cell.textContent, cell.className]))")
+            # 0.05 % of 0.01 %, and 9 % of 8 %, whose interval holds the limit; by the number of scenes that a method fails in
+            self.assertEqual(cells, [[["cones", ""], ["✗", "fails"], ["", "empty"], ["1/1", "total"]],
+                                     [["rays", ""], ["✗5.0", "fails"], ["✗1.1", "fails open"], ["2/2", "total"]]])
+            # Both names and symbols, not colors alone, tell of failing; the colors are on two sides of the scale's middle
+            self.press(Keys.TAB)
+            while self.browser.run("return document.activeElement.getAttribute('role')") != "gridcell":
+                self.press(Keys.TAB)
+            self.press(Keys.ARROW_DOWN)
+            self.assertEqual(self.text("#cell"), "rays in wall: fails: leak 0.050 %, limit 0.010 % (voxels of both sides).")
+            self.assertEqual(self.browser.run("return document.activeElement.getAttribute('aria-label')"), self.text("#cell"))
+            images = "return [...document.querySelectorAll('#cell-images img')].map((image) => [image.alt, image.complete && image.naturalWidth])"
+            self.assertEqual(self.browser.run(images), [["what should be shown: rays, wall", 64], ["what is shown: rays, wall", 64]])
+            self.press(Keys.ARROW_UP, Keys.ARROW_RIGHT)
+            self.assertEqual(self.text("#cell"), "cones in room: not measured.")
+            self.assertEqual(self.browser.run(images), [])
+            cell = self.browser.run("return document.querySelectorAll('#matrix tbody tr')[1].cells[2]")
+            ActionChains(self.browser.driver).move_to_element(cell).perform()
+            self.assertIn("undecided", self.text("#cell"))
+            self.assertEqual(self.browser.console(), [])
+
+    def test_tables_are_folded_and_the_map_is_printed(self):
+        self.browser.open(self.root / "stability.html")
+        heights = "return [...document.querySelectorAll('.folded table, #matrix')].map((table) => table.checkVisibility())"
+        self.assertEqual(self.browser.run(heights), [True, False, False])
+        self.browser.run("document.querySelector('.folded').open = true")
+        rows = "return [...document.querySelectorAll('.folded tbody tr')].slice(0, 2).map((row) => row.cells[0].textContent)"
+        self.assertEqual(self.browser.run(rows), ["wall", "room"])
+        self.browser.run("document.querySelector('.folded th button').click()")
+        self.assertEqual(self.browser.run(rows), ["room", "wall"])
+        # On paper the map has a page across
+        pdf = base64.b64decode(self.browser.driver.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True})["data"])
+        self.assertTrue(any(int(width) > int(height) for width, height in re.findall(rb"/MediaBox \[0 0 (\d+) (\d+)\]", pdf)))
+        self.browser.media("print")
+        self.assertEqual(self.browser.run(heights), [True, True, False])
 
 
 if __name__ == "__main__":

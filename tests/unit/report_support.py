@@ -25,9 +25,9 @@ FLIP = Metric("flip", "HDR-FLIP", "", "low", "")
 _VOID = {"meta", "img", "input", "br", "wbr", "path", "rect", "use", "hr", "link"}
 
 
-def numbers_of(source: str, name: str) -> dict:
-    """What a page's script shows: the JSON with this id."""
-    return json.loads(re.search(f'<script type="application/json" id="{name}">(.*)</script>', source)[1])
+def numbers_of(source: str) -> dict:
+    """What a page's script shows."""
+    return json.loads(re.search('<script type="application/json" id="data">(.*)</script>', source)[1])
 
 
 class Page(HTMLParser):

@@ -13,7 +13,7 @@ import browser
 import numpy as np
 from report_support import ReportTest, made_up
 
-from report import half_floats, images, make_report
+from report import images, make_report
 
 if not browser.MISSING:
     from selenium.webdriver.common.action_chains import ActionChains
@@ -48,7 +48,7 @@ def in_halfs(error: float) -> np.ndarray:
 class Encoding(ReportTest):
     def test_streams_hold_half_floats(self):
         rgb = np.array([[[0, 1, -2], [6.1e-5, 1e9, 0.1]], [[3e-8, 1e-9, 65504], [-1e9, 5, 1 / 3]]])
-        data = np.frombuffer(gzip.decompress(base64.b64decode(half_floats.encode(rgb))), np.uint8).astype(int)
+        data = np.frombuffer(gzip.decompress(base64.b64decode(images.encode(rgb))), np.uint8).astype(int)
         zigzag = data[:12] * 256 + data[12:]
         bits = np.cumsum(np.where(zigzag % 2, -(zigzag + 1) // 2, zigzag // 2)) & 0xffff
         halfs = bits.astype("<u2").view("<f2").reshape(3, 2, 2).transpose(1, 2, 0)
@@ -57,8 +57,8 @@ class Encoding(ReportTest):
     def test_the_range_of_luminance_leaves_out_outliers(self):
         rgb = np.full((100, 100, 3), 2.0)
         rgb[0, 0], rgb[1] = 1e6, 0
-        self.assertEqual([round(edge, 6) for edge in half_floats.luminance_range(rgb)], [2, 2])
-        self.assertIsNone(half_floats.luminance_range(np.zeros((2, 2, 3))))
+        self.assertEqual([round(edge, 6) for edge in images.luminance_range(rgb)], [2, 2])
+        self.assertIsNone(images.luminance_range(np.zeros((2, 2, 3))))
 
     def test_damaged_files_are_warned_of_and_their_previews_shown(self):
         rows = [made_up.variant("a", 10, 0.3), made_up.variant("b", 20, 0.2)]
@@ -121,7 +121,7 @@ class InABrowser(unittest.TestCase):
 
     def test_pixels_are_those_of_the_exr_files(self):
         self.open()
-        data = self.browser.run("return page.pixelsOf(document.getElementById('variant-1-total')).then((pixels) => [...pixels.data])")
+        data = self.browser.run("return voxray.pixelsOf(document.getElementById('variant-1-total')).then((pixels) => [...pixels.data])")
         np.testing.assert_array_equal(np.reshape(data, (3, SIZE[1], SIZE[0])).transpose(1, 2, 0), in_halfs(0.6))
 
     def test_exposure_and_tone_curves_show_the_whole_range(self):
@@ -180,20 +180,21 @@ class InABrowser(unittest.TestCase):
         self.assertTrue(self.browser.run("return document.querySelector('#variant-2 .cursor').checkVisibility()"))
 
     def test_the_pointer_reads_pixels_of_both_sides(self):
-        self.open("left=variant-2&right=variant-3")
-        stage = self.browser.driver.find_element(By.CSS_SELECTOR, '.stage[data-side="left"]')
+        self.open("against=variant-3")
+        stage = self.browser.driver.find_element(By.CSS_SELECTOR, "#variant-2 .viewer")
+        self.browser.run("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", stage)
         ActionChains(self.browser.driver).move_to_element(stage).perform()
-        said = self.said("#side-by-side .readout")
+        said = self.said("#variant-2 .readout")
         x, y = map(int, re.match(r"x (\d+), y (\d+)", said).groups())
         self.assertTrue(abs(x - SIZE[0] / 2) <= 1 and abs(y - SIZE[1] / 2) <= 1, said)
-        self.assertIn(f"2 b {self.numbers(0.3, x, y)} · 3 c {self.numbers(0.1, x, y)}", said)
+        self.assertIn(f"variant {self.numbers(0.3, x, y)} · 3 c {self.numbers(0.1, x, y)}", said)
 
     def test_images_of_other_sizes_are_compared_by_position(self):
         self.open()
         small, large = {"width": 4, "height": 2}, {"width": 8, "height": 6}
-        found = self.browser.run("return [0, 7, 20, 47].map((i) => page.indexIn(arguments[0], arguments[1], i))", small, large)
+        found = self.browser.run("return [0, 7, 20, 47].map((i) => voxray.indexIn(arguments[0], arguments[1], i))", small, large)
         self.assertEqual(found, [0, 3, 2, 7])
-        self.assertEqual(self.browser.run("return page.indexIn(arguments[0], arguments[0], 29)", large), 29)
+        self.assertEqual(self.browser.run("return voxray.indexIn(arguments[0], arguments[0], 29)", large), 29)
 
     def test_images_out_of_sight_have_no_pixels(self):
         self.open()
@@ -207,7 +208,7 @@ class InABrowser(unittest.TestCase):
         self.open()
         data = self.browser.run("""const image = document.getElementById("variant-1-total").cloneNode();
             delete window.DecompressionStream;
-            return page.pixelsOf(image).then((pixels) => [pixels.isExact, ...pixels.data.slice(0, 3)])""")
+            return voxray.pixelsOf(image).then((pixels) => [pixels.isExact, ...pixels.data.slice(0, 3)])""")
         preview = made_up.sphere(0.6, SIZE)[0].clip(0, 1)[0, :3, 0]
         self.assertFalse(data[0])
         np.testing.assert_allclose(srgb(np.array(data[1:]) * 2 ** STOPS), (255 * preview).astype(np.uint8), atol=0.01)

@@ -32,8 +32,8 @@ class Table(unittest.TestCase):
         self.folder = folder.name
         lookup = {"gbuffer": 10, "gather_surfels": 40, "direct": 1000}
         write(self.folder, [
-            ("path_trace, spp 4, filtered", 0.2, {"gbuffer": 10, "paths": 90, "filter_irradiance": 100}, {}),
-            ("path_trace, spp 16, filtered", 0.1, {"gbuffer": 10, "paths": 690, "filter_irradiance": 100}, {}),
+            ("filtered paths, 4", 0.2, {"gbuffer": 10, "paths": 90, "indirect": 100}, {}),
+            ("filtered paths, 16", 0.1, {"gbuffer": 10, "paths": 690, "indirect": 100}, {}),
             ("lookup, coarse", 0.2, lookup, {"inject_radiosity": 50, "link_surfels": 1000}),
             ("lookup, fine", 0.05, {"gbuffer": 10, "gather_surfels": 190}, {"inject_radiosity": 200}),
         ])
@@ -45,6 +45,13 @@ class Table(unittest.TestCase):
         # 100 and 400 ms.
         self.assertEqual(lines[2], "| room | 4 | 200 | 0.200 / 0.200 | >4.0 / >4.0 | >2.0 / >2.0 |")
         self.assertEqual(lines[3], "| room | 16 | 800 | 0.100 / 0.100 | 8.0 / 8.0 | 4.0 / 4.0 |")
+
+    def test_rays_alone_leave_out_what_both_sides_share(self):
+        write(self.folder, [("filtered paths, 4", 0.2, {"gbuffer": 10, "paths": 90, "indirect": 100, "direct": 1000}, {}),
+                            ("rays, 1 a pixel", 0.2, {"gbuffer": 10, "gather_rays": 20, "indirect": 100}, {"inject": 1000})])
+        lines = list(rivals_table.table(self.folder))
+        self.assertEqual([cell.strip() for cell in lines[0].split("|")[5:7]], ["voxels", "voxels, rays alone"])
+        self.assertEqual([cell.strip() for cell in lines[2].split("|")[5:7]], [">1.5 / >1.5", ">4.5 / >4.5"])
 
     def test_the_best_point_is_no_slower_than_path_tracing(self):
         self.assertEqual(list(rivals_table.best(self.folder))[2:],

@@ -39,7 +39,7 @@ TEST(TracingOrder, ChunksAreSmallEnoughAndDoNotMixOpaqueAndMasked) {
     EXPECT_EQ(order.chunkEnd(order.chunkFirst.size() - 1), 1001u);
 }
 
-TEST(TracingOrder, NeighboursOnALineStayNeighbours) {
+TEST(TracingOrder, NeighborsOnALineStayNeighbors) {
     // Triangles along x in a shuffled order come out sorted by x.
     SceneState state = emptyScene();
     for (uint32_t i = 0; i < 64; ++i) {

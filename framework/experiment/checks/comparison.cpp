@@ -46,8 +46,10 @@ void shortHistory(const PlannedVariant& v, Diagnostics& found) {
 /// Warns of an image without direct or indirect light, which the reference has.
 void missingLight(const PlannedVariant& v, Diagnostics& found) {
     if (!v.reference) return;
+    const auto* indirect = v.reference->resource<FrameImage>(kIndirectImage);
+    const bool isDirectOnly = indirect && indirect->lightBounces == 0u;
     for (const Graph::Input& input : v.variant.graph.unboundInputs(kComparedImage))
-        if (std::ranges::count(kPartsOfLight, input.port) > 0)
+        if (std::ranges::count(kPartsOfLight, input.port) > 0 && !(isDirectOnly && input.port == kIndirectImage))
             found.push_back(
                 {input.where,
                  fmt::format("{0}: "

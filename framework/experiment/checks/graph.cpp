@@ -89,7 +89,8 @@ void checkPassNames(const Experiment& experiment, const Registry& registry) {
             }
 }
 
-void checkUnsweptConfig(const Experiment& experiment, const std::vector<Variant>& variants, const Registry& registry) {
+void checkGraphWithoutSweep(const Experiment& experiment, const std::vector<Variant>& variants,
+                            const Registry& registry) {
     for (const Value& entry : experiment.setup.graph.items) {
         if (!entry.find("pass")) continue;
         checkEntry(registry, entry);
@@ -109,7 +110,7 @@ void checkSweptPasses(const Study& study) {
                 return variant.values[a] == label && std::ranges::count(variant.culledPasses, axes[a].key) == 0;
             });
         };
-        const std::vector<std::string> labels = sweepLabels(axes[a].key, axes[a].value);
+        const std::vector<std::string> labels = sweepLabels(axes[a].key, axes[a].value, study.registry->filterLabels());
         const auto run = std::ranges::find_if(labels, isRun);
         const auto idle = std::ranges::find_if_not(labels, isRun);
         if (run == labels.end() || idle == labels.end()) continue;

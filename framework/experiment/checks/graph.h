@@ -13,7 +13,8 @@ namespace voxray {
 void checkPassNames(const Experiment& experiment, const Registry& registry);
 
 /// Checks the graph as the config gives it, without the sweep: also values that the sweep replaces in all variants.
-void checkUnsweptConfig(const Experiment& experiment, const std::vector<Variant>& variants, const Registry& registry);
+void checkGraphWithoutSweep(const Experiment& experiment, const std::vector<Variant>& variants,
+                            const Registry& registry);
 
 /// Rejects lights that are switched off after the last frame.
 void checkLightSwitchTimes(const SceneSettings& scene, const MeasureSettings& measure);

@@ -12,6 +12,7 @@
 #include "passes/clusters/cluster_visibility/patch_surfel.h"
 #include "passes/clusters/cluster_visibility/ray_update_cache.h"
 #include "passes/clusters/voxel_patches.h"
+#include "passes/common/compute/bit_words.h"
 #include "passes/common/compute/compaction.h"
 #include "passes/common/compute/prefix_sum.h"
 #include "passes/common/compute/random_seed.h"
@@ -65,6 +66,7 @@ struct EnumNames<HemisphereAxis> {
 class FindClusterVisibility final : public Pass {
  public:
     static constexpr const char* kName = "cluster_visibility";
+    static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Measures form factors from each patch to voxel clusters. "
         "Traces cosine-distributed rays from the surfels of each patch (find_patches: "
@@ -181,7 +183,7 @@ void FindClusterVisibility::plan(PassPlan& plan) {
         march_->plan(plan, voxels);
         return;
     }
-    const uint64_t words = (rays + 31) / 32;
+    const uint64_t words = bitWords(rays);
     if (reusesHits) plan.scratchBuffer(flags_, "rays to trace", words * sizeof(uint32_t));
     plan.scratchBuffer(listedRays_, "listed rays", rays * sizeof(uint32_t));
     plan.scratchBuffer(rays_, "rays of patches", rays * sizeof(Ray));
@@ -301,7 +303,7 @@ uint32_t FindClusterVisibility::listRays(PassContext& context, const std::vector
         stream,
         {context.scene, rays, {"packedHits", packedHits}, {"flags", flags_}, {"rayCount", count}, {"round", 0u}},
         count);
-    return compaction_->run(stream, flags_, listedRays_, (count + 31) / 32);
+    return compaction_->run(stream, flags_, listedRays_, uint32_t(bitWords(count)));
 }
 
 uint32_t FindClusterVisibility::traceRays(PassContext& context, const std::vector<Binding>& rays, uint32_t count,
@@ -372,7 +374,7 @@ void FindClusterVisibility::buildChunk(PassContext& context, uint32_t first, uin
     ClusterVisibility::Chunk chunk;
     chunk.offsets = Buffer(context.device, "offsets of visibility lists", (count + 1) * sizeof(uint32_t));
     const uint32_t entries = prefixSum_.run(stream, entryCounts_, chunk.offsets, count + 1);
-    const uint64_t words = (uint64_t(entries) * visibility.layout.entryBits + 31) / 32;
+    const uint64_t words = bitWords(uint64_t(entries) * visibility.layout.entryBits);
     chunk.entries = Buffer(context.device, "visibility lists", std::max<uint64_t>(words, 1) * sizeof(uint32_t));
     stream.fill(chunk.entries, 0);
     context.dispatch(packLists_, count, {lists.all(), {"offsets", chunk.offsets}, {"entries", chunk.entries}});

@@ -35,7 +35,7 @@ RayUpdateCache::RayUpdateCache(ProgramOwner& owner)
 void RayUpdateCache::startUpdate(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
                                  const VoxelPatches& patches, const std::vector<Box>& changed) {
     Device& device = stream.device();
-    const Buffer changedNeighbourhood =
+    const Buffer changedNeighborhood =
         regions_.bits(stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, kHitReach)), voxels);
     newGroupIndex_ = Buffer(device, "new numbers of groups", uintBytes(groupCount_));
     previousFirstPatches_ = Buffer(device, "previous first patches of groups", uintBytes(patches.groupCount));
@@ -44,7 +44,7 @@ void RayUpdateCache::startUpdate(CommandStream& stream, const SurfaceVoxels& vox
                     {{"groups", patches.groups},
                      {"previousGroupIndex", patches.previousGroupIndex},
                      {"coordinates", clusters.coordinates},
-                     {"changedNeighbourhood", changedNeighbourhood},
+                     {"changedNeighborhood", changedNeighborhood},
                      {"firstPatches", firstPatches_},
                      {"newGroupIndex", newGroupIndex_},
                      {"previousFirstPatches", previousFirstPatches_},

@@ -9,7 +9,7 @@ layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer PreviousGroupIndex { uint data[]; } previousGroupIndex;
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
 // A bit for each voxel in which hits may have changed.
-readonly buffer ChangedNeighbourhood { uint words[]; } changedNeighbourhood;
+readonly buffer ChangedNeighborhood { uint words[]; } changedNeighborhood;
 readonly buffer FirstPatches { uint data[]; } firstPatches;  // Per previous group.
 writeonly buffer NewGroupIndex { uint data[]; } newGroupIndex;       // Per previous group. Must be NO_GROUP before.
 writeonly buffer PreviousFirstPatches { uint data[]; } previousFirstPatches;  // Per group; NO_GROUP: it is new.
@@ -24,6 +24,6 @@ void main() {
     const uint previous = previousGroupIndex.data[i];
     previousFirstPatches.data[i] = previous == NO_GROUP ? NO_GROUP : firstPatches.data[previous];
     const ivec3 voxel = ivec3(coordinates.data[groups.data[i].voxel]);
-    const uint changed = changedNeighbourhood.words[voxelWord(push.grid, voxel)] & voxelBit(push.grid, voxel);
+    const uint changed = changedNeighborhood.words[voxelWord(push.grid, voxel)] & voxelBit(push.grid, voxel);
     if (previous != NO_GROUP && changed == 0u) newGroupIndex.data[previous] = i;
 }

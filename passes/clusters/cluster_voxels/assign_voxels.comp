@@ -5,7 +5,7 @@
 // - first: the cost is equation 1. The paper has 1 within the angle limit, but line 7 minimizes it; we use 0 within the
 //   limit and 1 beyond. Seeds of equal cost have a random order. A voxel without a seed within the limit gets one
 //   beyond it (section 4.2: a cluster always adds a voxel that is tested for the first time, whatever the angle).
-#include "passes/clusters/cluster_voxels/neighbourhood.glsl"
+#include "passes/clusters/cluster_voxels/neighborhood.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 64) in;
 

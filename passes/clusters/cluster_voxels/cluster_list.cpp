@@ -1,4 +1,5 @@
 #include "passes/clusters/cluster_voxels/cluster_list.h"
+#include "passes/common/compute/bit_words.h"
 
 namespace voxray {
 
@@ -12,7 +13,7 @@ ClusterList::ClusterList(ProgramOwner& owner)
 void ClusterList::build(CommandStream& stream, uint32_t voxelCount, const SlicClustering::Result& slic,
                         VoxelClusters& clusters) {
     Device& device = stream.device();
-    const uint32_t numbers = slic.seedCount + voxelCount, words = (numbers + 31) / 32;
+    const uint32_t numbers = slic.seedCount + voxelCount, words = uint32_t(bitWords(numbers));
     const auto uints = [&](const char* name, uint64_t n) { return Buffer(device, name, n * sizeof(uint32_t)); };
     const Buffer memberCounts = uints("member counts", numbers), newNumbers = uints("new numbers", numbers);
     const Buffer flags = uints("nonempty flags", words), nonempty = uints("nonempty clusters", numbers);

@@ -13,6 +13,7 @@ namespace voxray {
 class ClusterVoxels final : public Pass {
  public:
     static constexpr const char* kName = "cluster_voxels";
+    static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Groups surface voxels into clusters by position and normal. "
         "Light is gathered from clusters instead of their voxels (cluster_visibility, inject_clusters, "

@@ -1,5 +1,5 @@
 // Initializes seeds in a uniform grid: each gets position and normal of the surface voxel nearest to its cell's center.
-#include "passes/clusters/cluster_voxels/neighbourhood.glsl"
+#include "passes/clusters/cluster_voxels/neighborhood.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) writeonly buffer Seeds { ClusterSeed data[]; } seeds;

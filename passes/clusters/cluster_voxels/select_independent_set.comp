@@ -1,6 +1,6 @@
 // Selects new seeds among the unassigned voxels by one round of Luby's algorithm (1986), which finds a maximal
-// independent set. Voxels within reach of each other and within the angle limit are neighbours; a voxel is selected if
-// it is before all its neighbours in a random order.
+// independent set. Voxels within reach of each other and within the angle limit are neighbors; a voxel is selected if
+// it is before all its neighbors in a random order.
 #include "passes/clusters/cluster_voxels/assignment.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 64) in;

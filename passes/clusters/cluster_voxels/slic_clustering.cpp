@@ -85,8 +85,8 @@ SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceV
 
     const glm::vec3 widths = glm::vec3(voxels.grid.resolution) / glm::vec3(seedGrid);
     const float searchRadius = params_.reach * std::max({widths.x, widths.y, widths.z});
-    // The bindings of neighbourhood.glsl
-    const auto neighbourhood = [&](uint32_t threads) {
+    // The bindings of neighborhood.glsl
+    const auto neighborhood = [&](uint32_t threads) {
         return Bindings{voxels,
                         ifUsed({"normals", result.normals}),
                         {"count", threads},
@@ -100,7 +100,7 @@ SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceV
     stream.upload(seedGridBuffer, std::as_bytes(std::span(&seedGrid, 1)));
     result.seeds = Buffer(device, "cluster seeds", result.seedCount * sizeof(gpu::ClusterSeed));
     stream.dispatch(initSeeds_, result.seedCount,
-                    {neighbourhood(result.seedCount), {"seeds", result.seeds}, {"seedGrid", seedGridBuffer}});
+                    {neighborhood(result.seedCount), {"seeds", result.seeds}, {"seedGrid", seedGridBuffer}});
 
     // Cosin and Patow 2022, algorithm 1
     const Buffer bestSeed(device, "best seeds of voxels", count * sizeof(uint64_t));
@@ -108,7 +108,7 @@ SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceV
     for (uint32_t i = 0; i < params_.iterations; ++i) {
         stream.fill(bestSeed, ~0u);
         stream.dispatch(assignVoxels_, result.seedCount,
-                        {neighbourhood(result.seedCount), {"seeds", result.seeds}, {"bestSeed", bestSeed}});
+                        {neighborhood(result.seedCount), {"seeds", result.seeds}, {"bestSeed", bestSeed}});
         if (i + 1 == params_.iterations) break;
         stream.fill(sums, 0);
         stream.dispatch(accumulateSums_, count,
@@ -133,7 +133,7 @@ SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceV
 
     // These voxels join the nearest cluster or form new ones
     const Buffer newAssignmentOrSeeds(device, "new clusters of voxels", count * sizeof(uint32_t));
-    const Bindings assignment{neighbourhood(count), {"coordinates", coordinates}, {"assignment", result.assignment}};
+    const Bindings assignment{neighborhood(count), {"coordinates", coordinates}, {"assignment", result.assignment}};
     uint32_t remaining = result.unassignedCount;
     if (params_.unassignedPolicy == UnassignedVoxels::Nearest && remaining > 0 && remaining < count) {
         stream.dispatch(joinNearestCluster_, count, {assignment.all(), {"newAssignment", newAssignmentOrSeeds}});

@@ -41,10 +41,10 @@ uint occupiedInFront(ivec3 voxel, uint face) {
     const int axis = int(face >> 1);
     uint occupied = 0u;
     for (int i = 0; i < 9; ++i) {
-        ivec3 neighbour = voxel + ivec3(faceNormal(face));
-        neighbour[(axis + 1) % 3] += i % 3 - 1;
-        neighbour[(axis + 2) % 3] += i / 3 - 1;
-        if (isOccupied(push.grid, neighbour)) ++occupied;
+        ivec3 neighbor = voxel + ivec3(faceNormal(face));
+        neighbor[(axis + 1) % 3] += i % 3 - 1;
+        neighbor[(axis + 2) % 3] += i / 3 - 1;
+        if (isOccupied(push.grid, neighbor)) ++occupied;
     }
     return occupied;
 }

@@ -1,4 +1,4 @@
-// Counts the candidates for neighbours of each surface group: groups in the 26 adjacent voxels whose surfaces face one
+// Counts the candidates for neighbors of each surface group: groups in the 26 adjacent voxels whose surfaces face one
 // of the same six directions, and which are both occluded or both unoccluded. LIST: stores them. Rays test their
 // visibility later.
 #include "passes/clusters/group_materials.glsl"
@@ -38,11 +38,11 @@ void main() {
         for (int i = 0; i < 27; ++i) {
             const uint voxel = voxelNumber(push.grid, center + ivec3(i % 3, i / 3 % 3, i / 9) - 1);
             if (i == 13 || voxel == NO_VOXEL) continue;
-            for (uint neighbour = firstGroup.data[voxel]; neighbour < firstGroup.data[voxel + 1u]; ++neighbour) {
-                if (isOccluded(groups.data[neighbour]) != isOccluded(groups.data[group])) continue;
-                if (!faceSameDirection(m, groupMaterial(neighbour))) continue;
+            for (uint neighbor = firstGroup.data[voxel]; neighbor < firstGroup.data[voxel + 1u]; ++neighbor) {
+                if (isOccluded(groups.data[neighbor]) != isOccluded(groups.data[group])) continue;
+                if (!faceSameDirection(m, groupMaterial(neighbor))) continue;
 #ifdef LIST
-                candidates.data[firstCandidate.data[group] + count] = neighbour;
+                candidates.data[firstCandidate.data[group] + count] = neighbor;
                 groupOfCandidate.data[firstCandidate.data[group] + count] = group;
 #endif
                 ++count;

@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "passes/common/compute/bit_words.h"
 #include "passes/common/compute/uint_bytes.h"
 
 namespace voxray {
@@ -19,10 +20,10 @@ ComponentLabeling::ComponentLabeling(ProgramOwner& owner)
       initComponents_(owner, "init_components.comp"),
       numberFaces_(owner, "number_component_faces.comp") {}
 
-void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters, const NeighbourCandidates& candidates,
+void ComponentLabeling::run(CommandStream& stream, const VoxelClusters& clusters, const NeighborCandidates& candidates,
                             VoxelPatches& patches) {
     Device& device = stream.device();
-    const uint32_t groups = patches.groupCount, words = (groups + 31) / 32;
+    const uint32_t groups = patches.groupCount, words = uint32_t(bitWords(groups));
     const Buffer labels(device, "labels of surface groups", uintBytes(groups));
     const Buffer changed(device, "labels that changed", uintBytes(1));
     stream.dispatch(iota_, groups, {{"values", labels}, {"count", groups}});

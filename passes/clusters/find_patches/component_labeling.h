@@ -8,8 +8,8 @@
 
 namespace voxray {
 
-/// Candidates for neighbours of surface groups; NO_GROUP: occluded.
-struct NeighbourCandidates {
+/// Candidates for neighbors of surface groups; NO_GROUP: occluded.
+struct NeighborCandidates {
     uint32_t count = 0;
     Buffer first;        ///< First candidate of each group; then the number of candidates.
     LargeBuffer groups;  ///< Index of each candidate.
@@ -21,7 +21,7 @@ class ComponentLabeling {
     explicit ComponentLabeling(ProgramOwner& owner);
 
     /// Fills the components of `patches`, whose groups are given. Waits for the device.
-    void run(CommandStream& stream, const VoxelClusters& clusters, const NeighbourCandidates& candidates,
+    void run(CommandStream& stream, const VoxelClusters& clusters, const NeighborCandidates& candidates,
              VoxelPatches& patches);
 
  private:

@@ -29,6 +29,7 @@ constexpr uint32_t kChunkPoints = Surfels::kMaxChunkSurfels / 2;
 class FindPatches final : public Pass {
  public:
     static constexpr const char* kName = "find_patches";
+    static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Splits voxels' surfels and clusters at walls thinner than a voxel. "
         "Surfels of a voxel that see each other form a surface group; "
@@ -50,9 +51,9 @@ class FindPatches final : public Pass {
     /// Numbers the groups of all voxels and their patches, and stores the surfels.
     void listGroups(PassContext& context, const SurfelsByVoxel& surfelsByVoxel);
     /// Lists the groups in adjacent voxels that each group sees.
-    NeighbourCandidates findNeighbours(PassContext& context);
+    NeighborCandidates findNeighbors(PassContext& context);
     /// Stores these lists.
-    void packNeighbours(PassContext& context, const NeighbourCandidates& candidates);
+    void packNeighbors(PassContext& context, const NeighborCandidates& candidates);
 
     bool isUpdate() const { return updateCache_ && updateCache_->isActive(); }
 
@@ -67,8 +68,8 @@ class FindPatches final : public Pass {
     std::optional<GroupUpdateCache> updateCache_;  ///< For scenes with moving surfaces.
     // The same shaders for updates, in which results of the previous build are reused
     Kernel updateSurfels_{*this, "init_surfels.comp", {{"UPDATE", "1"}}};
-    Kernel updateNeighbourRays_{*this, "generate_neighbour_rays.comp", {{"UPDATE", "1"}}};
-    Kernel updateNeighbours_{*this, "remove_occluded_neighbours.comp", {{"UPDATE", "1"}}};
+    Kernel updateNeighborRays_{*this, "generate_neighbor_rays.comp", {{"UPDATE", "1"}}};
+    Kernel updateNeighbors_{*this, "remove_occluded_neighbors.comp", {{"UPDATE", "1"}}};
     Kernel evaluateSurfels_{*this, "evaluate_surfels.comp"};
     Kernel initSurfels_{*this, "init_surfels.comp"};
     Kernel sortSurfels_{*this, "sort_surfels.comp"};
@@ -77,11 +78,11 @@ class FindPatches final : public Pass {
     Kernel numberPatches_{*this, "number_patches.comp"};
     Kernel countCandidates_{*this, "build_adjacency.comp"};
     Kernel listCandidates_{*this, "build_adjacency.comp", {{"LIST", "1"}}};
-    Kernel generateNeighbourRays_{*this, "generate_neighbour_rays.comp"};
-    Kernel removeOccludedNeighbours_{*this, "remove_occluded_neighbours.comp"};
+    Kernel generateNeighborRays_{*this, "generate_neighbor_rays.comp"};
+    Kernel removeOccludedNeighbors_{*this, "remove_occluded_neighbors.comp"};
     Kernel storeIds_{*this, "store_ids.comp"};
-    Kernel countKeptNeighbours_{*this, "pack_neighbours.comp"};
-    Kernel packNeighbours_{*this, "pack_neighbours.comp", {{"LIST", "1"}}};
+    Kernel countKeptNeighbors_{*this, "pack_neighbors.comp"};
+    Kernel packNeighbors_{*this, "pack_neighbors.comp", {{"LIST", "1"}}};
     RayBatch batch_;       ///< Scratch.
     LargeBuffer surfels_;  ///< gpu::GroupedSurfel each, sorted by voxel, group and id, while the pass records.
 };
@@ -89,7 +90,7 @@ class FindPatches final : public Pass {
 void FindPatches::plan(PassPlan& plan) {
     batch_.plan(plan, plan[points_].hasOccludedSurfels);
     const bool surfacesMove = !movingInstanceRanges(plan.frame.scene->geometry).empty();
-    for (Kernel* kernel : {&updateSurfels_, &updateNeighbourRays_, &updateNeighbours_}) kernel->compileIf(surfacesMove);
+    for (Kernel* kernel : {&updateSurfels_, &updateNeighborRays_, &updateNeighbors_}) kernel->compileIf(surfacesMove);
     if (surfacesMove) updateCache_.emplace(*this);
 }
 
@@ -107,10 +108,10 @@ void FindPatches::record(PassContext& context) {
     groupSurfels(context, surfelsByVoxel);
     listGroups(context, surfelsByVoxel);
     surfelsByVoxel = {};
-    const NeighbourCandidates candidates = findNeighbours(context);
+    const NeighborCandidates candidates = findNeighbors(context);
     surfels_ = {};
     labeling_.run(context.stream, context[clusters_], candidates, patches);
-    packNeighbours(context, candidates);
+    packNeighbors(context, candidates);
     if (updateCache_) {
         updateCache_->finishUpdate();
         updateCache_->storeVoxels(context.stream, voxels);
@@ -219,7 +220,7 @@ void FindPatches::listGroups(PassContext& context, const SurfelsByVoxel& surfels
     stream.finish();
 }
 
-NeighbourCandidates FindPatches::findNeighbours(PassContext& context) {
+NeighborCandidates FindPatches::findNeighbors(PassContext& context) {
     const SurfaceVoxels& voxels = context[voxels_];
     VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
@@ -230,24 +231,24 @@ NeighbourCandidates FindPatches::findNeighbours(PassContext& context) {
                              {"firstGroup", patches.firstGroup},
                              {"GroupMaterialsRef", patches.materials.ref()},
                              {"groupCount", groups}};
-    NeighbourCandidates candidates;
-    candidates.first = Buffer(context.device, "first candidates for neighbours", uintBytes(groups + 1));
+    NeighborCandidates candidates;
+    candidates.first = Buffer(context.device, "first candidates for neighbors", uintBytes(groups + 1));
     context.dispatch(countCandidates_, groups + 1, {adjacency.all(), {"counts", candidates.first}});
     candidates.count = prefixSum_.run(stream, candidates.first, candidates.first, groups + 1);
-    candidates.groups = LargeBuffer(context.device, "candidates for neighbours", uintBytes(candidates.count));
+    candidates.groups = LargeBuffer(context.device, "candidates for neighbors", uintBytes(candidates.count));
     const LargeBuffer groupOfCandidate(context.device, "group of each candidate", uintBytes(candidates.count));
     context.dispatch(listCandidates_, groups + 1,
                      {adjacency.all(),
                       {"firstCandidate", candidates.first},
                       {"CandidatesRef", candidates.groups.ref()},
                       {"GroupOfCandidateRef", groupOfCandidate.ref()}});
-    std::vector<Binding> reusedVisibility, previousNeighbours;
+    std::vector<Binding> reusedVisibility, previousNeighbors;
     if (isUpdate()) {
-        reusedVisibility = updateCache_->neighbourRayBindings();
-        previousNeighbours = updateCache_->previousNeighbourBindings(context[clusters_], patches);
+        reusedVisibility = updateCache_->neighborRayBindings();
+        previousNeighbors = updateCache_->previousNeighborBindings(context[clusters_], patches);
     }
     RayBatch::inBatches(candidates.count, [&](uint32_t first, uint32_t count) {
-        context.dispatch(isUpdate() ? updateNeighbourRays_ : generateNeighbourRays_, count,
+        context.dispatch(isUpdate() ? updateNeighborRays_ : generateNeighborRays_, count,
                          {reusedVisibility,
                           {"groups", patches.groups},
                           {"GroupedSurfelsRef", surfels_.ref()},
@@ -257,8 +258,8 @@ NeighbourCandidates FindPatches::findNeighbours(PassContext& context) {
                           {"first", first},
                           {"count", count}});
         context.tracer.occluded(stream, batch_.rays, batch_.occluded, count);
-        context.dispatch(isUpdate() ? updateNeighbours_ : removeOccludedNeighbours_, count,
-                         {previousNeighbours,
+        context.dispatch(isUpdate() ? updateNeighbors_ : removeOccludedNeighbors_, count,
+                         {previousNeighbors,
                           {"occluded", batch_.occluded},
                           {"CandidatesRef", candidates.groups.ref()},
                           ifUsed({"GroupOfCandidateRef", groupOfCandidate.ref()}),
@@ -269,24 +270,24 @@ NeighbourCandidates FindPatches::findNeighbours(PassContext& context) {
     return candidates;
 }
 
-void FindPatches::packNeighbours(PassContext& context, const NeighbourCandidates& candidates) {
+void FindPatches::packNeighbors(PassContext& context, const NeighborCandidates& candidates) {
     VoxelPatches& patches = context[patches_];
     CommandStream& stream = context.stream;
     const uint32_t groups = patches.groupCount;
     const Bindings kept{
         {"firstCandidate", candidates.first}, {"CandidatesRef", candidates.groups.ref()}, {"groupCount", groups}};
-    patches.firstNeighbour = Buffer(context.device, "first neighbours of surface groups", uintBytes(groups + 1));
-    context.dispatch(countKeptNeighbours_, groups + 1, {kept.all(), {"counts", patches.firstNeighbour}});
-    const uint32_t neighbours = prefixSum_.run(stream, patches.firstNeighbour, patches.firstNeighbour, groups + 1);
-    patches.neighbours = LargeBuffer(context.device, "neighbours of surface groups", uintBytes((neighbours + 3) / 4));
-    stream.fill(patches.neighbours, 0);
-    context.dispatch(packNeighbours_, groups + 1,
+    patches.firstNeighbor = Buffer(context.device, "first neighbors of surface groups", uintBytes(groups + 1));
+    context.dispatch(countKeptNeighbors_, groups + 1, {kept.all(), {"counts", patches.firstNeighbor}});
+    const uint32_t neighbors = prefixSum_.run(stream, patches.firstNeighbor, patches.firstNeighbor, groups + 1);
+    patches.neighbors = LargeBuffer(context.device, "neighbors of surface groups", uintBytes((neighbors + 3) / 4));
+    stream.fill(patches.neighbors, 0);
+    context.dispatch(packNeighbors_, groups + 1,
                      {kept.all(),
                       {"coordinates", context[clusters_].coordinates},
                       {"groups", patches.groups},
                       {"firstGroup", patches.firstGroup},
-                      {"firstNeighbour", patches.firstNeighbour},
-                      {"NeighboursRef", patches.neighbours.ref()}});
+                      {"firstNeighbor", patches.firstNeighbor},
+                      {"NeighborsRef", patches.neighbors.ref()}});
     stream.finish();
 }
 

@@ -1,5 +1,5 @@
 // Finds the index that each surface group of an unchanged voxel had in the previous build. Where no adjacent voxel has
-// changed either, a later shader reuses the earlier visibility tests between the group and its neighbours.
+// changed either, a later shader reuses the earlier visibility tests between the group and its neighbors.
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/voxels.glsl"
@@ -10,7 +10,7 @@ readonly buffer FirstGroup { uint data[]; } firstGroup;
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
 readonly buffer Changed { uint words[]; } changed;  // A bit for each voxel.
 // A bit for each voxel: set if it or one of the 26 around it has changed.
-readonly buffer ChangedNeighbourhood { uint words[]; } changedNeighbourhood;
+readonly buffer ChangedNeighborhood { uint words[]; } changedNeighborhood;
 readonly buffer PreviousOccupancy { uint words[]; } previousOccupancy;
 readonly buffer PreviousRank { uint before[]; } previousRank;
 readonly buffer PreviousFirstGroup { uint data[]; } previousFirstGroup;
@@ -35,5 +35,5 @@ void main() {
         previous = previousFirstGroup.data[previousVoxel] + i - firstGroup.data[voxel];
     }
     previousGroupIndex.data[i] = previous;
-    reusablePreviousIndex.data[i] = (changedNeighbourhood.words[word] & bit) == 0u ? previous : NO_GROUP;
+    reusablePreviousIndex.data[i] = (changedNeighborhood.words[word] & bit) == 0u ? previous : NO_GROUP;
 }

@@ -20,10 +20,10 @@ void GroupUpdateCache::startUpdate(CommandStream& stream, const SurfaceVoxels& v
         return regions_.bits(stream, VoxelRegion(voxels.grid, changedVoxels(voxels.grid, changed, margin)), voxels);
     };
     changed_ = changedBits(0);
-    changedNeighbourhood_ = changedBits(1);
+    changedNeighborhood_ = changedBits(1);
     firstGroup_ = std::move(patches.firstGroup);
-    firstNeighbour_ = std::move(patches.firstNeighbour);
-    neighbours_ = std::move(patches.neighbours);
+    firstNeighbor_ = std::move(patches.firstNeighbor);
+    neighbors_ = std::move(patches.neighbors);
     isActive_ = true;
 }
 
@@ -35,13 +35,13 @@ void GroupUpdateCache::findPreviousGroupIndices(CommandStream& stream, const Sur
                                                 const VoxelClusters& clusters, VoxelPatches& patches) {
     patches.previousGroupIndex = Buffer(stream.device(), "previous groups", uintBytes(patches.groupCount));
     reusablePreviousIndex_ =
-        Buffer(stream.device(), "groups whose neighbours are reused", uintBytes(patches.groupCount));
+        Buffer(stream.device(), "groups whose neighbors are reused", uintBytes(patches.groupCount));
     stream.dispatch(findPreviousGroups_, patches.groupCount,
                     {{"groups", patches.groups},
                      {"firstGroup", patches.firstGroup},
                      {"coordinates", clusters.coordinates},
                      {"changed", changed_},
-                     {"changedNeighbourhood", changedNeighbourhood_},
+                     {"changedNeighborhood", changedNeighborhood_},
                      {"previousOccupancy", occupancy_},
                      {"previousRank", rank_},
                      {"previousFirstGroup", firstGroup_},
@@ -51,23 +51,23 @@ void GroupUpdateCache::findPreviousGroupIndices(CommandStream& stream, const Sur
                      {"groupCount", patches.groupCount}});
 }
 
-std::vector<Binding> GroupUpdateCache::neighbourRayBindings() const {
+std::vector<Binding> GroupUpdateCache::neighborRayBindings() const {
     return {{"reusablePreviousIndex", reusablePreviousIndex_}};
 }
 
-std::vector<Binding> GroupUpdateCache::previousNeighbourBindings(const VoxelClusters& clusters,
-                                                                 const VoxelPatches& patches) const {
+std::vector<Binding> GroupUpdateCache::previousNeighborBindings(const VoxelClusters& clusters,
+                                                                const VoxelPatches& patches) const {
     return {{"reusablePreviousIndex", reusablePreviousIndex_},
             {"coordinates", clusters.coordinates},
             {"groups", patches.groups},
             {"firstGroup", patches.firstGroup},
-            {"previousFirstNeighbour", firstNeighbour_},
-            {"PreviousNeighboursRef", neighbours_.ref()}};
+            {"previousFirstNeighbor", firstNeighbor_},
+            {"PreviousNeighborsRef", neighbors_.ref()}};
 }
 
 void GroupUpdateCache::finishUpdate() {
-    changed_ = {}, changedNeighbourhood_ = {}, reusablePreviousIndex_ = {}, firstGroup_ = {}, firstNeighbour_ = {},
-    neighbours_ = {};
+    changed_ = {}, changedNeighborhood_ = {}, reusablePreviousIndex_ = {}, firstGroup_ = {}, firstNeighbor_ = {},
+    neighbors_ = {};
     isActive_ = false;
 }
 

@@ -11,14 +11,14 @@
 namespace voxray {
 
 /// Stores the surface groups of a build for the next update of a scene with moving surfaces: groups of
-/// unchanged voxels are reused, and so is the occlusion between neighbours where no adjacent voxel has
+/// unchanged voxels are reused, and so is the occlusion between neighbors where no adjacent voxel has
 /// changed.
 ///
 ///     startUpdate()                  before an update, with the previous build's groups
 ///     surfelBindings()               the previous group of each surfel (init_surfels.comp)
 ///     findPreviousGroupIndices()     once groups are numbered
-///     neighbourRayBindings()         groups without rays to neighbours (generate_neighbour_rays.comp)
-///     previousNeighbourBindings()    their neighbours (remove_occluded_neighbours.comp)
+///     neighborRayBindings()         groups without rays to neighbors (generate_neighbor_rays.comp)
+///     previousNeighborBindings()    their neighbors (remove_occluded_neighbors.comp)
 ///     finishUpdate()
 ///     store...()                     in each build
 class GroupUpdateCache {
@@ -33,8 +33,8 @@ class GroupUpdateCache {
     /// Fills VoxelPatches::previousGroupIndex.
     void findPreviousGroupIndices(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelClusters& clusters,
                                   VoxelPatches& patches);
-    std::vector<Binding> neighbourRayBindings() const;
-    std::vector<Binding> previousNeighbourBindings(const VoxelClusters& clusters, const VoxelPatches& patches) const;
+    std::vector<Binding> neighborRayBindings() const;
+    std::vector<Binding> previousNeighborBindings(const VoxelClusters& clusters, const VoxelPatches& patches) const;
     /// Frees what startUpdate() moved. The stream must have finished.
     void finishUpdate();
 
@@ -46,12 +46,12 @@ class GroupUpdateCache {
  private:
     Kernel storeSurfelGroups_, findPreviousGroups_;
     RegionMerge regions_;
-    Buffer occupancy_, rank_;                ///< From the previous build.
-    LargeBuffer storedGroups_;               ///< gpu::StoredGroup of each surfel id.
-    Buffer changed_, changedNeighbourhood_;  ///< During an update: a bit for each voxel.
-    Buffer reusablePreviousIndex_;           ///< Per group, see find_previous_groups.comp.
-    Buffer firstGroup_, firstNeighbour_;     ///< From the previous build.
-    LargeBuffer neighbours_;                 ///< Likewise.
+    Buffer occupancy_, rank_;               ///< From the previous build.
+    LargeBuffer storedGroups_;              ///< gpu::StoredGroup of each surfel id.
+    Buffer changed_, changedNeighborhood_;  ///< During an update: a bit for each voxel.
+    Buffer reusablePreviousIndex_;          ///< Per group, see find_previous_groups.comp.
+    Buffer firstGroup_, firstNeighbor_;     ///< From the previous build.
+    LargeBuffer neighbors_;                 ///< Likewise.
     bool isActive_ = false;
 };
 

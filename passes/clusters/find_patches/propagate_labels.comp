@@ -1,5 +1,5 @@
 // One iteration of label propagation, which finds connected components: each group takes the least label of its
-// neighbours in the same cluster. The result does not depend on the order of threads: labels converge to the least
+// neighbors in the same cluster. The result does not depend on the order of threads: labels converge to the least
 // index of the groups of a component.
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/large_buffer.glsl"
@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 readonly buffer FirstCandidate { uint data[]; } firstCandidate;
-layout(scalar) readonly buffer CandidatesRef { LargeUints candidates; };  // Neighbours; NO_GROUP: occluded.
+layout(scalar) readonly buffer CandidatesRef { LargeUints candidates; };  // Neighbors; NO_GROUP: occluded.
 readonly buffer ClusterOfVoxel { uint data[]; } clusterOfVoxel;
 buffer Labels { uint data[]; } labels;
 buffer Changed { uint count; } changed;
@@ -20,9 +20,9 @@ void main() {
     const uint cluster = clusterOfVoxel.data[groups.data[group].voxel];
     uint label = labels.data[labels.data[group]];
     for (uint i = firstCandidate.data[group]; i < firstCandidate.data[group + 1u]; ++i) {
-        const uint neighbour = candidates.data[i];
-        if (neighbour == NO_GROUP || clusterOfVoxel.data[groups.data[neighbour].voxel] != cluster) continue;
-        label = min(label, labels.data[neighbour]);
+        const uint neighbor = candidates.data[i];
+        if (neighbor == NO_GROUP || clusterOfVoxel.data[groups.data[neighbor].voxel] != cluster) continue;
+        label = min(label, labels.data[neighbor]);
     }
     if (label == labels.data[group]) return;
     labels.data[group] = label;

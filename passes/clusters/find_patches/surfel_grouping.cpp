@@ -6,7 +6,7 @@
 namespace voxray {
 namespace {
 
-/// Limit of unoccluded and of occluded groups in a voxel, as in neighbours.glsl. All remaining surfels join the last
+/// Limit of unoccluded and of occluded groups in a voxel, as in neighbors.glsl. All remaining surfels join the last
 /// one.
 constexpr uint32_t kMaxGroupsPerVoxel = 8;
 

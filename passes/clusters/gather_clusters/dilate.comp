@@ -1,11 +1,11 @@
-// Dilates the list of groups by their neighbours, which an iteration of the filter reads.
-#include "passes/clusters/neighbours.glsl"
+// Dilates the list of groups by their neighbors, which an iteration of the filter reads.
+#include "passes/clusters/neighbors.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
-layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
+readonly buffer FirstNeighbor { uint data[]; } firstNeighbor;
+layout(scalar) readonly buffer NeighborsRef { LargeUints neighbors; };
 buffer IsListed { uint data[]; } isListed;  // Per group.
 buffer ListedGroups { uint data[]; } listedGroups;
 buffer Count { uint value; } count;
@@ -19,9 +19,9 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.groupCount) return;
     const uint group = listedGroups.data[push.first + i];
-    for (uint k = firstNeighbour.data[group]; k < firstNeighbour.data[group + 1u]; ++k) {
-        const uint neighbour = neighbourIndex(push.grid, groups.data[group], byteOf(neighbours.data[k / 4u], k));
-        if (atomicExchange(isListed.data[neighbour], 1u) == 0u)
-            listedGroups.data[atomicAdd(count.value, 1u)] = neighbour;
+    for (uint k = firstNeighbor.data[group]; k < firstNeighbor.data[group + 1u]; ++k) {
+        const uint neighbor = neighborIndex(push.grid, groups.data[group], byteOf(neighbors.data[k / 4u], k));
+        if (atomicExchange(isListed.data[neighbor], 1u) == 0u)
+            listedGroups.data[atomicAdd(count.value, 1u)] = neighbor;
     }
 }

@@ -1,14 +1,14 @@
-// Filters the irradiance of patches by binomial weights over the same face of neighbouring surface groups (Cosin and
+// Filters the irradiance of patches by binomial weights over the same face of neighboring surface groups (Cosin and
 // Patow 2022, section 4.4; the paper's filter also crosses walls). LIT_ONLY: unlit patches are excluded.
 #include "passes/clusters/gather_clusters/listed_groups.glsl"
-#include "passes/clusters/neighbours.glsl"
+#include "passes/clusters/neighbors.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer PatchValues { vec3 data[]; };
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
-layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };
+readonly buffer FirstNeighbor { uint data[]; } firstNeighbor;
+layout(scalar) readonly buffer NeighborsRef { LargeUints neighbors; };
 layout(scalar) readonly buffer GatheredRef { PatchValues gathered; };
 layout(scalar) readonly buffer FilteredRef { PatchValues filtered; };
 layout(push_constant, scalar) uniform Push {
@@ -42,9 +42,9 @@ void main() {
     vec4 sums[6];
     for (uint face = 0u; face < 6u; ++face) sums[face] = vec4(0.0);
     addPatches(group, binomialWeight(vec3(0.0)), sums);
-    for (uint k = firstNeighbour.data[number]; k < firstNeighbour.data[number + 1u]; ++k) {
-        const uint code = byteOf(neighbours.data[k / 4u], k);
-        addPatches(groups.data[neighbourIndex(push.grid, group, code)], binomialWeight(vec3(neighbourOffset(code))),
+    for (uint k = firstNeighbor.data[number]; k < firstNeighbor.data[number + 1u]; ++k) {
+        const uint code = byteOf(neighbors.data[k / 4u], k);
+        addPatches(groups.data[neighborIndex(push.grid, group, code)], binomialWeight(vec3(neighborOffset(code))),
                    sums);
     }
     uint patchNumber = group.firstPatch;

@@ -18,14 +18,14 @@ struct EnumNames<FilterOver> {
     static constexpr std::array names{std::pair{FilterOver::All, "all"}, std::pair{FilterOver::Lit, "lit"}};
 };
 
-/// Gathers indirect irradiance along the visibility lists of patches, filters it over neighbours and averages
+/// Gathers indirect irradiance along the visibility lists of patches, filters it over neighbors and averages
 /// it for the faces of voxels. Source: Cosin and Patow 2022, section 4.4.
 class GatherClusters final : public Pass {
  public:
     static constexpr const char* kName = "gather_clusters";
     static constexpr const char* kHelp =
         "Gathers each patch's irradiance from the voxel clusters that it sees. It sums the light "
-        "of inject_clusters over the lists of cluster_visibility and filters it over neighbours that see each other. "
+        "of inject_clusters over the lists of cluster_visibility and filters it over neighbors that see each other. "
         "The result is irradiance of voxels, with the direct light of inject_clusters, "
         "for gather_irradiance or gather_rays. Biased by: voxel and cluster size, "
         "the filter (light leaks round edges). Noisy by: the lists' rays. Source: Cosin and Patow 2022, section 4.4.";
@@ -52,12 +52,12 @@ class GatherClusters final : public Pass {
                       1u, 64u)
                     .onlyWith(oneOf(&Params::update, {GatherUpdate::Seen})),
                 field("filter_passes", &Params::filterPasses,
-                      "How often patches are averaged with those at the same faces of neighbouring surface groups. "
+                      "How often patches are averaged with those at the same faces of neighboring surface groups. "
                       "The paper: 2, of size 5.",
                       0u, 8u),
                 field("filter_size", &Params::filterSize,
                       "Voxels along each edge of the filter's cube, with binomial weights (about a Gaussian). "
-                      "Occluded neighbours and faces without surfaces are excluded.",
+                      "Occluded neighbors and faces without surfaces are excluded.",
                       std::vector{3u, 5u})
                     .onlyWith(noneOf(&Params::filterPasses, {0u})),
                 field("filter_over", &Params::filterOver,
@@ -171,8 +171,8 @@ void GatherClusters::gather(PassContext& context, const VisibleVoxels::NewVoxels
                           {"groups", patches.groups},
                           {"firstGroup", patches.firstGroup},
                           {"coordinates", context[clusters_].coordinates},
-                          {"firstNeighbour", patches.firstNeighbour},
-                          {"NeighboursRef", patches.neighbours.ref()},
+                          {"firstNeighbor", patches.firstNeighbor},
+                          {"NeighborsRef", patches.neighbors.ref()},
                           {"GatheredRef", gathered_.ref()},
                           {"FilteredRef", filtered_.ref()},
                           {"count", count}});

@@ -3,7 +3,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #define REQUESTED 1u
-#define NEIGHBOURHOOD_REQUESTED 2u
+#define NEIGHBORHOOD_REQUESTED 2u
 
 uniform sampler2D position;
 buffer RequestedVoxels { uint data[]; } requestedVoxels;  // Per voxel: the bits above.
@@ -22,7 +22,7 @@ void main() {
     if (p.w == 0.0) return;
     const ivec3 center = voxelAt(push.grid, p.xyz);
     const uint centerVoxel = voxelNumber(push.grid, center);
-    if (centerVoxel != NO_VOXEL && (requestedVoxels.data[centerVoxel] & NEIGHBOURHOOD_REQUESTED) != 0u) return;
+    if (centerVoxel != NO_VOXEL && (requestedVoxels.data[centerVoxel] & NEIGHBORHOOD_REQUESTED) != 0u) return;
     for (int z = -push.reach; z <= push.reach; ++z)
         for (int y = -push.reach; y <= push.reach; ++y)
             for (int x = -push.reach; x <= push.reach; ++x) {
@@ -31,5 +31,5 @@ void main() {
                 if ((atomicOr(requestedVoxels.data[voxel], REQUESTED) & REQUESTED) == 0u)
                     newVoxels.data[atomicAdd(count.value, 1u)] = voxel;
             }
-    if (centerVoxel != NO_VOXEL) atomicOr(requestedVoxels.data[centerVoxel], NEIGHBOURHOOD_REQUESTED);
+    if (centerVoxel != NO_VOXEL) atomicOr(requestedVoxels.data[centerVoxel], NEIGHBORHOOD_REQUESTED);
 }

@@ -28,7 +28,7 @@ class VisibleVoxels {
 
     struct NewVoxels {
         uint32_t voxelCount = 0;
-        /// Number of elements of groups() that are at most 0, 1 ... steps to neighbours from these voxels.
+        /// Number of elements of groups() that are at most 0, 1 ... steps to neighbors from these voxels.
         std::vector<uint32_t> groupCounts;
     };
 
@@ -40,7 +40,7 @@ class VisibleVoxels {
     NewVoxels find(PassContext& context, const GBuffer* gbuffer, const SurfaceVoxels& voxels,
                    const VoxelClusters& clusters, const VoxelPatches& patches, uint32_t reach, uint32_t steps) const;
 
-    /// Result of the last find(): new voxels, and their unoccluded groups with neighbours.
+    /// Result of the last find(): new voxels, and their unoccluded groups with neighbors.
     const Buffer& voxels() const { return newVoxels_; }
     const Buffer& groups() const { return listedGroups_; }
 

@@ -2,13 +2,14 @@
 
 #include "passes/common/view/gbuffer.h"
 #include "shaders/filter/ray_moments.h"
+#include "shaders/filter/ray_statistics.h"
 
 namespace voxray {
 
 /// Irradiance estimated from few rays for each texel of the G-buffer: the input of filter_irradiance.
 ///
-/// A gather writes `irradiance`; the rest is optional. From `moments` the filter derives the variance of rays
-/// and bounds of irradiance gradients; without them it uses geometry and numbers of rays alone.
+/// A gather writes `irradiance`; the rest is optional. From `moments` the filter derives statistics, the
+/// variance of rays and bounds of irradiance gradients; without either it uses geometry and numbers of rays.
 struct NoisyIrradiance : Resource {
     /// RGBA32F, of the G-buffer's extent (gbufferExtent). rgb: irradiance for the shading normal, W/m²: the
     /// mean over the texel's rays, each π times its radiance if rays are distributed by cosine. a: number of
@@ -18,11 +19,15 @@ struct NoisyIrradiance : Resource {
     /// has one. Known from plan() on.
     uint32_t spacing = 1;
 
-    /// Texels along the edge of a block of `moments`; 0: none. Known from plan() on. The filter adds up 3 x 3
-    /// blocks: some 16 rays in each are enough.
+    /// Texels along the edge of a block of `moments` or `statistics`; 0: neither. Known from plan() on. The
+    /// filter adds up 3 x 3 blocks of moments: some 16 rays in each are enough.
     uint32_t blockSize = 0;
     /// gpu::RayMoments of each block, row by row: blocks().x * blocks().y.
     Buffer moments;
+    /// Whether there are `statistics` in place of `moments`. Known from plan() on.
+    bool hasStatistics = false;
+    /// gpu::RayStatistics of each block and its surroundings, row by row.
+    Buffer statistics;
 
     static ImageDesc desc(const Frame& frame, uint32_t samples) {
         ImageDesc desc;
@@ -36,9 +41,13 @@ struct NoisyIrradiance : Resource {
         const glm::uvec2 count = blocks(texels);
         return uint64_t(count.x) * count.y * sizeof(gpu::RayMoments);
     }
+    uint64_t statisticsBytes(glm::uvec2 texels) const {
+        const glm::uvec2 count = blocks(texels);
+        return uint64_t(count.x) * count.y * sizeof(gpu::RayStatistics);
+    }
 
     std::vector<const Image*> checkedImages() const override { return {&irradiance}; }
-    std::vector<const Buffer*> checkedBuffers() const override { return {&moments}; }
+    std::vector<const Buffer*> checkedBuffers() const override { return {&moments, &statistics}; }
 };
 
 }  // namespace voxray

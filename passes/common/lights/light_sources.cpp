@@ -19,10 +19,6 @@ float largest(glm::vec3 v) {
 
 }  // namespace
 
-float triangleArea(const Geometry& g, glm::uvec3 t) {
-    return 0.5f * glm::length(glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x]));
-}
-
 std::vector<LightSource> lightSources(const SceneState& state) {
     std::vector<LightSource> all;
     const auto add = [&](LightSource::Kind kind, uint32_t light, float power) {
@@ -42,7 +38,7 @@ std::vector<LightSource> lightSources(const SceneState& state) {
     for (size_t t = 0; t < g.triangles.size(); ++t) {
         const float emission = largest(meanEmission(state, uint32_t(t)));
         const bool doubleSided = state.scene->materials[g.triangleMaterials[t]].doubleSided;
-        if (emission > 0) emitted += emission * triangleArea(g, g.triangles[t]) * kPi * (doubleSided ? 2.0f : 1.0f);
+        if (emission > 0) emitted += emission * float(triangleArea(g, uint32_t(t))) * kPi * (doubleSided ? 2.0f : 1.0f);
     }
     add(LightSource::Emitters, 0, emitted);
     const Environment& e = state.scene->environment;
@@ -64,7 +60,7 @@ std::vector<LightSource> requireLightSources(const SceneState& state, const std:
 double surfaceArea(const Geometry& geometry) {
     double area = 0;
     for (uint32_t t = 0; t < geometry.triangles.size(); ++t)
-        if (isInRegion(geometry, t)) area += triangleArea(geometry, geometry.triangles[t]);
+        if (isInRegion(geometry, t)) area += triangleArea(geometry, t);
     return area;
 }
 

@@ -22,9 +22,6 @@ std::vector<LightSource> lightSources(const SceneState& state);
 /// The same. @throws Error naming the pass if there is none.
 std::vector<LightSource> requireLightSources(const SceneState& state, const std::string& pass);
 
-/// One-sided area of a triangle, given by its vertices, m².
-float triangleArea(const Geometry& geometry, glm::uvec3 triangle);
-
 /// One-sided area of all surfaces in the region, m².
 double surfaceArea(const Geometry& geometry);
 

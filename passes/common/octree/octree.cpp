@@ -62,21 +62,21 @@ Octree allocateOctree(CommandStream& stream, const OctreeSize& size) {
     octree.nodes = Buffer(device, "octree nodes", size.nodeBytes());
     octree.header = Buffer(device, "octree header", sizeof(OctreeHeader));
 
-    OctreeHeader header{
-        octree.table.address(),
-        octree.nodes.address(),
-        {size.resolution, size.levels(), size.nodeCount(), size.first().front(), size.tableLevel(), {}}};
+    OctreeHeader header{octree.table.address(),
+                        octree.nodes.address(),
+                        {size.resolution, size.levels(), size.nodeCount(), size.tableLevel(), {}}};
     const std::vector<uint64_t> offsets = tableOffsets(size);
     std::copy(offsets.begin(), offsets.end() - 1, header.shape.tableFirst);
     stream.upload(octree.header, std::as_bytes(std::span(&header, 1)));
 
-    // Index 0 is no node; the root is the child in octant 0 of the level above it
+    // NO_NODE has no children. The table ends with the 3x3x3 entries of the level above the root: the root is the child
+    // in octant 0 of the center
     const uint32_t none = 0, aboveRoot = 1u << 8 | 1u;
     const auto write = [&](const Buffer& target, uint32_t word, uint64_t index) {
         stream.upload(target, std::as_bytes(std::span(&word, 1)), index * sizeof(word));
     };
     stream.fill(octree.table, 0);
-    write(octree.table, aboveRoot, offsets.back() - 14);  // The center of 3x3x3.
+    write(octree.table, aboveRoot, offsets.back() - 14);
     write(octree.nodes, none, 0);
     return octree;
 }

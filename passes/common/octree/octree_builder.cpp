@@ -1,12 +1,13 @@
 #include "passes/common/octree/octree_builder.h"
+#include "passes/common/compute/bit_words.h"
 
 #include <utility>
 
 namespace voxray {
 namespace {
 
-uint64_t flagWords(glm::uvec3 cells) {
-    return uint64_t((cells.x + 31) / 32) * cells.y * cells.z;
+uint64_t cellWords(glm::uvec3 cells) {
+    return bitWords(cells.x) * cells.y * cells.z;
 }
 
 }  // namespace
@@ -66,8 +67,8 @@ std::vector<Buffer> OctreeBuilder::flag(CommandStream& stream, const SurfaceVoxe
     std::vector<Buffer> flags;
     for (uint32_t level = 1; level < levels; ++level) {
         const glm::uvec3 coarser = levelResolution(size.resolution, level);
-        flags.emplace_back(stream.device(), "octree flags", flagWords(coarser) * sizeof(uint32_t));
-        stream.dispatch(flag_, flagWords(coarser),
+        flags.emplace_back(stream.device(), "octree flags", cellWords(coarser) * sizeof(uint32_t));
+        stream.dispatch(flag_, cellWords(coarser),
                         {{"finer", level == 1 ? voxels.occupancy : flags[level - 2]},
                          {"coarser", flags.back()},
                          {"counts", counts},

@@ -26,15 +26,15 @@ void main() {
     const uint word = linearIndex();
     if (word >= wordsPerRow * push.coarserSize.y * push.coarserSize.z) return;
     const uint row = word / wordsPerRow;
-    // x: index of a word
-    const uvec3 finerCell = 2u * uvec3(word % wordsPerRow, row % push.coarserSize.y, row / push.coarserSize.y);
+    const uint finerWord = 2u * (word % wordsPerRow);  // In its row.
+    const uvec2 finerRow = 2u * uvec2(row % push.coarserSize.y, row / push.coarserSize.y);  // y and z.
     const uint finerPerRow = (push.finerSize.x + 31u) / 32u;
     uint low = 0u, high = 0u;
-    for (uint z = finerCell.z; z < min(finerCell.z + 2u, push.finerSize.z); ++z)
-        for (uint y = finerCell.y; y < min(finerCell.y + 2u, push.finerSize.y); ++y) {
-            const uint first = (z * push.finerSize.y + y) * finerPerRow + finerCell.x;
+    for (uint z = finerRow.y; z < min(finerRow.y + 2u, push.finerSize.z); ++z)
+        for (uint y = finerRow.x; y < min(finerRow.x + 2u, push.finerSize.y); ++y) {
+            const uint first = (z * push.finerSize.y + y) * finerPerRow + finerWord;
             low |= finer.words[first];
-            if (finerCell.x + 1u < finerPerRow) high |= finer.words[first + 1u];
+            if (finerWord + 1u < finerPerRow) high |= finer.words[first + 1u];
         }
     const uint flags = orPairs(low) | orPairs(high) << 16;
     coarser.words[word] = flags;

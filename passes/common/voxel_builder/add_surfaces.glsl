@@ -9,6 +9,7 @@
 #include "shaders/voxels/voxels.glsl"
 
 layout(scalar) readonly buffer SurfaceAccumulatorRef { LargeUints surfaceAccumulator; };
+writeonly buffer Overflow { uint isAny; } overflow;  // Whether a voxel has an area of more than MAX_FACES.
 
 void add(uint word, float units) {
     const int rounded = int(round(units));
@@ -31,7 +32,8 @@ void processFragment(TriangleFragment f) {
     // A fragment has an area of at least one unit, so that every occupied voxel has a material
     const uint first = voxel * ACCUMULATOR_UINTS;
     const float units = max(round(c.area * UNITS_PER_FACE), 1.0);
-    add(first + SUM_AREA, units);
+    const uint before = atomicAdd(surfaceAccumulator.data[first + SUM_AREA], uint(units));
+    if (float(before) + units > float(MAX_FACES) * UNITS_PER_FACE) overflow.isAny = 1u;
     addVector(first + SUM_AXIS_AREA, m.point.geometricNormal * m.point.geometricNormal * units);
     addVector(first + SUM_NORMAL, m.normal * units);
     addVector(first + SUM_ALBEDO, m.albedo * units);

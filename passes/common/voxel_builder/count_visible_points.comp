@@ -1,6 +1,6 @@
 // Adds probe points to the nine counts of their voxels: visible points by face +x -x +y -y +z -z, then all points by
-// axis. A point on a surface with unit normal n counts n_a² along axis a, in fixed point with 16 fractional bits: sums
-// of up to 65536 points fit.
+// axis. A point on a surface with unit normal n counts n_a² along axis a, in fixed point with 16 fractional bits. Sums of
+// more than 65535 points do not fit and are reported.
 #include "passes/common/voxel_builder/probe_point.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"
@@ -13,6 +13,7 @@ layout(scalar) readonly buffer ProbePoints { ProbePoint data[]; } probePoints;
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 buffer Counts { uint data[]; } counts;
+writeonly buffer Overflow { uint isAny; } overflow;
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint count;
@@ -48,7 +49,7 @@ void main() {
     for (uint axis = 0u; axis < 3u; ++axis) {
         const uint weight = uint(round(normal[axis] * normal[axis] * 65536.0));
         if (weight == 0u) continue;
-        atomicAdd(counts.data[first + 6u + axis], weight);
+        if (atomicAdd(counts.data[first + 6u + axis], weight) > 0xffffffffu - weight) overflow.isAny = 1u;
         // The front side faces the face that the normal points to, the back side the opposite one
         const uint face = faceOf(normal, axis);
         if (frontVisible) atomicAdd(counts.data[first + face], weight);

@@ -2,9 +2,10 @@
 #ifndef VOXRAY_SURFACE_ACCUMULATOR_H
 #define VOXRAY_SURFACE_ACCUMULATOR_H
 
-// Fixed point with 20 fractional bits: an area of 10^-6 voxel faces still counts, and 2048 faces fit in a
-// signed sum.
+// Fixed point with 20 fractional bits: an area of 10^-6 voxel faces still counts, and MAX_FACES fit in a signed
+// sum.
 #define UNITS_PER_FACE 1048576.0
+#define MAX_FACES 2047u
 
 // Area; then sums weighted by area.
 #define SUM_AREA 0u

@@ -1,7 +1,6 @@
 #include "passes/common/voxel_builder/visibility_probe.h"
 
 #include <algorithm>
-#include <glm/geometric.hpp>
 
 #include "passes/common/compute/random_seed.h"
 
@@ -10,6 +9,7 @@ namespace {
 
 constexpr uint32_t kBatchPoints = 1u << 18;
 constexpr uint64_t kCounts = 9;  // Per voxel, as in count_visible_points.comp.
+constexpr uint32_t kMaxPointsPerVoxel = (1u << 16) - 1;
 
 struct ProbePoint {  // As in probe_point.glsl.
     glm::vec3 position;
@@ -20,12 +20,10 @@ struct ProbePoint {  // As in probe_point.glsl.
 /// the mean over triangles is right: up where the fraction plus the triangle's van der Corput number reach 1.
 /// Consecutive triangles have well distributed numbers.
 uint64_t pointsOn(const Geometry& g, const gpu::VoxelGrid& grid, uint32_t triangle, uint32_t pointsPerFace) {
-    const glm::uvec3 v = g.triangles[triangle];
-    const glm::dvec3 p0 = g.positions[v.x], p1 = g.positions[v.y], p2 = g.positions[v.z];
     const double face = double(grid.voxelSize) * grid.voxelSize;
     uint32_t reversed = 0;
     for (uint32_t bit = 0; bit < 32; ++bit) reversed |= (triangle >> bit & 1u) << (31 - bit);
-    const double points = 0.5 * glm::length(glm::cross(p1 - p0, p2 - p0)) / face * pointsPerFace;
+    const double points = triangleArea(g, triangle) / face * pointsPerFace;
     return uint64_t(points + double(reversed) / 4294967296.0);
 }
 
@@ -45,6 +43,8 @@ Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels, c
     // In batches: the host lists probes of all triangles; the device drops those outside `voxels`, traces two
     // rays to each remaining one, and counts those whose surfaces they reach.
     const Buffer candidates(context.device, "visibility probes", kBatchPoints * sizeof(glm::uvec2));
+    const Buffer overflow(context.device, "overflow of visibility counts", sizeof(uint32_t));
+    stream.fill(overflow, 0);
     const Buffer pointCount(context.device, "number of visibility probes", sizeof(uint32_t));
     const Buffer rays(context.device, "visibility rays", 2ull * kBatchPoints * sizeof(Ray));
     const Buffer hits(context.device, "visibility results", 2ull * kBatchPoints * sizeof(Hit));
@@ -74,6 +74,7 @@ Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels, c
                           {"rays", rays},
                           {"hits", hits},
                           {"counts", counts},
+                          {"overflow", overflow},
                           {"count", count}});
     };
     for (const uint32_t triangle : triangles) {
@@ -84,7 +85,9 @@ Buffer VisibilityProbe::run(PassContext& context, const SurfaceVoxels& voxels, c
         }
     }
     probe();
-    stream.finish();
+    if (stream.readAs<uint32_t>(overflow, 1)[0] != 0)
+        throw Error("a voxel has more than {} visibility probes: raise 'resolution', or lower 'visibility_rays'",
+                    kMaxPointsPerVoxel);
     return counts;
 }
 

@@ -34,6 +34,7 @@ class VisibilityProbe {
 
     /// Tests the probes of `triangles` that are in `voxels`. @param pointsPerFace per area of a voxel's face.
     /// @return 9 uints per voxel (count_visible_points.comp); 0 for voxels without probes.
+    /// @throws Error where a voxel has more probes than its counts hold.
     Buffer run(PassContext& context, const SurfaceVoxels& voxels, const std::vector<uint32_t>& triangles,
                uint32_t pointsPerFace) const;
 

@@ -60,9 +60,12 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
 
     // Accumulate the surfaces' materials in fixed point, test their visibility, and divide sums by areas
     const LargeBuffer accumulator(context.device, "surface accumulator", count * ACCUMULATOR_UINTS * sizeof(uint32_t));
+    const Buffer overflow(context.device, "overflow of the surface accumulator", sizeof(uint32_t));
     stream.fill(accumulator, 0);
+    stream.fill(overflow, 0);
     voxelizer_->run(context, *addSurfaces_, target.grid,
                     std::vector<Binding>{{"SurfaceAccumulatorRef", accumulator.ref()},
+                                         {"overflow", overflow},
                                          {"voxelOccupancy", target.occupancy},
                                          {"voxelRank", target.rank}},
                     largestEmission_ > 0 ? 1.0f / largestEmission_ : 0.0f);
@@ -73,7 +76,9 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
                      {"visibility", visibility},
                      {"voxelCount", target.voxelCount},
                      {"largestEmission", largestEmission_}});
-    stream.finish();
+    if (stream.readAs<uint32_t>(overflow, 1)[0] != 0)
+        throw Error("the surfaces in a voxel have more than {} times the area of its face: raise 'resolution'",
+                    MAX_FACES);
     voxelizer_->release();
 }
 

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.h"
+#include "passes/common/compute/bit_words.h"
 #include "scene/region_split.h"
 
 namespace voxray {
@@ -55,7 +56,7 @@ gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t 
     }
     // Centered on the scene
     grid.origin = 0.5f * (boundsMin + boundsMax) - 0.5f * grid.voxelSize * glm::vec3(grid.resolution);
-    grid.wordsPerRow = (grid.resolution.x + 31) / 32;
+    grid.wordsPerRow = uint32_t(bitWords(grid.resolution.x));
     grid.windowSize = std::bit_ceil(resolution);
     grid.directions = 6;
     return grid;

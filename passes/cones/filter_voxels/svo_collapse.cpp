@@ -1,4 +1,5 @@
 #include "passes/cones/filter_voxels/svo_collapse.h"
+#include "passes/common/compute/bit_words.h"
 
 #include <algorithm>
 
@@ -15,8 +16,7 @@ void SvoCollapse::run(CommandStream& stream, RadianceVoxels& radiance) const {
     // Mark uniform nodes, bottom-up.
     const OctreeSize& size = radiance.octree.size;
     const std::vector<uint32_t> first = size.first();
-    const Buffer uniform(stream.device(), "octree uniform nodes",
-                         (uint64_t(size.nodeCount()) + 31) / 32 * sizeof(uint32_t));
+    const Buffer uniform(stream.device(), "octree uniform nodes", bitWords(size.nodeCount()) * sizeof(uint32_t));
     const Buffer counts(stream.device(), "octree uniform counts", size.levels() * sizeof(uint32_t));
     stream.fill(uniform, 0);
     stream.fill(counts, 0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "passes/common/compute/bit_words.h"
 #include "passes/common/octree/octree.h"
 #include "passes/cones/radiance/radiance_voxels.h"
 
@@ -17,9 +18,7 @@ class SvoFilter {
     /// Filters the nodes whose children have changed. `changed`: a bit per node (changedBytes()), set for
     /// leaves with new values, or for all nodes; set for the nodes that get new values, too.
     void run(CommandStream& stream, const RadianceVoxels& radiance, const Buffer& changed) const;
-    static uint64_t changedBytes(const OctreeSize& size) {
-        return (uint64_t(size.nodeCount()) + 31) / 32 * sizeof(uint32_t);
-    }
+    static uint64_t changedBytes(const OctreeSize& size) { return bitWords(size.nodeCount()) * sizeof(uint32_t); }
 
  private:
     Kernel filter_;

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "graph/registry.h"
+#include "passes/common/compute/bit_words.h"
 #include "passes/common/voxel_builder/voxel_builder.h"
 #include "passes/common/voxels/grid_levels.h"
 #include "passes/cones/clipmap/clipmap_voxels.h"
@@ -14,7 +15,7 @@ gpu::VoxelGrid levelGrid(gpu::VoxelGrid grid, uint32_t level, uint32_t windowSiz
     grid.voxelSize *= float(1u << level);
     grid.resolution = levelResolution(grid.resolution, level);
     grid.windowSize = windowSize;
-    grid.wordsPerRow = (windowVoxels(grid).size.x + 31) / 32;
+    grid.wordsPerRow = uint32_t(bitWords(windowVoxels(grid).size.x));
     return grid;
 }
 
@@ -25,6 +26,7 @@ gpu::VoxelGrid levelGrid(gpu::VoxelGrid grid, uint32_t level, uint32_t windowSiz
 class VoxelizeClipmap final : public Pass {
  public:
     static constexpr const char* kName = "voxelize_clipmap";
+    static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Voxelizes the scene's surfaces into a clipmap around the camera, for light_clipmap. "
         "The coarsest level covers the whole scene, each finer level a window. "

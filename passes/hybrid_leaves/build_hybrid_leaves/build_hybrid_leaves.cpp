@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "graph/registry.h"
+#include "passes/common/compute/bit_words.h"
 #include "passes/common/compute/large_buffer.h"
 #include "passes/common/compute/prefix_sum.h"
 #include "passes/common/triangle_voxelizer/triangle_voxelizer.h"
@@ -44,7 +45,7 @@ std::vector<uint32_t> maskedTriangles(const SceneState& state) {
 }
 
 uint32_t wordsPerGrid(uint32_t m, uint32_t levels) {
-    return (gridCells(m, 0, levels) + 31) / 32;
+    return uint32_t(bitWords(gridCells(m, 0, levels)));
 }
 
 }  // namespace
@@ -70,6 +71,7 @@ struct EnumNames<GridLevels> {
 class BuildHybridLeaves final : public Pass {
  public:
     static constexpr const char* kName = "build_hybrid_leaves";
+    static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Builds the leaves of a hybrid octree: triangles or finer voxels in surface voxels. "
         "Each leaf holds the list of its triangles or, if these exceed a capacity, a grid of finer voxels, "

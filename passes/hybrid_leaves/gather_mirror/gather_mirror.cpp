@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "graph/registry.h"
+#include "passes/common/compute/bit_words.h"
 #include "passes/common/compute/compaction.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/view/gbuffer.h"
@@ -35,10 +36,6 @@ struct MirrorCounts {
 /// Pixels whose rays are traced together.
 uint32_t batchPixels(const Frame& frame, uint32_t samples, uint32_t rays) {
     return std::clamp(kBatchPaths / (samples * samples * rays), 1u, frame.width * frame.height);
-}
-
-uint32_t flagWords(uint64_t paths) {
-    return uint32_t((paths + 31) / 32);
 }
 
 }  // namespace
@@ -144,7 +141,7 @@ void GatherMirror::plan(PassPlan& plan) {
     plan[indirect_].hasSpecularLobes = true;
 
     plan.buffer(counts_, "numbers of mirror rays", sizeof(MirrorCounts));
-    plan.buffer(flags_, "flags of mirror rays", flagWords(maxPaths) * sizeof(uint32_t));
+    plan.buffer(flags_, "flags of mirror rays", bitWords(maxPaths) * sizeof(uint32_t));
     plan.buffer(pathIndices_, "list of mirror rays", maxPaths * sizeof(uint32_t));
     plan.buffer(light_, "light of mirror rays", maxPaths * sizeof(gpu::MirrorLight));
     for (Buffer& paths : paths_) plan.buffer(paths, "paths of mirror rays", maxPaths * sizeof(gpu::MirrorPath));
@@ -224,7 +221,7 @@ void GatherMirror::gather(PassContext& context, const gpu::MirrorBatch& batch) {
     stream.fill(light_, 0);
     stream.fill(flags_, 0);
     context.dispatch(flagPaths_, maxPaths, {context[gbuffer_], {"flags", flags_}, {"batch", batch}});
-    uint32_t count = compaction_.run(stream, flags_, pathIndices_, flagWords(maxPaths));
+    uint32_t count = compaction_.run(stream, flags_, pathIndices_, uint32_t(bitWords(maxPaths)));
     if (count == 0) return;
 
     // Trace paths, bounce by bounce

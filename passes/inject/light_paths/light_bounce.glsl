@@ -30,9 +30,17 @@ LightVertex lightVertex(SurfacePoint s, vec3 direction) {
 // Whether a ray comes from a punctual light, so that its cross-section is known (LightPath).
 bool isBeam(LightPath path) { return path.solidAngle > 0.0 || path.area > 0.0; }
 
-// Scatters a ray at its vertex: as a mirror of that albedo reflects it, or cosine-distributed with Russian roulette by
-// albedo. False where the path ends, by roulette or since the direction is below the surface. `index`: of the ray among
-// those of one seed. `seed`: a different one for each bounce.
+// Factor of the power of a light path that arrives at a vertex along `direction`, where a BSDF reflects it: power arrives
+// by the geometric cosine, the BSDF reflects by the shading cosine, and what is reflected leaves by the geometric cosine
+// of its direction (the adjoint BSDF, Veach 1997, section 5.3). 0 where the light comes from behind the shading normal.
+float adjointFactor(LightVertex v, vec3 direction) {
+    const float cosShading = -dot(v.normal, direction), cosGeometric = -dot(v.faceNormal, direction);
+    return cosShading > 0.0 && cosGeometric > 0.0 ? cosShading / cosGeometric : 0.0;
+}
+
+// Scatters a ray at its vertex: as a mirror of that albedo about the shading normal (the choice of Magalhães 2020), or
+// diffusely, by the cosine to the face normal, with Russian roulette by albedo. False where the path ends, by roulette or
+// since no light goes on. `index`: of the ray among those of one seed. `seed`: a different one for each bounce.
 bool bounceLightRay(LightVertex v, bool mirror, uint index, uint seed, inout Ray ray, inout LightPath path) {
     vec3 direction;
     if (mirror) {
@@ -41,8 +49,10 @@ bool bounceLightRay(LightVertex v, bool mirror, uint index, uint seed, inout Ray
     } else {
         const float survival = survivalProbability(v.albedo);
         if (sobol2(index, hashCombine(seed, 1u)).x >= survival) return false;
-        direction = cosineDirection(sobol2(index, seed), v.normal);
-        path.power *= v.albedo / survival;
+        const float factor = adjointFactor(v, ray.direction);
+        if (factor == 0.0) return false;
+        direction = cosineDirection(sobol2(index, seed), v.faceNormal);
+        path.power *= v.albedo * (factor / survival);
     }
     if (dot(direction, v.faceNormal) <= 0.0) return false;
     ray = Ray(v.position + v.faceNormal * v.offset, 0.0, direction, 1.0e30);

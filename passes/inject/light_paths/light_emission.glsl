@@ -61,12 +61,13 @@ void emitFromSurface(EmittingSource e, uint index, vec2 u, vec2 onTriangle, inou
     path.power = emittedRadiance(m, s) * PI * emitter.area * sides / emitter.probability;
 }
 
-// Uniform directions: flux = L * 4 pi * area.
+// Directions as the map's radiance, uniform without a map: flux = L * area / density.
 void emitFromEnvironment(EmittingSource e, vec2 u, vec2 onDisc, inout Ray ray, inout LightPath path) {
-    ray.direction = -sphereDirection(u);
-    float area;
+    float density = 1.0 / (4.0 * PI), area;
+    const vec3 direction = hasEnvironmentMap() ? sampleEnvironmentMap(u, density) : sphereDirection(u);
+    ray.direction = -direction;
     ray.origin = discPoint(e, onDisc, ray.direction, area);
-    path.power = environmentRadiance(-ray.direction) * 4.0 * PI * area;
+    path.power = environmentRadiance(direction) * area / density;
 }
 
 // Ray `index` of a source, with its fraction of the source's power; inactive without power. Rays of one seed are

@@ -15,12 +15,14 @@ Specular specularAt(GpuMaterial m, SurfacePoint s) {
 float largest(vec3 v) { return max(v.r, max(v.g, v.b)); }
 
 // Scatters a ray at its vertex by one of the lobes, sampled in proportion to its reflectance, with Russian roulette by
-// the sum. Lobes are symmetric in both directions, as the reference has them. False where the path ends. `mirrors`:
-// whether perfect mirrors reflect it. `index`, `seed`: as of bounceLightRay().
+// the sum. Lobes are symmetric in both directions, as the reference has them; cosines are those of adjointFactor().
+// False where the path ends. `mirrors`: whether perfect mirrors reflect it. `index`, `seed`: as of bounceLightRay().
 bool bounceByMaterial(SurfacePoint s, LightVertex v, bool mirrors, uint index, uint seed, inout Ray ray,
                       inout LightPath path) {
     const Specular specular = specularAt(sceneMaterials.data[s.material], s);
-    const vec3 in_ = -ray.direction, n = specularNormal(v.normal, in_);
+    const float factor = adjointFactor(v, ray.direction);
+    if (factor == 0.0) return false;
+    const vec3 in_ = -ray.direction, n = v.normal;
     const bool hasLobe = hasSpecular(specular);
     const float weight = schlickWeight(dot(n, in_));
     const float bySpecular = hasLobe ? largest(specularFresnel(specular, weight)) : 0.0;
@@ -35,12 +37,14 @@ bool bounceByMaterial(SurfacePoint s, LightVertex v, bool mirrors, uint index, u
         if (isMirror(specular) && !mirrors) return false;
         const LobeRay lobe = lobeRay(specular, n, v.faceNormal, in_, u, 1u);
         direction = lobe.direction;
-        path.power *= lobe.weight * (total / (survival * bySpecular));
+        // The weight holds the shading cosine of the direction
+        const float cosRatio = dot(v.faceNormal, direction) / max(dot(n, direction), 1e-5);
+        path.power *= lobe.weight * (factor * cosRatio * total / (survival * bySpecular));
     } else {
-        direction = cosineDirection(u, n);
+        direction = cosineDirection(u, v.faceNormal);
         const vec3 half_ = normalize(in_ + direction);
         const float diffuse = hasLobe ? diffuseFraction(specular, schlickWeight(dot(in_, half_))) : 1.0;
-        path.power *= v.albedo * (diffuse * total / (survival * byDiffuse));
+        path.power *= v.albedo * (factor * diffuse * total / (survival * byDiffuse));
     }
     if (dot(direction, v.faceNormal) <= 0.0 || all(equal(path.power, vec3(0.0)))) return false;
     ray = Ray(v.position + v.faceNormal * v.offset, 0.0, direction, 1.0e30);

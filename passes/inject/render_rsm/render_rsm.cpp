@@ -47,6 +47,10 @@ void RenderRsm::plan(PassPlan& plan) {
     for (const LightSource& source : rsm.sources)
         rsm.firstView.push_back(rsm.firstView.back() +
                                 uint32_t(lightViews(state.lights[source.light], state.geometry).size()));
+    // Shaders number texels by 32 bits
+    if (const uint64_t texels = uint64_t(rsm.firstView.back()) * rsm.texelsPerView(); texels > UINT32_MAX)
+        throw Error("{}: {} views of lights, {}x{} texels each, are more than 2^32 texels; lower 'rsm_resolution'",
+                    kName, rsm.firstView.back(), rsm.resolution, rsm.resolution);
     const uint64_t bytes = uint64_t(rsm.texelsPerView()) * sizeof(gpu::RsmTexel);
     image_.plan(plan, rsm.resolution);
     plan.scratchBuffer(texels_, "a reflective shadow map's texels", bytes);

@@ -52,7 +52,7 @@ void searchVoxel(ivec3 voxel, vec3 position, vec3 normal, uint occlusion, inout 
     }
 }
 
-// Searches the voxel of the hit, and its 26 neighbours where that has no surfel within MAX_ERROR.
+// Searches the voxel of the hit, and its 26 neighbors where that has no surfel within MAX_ERROR.
 uint nearestSurfel(vec3 position, vec3 normal, uint occlusion) {
     const ivec3 voxel = voxelAt(push.grid, position);
     NearestSurfel nearest = NearestSurfel(1.0e30, NO_SURFEL, NO_SURFEL);

@@ -5,7 +5,7 @@
 #include "graph/registry.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/voxels/voxels.h"
-#include "passes/radiosity/link_surfels/neighbour_search.h"
+#include "passes/radiosity/link_surfels/neighbor_search.h"
 #include "passes/surfels/surfel_links.h"
 #include "passes/surfels/surfel_sort.h"
 
@@ -22,6 +22,7 @@ constexpr uint64_t kPackedSurfelBytes = 2 * sizeof(uint32_t);
 class LinkSurfels final : public Pass {
  public:
     static constexpr const char* kName = "link_surfels";
+    static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Links the surfels that see each other, for radiosity. "
         "Rays find the links once for a geometry; light then travels along them (inject_radiosity). "
@@ -53,9 +54,9 @@ class LinkSurfels final : public Pass {
     In<Surfels> surfels_{*this, "surfels", "points to link"};
     Out<SurfelLinks> links_{*this, "links", "which surfels each surfel sees"};
     Out<SurfelsByVoxel> byVoxel_{*this, "surfels_by_voxel", "the surfels of each voxel"};
-    Out<SurfelNeighbours> neighbours_{*this, "neighbours", "the surfels around each surfel"};
+    Out<SurfelNeighbors> neighbors_{*this, "neighbors", "the surfels around each surfel"};
     SurfelSort sort_{*this};
-    NeighbourSearch neighbourSearch_{*this};
+    NeighborSearch neighborSearch_{*this};
     Kernel packSurfels_{*this, "pack_surfels.comp"};
     Kernel generateRays_{*this, "generate_rays.comp"};
     Kernel generateOcclusionRays_{*this, "passes/surfels/generate_occlusion_rays.comp"};
@@ -97,10 +98,10 @@ void LinkSurfels::record(PassContext& context) {
     context.stream.fill(unlinkedHits_, 0);
     for (const Surfels::Chunk& chunk : surfels.chunks) linkHits(context, chunk, links, inverseDistances);
     packMeanDistances(context, inverseDistances);
-    if (context[neighbours_].isRead)
-        context.report("radius of neighbours, voxels",
-                       neighbourSearch_.run(context.stream, context[voxels_], surfels.pointCount, context[byVoxel_],
-                                            context[neighbours_]));
+    if (context[neighbors_].isRead)
+        context.report("radius of neighbors, voxels",
+                       neighborSearch_.run(context.stream, context[voxels_], surfels.pointCount, context[byVoxel_],
+                                           context[neighbors_]));
     const uint32_t unlinkedHits = context.stream.readAs<uint32_t>(unlinkedHits_, 1)[0];
     context.report("links", double(count) * params_.raysPerSurfel);
     context.report("hits without surfel, % of rays", 100.0 * unlinkedHits / (double(count) * params_.raysPerSurfel));

@@ -21,9 +21,9 @@ void main() {
         const vec3 normal = unpackNormal(surfel.y);
         float sum = 0.0, weights = 0.0;
         for (uint j = range.x; j < range.y; ++j) {
-            const uvec2 neighbour = packed_.data[j];
-            const float weight = dot(normal, unpackNormal(neighbour.y));
-            if (weight <= 0.0 || isOccludedSurfel(surfel.x) != isOccludedSurfel(neighbour.x)) continue;
+            const uvec2 neighbor = packed_.data[j];
+            const float weight = dot(normal, unpackNormal(neighbor.y));
+            if (weight <= 0.0 || isOccludedSurfel(surfel.x) != isOccludedSurfel(neighbor.x)) continue;
             sum += weight * inverseDistances.data[j];
             weights += weight;
         }

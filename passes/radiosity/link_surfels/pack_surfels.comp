@@ -13,13 +13,13 @@ layout(push_constant, scalar) uniform Push {
     uint voxels;
 } push;
 
-// The voxel of a list. A surfel lies in it or, where its own voxel is empty, in a neighbour.
+// The voxel of a list. A surfel lies in it or, where its own voxel is empty, in a neighbor.
 ivec3 voxelOfList(uint list, vec3 position) {
     const ivec3 voxel = voxelAt(push.grid, position);
     if (voxelNumber(push.grid, voxel) == list) return voxel;
     for (int i = 0; i < 27; ++i) {
-        const ivec3 neighbour = voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
-        if (voxelNumber(push.grid, neighbour) == list) return neighbour;
+        const ivec3 neighbor = voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1;
+        if (voxelNumber(push.grid, neighbor) == list) return neighbor;
     }
     return voxel;
 }

@@ -41,6 +41,7 @@ struct EnumNames<SurfelSides> {
 class PlaceSurfels final : public Pass {
  public:
     static constexpr const char* kName = "place_surfels";
+    static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Distributes points (surfels) evenly over both sides of the surfaces. "
         "There inject_voxel_rays and inject_radiosity measure the irradiance of voxels. Depends on geometry alone. "

@@ -1,23 +1,23 @@
 #include <algorithm>
 
 #include "graph/registry.h"
-#include "passes/surfels/surfel_neighbours.h"
+#include "passes/surfels/surfel_neighbors.h"
 #include "passes/surfels/surfels_by_voxel.h"
 
 namespace voxray {
 namespace {
 
-constexpr uint64_t kNeighbourhoodBytes = 4 * sizeof(float), kLitBytes = 3 * sizeof(uint32_t);
+constexpr uint64_t kNeighborhoodBytes = 4 * sizeof(float), kLitBytes = 3 * sizeof(uint32_t);
 
 }  // namespace
 
-/// Denoises the irradiance of surfels by means over neighbours in the same light. Source: the weights of
+/// Denoises the irradiance of surfels by means over neighbors in the same light. Source: the weights of
 /// filter_irradiance (docs/filtering.md), between points in space; docs/surfels.md.
 class SmoothSurfels final : public Pass {
  public:
     static constexpr const char* kName = "smooth_surfels";
     static constexpr const char* kHelp =
-        "Denoises the surfels' irradiance by means over neighbours. "
+        "Denoises the surfels' irradiance by means over neighbors. "
         "Each surfel takes the mean over the surfels within a voxel's size, "
         "as far as they are on the same surface in the same light. "
         "Runs once for a light, so that gather_surfels is less noisy at the same cost per frame. "
@@ -26,7 +26,7 @@ class SmoothSurfels final : public Pass {
         uint32_t iterations = 2;
         static constexpr auto schema() {
             return std::tuple{field("iterations", &Params::iterations,
-                                    "Number of times that each surfel takes the mean over its neighbours.", 1u, 16u)};
+                                    "Number of times that each surfel takes the mean over its neighbors.", 1u, 16u)};
         }
     };
 
@@ -37,10 +37,10 @@ class SmoothSurfels final : public Pass {
  private:
     const Params params_;
     In<SurfelsByVoxel> surfels_{*this, "surfels_by_voxel", "the surfels of each voxel"};
-    In<SurfelNeighbours> neighbours_{*this, "neighbours", "the surfels around each surfel"};
+    In<SurfelNeighbors> neighbors_{*this, "neighbors", "the surfels around each surfel"};
     In<SurfelIrradiance> light_{*this, "surfel_irradiance", "light that arrives at surfels"};
     Out<SurfelIrradiance> smooth_{*this, "surfel_irradiance", "the same with less noise"};
-    Kernel moments_{*this, "neighbourhood_moments.comp"};
+    Kernel moments_{*this, "neighborhood_moments.comp"};
     Kernel mean_{*this, "mean.comp"};
 };
 
@@ -55,17 +55,17 @@ void SmoothSurfels::record(PassContext& context) {
     LargeBuffer& result = context[smooth_].lit;
     ensureSize(result, context.device, "smooth irradiance of surfels", allocated * kLitBytes);
     LargeBuffer intermediate(context.device, "intermediate irradiance of surfels", allocated * kLitBytes);
-    const LargeBuffer neighbourhoods(context.device, "moments of neighbourhoods", allocated * kNeighbourhoodBytes);
+    const LargeBuffer neighborhoods(context.device, "moments of neighborhoods", allocated * kNeighborhoodBytes);
 
-    const SurfelNeighbours& neighbours = context[neighbours_];
+    const SurfelNeighbors& neighbors = context[neighbors_];
     const LargeBuffer* from = &context[light_].lit;
     for (uint32_t i = 0; i < params_.iterations; ++i) {
         // The last iteration writes the result.
         LargeBuffer& to = (params_.iterations - i) % 2 == 1 ? result : intermediate;
-        const Bindings bindings{{"begins", neighbours.begins},
-                                {"PairsRef", neighbours.pairs.ref()},
+        const Bindings bindings{{"begins", neighbors.begins},
+                                {"PairsRef", neighbors.pairs.ref()},
                                 {"LitRef", from->ref()},
-                                {"NeighbourhoodsRef", neighbourhoods.ref()},
+                                {"NeighborhoodsRef", neighborhoods.ref()},
                                 {"count", count},
                                 {"noise", context[light_].relativeVariance}};
         context.dispatch(moments_, count, bindings);

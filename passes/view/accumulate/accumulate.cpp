@@ -10,6 +10,7 @@ namespace voxray {
 class Accumulate final : public Pass {
  public:
     static constexpr const char* kName = "accumulate";
+    static constexpr const char* kFilterLabel = "accumulated";
     static constexpr const char* kHelp =
         "Averages a gather's irradiance over frames by temporal reprojection. "
         "The history of a surface point is looked up at its image position in the previous frame. "
@@ -68,7 +69,11 @@ void Accumulate::plan(PassPlan& plan) {
     result.spacing = noisy.spacing;
     result.blockSize = noisy.blockSize;
     plan.image(result.irradiance, "accumulated irradiance", NoisyIrradiance::desc(plan.frame, samples));
-    if (noisy.blockSize > 0) plan.buffer(result.moments, "moments of rays", noisy.momentsBytes(texels));
+    result.hasStatistics = noisy.hasStatistics;
+    if (noisy.hasStatistics)
+        plan.buffer(result.statistics, "statistics of rays", noisy.statisticsBytes(texels));
+    else if (noisy.blockSize > 0)
+        plan.buffer(result.moments, "moments of rays", noisy.momentsBytes(texels));
     FrameImage& indirect = plan[indirect_];
     indirect.lightBounces = noisy.lightBounces;
     if (indirect.isRead) plan.frameImage(indirect_);
@@ -131,7 +136,10 @@ void Accumulate::record(PassContext& context) {
     hasHistory_ = true;
 
     // Copy this frame's moments, as the variance of a single ray does not depend on the number of rays
-    if (noisy.blockSize > 0) context.stream.copy(noisy.moments, result.moments, result.moments.bytes());
+    if (noisy.hasStatistics)
+        context.stream.copy(noisy.statistics, result.statistics, result.statistics.bytes());
+    else if (noisy.blockSize > 0)
+        context.stream.copy(noisy.moments, result.moments, result.moments.bytes());
     if (const FrameImage& indirect = context[indirect_]; indirect.isRead)
         resolve_.record(context, gbuffer, result.irradiance, indirect.image);
 }

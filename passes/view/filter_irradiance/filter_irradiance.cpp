@@ -1,9 +1,9 @@
+#include <array>
 #include <string>
 
 #include "base/error.h"
 #include "graph/registry.h"
 #include "passes/common/filter/noisy_irradiance.h"
-#include "passes/view/filter_irradiance/filter_types.h"
 #include "scene/camera_rays.h"
 
 namespace voxray {
@@ -13,32 +13,47 @@ constexpr uint32_t kMeanLevels = 3;  // Neighborhoods whose means are compared h
 
 }  // namespace
 
+/// Light that is denoised.
+enum class FilteredLight { Indirect, Direct };
+template <>
+struct EnumNames<FilteredLight> {
+    static constexpr std::array names{std::pair{FilteredLight::Indirect, "indirect"},
+                                      std::pair{FilteredLight::Direct, "direct"}};
+};
+
 /// Denoises a gather's irradiance. Source: the edge-avoiding à-trous wavelet of Dammertz et al. 2010, with a
 /// weight that balances noise against bias: the gradient bound of Ward et al. 1988, geometry, and means of
 /// neighborhoods (wavelet.comp). Docs: docs/filtering.md.
 class FilterIrradiance final : public Pass {
  public:
     static constexpr const char* kName = "filter_irradiance";
+    static constexpr const char* kFilterLabel = "filtered";
     static constexpr const char* kHelp =
         "Denoises a gather's irradiance along surfaces and multiplies by albedo. "
-        "The noisy irradiance is that of a gather (gather_rays, path_trace). "
+        "The noisy irradiance is that of a gather (gather_rays, path_trace), or with `light: direct` that of lamps "
+        "and the environment (direct_shadow_rays). "
         "An edge-avoiding wavelet whose width follows from the number of rays and, where the gather writes moments, "
         "from their variance, the distances of their hits, and the differences of light between neighborhoods. "
         "Biased by: edge_stopping_scale and levels, less the more rays. Lambert surfaces only. "
         "Source: Dammertz et al. 2010; Ward et al. 1988; docs/filtering.md.";
     struct Params {
+        FilteredLight light = FilteredLight::Indirect;
         uint32_t levels = 4;
-        float edgeStoppingScale = 0.1f;
+        float edgeStoppingScale = 0.0f;
         static constexpr auto schema() {
-            return std::tuple{field("levels", &Params::levels,
+            return std::tuple{field("light", &Params::light,
+                                    "indirect: reads 'noisy_irradiance' and writes 'indirect'. "
+                                    "direct: reads 'noisy_direct', adds 'unfiltered_direct' and writes 'direct'."),
+                              field("levels", &Params::levels,
                                     "Levels of the wavelet, each with twice the radius of the previous one: "
                                     "n levels have a radius of 2^n - 1 pixels.",
                                     1u, 6u),
                               field("edge_stopping_scale", &Params::edgeStoppingScale,
                                     "Factor of the bound of the difference of irradiance between two texels. "
                                     "1: the whole bound, sharp and noisy; less: smoother, and shadows blur. "
-                                    "A tenth is a good start, as most changes cancel.",
-                                    0.01f, 100.0f)};
+                                    "0: 0.1 for indirect light, most of whose changes cancel; 1 for direct light, "
+                                    "where the edge of a shadow is a single change.",
+                                    0.0f, 100.0f)};
         }
     };
 
@@ -53,10 +68,17 @@ class FilterIrradiance final : public Pass {
     const Image& computeMeans(PassContext& context) const;
     uint64_t elements() const;
 
+    bool isDirect() const { return params_.light == FilteredLight::Direct; }
+    float edgeStoppingScale() const {
+        return params_.edgeStoppingScale > 0 ? params_.edgeStoppingScale : isDirect() ? 1.0f : 0.1f;
+    }
+
     const Params params_;
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
-    In<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "irradiance from few rays a texel"};
-    Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light"};
+    In<NoisyIrradiance> noisy_{*this, isDirect() ? "noisy_direct" : "noisy_irradiance",
+                               "irradiance from few rays a texel"};
+    InOptional<FrameImage> unfiltered_{*this, "unfiltered_direct", "added to the result", isDirect()};
+    Out<FrameImage> result_{*this, isDirect() ? "direct" : "indirect", "radiance reflected of this light"};
     Kernel findSurfaces_{*this, "surfaces.comp"};
     Kernel statistics_{*this, "statistics.comp"};
     Kernel mean_{*this, "mean.comp"};
@@ -64,7 +86,7 @@ class FilterIrradiance final : public Pass {
     Kernel wavelet_{*this, "wavelet.comp"};
     Kernel resolve_{*this, "resolve.comp"};
     Buffer second_;           ///< Number of pixels with a second surface, then their indices.
-    Buffer blockStatistics_;  ///< gpu::RayStatistics per block, where the gather writes moments.
+    Buffer blockStatistics_;  ///< gpu::RayStatistics per block, from the gather's moments.
     // Images of elements (elements.glsl).
     Image surfaces_;     ///< surface.glsl
     Image reflectance_;  ///< Albedo times the surface's fraction of the pixel.
@@ -83,8 +105,8 @@ void FilterIrradiance::plan(PassPlan& plan) {
             "filter_irradiance: the gather has rays for one texel in each {0}x{0}, which {1} levels leave with gaps; "
             "raise 'levels' to {2} or the gather's rays",
             noisy.spacing, params_.levels, minLevels);
-    plan[indirect_].lightBounces = noisy.lightBounces;
-    plan.frameImage(indirect_);
+    plan[result_].lightBounces = noisy.lightBounces;
+    plan.frameImage(result_);
     const glm::uvec3 extent{plan.frame.width, plan.frame.height * (samples > 1 ? 2 : 1), 1};
     const ImageDesc values{VK_FORMAT_R32G32B32A32_SFLOAT, extent};
     plan.image(surfaces_, "surfaces of pixels", {VK_FORMAT_R32G32B32A32_UINT, extent});
@@ -93,16 +115,18 @@ void FilterIrradiance::plan(PassPlan& plan) {
     for (Image& level : filtered_) plan.image(level, "filtered irradiance", values);
     plan.buffer(second_, "second surfaces", (1 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
     if (noisy.blockSize > 0) {
-        const glm::uvec2 blocks = noisy.blocks(gbufferExtent(plan.frame, samples));
-        plan.buffer(blockStatistics_, "statistics of rays", uint64_t(blocks.x) * blocks.y * sizeof(gpu::RayStatistics));
+        if (!noisy.hasStatistics)
+            plan.buffer(blockStatistics_, "statistics of rays",
+                        noisy.statisticsBytes(gbufferExtent(plan.frame, samples)));
         for (Image& mean : means_) plan.image(mean, "mean irradiance of neighborhoods", values);
     }
 
     Defines defines{{"SAMPLES", std::to_string(samples)}};
-    if (noisy.blockSize > 0) defines.emplace("MOMENTS", "1");
+    if (noisy.blockSize > 0) defines.emplace("STATISTICS", "1");
+    if (noisy.hasStatistics) defines.emplace("BOUNDED_GRADIENT", "1");
     for (Kernel* kernel : {&findSurfaces_, &statistics_, &mean_, &findLight_, &wavelet_, &resolve_})
         kernel->define(defines);
-    statistics_.compileIf(noisy.blockSize > 0);
+    statistics_.compileIf(noisy.blockSize > 0 && !noisy.hasStatistics);
     mean_.compileIf(noisy.blockSize > 0);
 }
 
@@ -130,13 +154,14 @@ void FilterIrradiance::record(PassContext& context) {
                           {"source", filtered_[level % 2]},
                           {"result", filtered_[(level + 1) % 2]},
                           {"level", level},
-                          {"edgeStoppingScale", params_.edgeStoppingScale}});
+                          {"edgeStoppingScale", edgeStoppingScale()}});
 
     // Compute the radiance that they reflect
     context.dispatch(resolve_, pixels,
                      {{"irradiance", filtered_[params_.levels % 2]},
                       {"reflectance", reflectance_},
-                      {"result", context[indirect_].image}});
+                      {"unfiltered", context.orBlack(unfiltered_)},
+                      {"result", context[result_].image}});
 }
 
 void FilterIrradiance::findLight(PassContext& context) const {
@@ -147,8 +172,9 @@ void FilterIrradiance::findLight(PassContext& context) const {
     const Image* mean = &means_[0];
     if (noisy.blockSize > 0) {
         blocks = noisy.blocks(gbufferExtent(context.frame, samples));
-        context.dispatch(statistics_, blocks,
-                         {{"moments", noisy.moments}, {"statistics", blockStatistics_}, {"blocks", blocks}});
+        if (!noisy.hasStatistics)
+            context.dispatch(statistics_, blocks,
+                             {{"moments", noisy.moments}, {"statistics", blockStatistics_}, {"blocks", blocks}});
         mean = &computeMeans(context);
     }
     context.dispatch(findLight_, elements(),
@@ -156,7 +182,7 @@ void FilterIrradiance::findLight(PassContext& context) const {
                       {"surfaces", surfaces_},
                       {"light", light_},
                       ifUsed({"mean", *mean}),
-                      ifUsed({"statistics", blockStatistics_}),
+                      ifUsed({"statistics", noisy.hasStatistics ? noisy.statistics : blockStatistics_}),
                       {"blocks", blocks},
                       {"blockSize", float(noisy.blockSize) / float(samples)},
                       {"pixelAngle", 2 * glm::length(camera.up) / float(context.frame.height)},

@@ -1,10 +1,10 @@
 // Statistics of the light around each element: the mean irradiance of its neighborhood, and the statistics of rays,
 // interpolated between the centers of blocks.
-#include "passes/view/filter_irradiance/filter_types.h"
 #include "passes/view/filter_irradiance/elements.glsl"
 #include "passes/view/filter_irradiance/surface_light.glsl"
+#include "shaders/filter/ray_statistics.h"
 
-#ifdef MOMENTS
+#ifdef STATISTICS
 uniform sampler2D mean;  // mean.comp
 layout(scalar) readonly buffer Statistics { RayStatistics data[]; } statistics;
 #endif
@@ -21,7 +21,7 @@ layout(push_constant, scalar) uniform Push {
 // likewise).
 #define MIN_PIXELS 4.0
 
-#ifdef MOMENTS
+#ifdef STATISTICS
 vec2 statisticsOf(ivec2 block) {
     const ivec2 inside = clamp(block, ivec2(0), ivec2(push.blocks) - 1);
     const RayStatistics s = statistics.data[inside.y * int(push.blocks.x) + inside.x];
@@ -43,10 +43,10 @@ void main() {
     if (!elementOfThread(pixels, element)) return;
     const uvec4 surface = texelFetch(surfaces, element, 0);
 
-    // Without moments assume a mean of 1 everywhere, the maximum gradient, and a ray's variance of its squared mean
+    // Without statistics assume a mean of 1 everywhere, the maximum gradient, and a ray's variance of its squared mean
     SurfaceLight found = SurfaceLight(1.0, 0.0, 1.0, 1.0e30);
     float relativeVariance = 1.0;
-#ifdef MOMENTS
+#ifdef STATISTICS
     const vec2 rays = interpolatedStatistics(ivec2(element.x, element.y % pixels.y));
     const vec3 neighborhood = texelFetch(mean, element, 0).xyz;
     relativeVariance = rays.y;
@@ -56,7 +56,9 @@ void main() {
         neighborhood.y > 0.0 ? found.rayVariance * neighborhood.z / (neighborhood.y * neighborhood.y) : 0.0;
     found.gradient = rays.x;
 #endif
+#ifndef BOUNDED_GRADIENT
     const float minDistance = MIN_PIXELS * push.pixelAngle * distance(unpackSurface(surface).position, push.camera);
     found.gradient = min(found.gradient, sqrt(relativeVariance) / minDistance);
+#endif
     imageStore(light, element, areaOf(surface) > 0.0 ? packLight(found) : vec4(0.0));
 }

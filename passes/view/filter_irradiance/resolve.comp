@@ -1,8 +1,9 @@
-// Radiance that each pixel reflects of the filtered irradiance, by Lambert's law.
+// Radiance that each pixel reflects of the filtered irradiance, by Lambert's law, and of light that is not filtered.
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D irradiance;   // Of elements (elements.glsl), W/m².
 uniform sampler2D reflectance;  // Albedo times the surface's fraction of the pixel.
+uniform sampler2D unfiltered;   // W/(m² sr); one black texel where there is none.
 layout(rgba32f) writeonly uniform image2D result;
 
 void main() {
@@ -14,5 +15,6 @@ void main() {
     const vec3 secondReflectance = texelFetch(reflectance, second, 0).rgb;
     if (secondReflectance != vec3(0.0)) sum += secondReflectance * texelFetch(irradiance, second, 0).rgb;
 #endif
-    imageStore(result, pixel, vec4(sum / 3.14159265358979, 1.0));
+    const vec3 added = texelFetch(unfiltered, min(pixel, textureSize(unfiltered, 0) - 1), 0).rgb;
+    imageStore(result, pixel, vec4(sum / 3.14159265358979 + added, 1.0));
 }

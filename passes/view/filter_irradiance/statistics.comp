@@ -11,8 +11,8 @@
 //
 // The second step is the Cauchy-Schwarz inequality. Its sums expand to sums of L/r and L^2/r, so that M is not needed
 // while rays are summed.
-#include "passes/view/filter_irradiance/filter_types.h"
 #include "shaders/filter/ray_moments.h"
+#include "shaders/filter/ray_statistics.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(scalar) readonly buffer Moments { RayMoments data[]; } moments;

@@ -10,17 +10,6 @@ layout(push_constant, scalar) uniform Push {
     CameraView previousView;
 } push;
 
-// Position in the image, in texels; outside of it for a point behind the camera.
-vec2 projectToImage(CameraView view, vec3 position) {
-    const vec3 toPoint = position - view.origin;
-    const float depth = dot(toPoint, view.forward);
-    const vec2 size = vec2(view.width, view.height);
-    if (depth <= 0.0) return -2.0 * size;
-    const vec2 ndc = vec2(dot(toPoint, view.right) / dot(view.right, view.right),
-                          -dot(toPoint, view.up) / dot(view.up, view.up)) / depth;
-    return clamp(0.5 * (ndc + 1.0), -2.0, 2.0) * size;
-}
-
 void main() {
     const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, imageSize(motion)))) return;

@@ -16,6 +16,7 @@ struct EnumNames<VoxelizeMethod> {
 class VoxelizePass final : public Pass {
  public:
     static constexpr const char* kName = "voxelize";
+    static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Voxelizes the scene's triangles into surface voxels with materials. A voxel holds albedo, normal, emission, "
         "metallic, roughness, opacity and area. method exact tests triangles against voxel boxes; "

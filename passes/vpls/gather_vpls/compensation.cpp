@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "passes/common/compute/bit_words.h"
 #include "passes/common/compute/random_seed.h"
 
 namespace voxray {
@@ -33,7 +34,7 @@ void VplCompensation::plan(PassPlan& plan, const Settings& settings, glm::uvec2 
     }
     plan.scratchBuffer(rays_, "rays within the bound", uint64_t(batch) * sizeof(Ray));
     plan.scratchBuffer(hits_, "their hits", uint64_t(batch) * sizeof(Hit));
-    plan.scratchBuffer(flags_, "flags of rays that hit", (uint64_t(batch) + 31) / 32 * sizeof(uint32_t));
+    plan.scratchBuffer(flags_, "flags of rays that hit", bitWords(batch) * sizeof(uint32_t));
     plan.scratchBuffer(hitRays_, "list of rays that hit", uint64_t(batch) * sizeof(uint32_t));
     plan.scratchBuffer(surfelIrradiance_, "irradiance within the bound", uint64_t(batch) * 4 * sizeof(float));
 }
@@ -87,7 +88,7 @@ uint32_t VplCompensation::traceBounce(PassContext& context, uint32_t count, uint
     context.tracer.closestHit(context.stream, rays_, hits_, count);
 
     // Few rays hit: keep only these.
-    const uint32_t words = (count + 31) / 32;
+    const auto words = uint32_t(bitWords(count));
     context.dispatch(flagHits_, words, {{"hits", hits_}, {"flags", flags_}, {"count", count}});
     const uint32_t hits = compaction_.run(context.stream, flags_, hitRays_, words);
     context.dispatch(surfelsAtHits_, hits,

@@ -18,7 +18,7 @@ std::vector<float> areaCdf(const Geometry& g) {
     cdf.reserve(g.triangles.size());
     double total = 0;
     for (uint32_t t = 0; t < g.triangles.size(); ++t)
-        cdf.push_back(float(total += isInRegion(g, t) ? double(triangleArea(g, g.triangles[t])) : 0.0));
+        cdf.push_back(float(total += isInRegion(g, t) ? triangleArea(g, t) : 0.0));
     for (float& area : cdf) area = float(area / total);
     return cdf;
 }

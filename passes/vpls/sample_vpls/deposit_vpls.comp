@@ -48,12 +48,10 @@ void main() {
     LightVertex p;
     if (!lightVertexAtHit(ray, hit, p)) return;
     LightPath path = paths.data[i];
-    // Power arrives by the geometric cosine, the BSDF reflects by the shading cosine: the adjoint BSDF of light paths
-    // (Veach 1997, section 5.3)
-    const float cosShading = -dot(p.normal, ray.direction), cosGeometric = -dot(p.faceNormal, ray.direction);
-    if (cosShading <= 0.0 || cosGeometric <= 0.0) return;
-    path.power *= cosShading / cosGeometric;
-    p.normal = p.faceNormal;
+    const float factor = adjointFactor(p, ray.direction);
+    if (factor == 0.0) return;
+    path.power *= factor;
+    p.normal = p.faceNormal;  // What the light leaves by, and of factor 1
     const vec3 flux = path.power * p.albedo;
     if (any(greaterThan(flux, vec3(0.0)))) {
         const uint vplIndex = pathOrder.data[push.firstPath + i] * push.bounces + push.bounce;

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "graph/registry.h"
+#include "passes/common/compute/bit_words.h"
 #include "passes/common/compute/compaction.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/lights/pane_transmittance.h"
@@ -155,7 +156,7 @@ void SampleVpls::plan(PassPlan& plan) {
     plan.buffer(vpls.points, "virtual point lights", points * sizeof(gpu::Vpl));
     plan.buffer(vpls.activeIndices, "list of virtual point lights", points * sizeof(uint32_t));
     plan.buffer(pathOrder_, "order of light paths", vpls.paths * sizeof(uint32_t));
-    plan.buffer(flags_, "flags of virtual point lights", (points + 31) / 32 * sizeof(uint32_t));
+    plan.buffer(flags_, "flags of virtual point lights", bitWords(points) * sizeof(uint32_t));
     plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
     plan.scratchBuffer(hits_, "light ray hits", batch * sizeof(Hit));
     plan.scratchBuffer(paths_, "light paths", batch * sizeof(gpu::LightPath));

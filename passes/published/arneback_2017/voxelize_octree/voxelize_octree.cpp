@@ -35,6 +35,7 @@ struct FragmentList {
 class VoxelizeOctree final : public Pass {
  public:
     static constexpr const char* kName = "voxelize_octree";
+    static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Voxelizes triangles into an octree of bricks with color and normal. "
         "Triangles are rasterized into a fragment list, over which the octree is built. "

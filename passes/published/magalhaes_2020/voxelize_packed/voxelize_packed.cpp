@@ -14,6 +14,7 @@ namespace voxray {
 class VoxelizePacked final : public Pass {
  public:
     static constexpr const char* kName = "voxelize_packed";
+    static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Voxelizes triangles into packed volumes of one RGBA8 word a voxel. "
         "The volumes hold the mean normal and the mean albedo, without faces. "

@@ -1,7 +1,7 @@
-// Removes candidates for neighbours that are occluded. UPDATE: uses the previous result for groups with unchanged
-// neighbourhoods, where the neighbours have the same bytes.
+// Removes candidates for neighbors that are occluded. UPDATE: uses the previous result for groups with unchanged
+// neighborhoods, where the neighbors have the same bytes.
 #ifdef UPDATE
-#include "passes/clusters/neighbours.glsl"
+#include "passes/clusters/neighbors.glsl"
 #else
 #include "passes/clusters/surface_group_types.h"
 #include "shaders/compute/large_buffer.glsl"
@@ -15,8 +15,8 @@ layout(scalar) readonly buffer CandidatesRef { LargeUints candidates; };
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(scalar) readonly buffer GroupOfCandidateRef { LargeUints groupOfCandidate; };
 readonly buffer ReusablePreviousIndex { uint data[]; } reusablePreviousIndex;
-readonly buffer PreviousFirstNeighbour { uint data[]; } previousFirstNeighbour;
-layout(scalar) readonly buffer PreviousNeighboursRef { LargeUints previousNeighbours; };
+readonly buffer PreviousFirstNeighbor { uint data[]; } previousFirstNeighbor;
+layout(scalar) readonly buffer PreviousNeighborsRef { LargeUints previousNeighbors; };
 #endif
 layout(push_constant) uniform Push {
     uint first;
@@ -28,9 +28,9 @@ bool isOccludedCandidate(uint i) {
     const uint group = groupOfCandidate.data[push.first + i], previous = reusablePreviousIndex.data[group];
     if (previous != NO_GROUP) {
         const uint candidate = candidates.data[push.first + i];
-        const uint code = neighbourCode(groups.data[group], groups.data[candidate], candidate);
-        for (uint k = previousFirstNeighbour.data[previous]; k < previousFirstNeighbour.data[previous + 1u]; ++k)
-            if (byteOf(previousNeighbours.data[k / 4u], k) == code) return false;
+        const uint code = neighborCode(groups.data[group], groups.data[candidate], candidate);
+        for (uint k = previousFirstNeighbor.data[previous]; k < previousFirstNeighbor.data[previous + 1u]; ++k)
+            if (byteOf(previousNeighbors.data[k / 4u], k) == code) return false;
         return true;
     }
 #endif

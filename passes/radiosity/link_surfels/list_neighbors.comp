@@ -1,7 +1,7 @@
-// Lists the neighbours of each surfel: surfels in the 27 voxels around it within a radius, of similar normals and equal
+// Lists the neighbors of each surfel: surfels in the 27 voxels around it within a radius, of similar normals and equal
 // occlusion. COUNT counts them; then they are written by the counts' prefix sums.
 #include "shaders/compute/linear_index.glsl"
-#include "passes/surfels/neighbours.glsl"
+#include "passes/surfels/neighbors.glsl"
 #include "passes/surfels/packed_surfel.glsl"
 #include "passes/surfels/sorted_surfels.glsl"
 #include "passes/surfels/surfel_bias.glsl"
@@ -16,7 +16,7 @@ buffer Largest { uint value; } largest;
 #else
 readonly buffer Begins { uint data[]; } begins;
 layout(scalar) readonly buffer PackedRef { PackedSurfels packed_; };
-layout(scalar) readonly buffer PairsRef { NeighbourPairs pairs; };
+layout(scalar) readonly buffer PairsRef { NeighborPairs pairs; };
 #endif
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
@@ -42,20 +42,20 @@ void main() {
         if (list == NO_VOXEL) continue;
         const uvec2 range = surfelRanges.data[list];
         for (uint j = range.x; j < range.y; ++j) {
-            const SortedSurfel neighbour = sortedSurfel(words, j);
-            const vec3 offset = neighbour.position - center.position;
+            const SortedSurfel neighbor = sortedSurfel(words, j);
+            const vec3 offset = neighbor.position - center.position;
             const float distanceSquared = dot(offset, offset);
             if (j == surfel || distanceSquared >= squaredRadius) continue;
-            if (dot(neighbour.normal, center.normal) <= 0.0) continue;
-            if (((neighbour.id ^ center.id) & VOXRAY_OCCLUDED) != 0u) continue;  // Light in a gap is independent.
+            if (dot(neighbor.normal, center.normal) <= 0.0) continue;
+            if (((neighbor.id ^ center.id) & VOXRAY_OCCLUDED) != 0u) continue;  // Light in a gap is independent.
 #ifdef COUNT
             ++count;
 #else
             const float inverse = unpackInverseDistance(packed_.data[j].y);
             const float meanInverse = 0.5 * (centerInverse + inverse) / push.grid.voxelSize;
-            const float bias = surfelBias(center.position, center.normal, neighbour.position, neighbour.normal) +
+            const float bias = surfelBias(center.position, center.normal, neighbor.position, neighbor.normal) +
                                distanceBias(distanceSquared, meanInverse);
-            pairs.data[next++] = packNeighbour(j, bias, 1.0 - distanceSquared / squaredRadius);
+            pairs.data[next++] = packNeighbor(j, bias, 1.0 - distanceSquared / squaredRadius);
 #endif
         }
     }

@@ -1,5 +1,5 @@
-// Counts the neighbours of each surface group: its candidates that were not removed. LIST: stores them.
-#include "passes/clusters/neighbours.glsl"
+// Counts the neighbors of each surface group: its candidates that were not removed. LIST: stores them.
+#include "passes/clusters/neighbors.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
@@ -7,8 +7,8 @@ readonly buffer FirstCandidate { uint data[]; } firstCandidate;
 layout(scalar) readonly buffer CandidatesRef { LargeUints candidates; };
 #ifdef LIST
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
-readonly buffer FirstNeighbour { uint data[]; } firstNeighbour;
-layout(scalar) readonly buffer NeighboursRef { LargeUints neighbours; };  // Must be 0 before.
+readonly buffer FirstNeighbor { uint data[]; } firstNeighbor;
+layout(scalar) readonly buffer NeighborsRef { LargeUints neighbors; };  // Must be 0 before.
 #else
 // One for each group, and a last 0, where the prefix sum leaves the total.
 writeonly buffer Counts { uint data[]; } counts;
@@ -21,13 +21,13 @@ void main() {
     uint count = 0u;
     if (group < push.groupCount) {
         for (uint i = firstCandidate.data[group]; i < firstCandidate.data[group + 1u]; ++i) {
-            const uint neighbour = candidates.data[i];
-            if (neighbour == NO_GROUP) continue;
+            const uint neighbor = candidates.data[i];
+            if (neighbor == NO_GROUP) continue;
 #ifdef LIST
-            const uint position = firstNeighbour.data[group] + count;
-            const uint code = neighbourCode(groups.data[group], groups.data[neighbour], neighbour);
-            // A word may hold neighbours of two groups
-            atomicOr(neighbours.data[position / 4u], code << 8u * (position % 4u));
+            const uint position = firstNeighbor.data[group] + count;
+            const uint code = neighborCode(groups.data[group], groups.data[neighbor], neighbor);
+            // A word may hold neighbors of two groups
+            atomicOr(neighbors.data[position / 4u], code << 8u * (position % 4u));
 #endif
             ++count;
         }

@@ -1,6 +1,6 @@
-// Statistics of the rays around a block, shared by C++ and GLSL.
-#ifndef VOXRAY_FILTER_TYPES_H
-#define VOXRAY_FILTER_TYPES_H
+// Statistics of the rays around a block of texels for the irradiance filter, shared by C++ and GLSL.
+#ifndef VOXRAY_SHARED_RAY_STATISTICS_H
+#define VOXRAY_SHARED_RAY_STATISTICS_H
 
 #include "shaders/shared/types.h"
 

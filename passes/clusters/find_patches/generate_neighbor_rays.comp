@@ -1,4 +1,4 @@
-// Generates visibility rays between surface groups and candidates for their neighbours. UPDATE: none where the previous result is reused.
+// Generates visibility rays between surface groups and candidates for their neighbors. UPDATE: none where the previous result is reused.
 #include "passes/clusters/find_patches/grouped_surfel.h"
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -30,8 +30,8 @@ void main() {
     }
 #endif
     const vec3 origin = pointAboveGroup(group);
-    const vec3 toNeighbour = pointAboveGroup(candidates.data[push.first + i]) - origin;
-    rays.data[i] = dot(toNeighbour, toNeighbour) > 0.0
-                       ? Ray(origin, 0.0, normalize(toNeighbour), length(toNeighbour))
+    const vec3 toNeighbor = pointAboveGroup(candidates.data[push.first + i]) - origin;
+    rays.data[i] = dot(toNeighbor, toNeighbor) > 0.0
+                       ? Ray(origin, 0.0, normalize(toNeighbor), length(toNeighbor))
                        : kNoRay;
 }

@@ -1,6 +1,6 @@
 // Mean and variance of the irradiance around each surfel.
 #include "shaders/scene/sampling.glsl"
-#include "passes/surfels/smooth_surfels/neighbourhoods.glsl"
+#include "passes/surfels/smooth_surfels/neighborhoods.glsl"
 
 float weights, squaredWeights, sum, squares;
 
@@ -19,11 +19,11 @@ void main() {
     const uint irradiance = lit.data[surfel].z, end = begins.data[surfel + 1u];
     add(1.0, irradiance);
     for (uint i = begins.data[surfel]; i < end; ++i) {
-        const uvec2 neighbour = pairs.data[i];
-        const vec2 pair = biasAndKernel(neighbour);
-        add(pair.y * push.noise / (push.noise + pair.x), lit.data[neighbour.x].z);
+        const uvec2 neighbor = pairs.data[i];
+        const vec2 pair = biasAndKernel(neighbor);
+        add(pair.y * push.noise / (push.noise + pair.x), lit.data[neighbor.x].z);
     }
     const float mean_ = sum / weights, variance = max(squares / weights - mean_ * mean_, 0.0);
     const float varianceOfMean = variance * squaredWeights / (weights * weights);
-    neighbourhoods.data[surfel] = uvec4(floatBitsToUint(vec3(mean_, variance, varianceOfMean)), irradiance);
+    neighborhoods.data[surfel] = uvec4(floatBitsToUint(vec3(mean_, variance, varianceOfMean)), irradiance);
 }
