@@ -16,12 +16,16 @@
 #include "passes/surfels/surfel_sort.h"
 
 namespace voxray {
+namespace {
+
+constexpr uint32_t kChunkPoints = Surfels::kMaxChunkSurfels / 2;
+
+}  // namespace
 
 /// Splits the surfels of each voxel into surface groups: surfels with an unobstructed line between points half a voxel
-/// above them. Splits clusters into connected
-/// components of these groups, so that light does not leak through walls thinner than a voxel. A patch is the
-/// projection of a surface group onto one of its voxel's six faces. An extension of Cosin and Patow 2022, who
-/// have one surface in each voxel: docs/clusters.md, "How it works".
+/// above them. Splits clusters into connected components of these groups, so that light does not leak through walls
+/// thinner than a voxel. A patch is the area of a surface group at one of its voxel's six faces. An extension of Cosin
+/// and Patow 2022, who have one surface in each voxel: docs/clusters.md, "How it works".
 class FindPatches final : public Pass {
  public:
     static constexpr const char* kName = "find_patches";
@@ -40,8 +44,8 @@ class FindPatches final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Evaluates all surfels. Those of a chunk that do not exist have no voxel.
-    Surfels evaluateSurfels(PassContext& context) const;
+    /// Evaluates the surfels of kChunkPoints points or fewer. Those that do not exist have no voxel.
+    Surfels::Chunk evaluateSurfels(PassContext& context, uint32_t firstPoint) const;
     /// Sorts the surfels by voxel and finds the group of each within its voxel.
     void groupSurfels(PassContext& context, SurfelsByVoxel& surfelsByVoxel);
     /// Numbers the groups of all voxels and their patches, and stores the surfels.
@@ -120,40 +124,41 @@ void FindPatches::record(PassContext& context) {
     context.report("bytes of surface groups", double(patches.bytes()));
 }
 
-Surfels FindPatches::evaluateSurfels(PassContext& context) const {
-    constexpr uint32_t kPoints = Surfels::kMaxChunkSurfels / 2;
+Surfels::Chunk FindPatches::evaluateSurfels(PassContext& context, uint32_t firstPoint) const {
     const SurfelPoints& points = context[points_];
-    Surfels surfels;
-    for (uint32_t first = 0; first < points.count; first += kPoints) {
-        const uint32_t batch = std::min(kPoints, points.count - first);
-        surfels.chunks.push_back(
-            {Buffer(context.device, "surfels", 2 * batch * sizeof(gpu::Surfel)), 2 * batch, 2 * first});
-        context.dispatch(evaluateSurfels_, batch,
-                         {context.scene,
-                          context[voxels_],
-                          points,
-                          {"SidesRef", points.sides.ref()},
-                          {"surfels", surfels.chunks.back().surfels},
-                          {"firstPoint", first},
-                          {"points", batch}});
-    }
-    surfels.count = 2 * uint64_t(points.count);
-    return surfels;
+    const uint32_t batch = std::min(kChunkPoints, points.count - firstPoint);
+    Surfels::Chunk chunk{Buffer(context.device, "surfels", 2 * batch * sizeof(gpu::Surfel)), 2 * batch, 2 * firstPoint};
+    context.dispatch(evaluateSurfels_, batch,
+                     {context.scene,
+                      context[voxels_],
+                      points,
+                      {"SidesRef", points.sides.ref()},
+                      {"surfels", chunk.surfels},
+                      {"firstPoint", firstPoint},
+                      {"points", batch}});
+    return chunk;
 }
 
 void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& surfelsByVoxel) {
     const SurfaceVoxels& voxels = context[voxels_];
     const SurfelPoints& points = context[points_];
     CommandStream& stream = context.stream;
-    Surfels surfels = evaluateSurfels(context);
-    sortByVoxel_.run(stream, surfels, voxels.voxelCount, surfelsByVoxel);
-    surfelsByVoxel.sorted = {};
+    {
+        Surfels surfels;
+        for (uint32_t first = 0; first < points.count; first += kChunkPoints)
+            surfels.chunks.push_back(evaluateSurfels(context, first));
+        surfels.count = 2 * uint64_t(points.count);
+        sortByVoxel_.run(stream, surfels, voxels.voxelCount, surfelsByVoxel);
+        surfelsByVoxel.sorted = {};
+    }
     const uint32_t count = context[patches_].surfelCount = surfelsByVoxel.sortedCount;
     surfels_ =
         LargeBuffer(context.device, "surfels by group", std::max<uint64_t>(count, 1) * sizeof(gpu::GroupedSurfel));
     std::vector<Binding> storedGroups;
     if (isUpdate()) storedGroups = updateCache_->surfelBindings(context[clusters_]);
-    for (const Surfels::Chunk& chunk : surfels.chunks)
+    // Evaluated again, so that there is only one copy of all
+    for (uint32_t first = 0; first < points.count; first += kChunkPoints) {
+        const Surfels::Chunk chunk = evaluateSurfels(context, first);
         context.dispatch(isUpdate() ? updateSurfels_ : initSurfels_, chunk.count,
                          {storedGroups,
                           {"surfels", chunk.surfels},
@@ -162,10 +167,11 @@ void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& surfelsByVo
                           {"grid", voxels.grid},
                           {"count", chunk.count},
                           {"firstIndex", chunk.firstIndex}});
-    stream.finish();
+        stream.finish();
+    }
     surfelsByVoxel.sortedPositions = {};
-    surfels.chunks.clear();
     grouping_.run(context, batch_, voxels, points.hasOccludedSurfels, surfelsByVoxel, surfels_);
+    // Each point has up to two surfels: one on each side
     if (updateCache_) updateCache_->storeSurfels(stream, surfels_, count, 2 * uint64_t(points.count));
 }
 
