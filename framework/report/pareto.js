@@ -46,6 +46,7 @@ function matrixCell(s, m, best) {
 }
 function showMatrix() {
     const rows = order(), rival = methodName(rivalMethod()), medians = data.medians[state.rival][state.cost][state.error];
+    byId("versus").textContent = rival;
     byId("matrix-title").textContent = cost().key === "memory" ? `How many times less memory than ${rival} at equal ${errorName()}`
         : `Speed-up over ${rival} at equal ${errorName()}, by ${costWords()}`;
     const best = data.scenes.map((_, s) => d3.max(rows, (m) => (2 * (cellOf(s, m)?.[3] ?? 0) >= countOf(s) ? cellOf(s, m)?.[0] : 0)));

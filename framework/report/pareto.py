@@ -141,17 +141,16 @@ class SpeedUps:
         return np.where(found > 0, found, np.nan)
 
 
-    def best(self, methods: list[Method], cost: int, errors: list[int], scene: int) -> tuple[str, np.ndarray] | None:
-        """The method whose speed-up over the first rival, the lowest one by several errors, is largest, and that cell. Methods
-        that reach less than half of the rival's errors do not count, and neither do those that trace paths."""
-        cells = self.factors[0, cost, errors, scene]
-        is_reached = 2 * cells[..., 3] >= np.maximum(self.count[0, cost, errors, scene], 1)[:, None]
-        value = np.where(is_reached, cells[..., 0], np.nan).min(axis=0)
-        value[[method.traces_paths for method in methods]] = np.nan
+    def best(self, methods: list[Method], cost: int, error: int, scene: int) -> tuple[str, np.ndarray] | None:
+        """The method whose speed-up over the first rival is largest, and that cell. Methods that reach less than half of the
+        rival's errors do not count."""
+        cells = self.factors[0, cost, error, scene]
+        value = np.where(2 * cells[:, 3] >= max(self.count[0, cost, error, scene], 1), cells[:, 0], np.nan)
+        value[self.rivals[0]] = np.nan
         if np.isnan(value).all():
             return None
         best = int(np.nanargmax(value))
-        return methods[best].name, cells[int(cells[:, best, 0].argmin()), best]
+        return methods[best].name, cells[best]
 
 
 def speed_ups(scenes: list[Scene], methods: list[Method], rivals: list[int], error_count: int) -> SpeedUps:

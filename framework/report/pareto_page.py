@@ -16,10 +16,9 @@ from report.results import IMAGES, ReportError, Results
 from report.table import Cell, Table
 
 _SCRIPTS = ("d3", "toolkit.js", "state.js", "matrix.js", "chart.js", "pareto.js")
-_WORST_OF = ("nrmse", "relmse")  # the error that shows least gain counts
-_NEEDS = {"frame": "Still light (time of a frame)", "frame + light": "Light that changes (frame and its light)",
-          "build + frame": "Surfaces that move (build and frame)"}
-_SHORT = {"frame": "frame", "frame + light": "frame + its light", "build + frame": "build + frame", "memory": "memory"}
+_NEEDS = {"frame": "Still light (frame)", "frame + light": "Light that changes (frame + light)",
+          "build + frame": "Surfaces that move (build + frame)"}
+_SHORT = {"frame": "frame", "frame + light": "frame + light", "build + frame": "build + frame", "memory": "memory"}
 _UNITS = np.array([[1], [1], [1], [2**20]])  # of costs in charts: ms, MiB
 _MAX_ON_FRONT = 3  # methods that are named
 _MAX_CELLS = 10000  # of the matrix with one cost and error, over all rivals
@@ -104,27 +103,31 @@ def csv_lines(compared: Comparison):
 
 def sentences(compared: Comparison) -> list[str]:
     """What to take for still light, light that changes and surfaces that move, and where nothing beats path tracing."""
-    worst = [i for i, error in enumerate(compared.errors) if error.metric.key in _WORST_OF]
-    if compared.rival is None or not worst:
+    if compared.rival is None:
         return _most_on_fronts(compared)
     lines, losses = [], {}
     for cost, need in _NEEDS.items():
         wins: dict[str, list[str]] = {}  # by method: scenes
         for s, scene in enumerate(compared.scenes):
-            found = compared.speed_ups.best(compared.methods, CHARTED.index(cost), worst, s)
+            found = compared.speed_ups.best(compared.methods, CHARTED.index(cost), compared.first, s)
             if found and found[1][0] >= 1:
                 method, (value, low, high, _) = found
                 wins.setdefault(method, []).append(f"{scene.name} ({'' if low > 1 else '≈ '}{text.figures(value, 2)}×)")
-            elif compared.measured[s, compared.rival]:
-                losses.setdefault(_SHORT[cost], []).append(scene.name)
+            elif compared.measured[s, compared.rival] and _has_cost(scene, cost, compared.rival):
+                losses.setdefault(need, []).append(scene.name)
         if wins:
             listed = [f"{method} in {', '.join(names)}" for method, names in sorted(wins.items(), key=lambda entry: -len(entry[1]))]
             lines.append(f"{need}: take {'; '.join(listed)}.")
     if losses:
         every = sum(compared.measured[:, compared.rival])
-        listed = [f"by {cost} in {'every scene' if len(names) == every > 1 else ', '.join(names)}" for cost, names in losses.items()]
-        lines.append(f"Nothing beats filtered path tracing: {'; '.join(listed)}.")
+        listed = [f"{need[0].lower()}{need[1:]} in {'every scene' if len(names) == every > 1 else ', '.join(names)}" for need, names in losses.items()]
+        lines.append(f"Filtered path tracing stays ahead: {'; '.join(listed)}.")
     return lines
+
+
+def _has_cost(scene: pareto.Scene, cost: str, rival: int) -> bool:
+    """Whether any method but the rival has it: runs of earlier versions tell no frame with its light."""
+    return bool(np.isfinite(scene.costs[list(COSTS).index(cost), scene.methods != rival]).any())
 
 
 def _most_on_fronts(compared: Comparison) -> list[str]:

@@ -73,7 +73,7 @@ def _speed_up(results: Results, light: str, metric: Metric) -> str:
     rivals = sorted((i for i, method in enumerate(methods) if method.traces_paths), key=lambda i: not methods[i].is_rival)
     scenes = pareto.scenes_of([results], members, [pareto.Error(metric)], light) if rivals else []
     found = pareto.speed_ups(scenes, methods, rivals[:1], 1)
-    best = found.best(methods, 0, [0], 0) if scenes else None
+    best = found.best(methods, 0, 0, 0) if scenes else None
     if best is None:
         return ""
     name, (value, low, high, reached) = best

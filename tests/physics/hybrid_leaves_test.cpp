@@ -205,7 +205,7 @@ TEST(HybridLeaves, ALeafOfManyTrianglesKeepsTheirMean) {
     for (int i = 0; i < 2; ++i) {
         Mesh stack;
         stack.material = b.lambert("colour", colours[i]);
-        stack.positions = {{-0.1f, 0, -0.1f}, {-0.1f, 0, 0.1f}, {0.1f, 0, 0.1f}, {0.1f, 0, -0.1f}};
+        stack.positions = {{-0.035f, 0, -0.035f}, {-0.035f, 0, 0.035f}, {0.035f, 0, 0.035f}, {0.035f, 0, -0.035f}};
         stack.normals.assign(4, {0, 1, 0});
         for (int k = 0; k < (i == 0 ? 12500 : 37500); ++k)
             stack.triangles.insert(stack.triangles.end(), {{0, 1, 2}, {0, 2, 3}});
