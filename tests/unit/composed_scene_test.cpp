@@ -273,9 +273,10 @@ TEST_F(SceneSize, AdviceNamesWhatTheLargestPartGrowsWith) {
     prepared.state.scene = scene;
     EXPECT_CONTAINS(sceneSizeAdvice(row, prepared.state),
                     ": make its textures smaller; the largest is 'bark 2048' of 2048 x 512, or take");
+    // 16 bytes a texel, and 4 of the distribution that rays follow
     scene->environment.map = std::make_shared<const ImageF>(2048u, 1024u, 3u);
     EXPECT_CONTAINS(sceneSizeAdvice(row, prepared.state),
-                    "its environment 32.0 MiB: take a smaller map for scene.environment");
+                    "its environment 40.0 MiB: take a smaller map for scene.environment");
 }
 
 TEST_F(SceneSize, ASceneThatTheDeviceHasNoRoomForIsToldWithAdvice) {

@@ -150,7 +150,7 @@ TEST(Schema, ConfigSchemaHoldsEveryPassAndKey) {
          {"name", "scene", "image", "seed", "tracer", "graph", "reference", "sweep", "measure", "profiles"})
         EXPECT_TRUE(json["properties"].contains(key)) << key;
     const auto& passes = json["properties"]["graph"]["items"]["oneOf"];
-    ASSERT_EQ(passes.size(), 5u);
+    ASSERT_EQ(passes.size(), 6u);
     EXPECT_EQ(passes[0]["properties"]["value"]["maximum"], 100);
     EXPECT_EQ(passes[0]["properties"]["value"]["default"], 1);
     EXPECT_EQ(passes[0]["additionalProperties"], false);
