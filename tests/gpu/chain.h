@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "experiment/measure.h"
@@ -175,11 +176,13 @@ inline ImageF pathTraced(const State& state, int samples, int bounces, uint32_t 
     const std::string pass = fmt::format("path_trace, spp: {}, bounces: {}", samples, bounces);
     return Chain(state, graphYaml({pass}), width, height).image("indirect");
 }
-inline const ImageF& pathTraced(const std::string& scene, const std::string& parameters, int samples, int bounces,
+// Names by value: GCC 13 and later warn of a dangling reference where a function of temporary arguments returns one.
+inline const ImageF& pathTraced(std::string_view scene, std::string_view parameters, int samples, int bounces,
                                 uint32_t width = 32, uint32_t height = 32) {
     static std::map<std::string, ImageF> images;
     ImageF& image = images[fmt::format("{} {} {} {} {} {}", scene, parameters, samples, bounces, width, height)];
-    if (image.data.empty()) image = pathTraced(builtin(scene, parameters), samples, bounces, width, height);
+    if (image.data.empty())
+        image = pathTraced(builtin(std::string(scene), std::string(parameters)), samples, bounces, width, height);
     return image;
 }
 
