@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""Writes one picture of a run: the reference and each variant that finished, named, in the order of the report's table.
+"""Writes one picture of a run: the reference, where it has one, and each variant that finished, named, in the order of the
+report's table.
 
 image_sheet.py RUN SHEET [--image NAME] [--columns N]
 
-RUN: a results folder, of one reference. SHEET: the PNG file to write. NAME: indirect.png (the default) or final.png.
+RUN: a results folder, of at most one reference. SHEET: the file to write, PNG of 256 colors or, for gradients, .jpg.
+NAME: indirect.png (the default) or final.png.
 """
 import argparse
 import os
@@ -16,12 +18,14 @@ from PIL import Image, ImageDraw, ImageFont
 from report.load import load
 from report.results import ReportError
 
-GAP, LINE, FONT_SIZE, COLORS = 4, 17, 13, 256  # pixels, pixels, pixels, of the palette
+GAP, LINE, FONT_SIZE, COLORS, QUALITY = 4, 17, 13, 256, 90  # pixels, pixels, pixels, of the palette, of a JPEG
 
 
 def tiles(results, image):
-    """Names and images of the reference and of the variants. @throws ReportError where one is missing."""
-    folders = {"reference": "reference", **{variant: results.names[variant] for variant in results.ok["variant"]}}
+    """Names and images of the reference, where the run has one, and of the variants. @throws ReportError where one is missing."""
+    folders = {variant: results.names[variant] for variant in results.ok["variant"]}
+    if results.manifest.get("reference"):
+        folders = {"reference": "reference", **folders}
     found = []
     for folder, name in folders.items():
         path = results.image(folder, image)
@@ -61,7 +65,8 @@ def main(arguments=None):
     except ReportError as error:
         print(f"image_sheet.py: error: {error}", file=sys.stderr)
         return 1
-    whole.quantize(COLORS).save(options.sheet, optimize=True)
+    is_jpeg = options.sheet.endswith(".jpg")
+    (whole if is_jpeg else whole.quantize(COLORS)).save(options.sheet, optimize=True, **({"quality": QUALITY} if is_jpeg else {}))
     return 0
 
 

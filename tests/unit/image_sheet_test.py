@@ -50,6 +50,19 @@ class Sheet(unittest.TestCase):
         self.assertEqual(whole.crop((SIZE[0] + image_sheet.GAP, step, whole.width, whole.height)).getcolors(), [
             ((SIZE[0]) * (whole.height - step), (255, 255, 255))])
 
+    def test_a_run_without_a_reference(self):
+        made_up.write_results(self.run_folder, [made_up.variant("a", 10, 0.2)], {**made_up.manifest([]), "reference": None}, images=False)
+        self.assertEqual(self.program(), (0, ""))
+        with Image.open(self.picture) as picture:
+            self.assertEqual(picture.width, SIZE[0])
+            self.assertEqual(picture.convert("RGB").getpixel((0, 0)), COLORS["a"])
+
+    def test_a_jpeg(self):
+        self.picture = self.picture.with_suffix(".jpg")
+        self.assertEqual(self.program(), (0, ""))
+        with Image.open(self.picture) as picture:
+            self.assertEqual((picture.format, picture.mode), ("JPEG", "RGB"))
+
     def test_a_missing_image_is_named(self):
         (self.run_folder / "images/a/indirect.png").unlink()
         status, error = self.program()
