@@ -94,8 +94,7 @@ def picture_of(results):
 def numbers(results):
     """A table of what the variant costs, its errors, and what its reference took."""
     row = results.ok.iloc[0]
-    reference = results.reference_of(row["variant"]) or {}
-
+    reference = results.reference_of(row["variant"])
     flip = f"{figures(row['flip'], 2)} ({figures(results.noise('flip', reference), 2)})"
 
     def nrmse(prefix):
@@ -103,8 +102,7 @@ def numbers(results):
         return f"{figures(row[prefix + 'nrmse'], 2)} ({' to '.join(ends)})"
     columns = {"frame": f"{figures(row['frame_ms_median'] / 1000)} s", "build": f"{figures(row['build_ms'] / 1000)} s",
                "memory": size(row["memory_bytes"]), "nRMSE": nrmse(""), "nRMSE of indirect light": nrmse("indirect_"),
-               "FLIP": flip,
-               "reference": f"{reference['spp']} samples a pixel, {figures(reference['seconds'])} s"}
+               "FLIP": flip, "reference": f"{reference['spp']} samples a pixel, {figures(reference['seconds'])} s"}
     return "\n".join(markdown_table(columns, [columns.values()]))
 
 
@@ -120,7 +118,8 @@ def section(config, results, picture, page):
     """What the page says of a config."""
     link = os.path.relpath(picture, page.parent)
     alt = config.stem.replace("_", " ").capitalize()
-    return f"![{alt}: by voxels, a part of it next to the path-traced reference, and the error]({link})\n\n{numbers(results)}\n\n```yaml\n{graph_of(config)}```\n"
+    title = f"{alt}: by voxels, a part of it next to the path-traced reference, and the error"
+    return f"![{title}]({link})\n\n{numbers(results)}\n\n```yaml\n{graph_of(config)}```\n"
 
 
 def replace(page, name, text):

@@ -48,7 +48,8 @@ class Gallery(CommandTest):
                                r"\| frame \| build \|.*\n\|.*\n\| [\d.]+ s \|.*\| 8 samples a pixel, [\d.]+ s \|\n\n```yaml\n")
         self.assertIn(f"```yaml\n{GRAPH}```\n<!-- end -->\nbetween\n<!-- gallery: other -->\nkept\n<!-- end -->\n", page)
 
-        with Image.open(self.path("pictures", "tiny.jpg")) as picture, Image.open(self.path("out", "tiny", "images", "default", "final.png")) as ours:
+        final = self.path("out", "tiny", "images", "default", "final.png")
+        with Image.open(self.path("pictures", "tiny.jpg")) as picture, Image.open(final) as ours:
             self.assertEqual(picture.width, 128)
             self.assertGreater(picture.height, 72 + 72 // 3)
             top = np.asarray(picture.crop((0, 0, 128, 72)), dtype=float) - np.asarray(ours.convert("RGB"), dtype=float)
