@@ -225,7 +225,7 @@ std::string experimentIn(const std::string& manifest) {
 
 Json parseManifest(const std::string& text) {
     Json manifest = Json::parse(text, nullptr, false);
-    if (!manifest.is_object() || !manifest.contains("inputs"))
+    if (!manifest.is_object() || !manifest.contains("inputs") || !manifest.contains("names"))
         throw Error("the manifest is broken, or of an older version of Voxray");
     return manifest;
 }
