@@ -4,19 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/luminance.h"
+
 namespace voxray {
 namespace {
-
-float luminance(const glm::vec3& c) {
-    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
-}
-
-/// A texel of a map that repeats horizontally and is clamped vertically; x at least -width.
-glm::vec3 texelAt(const ImageF& map, int64_t x, int64_t y) {
-    const float* p =
-        map.pixel(uint32_t((x + map.width) % map.width), uint32_t(std::clamp<int64_t>(y, 0, int64_t(map.height) - 1)));
-    return {p[0], p[1], p[2]};
-}
 
 /// Mean luminance of each texel's bilinear patch.
 std::vector<double> patchLuminances(const Environment& environment) {
@@ -27,8 +18,8 @@ std::vector<double> patchLuminances(const Environment& environment) {
             double sum = 0.0;
             for (int64_t dy = -1; dy <= 1; ++dy)
                 for (int64_t dx = -1; dx <= 1; ++dx)
-                    sum += double(luminance(environment.radiance * texelAt(map, x + dx, y + dy))) * (dx == 0 ? 6 : 1) *
-                           (dy == 0 ? 6 : 1) / 64.0;
+                    sum += double(luminance(environment.radiance * environmentTexel(map, x + dx, y + dy))) *
+                           (dx == 0 ? 6 : 1) * (dy == 0 ? 6 : 1) / 64.0;
             means[size_t(y) * map.width + size_t(x)] = sum;
         }
     return means;
@@ -45,6 +36,12 @@ void cumulate(const double* weights, uint32_t count, double total, float* cdf) {
 }
 
 }  // namespace
+
+glm::vec3 environmentTexel(const ImageF& map, int64_t x, int64_t y) {
+    const float* p =
+        map.pixel(uint32_t((x + map.width) % map.width), uint32_t(std::clamp<int64_t>(y, 0, int64_t(map.height) - 1)));
+    return {p[0], p[1], p[2]};
+}
 
 EnvironmentCdf environmentCdf(const Environment& environment) {
     EnvironmentCdf cdf;

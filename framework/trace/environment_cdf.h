@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "scene/scene.h"
@@ -17,5 +18,8 @@ struct EnvironmentCdf {
     float meanLuminance = 0.0f;      ///< Over all directions, W/(m² sr); also of a constant environment.
 };
 EnvironmentCdf environmentCdf(const Environment& environment);
+
+/// A texel of a map that repeats horizontally and is clamped vertically; x at least -width.
+glm::vec3 environmentTexel(const ImageF& map, int64_t x, int64_t y);
 
 }  // namespace voxray

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "scene/luminance.h"
 #include "scene/panes.h"
 #include "shaders/scene/scene_types.h"
 #include "trace/emission.h"
@@ -58,10 +59,6 @@ gpu::GpuMaterial toGpu(const Scene& scene, const Material& m) {
 gpu::GpuLight toGpu(const Light& light) {
     return {light.intensity, uint32_t(light.type),          light.position, std::cos(light.innerConeAngle),
             light.direction, std::cos(light.outerConeAngle)};
-}
-
-float luminance(glm::vec3 c) {
-    return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
 }
 
 // Emissive triangles with their sampling probabilities, proportional to power.

@@ -22,13 +22,6 @@ float probability(const float* cdf, uint32_t i) {
     return cdf[i] - (i > 0 ? cdf[i - 1] : 0.0f);
 }
 
-/// A texel of a map that repeats horizontally and is clamped vertically; x at least -width.
-glm::vec3 texelAt(const ImageF& map, int64_t x, int64_t y) {
-    const float* p =
-        map.pixel(uint32_t((x + map.width) % map.width), uint32_t(std::clamp<int64_t>(y, 0, int64_t(map.height) - 1)));
-    return {p[0], p[1], p[2]};
-}
-
 }  // namespace
 
 EnvironmentLight::EnvironmentLight(const Environment& environment)
@@ -47,8 +40,8 @@ glm::vec3 EnvironmentLight::radiance(const glm::vec3& direction) const {
     const float floorX = std::floor(p.x), floorY = std::floor(p.y);
     const float fx = p.x - floorX, fy = p.y - floorY;
     const auto x = int64_t(floorX), y = int64_t(floorY);
-    const glm::vec3 top = texelAt(map, x, y) * (1.0f - fx) + texelAt(map, x + 1, y) * fx;
-    const glm::vec3 bottom = texelAt(map, x, y + 1) * (1.0f - fx) + texelAt(map, x + 1, y + 1) * fx;
+    const glm::vec3 top = environmentTexel(map, x, y) * (1.0f - fx) + environmentTexel(map, x + 1, y) * fx;
+    const glm::vec3 bottom = environmentTexel(map, x, y + 1) * (1.0f - fx) + environmentTexel(map, x + 1, y + 1) * fx;
     return environment_->radiance * (top * (1.0f - fy) + bottom * fy);
 }
 

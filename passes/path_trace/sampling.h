@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "scene/luminance.h"
+
 /// Sampling warps of the unit square, and discrete distributions.
 namespace voxray::path_trace {
 
@@ -17,9 +19,6 @@ constexpr float kInvPi = 0.318309886183791f;
 
 inline float maxComponent(const glm::vec3& c) {
     return std::max(c.x, std::max(c.y, c.z));
-}
-inline float luminance(const glm::vec3& c) {
-    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
 }
 inline float square(float x) {
     return x * x;
