@@ -157,8 +157,9 @@ class PassContext : public PortAccess {
 
 /// A stage of a graph. A pass class also has `struct Params` with a schema, a constructor from Params,
 /// `static constexpr const char* kName, *kHelp` (what it does, what biases it, what makes it noisy, its
-/// source), `static constexpr bool kNeedsDevice = false` if it runs without Vulkan, too, and, if it denoises what
-/// another pass made, `static constexpr const char* kFilterLabel` (PassKind::filterLabel).
+/// source), `static constexpr bool kNeedsDevice = false` if it runs without Vulkan, too,
+/// `static constexpr bool kDependsOnLight = false` if its outputs stay where lights alone change, and, if it denoises
+/// what another pass made, `static constexpr const char* kFilterLabel` (PassKind::filterLabel).
 class Pass : public PortOwner, public ProgramOwner {
  public:
     virtual ~Pass() = default;

@@ -9,7 +9,7 @@ bool isOccluded(SurfaceGroup group) { return (group.flags & GROUP_OCCLUDED) != 0
 
 bool hasPatch(SurfaceGroup group, uint face) { return (group.flags >> face & 1u) != 0u; }
 
-uint patchCount(SurfaceGroup group) { return uint(bitCount(group.flags & GROUP_FACES)); }
+bool hasFace(ClusterComponent component, uint face) { return (component.faces >> face & 1u) != 0u; }
 
 uint bitsBelow(uint bits, uint bit) { return uint(bitCount(bits & ((1u << bit) - 1u))); }
 

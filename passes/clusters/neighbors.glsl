@@ -6,8 +6,8 @@
 //
 // The voxel is x + 3y + 9z, each of which is 0, 1 or 2 for -1, 0 and 1 voxels along an axis. Groups of a voxel are
 // counted from its first one, occluded ones backwards from its last one.
-#ifndef VOXRAY_NEIGHBORS_GLSL
-#define VOXRAY_NEIGHBORS_GLSL
+#ifndef VOXRAY_GROUP_NEIGHBORS_GLSL
+#define VOXRAY_GROUP_NEIGHBORS_GLSL
 
 #include "passes/clusters/group_patches.glsl"
 #include "shaders/voxels/voxels.glsl"

@@ -4,12 +4,6 @@
 
 #include "shaders/voxels/voxel_packing.h"
 
-#ifdef __cplusplus
-#define VOXRAY_GROUP_FUNCTION inline
-#else
-#define VOXRAY_GROUP_FUNCTION
-#endif
-
 VOXRAY_SHARED_BEGIN
 
 #define NO_GROUP 0xffffffffu
@@ -21,8 +15,9 @@ VOXRAY_SHARED_BEGIN
     0x40u  // It lies in a gap narrower than a voxel. It sends and receives light, but the voxel's
            // irradiance does not include it.
 
-// The surfels of a voxel that see each other, e.g. those on one face of a thin wall. It has a patch at each
-// of the voxel's six faces towards which its projected area is not 0. Its surfels and patches end where those of the
+// The surfels of a voxel with an unobstructed line between points half a voxel above them, e.g. those on one face of a
+// thin wall. It has a patch at each of the voxel's six faces at which it has area (area times the squared component of
+// the normal). Its surfels and patches end where those of the
 // next group begin; one more element follows the last group.
 struct SurfaceGroup {
     uint voxel;
@@ -37,7 +32,7 @@ struct PackedGroupMaterial {
     uint words[GROUP_MATERIAL_WORDS];
 };
 
-VOXRAY_GROUP_FUNCTION PackedGroupMaterial packGroupMaterial(VoxelMaterial m) {
+VOXRAY_SHARED_FUNCTION PackedGroupMaterial packGroupMaterial(VoxelMaterial m) {
     const PackedVoxelMaterial all = packMaterial(m);
     PackedGroupMaterial p;
     for (uint i = 0u; i < GROUP_MATERIAL_WORDS; ++i) p.words[i] = all.words[i];
@@ -45,7 +40,7 @@ VOXRAY_GROUP_FUNCTION PackedGroupMaterial packGroupMaterial(VoxelMaterial m) {
 }
 
 // Other members than normal, reflectance and unoccluded area are 0.
-VOXRAY_GROUP_FUNCTION VoxelMaterial unpackGroupMaterial(PackedGroupMaterial p) {
+VOXRAY_SHARED_FUNCTION VoxelMaterial unpackGroupMaterial(PackedGroupMaterial p) {
     PackedVoxelMaterial all;
     for (uint i = 0u; i < MATERIAL_WORDS; ++i) all.words[i] = i < GROUP_MATERIAL_WORDS ? p.words[i] : 0u;
     return unpackMaterial(all);

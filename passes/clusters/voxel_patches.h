@@ -14,7 +14,8 @@ namespace voxray {
 ///     cluster   -> components: its connected groups; a thin wall has one on each of its faces
 ///     component -> faces: one for each of the six at which one of its groups has a patch
 ///
-/// What follows from the scene is not stored: surfels are evaluated where they are read (patch_surfels.glsl).
+/// What follows from the scene is not stored: surfels are evaluated where they are read
+/// (passes/surfels/surfel_points.glsl).
 struct VoxelPatches : Resource {
     std::string indexedBy() const override { return "voxels"; }
 

@@ -13,7 +13,7 @@ layout(push_constant, scalar) uniform Push {
     uint kind;
     uint light;    // Index of the punctual light; of other sources the index of the sample.
     uint samples;  // Samples of the source per surfel.
-    uint candidates;
+    uint candidates;  // Of a sample of an environment map (shaders/lights/lights.glsl); else 1.
     uint emitterCount;
     uint seed;
 } push;

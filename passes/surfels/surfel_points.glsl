@@ -28,4 +28,16 @@ vec3 surfelNormal(SurfacePoint p, uint side) { return side == 0u ? p.geometricNo
 // m; off the surface, where rays may begin.
 vec3 surfelPosition(SurfacePoint p, vec3 normal) { return p.position + p.offset * normal; }
 
+struct SurfelGeometry {
+    vec3 position;  // surfelPosition()
+    vec3 normal;    // surfelNormal()
+};
+
+// `seed`: SurfelPoints::seed.
+SurfelGeometry surfelGeometry(uint id, uint seed) {
+    const SurfacePoint p = surfacePointOf(id / 2u, seed);
+    const vec3 normal = surfelNormal(p, id % 2u);
+    return SurfelGeometry(surfelPosition(p, normal), normal);
+}
+
 #endif

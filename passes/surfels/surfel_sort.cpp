@@ -31,8 +31,8 @@ void SurfelSort::run(CommandStream& stream, const Surfels& surfels, uint32_t vox
 
     result.sorted =
         LargeBuffer(device, "surfels by voxel", std::max(result.sortedCount, 1u) * sizeof(gpu::SortedSurfel));
-    result.sortedPositions =
-        LargeBuffer(device, "sorted indices of surfels", std::max<uint64_t>(surfels.count, 1) * sizeof(uint32_t));
+    result.sortedPositions = LargeBuffer(device, "indices of surfels in their sorted order",
+                                         std::max<uint64_t>(surfels.count, 1) * sizeof(uint32_t));
     stream.fill(result.sortedPositions, SurfelsByVoxel::kNone);
     for (const Surfels::Chunk& chunk : surfels.chunks)
         stream.dispatch(scatter_, chunk.count,

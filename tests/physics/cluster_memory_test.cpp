@@ -1,11 +1,9 @@
 // Bytes that clusters keep for a new light, counted by what exists.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <bit>
-#include <cstdio>
 
-#include "passes/clusters/voxel_clusters.h"
+#include "passes/common/compute/bit_words.h"
 #include "passes/surfels/surfel_points.h"
 #include "tests/physics/cluster_graph.h"
 
@@ -19,7 +17,7 @@ std::string graphOf(const std::string& place, const std::string& see) {
 }
 
 uint64_t words(uint64_t bits) {
-    return (bits + 31) / 32 * sizeof(uint32_t);
+    return bitWords(bits) * sizeof(uint32_t);
 }
 
 /// 16-bit fields of PackedGroupMaterial: normal, reflectance and the areas of six faces.

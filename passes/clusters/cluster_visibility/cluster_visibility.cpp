@@ -16,6 +16,7 @@
 #include "passes/common/compute/compaction.h"
 #include "passes/common/compute/prefix_sum.h"
 #include "passes/common/compute/random_seed.h"
+#include "passes/common/compute/uint_bytes.h"
 #include "passes/common/voxel_march/voxel_march.h"
 #include "passes/surfels/surfel_points.h"
 #include "trace/ray.h"
@@ -224,7 +225,7 @@ void FindClusterVisibility::record(PassContext& context) {
         updateCache_->clear();
     evaluateSurfels(context);
     const uint32_t count = patches.patchCount, perChunk = visibility.layout.patchesPerChunk;
-    patchFaces_ = Buffer(context.device, "faces of patches", std::max(count, 1u) * sizeof(uint32_t));
+    patchFaces_ = Buffer(context.device, "faces of patches", uintBytes(count));
     context.dispatch(listPatchFaces_, patches.groupCount,
                      {{"groups", patches.groups}, {"patchFaces", patchFaces_}, {"groupCount", patches.groupCount}});
     stream.fill(lostRays_, 0);

@@ -21,11 +21,10 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const uint id = surfelIds.data[push.first + i];
-    const SurfacePoint p = surfacePointOf(id / 2u, push.pointSeed);
-    const vec3 normal = surfelNormal(p, id % 2u), position = surfelPosition(p, normal);
-    patchSurfels.data[push.first + i] = PatchSurfel(position, id, normal, 0.5 * push.voxelSize);
+    const SurfelGeometry s = surfelGeometry(id, push.pointSeed);
+    patchSurfels.data[push.first + i] = PatchSurfel(s.position, id, s.normal, 0.5 * push.voxelSize);
 #ifdef GAPS
     const bool isOccluded = sideOf(sides.data[id / SURFELS_PER_WORD], id) == SURFEL_OCCLUDED;
-    rays.data[i] = isOccluded ? occlusionRay(position, normal, push.voxelSize) : kNoRay;
+    rays.data[i] = isOccluded ? occlusionRay(s.position, s.normal, push.voxelSize) : kNoRay;
 #endif
 }

@@ -70,7 +70,7 @@ NearestSurfel nearestSurfel(vec3 position, vec3 normal, Candidate candidate) {
     return nearest;
 }
 
-// Packs the surfel's group and one of the faces at which both have area, sampled by the surfel's projected area.
+// Packs the surfel's group and one of the faces at which both have area, sampled by the surfel's area at them.
 uint packSurfelHit(uint ray, PatchSurfel s, uint group, float distance_) {
     const VoxelMaterial m = groupMaterial(group);
     const vec3 groupArea = mix(m.unoccludedPositive, m.unoccludedNegative, lessThan(s.normal, vec3(0.0)));

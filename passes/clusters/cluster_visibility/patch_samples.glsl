@@ -31,7 +31,7 @@ uint raySeed(uint ray, uint sequence) {
     return hashCombine(hashCombine(hashCombine(push.seed, sequence), surfelId), rayFace(ray));
 }
 
-// Projected area of a surfel at a face, as a fraction of its area: squared cosine, 0 for faces behind it.
+// Area of a surfel at a face, as a fraction of its area: squared cosine, 0 for faces behind it.
 float areaAtFace(PatchSurfel s, uint face) {
     const float cosine = s.normal[face >> 1];
     return (face & 1u) == (cosine < 0.0 ? 1u : 0u) ? cosine * cosine : 0.0;

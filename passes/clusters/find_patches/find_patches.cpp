@@ -156,7 +156,7 @@ void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& surfelsByVo
         LargeBuffer(context.device, "surfels by group", std::max<uint64_t>(count, 1) * sizeof(gpu::GroupedSurfel));
     std::vector<Binding> storedGroups;
     if (isUpdate()) storedGroups = updateCache_->surfelBindings(context[clusters_]);
-    // Evaluated again, so that there is only one copy of all
+    // Evaluated again, so that the copies above are freed before these are made
     for (uint32_t first = 0; first < points.count; first += kChunkPoints) {
         const Surfels::Chunk chunk = evaluateSurfels(context, first);
         context.dispatch(isUpdate() ? updateSurfels_ : initSurfels_, chunk.count,

@@ -1,4 +1,4 @@
-// A surfel while surfels are grouped, shared by C++ (surfel_grouping.cpp) and GLSL.
+// A surfel while surfels are grouped, shared by C++ (find_patches.cpp) and GLSL.
 #ifndef VOXRAY_GROUPED_SURFEL_H
 #define VOXRAY_GROUPED_SURFEL_H
 

@@ -13,34 +13,24 @@ layout(scalar) readonly buffer SurfelIdsRef { LargeUints surfelIds; };
 layout(scalar) readonly buffer Groups { SurfaceGroup data[]; } groups;
 layout(scalar) readonly buffer SurfelIrradianceRef { SurfelValues surfelIrradiance; };
 
-struct LitSurfel {
-    vec3 position;
-    vec3 normal;
-};
-
-LitSurfel litSurfel(uint i) {
-    const uint id = surfelIds.data[i];
-    const SurfacePoint p = surfacePointOf(id / 2u, push.pointSeed);
-    const vec3 normal = surfelNormal(p, id % 2u);
-    return LitSurfel(surfelPosition(p, normal), normal);
-}
+SurfelGeometry surfelAt(uint i) { return surfelGeometry(surfelIds.data[i], push.pointSeed); }
 
 // Half a voxel in front of an unoccluded surfel.
-vec3 pointAbove(LitSurfel s) { return s.position + 0.5 * push.grid.voxelSize * s.normal; }
+vec3 pointAbove(SurfelGeometry s) { return s.position + 0.5 * push.grid.voxelSize * s.normal; }
 
-// Whether each of two groups is in front of the other, tested with their first surfels.
-bool faceEachOther(SurfaceGroup a, SurfaceGroup b) {
-    const LitSurfel p = litSurfel(a.firstSurfel), q = litSurfel(b.firstSurfel);
+// Whether each of two surfels is in front of the other.
+bool faceEachOther(SurfelGeometry p, SurfelGeometry q) {
     return dot(p.normal, pointAbove(q) - p.position) > 0.0 && dot(q.normal, pointAbove(p) - q.position) > 0.0;
 }
 
-// Whether light from `direction` is occluded by the back of a group in `voxel` that faces the given group. A group that
-// faces the light, such as the continuation of the same plane, does not occlude it.
+// Whether light from `direction` is occluded by the back of a group in `voxel` that faces the given group, tested with
+// their first surfels. A group that faces the light, such as the continuation of the same plane, does not occlude it.
 bool isOccludedBy(uint voxel, SurfaceGroup group, vec3 direction) {
     if (voxel == NO_VOXEL) return false;
+    const SurfelGeometry surfel = surfelAt(group.firstSurfel);
     for (uint occluder = firstGroup.data[voxel]; occluder < firstGroup.data[voxel + 1u]; ++occluder)
         if (!isOccluded(groups.data[occluder]) && dot(groupMaterial(occluder).normal, direction) < 0.0 &&
-            faceEachOther(group, groups.data[occluder]))
+            faceEachOther(surfel, surfelAt(groups.data[occluder].firstSurfel)))
             return true;
     return false;
 }
@@ -59,7 +49,7 @@ void main() {
         if (isOccluded(group) || isOccludedBy(towardsLight, group, direction)) continue;
         const uint end = groups.data[number + 1u].firstSurfel;
         for (uint k = group.firstSurfel; k < end; ++k) {
-            const LitSurfel surfel = litSurfel(k);
+            const SurfelGeometry surfel = surfelAt(k);
             const LightSample l = samplePunctual(light, surfel.position);
             surfelIrradiance.data[k] += l.irradiance * max(dot(surfel.normal, l.direction), 0.0);
         }

@@ -22,7 +22,7 @@ void main() {
     const ClusterComponent component = components.data[i];
     const uint first = component.firstMember, end = components.data[i + 1u].firstMember;
     for (uint face = 0u; face < 6u; ++face) {
-        if ((component.faces >> face & 1u) == 0u) continue;
+        if (!hasFace(component, face)) continue;
         vec3 sum = vec3(0.0);
         float totalArea = 0.0;
         for (uint k = first; k < end; ++k) {

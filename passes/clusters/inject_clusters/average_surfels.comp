@@ -1,4 +1,4 @@
-// Averages the direct irradiance of each patch over its group's surfels, weighted by their projected area at its face.
+// Averages the direct irradiance of each patch over its group's surfels, weighted by their area at its face.
 #include "passes/clusters/group_patches.glsl"
 #include "passes/surfels/surfel_points.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -24,8 +24,7 @@ void main() {
     for (uint face = 0u; face < 6u; ++face) sums[face] = vec4(0.0);
     const uint end = groups.data[i + 1u].firstSurfel;
     for (uint k = group.firstSurfel; k < end; ++k) {
-        const uint id = surfelIds.data[k];
-        const vec3 normal = surfelNormal(surfacePointOf(id / 2u, push.pointSeed), id % 2u);
+        const vec3 normal = surfelGeometry(surfelIds.data[k], push.pointSeed).normal;
         for (uint axis = 0u; axis < 3u; ++axis)
             sums[faceOf(normal, axis)] += normal[axis] * normal[axis] * vec4(surfelIrradiance.data[k], 1.0);
     }

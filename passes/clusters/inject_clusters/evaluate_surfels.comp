@@ -16,9 +16,8 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const uint id = surfelIds.data[push.first + i];
-    const SurfacePoint p = surfacePointOf(id / 2u, push.pointSeed);
-    const vec3 normal = surfelNormal(p, id % 2u);
-    surfels.data[i].position = surfelPosition(p, normal);
-    surfels.data[i].normal = normal;
+    const SurfelGeometry s = surfelGeometry(id, push.pointSeed);
+    surfels.data[i].position = s.position;
+    surfels.data[i].normal = s.normal;
     surfels.data[i].id = id;
 }

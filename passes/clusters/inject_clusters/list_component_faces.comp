@@ -18,7 +18,7 @@ void main() {
     const ClusterComponent component = components.data[i];
     const uint end = components.data[i + 1u].firstMember;
     for (uint face = 0u; face < 6u; ++face) {
-        if ((component.faces >> face & 1u) == 0u) continue;
+        if (!hasFace(component, face)) continue;
         ComponentFace componentFace = ComponentFace(6u * i + face, 0u, 0.0);
         for (uint k = component.firstMember; k < end; ++k) {
             const uint group = memberGroups.data[k];

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "graph/registry.h"
+#include "passes/common/compute/bit_words.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/compute/uint_bytes.h"
 #include "passes/common/voxels/voxels.h"
@@ -20,8 +21,8 @@ namespace {
 
 constexpr uint32_t kBatchPoints = Surfels::kMaxChunkSurfels / 2;
 constexpr uint64_t kMaxPoints = 1u << 28;
-constexpr uint32_t kSurfelsPerWord = 16;  // As SURFELS_PER_WORD of surfel_points.glsl; words of batches are whole.
-static_assert(2 * kBatchPoints % kSurfelsPerWord == 0);
+constexpr uint32_t kSideBits = 2;  // Of a surfel, in SurfelPoints::sides; words of batches are whole.
+static_assert(2 * kBatchPoints * kSideBits % 32 == 0);
 
 }  // namespace
 
@@ -69,8 +70,9 @@ class PlaceSurfels final : public Pass {
  private:
     /// Constant over time where some surfaces are static.
     PointDensity density(const Geometry& geometry, const SurfaceVoxels& voxels);
-    /// Store the surfels of a batch of points that were placed and tested. @return their number.
-    uint32_t storeSides(PassContext& context, uint32_t firstPoint, uint32_t batch) const;
+    /// Stores which surfels of a batch of points exist and which of them are occluded, and counts them.
+    void storeSides(PassContext& context, uint32_t firstPoint, uint32_t batch) const;
+    /// Stores the surfels of the batch. @return their number.
     uint32_t storeSurfels(PassContext& context, uint32_t batch) const;
 
     const Params params_;
@@ -82,6 +84,7 @@ class PlaceSurfels final : public Pass {
     Kernel compact_{*this, "compact_surfels.comp"};
     std::optional<uint32_t> staticVoxels_;                     ///< Voxels with static surfaces, where others move.
     Buffer rays_, occluded_, candidates_, compacted_, count_;  ///< Scratch, of a batch of points.
+    Buffer existing_;                                          ///< Scratch: number of surfels whose sides are stored.
 };
 
 PointDensity PlaceSurfels::density(const Geometry& geometry, const SurfaceVoxels& voxels) {
@@ -111,14 +114,17 @@ void PlaceSurfels::plan(PassPlan& plan) {
     surfels.hasOccludedSurfels = params_.sides == SurfelSides::All && voxels.areasAreUnoccluded;
     points.hasOccludedSurfels = surfels.hasOccludedSurfels;
     storeSides_.compileIf(points.isRead);
+    if (points.isRead) plan.scratchBuffer(existing_, "number of surfels that exist", sizeof(uint32_t));
     compact_.compileIf(surfels.isRead);
+    if (surfels.isRead) place_.define({{"SURFELS", "1"}});
     if (surfels.isRead) plan.estimate(surfels.estimatedCount * sizeof(gpu::Surfel));
     if (points.isRead) plan.estimate(surfels.estimatedCount / 2 * (sizeof(uint32_t) + 0.5));
     plan.scratchBuffer(rays_, "visibility rays", Surfels::kMaxChunkSurfels * sizeof(Ray));
     plan.scratchBuffer(occluded_, "visibility results", Surfels::kMaxChunkSurfels * sizeof(uint32_t));
-    plan.scratchBuffer(candidates_, "surfel candidates", Surfels::kMaxChunkSurfels * sizeof(gpu::Surfel));
-    if (surfels.isRead)
+    if (surfels.isRead) {
+        plan.scratchBuffer(candidates_, "surfel candidates", Surfels::kMaxChunkSurfels * sizeof(gpu::Surfel));
         plan.scratchBuffer(compacted_, "surfels of a batch", Surfels::kMaxChunkSurfels * sizeof(gpu::Surfel));
+    }
     plan.scratchBuffer(count_, "number of surfels", sizeof(uint32_t));
 }
 
@@ -142,8 +148,9 @@ void PlaceSurfels::record(PassContext& context) {
     points.triangles = LargeBuffer(context.device, "triangles of points", uintBytes(points.count));
     if (points.count > 0) stream.upload(points.triangles, triangles);
     if (points.isRead)
-        points.sides = LargeBuffer(context.device, "sides of points",
-                                   uintBytes((2 * uint64_t(points.count) + kSurfelsPerWord - 1) / kSurfelsPerWord));
+        points.sides =
+            LargeBuffer(context.device, "sides of points", uintBytes(bitWords(2 * kSideBits * uint64_t(points.count))));
+    if (points.isRead) stream.fill(existing_, 0);
     uint64_t count = 0;
     for (uint32_t first = 0; first < points.count; first += kBatchPoints) {
         const uint32_t batch = std::min(kBatchPoints, points.count - first);
@@ -152,18 +159,21 @@ void PlaceSurfels::record(PassContext& context) {
                           voxels,
                           points,
                           {"rays", rays_},
-                          {"candidates", candidates_},
+                          ifUsed({"candidates", candidates_}),
                           {"firstPoint", first},
                           {"points", batch}});
         if (voxels.areasAreUnoccluded)
             context.tracer.occluded(stream, rays_, occluded_, 2 * batch);
         else
             stream.fill(occluded_, 0);
-        if (points.isRead) count += storeSides(context, first, batch);
+        if (points.isRead) storeSides(context, first, batch);
         if (surfels.isRead) count += storeSurfels(context, batch);
     }
     stream.finish();
-    if (!points.isRead) points.triangles = {};
+    if (points.isRead)
+        count = stream.readAs<uint32_t>(existing_, 1)[0];
+    else
+        points.triangles = {};
     if (count == 0)
         throw Error(
             "place_surfels: "
@@ -172,18 +182,15 @@ void PlaceSurfels::record(PassContext& context) {
             voxels.grid.voxelSize);
 }
 
-uint32_t PlaceSurfels::storeSides(PassContext& context, uint32_t firstPoint, uint32_t batch) const {
-    CommandStream& stream = context.stream;
-    stream.fill(count_, 0);
-    context.dispatch(storeSides_, (2 * batch + kSurfelsPerWord - 1) / kSurfelsPerWord,
+void PlaceSurfels::storeSides(PassContext& context, uint32_t firstPoint, uint32_t batch) const {
+    context.dispatch(storeSides_, bitWords(2 * kSideBits * uint64_t(batch)),
                      {{"rays", rays_},
                       {"occluded", occluded_},
                       {"SidesRef", context[points_].sides.ref()},
-                      {"count", count_},
-                      {"firstWord", 2 * firstPoint / kSurfelsPerWord},
+                      {"count", existing_},
+                      {"firstWord", 2 * firstPoint * kSideBits / 32},
                       {"candidateCount", 2 * batch},
                       {"includeOccluded", params_.sides == SurfelSides::All}});
-    return stream.readAs<uint32_t>(count_, 1)[0];
 }
 
 uint32_t PlaceSurfels::storeSurfels(PassContext& context, uint32_t batch) const {

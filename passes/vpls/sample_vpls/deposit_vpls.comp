@@ -51,7 +51,7 @@ void main() {
     const float factor = adjointFactor(p, ray.direction);
     if (factor == 0.0) return;
     path.power *= factor;
-    p.normal = p.faceNormal;  // What the light leaves by, and of factor 1
+    p.normal = p.faceNormal;  // Light leaves by the cosine to the face normal, for which adjointFactor() is 1
     const vec3 flux = path.power * p.albedo;
     if (any(greaterThan(flux, vec3(0.0)))) {
         const uint vplIndex = pathOrder.data[push.firstPath + i] * push.bounces + push.bounce;
