@@ -9,8 +9,8 @@ below it a part of the reference and of the variant at full size, the part in wh
 relative error of the whole image. PAGE has a line "<!-- gallery: NAME -->" and below it "<!-- end -->" for each: what stands
 between is replaced by the picture, its numbers and the config's graph.
 
-Relative error: that of luminance, averaged over blocks of 8 x 8 pixels, so that the reference's noise shows less than in
-single pixels; the part is chosen by its square, freed of that noise as nRMSE is (docs/units.md).
+Relative error: the difference of luminance over the mean of both images', of blocks of 8 x 8 pixels, so that the reference's
+noise shows less than in single pixels; the part is chosen by its square, freed of that noise as nRMSE is (docs/units.md).
 """
 import argparse
 import os
@@ -25,7 +25,7 @@ sys.path.append(str(ROOT / "framework"))
 import numpy as np  # noqa: E402
 from image_sheet import GAP, sheet  # noqa: E402
 from PIL import Image, ImageDraw  # noqa: E402
-from report import exr_pixels, images  # noqa: E402
+from report import exr_pixels, images, pages  # noqa: E402
 from report.load import load  # noqa: E402
 from report.results import ReportError  # noqa: E402
 from report.rows import markdown_table  # noqa: E402
@@ -33,18 +33,17 @@ from report.text import figures, size  # noqa: E402
 
 TILES, QUALITY = 3, 88  # tiles below an image, of the JPEG
 BLOCK, SHOWN = 8, 0.25  # pixels; relative error at the ends of the colors
-LUMINANCE = (0.2126, 0.7152, 0.0722)  # Rec. 709
 
 
 def blocks(path):
     """Luminance of an EXR file, means over blocks; what is left over at the right and at the bottom is left out."""
-    luminance = exr_pixels.rgb(path) @ LUMINANCE
+    luminance = exr_pixels.rgb(path) @ images.LUMINANCE
     rows, columns = (length // BLOCK for length in luminance.shape)
     return luminance[:rows * BLOCK, :columns * BLOCK].reshape(rows, BLOCK, columns, BLOCK).mean(axis=(1, 3))
 
 
 def relative(difference, scale):
-    """0 where the scale is."""
+    """The difference over the scale; 0 where the scale is 0."""
     return np.divide(difference, scale, out=np.zeros_like(difference), where=scale > 0)
 
 
@@ -129,7 +128,7 @@ def replace(page, name, text):
     _, closed, rest = after.partition(end)
     if not found or not closed:
         raise ReportError(f"{page}: no lines '{begin.strip()}' and '{end}'")
-    page.write_text(f"{before}{begin}{text}{end}{rest}", encoding="utf-8")
+    pages.write_whole(page, f"{before}{begin}{text}{end}{rest}")
 
 
 def main(arguments=None):

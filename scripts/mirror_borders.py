@@ -19,9 +19,9 @@ import sys
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.realpath(__file__))), "framework"))
 import numpy
 from report import exr_pixels
+from report.images import LUMINANCE
 from report.rows import markdown_table
 
-LUMINANCE = (0.2126, 0.7152, 0.0722)
 SURE = 0.75  # Part of a pixel's rays.
 
 

@@ -16,7 +16,7 @@ from report.parts import Bar, Bars, Segment
 from report.results import IMAGES, Results
 from report.table import Table
 
-_SCRIPTS = ("d3", "toolkit.js")
+_SCRIPTS = ("toolkit.js",)  # without d3: scripts write no numbers here
 _SMALL = 0.1  # of the whole error: a rest that needs no word
 _WIDE = 0.12  # of the bar: a part that has room for its name
 

@@ -38,12 +38,10 @@ if (document.querySelector(".filter output")) {
             if (isKept) matching.add(numberOf(row.id));
             return isKept;
         });
-        const kept = showRows(resultsTable), most = Number(resultsTable.dataset.rows ?? Infinity);
+        const kept = showRows(resultsTable);
         for (const [number, parts] of elsewhere) {
             for (const part of parts) part.classList.toggle("filtered", !matching.has(number));
         }
-        const first = kept > most ? `, the first ${most} in the table` : "";
-        document.querySelector(".filter output").textContent =
-            tests.length || first ? `${kept} of ${resultsTable.tBodies[0].rows.length} variants${first}` : "";
+        document.querySelector(".filter output").textContent = tests.length ? `${kept} of ${resultsTable.tBodies[0].rows.length} variants` : "";
     });
 }

@@ -25,7 +25,7 @@ SIGNED_ERROR_COLORS = "RdBu_r"  # blue is too dark, white is right, red is too b
 
 BYTES_OF_EXR = 0.3  # about what half floats take of the bytes of a float32 EXR file
 _LARGEST = 65504.0  # of half floats
-_LUMINANCE = (0.2126, 0.7152, 0.0722)  # Rec. 709
+LUMINANCE = (0.2126, 0.7152, 0.0722)  # of linear R, G and B, Rec. 709
 _PERCENTILES = (0.1, 99.9)
 
 _FILM_QUALITY = 90  # of WebP, 0 to 100: frames pass by, so that they need not be exact
@@ -73,7 +73,7 @@ def encode(rgb: np.ndarray) -> str:
 
 def luminance_range(rgb: np.ndarray) -> tuple[float, float] | None:
     """The luminances that all but 0.1 % of the lit pixels at either end lie between; None where all are black."""
-    luminance = rgb @ _LUMINANCE
+    luminance = rgb @ LUMINANCE
     lit = luminance[(luminance > 0) & np.isfinite(luminance)]
     return tuple(np.percentile(lit, _PERCENTILES)) if len(lit) else None
 

@@ -164,11 +164,13 @@ fillFolded(allVariants, () => data.scenes.flatMap((scene) => scene.label.map((la
 drawScale(byId("scale"));
 const charts = data.scenes.map(makeFigure);
 readAddress();
+let shownAxes = "";
 onChange(["cost", "error", "rival"], () => {
+    const axes = `${state.cost} ${state.error}`;
     showMatrix();
     for (const id of ["cell", "chain", "cell-images"]) byId(id).replaceChildren();
     showSpeedUps();
+    showCharts(axes === shownAxes);
+    shownAxes = axes;
 });
-onChange(["cost", "error"], () => showCharts());
-onChange(["rival"], () => showCharts(true));
 addEventListener("resize", () => charts.forEach(({ chart }) => chart.redraw()));

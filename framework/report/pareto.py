@@ -140,7 +140,6 @@ class SpeedUps:
             found = np.exp(_nanmedian(np.log(value), axis=3))
         return np.where(found > 0, found, np.nan)
 
-
     def best(self, methods: list[Method], cost: int, error: int, scene: int) -> tuple[str, np.ndarray] | None:
         """The method whose speed-up over the first rival is largest, and that cell. Methods that reach less than half of the
         rival's errors do not count."""

@@ -13,7 +13,7 @@ from report import figures, images, methods, pages, pareto, style, text
 from report.load import load
 from report.pareto import CHARTED, COSTS, Error, Scene
 from report.results import IMAGES, ReportError, Results
-from report.table import Cell, Table
+from report.table import Cell, Table, number
 
 _SCRIPTS = ("d3", "toolkit.js", "state.js", "matrix.js", "chart.js", "pareto.js")
 _NEEDS = {"frame": "Still light (frame)", "frame + light": "Light that changes (frame + light)",
@@ -113,7 +113,7 @@ def sentences(compared: Comparison) -> list[str]:
             if found and found[1][0] >= 1:
                 method, (value, low, high, _) = found
                 wins.setdefault(method, []).append(f"{scene.name} ({'' if low > 1 else '≈ '}{text.figures(value, 2)}×)")
-            elif compared.measured[s, compared.rival] and _has_cost(scene, cost, compared.rival):
+            elif compared.speed_ups.count[0, CHARTED.index(cost), compared.first, s] and _has_cost(scene, cost, compared.rival):
                 losses.setdefault(need, []).append(scene.name)
         if wins:
             listed = [f"{method} in {', '.join(names)}" for method, names in sorted(wins.items(), key=lambda entry: -len(entry[1]))]
@@ -163,7 +163,7 @@ def _data(compared: Comparison) -> dict:
     return {
         "light": compared.light, "rivals": found.rivals, "count": found.count,
         "costs": [{"key": cost, "name": _SHORT[cost], "label": COSTS[cost].replace("bytes", "MiB")} for cost in CHARTED],
-        "errors": [{"key": error.metric.key, "name": error.label} for error in compared.errors],
+        "errors": [{"name": error.label} for error in compared.errors],
         "methods": [{"name": method.name, "chain": " + ".join(method.chain), "color": own.color, "mark": own.mark}
                     for method, own in zip(compared.methods, style.styles(len(compared.methods)))],
         # null: not measured, 0: no error is reached
@@ -178,10 +178,6 @@ def _nested(factors: np.ndarray, counts: np.ndarray) -> list | None | int:
     if counts.ndim == 0:
         return None if not counts else 0 if not factors[3] else [*factors[:3], int(factors[3])]
     return [_nested(*parts) for parts in zip(factors, counts)]
-
-
-def _number(value: float) -> Cell:
-    return Cell(text.figures(value), sort=f"{value:.4g}")
 
 
 def _method_table(compared: Comparison) -> Table:
@@ -215,14 +211,14 @@ def _rival_tables(compared: Comparison) -> list[Table]:
     for scene in compared.scenes:
         if found := pareto.best_point(scene, rival, traced, 0, error):
             i, spent, bound, ties = found
-            best.append([scene.name, scene.labels[i], str(len(ties)), _number(scene.costs[0, i]),
-                         Cell("never", sort="inf") if bound == ">" else _number(spent), *map(_number, scene.errors[:, 0, i])])
+            best.append([scene.name, scene.labels[i], str(len(ties)), number(scene.costs[0, i]),
+                         Cell("never", sort="inf") if bound == ">" else number(spent), *map(number, scene.errors[:, 0, i])])
         for m in np.unique(scene.methods):
             ratios = pareto.errors_at_equal_cost(scene, rival, m, 0, error)
             if ratios and m != rival:
                 values = [ratio[0] for ratio in ratios]
                 is_open = any(low <= 1 <= high for _, low, high in ratios)
-                equal.append([compared.methods[m].name, scene.name, _number(min(values)), _number(max(values)),
+                equal.append([compared.methods[m].name, scene.name, number(min(values)), number(max(values)),
                               str(len(values)), "≈" if is_open else ""])
     return [Table("Most accurate variant that is no slower than filtered path tracing at its error",
                   ["scene", "variant", "ties", "frame, ms", "path tracing, ms", *(error.label for error in compared.errors)], best,

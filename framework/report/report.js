@@ -57,4 +57,4 @@ document.addEventListener("keydown", (event) => {
     run();
 });
 readAddress();
-window.voxray = { state, pixelsOf, indexIn }; // for the browser's console
+window.voxray = { state, pixelsOf, indexIn }; // for tests and the browser's console

@@ -102,8 +102,8 @@ def csv_lines(cells: list[Cell]) -> Iterator[list]:
 
 
 def _percent_cell(cell: Cell | None) -> table.Cell | str:
-    return "" if cell is None else table.Cell(percent(cell.value), "", f"{cell.value:.6g}", reason(cell) or cell.row.why,
-                                              mark="worse" if cell.fails else "")
+    return "" if cell is None else table.number(100 * cell.value, percent(cell.value), title=reason(cell) or cell.row.why,
+                                                mark="worse" if cell.fails else "")
 
 
 def _tables(cells: list[Cell]) -> list[Table]:

@@ -79,7 +79,7 @@ def _speed_up(results: Results, light: str, metric: Metric) -> str:
     name, (value, low, high, reached) = best
     rival, factor = methods[rivals[0]].name, text.figures(value, 2)
     span = text.span(low, high) if 0 < low < high < math.inf else f"at least {text.figures(low, 2)}" if low > 0 else \
-        f"up to {text.figures(high, 2)}"
+        f"up to {text.figures(high, 2)}" if high < math.inf else "any factor"
     ends = f"{span} within the intervals" + ("; that leaves open which is faster" if low <= 1 <= high else "")
     said = (f"{name} is {factor} times as fast as {rival}" if value > 1 else
             f"no method is faster than {rival}; {name} comes nearest, {factor} times as fast")

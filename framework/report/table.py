@@ -49,6 +49,11 @@ class Table:
         self.rows.append(cells)
 
 
+def number(value: float, written: str = "", **of_cell) -> Cell:
+    """A cell that sorts, and is saved, by a number, whatever stands in it. What has none stays last."""
+    return Cell(written or text.figures(value), sort="none" if math.isnan(value) else repr(float(value)), **of_cell)
+
+
 class _Cost(NamedTuple):
     heading: str
     title: str
@@ -146,12 +151,12 @@ def _cell(row: Mapping, column: Column, mark: str, beaten_by: list[str]) -> Cell
     value = row[column.key]
     if column.metric:
         low, high = (row.get(name, math.nan) for name in interval_columns(column.key))
-        return Cell(_score(value, column.metric), column.css, _sort(value),
-                    f"worse than a {' and a '.join(beaten_by)} image" if beaten_by else "",
-                    text.span(low, high) if math.isfinite(low) and math.isfinite(high) else "",
-                    "worse" if beaten_by else mark)
+        return number(value, _score(value, column.metric), css=column.css,
+                      title=f"worse than a {' and a '.join(beaten_by)} image" if beaten_by else "",
+                      small=text.span(low, high) if math.isfinite(low) and math.isfinite(high) else "",
+                      mark="worse" if beaten_by else mark)
     if column.key in _COSTS:
-        return Cell(_COSTS[column.key].write(value), "", _sort(value), _cost_title(row, column.key), mark=mark)
+        return number(value, _COSTS[column.key].write(value), title=_cost_title(row, column.key), mark=mark)
     return Cell(value)
 
 
@@ -172,8 +177,3 @@ def _footers(results: Results, columns: list[Column]) -> list[list[Cell]]:
                                                            for value, c in zip(values, columns))]
                   for name, values in named if any(map(math.isfinite, values))]
     return found
-
-
-def _sort(value: float) -> str:
-    """What has no number stays last."""
-    return "none" if math.isnan(value) else repr(float(value))

@@ -3,10 +3,11 @@
 const data = JSON.parse(document.getElementById("data").textContent);
 const byId = (id) => document.getElementById(id);
 
-function figures(value, digits = 3) {
+// Three significant digits, without zeros at the end
+function figures(value) {
     if (typeof value !== "number") return value ?? "–";
     const size = Math.abs(value);
-    return d3.format(value === 0 ? "d" : size < 1e-4 || size >= 1e6 ? `.${digits - 1}~e` : `,.${digits}~r`)(value).replace("−", "-");
+    return d3.format(value === 0 ? "d" : size < 1e-4 || size >= 1e6 ? ".2~e" : ",.3~r")(value).replace("−", "-");
 }
 
 function element(tag, attributes = {}, ...children) {
@@ -85,12 +86,12 @@ document.addEventListener("click", ({ target }) => {
 });
 
 // A folded table (macros.html.j2) whose rows are made where it is unfolded. Returns a function that makes them anew.
-function fillFolded(folded, rowsOf, most = 300) {
+function fillFolded(folded, rowsOf) {
     const table = folded.querySelector("table");
     const cellOf = (value) => element("td", typeof value === "string" ? { class: "words" } : { "data-sort": value ?? "none" }, String(figures(value)));
     function show() {
         if (!folded.open) return;
-        table.dataset.rows = most;
+        table.dataset.rows = 300; // of thousands
         table.tBodies[0].replaceChildren(...rowsOf().map((row) => element("tr", {}, ...row.map(cellOf))));
         showRows(table);
     }

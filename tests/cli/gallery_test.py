@@ -7,27 +7,14 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image
-from support import PROGRAM, SOURCE, CommandTest
+from support import PROGRAM, SOURCE, TINY, CommandTest
 
 sys.path.insert(0, os.path.join(SOURCE, "scripts"))
 import gallery  # noqa: E402
 
-CONFIG = """\
-name: tiny
-scene: {builtin: cornell, lights: point}
-image: {width: 128, height: 72}
-seed: 7
-graph:
-  - {pass: gbuffer}
-  # Few voxels
-  - {pass: voxelize, resolution: 16}
-  - {pass: inject_light_rays, rays_per_light: 4096, bounces: 2}
-  - {pass: gather_irradiance, id: indirect}
-  - {pass: direct_shadow_rays}
-  - {pass: composite}
-reference: {pass: path_trace, spp: 8, bounces: 2}
-measure: {frames: 1, warmup: 0}
-"""
+# One variant, with tiles of some blocks of pixels
+CONFIG = TINY.partition("sweep:")[0].replace("{width: 32, height: 24}", "{width: 128, height: 72}").replace(
+    "  - {pass: voxelize,", "  # Few voxels\n  - {pass: voxelize,") + "measure: {frames: 1, warmup: 0}\n"
 GRAPH = CONFIG[CONFIG.index("graph:"):CONFIG.index("reference:")]
 PAGE = "# Before\n<!-- gallery: tiny -->\nold\n<!-- end -->\nbetween\n<!-- gallery: other -->\nkept\n<!-- end -->\n"
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 import browser
@@ -11,7 +12,8 @@ import numpy as np
 from PIL import Image
 from report_support import made_up
 
-from report import make_report
+from report import make_report, page
+from report.load import load
 
 if not browser.MISSING:
     from selenium.webdriver.common.action_chains import ActionChains
@@ -113,6 +115,15 @@ class InABrowser(unittest.TestCase):
         # Of the light that is shown
         self.open("light=total&filter=nrmse%3C0.3")
         self.assertEqual(self.browser.run(ROWS), ["3", "6"])
+
+    def test_rows_past_the_limit_are_a_click_away(self):
+        with tempfile.TemporaryDirectory() as folder, unittest.mock.patch.object(page, "_MAX_ROWS", 3):
+            path = Path(folder) / "report.html"
+            path.write_text(page.render(load(self.directory)), encoding="utf-8")
+            self.browser.open(path, "")
+            self.assertEqual(len(self.browser.run(ROWS)), 3)
+            self.browser.run("document.querySelector('#results .all-rows').click()")
+            self.assertEqual(len(self.browser.run(ROWS)), 7)
 
     def test_keys_change_the_page_and_its_address(self):
         for key, name, value in (("f", "show", "variant"), ("f", "show", "other"), ("e", "show", "error"), ("s", "show", "slider"),

@@ -171,6 +171,9 @@ class PartOfARun(ReportTest):
         for message in ("is not a whole PNG file", "passes.csv lacks a column", "manifest.json cannot be"):
             self.assertIn(message, shown.text)
 
+    def test_a_cell_without_a_number_has_no_key_to_sort_by(self):
+        self.assertEqual([table.number(value).sort for value in (0.25, float("nan"))], ["0.25", "none"])
+
     def test_reported_values_have_a_table_and_a_chart_over_frames(self):
         rows = [made_up.variant(name, 10, 0.3) for name in ("a", "b")]
         self.assertNotIn("What passes report", self.make(rows, made_up.manifest([])).text)
