@@ -2,11 +2,17 @@
 """Checks the documentation against the tree.
 
 Links lead to files and headings that are there; every package has its reason in docs/dependencies.md; a block of code under
-"<!-- file: PATH -->" is that file, word for word; text ends at column 120 (tables and code may be wider). docs.py [ROOT]; exit status 1 where one is not so.
+"<!-- file: PATH -->" is that file, word for word; a table under "<!-- table: NAME -->" is what its results say
+(scripts/paper_tables.py); text ends at column 120 (tables and code may be wider). docs.py [ROOT]; exit status 1 where one is not so.
 """
 import os
 import re
 import sys
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.append(str(Path(__file__).resolve().parents[2] / "scripts"))
+import paper_tables  # noqa: E402
 
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 COLUMNS = 120
@@ -69,10 +75,10 @@ def check(root):
         package = line.split("|")[2].partition("[")[0].strip()
         if f"`{package}`" not in reasons:
             problems.append(f"docs/dependencies.md: no reason for the package {package}")
-    return problems
+    return problems + paper_tables.check(Path(root))
 
 
 if __name__ == "__main__":
     found = check(sys.argv[1] if len(sys.argv) > 1 else ".")
-    print("\n".join(found) or "docs: links, packages and quoted files are as they say")
+    print("\n".join(found) or "docs: links, packages, quoted files and tables are as they say")
     sys.exit(1 if found else 0)

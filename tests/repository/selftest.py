@@ -2,6 +2,8 @@
 """Checks of the repository find what they are for: each rule against a tree that breaks it, and one that does not."""
 import graphlib
 import os
+import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -9,6 +11,7 @@ import commands
 import docs
 import hygiene
 import layers
+import paper_tables
 import skips
 
 
@@ -191,6 +194,48 @@ class Docs(Tree):
         self.assertEqual(docs.check(self.root), [])
         self.write("docs/page.md", f"fine\n{wide}\n")
         self.assertEqual(docs.check(self.root), ["docs/page.md:2: a line longer than 120 columns"])
+
+    def test_tables_of_results(self):
+        self.write("docs/papers/tables/x.toml", """[run.mirrors]
+command = "run x.yaml"
+values = {error = "nrmse", ms = "gather.frame.ms_median"}
+[table.mirrors]
+run = "mirrors"
+heading = "mirror"
+rows = {vct = "VCT", leaves = "leaves, *p* = 64"}
+columns = {nRMSE = "{error:.2f}", "over VCT" = "{ms / of['vct']['ms']:.1f} times", paper = ["1", "-"]}
+""")
+        self.write("docs/papers/tables/mirrors.csv", "# abc; llvmpipe; run x.yaml\nvariant,error,ms\nleaves,0.125,30\nvct,1,20\n")
+        table = ("| mirror | nRMSE | over VCT | paper |\n| --- | --- | --- | --- |\n| VCT | 1.00 | 1.0 times | 1 |\n"
+                 "| leaves, *p* = 64 | 0.12 | 1.5 times | - |\n")
+        page = "before\n\n<!-- table: mirrors -->\n{}\nafter\n"
+        for shown, problem in ((table, None), (table.replace("0.12", "0.11"), "docs/papers/x.md: a table is not what"),
+                               ("", "docs/papers/x.md: a table is not what")):
+            self.write("docs/papers/x.md", page.format(shown))
+            self.assertEqual([p.startswith(problem or "none") for p in docs.check(self.root)], [True] if problem else [])
+        done = subprocess.run([sys.executable, paper_tables.__file__, "--root", self.root], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stdout), (0, "docs/papers/x.md\n"), done.stderr)
+        self.assertEqual(docs.check(self.root), [])
+
+        self.write("docs/papers/x.md", page.format(table) + "<!-- table: lights -->\n")
+        self.assertEqual(docs.check(self.root), ["docs/papers/x.md: no table lights in docs/papers/tables"])
+        self.write("docs/papers/x.md", "none\n")
+        self.assertEqual(docs.check(self.root), ["tables that no page shows: mirrors"])
+        self.write("docs/papers/x.md", page.format(table))
+        self.write("docs/papers/tables/mirrors.csv", "#\nvariant,error,ms\nvct,1,20\n")
+        self.assertEqual(docs.check(self.root), ["table mirrors: no variant leaves in the results of mirrors"])
+        self.write("docs/papers/tables/mirrors.csv", "#\nvariant,error,ms\nleaves,0.125,\nvct,1,20\n")
+        self.assertEqual(docs.check(self.root), ["table mirrors, leaves: name 'ms' is not defined"])
+
+    def test_values_of_a_run(self):
+        self.write("results.csv", "variant,status,nrmse,ssim@mirror\na,ok,0.5,\nb,failed,,\n")
+        self.write("passes.csv", "variant,pass,phase,ms_median\na,gather,frame,3\na,gather,build,4\nb,gather,frame,5\n")
+        self.write("values.csv", "variant,pass,name,frame,value\na,gather,hits,0,1\na,gather,hits,1,2\n")
+        values = paper_tables.values_of(self.root)
+        self.assertEqual(set(values), {"a"})
+        self.assertNotIn("ssim@mirror", values["a"])
+        self.assertEqual([values["a"][name] for name in ("nrmse", "gather.frame.ms_median", "gather.build.ms_median", "gather.hits")],
+                         ["0.5", "3", "4", "1.5"])
 
     def test_package_without_a_reason(self):
         self.write("docs/dependencies.md", "# Top\n| `gcc` | compiles |\n")

@@ -1,0 +1,166 @@
+#!/usr/bin/python3
+"""Writes tables of docs/papers from results that are kept beside them, and measures those results.
+
+paper_tables.py [--measure RUN...] [--program PROGRAM] [--root ROOT]
+
+Writes each table into the page that has a line "<!-- table: NAME -->", in place of the table below that line. With --measure the
+runs named are made first, by the build in build/release. tests/repository/docs.py fails where a page says something else.
+
+docs/papers/tables/PAPER.toml has
+- [run.NAME]: `command`, the arguments of the program, and `values`: by a name, where the run has the value. That is a column of
+  results.csv, "PASS.PHASE.COLUMN" of passes.csv, or "PASS.NAME" of values.csv (the median over its frames);
+- [table.NAME]: `run`; `heading` of the first column; `rows`: by variant, what stands there; `columns`: by heading, either a cell
+  of each row in order, or one text for all rows in which {EXPRESSION:FORMAT} is Python's expression of the run's values, and
+  `of["VARIANT"]["NAME"]` a value of another row.
+docs/papers/tables/NAME.csv has the values of a run by variant; its first line has the commit, the device and the command.
+"""
+import argparse
+import csv
+import re
+import statistics
+import subprocess
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+sys.dont_write_bytecode = True
+sys.path.append(str(ROOT / "framework"))
+from report.rows import markdown_table, read_rows  # noqa: E402
+
+TABLE = re.compile(r"^<!-- table: (\S+) -->\n((?:\|.*\n)*)", re.M)
+FIELD = re.compile(r"\{([^{}]*?)(?::([^{}:]*))?\}")
+
+
+class TableError(Exception):
+    """A table, a run or a page that doesn't fit the others; the message says which."""
+
+
+def definitions(root):
+    """(runs, tables) of all papers: each by name."""
+    runs, tables = {}, {}
+    for path in sorted((root / "docs/papers/tables").glob("*.toml")):
+        with open(path, "rb") as file:
+            read = tomllib.load(file)
+        for kind, found in (("run", runs), ("table", tables)):
+            for name, entry in read.get(kind, {}).items():
+                if name in found:
+                    raise TableError(f"{path}: {kind} {name} is defined twice")
+                found[name] = entry
+    return runs, tables
+
+
+def csv_path(root, run):
+    return root / "docs/papers/tables" / f"{run}.csv"
+
+
+def values_of(folder):
+    """What a run measured: by variant, by the name that `values` uses."""
+    found = {row["variant"]: {k: v for k, v in row.items() if v} for row in read_rows(folder, "results.csv") if row["status"] == "ok"}
+    for row in read_rows(folder, "passes.csv"):
+        prefix = f"{row['pass']}.{row['phase']}"
+        found.get(row["variant"], {}).update({f"{prefix}.{k}": v for k, v in row.items()})
+    reported = {}
+    if (Path(folder) / "values.csv").exists():
+        for row in read_rows(folder, "values.csv"):
+            reported.setdefault((row["variant"], f"{row['pass']}.{row['name']}"), []).append(float(row["value"]))
+    for (variant, name), values in reported.items():
+        found.get(variant, {})[name] = str(statistics.median(values))
+    return found
+
+
+def measure(root, name, run, program):
+    """Makes the run and writes its CSV."""
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "run"
+        subprocess.run([program, *run["command"].split(), "--out", str(out)], cwd=root, check=True)
+        found = values_of(out)
+    commit = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=root, check=True, capture_output=True, text=True)
+    device = next(iter(found.values()))["device"]
+    with open(csv_path(root, name), "w", newline="", encoding="utf-8") as file:
+        file.write(f"# {commit.stdout.strip()}; {device}; {run['command']}\n")
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["variant", *run["values"]])
+        for variant, values in found.items():
+            writer.writerow([variant, *(values.get(source, "") for source in run["values"].values())])
+
+
+def kept(root, run):
+    """Values of a run's CSV: by variant and name; those that a variant has not are left out."""
+    path = csv_path(root, run)
+    if not path.exists():
+        raise TableError(f"no {path.relative_to(root)}: paper_tables.py --measure {run}")
+    with open(path, newline="", encoding="utf-8") as file:
+        file.readline()
+        return {row.pop("variant"): {k: float(v) for k, v in row.items() if v} for row in csv.DictReader(file)}
+
+
+def table_lines(root, name, table):
+    """The table as Markdown."""
+    of = kept(root, table["run"])
+
+    def cell(template, variant):
+        def value(match):
+            return format(eval(match[1], {"__builtins__": {}}, {**of[variant], "of": of}), match[2] or "")
+        try:
+            return FIELD.sub(value, template)
+        except (NameError, KeyError) as error:
+            raise TableError(f"table {name}, {variant}: {error}") from None
+    rows = [[label] for label in table["rows"].values()]
+    for number, (variant, row) in enumerate(zip(table["rows"], rows)):
+        if variant not in of:
+            raise TableError(f"table {name}: no variant {variant} in the results of {table['run']}")
+        row.extend(cell(column if isinstance(column, str) else column[number], variant) for column in table["columns"].values())
+    return "".join(line + "\n" for line in markdown_table([table["heading"], *table["columns"]], rows))
+
+
+def pages(root):
+    """(path, text as it is, text with its tables as the results have them) of each page with tables."""
+    _, tables = definitions(root)
+    shown = set()
+
+    def written(match):
+        if match[1] not in tables:
+            raise TableError(f"{path.relative_to(root)}: no table {match[1]} in docs/papers/tables")
+        shown.add(match[1])
+        return f"<!-- table: {match[1]} -->\n{table_lines(root, match[1], tables[match[1]])}"
+    for path in sorted((root / "docs").rglob("*.md")):
+        text = path.read_text(encoding="utf-8")
+        if TABLE.search(text):
+            yield path, text, TABLE.sub(written, text)
+    if unused := tables.keys() - shown:
+        raise TableError(f"tables that no page shows: {', '.join(sorted(unused))}")
+
+
+def check(root):
+    """What is wrong with the pages' tables, a line each."""
+    try:
+        return [f"{path.relative_to(root)}: a table is not what its results say: scripts/paper_tables.py writes it"
+                for path, text, right in pages(root) if text != right]
+    except TableError as error:
+        return [str(error)]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--measure", nargs="+", default=[], metavar="RUN", help="runs to make first")
+    parser.add_argument("--program", default=str(ROOT / "build/release/bin/voxray"))
+    parser.add_argument("--root", type=Path, default=ROOT)
+    options = parser.parse_args()
+    try:
+        runs, _ = definitions(options.root)
+        for name in options.measure:
+            if name not in runs:
+                parser.error(f"no run {name}; there are {', '.join(runs) or 'none'}")
+            measure(options.root, name, runs[name], options.program)
+        for path, text, right in pages(options.root):
+            if text != right:
+                path.write_text(right, encoding="utf-8")
+                print(path.relative_to(options.root))
+    except TableError as error:
+        sys.exit(f"paper_tables.py: {error}")
+
+
+if __name__ == "__main__":
+    main()
