@@ -30,8 +30,8 @@ def write(folder: Path, compared) -> None:
     """Each figure by each cost, by the first error. @param compared a pareto_page.Comparison"""
     folder.mkdir(parents=True, exist_ok=True)
     with matplotlib.rc_context(_RC):
-        for cost, name in enumerate(CHARTED):
-            end = name.replace(" + ", "-")
+        for cost in compared.costs:
+            end = CHARTED[cost].replace(" + ", "-")
             _save(folder / f"matrix-{end}", _matrix(compared, cost), _matrix_rows(compared, cost))
             for scene in compared.scenes:
                 stem = re.sub(r"[^\w.-]+", "-", scene.name).strip("-")

@@ -68,7 +68,8 @@ const bestOf = (s, m) => (data.scenes[s].fronts[state.cost][state.error][m] ?? [
 function bestWords(s, m) {
     const scene = data.scenes[s], i = bestOf(s, m);
     if (i === undefined) return "";
-    const costs = data.costs.map((one, c) => `${one.name} ${figures(scene.cost[c][i])} ${one.label.split(", ").pop()}`);
+    const costs = data.costs.map((one, c) => `${one.key} ${figures(scene.cost[c][i])} ${one.label.split(", ").pop()}`)
+        .filter((_, c) => scene.cost[c][i] !== null);
     return `Its most accurate variant, ${scene.label[i]}: ${[...costs, ...data.errors.map(({ name }, e) => `${name} ${figures(scene.error[e][0][i])}`)].join(", ")}.`;
 }
 function pick(s, m) {

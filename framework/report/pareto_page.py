@@ -18,7 +18,6 @@ from report.table import Cell, Table, number
 _SCRIPTS = ("d3", "toolkit.js", "state.js", "matrix.js", "chart.js", "pareto.js")
 _NEEDS = {"frame": "Still light (frame)", "frame + light": "Light that changes (frame + light)",
           "build + frame": "Surfaces that move (build + frame)"}
-_SHORT = {"frame": "frame", "frame + light": "frame + light", "build + frame": "build + frame", "memory": "memory"}
 _UNITS = np.array([[1], [1], [1], [2**20]])  # of costs in charts: ms, MiB
 _MAX_ON_FRONT = 3  # methods that are named
 _MAX_CELLS = 10000  # of the matrix with one cost and error, over all rivals
@@ -68,6 +67,11 @@ class Comparison:
         return np.array([np.isin(np.arange(len(self.methods)), scene.methods) for scene in self.scenes])
 
     @cached_property
+    def costs(self) -> list[int]:
+        """Those of CHARTED that some variant has: runs of earlier versions tell no frame with its light."""
+        return [i for i in range(len(CHARTED)) if any(np.isfinite(scene.costs[i]).any() for scene in self.scenes)]
+
+    @cached_property
     def speed_ups(self) -> pareto.SpeedUps:
         order = sorted(range(len(self.methods)), key=lambda i: (not self.methods[i].is_rival, -self.measured[:, i].sum()))
         return pareto.speed_ups(self.scenes, self.methods, order[:max(1, _MAX_CELLS // self.measured.size)], len(self.errors))
@@ -83,7 +87,7 @@ def render(compared: Comparison, with_images: bool = True) -> str:
     pictures = _pictures(compared) if with_images else [{} for _ in compared.scenes]
     return pages.render(
         "pareto.html.j2", scripts=_SCRIPTS, data=_data(compared), pictures=pages.json_text(pictures),
-        costs=list(enumerate(_SHORT.values())), errors=[(i, error.label) for i, error in enumerate(compared.errors)],
+        costs=[(i, CHARTED[i]) for i in compared.costs], errors=[(i, error.label) for i, error in enumerate(compared.errors)],
         first=compared.first, rivals=[(i, compared.methods[rival].name) for i, rival in enumerate(compared.speed_ups.rivals)],
         sentences=sentences(compared), has_rival=compared.rival is not None, notes=_notes(compared), light=compared.light,
         tables=[_method_table(compared), *_rival_tables(compared), *_filled_tables(compared)], runs=[str(run.directory) for run in compared.runs])
@@ -162,7 +166,7 @@ def _data(compared: Comparison) -> dict:
     counts = found.count[..., None] * np.broadcast_to(compared.measured, (*found.count.shape[:3], *compared.measured.shape))
     return {
         "light": compared.light, "rivals": found.rivals, "count": found.count,
-        "costs": [{"key": cost, "name": _SHORT[cost], "label": COSTS[cost].replace("bytes", "MiB")} for cost in CHARTED],
+        "costs": [{"key": cost, "label": COSTS[cost].replace("bytes", "MiB")} for cost in CHARTED],
         "errors": [{"name": error.label} for error in compared.errors],
         "methods": [{"name": method.name, "chain": " + ".join(method.chain), "color": own.color, "mark": own.mark}
                     for method, own in zip(compared.methods, style.styles(len(compared.methods)))],
@@ -187,7 +191,7 @@ def _method_table(compared: Comparison) -> Table:
     return Table("Methods and their passes",
                  ["method", "passes", "variants", "scenes with it on the front", "beaten everywhere by"],
                  [[method.name, " + ".join(method.chain), str(variants[i]), str(fronts.get(i, 0)),
-                   ", ".join(_SHORT[cost] for cost, those in beaten.items() if i in those)]
+                   ", ".join(cost for cost, those in beaten.items() if i in those)]
                   for i, method in enumerate(compared.methods)],
                  "Beaten: in every scene each variant is worse than a black or a constant image, or another method costs no "
                  "more and its error's interval lies below.", (0, 1, 4))
@@ -198,7 +202,7 @@ def _filled_tables(compared: Comparison) -> list[Table]:
     errors = [f"{error.label}{end}" for error in compared.errors for end in ("", " low", " high")]
     return [Table("Speed-ups of the matrix", ["method", "scene", "factor", "low", "high", "errors reached", "of"], words=(0, 1),
                   note="As the switches say; low and high: the ends by the intervals of both errors."),
-            Table("All variants", ["scene", "method", "variant", *_SHORT.values(), *errors], words=(0, 1, 2),
+            Table("All variants", ["scene", "method", "variant", *CHARTED, *errors], words=(0, 1, 2),
                   note="The CSV next to the page has them with more digits, rays and voxel steps.")]
 
 
@@ -212,7 +216,8 @@ def _rival_tables(compared: Comparison) -> list[Table]:
         if found := pareto.best_point(scene, rival, traced, 0, error):
             i, spent, bound, ties = found
             best.append([scene.name, scene.labels[i], str(len(ties)), number(scene.costs[0, i]),
-                         Cell("never", sort="inf") if bound == ">" else number(spent), *map(number, scene.errors[:, 0, i])])
+                         Cell("never", sort="inf") if bound == ">" else number(spent, f"{bound}{text.figures(spent)}"),
+                         *map(number, scene.errors[:, 0, i])])
         for m in np.unique(scene.methods):
             ratios = pareto.errors_at_equal_cost(scene, rival, m, 0, error)
             if ratios and m != rival:
@@ -222,8 +227,8 @@ def _rival_tables(compared: Comparison) -> list[Table]:
                               str(len(values)), "≈" if is_open else ""])
     return [Table("Most accurate variant that is no slower than filtered path tracing at its error",
                   ["scene", "variant", "ties", "frame, ms", "path tracing, ms", *(error.label for error in compared.errors)], best,
-                  "ties: other variants whose intervals overlap this one's. never: path tracing has no variant of as little error.",
-                  (0, 1)),
+                  "ties: other variants whose intervals overlap this one's. never: path tracing has no variant of as little error. "
+                  "<: its cheapest variant has less.", (0, 1)),
             Table(f"{label} at equal time of a frame", ["method", "scene", "least", "greatest", "of times", "open"], equal,
                   "The least error in no more time than filtered path tracing takes, over that one's; below 1 the method is more "
                   "accurate. ≈: the intervals leave that open.", (0, 1))]

@@ -144,6 +144,8 @@ class Pareto(unittest.TestCase):
         del old.manifest["light_independent"]
         [scene_of_old] = Comparison.of([old], "nrmse", "indirect").scenes
         np.testing.assert_allclose(scene_of_old.costs[:4, 0], (100, math.nan, 300, 2**24 * 100))
+        switches = [re.findall(r'name="cost" value="(\d)"', pareto_page.render(Comparison.of(runs, "nrmse", "indirect"))) for runs in ([old], [old, compared.runs[0]])]
+        self.assertEqual(switches, [["0", "2", "3"], ["0", "1", "2", "3"]])
         self.assertEqual([error.label for error in compared.errors], ["nRMSE", "relMSE", "HDR-FLIP", "1 − SSIM"])
         np.testing.assert_allclose(scene.errors[:, 0, 1], (0.05, 0.0025, 0.025, 0.025))
         np.testing.assert_allclose(scene.errors[0, :, 1], (0.05, 0.0475, 0.0525))
@@ -194,6 +196,11 @@ class Pareto(unittest.TestCase):
         # Of an error that path tracing never gets to no time is told that could look shorter than the method's
         table = pareto_page._rival_tables(compared)[0]
         self.assertEqual([getattr(cell, "text", cell) for cell in table.rows[0][:5]], ["room", "r", "0", "50.0", "never"])
+        # Nor is one that path tracing would need more than where its cheapest variant has less error already
+        coarse = self.compare(self.run_of("hall", self.paths(4, 16) | {"l": (LOOKUP, 10, 0.3)}))
+        cell = pareto_page._rival_tables(coarse)[0].rows[0][4]
+        self.assertEqual(cell.text, "<100")
+        self.assertAlmostEqual(float(cell.sort), 100)
 
     def test_sentences_say_what_to_take_for_what(self):
         # At its errors: four times as fast in one scene, a quarter of that in the other; with light and build slower
