@@ -78,12 +78,13 @@ def breakable(value: str) -> Markup:
     return Markup(re.sub(r"([,=._/])", r"\1<wbr>", str(escape(value))))
 
 
-def yaml_of(value) -> str:
-    """A JSON value as YAML, what holds no list and no map on one line."""
-    dumped = yaml.safe_dump(value, sort_keys=False, allow_unicode=True, default_flow_style=None, width=120)
+def yaml_of(value, is_one_line: bool = False) -> str:
+    """A JSON value as YAML, what holds no list and no map on one line, or all of it."""
+    dumped = yaml.safe_dump(value, sort_keys=False, allow_unicode=True, default_flow_style=is_one_line or None,
+                            width=math.inf if is_one_line else 120)
     return dumped.removesuffix("...\n").strip()
 
 
 def plain(value) -> str:
-    """A JSON value for a reader: text without quotes, everything else as YAML."""
-    return value if isinstance(value, str) else yaml_of(value)
+    """A JSON value for a reader: text without quotes, everything else as YAML on one line."""
+    return value if isinstance(value, str) else yaml_of(value, True)
