@@ -10,7 +10,7 @@ import pandas as pd
 
 from report.methods import Method
 from report.ranking import all_beaten, log_cost_at, pareto_front
-from report.results import LIGHTS, Metric, Results, interval_ends, section, texts
+from report.results import LIGHTS, Metric, Results, interval_ends, section
 from report.setting import scenes_of as names_of_scenes
 
 COSTS = {"frame": "time of one frame, ms", "frame + light": "time of one frame with its light injected, ms",
@@ -242,7 +242,7 @@ def _costs(run: Results, table: pd.DataFrame) -> np.ndarray:
     keys = pd.Series(list(zip(passes["variant"], passes["pass"])), index=passes.index, dtype=object)
     is_again = keys.isin(set(keys[passes["phase"] == "frame"]))
     # Build passes that run again where light is new; runs of before the manifest told these have no such cost
-    is_lit = (passes["phase"] == "build") & ~passes["kind"].isin(texts(run.manifest, _UNLIT)) & ~is_again
+    is_lit = (passes["phase"] == "build") & ~passes["kind"].isin(run.manifest.get(_UNLIT, [])) & ~is_again
     of_light = 1 if _UNLIT in run.manifest else math.nan
 
     def total(rows: pd.DataFrame, column: str) -> pd.Series:

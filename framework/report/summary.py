@@ -10,7 +10,7 @@ import pandas as pd
 from report import pareto, text
 from report.methods import methods_of
 from report.ranking import score_marks
-from report.results import LIGHTS, Metric, Results, section, texts
+from report.results import LIGHTS, Metric, Results, section
 from report.setting import comparisons
 
 _IMAGES = {"total": "final", "indirect": "indirect"}  # light -> image, as the manifest calls it
@@ -40,7 +40,7 @@ def summary(results: Results, light: str) -> list[str]:
 
 def unfinished(results: Results) -> str:
     """What of a run that has not ended is there and what is missing; "" of one that has."""
-    if not results.manifest or results.manifest.get("finished"):
+    if results.manifest.get("finished"):
         return ""
     said, missing = "The run had not ended when this page was made.", results.missing
     if total := len(results.variants) + len(missing):
@@ -98,7 +98,7 @@ def _noise(results: Results, light: str) -> list[str]:
     if not noisy:
         return ["Bias is the larger part of every variant's error."]
     lower = section(section(results.manifest, "noise_parameters"), _IMAGES[light])
-    parameters = ", ".join(dict.fromkeys(path for name in noisy for path in texts(lower, name)))
+    parameters = ", ".join(dict.fromkeys(path for name in noisy for path in lower.get(name, [])))
     return [f"Noise is the larger part of the error of {results.listed(noisy)}{f'; it falls as these rise: {parameters}' if parameters else ''}."]
 
 
