@@ -174,4 +174,3 @@ onChange(["cost", "error", "rival"], () => {
     showCharts(axes === shownAxes);
     shownAxes = axes;
 });
-addEventListener("resize", () => charts.forEach(({ chart }) => chart.redraw()));
