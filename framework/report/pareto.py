@@ -217,19 +217,6 @@ def best_point(scene: Scene, rival: int, rejected: set[int], cost: int, error: i
     return int(best), *((costs[-1], ">") if np.isnan(spent[i]) else (spent[i], bound)), ties
 
 
-def beaten_methods(scenes: list[Scene], methods: list[Method], cost: int, error: int) -> list[int]:
-    """Methods that are surely beaten in every scene: each of their variants is worse than a black or a constant image, or
-    costs no less than one of another method whose error's interval lies below its own."""
-    def is_beaten(scene: Scene, method: int) -> bool:
-        rivals = scene.front(scene.methods != method, cost, error, 2)
-        costs, highs = scene.costs[cost, rivals], scene.errors[error, 2, rivals]
-        members = np.flatnonzero((scene.methods == method) & scene.usable[cost, error])
-        cheaper = np.searchsorted(costs, scene.costs[cost, members], side="right")
-        return bool(((cheaper > 0) & (highs[cheaper - 1] < scene.errors[error, 1, members])).all()) if len(rivals) else not len(members)
-    present = [[scene for scene in scenes if method in scene.methods] for method in range(len(methods))]
-    return [method for method, those in enumerate(present) if those and all(is_beaten(scene, method) for scene in those)]
-
-
 def _nanmedian(values: np.ndarray, axis: int) -> np.ndarray:
     """np.nanmedian() that takes −∞ and says nothing of slices without a number."""
     ordered, count = np.sort(values, axis), (~np.isnan(values)).sum(axis, keepdims=True)

@@ -19,7 +19,6 @@ _SCRIPTS = ("d3", "toolkit.js", "state.js", "matrix.js", "chart.js", "pareto.js"
 _NEEDS = {"frame": "Still light (frame)", "frame + light": "Light that changes (frame + light)",
           "build + frame": "Surfaces that move (build + frame)"}
 _UNITS = np.array([[1], [1], [1], [2**20]])  # of costs in charts: ms, MiB
-_MAX_ON_FRONT = 3  # methods that are named
 _MAX_CELLS = 10000  # of the matrix with one cost and error, over all rivals
 _MAX_PICTURES = 300  # variants; of more, those on a front
 _WIDTH, _JPEG_QUALITY = 320, 85  # of pictures, pixels
@@ -108,7 +107,7 @@ def csv_lines(compared: Comparison):
 def sentences(compared: Comparison) -> list[str]:
     """What to take for still light, light that changes and surfaces that move, and where nothing beats path tracing."""
     if compared.rival is None:
-        return _most_on_fronts(compared)
+        return []
     lines, losses = [], {}
     for cost, need in _NEEDS.items():
         wins: dict[str, list[str]] = {}  # by method: scenes
@@ -117,7 +116,7 @@ def sentences(compared: Comparison) -> list[str]:
             if found and found[1][0] >= 1:
                 method, (value, low, high, _) = found
                 wins.setdefault(method, []).append(f"{scene.name} ({'' if low > 1 else '≈ '}{text.figures(value, 2)}×)")
-            elif compared.speed_ups.count[0, CHARTED.index(cost), compared.first, s] and _has_cost(scene, cost, compared.rival):
+            elif compared.speed_ups.count[0, CHARTED.index(cost), compared.first, s] and compared.measured[s].sum() > 1:
                 losses.setdefault(need, []).append(scene.name)
         if wins:
             listed = [f"{method} in {', '.join(names)}" for method, names in sorted(wins.items(), key=lambda entry: -len(entry[1]))]
@@ -127,27 +126,6 @@ def sentences(compared: Comparison) -> list[str]:
         listed = [f"{need[0].lower()}{need[1:]} in {'every scene' if len(names) == every > 1 else ', '.join(names)}" for need, names in losses.items()]
         lines.append(f"Filtered path tracing stays ahead: {'; '.join(listed)}.")
     return lines
-
-
-def _has_cost(scene: pareto.Scene, cost: str, rival: int) -> bool:
-    """Whether any method but the rival has it: runs of earlier versions tell no frame with its light."""
-    return bool(np.isfinite(scene.costs[list(COSTS).index(cost), scene.methods != rival]).any())
-
-
-def _most_on_fronts(compared: Comparison) -> list[str]:
-    counts = _on_fronts(compared)
-    most = sorted(counts, key=lambda method: -counts[method])[:_MAX_ON_FRONT]
-    of = f"of {len(compared.scenes)} scene{'s' * (len(compared.scenes) > 1)}"
-    listed = "; ".join(f"{compared.methods[method].name} ({counts[method]} {of})" for method in most)
-    return [f"By the time of one frame, most often on the Pareto front: {listed}."] if listed else []
-
-
-def _on_fronts(compared: Comparison) -> dict[int, int]:
-    counts: dict[int, int] = {}
-    for scene in compared.scenes:
-        for method in set(scene.methods[scene.front_of_all(0, compared.first)].tolist()):
-            counts[method] = counts.get(method, 0) + 1
-    return counts
 
 
 def _notes(compared: Comparison) -> list[str]:
@@ -185,16 +163,10 @@ def _nested(factors: np.ndarray, counts: np.ndarray) -> list | None | int:
 
 
 def _method_table(compared: Comparison) -> Table:
-    fronts = _on_fronts(compared)
-    beaten = {cost: set(pareto.beaten_methods(compared.scenes, compared.methods, CHARTED.index(cost), compared.first)) for cost in _NEEDS}
     variants = np.bincount(np.concatenate([scene.methods for scene in compared.scenes]), minlength=len(compared.methods))
-    return Table("Methods and their passes",
-                 ["method", "passes", "variants", "scenes with it on the front", "beaten everywhere by"],
-                 [[method.name, " + ".join(method.chain), str(variants[i]), str(fronts.get(i, 0)),
-                   ", ".join(cost for cost, those in beaten.items() if i in those)]
-                  for i, method in enumerate(compared.methods)],
-                 "Beaten: in every scene each variant is worse than a black or a constant image, or another method costs no "
-                 "more and its error's interval lies below.", (0, 1, 4))
+    return Table("Methods and their passes", ["method", "passes", "variants"],
+                 [[method.name, " + ".join(method.chain), str(count)] for method, count in zip(compared.methods, variants)],
+                 words=(0, 1))
 
 
 def _filled_tables(compared: Comparison) -> list[Table]:
@@ -227,8 +199,8 @@ def _rival_tables(compared: Comparison) -> list[Table]:
                               str(len(values)), "≈" if is_open else ""])
     return [Table("Most accurate variant that is no slower than filtered path tracing at its error",
                   ["scene", "variant", "ties", "frame, ms", "path tracing, ms", *(error.label for error in compared.errors)], best,
-                  "ties: other variants whose intervals overlap this one's. never: path tracing has no variant of as little error. "
-                  "<: its cheapest variant has less.", (0, 1)),
+                  "ties: other variants whose intervals overlap this one's. never: path tracing has no variant of as little "
+                  "error. <: its cheapest variant has less.", (0, 1)),
             Table(f"{label} at equal time of a frame", ["method", "scene", "least", "greatest", "of times", "open"], equal,
                   "The least error in no more time than filtered path tracing takes, over that one's; below 1 the method is more "
                   "accurate. ≈: the intervals leave that open.", (0, 1))]

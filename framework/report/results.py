@@ -56,7 +56,7 @@ class Results:
     values: one row for each variant, pass, name and frame, as in values.csv: what passes reported; frame is NaN in the
         build; may be empty.
     manifest: the run's manifest.json.
-    metrics: the manifest's list, in the order in which tables show them; the first three are charted.
+    metrics: the manifest's list, in the order in which tables show them; the first ones are charted.
     seed_metrics: likewise, bias and noise of nRMSE apart, of runs with a second seed.
     temporal_metrics: likewise, of differences of successive frames; the first one is of each frame too.
     sweep_keys: the columns of `variants` that the sweep varied.
@@ -88,11 +88,6 @@ class Results:
         tables = {"variants": self.variants, "passes": self.passes, "values": self.values, "frames": self.frames}
         return replace(self, **{name: table[table["variant"].isin(chosen)] for name, table in tables.items()})
 
-    @property
-    def charted(self) -> tuple[Metric, ...]:
-        """The metrics that have a chart."""
-        return self.metrics[:3]
-
     def full(self, variant: str) -> str:
         """Number and name, as sentences call it."""
         return f"{self.numbers[variant]} ({self.names[variant]})"
@@ -102,8 +97,7 @@ class Results:
         if len(variants) <= 3:
             return text.joined(map(self.full, variants))
         numbers = [self.numbers[name] for name in variants]
-        more = len(numbers) - limit
-        return f"{', '.join(numbers[:limit])} and {more} more" if more > 0 else text.joined(numbers)
+        return text.first(numbers, limit) if len(numbers) > limit else text.joined(numbers)
 
     @property
     def missing(self) -> list[str]:
@@ -115,17 +109,16 @@ class Results:
         """When each process that measured finished variants began (UTC), and these variants. More than one where the run was
         resumed."""
         finished = set(self.ok["variant"])
-        found = [(entry["started"], [name for name in entry["variants"] if name in finished]) for entry in self.manifest.get("sessions", [])]
+        found = [(entry["started"], [name for name in entry["variants"] if name in finished])
+                 for entry in self.manifest.get("sessions", [])]
         return [(began, names) for began, names in found if names]
 
     def lights(self) -> list[str]:
         """Which of "total" and "indirect" have any score or image, always with "total"."""
-        def present(light: str) -> bool:
-            columns = [LIGHTS[light] + metric.key for metric in self.metrics]
-            return bool(self.ok[columns].notna().any(axis=None)) or any(
-                self.image(folder, IMAGES[light][0]) for folder in ["reference", *self.ok["variant"]])
-
-        return ["total"] + (["indirect"] if present("indirect") else [])
+        columns = [LIGHTS["indirect"] + metric.key for metric in self.metrics]
+        has_indirect = self.ok[columns].notna().any(axis=None) or any(
+            self.image(folder, IMAGES["indirect"][0]) for folder in ["reference", *self.ok["variant"]])
+        return ["total", "indirect"] if has_indirect else ["total"]
 
     @functools.cached_property
     def references(self) -> list[dict]:

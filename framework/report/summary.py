@@ -45,9 +45,7 @@ def unfinished(results: Results) -> str:
     said, missing = "The run had not ended when this page was made.", results.missing
     if total := len(results.variants) + len(missing):
         said += f" {len(results.ok)} of {_count(total, 'variant')} {'is' if total == 1 else 'are'} finished"
-        more = len(missing) - _MAX_MISSING
-        said += f"; missing: {', '.join(missing[:_MAX_MISSING])}" if missing else ""
-        said += f" and {more} more." if more > 0 else "."
+        said += (f"; missing: {text.first(missing, _MAX_MISSING)}" if missing else "") + "."
     return said
 
 
@@ -99,7 +97,8 @@ def _noise(results: Results, light: str) -> list[str]:
         return ["Bias is the larger part of every variant's error."]
     lower = section(section(results.manifest, "noise_parameters"), _IMAGES[light])
     parameters = ", ".join(dict.fromkeys(path for name in noisy for path in lower.get(name, [])))
-    return [f"Noise is the larger part of the error of {results.listed(noisy)}{f'; it falls as these rise: {parameters}' if parameters else ''}."]
+    return [f"Noise is the larger part of the error of {results.listed(noisy)}"
+            + (f"; it falls as these rise: {parameters}." if parameters else ".")]
 
 
 def _sessions(results: Results) -> list[str]:

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable
 
 import yaml
-from markupsafe import Markup, escape
 
 
 def figures(value: float, digits: int = 3) -> str:
@@ -28,6 +26,12 @@ def joined(words: Iterable) -> str:
     """a, b and c"""
     *first, last = [*map(str, words)] or [""]
     return f"{', '.join(first)} and {last}" if first else last
+
+
+def first(words: list[str], limit: int) -> str:
+    """The first words, and how many more there are."""
+    more = len(words) - limit
+    return ", ".join(words[:limit]) + (f" and {more} more" if more > 0 else "")
 
 
 def cost(value: float) -> str:
@@ -71,11 +75,6 @@ def size(value: float) -> str:
     """Bytes with a binary unit."""
     scaled, unit = _scaled(value, 1024, " KMG")
     return "–" if math.isnan(value) else f"{figures(scaled)} {unit}{'iB' if unit else 'B'}"
-
-
-def breakable(value: str) -> Markup:
-    """`value` as HTML that may be broken after the marks between its words; copied, it is `value` again."""
-    return Markup(re.sub(r"([,=._/])", r"\1<wbr>", str(escape(value))))
 
 
 def yaml_of(value, is_one_line: bool = False) -> str:

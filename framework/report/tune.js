@@ -1,6 +1,7 @@
 // The page of `voxray tune`: its trials, joined in the order in which they ran.
 
-const trials = data.trials.filter(({ x, y }) => x > 0 && y > 0).map((trial) => ({ ...trial, index: trial.number, low: trial.y, high: trial.y }));
+const trials = data.trials.filter(({ x, y }) => x > 0 && y > 0)
+    .map((trial) => ({ ...trial, index: trial.number, low: trial.y, high: trial.y }));
 const ofKind = Object.entries(data.styles).map(([kind, own]) => {
     const points = trials.filter((trial) => trial.kind === kind);
     return { ...own, points, marks: points, line: [], isBold: kind === "chosen" };

@@ -21,8 +21,8 @@ def write(directory: Path, trail: list[list[str]], cost: str, chosen: str, axis:
     @param trail, cost rows of trail.csv, and the name of its column of costs. @param chosen a variant, by its value of `axis` in
     the results in directory/full. @param light whose images are shown"""
     styles = dict(zip(_KINDS, style.styles(len(_KINDS))))
-    trials = [{"number": i, "kind": "chosen" if (size, name) == ("full", chosen) else size, "name": name, "x": number(price), "y": number(error)}
-              for i, (size, name, error, price, _) in enumerate(trail, 1)]
+    trials = [{"number": i, "kind": "chosen" if (size, name) == ("full", chosen) else size, "name": name, "x": number(price),
+               "y": number(error)} for i, (size, name, error, price, _) in enumerate(trail, 1)]
     table = Table("Trials", ["#", "size", "variant", "error over target", cost, f"{cost} of the trial"],
                   [[str(i), size, name, *(text.figures(number(value)) for value in numbers)]
                    for i, (size, name, *numbers) in enumerate(trail, 1)], words=(1, 2))
@@ -30,7 +30,8 @@ def write(directory: Path, trail: list[list[str]], cost: str, chosen: str, axis:
         "tune.html.j2", scripts=_SCRIPTS, sentence=sentence, directory=str(directory), trials=table,
         legends=[Legend("trial", [(words, styles[kind]) for kind, words in _KINDS.items()])],
         pictures=_pictures(directory / "full", axis, chosen, light),
-        data={"cost": cost, "trials": trials, "styles": {kind: {"color": own.color, "mark": own.mark} for kind, own in styles.items()}})
+        data={"cost": cost, "trials": trials,
+              "styles": {kind: {"color": own.color, "mark": own.mark} for kind, own in styles.items()}})
     pages.write_whole(directory / "tune.html", page)
     return directory / "tune.html"
 

@@ -63,7 +63,7 @@ class FullRun(unittest.TestCase):
         results = load(self.directory)
         lights = results.lights()
         anchors = {name: f"variant-{number}" for name, number in results.numbers.items()}
-        shown = details.variants(results, lights, style.pass_colors(results), anchors, set())
+        shown = details.variants(results, lights, anchors, set())
         copies = details.copies(results, lights, shown)
         for light, error in (("total", "0.211"), ("indirect", "0.300")):
             own = [copy for copy in copies if copy.light == light]
