@@ -248,13 +248,16 @@ class InABrowser(unittest.TestCase):
             self.assertEqual(self.browser.run(display, selector) != "none", is_shown, selector)
         self.assertEqual(self.browser.run("return getComputedStyle(document.body).backgroundColor"), "rgb(255, 255, 255)")
 
-    def test_large_pages_open_soon(self):
-        self.browser.resize(1400, 900)
+    def test_large_pages_open_soon_and_scroll_down_alone(self):
         for scenes, copies in ((pareto_results.SCENES, 1), (("cornell",), 244)):
+            self.browser.resize(1400, 900)
             page = self.root / f"{copies}.html"
             pareto_page.write(page, [pareto_results.write(self.root / str(copies), scenes, copies, images=False)], "nrmse", "indirect")
             print(f"{41 * len(scenes) * copies} variants: {page.stat().st_size / 1e6:.1f} MB, opened in {self.browser.open(page):.1f} s", flush=True)
             self.assertEqual(self.browser.console(), [])
+            for width in (1280, 1000):
+                self.browser.resize(width, 900)
+                self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), width)
 
 
 if __name__ == "__main__":
