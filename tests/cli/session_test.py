@@ -3,8 +3,12 @@ import csv
 import json
 import os
 import subprocess
+import sys
 
-from support import PROGRAM, TINY, CommandTest
+from support import PROGRAM, SOURCE, TINY, CommandTest
+
+sys.path.insert(0, os.path.join(SOURCE, "tests", "scale"))
+import session_changes  # noqa: E402
 
 
 class Session(CommandTest):
@@ -102,3 +106,8 @@ class Session(CommandTest):
         self.write("wrong.yaml", TINY.replace("resolution: 16", "resolution: x"))
         self.expect(2, "session", "wrong.yaml", "--stdio", "--images", "shown")
         self.expect(2, "session", "wrong.yaml", "--images", "shown")
+
+    def test_random_changes_give_the_images_of_fresh_sessions(self):
+        differ, (taken, refused, renders), _ = session_changes.run(PROGRAM, 24, 3, self.folder)
+        self.assertEqual(differ, [])
+        self.assertGreater(min(taken, refused, renders), 3)

@@ -80,6 +80,10 @@ class Session:
         cached is rendered first. @throws VoxrayError"""
         return self._ask("score")["scores"]
 
+    @property
+    def process_id(self) -> int:
+        return self._process.pid
+
     def close(self) -> None:
         """Ends the program; more calls do nothing."""
         if self._process.poll() is None:
