@@ -15,10 +15,12 @@ layout(push_constant) uniform Push {
     float start;
 } push;
 
+layout(constant_id = 0) const bool kCorrectsOpacity = true;
+
 const float CONE_WIDTH = 1.1547005;  // At distance 1: 2 tan 30°, so that cones 60° apart touch.
 const int MAX_STEPS = 1024;
 
-// Equation 3, front to back. A sample's opacity is that of its whole width, of which a step is a fraction.
+// Equation 3, front to back. Corrected, a sample's opacity is that of its whole width, of which a step is a fraction.
 vec3 coneRadiance(vec3 origin, vec3 direction) {
     const RadianceGrid g = radianceVoxels.grid;
     const vec3 gridEnd = g.origin + g.voxelSize * vec3(g.resolution);
@@ -29,9 +31,10 @@ vec3 coneRadiance(vec3 origin, vec3 direction) {
         const vec3 samplePosition = origin + t * direction;
         const float width = max(g.voxelSize, CONE_WIDTH * t);
         if (any(lessThan(samplePosition, g.origin - width)) || any(greaterThan(samplePosition, gridEnd + width))) break;
-        const vec4 radianceAndOpacity = sampleRadiance(samplePosition, width, direction);
+        const vec4 radianceAndOpacity = sampleLevels(samplePosition, width, direction, kCorrectsOpacity);
         if (radianceAndOpacity.a > 0.0) {
-            const float alpha = 1.0 - pow(1.0 - min(radianceAndOpacity.a, 1.0), push.step_);
+            const float sampled = min(radianceAndOpacity.a, 1.0);
+            const float alpha = kCorrectsOpacity ? 1.0 - pow(1.0 - sampled, push.step_) : sampled;
             radiance += (1.0 - opacity) * alpha * radianceAndOpacity.rgb / radianceAndOpacity.a;
             opacity += (1.0 - opacity) * alpha;
         }
