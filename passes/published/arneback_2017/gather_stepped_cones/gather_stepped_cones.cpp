@@ -21,7 +21,8 @@ class GatherSteppedCones final : public Pass {
             return std::tuple{
                 field("step", &Params::step, "Distance between samples, in widths of the cone.", 0.125f, 1.0f),
                 field("start", &Params::start,
-                      "Voxels from the surface to a cone's first sample (not given in the thesis). "
+                      "Voxels, of the size that counts there, from the surface to a cone's first sample "
+                      "(not given in the thesis). "
                       "If small, the surface itself is sampled; if large, close surfaces are skipped.",
                       0.5f, 16.0f),
                 field("opacity_correction", &Params::opacityCorrection,

@@ -1,6 +1,7 @@
 // Radiance that each pixel reflects of six cones' light, averaged over its texels (Arnebäck 2017, sections 3.1.5 and
-// 3.2.5). The thesis does not give a cone's first sample: `start`. A cone ends one sample width outside of the grid,
-// beyond which all samples are empty.
+// 3.2.5). The thesis does not give a cone's first sample: `start`. Samples are at least as wide as the voxels that count
+// at their place, in a clipmap those of its minimum level (section 4.2.1). A cone ends one sample width outside of the
+// grid, beyond which all samples are empty.
 #include "passes/cones/radiance/sample_radiance.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -26,10 +27,10 @@ vec3 coneRadiance(vec3 origin, vec3 direction) {
     const vec3 gridEnd = g.origin + g.voxelSize * vec3(g.resolution);
     vec3 radiance = vec3(0.0);
     float opacity = 0.0;
-    float t = push.start * g.voxelSize;
+    float t = push.start * radianceVoxelSize(startLevel(origin, 0.0));
     for (int i = 0; i < MAX_STEPS && opacity < 0.999; ++i) {
         const vec3 samplePosition = origin + t * direction;
-        const float width = max(g.voxelSize, CONE_WIDTH * t);
+        const float width = max(radianceVoxelSize(startLevel(samplePosition, 0.0)), CONE_WIDTH * t);
         if (any(lessThan(samplePosition, g.origin - width)) || any(greaterThan(samplePosition, gridEnd + width))) break;
         const vec4 radianceAndOpacity = sampleLevels(samplePosition, width, direction, kCorrectsOpacity);
         if (radianceAndOpacity.a > 0.0) {
