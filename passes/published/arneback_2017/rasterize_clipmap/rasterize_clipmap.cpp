@@ -132,6 +132,8 @@ void RasterizeClipmap::plan(PassPlan& plan) {
 void RasterizeClipmap::record(PassContext& context) {
     const Frame& frame = context.frame;
     const std::vector<gpu::ClipmapWindow> windows = storage_.moveWindows(context, context[radiance_]);
+
+    // A light that moved changes light anywhere; of surfaces that moved the thesis updates their boxes alone
     const bool moved = windows_.empty() || frame.sceneVersion != sceneVersion_;
     const bool changesAreKnown = !moved || (frame.sceneVersion == sceneVersion_ + 1 && frame.changedRegions);
     const bool all =
@@ -173,6 +175,7 @@ void RasterizeClipmap::rasterize(PassContext& context, uint32_t level, const gpu
                               {"level", level}});
     };
 
+    // Empty the boxes' voxels, rasterize the triangles that reach them, and store their means
     stream.fill(litVoxels_, ~0u);
     forEachBox(openVoxels_, {});
     const std::vector<uint32_t> triangles = VoxelRegion(grid, enlarged(boxes)).triangles(context.frame.scene->geometry);
