@@ -41,7 +41,7 @@ function tell(s, m) {
 function matrixCell(s, m, best) {
     const cell = cellOf(s, m);
     if (!cell) return { text: cell === 0 ? "–" : "", css: "empty" };
-    const [value, , , reached] = cell, css = [isOpen(cell) && m !== rivalMethod() ? "open" : "", value === best ? "best" : ""].join(" ");
+    const [value, , , reached] = cell, css = [isOpen(cell) && m !== rivalMethod() ? "open" : "", value === best ? "best" : "", 2 * reached < countOf(s) ? "few" : ""].join(" ");
     return { text: factorText(value), css, small: reached < countOf(s) && `${reached}/${countOf(s)}`, fold: value };
 }
 function showMatrix() {

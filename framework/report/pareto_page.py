@@ -86,7 +86,7 @@ def render(compared: Comparison, with_images: bool = True) -> str:
     pictures = _pictures(compared) if with_images else [{} for _ in compared.scenes]
     return pages.render(
         "pareto.html.j2", scripts=_SCRIPTS, data=_data(compared), pictures=pages.json_text(pictures),
-        costs=[(i, CHARTED[i]) for i in compared.costs], errors=[(i, error.label) for i, error in enumerate(compared.errors)],
+        costs=[(i, _NEEDS.get(CHARTED[i], CHARTED[i])) for i in compared.costs], errors=[(i, error.label) for i, error in enumerate(compared.errors)],
         first=compared.first, rivals=[(i, compared.methods[rival].name) for i, rival in enumerate(compared.speed_ups.rivals)],
         sentences=sentences(compared), has_rival=compared.rival is not None, notes=_notes(compared), light=compared.light,
         tables=[_method_table(compared), *_rival_tables(compared), *_filled_tables(compared)], runs=[str(run.directory) for run in compared.runs])
@@ -124,7 +124,7 @@ def sentences(compared: Comparison) -> list[str]:
     if losses:
         every = sum(compared.measured[:, compared.rival])
         listed = [f"{need[0].lower()}{need[1:]} in {'every scene' if len(names) == every > 1 else ', '.join(names)}" for need, names in losses.items()]
-        lines.append(f"Filtered path tracing stays ahead: {'; '.join(listed)}.")
+        lines.append(f"Filtered paths stay ahead at most of their errors: {'; '.join(listed)}.")
     return lines
 
 

@@ -206,14 +206,14 @@ class Pareto(unittest.TestCase):
             "Still light (frame): take gather rays, filtered in attic (4.0×).",
             "Light that changes (frame + light): take gather rays, filtered in attic (4.0×).",
             "Surfaces that move (build + frame): take gather rays, filtered in attic (4.0×).",
-            "Filtered path tracing stays ahead: still light (frame) in cellar; light that changes (frame + light) in cellar; surfaces that move (build + frame) in cellar."])
+            "Filtered paths stay ahead at most of their errors: still light (frame) in cellar; light that changes (frame + light) in cellar; surfaces that move (build + frame) in cellar."])
         self.assertIn(["c", "gather_cones + filter_irradiance", "2"], pareto_page._method_table(compared).rows)
 
     def test_a_method_that_reaches_less_than_half_of_the_errors_is_not_recommended(self):
         compared = self.compare(self.run_of("room", self.paths(1, 4, 16) | {"l": (LOOKUP, 10, 0.3)}))
         self.assertEqual(self.cell(compared, LOOKUP)[3:], (1, 3))
         self.assertEqual(len(pareto_page.sentences(compared)), 1)
-        self.assertIn("Filtered path tracing stays ahead: still light (frame) in room;", pareto_page.sentences(compared)[0])
+        self.assertIn("Filtered paths stay ahead at most of their errors: still light (frame) in room;", pareto_page.sentences(compared)[0])
 
     def test_without_path_tracing_nothing_is_recommended(self):
         bare = self.run_of("bare", {"l": (LOOKUP, 10, 0.15)})
