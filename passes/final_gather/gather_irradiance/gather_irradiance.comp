@@ -14,13 +14,14 @@ layout(push_constant, scalar) uniform Push {
 } push;
 #define SEVEN_TAP 1u
 #define BILINEAR_FACE 2u
+#define NEAREST_FACE 3u
 
 vec3 reflected(ivec2 texel) {
     const vec4 p = texelFetch(position, texel, 0);
     if (p.w == 0.0) return vec3(0.0);
     const vec3 n = normalize(texelFetch(normal, texel, 0).xyz);
-    const vec3 irradiance = push.lookup == BILINEAR_FACE
-                                ? bilinearFaceIrradiance(push.grid, p.xyz, n)
+    const vec3 irradiance = push.lookup == BILINEAR_FACE || push.lookup == NEAREST_FACE
+                                ? dominantFaceIrradiance(push.grid, p.xyz, n, push.lookup == BILINEAR_FACE)
                                 : voxelIrradiance(push.grid, p.xyz, n, push.radius, push.lookup == SEVEN_TAP);
     return texelFetch(albedo, texel, 0).rgb / 3.14159265358979 * irradiance;
 }
