@@ -77,6 +77,21 @@ def variant_rows(run: Run) -> list[dict]:
     return rows
 
 
+def write_rows(run: Run) -> list[dict]:
+    """Injection by each way of writing: its time, and that over the time of a plain store by the same pass into as many voxels."""
+    rows = []
+    for variant in run.variants:
+        inject = next((entry for entry in variant.graph if "write" in entry and "rays_per_light" in entry), None)
+        voxels = next((entry["resolution"] for entry in variant.graph if "resolution" in entry), None)
+        costs = variant.result["passes"] if variant.result and inject else []
+        for cost in costs:
+            if cost["phase"] == "build" and cost["pass"] == inject.get("id", inject["pass"]):
+                low, median, high = cost["ms"]
+                rows.append({"kind": inject["pass"], "voxels": int(voxels), "write": inject["write"], "ms": median, "ms_p05": low, "ms_p95": high})
+    plain = {(row["kind"], row["voxels"]): row["ms"] for row in rows if row["write"] == "none"}
+    return [{**row, "over_none": row["ms"] / base if (base := plain.get((row["kind"], row["voxels"]))) else None} for row in rows]
+
+
 def pass_names(program: Program, limit: float) -> list[str]:
     """All passes that the program has."""
     listing = program.call("passes", limit=limit).output
