@@ -135,8 +135,8 @@ def benchmarks_table(data: dict) -> Table:
 
 def writes_table(data: dict) -> Table:
     table = Table("Merging light near a floor", ["pass", "voxels", "write", "ms", "p05 to p95", "over none"], words=(0, 2),
-                  note="Injection of 2^20 rays by a light 25 cm above the floor, by way of writing; over that of a plain store by the same "
-                  "pass. The paper's numbers, and ours without a GPU, stand in docs/papers/magalhaes2020.md.")
+                  note="Light of a lamp 25 cm above the floor, 2^20 rays: each pass that merges what meets in a voxel, by way of writing; over "
+                  "a plain store by the same pass. The paper's numbers, and ours without a GPU, stand in docs/papers/magalhaes2020.md.")
     for row in data.get("writes", []):
         table.add(row["kind"], str(row["voxels"]), row["write"], number(row["ms"]), f"{number(row['ms_p05'])} to {number(row['ms_p95'])}",
                   number(row["over_none"], 2))

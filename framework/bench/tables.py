@@ -78,16 +78,15 @@ def variant_rows(run: Run) -> list[dict]:
 
 
 def write_rows(run: Run) -> list[dict]:
-    """Injection by each way of writing: its time, and that over the time of a plain store by the same pass into as many voxels."""
+    """Passes by each way of writing: their time, and that over the time of a plain store by the same pass into as many voxels."""
     rows = []
     for variant in run.variants:
-        inject = next((entry for entry in variant.graph if "write" in entry and "rays_per_light" in entry), None)
-        voxels = next((entry["resolution"] for entry in variant.graph if "resolution" in entry), None)
-        costs = variant.result["passes"] if variant.result and inject else []
-        for cost in costs:
-            if cost["phase"] == "build" and cost["pass"] == inject.get("id", inject["pass"]):
+        writers = {str(entry.get("id", entry["pass"])): entry for entry in variant.graph if "write" in entry}
+        voxels = next((entry["resolution"] for entry in variant.graph if "resolution" in entry), 0)
+        for cost in (variant.result or {}).get("passes", []):
+            if cost["phase"] == "build" and (entry := writers.get(cost["pass"])):
                 low, median, high = cost["ms"]
-                rows.append({"kind": inject["pass"], "voxels": int(voxels), "write": inject["write"], "ms": median, "ms_p05": low, "ms_p95": high})
+                rows.append({"kind": entry["pass"], "voxels": int(voxels), "write": entry["write"], "ms": median, "ms_p05": low, "ms_p95": high})
     plain = {(row["kind"], row["voxels"]): row["ms"] for row in rows if row["write"] == "none"}
     return [{**row, "over_none": row["ms"] / base if (base := plain.get((row["kind"], row["voxels"]))) else None} for row in rows]
 
