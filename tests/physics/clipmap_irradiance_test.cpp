@@ -23,7 +23,8 @@ std::vector<std::string> with(std::vector<std::string> passes, const std::vector
 
 const std::vector<std::string> kLookup{"gather_irradiance", "gather_irradiance, id: direct, light: direct",
                                        "composite"};
-const std::vector<std::string> kGather{"trace_gather_rays", "gather_rays, direct_at_hits: voxels", "composite"};
+const std::vector<std::string> kGather{"trace_gather_rays", "gather_rays, direct_at_hits: voxels",
+                                       "gather_irradiance, id: direct, light: direct", "composite"};
 
 TEST(ClipmapIrradiance, IsThatOfTheGridWhereOneWindowHoldsTheScene) {
     const std::string injection = "inject_light_rays, rays_per_light: 65536, bounces: 3";
