@@ -68,7 +68,7 @@ class GatherIrradiance final : public Pass {
 
     const Params params_;
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
-    In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
+    In<VoxelLevels> voxels_{*this, "voxels", "surface voxels"};
     In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
     Out<FrameImage> reflected_{*this, enumName(params_.light),
                                "radiance reflected of " + enumName(params_.light) + " light"};
