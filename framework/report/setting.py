@@ -14,7 +14,7 @@ _OWN_ENTRIES = ("camera", "lights", "environment", "add", "override", "keep_file
 # Kinds of lights: where they are, what their strength is and its unit, and what `move` is in
 _LIGHTS = {"directional": ("towards", "irradiance", "W/m²", "of its direction"), "point": ("at", "intensity", "W/sr", "m"),
            "spot": ("at", "intensity", "W/sr", "m")}
-_MOVING = {"move", "off_at", "time_step", "moving_spheres"}  # keys of a config
+_MOVING = {"move", "off_at", "time_step", "moving_spheres", "swing"}  # keys of a config
 _MAX_FRAMES = 8  # that are listed
 
 
