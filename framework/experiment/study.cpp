@@ -48,7 +48,7 @@ std::string whyWithoutEffect(const Variant& variant, const std::string& paramete
 
 /// Removes variants that differ from others only in swept parameters without effect.
 /// @throws UsageError with file and line for a parameter that has no effect in any variant. If a pass overwrites
-/// another's image, that error is reported, as the likely cause.
+/// another's image, the error names that instead, as the likely cause.
 void removeDuplicates(Study& study) {
     const std::vector<std::string> keys = sweepKeys(study.experiment);
     std::vector<std::map<std::string, Value>> valuesByLabel(keys.size());  // For each swept parameter.

@@ -52,7 +52,7 @@ struct Study {
     Experiment experiment;
     std::vector<Variant> variants;
     Value reference;  ///< Config tree of the reference's graph including all default values; null if there is none.
-    /// With --only: ids of passes that no selected variant runs, but others do. They are not reported as unused.
+    /// Ids of passes that run only in variants that --only leaves out. They are not reported as unused.
     std::vector<std::string> excludedPasses;
     const Registry* registry = nullptr;  ///< Must outlive the study.
 
@@ -70,7 +70,7 @@ struct Study {
 /// and no scene file.
 /// @throws UsageError with file and line
 /// - for an invalid graph;
-/// - if the sweep replaces a pass, and no image depends on the pass of one value, but images depend on that of another;
+/// - if the sweep tries several passes in one place, and one of them runs in no variant, though another does;
 /// - for a pass that overwrites the compared image of an earlier pass without reading any of its outputs.
 Study makeStudy(Experiment experiment, const Registry& registry);
 

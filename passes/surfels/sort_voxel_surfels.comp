@@ -6,7 +6,7 @@ layout(local_size_x = 64) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) buffer SortedSurfels { SortedSurfel data[]; };
 layout(scalar) readonly buffer SortedRef { SortedSurfels sorted; };
-layout(scalar) readonly buffer SortedPositionsRef { LargeUints sortedPositions; };
+layout(scalar) readonly buffer SortedIndicesRef { LargeUints sortedIndices; };
 readonly buffer Begins { uint data[]; } begins;
 readonly buffer Ends { uint data[]; } ends;
 writeonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;
@@ -24,5 +24,5 @@ void main() {
         for (; to > begin && sorted.data[to - 1u].id > s.id; --to) sorted.data[to] = sorted.data[to - 1u];
         sorted.data[to] = s;
     }
-    for (uint i = begin; i < end; ++i) sortedPositions.data[sorted.data[i].index] = i;
+    for (uint i = begin; i < end; ++i) sortedIndices.data[sorted.data[i].index] = i;
 }

@@ -17,7 +17,7 @@ SurfelSort::SurfelSort(ProgramOwner& owner)
 
 void SurfelSort::run(CommandStream& stream, const Surfels& surfels, uint32_t voxels, SurfelsByVoxel& result) const {
     Device& device = stream.device();
-    result.ranges = {}, result.sorted = {}, result.sortedPositions = {};
+    result.ranges = {}, result.sorted = {}, result.sortedIndices = {};
     result.ranges = Buffer(device, "lists of surfels by voxel", voxels * kListBytes);
 
     // Each voxel's range
@@ -31,9 +31,9 @@ void SurfelSort::run(CommandStream& stream, const Surfels& surfels, uint32_t vox
 
     result.sorted =
         LargeBuffer(device, "surfels by voxel", std::max(result.sortedCount, 1u) * sizeof(gpu::SortedSurfel));
-    result.sortedPositions = LargeBuffer(device, "indices of surfels in their sorted order",
-                                         std::max<uint64_t>(surfels.count, 1) * sizeof(uint32_t));
-    stream.fill(result.sortedPositions, SurfelsByVoxel::kNone);
+    result.sortedIndices = LargeBuffer(device, "indices of surfels in their sorted order",
+                                       std::max<uint64_t>(surfels.count, 1) * sizeof(uint32_t));
+    stream.fill(result.sortedIndices, SurfelsByVoxel::kNone);
     for (const Surfels::Chunk& chunk : surfels.chunks)
         stream.dispatch(scatter_, chunk.count,
                         {{"surfels", chunk.surfels},
@@ -43,7 +43,7 @@ void SurfelSort::run(CommandStream& stream, const Surfels& surfels, uint32_t vox
                          {"firstIndex", chunk.firstIndex}});
     stream.dispatch(sortVoxel_, voxels,
                     {{"SortedRef", result.sorted.ref()},
-                     {"SortedPositionsRef", result.sortedPositions.ref()},
+                     {"SortedIndicesRef", result.sortedIndices.ref()},
                      {"begins", begins},
                      {"ends", ends},
                      {"surfelRanges", result.ranges},

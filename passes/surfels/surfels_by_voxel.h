@@ -16,10 +16,10 @@ struct SurfelsByVoxel : Resource {
 
     bool hasOccludedSurfels = false;  ///< Set in plan().
     uint32_t sortedCount = 0;
-    Buffer ranges;                ///< By voxel: a range [begin, end) of `sorted`; two uint32_t.
-    LargeBuffer sorted;           ///< gpu::SortedSurfel each; within a voxel by ascending id.
-    LargeBuffer packed;           ///< PackedSurfels (packed_surfel.glsl) in the same order; 8 bytes each.
-    LargeBuffer sortedPositions;  ///< By surfel of Surfels: its index in `sorted`, or kNone; uint32_t.
+    Buffer ranges;              ///< By voxel: a range [begin, end) of `sorted`; two uint32_t.
+    LargeBuffer sorted;         ///< gpu::SortedSurfel each; within a voxel by ascending id.
+    LargeBuffer packed;         ///< PackedSurfels (packed_surfel.glsl) in the same order; 8 bytes each.
+    LargeBuffer sortedIndices;  ///< By surfel of Surfels: its index in `sorted`, or kNone; uint32_t.
 };
 
 /// Light that arrives at surfels, in the order of SurfelsByVoxel::sorted.

@@ -40,7 +40,7 @@ NormalCounts countNormals(const std::shared_ptr<const Scene>& scene, const std::
     const PassSample& sample = chain.buildSamples.at(1);
     NormalCounts counts{
         .tied = reported(sample, "voxels with a tie for the least occupied direction, %"),
-        .decided = reported(sample, "voxels where fragments choose another direction than the area-weighted normal, %"),
+        .decided = reported(sample, "voxels where fragments break the tie otherwise than the area-weighted normal, %"),
         .changed = reported(sample, "voxels whose normal differs from the area-weighted one, %")};
     for (const gpu::VoxelCluster& cluster :
          chain.read<gpu::VoxelCluster>(chain.get<VoxelClusters>("clusters").clusters)) {

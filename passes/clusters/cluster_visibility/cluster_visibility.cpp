@@ -108,7 +108,8 @@ class FindClusterVisibility final : public Pass {
  private:
     bool listsPatches() const { return params_.nearDistance > 0; }
     bool tracesTriangles() const { return params_.visibility == RayTraversal::Triangles; }
-    /// Fills surfels_. Only rays through the scene end above surfels: others need no height of gaps.
+    /// Fills surfels_. If rays are traced through triangles, also measures the clearance of occluded surfels, their
+    /// distance to the surface in front: occlusion rays from hits end at half of it.
     void evaluateSurfels(PassContext& context);
     /// Builds the lists of `count` patches from `first` on.
     void buildChunk(PassContext& context, uint32_t first, uint32_t count);
@@ -135,14 +136,14 @@ class FindClusterVisibility final : public Pass {
     std::optional<RayUpdateCache> updateCache_;  ///< Likewise.
     uint64_t tracedRays_ = 0;                    ///< In the current call of record().
     Kernel evaluateSurfels_{*this, "evaluate_surfels.comp"};
-    Kernel measureGaps_{*this, "measure_gaps.comp"};
-    bool measuresGaps_ = false;
+    Kernel measureClearance_{*this, "measure_clearance.comp"};
+    bool measuresClearance_ = false;
     Kernel listPatchFaces_{*this, "list_patch_faces.comp"};
     Kernel marchRays_{*this, "march_voxels.comp"};
     Kernel listAllRays_{*this, "passes/clusters/iota.comp"};
     Kernel generateRays_{*this, "generate_patch_rays.comp"};
     Kernel findHitGroups_{*this, "find_hit_groups.comp"};
-    // A list target is a patch, or a cluster component together with the one of the six directions that the ray hits
+    // A list target is a patch, or a face of a cluster component
     Kernel hitsToTargets_{*this, "hits_to_targets.comp"};
     Kernel mergeTargets_{*this, "merge_targets.comp"};
     Kernel packLists_{*this, "pack_lists.comp"};
@@ -172,9 +173,9 @@ void FindClusterVisibility::plan(PassPlan& plan) {
     const double entries =
         listsPatches() ? raysPerPatch : std::min(raysPerPatch, kEntriesPerSqrtRays * std::sqrt(raysPerPatch));
     plan.estimate(voxels.estimatedCount * kPatchesPerVoxel * (entries + cachedHits) * sizeof(uint32_t));
-    measuresGaps_ = tracesTriangles() && plan[points_].hasOccludedSurfels;
-    if (measuresGaps_) evaluateSurfels_.define({{"GAPS", "1"}});
-    measureGaps_.compileIf(measuresGaps_);
+    measuresClearance_ = tracesTriangles() && plan[points_].hasOccludedSurfels;
+    if (measuresClearance_) evaluateSurfels_.define({{"CLEARANCE", "1"}});
+    measureClearance_.compileIf(measuresClearance_);
     marchRays_.compileIf(!tracesTriangles());
     for (Kernel* kernel : {&listAllRays_, &generateRays_, &findHitGroups_}) kernel->compileIf(tracesTriangles());
     if (!tracesTriangles()) {
@@ -273,9 +274,9 @@ void FindClusterVisibility::evaluateSurfels(PassContext& context) {
                           ifUsed({"SidesRef", points.sides.ref()}),
                           ifUsed({"rays", rays_}),
                           {"voxelSize", context[voxels_].grid.voxelSize}});
-        if (!measuresGaps_) continue;
+        if (!measuresClearance_) continue;
         context.tracer.closestHit(context.stream, rays_, hits_, count);
-        context.dispatch(measureGaps_, count, {range.all(), {"hits", hits_}});
+        context.dispatch(measureClearance_, count, {range.all(), {"hits", hits_}});
     }
 }
 

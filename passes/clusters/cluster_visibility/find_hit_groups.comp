@@ -10,7 +10,8 @@ layout(local_size_x = 64) in;
 
 #define MAX_CANDIDATES 4u
 #define NO_SURFEL 0xffffffffu
-// Threshold for NearestSurfel::distance_: 0.7 voxels in one plane, or half a voxel and 20 degrees between normals.
+// Limit of NearestSurfel::cost: reached at sqrt(0.5) = 0.7 voxels by surfels in one plane, at about half a voxel where
+// normals differ by 20 degrees.
 const float FAR = 0.5;
 
 struct Candidate {
@@ -29,7 +30,7 @@ readonly buffer FirstGroup { uint data[]; } firstGroup;
 writeonly buffer PackedHits { uint data[]; } packedHits;
 
 struct NearestSurfel {
-    float distance_;  // Squared, in voxels, plus surfelBias().
+    float cost;  // Squared distance in voxels, plus surfelBias().
     uint surfel;
     uint group;
     uint id;
@@ -53,7 +54,7 @@ void searchVoxel(ivec3 voxel, vec3 position, vec3 normal, Candidate candidate, i
             const vec3 offset = s.position - position;
             const float d = dot(offset, offset) / (push.grid.voxelSize * push.grid.voxelSize) +
                             surfelBias(position, normal, s.position, s.normal);
-            if (d < nearest.distance_ || (d == nearest.distance_ && s.id < nearest.id))
+            if (d < nearest.cost || (d == nearest.cost && s.id < nearest.id))
                 nearest = NearestSurfel(d, i, group, s.id);
         }
     }
@@ -64,13 +65,14 @@ NearestSurfel nearestSurfel(vec3 position, vec3 normal, Candidate candidate) {
     const ivec3 voxel = voxelAt(push.grid, position);
     NearestSurfel nearest = NearestSurfel(1.0e30, NO_SURFEL, NO_GROUP, NO_SURFEL);
     searchVoxel(voxel, position, normal, candidate, nearest);
-    if (nearest.distance_ < FAR) return nearest;
+    if (nearest.cost < FAR) return nearest;
     for (int i = 0; i < 27; ++i)
         if (i != 13) searchVoxel(voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, position, normal, candidate, nearest);
     return nearest;
 }
 
-// Packs the surfel's group and one of the faces at which both have area, sampled by the surfel's area at them.
+// Packs the group and one of the faces at which the group and the surfel both have area, sampled with probability
+// proportional to the surfel's area there.
 uint packSurfelHit(uint ray, PatchSurfel s, uint group, float distance_) {
     const VoxelMaterial m = groupMaterial(group);
     const vec3 groupArea = mix(m.unoccludedPositive, m.unoccludedNegative, lessThan(s.normal, vec3(0.0)));

@@ -10,7 +10,8 @@ struct PatchSurfel {
     vec3 position;  // m; off the surface, where rays may begin.
     uint id;        // That of Surfel.
     vec3 normal;    // Unit length, on the lit side.
-    float height;   // m, of the points in front of it at which rays to it end: half a voxel, or half the gap.
+    float height;   // m, of the points in front of it at which rays to it end: half a voxel, or half the clearance
+                    // (measure_clearance.comp).
 };
 
 VOXRAY_SHARED_END

@@ -68,7 +68,7 @@ void ClusterVoxels::record(PassContext& context) {
     // Surfaces disagree if the normals in the voxel differ too much for a mean
     reportPercent("voxels whose surfaces disagree, %", counts.disagreeing);
     reportPercent("voxels with a tie for the least occupied direction, %", counts.tied);
-    reportPercent("voxels where fragments choose another direction than the area-weighted normal, %",
+    reportPercent("voxels where fragments break the tie otherwise than the area-weighted normal, %",
                   counts.decidedByFragments);
     reportPercent("voxels whose normal differs from the area-weighted one, %", counts.changed);
 }

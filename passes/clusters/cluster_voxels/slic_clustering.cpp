@@ -10,8 +10,8 @@ namespace voxray {
 namespace {
 
 constexpr uint64_t kSumBytes = 7 * sizeof(uint64_t);  // For each seed (cluster_sums.glsl).
-/// Rounds of independent-set selection; O(log n) are expected, about ten (Luby 1986).
-constexpr uint32_t kMaxIndependentSetRounds = 256;
+/// Rounds in which new seeds are selected; O(log n) are expected, about ten (Luby 1986).
+constexpr uint32_t kMaxNewSeedRounds = 256;
 
 /// The least occupied direction is the one of the six axis directions with the fewest occupied voxels in front.
 Defines normalDefines(const ClusterParams& params) {
@@ -35,14 +35,15 @@ SlicClustering::SlicClustering(ProgramOwner& owner, const ClusterParams& params)
       accumulateSums_(owner, "accumulate_sums.comp"),
       updateSeeds_(owner, "update_seeds.comp"),
       extractAssignment_(owner, "extract_assignment.comp"),
-      selectIndependentSet_(owner, "select_independent_set.comp"),
+      selectNewSeeds_(owner, "select_new_seeds.comp"),
       joinNewSeeds_(owner, "join_new_seeds.comp"),
       joinNearestCluster_(owner, "join_nearest_cluster.comp") {}
 
 glm::uvec3 SlicClustering::seedGridResolution(const gpu::VoxelGrid& grid, uint32_t voxelCount) const {
-    // Seeds lie on a grid of cells w voxels wide. `initial` is the number of seeds in a cube whose edge is the grid's
-    // longest axis. On a flat surface a cell holds w² voxels, hence w = sqrt(voxels / target). With 'assign: first',
-    // clusters are wider than a cell, because their search box is 2w wide at 'reach: 1'; so w is halved
+    // Seeds lie on a grid of cells w voxels wide. `initial` is the number of seeds in a cube as wide as the voxel
+    // grid's longest axis. On a flat surface a cell holds w² voxels, hence w = sqrt(voxels / target). With 'assign:
+    // nearest' neighbors divide the space between them, and clusters are about a cell wide. With 'first' a cluster may
+    // fill its search box, 2w wide at 'reach: 1'; so w is halved
     const uint32_t seedsPerCube = params_.initial, targetClusters = params_.target;
     const double longest = std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z});
     double width = longest / std::cbrt(double(std::max(seedsPerCube, 1u)));
@@ -143,9 +144,9 @@ SlicClustering::Result SlicClustering::run(CommandStream& stream, const SurfaceV
     }
     if (params_.unassignedPolicy == UnassignedVoxels::NewClusters) {
         for (uint32_t round = 0; remaining > 0; ++round) {
-            if (round == kMaxIndependentSetRounds)
+            if (round == kMaxNewSeedRounds)
                 throw Error("cluster_voxels: {} voxels found no cluster in {} rounds", remaining, round);
-            stream.dispatch(selectIndependentSet_, count, {assignment.all(), {"isNewSeed", newAssignmentOrSeeds}});
+            stream.dispatch(selectNewSeeds_, count, {assignment.all(), {"isNewSeed", newAssignmentOrSeeds}});
             stream.fill(unassignedCount, 0);
             stream.dispatch(joinNewSeeds_, count,
                             {assignment.all(), {"isNewSeed", newAssignmentOrSeeds}, {"unassigned", unassignedCount}});

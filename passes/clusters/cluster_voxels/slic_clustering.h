@@ -119,7 +119,7 @@ class SlicClustering {
     struct NormalCounts {
         uint32_t disagreeing;  ///< The normals in the voxel differ too much for a mean.
         uint32_t tied;         ///< Subset of these: several directions have as few occupied voxels.
-        /// Subset of these: fragments choose another direction than the area-weighted normal.
+        /// Subset of these: fragments break the tie otherwise than the area-weighted normal.
         uint32_t decidedByFragments;
         uint32_t changed;  ///< Voxels whose normal differs from the area-weighted one.
     };
@@ -144,8 +144,8 @@ class SlicClustering {
     glm::uvec3 seedGridResolution(const gpu::VoxelGrid& grid, uint32_t voxelCount) const;
 
     const ClusterParams params_;
-    Kernel findNormals_, initSeeds_, assignVoxels_, accumulateSums_, updateSeeds_, extractAssignment_,
-        selectIndependentSet_, joinNewSeeds_, joinNearestCluster_;
+    Kernel findNormals_, initSeeds_, assignVoxels_, accumulateSums_, updateSeeds_, extractAssignment_, selectNewSeeds_,
+        joinNewSeeds_, joinNearestCluster_;
 };
 
 }  // namespace voxray

@@ -1,9 +1,9 @@
-// Averages the material of each surface group over its surfels: its mean normal and reflectance and, for each face, its
-// share of the voxel's area at that face (area times the squared component of the normal). A group has a patch at each
-// face where it has area.
+// Averages the material of each surface group over its surfels: its mean normal, its reflectance and its area at each
+// face. A surface's area is divided among the faces that its normal points to by the squares of the normal's
+// components, whose sum is 1. A group has a patch at each face where it has area.
 //
 // The voxel's unoccluded area is divided among unoccluded groups. Occluded groups exist only with 'sides: all', where
-// each sample point has two surfels; each surfel then stands for the voxel's area / its number of sample points.
+// each sample point has two surfels, one on each side, and each has the voxel's area / the voxel's sample points.
 #include "passes/clusters/find_patches/grouped_surfel.h"
 #include "passes/clusters/group_materials.glsl"
 #include "passes/clusters/group_patches.glsl"

@@ -1,5 +1,5 @@
 // Counts the candidates for neighbors of each surface group: groups in the 26 adjacent voxels that have area
-// at a common face, and are both occluded or both unoccluded. LIST: stores them. Rays test their
+// at the face of the same direction, and are both occluded or both unoccluded. LIST: stores them. Rays test their
 // visibility later.
 #include "passes/clusters/group_materials.glsl"
 #include "passes/clusters/group_patches.glsl"
@@ -23,8 +23,8 @@ layout(push_constant, scalar) uniform Push {
     uint groupCount;
 } push;
 
-// Areas of occluded groups are stored in the same members.
-bool haveCommonFace(VoxelMaterial a, VoxelMaterial b) {
+// Of occluded groups these members are the occluded area.
+bool haveAreaAtSameFace(VoxelMaterial a, VoxelMaterial b) {
     const vec3 area = min(a.unoccludedPositive, b.unoccludedPositive) + min(a.unoccludedNegative, b.unoccludedNegative);
     return any(greaterThan(area, vec3(0.0)));
 }
@@ -41,7 +41,7 @@ void main() {
             if (i == 13 || voxel == NO_VOXEL) continue;
             for (uint neighbor = firstGroup.data[voxel]; neighbor < firstGroup.data[voxel + 1u]; ++neighbor) {
                 if (isOccluded(groups.data[neighbor]) != isOccluded(groups.data[group])) continue;
-                if (!haveCommonFace(m, groupMaterial(neighbor))) continue;
+                if (!haveAreaAtSameFace(m, groupMaterial(neighbor))) continue;
 #ifdef LIST
                 candidates.data[firstCandidate.data[group] + count] = neighbor;
                 groupOfCandidate.data[firstCandidate.data[group] + count] = group;

@@ -22,29 +22,32 @@ constexpr uint32_t kChunkPoints = Surfels::kMaxChunkSurfels / 2;
 
 }  // namespace
 
-/// Splits the surfels of each voxel into surface groups: surfels with an unobstructed line between points half a voxel
-/// above them. Splits clusters into connected components of these groups, so that light does not leak through walls
-/// thinner than a voxel. A patch is the area of a surface group at one of its voxel's six faces. An extension of Cosin
-/// and Patow 2022, who have one surface in each voxel: docs/clusters.md, "How it works".
+/// Splits the surfels of each voxel into surface groups: a group is a seed surfel and the surfels that it sees along a
+/// line between points half a voxel above both. Splits clusters into connected components of these groups, so that
+/// light does not leak through walls thinner than a voxel. A patch is the area of a surface group at one of its voxel's
+/// six faces. An extension of Cosin and Patow 2022, who have one surface in each voxel: docs/clusters.md, "How it
+/// works".
 class FindPatches final : public Pass {
  public:
     static constexpr const char* kName = "find_patches";
     static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
         "Splits voxels' surfels and clusters at walls thinner than a voxel. "
-        "Surfels of a voxel with an unobstructed line between points half a voxel above them form a surface group; "
+        "A surface group is a seed surfel and the surfels of its voxel that it sees, along a line between points half "
+        "a voxel above both; "
         "clusters are split into connected components of these groups. "
         "So the two surfaces of a wall thinner than a voxel have separate light (cluster_visibility, inject_clusters, "
         "gather_clusters). If place_surfels has 'sides: all', surfaces inside narrow gaps also form groups, "
-        "and exchange light. Biased by: voxel size (rays start half a voxel above the surface "
-        "and miss lower walls; surfels on both sides of such a wall stay in one group). "
+        "and exchange light. Biased by: voxel size (these lines pass over walls that rise less than half a "
+        "voxel; the surfels on both sides of such a wall share a group). "
         "Noisy by: points_per_voxel (a surface without a surfel gets no group). Source: docs/clusters.md.";
 
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
 
  private:
-    /// Evaluates the surfels of kChunkPoints points or fewer. Those that do not exist have no voxel.
+    /// Evaluates the surfels of kChunkPoints points or fewer, two of each: the voxel of one that does not exist is
+    /// NO_VOXEL.
     Surfels::Chunk evaluateSurfels(PassContext& context, uint32_t firstPoint) const;
     /// Sorts the surfels by voxel and finds the group of each within its voxel.
     void groupSurfels(PassContext& context, SurfelsByVoxel& surfelsByVoxel);
@@ -156,20 +159,20 @@ void FindPatches::groupSurfels(PassContext& context, SurfelsByVoxel& surfelsByVo
         LargeBuffer(context.device, "surfels by group", std::max<uint64_t>(count, 1) * sizeof(gpu::GroupedSurfel));
     std::vector<Binding> storedGroups;
     if (isUpdate()) storedGroups = updateCache_->surfelBindings(context[clusters_]);
-    // Evaluated again, so that the copies above are freed before these are made
+    // Evaluated a second time, so that unsorted and sorted surfels are never in memory at once
     for (uint32_t first = 0; first < points.count; first += kChunkPoints) {
         const Surfels::Chunk chunk = evaluateSurfels(context, first);
         context.dispatch(isUpdate() ? updateSurfels_ : initSurfels_, chunk.count,
                          {storedGroups,
                           {"surfels", chunk.surfels},
-                          {"SortedPositionsRef", surfelsByVoxel.sortedPositions.ref()},
+                          {"SortedIndicesRef", surfelsByVoxel.sortedIndices.ref()},
                           {"GroupedSurfelsRef", surfels_.ref()},
                           {"grid", voxels.grid},
                           {"count", chunk.count},
                           {"firstIndex", chunk.firstIndex}});
         stream.finish();
     }
-    surfelsByVoxel.sortedPositions = {};
+    surfelsByVoxel.sortedIndices = {};
     grouping_.run(context, batch_, voxels, points.hasOccludedSurfels, surfelsByVoxel, surfels_);
     // Each point has up to two surfels: one on each side
     if (updateCache_) updateCache_->storeSurfels(stream, surfels_, count, 2 * uint64_t(points.count));

@@ -9,7 +9,7 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(scalar) readonly buffer SortedPositionsRef { LargeUints sortedPositions; };
+layout(scalar) readonly buffer SortedIndicesRef { LargeUints sortedIndices; };
 #ifdef UPDATE
 layout(scalar) readonly buffer Coordinates { uvec3 data[]; } coordinates;
 readonly buffer Changed { uint words[]; } changed;  // A bit for each voxel.
@@ -35,7 +35,7 @@ void main() {
     const Surfel s = surfels.data[i];
     if (s.voxel == NO_VOXEL) return;
     const StoredGroup initial = initialGroup(s);
-    groupedSurfels.data[sortedPositions.data[push.firstIndex + i]] =
+    groupedSurfels.data[sortedIndices.data[push.firstIndex + i]] =
         GroupedSurfel(s.position, s.id, s.normal, s.voxel, s.reflectance, initial.group, initial.height,
                       s.area == 0.0 ? 1u : 0u);
 }

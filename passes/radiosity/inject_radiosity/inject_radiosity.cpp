@@ -155,7 +155,7 @@ void InjectRadiosity::storeSurfelIrradiance(PassContext& context, const std::vec
     for (size_t i = 0; i < chunks.size(); ++i)
         context.dispatch(storeSurfelIrradiance_, chunks[i].count,
                          {{"indirect", light[i].indirect},
-                          {"SortedPositionsRef", byVoxel.sortedPositions.ref()},
+                          {"SortedIndicesRef", byVoxel.sortedIndices.ref()},
                           {"PackedRef", byVoxel.packed.ref()},
                           {"LitRef", surfelIrradiance.lit.ref()},
                           {"count", chunks[i].count},

@@ -6,7 +6,7 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Indirect { vec4 data[]; } indirect;  // W/m²
-layout(scalar) readonly buffer SortedPositionsRef { LargeUints sortedPositions; };
+layout(scalar) readonly buffer SortedIndicesRef { LargeUints sortedIndices; };
 layout(scalar) readonly buffer PackedRef { PackedSurfels packed_; };
 layout(scalar) readonly buffer LitRef { LitSurfels lit; };
 layout(push_constant) uniform Push {
@@ -17,7 +17,7 @@ layout(push_constant) uniform Push {
 void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
-    const uint sortedIndex = sortedPositions.data[push.firstSurfel + i];
+    const uint sortedIndex = sortedIndices.data[push.firstSurfel + i];
     if (sortedIndex == 0xffffffffu) return;
     lit.data[sortedIndex] = uvec3(packed_.data[sortedIndex], packRadiosity(indirect.data[i].rgb));
 }

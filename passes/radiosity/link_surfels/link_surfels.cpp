@@ -163,7 +163,7 @@ void LinkSurfels::linkHits(PassContext& context, const Surfels::Chunk& chunk, Su
                           {"surfelCount", links.surfelCount}});
         context.dispatch(meanInverseDistance_, surfels,
                          {{"hits", hits_},
-                          {"SortedPositionsRef", byVoxel.sortedPositions.ref()},
+                          {"SortedIndicesRef", byVoxel.sortedIndices.ref()},
                           {"InverseDistancesRef", inverseDistances.ref()},
                           {"firstSurfel", chunk.firstIndex + firstInChunk},
                           {"surfelCount", surfels},

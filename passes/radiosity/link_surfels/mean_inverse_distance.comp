@@ -5,7 +5,7 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
-layout(scalar) readonly buffer SortedPositionsRef { LargeUints sortedPositions; };
+layout(scalar) readonly buffer SortedIndicesRef { LargeUints sortedIndices; };
 layout(scalar) readonly buffer InverseDistancesRef { LargeFloats inverseDistances; };  // By sorted surfel, 1/voxel.
 layout(push_constant) uniform Push {
     uint firstSurfel;  // Of the batch.
@@ -20,7 +20,7 @@ const float MIN_DISTANCE = 1.0 / 64.0;
 void main() {
     const uint i = linearIndex();
     if (i >= push.surfelCount) return;
-    const uint sortedIndex = sortedPositions.data[push.firstSurfel + i];
+    const uint sortedIndex = sortedIndices.data[push.firstSurfel + i];
     if (sortedIndex == 0xffffffffu) return;
     float sum = 0.0;
     for (uint ray = 0u; ray < push.raysPerSurfel; ++ray) {

@@ -1,4 +1,4 @@
-// Sets the height above occluded surfels to half of the gap in front of them.
+// Sets the height above occluded surfels to half of their clearance, the distance to the surface in front of them.
 #include "passes/clusters/cluster_visibility/patch_surfel.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
