@@ -77,6 +77,7 @@ int main(int argc, char** argv) {
     addJobsCommand(app, status);
     addMergeCommand(app, status);
     addSweepCommand(app, status);
+    addSessionCommand(app, status);
     addValidateCommand(app, status);
     addSchemaCommand(app, status);
     addSceneCommand(app, status);

@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/config_options.h"
 #include "app/planning.h"
+#include "app/text_values.h"
 #include "experiment/results.h"
 #include "passes/common/families.h"
 
@@ -18,16 +19,6 @@ namespace {
 struct PlanArguments : ConfigArguments {
     std::filesystem::path file;
 };
-
-Value quotedText(const std::string& word) {
-    return Value::fromScalar(word, true);
-}
-
-Value listOf(const std::vector<std::string>& words) {
-    Value list = Value::list();
-    for (const std::string& word : words) list.items.push_back(quotedText(word));
-    return list;
-}
 
 Value variantValue(const Variant& variant) {
     Value map = Value::map(), locations = Value::list();

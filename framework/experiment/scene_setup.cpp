@@ -213,6 +213,7 @@ PreparedScene SceneLoader::prepare(const SceneSettings& settings, Origin origin)
 }
 
 const PreparedScene& SceneLoader::prepareCached(const SceneSettings& settings, const std::string& key) {
+    if (taken_ && takenKey_ == key && !taken_->isFarAway) return *taken_;
     constexpr size_t kScenes = 16, kTriangles = 2'000'000;
     const auto known = std::ranges::find(prepared_, key, &decltype(prepared_)::value_type::first);
     if (known != prepared_.end()) {
@@ -236,11 +237,21 @@ PreparedScene SceneLoader::takeCached(const SceneSettings& settings, const std::
     return prepare(settings, Origin::Scene);
 }
 
+void SceneLoader::setTaken(const PreparedScene* scene, const std::string& key) {
+    taken_ = scene;
+    takenKey_ = key;
+}
+
 std::vector<Box> SceneLoader::goToFrame(PreparedScene& prepared, const SceneSettings& settings, int frame) {
     const SceneOptions& options = settings.options;
     std::vector<Box> changed = advance(prepared.state, options.time + frame * options.timeStep);
     setLightsAndCamera(prepared, settings, frame);
     return changed;
+}
+
+void SceneLoader::setCamera(PreparedScene& prepared, const SceneSettings& settings) {
+    prepared.camera = chooseCamera(settings, prepared.state, prepared.origin);
+    prepared.state.cameras = {prepared.camera};
 }
 
 std::vector<std::string> SceneLoader::warnings() const {

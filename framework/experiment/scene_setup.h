@@ -60,11 +60,16 @@ class SceneLoader {
     /// As prepare() with Origin::Scene, or moved out of the cache of prepareCached() if both origins are the
     /// same. Clears the cache.
     PreparedScene takeCached(const SceneSettings& settings, const std::string& key);
+    /// Lets prepareCached() return a scene that was taken, while it is in the compared frame. nullptr: none any more.
+    void setTaken(const PreparedScene* scene, const std::string& key);
 
     /// Updates animation, lights, and a camera on an animated node for another frame, whose index is relative
     /// to the compared one. The config's `camera.move` is not applied.
     /// @return boxes in which surfaces moved, as `advance`. @throws Error for a light without direction.
     static std::vector<Box> goToFrame(PreparedScene& prepared, const SceneSettings& settings, int frame);
+
+    /// Sets the camera of a prepared scene; the settings' is one of the config.
+    static void setCamera(PreparedScene& prepared, const SceneSettings& settings);
 
     /// Warnings of all scenes: what is not supported in files, and what was changed.
     std::vector<std::string> warnings() const;
@@ -85,6 +90,8 @@ class SceneLoader {
     std::set<std::string> changes_;         ///< Warnings of compose().
     /// By key, the most recently used one first.
     std::list<std::pair<std::string, PreparedScene>> prepared_;
+    std::string takenKey_;
+    const PreparedScene* taken_ = nullptr;
 };
 
 }  // namespace voxray

@@ -29,16 +29,34 @@ std::string Session::tracerName(const Setup& setup) const {
     return enumName(kind);
 }
 
-SceneOnDevice& Session::scene(const Setup& setup) {
+bool Session::moveCamera(const Setup& setup) {
     const std::string sceneKey = loader_.key(setup.scene), key = sceneKey + " " + tracerName(setup);
-    if (scene_ && scene_->key == key) {
-        Frame ignored;
-        if (sceneMoved_) goToFrame(setup, ignored, 0);
-        sceneMoved_ = false;
-        return *scene_;
+    if (!scene_) return false;
+    if (scene_->key != key) {
+        if (!setup.scene.camera || scene_->cameraless != cameralessKey(setup)) return false;
+        SceneLoader::setCamera(scene_->prepared, setup.scene);
+        scene_->key = key;
     }
+    Frame ignored;
+    if (sceneMoved_) goToFrame(setup, ignored, 0);
+    sceneMoved_ = false;
+    loader_.setTaken(&scene_->prepared, sceneKey);
+    return true;
+}
+
+std::string Session::cameralessKey(const Setup& setup) {
+    SceneSettings settings = setup.scene;
+    settings.camera.reset();
+    settings.cameraName.clear();
+    return loader_.key(settings) + " " + tracerName(setup);
+}
+
+SceneOnDevice& Session::scene(const Setup& setup) {
+    if (moveCamera(setup)) return *scene_;
+    const std::string sceneKey = loader_.key(setup.scene);
 
     // The old scene is freed first: two may not fit. The tracer keeps a pointer to the state
+    loader_.setTaken(nullptr, {});
     scene_.reset();
     scene_.emplace();
     sceneMoved_ = false;
@@ -55,13 +73,16 @@ SceneOnDevice& Session::scene(const Setup& setup) {
         scene_.reset();
         throw;
     }
-    scene_->key = key;
+    scene_->key = sceneKey + " " + tracerName(setup);
+    scene_->cameraless = cameralessKey(setup);
+    loader_.setTaken(&scene_->prepared, sceneKey);
     return *scene_;
 }
 
 void Session::goToFrame(const Setup& setup, Frame& frame, int fromCompared) {
     PreparedScene& prepared = scene_->prepared;
     sceneMoved_ = true;
+    loader_.setTaken(nullptr, {});
     frame.changedRegions = SceneLoader::goToFrame(prepared, setup.scene, fromCompared);
     ++frame.sceneVersion;
     frame.camera = prepared.camera;
@@ -93,7 +114,7 @@ std::vector<PixelSelection> Session::selectPixels(const Study& study, const Setu
 }
 
 std::vector<PassMemory> Session::plan(Graph& graph, const Frame& frame, uint64_t limitMb) {
-    const uint64_t total = device_.memoryLimitBytes(), used = device_.memoryUsedBytes();
+    const uint64_t total = device_.memoryLimitBytes(), used = device_.memoryUsedBytes() - graph.reusedBytes();
     uint64_t limit = total > used ? total - used : 0;
     if (limitMb > 0) limit = std::min(limit, limitMb << 20);
     return graph.plan(frame, device_.info(), limit);

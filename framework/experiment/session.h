@@ -16,7 +16,8 @@ namespace voxray {
 
 /// A variant's scene on the device.
 struct SceneOnDevice {
-    std::string key;
+    std::string key;         ///< Of everything it depends on.
+    std::string cameraless;  ///< The same without the camera.
     PreparedScene prepared;
     GpuScene gpu;
     std::unique_ptr<RayTracer> tracer;
@@ -38,6 +39,9 @@ class Session {
 
     /// The variant's scene in the compared frame. It stays on the device until another scene is requested.
     SceneOnDevice& scene(const Setup& setup);
+    /// Gives the scene on the device the variant's camera, if they differ in nothing else and the camera is one of the
+    /// config. @return whether the scene on the device is the variant's.
+    bool moveCamera(const Setup& setup);
     /// Origin of the coordinates of the scene on the device, m.
     glm::vec3 origin() const { return scene_ ? scene_->prepared.origin : glm::vec3(0.0f); }
     /// Updates the scene on the device and `frame` to a frame whose index is relative to the compared one.
@@ -75,6 +79,8 @@ class Session {
     std::vector<std::string> warnings() const;
 
  private:
+    /// SceneOnDevice::cameraless
+    std::string cameralessKey(const Setup& setup);
     /// Loads a reference from the cache or merges its parts.
     std::optional<ReferenceImages> stored(const std::string& hash, const Setup& setup);
     RenderedPart renderPart(const Study& study, const Setup& setup, uint32_t number, SamplePart samples,

@@ -22,16 +22,6 @@ void checkHostMemory(const MeasureSettings& measure, const ImageSettings& image)
             comparedFrames(measure), image.width, image.height, gib, kMaxImagesGiB);
 }
 
-FrameImages downloadFrame(const Graph& graph, uint32_t number, Session& session) {
-    FrameImages images{number, {}, {}};
-    const Image* final = graph.image(kComparedImage);
-    if (!final || !*final) throw Error("no pass wrote the image '{}'", kComparedImage);
-    images.final = downloadImage(session.device(), session.stream(), *final);
-    if (const Image* indirect = graph.image(kIndirectImage); indirect && *indirect)
-        images.indirect = downloadImage(session.device(), session.stream(), *indirect);
-    return images;
-}
-
 /// Number of runs of a graph in measureGraph().
 double runsOf(const MeasureSettings& measure) {
     return 1.0 + measure.buildRepeats + measure.warmup + measure.frames;
@@ -145,6 +135,16 @@ std::vector<AovImage> downloadAovs(const Graph& graph, const Frame& frame, const
 }
 
 }  // namespace
+
+FrameImages downloadFrame(const Graph& graph, uint32_t number, Session& session) {
+    FrameImages images{number, {}, {}};
+    const Image* final = graph.image(kComparedImage);
+    if (!final || !*final) throw Error("no pass wrote the image '{}'", kComparedImage);
+    images.final = downloadImage(session.device(), session.stream(), *final);
+    if (const Image* indirect = graph.image(kIndirectImage); indirect && *indirect)
+        images.indirect = downloadImage(session.device(), session.stream(), *indirect);
+    return images;
+}
 
 uint64_t graphRuns(const Experiment& experiment) {
     const MeasureSettings& measure = experiment.measure;

@@ -24,6 +24,9 @@ struct VariantImages {
     std::vector<FrameImages> laterFrames;
 };
 
+/// The images of a graph's last frame. @throws Error if no pass wrote the compared one.
+FrameImages downloadFrame(const Graph& graph, uint32_t number, Session& session);
+
 /// Number of runs of a variant's graph, for estimates of cost.
 uint64_t graphRuns(const Experiment& experiment);
 

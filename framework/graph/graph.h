@@ -12,15 +12,6 @@
 
 namespace voxray {
 
-/// Time and cost of one pass in one run of its phase.
-struct PassSample {
-    double milliseconds = 0;
-    uint64_t rays = 0;
-    uint64_t voxelSteps = 0;  ///< Steps of voxel marches, counted on the device.
-    StreamCounts work = {};   ///< Recorded by the pass, without those of the measurement.
-    std::vector<PassContext::Value> reported;
-};
-
 /// Peak memory: the persistent memory of all passes and the largest scratch, since they run one after
 /// another. Exact where passes run again with the outputs of the last run still there, as in repeated builds,
 /// moving scenes and frames. Of a plan: without estimates.
@@ -45,6 +36,7 @@ class Graph {
         uint32_t warmupFrames;  ///< Pass::warmupFrames()
         TextLocation where;
         uint64_t lightRays;  ///< PassPlan::lightRays; 0 before plan().
+        bool isReused;       ///< Taken over by reuse().
     };
     /// In execution order.
     std::vector<PassInfo> passes() const;
@@ -82,6 +74,13 @@ class Graph {
     /// Whether any pass has an output of this name.
     bool writes(const std::string& portName) const;
 
+    /// Takes over the build passes of another graph, with their outputs, that have the same parameters and read the
+    /// same outputs. They do not run again; run() returns the samples of their last run. Before plan(). Both graphs
+    /// must have the same scene, seed and image size, and the scene must not change in time. Afterwards `previous` can
+    /// only be destroyed; programs of this graph that are equal to its programs are shared if it is destroyed after
+    /// prepare().
+    void reuse(Graph& previous);
+
     /// Checks parameters against the scene and the device and sums up the known memory, before any
     /// allocation. Memory sized on the device is checked against `memoryLimitBytes` when it is allocated.
     /// @return known memory by pass, in the order of passes().
@@ -105,6 +104,8 @@ class Graph {
 
     /// Measured memory by pass so far, in the order of passes().
     std::vector<PassMemory> memory() const;
+    /// Measured memory of the passes taken over by reuse().
+    uint64_t reusedBytes() const;
 
     /// The last output of this name and type, or nullptr.
     template <typename T>

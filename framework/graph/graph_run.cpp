@@ -60,6 +60,10 @@ std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device
     const GraphNode* largestPass = nullptr;
     uint64_t largestBytes = 0;
     for (GraphNode& node : nodes_) {
+        if (node.isReused) {
+            memory.push_back(node.memory.planned());
+            continue;
+        }
         PassPlan plan(*node.pass, node.resources, frame, device, node.phase);
         try {
             node.pass->plan(plan);
@@ -85,7 +89,7 @@ std::vector<PassMemory> Graph::plan(const Frame& frame, const DeviceInfo& device
 }
 
 void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler, CommandStream& stream) {
-    const MemoryLimit limit(device, memoryLimitBytes_, 0);
+    const MemoryLimit limit(device, memoryLimitBytes_, reusedBytes());
     finiteCheck_ = std::make_unique<FiniteCheck>(device);
     if (!device.isHost()) {
         black_ = Image(device, "black", ImageDesc{});
@@ -96,6 +100,7 @@ void Graph::prepare(const Frame& frame, Device& device, const ShaderCompiler& co
         compile(programs, device, compiler);
     }
     for (GraphNode& node : nodes_) {
+        if (node.isReused) continue;
         PassSetup setup(*node.pass, node.resources, frame, device, stream);
         withSizeAdvice(node, [&] { node.memory.prepare(stream, [&] { node.pass->prepare(setup); }); });
     }
@@ -107,16 +112,16 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
     struct Pending {
         uint32_t begin, end;
         std::vector<const Buffer*> marchCounters;
+        GraphNode* node;
     };
-    std::vector<PassSample> samples;
-    std::vector<Pending> pending;  ///< One per sample.
+    std::vector<Pending> pending;
     uint64_t usedBytes = 0;
     for (const GraphNode& node : nodes_) usedBytes += node.memory.used().bytes;
     const MemoryLimit limit(device, memoryLimitBytes_, usedBytes);
     stream.finish();
     stream.resetTimestamps();
     for (GraphNode& node : nodes_) {
-        if (node.phase != phase) continue;
+        if (node.phase != phase || node.isReused) continue;
         const uint64_t raysBefore = tracer.raysTraced();
 
         // Device timestamps; host work of the Embree backend falls between them.
@@ -134,27 +139,31 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         withSizeAdvice(node, [&] { node.memory.record(stream, record); });
         updateVersions(node, context.outputsUnchanged());
 
-        PassSample& sample = samples.emplace_back();
+        PassSample& sample = node.lastSample = {};
         sample.rays = tracer.raysTraced() - raysBefore + context.extraRays;
         sample.work = stream.counts() - before;
         sample.reported = std::move(context.reported);
         for (const PassContext::Value& value : sample.reported)
             if (!std::isfinite(value.value))
                 throw Error("pass '{}' reported {} as '{}'", node.id, value.value, value.name);
-        pending.push_back({begin, end, std::move(context.marchCounters)});
+        pending.push_back({begin, end, std::move(context.marchCounters), &node});
         if (checkFinite) checkFiniteOutputs(node, stream);
     }
     stream.finish();
-    for (size_t i = 0; i < samples.size(); ++i) {
-        samples[i].milliseconds = stream.millisecondsBetween(pending[i].begin, pending[i].end);
+    for (const auto& [begin, end, marchCounters, node] : pending) {
+        PassSample& sample = node->lastSample;
+        sample.milliseconds = stream.millisecondsBetween(begin, end);
         uint64_t visits = 0;
-        for (const Buffer* counts : pending[i].marchCounters) {
+        for (const Buffer* counts : marchCounters) {
             const std::vector<uint64_t> stepsAndVisits = stream.readAs<uint64_t>(*counts, 2);
-            samples[i].voxelSteps += stepsAndVisits[0];
+            sample.voxelSteps += stepsAndVisits[0];
             visits += stepsAndVisits[1];
         }
-        if (!pending[i].marchCounters.empty()) samples[i].reported.push_back({"voxel visits", double(visits)});
+        if (!marchCounters.empty()) sample.reported.push_back({"voxel visits", double(visits)});
     }
+    std::vector<PassSample> samples;
+    for (const GraphNode& node : nodes_)
+        if (node.phase == phase) samples.push_back(node.lastSample);
     return samples;
 }
 
@@ -184,6 +193,13 @@ void Graph::checkFiniteOutputs(const GraphNode& node, CommandStream& stream) {
                             buffer->name(), bad);
         }
     }
+}
+
+uint64_t Graph::reusedBytes() const {
+    uint64_t bytes = 0;
+    for (const GraphNode& node : nodes_)
+        if (node.isReused) bytes += node.memory.used().bytes;
+    return bytes;
 }
 
 std::vector<PassMemory> Graph::memory() const {

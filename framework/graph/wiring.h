@@ -12,6 +12,15 @@
 
 namespace voxray {
 
+/// Time and cost of one pass in one run of its phase.
+struct PassSample {
+    double milliseconds = 0;
+    uint64_t rays = 0;
+    uint64_t voxelSteps = 0;  ///< Steps of voxel marches, counted on the device.
+    StreamCounts work = {};   ///< Recorded by the pass, without those of the measurement.
+    std::vector<PassContext::Value> reported;
+};
+
 /// One pass of a graph with what its ports are bound to.
 struct GraphNode {
     std::string id;
@@ -29,6 +38,8 @@ struct GraphNode {
     TextLocation where;
     uint64_t lightRays = 0;  ///< As planned.
     PassMemoryTracker memory;
+    PassSample lastSample;  ///< Of its last run.
+    bool isReused = false;  ///< Taken from another graph with its outputs (Graph::reuse()).
 };
 
 /// Index of a node's port of that name.

@@ -121,6 +121,36 @@ TEST_F(GraphChanges, WhoSeesNoneLeavesItsOutputs) {
     EXPECT_EQ(graph_->resource<Number>("twice")->value, 6u);
 }
 
+TEST_F(GraphChanges, OutputsOfAnotherGraphAreReusedWhereNothingChanged) {
+    const auto next = [&](const std::string& graph) {
+        const std::unique_ptr<Graph> previous = std::move(graph_);
+        graph_ = std::make_unique<Graph>(registry_, parseYaml(graph, "g.yaml"));
+        graph_->reuse(*previous);
+        graph_->plan(frame_, device_.info(), device_.memoryLimitBytes());
+        graph_->prepare(frame_, device_, compiler_, stream_);
+        runBuild();
+        std::string reused;
+        for (const Graph::PassInfo& pass : graph_->passes())
+            if (pass.isReused) reused += pass.id + " ";
+        return reused;
+    };
+    const char* whole = "[{pass: write}, {pass: double}, {pass: watch}]";
+    frame_.sceneVersion = 3;
+    runBuild();
+    EXPECT_EQ(next(whole), "write double watch ");
+    EXPECT_EQ(samples_.at(1).reported.at(0).value, 1);  // That of the only run.
+    EXPECT_EQ(graph_->resource<Number>("twice")->value, 6u);
+
+    EXPECT_EQ(next("[{pass: write}, {pass: double}]"), "write double ");
+    EXPECT_EQ(graph_->resource<Number>("twice")->value, 6u);
+
+    // Another pass, and one that reads it; then one with other inputs
+    EXPECT_EQ(next("[{pass: write, id: other}, {pass: double}]"), "");
+    EXPECT_EQ(next("[{pass: write, id: other}, {pass: write}, {pass: double, inputs: {number: other}}, "
+                   "{pass: watch, inputs: {number: other}}]"),
+              "other ");
+}
+
 TEST_F(GraphChanges, AreToldOfInputsAlone) {
     make("[{pass: ask_for_output}]");
     EXPECT_THROW(runBuild(), Error);

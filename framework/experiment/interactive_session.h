@@ -1,0 +1,72 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "experiment/runner.h"
+#include "experiment/scoring.h"
+#include "experiment/session.h"
+
+namespace voxray {
+
+/// A config that stays open on a device: values are changed one after another, and a render builds again only what
+/// they touch. Scene, ray tracer and build passes stay on the device while neither their parameters nor what they
+/// read changes. Images are those of `run` with the same values.
+class InteractiveSession {
+ public:
+    /// Opens the first variant of the experiment. @param registry must outlive the session.
+    /// @throws UsageError as makeStudy() and planVariants().
+    InteractiveSession(Experiment experiment, const Registry& registry, const RunOptions& options);
+    InteractiveSession(const InteractiveSession&) = delete;
+    InteractiveSession& operator=(const InteractiveSession&) = delete;
+
+    /// Names and ids of the experiment's variants as it was opened.
+    const std::vector<std::pair<std::string, std::string>>& variants() const { return variants_; }
+    /// Takes the values of a variant, by its id, in place of all values that were set. @throws UsageError, as set().
+    void select(const std::string& id);
+
+    /// Sets the value at a path of the config (config/overrides.h); null removes it.
+    /// @throws UsageError as a run would; the session is then as it was.
+    void set(const std::string& path, const Value& value);
+
+    /// The config with all values that were set, and without sweep.
+    const Value& config() const { return study_.experiment.config; }
+    /// Warnings of the current values and of scenes.
+    std::vector<std::string> warnings() const;
+
+    struct Rendering {
+        FrameImages images;
+        Measurement measurement;          ///< Of reused passes: that of their last run.
+        std::vector<std::string> reused;  ///< Ids of the passes that did not run again.
+    };
+    /// Renders the compared frame. Warm-up frames of the config are rendered if a pass has temporal history.
+    /// @param progress is called with the fraction done. @throws Error, Interrupted; the next call builds all again.
+    Rendering render(const std::function<void(double)>& progress);
+
+    /// Scores images of the current values against the reference, which is rendered if it isn't cached.
+    /// @throws UsageError if the config has no reference, Error, Interrupted.
+    ScoredFrame score(const FrameImages& rendered, const std::function<void(double)>& progress);
+
+ private:
+    /// Makes and checks the study of a config without sweep.
+    Study checkedStudy(Value config);
+    const Variant& variant() const { return study_.variants.front(); }
+
+    const Registry& registry_;
+    const Experiment opened_;
+    Session session_;
+    CameraViewChecks viewChecks_;
+    std::vector<std::pair<std::string, std::string>> variants_;  ///< Name and id.
+    std::vector<Value> variantConfigs_;
+    Study study_;  ///< Of one variant.
+
+    // Of the last rendering
+    std::optional<Graph> graph_;
+    std::string builtFor_;  ///< What build passes depend on besides the graph: scene, tracer, image size, seed.
+    std::optional<PreparedReference> reference_;
+    std::string preparedFor_;  ///< What the prepared reference depends on.
+};
+
+}  // namespace voxray

@@ -1,0 +1,56 @@
+"""Voxray from Python: a config that stays open (open()), runs and their results (run(), load()).
+
+    import voxray
+    study = voxray.open("configs/quickstart.yaml")
+    study.set("voxelize.resolution", 128)
+    image = study.render().indirect     # numpy, (height, width, 3), linear
+
+The module calls the program ./voxray of the clone that it lies in; PYTHONPATH has to hold framework/python of it.
+"""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+sys.path.append(str(Path(__file__).resolve().parents[2]))  # of the package `report`
+
+from report.load import load  # noqa: E402
+from report.results import Results  # noqa: E402
+
+from voxray.display import error_picture, picture, strip  # noqa: E402
+from voxray.errors import VoxrayError  # noqa: E402
+from voxray.session import PROGRAM, Rendering, Session  # noqa: E402
+
+__all__ = ["Rendering", "Results", "Session", "VoxrayError", "error_picture", "load", "open", "picture", "run", "strip"]
+
+
+def open(config: str | Path, *, set: Mapping[str, Any] | None = None, profile: str | None = None, options: Iterable[str] = ()) -> Session:
+    """Opens a config on a device. set: values by path, as set() of the session. options: more words of the command, such as
+    ["--tracer", "embree"]. @throws VoxrayError where the config is wrong"""
+    return Session(config, [*_words(set, profile), *options])
+
+
+def run(config: str | Path, *, set: Mapping[str, Any] | None = None, profile: str | None = None, out: str | Path | None = None,
+        options: Iterable[str] = (), program: str | Path = PROGRAM) -> Results:
+    """Runs a config as the command `run` does, and loads its results (docs/reading-a-report.md): `.variants`, `.passes` and
+    `.values` are DataFrames. out: the results folder, results/NAME where left out. Variants that failed are rows.
+    @throws VoxrayError where the config is wrong or the run was interrupted"""
+    folder = Path(out) if out is not None else Path("results") / Path(config).stem
+    done = subprocess.run([str(program), "run", str(config), *_words(set, profile), "--out", str(folder), "--quiet", *options],
+                          stderr=subprocess.PIPE, text=True, check=False)
+    if done.returncode not in (0, 1) or not (folder / "results.csv").is_file():
+        said = done.stderr.strip().splitlines()
+        raise VoxrayError(said[-1].removeprefix("voxray: error: ") if said else f"the program ended with status {done.returncode}")
+    return load(folder)
+
+
+def _words(values: Mapping[str, Any] | None, profile: str | None) -> list[str]:
+    words = ["--profile", profile] if profile else []
+    for path, value in (values or {}).items():
+        words += ["--set", f"{path}={json.dumps(value, ensure_ascii=False)}"]
+    return words

@@ -1,0 +1,130 @@
+"""A config that stays open, changed value by value (docs/session.md)."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import os
+import subprocess
+import tempfile
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from report import exr_pixels
+
+from voxray import display
+from voxray.errors import VoxrayError
+
+PROGRAM = Path(os.environ.get("VOXRAY_PROGRAM", Path(__file__).resolve().parents[3] / "voxray"))
+PROTOCOL = 1
+
+
+@dataclass(frozen=True)
+class Rendering:
+    """One frame. Images are linear Rec. 709 radiance in W/(m² sr), shape (height, width, 3), float64.
+
+    final: all light; indirect: light that surfaces reflect, None where no pass writes it. passes: a row for each pass in
+    execution order, with id, phase, ms, rays, memory_bytes and whether it was reused. values: what passes reported, with
+    pass, name, value. frame_ms: of all frame passes. memory_bytes: of all passes.
+    """
+
+    final: np.ndarray
+    indirect: np.ndarray | None
+    passes: pd.DataFrame
+    values: pd.DataFrame
+    frame_ms: float
+    memory_bytes: int
+
+    def _repr_html_(self) -> str:
+        shown = {"final": self.final} | ({} if self.indirect is None else {"indirect": self.indirect})
+        return display.strip({name: display.picture(image) for name, image in shown.items()}) + self.passes.to_html(index=False)
+
+
+class Session:
+    """A config on a device. It is closed by close(), or at the end of a `with` block."""
+
+    def __init__(self, config: str | Path, options: Iterable[str] = (), program: str | Path = PROGRAM) -> None:
+        """@throws VoxrayError where the config or an option is wrong."""
+        self._folder = tempfile.TemporaryDirectory(prefix="voxray-")
+        self._said = tempfile.TemporaryFile("w+")
+        self._numbers = itertools.count()
+        self._process = subprocess.Popen([str(program), "session", str(config), "--stdio", "--images", self._folder.name, *options],
+                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._said, text=True)
+        greeting = self._read()
+        if greeting["protocol"] != PROTOCOL:
+            self.close()
+            raise VoxrayError(f"the program speaks protocol {greeting['protocol']} of sessions, this module {PROTOCOL}")
+        self.variants: dict[str, str] = {one["id"]: one["name"] for one in greeting["variants"]}
+        self.warnings: list[str] = greeting["warnings"]
+
+    def set(self, path: str, value: Any) -> None:
+        """Sets a value of the config as `--set` does; None takes it out. @throws VoxrayError; nothing is changed then."""
+        self.warnings = self._ask("set", path=path, value=value)["warnings"]
+
+    def select(self, variant: str) -> None:
+        """Takes a variant's values, by its id, in place of all that were set. @throws VoxrayError"""
+        self.warnings = self._ask("select", variant=variant)["warnings"]
+
+    @property
+    def config(self) -> dict:
+        """The config with all values that were set."""
+        return self._ask("config")["config"]
+
+    def render(self) -> Rendering:
+        """Renders the compared frame; only what changed is built again. @throws VoxrayError"""
+        answer = self._ask("render")
+        pixels = {name: exr_pixels.rgb(file) for name, file in answer["images"].items()}
+        return Rendering(pixels["final"], pixels.get("indirect"), pd.DataFrame(answer["passes"]),
+                         pd.DataFrame(answer["values"], columns=["pass", "name", "value"]), answer["frame_ms"], answer["memory_bytes"])
+
+    def score(self) -> dict[str, float]:
+        """Scores of the last rendering against the config's reference, by column of results.csv. A reference that isn't
+        cached is rendered first. @throws VoxrayError"""
+        return self._ask("score")["scores"]
+
+    @property
+    def process_id(self) -> int:
+        return self._process.pid
+
+    def close(self) -> None:
+        """Ends the program; more calls do nothing."""
+        if self._process.poll() is None:
+            self._process.stdin.close()
+            self._process.wait()
+        self._process.stdout.close()
+        self._said.close()
+        self._folder.cleanup()
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(self, *_) -> None:
+        self.close()
+
+    def _ask(self, command: str, **keys: Any) -> dict:
+        number = next(self._numbers)
+        try:
+            self._process.stdin.write(json.dumps({"id": number, "command": command, **keys}, ensure_ascii=False) + "\n")
+            self._process.stdin.flush()
+        except (BrokenPipeError, ValueError):
+            pass  # _read() says why it ended
+        answer = self._read()
+        if not answer["ok"]:
+            raise VoxrayError(answer["error"])
+        return answer
+
+    def _read(self) -> dict:
+        line = "" if self._process.stdout.closed else self._process.stdout.readline()
+        if line:
+            return json.loads(line)
+        if self._said.closed:
+            raise VoxrayError("the session is closed")
+        self._process.wait()
+        self._said.seek(0)
+        said = self._said.read().strip().splitlines()
+        self.close()
+        raise VoxrayError(said[-1].removeprefix("voxray: error: ") if said else "the session ended")

@@ -1,0 +1,47 @@
+"""The Python module: its images, tables and errors against those of the command."""
+import os
+import sys
+
+import numpy as np
+from support import PROGRAM, SOURCE, TINY, CommandTest
+
+sys.path.insert(0, os.path.join(SOURCE, "framework", "python"))
+import voxray  # noqa: E402
+import voxray.session  # noqa: E402
+
+
+class Module(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.config = self.write("tiny.yaml", TINY)
+
+    def test_a_session(self):
+        with voxray.Session(self.config, program=PROGRAM) as study:
+            self.assertEqual(study.variants, {"resolution-8": "resolution 8", "resolution-16": "resolution 16"})
+            first = study.render()
+            self.assertEqual(first.final.shape, (24, 32, 3))
+            self.assertFalse(first.passes["reused"].any())
+            study.set("gather_irradiance", [{"pass": "trace_gather_rays", "rays_per_block": 4}, "gather_rays"])
+            second = study.render()
+            self.assertEqual(list(second.passes["id"][second.passes["reused"]]), ["voxelize", "inject"])
+            self.assertGreater(np.abs(second.indirect - first.indirect).max(), 0)
+            self.assertGreater(study.score()["nrmse"], 0)
+            with self.assertRaisesRegex(voxray.VoxrayError, "voxelize.resolution"):
+                study.set("voxelize.resolution", "many")
+            study.select("resolution-8")
+            self.assertEqual(study.config["name"], "tiny")
+            np.testing.assert_array_equal(study.render().final, first.final)
+        with self.assertRaisesRegex(voxray.VoxrayError, "closed"):
+            study.render()
+
+    def test_a_config_that_is_wrong(self):
+        self.write("wrong.yaml", TINY.replace("voxelize, res", "voxelise, res"))
+        with self.assertRaisesRegex(voxray.VoxrayError, "voxelise"):
+            voxray.Session(self.path("wrong.yaml"), program=PROGRAM)
+
+    def test_a_run(self):
+        results = voxray.run(self.config, set={"image.width": 16, "measure.frames": 1}, out=self.path("out"), program=PROGRAM)
+        self.assertEqual(list(results.variants["variant"]), ["resolution-8", "resolution-16"])
+        self.assertTrue((results.variants["nrmse"] > 0).all())
+        with self.assertRaisesRegex(voxray.VoxrayError, "image.wide"):
+            voxray.run(self.config, set={"image.wide": 16}, out=self.path("out"), program=PROGRAM)
