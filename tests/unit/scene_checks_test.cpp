@@ -25,7 +25,7 @@ TEST(EnvironmentMap, NamesThePixelThatIsNoRadiance) {
 
 TEST(ShadowRayCost, WarnsOfManyLightsThatTakeLong) {
     SceneState state = evaluate(makeBuiltinScene("plane", {}), 0);
-    Graph::PassInfo pass{"shadows", "direct_shadow_rays", Phase::Frame, 0, {"x.yaml", 7}, 0};
+    Graph::PassInfo pass{"shadows", "direct_shadow_rays", Phase::Frame, 0, {"x.yaml", 7}, 0, false};
     const auto said = [&](size_t lights, uint64_t rays) {
         state.lights.resize(lights);
         pass.lightRays = rays;
