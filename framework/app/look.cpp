@@ -40,7 +40,8 @@ double millisecondsSince(Clock::time_point start) {
 Value portValue(const PortDoc& port) {
     Value value = Value::map();
     value.set("name", quotedText(port.name));
-    value.set("optional", flag(port.optional || !port.with.empty()));
+    value.set("optional", flag(port.optional));
+    value.set("with", quotedText(port.with));
     return value;
 }
 

@@ -12,6 +12,12 @@ function make(tag, properties = {}, ...children) {
     return element;
 }
 
+/** Alternatives on which a port depends, as [parameter, values], out of the words of `./voxray passes`. */
+const conditionsOf = (port) => port.with.split(", or ").map((words) => {
+    const [name, values] = words.split(": ");
+    return [name, values.split(" | ")];
+});
+
 /** Slider position, 0 to 1, to value and back. */
 function scaleOf({ minimum: low, maximum: high, type }) {
     const whole = type === "integer" ? Math.round : (value) => Number(value.toPrecision(4));
@@ -97,10 +103,11 @@ export class PassList {
 
     card(entry, entries, isOpen) {
         const id = idOf(entry), schema = this.schemas.get(entry.pass), help = schema.pass.description;
-        const swap = make("select", { title: "Another pass with the same outputs" }, ...this.others(entry, entries));
+        const others = this.others(entry);
+        const swap = make("select", { title: "Another pass with the same outputs" }, ...this.options(others, entry, entries));
         swap.value = entry.pass;
         swap.setAttribute("aria-label", `pass of ${id}`);
-        swap.addEventListener("change", () => this.changed(id, swap.value));
+        swap.addEventListener("change", () => this.changed(id, others[swap.selectedIndex]));
         this.shows.push((byId) => (swap.value = byId.get(id).pass));
         const rows = Object.keys(schema).filter((name) => !["pass", "id", "inputs"].includes(name))
             .map((name) => this.parameter(id, name, schema));
@@ -130,19 +137,39 @@ export class PassList {
         return row;
     }
 
-    /** Options: passes that write what this one writes; those of which an input is missing say so. */
-    others(entry, entries) {
-        const always = (kind) => this.kinds[kind].outputs.filter((port) => !port.optional).map((port) => port.name);
-        const outputs = always(entry.pass);
+    /** Whether a pass with an entry's values has a port. */
+    has(entry, port) {
+        const schema = this.schemas.get(entry.pass);
+        return !port.with || conditionsOf(port).some(([name, values]) => values.includes(String(entry[name] ?? schema[name].default)));
+    }
+
+    /** Entries of passes that write what this one writes; parameters on which that depends are set. */
+    others(entry) {
+        const outputs = this.kinds[entry.pass].outputs.filter((port) => this.has(entry, port)).map((port) => port.name);
+        return Object.keys(this.kinds).map((kind) => {
+            if (kind === entry.pass) return { pass: kind };
+            const other = { pass: kind };
+            for (const name of outputs) {
+                const port = this.kinds[kind].outputs.find((port) => port.name === name);
+                if (!port) return null;
+                if (this.has(other, port)) continue;
+                const [[parameter, [value]]] = conditionsOf(port);
+                other[parameter] = value;
+            }
+            return outputs.length && outputs.every((name) => this.kinds[kind].outputs.some((port) => port.name === name && this.has(other, port)))
+                ? other : null;
+        }).filter(Boolean);
+    }
+
+    /** Options of a list of entries; those of which an input is missing say so. */
+    options(others, entry, entries) {
         const written = new Set(entries.filter((other) => other !== entry)
             .flatMap((other) => this.kinds[other.pass].outputs.map((port) => port.name)));
-        return Object.keys(this.kinds).filter((kind) => {
-            const theirs = new Set(this.kinds[kind].outputs.map((port) => port.name));
-            return kind === entry.pass || (outputs.length > 0 && outputs.every((name) => theirs.has(name)));
-        }).map((kind) => {
-            const missing = this.kinds[kind].inputs.filter((port) => !port.optional && !written.has(port.name)).map((port) => port.name);
-            const needs = missing.length && kind !== entry.pass ? ` (needs ${missing.join(", ")})` : "";
-            return make("option", { value: kind, textContent: kind + needs, title: this.schemas.get(kind).pass.description });
+        return others.map((other) => {
+            const missing = this.kinds[other.pass].inputs.filter((port) => !port.optional && this.has(other, port) && !written.has(port.name))
+                .map((port) => port.name);
+            const needs = missing.length && other.pass !== entry.pass ? ` (needs ${missing.join(", ")})` : "";
+            return make("option", { value: other.pass, textContent: other.pass + needs, title: this.schemas.get(other.pass).pass.description });
         });
     }
 }
