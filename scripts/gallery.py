@@ -23,7 +23,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.dont_write_bytecode = True
 sys.path.append(str(ROOT / "framework"))
 import numpy as np  # noqa: E402
-from image_sheet import GAP, sheet  # noqa: E402
+from image_sheet import GAP, path_of, sheet  # noqa: E402
 from PIL import Image, ImageDraw  # noqa: E402
 from report import exr_pixels, images, pages  # noqa: E402
 from report.load import load  # noqa: E402
@@ -78,15 +78,9 @@ def picture_of(results):
     """The run's picture. @throws ReportError where it has not exactly one variant, or no reference."""
     if len(results.ok) != 1:
         raise ReportError(f"{results.directory}: {len(results.ok)} finished variants; a picture shows one")
-
-    def found(folder, name):
-        path = results.image(folder, name)
-        if path is None:
-            raise ReportError(f"{results.directory}: no images/{folder}/{name}")
-        return path
     variant = results.ok["variant"].iloc[0]
-    ours, reference = (images.open_png(found(folder, "final.png")).convert("RGB") for folder in (variant, "reference"))
-    lights = [blocks(found(*place)) for place in ((variant, "final.exr"), ("reference", "final_a.exr"), ("reference", "final_b.exr"))]
+    ours, reference = (images.open_png(path_of(results, folder, "final.png")).convert("RGB") for folder in (variant, "reference"))
+    lights = [blocks(path_of(results, *place)) for place in ((variant, "final.exr"), ("reference", "final_a.exr"), ("reference", "final_b.exr"))]
     return compose(ours, reference, lights)
 
 

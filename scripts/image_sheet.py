@@ -21,6 +21,14 @@ from report.results import ReportError
 GAP, LINE, FONT_SIZE, COLORS, QUALITY = 4, 17, 13, 256, 90  # pixels, pixels, pixels, of the palette, of a JPEG
 
 
+def path_of(results, folder, name):
+    """The path of one of a run's images. @throws ReportError where it is missing"""
+    path = results.image(folder, name)
+    if path is None:
+        raise ReportError(f"{results.directory}: no images/{folder}/{name}")
+    return path
+
+
 def tiles(results, image):
     """Names and images of the reference, where the run has one, and of the variants. @throws ReportError where one is missing."""
     folders = {variant: results.names[variant] for variant in results.ok["variant"]}
@@ -28,10 +36,7 @@ def tiles(results, image):
         folders = {"reference": "reference", **folders}
     found = []
     for folder, name in folders.items():
-        path = results.image(folder, image)
-        if path is None:
-            raise ReportError(f"{results.directory}: no images/{folder}/{image}")
-        with Image.open(path) as picture:
+        with Image.open(path_of(results, folder, image)) as picture:
             found.append((name, picture.convert("RGB")))
     return found
 

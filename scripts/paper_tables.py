@@ -17,6 +17,7 @@ docs/papers/tables/NAME.csv has the values of a run by variant; its first line h
 import argparse
 import csv
 import re
+import shlex
 import statistics
 import subprocess
 import sys
@@ -74,7 +75,7 @@ def measure(root, name, run, program):
     """Makes the run and writes its CSV."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "run"
-        subprocess.run([program, *run["command"].split(), "--out", str(out)], cwd=root, check=True)
+        subprocess.run([program, *shlex.split(run["command"]), "--out", str(out)], cwd=root, check=True)
         found = values_of(out)
     commit = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=root, check=True, capture_output=True, text=True)
     device = next(iter(found.values()))["device"]

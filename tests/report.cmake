@@ -1,6 +1,6 @@
 # The report needs Debian's Python with numpy, pandas, matplotlib and Jinja2, which is not always the first on PATH. Parts of `browser`,
-# `large`, `pareto_browser` and `viewer` look at the page in Chromium.
-foreach(part browser explain large noise page pareto pareto_browser ranking reading selection stability viewer)
+# `explain`, `large`, `pareto_browser`, `tune` and `viewer` look at the page in Chromium.
+foreach(part browser explain large noise page pareto pareto_browser ranking reading selection stability tune viewer)
   add_test(NAME report.${part}
     COMMAND /usr/bin/python3 -m unittest -v report_${part}_test
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}/tests/unit)

@@ -1,7 +1,7 @@
 """`voxray tune`: searches a sweep for the cheapest variant that meets a target.
 
-Leaves space.json (what is searched), trail.csv, chosen.yaml and, with --every, sweep.csv in its folder, next to the results
-of trials."""
+Leaves space.json (what is searched), trail.csv, chosen.yaml, tune.html and, with --every, sweep.csv in its folder, next to
+the results of trials."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
-from orchestration.errors import ProgramEnded, UsageError, did_you_mean
+from orchestration.errors import Failed, ProgramEnded, UsageError, did_you_mean
 from orchestration.program import INTERRUPTED, Program
 from orchestration.search import Outcome, Search, variants_of
-from orchestration.trials import Target, Trials
+from orchestration.trials import AXIS, Target, Trials
 from orchestration.yaml_text import yaml_lines
 
 DEFAULT_PART = 1 / 5  # of the sweep's cost, what a search may spend
@@ -127,6 +127,17 @@ def write_chosen(path: Path, trials: Trials, name: str, note: str) -> None:
     path.write_text(f"# {note}\n" + "\n".join(yaml_lines(whole)) + "\n", encoding="utf-8")
 
 
+def write_page(trials: Trials, trail: Trail, chosen: str, sentence: str) -> Path:
+    from report import tune_page
+    from report.results import ReportError
+
+    light = "indirect" if trials.targets[0].column.startswith("indirect_") else "total"
+    try:
+        return tune_page.write(trials.out, trail.rows, trials.minimize, chosen, AXIS, light, sentence)
+    except ReportError as error:
+        raise Failed(f"tune: {error}") from error
+
+
 def compare(trials: Trials, search: Search, chosen: str) -> str:
     """Runs the whole sweep. @return how good the choice is and what the search saved."""
     every = trials.run([variant.name for variant in search.variants], "sweep")
@@ -163,7 +174,8 @@ def tune(trials: Trials, options: SimpleNamespace) -> int:
             f"after {len(trail.rows)} trials for {aims}.")
     write_chosen(path, trials, chosen, note)
     met = outcome.excess <= 1
-    print(f"{'Chosen' if met else 'Closest'}: {note}\nConfig: {path}", flush=True)
+    said = f"{'Chosen' if met else 'Closest'}: {note}"
+    print(f"{said}\nConfig: {path}\nPage: {write_page(trials, trail, chosen, said)}", flush=True)
     if options.every:
         print(compare(trials, search, chosen), flush=True)
     if not met:

@@ -1,7 +1,7 @@
 // A chart of numbers on logarithmic or linear axes: lines and marks with names next to them, all else faint.
 
 const reachOfPointer = 40; // pixels
-const fontSize = 11;
+const fontSize = 11, reachOfLabels = 132; // pixels
 let chartCount = 0;
 
 // What is drawn: {series: [{color, mark, isBold, isFaint, points, line, marks}], labels: [{text, color, point, isBold}],
@@ -17,6 +17,7 @@ function makeChart(host, label, tell, open = () => {}) {
     }
     host.after(said);
     let content = null, zoom = null, current = null, size, x, y, nearest;
+    addEventListener("resize", () => { if (content && host.clientWidth) draw(); });
     host.addEventListener("pointermove", (event) => { if (event.pointerType !== "mouse" || !event.buttons) point(event); });
     host.addEventListener("pointerdown", (event) => point(event));
     host.addEventListener("click", (event) => { if (point(event, 12)) open(current); });
@@ -98,9 +99,10 @@ function makeChart(host, label, tell, open = () => {}) {
         });
         const inside = svg.append("g").attr("clip-path", `url(#${id})`).attr("pointer-events", "none");
         drawPoints(inside);
-        svg.append("g").attr("class", "labels").attr("pointer-events", "none").call(drawLabels);
+        const labels = svg.append("g").attr("pointer-events", "none");
         svg.append("g").attr("class", "current").attr("clip-path", `url(#${id})`).attr("pointer-events", "none");
         host.replaceChildren(svg.node());
+        drawLabels(labels); // their lengths are known in the page alone
         nearest = d3.quadtree(points.filter(isInside), (p) => x(p.x), (p) => y(p.y));
         host.dataset.zoomed = zoom ? "true" : "";
         mark();
@@ -122,9 +124,8 @@ function makeChart(host, label, tell, open = () => {}) {
 
     function drawPoints(inside) {
         const position = (p) => `${x(p.x).toFixed(1)},${y(p.y).toFixed(1)}`, bottom = size.height - size.margin.bottom;
-        for (const [name, value] of content.levels ?? []) {
+        for (const [, value] of content.levels ?? []) {
             inside.append("path").attr("class", "level").attr("d", `M${size.margin.left},${y(value)}H${size.width - size.margin.right}`);
-            inside.append("text").attr("class", "level").attr("x", size.width - size.margin.right - 3).attr("y", y(value) + (y(value) < size.margin.top + 14 ? 11 : -3)).text(name);
         }
         if (content.front.length) {
             inside.append("path").attr("class", "front").attr("d", d3.line().x(([px]) => x(px)).y(([, py]) => y(py)).curve(d3.curveStepAfter)(content.front));
@@ -147,35 +148,49 @@ function makeChart(host, label, tell, open = () => {}) {
         }
     }
 
-    // Each name goes next to its point: off other names, over as few marks and lines as can be, nearest first
+    // Names next to their points: off other names, over as few marks, lines and leaders as can be, nearest first
     function drawLabels(group) {
-        const taken = [], inked = [];
-        for (const { line, marks } of content.series) {
-            const ends = (line.length ? line : marks ?? []).map((p) => [x(p.x), y(p.y)]);
-            ends.forEach(([px, py], i) => {
-                const [qx, qy] = (line.length && ends[i + 1]) || [px, py], count = Math.ceil(Math.hypot(qx - px, qy - py) / 8);
-                for (let k = 0; k <= count; k++) inked.push([px + (qx - px) * k / (count || 1), py + (qy - py) * k / (count || 1)]);
+        const { width, height, margin } = size, taken = [], ink = [], at = (p) => [x(p.x), y(p.y)];
+        const trace = ([px, py], [qx, qy]) => {
+            const count = Math.ceil(Math.hypot(qx - px, qy - py) / 6) || 1;
+            for (let k = 0; k <= count; k++) ink.push([px + (qx - px) * k / count, py + (qy - py) * k / count]);
+        };
+        const holds = (box, [px, py]) => px > box.left && px < box.right && py > box.top && py < box.bottom;
+        const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+        const isFree = (box) => box.left >= margin.left - 4 && box.right <= width && box.top >= 0
+            && box.bottom <= height - margin.bottom && !taken.some((other) => overlap(box, other));
+        function place([px, py], text, css, color) {
+            const name = group.append("text").attr("class", css).attr("font-size", fontSize).attr("fill", color).text(text);
+            const length = name.node().getComputedTextLength() + 2;
+            const boxes = d3.cross(d3.range(-reachOfLabels, reachOfLabels + 1, 6), [px + 8, px - 8 - length], (offset, left) => {
+                const end = [left < px ? left + length : left, py + offset];
+                return { left, right: left + length, top: end[1] - 7, bottom: end[1] + 7, offset, end };
+            }).filter(isFree);
+            const costs = boxes.map((box) => {
+                const leader = d3.range(0.1, 1, 0.1).map((part) => [px + part * (box.end[0] - px), py + part * box.offset]);
+                return Math.abs(box.offset) + 8 * ink.filter((point) => holds(box, point)).length
+                    + 40 * taken.filter((other) => leader.some((point) => holds(other, point))).length;
             });
+            const best = boxes[costs.indexOf(d3.min(costs))];
+            if (!best) return name.remove();
+            taken.push(best);
+            name.attr("x", best.left + 1).attr("y", best.end[1] + 4);
+            if (Math.abs(best.offset) <= 8) return name;
+            group.insert("path", "text").attr("class", "leader").attr("stroke", color).attr("d", `M${[px, py]}L${best.end}`);
+            return trace([px, py], best.end);
         }
+        for (const { line, marks = line } of content.series) {
+            d3.pairs(line.map(at), trace);
+            for (const p of marks) {
+                ink.push(at(p), at(p), at(p)); // heavier than a piece of a line
+                if (content.hasBars) trace([x(p.xLow), y(p.y)], [x(p.xHigh), y(p.y)]);
+                if (content.hasBars && p.low > 0) trace([x(p.x), y(p.low)], [x(p.x), y(p.high)]);
+            }
+        }
+        const right = width - margin.right + 6;
+        for (const [name, value] of content.levels ?? []) place([right, y(value) - 8], name, "level", "var(--muted)");
         for (const { text, color, point: end, isBold } of content.labels) {
-            if (!isInside(end) || end.isFaint) continue;
-            const [px, py] = [x(end.x), y(end.y)], length = 0.56 * fontSize * text.length + 4;
-            const boxes = d3.range(-14, 15).flatMap((step) => [px + 9, px - 9 - length].map((left) => ({
-                left, right: left + length, top: py + step * 5 - 6, bottom: py + step * 5 + 6, cost: Math.abs(step) }))).filter((box) =>
-                box.left >= size.margin.left - 4 && box.right <= size.width && box.top >= 0 && box.bottom <= size.height - size.margin.bottom
-                && taken.every((other) => box.left >= other.right || box.right <= other.left || box.top >= other.bottom || box.bottom <= other.top));
-            for (const box of boxes) {
-                box.cost += 2 * d3.sum(inked, ([qx, qy]) => qx > box.left && qx < box.right && qy > box.top && qy < box.bottom);
-            }
-            if (!boxes.length) continue;
-            const box = boxes[d3.scan(boxes, (a, b) => a.cost - b.cost)], middle = (box.top + box.bottom) / 2;
-            taken.push(box);
-            if (Math.abs(middle - py) > 8) {
-                group.append("path").attr("class", "leader").attr("stroke", `var(--${color})`)
-                    .attr("d", `M${px},${py}L${box.left < px ? box.right - 1 : box.left - 1},${middle}`);
-            }
-            group.append("text").attr("class", isBold ? "name bold" : "name").attr("x", box.left).attr("y", middle + 4)
-                .attr("font-size", fontSize).attr("fill", `var(--${color})`).text(text);
+            if (isInside(end) && !end.isFaint) place(at(end), text, isBold ? "name bold" : "name", `var(--${color})`);
         }
     }
 
@@ -202,7 +217,7 @@ function makeChart(host, label, tell, open = () => {}) {
             const found = content.series.flatMap((one) => one.points).find((p) => p.index === index);
             if (found) select(found);
         },
-        redraw: draw, resetZoom: () => setZoom(null), svg: () => standalone(host.firstElementChild),
+        resetZoom: () => setZoom(null), svg: () => standalone(host.firstElementChild),
     };
 }
 

@@ -12,6 +12,7 @@ from report.style import Style
 
 _MAX_MARKS = 250  # of more points the ones far from the Pareto front are small dots
 _MAX_LABELS = 80
+_MAX_METRICS = 3  # that have a chart
 TIMES = {"frame": "one frame", "total": "build + one frame"}
 
 
@@ -55,7 +56,7 @@ def error_charts(results: Results, lights: list[str]) -> tuple[list[dict], set[t
     found, absent = [], set()
     for light in lights:
         for time in TIMES:
-            for metric in results.charted:
+            for metric in results.metrics[:_MAX_METRICS]:
                 chart, without = error_chart(results, metric, light, time)
                 if chart:
                     found.append(chart)

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
 import pandas as pd
-from markupsafe import Markup
 
 from report import images, text
 from report.results import IMAGES, LIGHTS, ReportError, Results, folder_of, section
@@ -37,7 +35,6 @@ class Variant(NamedTuple):
     full_name: str
     anchor: str
     error: str = ""
-    facts: tuple[tuple[str, str], ...] = ()
     views: tuple[View, ...] = ()
     passes: Table | None = None
     reference: str = ""
@@ -72,14 +69,13 @@ def photo(results: Results, folder: str, light: str, has_floats: bool) -> images
     return picture(results, exr, lambda path: images.with_floats(preview, path)) or preview
 
 
-def variants(results: Results, lights: list[str], colors: dict[str, str], anchors: dict[str, str],
-             with_floats: set[str]) -> list[Variant]:
+def variants(results: Results, lights: list[str], anchors: dict[str, str], with_floats: set[str]) -> list[Variant]:
     """All variants of `results`. Films are of the light that the page shows first.
 
     @param with_floats Folders whose images are embedded as half floats, too.
     """
     passes = dict(list(results.passes.groupby("variant", sort=False)))
-    return [_variant(results, row, passes.get(row["variant"]), lights, colors, anchors, with_floats)
+    return [_variant(results, row, passes.get(row["variant"]), lights, anchors, with_floats)
             for row in results.variants.to_dict("records")]
 
 
@@ -103,8 +99,8 @@ def copies(results: Results, lights: list[str], shown: list[Variant]) -> list[Co
     return found
 
 
-def _variant(results: Results, row: Mapping, passes: pd.DataFrame | None, lights: list[str], colors: dict[str, str],
-             anchors: dict[str, str], with_floats: set[str]) -> Variant:
+def _variant(results: Results, row: Mapping, passes: pd.DataFrame | None, lights: list[str], anchors: dict[str, str],
+             with_floats: set[str]) -> Variant:
     name = row["variant"]
     called = (results.numbers[name], results.names[name], name, anchors[name])
     if row["status"] != "ok":
@@ -115,13 +111,8 @@ def _variant(results: Results, row: Mapping, passes: pd.DataFrame | None, lights
                   for light in lights)
     if not any(view.image for view in views):
         results.warnings.append(f"Variant {name} has no image in its results.")
-    facts = (("frame", f"{text.figures(row['frame_ms_median'])} ms (p05 {text.figures(row['frame_ms_p05'])}, "
-              f"p95 {text.figures(row['frame_ms_p95'])})"),
-             ("build", f"{text.figures(row['build_ms'])} ms" if row["build_ms"] != 0 else "nothing"),
-             ("memory", f"{text.size(row['memory_bytes'])}, at the most {text.size(row['peak_bytes'])}"),
-             ("rays", text.count(row["rays"])))
     graph = section(results.manifest, "variants").get(name)
-    return Variant(*called, "", facts, views, _timeline(f"Passes of {results.names[name]}", passes, colors)
+    return Variant(*called, "", views, _pass_table(f"Passes of {results.names[name]}", passes)
                    if passes is not None else None, results.reference_folder(name) or "", text.yaml_of(graph) if graph else "")
 
 
@@ -130,15 +121,9 @@ def error_of(row: Mapping) -> str:
     return row["error"] or f"status is '{row['status']}', with no error text"
 
 
-def _timeline(title: str, passes: pd.DataFrame, colors: dict[str, str]) -> Table:
-    """Passes of a phase one after another, as they run, by their median times; both phases on one scale."""
-    spent = passes["ms_median"].clip(lower=0).fillna(0)
-    part = 100 / (spent.groupby(passes["phase"]).sum().max() or math.inf)
-    starts = part * (spent.groupby(passes["phase"]).cumsum() - spent)
-    table = Table(title, ["pass", "phase", "timeline", *(heading for heading, _ in _PASS_COLUMNS.values())], words=(0, 1, 2))
-    for row, start, ms in zip(passes.to_dict("records"), starts, spent):
+def _pass_table(title: str, passes: pd.DataFrame) -> Table:
+    table = Table(title, ["pass", "phase", *(heading for heading, _ in _PASS_COLUMNS.values())], words=(0, 1))
+    for row in passes.to_dict("records"):
         name = row["pass"] if row["pass"] == row["kind"] else f"{row['pass']} ({row['kind']})"
-        bar = Markup('<i class="chip" style="margin-left: {:.2f}%; width: {:.2f}%; background: {}"></i>')
-        table.rows.append([Cell(name, "name"), row["phase"], Cell(bar.format(start, part * ms, colors[row["kind"]]), "wide"),
-                           *(write(row[key]) for key, (_, write) in _PASS_COLUMNS.items())])
+        table.add(Cell(name, "name"), row["phase"], *(write(row[key]) for key, (_, write) in _PASS_COLUMNS.items()))
     return table

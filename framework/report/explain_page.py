@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import NamedTuple
 
 import numpy as np
 from PIL import Image
@@ -12,21 +11,13 @@ from report import explain, images, pages, style, text
 from report.explain import Explained, Images, percent, sentence
 from report.images import Picture
 from report.load import load
-from report.parts import Bar, Bars, Segment
+from report.parts import Bar, Bars, Segment, Shown
 from report.results import IMAGES, Results
 from report.table import Table
 
 _SCRIPTS = ("toolkit.js",)  # without d3: scripts write no numbers here
 _SMALL = 0.1  # of the whole error: a rest that needs no word
 _WIDE = 0.12  # of the bar: a part that has room for its name
-
-
-class Shown(NamedTuple):
-    """An image with its caption."""
-
-    picture: Picture
-    title: str
-    note: str
 
 
 def write(directory: Path) -> str:

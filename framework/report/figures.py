@@ -13,6 +13,7 @@ from matplotlib.colors import LinearSegmentedColormap, LogNorm
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.patheffects import withStroke
+from matplotlib.text import Text
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from report import pages, style, text
@@ -30,8 +31,8 @@ def write(folder: Path, compared) -> None:
     """Each figure by each cost, by the first error. @param compared a pareto_page.Comparison"""
     folder.mkdir(parents=True, exist_ok=True)
     with matplotlib.rc_context(_RC):
-        for cost, name in enumerate(CHARTED):
-            end = name.replace(" + ", "-")
+        for cost in compared.costs:
+            end = CHARTED[cost].replace(" + ", "-")
             _save(folder / f"matrix-{end}", _matrix(compared, cost), _matrix_rows(compared, cost))
             for scene in compared.scenes:
                 stem = re.sub(r"[^\w.-]+", "-", scene.name).strip("-")
@@ -77,15 +78,17 @@ def _label(axes, ends: list[tuple]) -> None:
     """Names at the lines' ends, moved up or down off each other."""
     taken: list = []
     low, high = axes.get_xlim()
-    axes.set_xlim(low, high * (high / low) ** 0.15)
+    axes.set_xlim(low, high * (high / low) ** 0.2)
     renderer = axes.figure.canvas.get_renderer()
     for name, x, y, color, weight in sorted(ends, key=lambda end: end[4] != "bold"):
-        label = axes.annotate(name, (x, y), (0, 0), textcoords="offset points", color=color, fontsize=5.5, fontweight=weight, va="center",
-                              path_effects=[withStroke(linewidth=1.2, foreground="white")])
+        label = axes.annotate(name, (x, y), (0, 0), textcoords="offset points", color=color, fontsize=5.5, fontweight=weight,
+                              va="center", path_effects=[withStroke(linewidth=1.2, foreground="white")],
+                              arrowprops={"arrowstyle": "-", "linewidth": 0.3, "color": color, "shrinkA": 0, "shrinkB": 2})
         for step in range(80):
             up, is_left = (step // 2 + 1) // 2 * 3 * (-1) ** (step // 2), step % 2
             label.set(position=(-4 if is_left else 4, up), ha="right" if is_left else "left")
-            box = label.get_window_extent(renderer)
+            label.update_positions(renderer)
+            box = Text.get_window_extent(label, renderer)  # without its leader
             inside = axes.bbox.x0 <= box.x0 and box.x1 <= axes.figure.bbox.x1 and axes.bbox.y0 <= box.y0 and box.y1 <= axes.bbox.y1
             if inside and not any(box.overlaps(other) for other in taken):
                 taken.append(box)

@@ -4,7 +4,7 @@ const styleValue = (name) => getComputedStyle(document.documentElement).getPrope
 const mostFold = Number(styleValue("most-fold")); // at which colors are strongest
 const foldColor = d3.scaleLinear([-1, -0.5, 0, 0.5, 1], d3.range(5).map((i) => styleValue(`f${i}`))).interpolate(d3.interpolateLab).clamp(true);
 const colorOf = (factor) => foldColor(Math.log(factor) / Math.log(mostFold));
-const factorText = (factor) => d3.format(factor === 0 ? "d" : factor < 0.01 || factor >= 1e4 ? ".1e" : ",.2r")(factor);
+const factorText = (factor) => (factor > 0 && factor < 0.1 ? `1/${factorText(1 / factor)}` : d3.format(factor === 0 ? "d" : factor >= 1e4 ? ".1e" : ",.2r")(factor));
 const inkOn = (color) => (d3.lab(color).l > 62 ? "#111" : "#fff");
 
 // columns: names. rows: [{name, title, swatch, total, cells}]; a cell is {text, css, small, fold}, fold being what its color shows, null

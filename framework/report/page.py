@@ -43,7 +43,7 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
     sequence, frame_charts = parts.sequence(results, shown, lights, styles, anchors) or (None, [])
     value_charts = parts.value_charts(shown, results)
     chart_data = {"charts": [*drawn, *frame_charts, *value_charts], "joined": joined, **charts.variants(results, styles, labels, anchors)}
-    variants = details.variants(shown, lights, colors, anchors, with_floats)
+    variants = details.variants(shown, lights, anchors, with_floats)
     reference = _reference(results, lights, with_floats)
     split = [metric for metric in results.seed_metrics if any(column.metric == metric for column in columns)]
     return pages.render(
@@ -53,7 +53,8 @@ def render(results: Results, wanted: list[str] | None = None) -> str:
         failed=[(results.full(row["variant"]), details.error_of(row)) for row in results.variants.to_dict("records")
                 if row["status"] != "ok"],
         charts=list(enumerate(drawn)), frame_charts=list(enumerate(frame_charts, len(drawn))),
-        value_charts=list(enumerate(value_charts, len(drawn) + len(frame_charts))), not_drawn=_listed(not_drawn, results),
+        value_charts=list(enumerate(value_charts, len(drawn) + len(frame_charts))), 
+        not_drawn=text.first(sorted(f"{results.full(name)} ({what})" for name, what in not_drawn), _MAX_LISTED),
         legends=legends, pass_colors=colors and colors | {"outside the passes": "var(--muted)"}, joined=joined, numbered=labels is results.numbers,
         copies=details.copies(shown, lights, variants), others=_others(variants),
         regions=parts.regions(results, lights, anchors, lambda folder, name: details.picture(results, results.image(folder, name), images.embed)),
@@ -73,12 +74,6 @@ def _point_labels(results: Results) -> dict[str, str]:
     drawn = [results.names[name] for name in results.ok["variant"]]
     is_legible = len(drawn) <= _MAX_NAMED_POINTS and all(len(name) <= _LONGEST_POINT_LABEL for name in drawn)
     return results.names if is_legible else results.numbers
-
-
-def _listed(not_drawn: set[tuple[str, str]], results: Results) -> list[str]:
-    listed = sorted(f"{results.full(name)} ({what})" for name, what in not_drawn)
-    more = len(listed) - _MAX_LISTED
-    return listed[:_MAX_LISTED] + ([f"and {more} more"] if more > 0 else [])
 
 
 def _others(variants: list[details.Variant]) -> list[tuple[str, str]]:

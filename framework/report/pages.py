@@ -13,7 +13,6 @@ from pathlib import Path
 
 import jinja2
 
-from report import text
 from report.results import ReportError
 
 _HERE = Path(__file__).resolve().parent
@@ -28,7 +27,6 @@ def render(template: str, *, scripts: Sequence[str] = (), data=None, folder: Pat
     @param folder of the template"""
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader([folder, _HERE]), autoescape=True, trim_blocks=True,
                                      lstrip_blocks=True, undefined=jinja2.StrictUndefined)
-    environment.filters["breakable"] = text.breakable
     return environment.get_template(template).render(
         style_css=_own("style.css"), scripts="\n".join(map(_own, scripts)), data=json_text(data), **values)
 

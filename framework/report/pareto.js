@@ -41,7 +41,7 @@ function tell(s, m) {
 function matrixCell(s, m, best) {
     const cell = cellOf(s, m);
     if (!cell) return { text: cell === 0 ? "–" : "", css: "empty" };
-    const [value, , , reached] = cell, css = [isOpen(cell) && m !== rivalMethod() ? "open" : "", value === best ? "best" : ""].join(" ");
+    const [value, , , reached] = cell, css = [isOpen(cell) && m !== rivalMethod() ? "open" : "", value === best ? "best" : "", 2 * reached < countOf(s) ? "few" : ""].join(" ");
     return { text: factorText(value), css, small: reached < countOf(s) && `${reached}/${countOf(s)}`, fold: value };
 }
 function showMatrix() {
@@ -68,7 +68,8 @@ const bestOf = (s, m) => (data.scenes[s].fronts[state.cost][state.error][m] ?? [
 function bestWords(s, m) {
     const scene = data.scenes[s], i = bestOf(s, m);
     if (i === undefined) return "";
-    const costs = data.costs.map((one, c) => `${one.name} ${figures(scene.cost[c][i])} ${one.label.split(", ").pop()}`);
+    const costs = data.costs.map((one, c) => `${one.key} ${figures(scene.cost[c][i])} ${one.label.split(", ").pop()}`)
+        .filter((_, c) => scene.cost[c][i] !== null);
     return `Its most accurate variant, ${scene.label[i]}: ${[...costs, ...data.errors.map(({ name }, e) => `${name} ${figures(scene.error[e][0][i])}`)].join(", ")}.`;
 }
 function pick(s, m) {
@@ -173,4 +174,3 @@ onChange(["cost", "error", "rival"], () => {
     showCharts(axes === shownAxes);
     shownAxes = axes;
 });
-addEventListener("resize", () => charts.forEach(({ chart }) => chart.redraw()));

@@ -10,7 +10,7 @@ import pandas as pd
 
 from report.methods import Method
 from report.ranking import all_beaten, log_cost_at, pareto_front
-from report.results import LIGHTS, Metric, Results, interval_ends, section, texts
+from report.results import LIGHTS, Metric, Results, interval_ends, section
 from report.setting import scenes_of as names_of_scenes
 
 COSTS = {"frame": "time of one frame, ms", "frame + light": "time of one frame with its light injected, ms",
@@ -217,19 +217,6 @@ def best_point(scene: Scene, rival: int, rejected: set[int], cost: int, error: i
     return int(best), *((costs[-1], ">") if np.isnan(spent[i]) else (spent[i], bound)), ties
 
 
-def beaten_methods(scenes: list[Scene], methods: list[Method], cost: int, error: int) -> list[int]:
-    """Methods that are surely beaten in every scene: each of their variants is worse than a black or a constant image, or
-    costs no less than one of another method whose error's interval lies below its own."""
-    def is_beaten(scene: Scene, method: int) -> bool:
-        rivals = scene.front(scene.methods != method, cost, error, 2)
-        costs, highs = scene.costs[cost, rivals], scene.errors[error, 2, rivals]
-        members = np.flatnonzero((scene.methods == method) & scene.usable[cost, error])
-        cheaper = np.searchsorted(costs, scene.costs[cost, members], side="right")
-        return bool(((cheaper > 0) & (highs[cheaper - 1] < scene.errors[error, 1, members])).all()) if len(rivals) else not len(members)
-    present = [[scene for scene in scenes if method in scene.methods] for method in range(len(methods))]
-    return [method for method, those in enumerate(present) if those and all(is_beaten(scene, method) for scene in those)]
-
-
 def _nanmedian(values: np.ndarray, axis: int) -> np.ndarray:
     """np.nanmedian() that takes −∞ and says nothing of slices without a number."""
     ordered, count = np.sort(values, axis), (~np.isnan(values)).sum(axis, keepdims=True)
@@ -242,7 +229,7 @@ def _costs(run: Results, table: pd.DataFrame) -> np.ndarray:
     keys = pd.Series(list(zip(passes["variant"], passes["pass"])), index=passes.index, dtype=object)
     is_again = keys.isin(set(keys[passes["phase"] == "frame"]))
     # Build passes that run again where light is new; runs of before the manifest told these have no such cost
-    is_lit = (passes["phase"] == "build") & ~passes["kind"].isin(texts(run.manifest, _UNLIT)) & ~is_again
+    is_lit = (passes["phase"] == "build") & ~passes["kind"].isin(run.manifest.get(_UNLIT, [])) & ~is_again
     of_light = 1 if _UNLIT in run.manifest else math.nan
 
     def total(rows: pd.DataFrame, column: str) -> pd.Series:

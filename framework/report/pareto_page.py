@@ -18,9 +18,7 @@ from report.table import Cell, Table, number
 _SCRIPTS = ("d3", "toolkit.js", "state.js", "matrix.js", "chart.js", "pareto.js")
 _NEEDS = {"frame": "Still light (frame)", "frame + light": "Light that changes (frame + light)",
           "build + frame": "Surfaces that move (build + frame)"}
-_SHORT = {"frame": "frame", "frame + light": "frame + light", "build + frame": "build + frame", "memory": "memory"}
 _UNITS = np.array([[1], [1], [1], [2**20]])  # of costs in charts: ms, MiB
-_MAX_ON_FRONT = 3  # methods that are named
 _MAX_CELLS = 10000  # of the matrix with one cost and error, over all rivals
 _MAX_PICTURES = 300  # variants; of more, those on a front
 _WIDTH, _JPEG_QUALITY = 320, 85  # of pictures, pixels
@@ -68,6 +66,11 @@ class Comparison:
         return np.array([np.isin(np.arange(len(self.methods)), scene.methods) for scene in self.scenes])
 
     @cached_property
+    def costs(self) -> list[int]:
+        """Those of CHARTED that some variant has: runs of earlier versions tell no frame with its light."""
+        return [i for i in range(len(CHARTED)) if any(np.isfinite(scene.costs[i]).any() for scene in self.scenes)]
+
+    @cached_property
     def speed_ups(self) -> pareto.SpeedUps:
         order = sorted(range(len(self.methods)), key=lambda i: (not self.methods[i].is_rival, -self.measured[:, i].sum()))
         return pareto.speed_ups(self.scenes, self.methods, order[:max(1, _MAX_CELLS // self.measured.size)], len(self.errors))
@@ -83,7 +86,7 @@ def render(compared: Comparison, with_images: bool = True) -> str:
     pictures = _pictures(compared) if with_images else [{} for _ in compared.scenes]
     return pages.render(
         "pareto.html.j2", scripts=_SCRIPTS, data=_data(compared), pictures=pages.json_text(pictures),
-        costs=list(enumerate(_SHORT.values())), errors=[(i, error.label) for i, error in enumerate(compared.errors)],
+        costs=[(i, _NEEDS.get(CHARTED[i], CHARTED[i])) for i in compared.costs], errors=[(i, error.label) for i, error in enumerate(compared.errors)],
         first=compared.first, rivals=[(i, compared.methods[rival].name) for i, rival in enumerate(compared.speed_ups.rivals)],
         sentences=sentences(compared), has_rival=compared.rival is not None, notes=_notes(compared), light=compared.light,
         tables=[_method_table(compared), *_rival_tables(compared), *_filled_tables(compared)], runs=[str(run.directory) for run in compared.runs])
@@ -104,7 +107,7 @@ def csv_lines(compared: Comparison):
 def sentences(compared: Comparison) -> list[str]:
     """What to take for still light, light that changes and surfaces that move, and where nothing beats path tracing."""
     if compared.rival is None:
-        return _most_on_fronts(compared)
+        return []
     lines, losses = [], {}
     for cost, need in _NEEDS.items():
         wins: dict[str, list[str]] = {}  # by method: scenes
@@ -113,7 +116,7 @@ def sentences(compared: Comparison) -> list[str]:
             if found and found[1][0] >= 1:
                 method, (value, low, high, _) = found
                 wins.setdefault(method, []).append(f"{scene.name} ({'' if low > 1 else '≈ '}{text.figures(value, 2)}×)")
-            elif compared.speed_ups.count[0, CHARTED.index(cost), compared.first, s] and _has_cost(scene, cost, compared.rival):
+            elif compared.speed_ups.count[0, CHARTED.index(cost), compared.first, s] and compared.measured[s].sum() > 1:
                 losses.setdefault(need, []).append(scene.name)
         if wins:
             listed = [f"{method} in {', '.join(names)}" for method, names in sorted(wins.items(), key=lambda entry: -len(entry[1]))]
@@ -121,29 +124,8 @@ def sentences(compared: Comparison) -> list[str]:
     if losses:
         every = sum(compared.measured[:, compared.rival])
         listed = [f"{need[0].lower()}{need[1:]} in {'every scene' if len(names) == every > 1 else ', '.join(names)}" for need, names in losses.items()]
-        lines.append(f"Filtered path tracing stays ahead: {'; '.join(listed)}.")
+        lines.append(f"Filtered paths stay ahead at most of their errors: {'; '.join(listed)}.")
     return lines
-
-
-def _has_cost(scene: pareto.Scene, cost: str, rival: int) -> bool:
-    """Whether any method but the rival has it: runs of earlier versions tell no frame with its light."""
-    return bool(np.isfinite(scene.costs[list(COSTS).index(cost), scene.methods != rival]).any())
-
-
-def _most_on_fronts(compared: Comparison) -> list[str]:
-    counts = _on_fronts(compared)
-    most = sorted(counts, key=lambda method: -counts[method])[:_MAX_ON_FRONT]
-    of = f"of {len(compared.scenes)} scene{'s' * (len(compared.scenes) > 1)}"
-    listed = "; ".join(f"{compared.methods[method].name} ({counts[method]} {of})" for method in most)
-    return [f"By the time of one frame, most often on the Pareto front: {listed}."] if listed else []
-
-
-def _on_fronts(compared: Comparison) -> dict[int, int]:
-    counts: dict[int, int] = {}
-    for scene in compared.scenes:
-        for method in set(scene.methods[scene.front_of_all(0, compared.first)].tolist()):
-            counts[method] = counts.get(method, 0) + 1
-    return counts
 
 
 def _notes(compared: Comparison) -> list[str]:
@@ -162,7 +144,7 @@ def _data(compared: Comparison) -> dict:
     counts = found.count[..., None] * np.broadcast_to(compared.measured, (*found.count.shape[:3], *compared.measured.shape))
     return {
         "light": compared.light, "rivals": found.rivals, "count": found.count,
-        "costs": [{"key": cost, "name": _SHORT[cost], "label": COSTS[cost].replace("bytes", "MiB")} for cost in CHARTED],
+        "costs": [{"key": cost, "label": COSTS[cost].replace("bytes", "MiB")} for cost in CHARTED],
         "errors": [{"name": error.label} for error in compared.errors],
         "methods": [{"name": method.name, "chain": " + ".join(method.chain), "color": own.color, "mark": own.mark}
                     for method, own in zip(compared.methods, style.styles(len(compared.methods)))],
@@ -181,16 +163,10 @@ def _nested(factors: np.ndarray, counts: np.ndarray) -> list | None | int:
 
 
 def _method_table(compared: Comparison) -> Table:
-    fronts = _on_fronts(compared)
-    beaten = {cost: set(pareto.beaten_methods(compared.scenes, compared.methods, CHARTED.index(cost), compared.first)) for cost in _NEEDS}
     variants = np.bincount(np.concatenate([scene.methods for scene in compared.scenes]), minlength=len(compared.methods))
-    return Table("Methods and their passes",
-                 ["method", "passes", "variants", "scenes with it on the front", "beaten everywhere by"],
-                 [[method.name, " + ".join(method.chain), str(variants[i]), str(fronts.get(i, 0)),
-                   ", ".join(_SHORT[cost] for cost, those in beaten.items() if i in those)]
-                  for i, method in enumerate(compared.methods)],
-                 "Beaten: in every scene each variant is worse than a black or a constant image, or another method costs no "
-                 "more and its error's interval lies below.", (0, 1, 4))
+    return Table("Methods and their passes", ["method", "passes", "variants"],
+                 [[method.name, " + ".join(method.chain), str(count)] for method, count in zip(compared.methods, variants)],
+                 words=(0, 1))
 
 
 def _filled_tables(compared: Comparison) -> list[Table]:
@@ -198,7 +174,7 @@ def _filled_tables(compared: Comparison) -> list[Table]:
     errors = [f"{error.label}{end}" for error in compared.errors for end in ("", " low", " high")]
     return [Table("Speed-ups of the matrix", ["method", "scene", "factor", "low", "high", "errors reached", "of"], words=(0, 1),
                   note="As the switches say; low and high: the ends by the intervals of both errors."),
-            Table("All variants", ["scene", "method", "variant", *_SHORT.values(), *errors], words=(0, 1, 2),
+            Table("All variants", ["scene", "method", "variant", *CHARTED, *errors], words=(0, 1, 2),
                   note="The CSV next to the page has them with more digits, rays and voxel steps.")]
 
 
@@ -212,7 +188,8 @@ def _rival_tables(compared: Comparison) -> list[Table]:
         if found := pareto.best_point(scene, rival, traced, 0, error):
             i, spent, bound, ties = found
             best.append([scene.name, scene.labels[i], str(len(ties)), number(scene.costs[0, i]),
-                         Cell("never", sort="inf") if bound == ">" else number(spent), *map(number, scene.errors[:, 0, i])])
+                         Cell("never", sort="inf") if bound == ">" else number(spent, f"{bound}{text.figures(spent)}"),
+                         *map(number, scene.errors[:, 0, i])])
         for m in np.unique(scene.methods):
             ratios = pareto.errors_at_equal_cost(scene, rival, m, 0, error)
             if ratios and m != rival:
@@ -222,8 +199,8 @@ def _rival_tables(compared: Comparison) -> list[Table]:
                               str(len(values)), "≈" if is_open else ""])
     return [Table("Most accurate variant that is no slower than filtered path tracing at its error",
                   ["scene", "variant", "ties", "frame, ms", "path tracing, ms", *(error.label for error in compared.errors)], best,
-                  "ties: other variants whose intervals overlap this one's. never: path tracing has no variant of as little error.",
-                  (0, 1)),
+                  "ties: other variants whose intervals overlap this one's. never: path tracing has no variant of as little "
+                  "error. <: its cheapest variant has less.", (0, 1)),
             Table(f"{label} at equal time of a frame", ["method", "scene", "least", "greatest", "of times", "open"], equal,
                   "The least error in no more time than filtered path tracing takes, over that one's; below 1 the method is more "
                   "accurate. ≈: the intervals leave that open.", (0, 1))]

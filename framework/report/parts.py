@@ -26,6 +26,14 @@ class Region(NamedTuple):
     table: Table
 
 
+class Shown(NamedTuple):
+    """An image with its caption."""
+
+    picture: images.Picture
+    title: str
+    note: str
+
+
 class Segment(NamedTuple):
     """A part of a bar, in percent of the longest bar. css: "below" where it is less than 0."""
 

@@ -37,7 +37,6 @@ function drawCharts() {
     for (const { host, shown, chart } of drawn) if (host.clientWidth) chart.update(shown.lines ? lineContent(shown) : errorContent(shown), true);
 }
 onChange(["light", "time", "filter"], drawCharts);
-addEventListener("resize", drawCharts);
 
 const filterField = document.querySelector('input[name="filter"]');
 const expose = (stops) => set({ exposure: String(Number(state.exposure) + stops) });

@@ -20,8 +20,8 @@ class ReportError(Exception):
 
 @dataclass(frozen=True)
 class Metric:
-    """One measure of an image against the reference, as the manifest lists it. `better` is one of BETTER: lower,
-    higher, or closer to 1. One that has an interval is freed of the reference's noise."""
+    """One measure of an image against the reference, as the manifest lists it. `better`: "low", "high"
+    or "one", closer to 1. One that has an interval is freed of the reference's noise."""
 
     key: str
     label: str
@@ -37,7 +37,6 @@ class Metric:
         return abs(value - 1.0) if self.better == "one" else value
 
 
-BETTER = ("low", "high", "one")
 LIGHTS = {"total": "", "indirect": "indirect_"}  # name -> column prefix
 INTERVAL = ("_low", "_high")  # what columns of the ends of a 95 % confidence interval add to the metric's name
 IMAGES = {"total": ("final.png", "flip.png"), "indirect": ("indirect.png", "indirect_flip.png")}
@@ -56,12 +55,12 @@ class Results:
     frames: one row for each variant and compared frame, as in frames.csv, scores in columns; may be empty.
     values: one row for each variant, pass, name and frame, as in values.csv: what passes reported; frame is NaN in the
         build; may be empty.
-    manifest: the run's manifest.json, {} where it is absent or broken.
-    metrics: the manifest's list, in the order in which tables show them; the first three are charted.
+    manifest: the run's manifest.json.
+    metrics: the manifest's list, in the order in which tables show them; the first ones are charted.
     seed_metrics: likewise, bias and noise of nRMSE apart, of runs with a second seed.
     temporal_metrics: likewise, of differences of successive frames; the first one is of each frame too.
     sweep_keys: the columns of `variants` that the sweep varied.
-    warnings: what was absent or odd in the files, for the reader's eye, after the run's own warnings.
+    warnings: the run's own, and what was odd in the files.
     """
 
     directory: Path
@@ -89,11 +88,6 @@ class Results:
         tables = {"variants": self.variants, "passes": self.passes, "values": self.values, "frames": self.frames}
         return replace(self, **{name: table[table["variant"].isin(chosen)] for name, table in tables.items()})
 
-    @property
-    def charted(self) -> tuple[Metric, ...]:
-        """The metrics that have a chart."""
-        return self.metrics[:3]
-
     def full(self, variant: str) -> str:
         """Number and name, as sentences call it."""
         return f"{self.numbers[variant]} ({self.names[variant]})"
@@ -103,8 +97,7 @@ class Results:
         if len(variants) <= 3:
             return text.joined(map(self.full, variants))
         numbers = [self.numbers[name] for name in variants]
-        more = len(numbers) - limit
-        return f"{', '.join(numbers[:limit])} and {more} more" if more > 0 else text.joined(numbers)
+        return text.first(numbers, limit) if len(numbers) > limit else text.joined(numbers)
 
     @property
     def missing(self) -> list[str]:
@@ -113,26 +106,24 @@ class Results:
         return [name for name in section(self.manifest, "variants") if name not in known]
 
     def sessions(self) -> list[tuple[str, list[str]]]:
-        """When each process that measured finished variants began (UTC, "" where that is unknown), and these variants. More
-        than one where the run was resumed."""
+        """When each process that measured finished variants began (UTC), and these variants. More than one where the run was
+        resumed."""
         finished = set(self.ok["variant"])
-        found = [(str(entry.get("started", "")), [name for name in texts(entry, "variants") if name in finished])
-                 for entry in entries(self.manifest, "sessions")]
+        found = [(entry["started"], [name for name in entry["variants"] if name in finished])
+                 for entry in self.manifest.get("sessions", [])]
         return [(began, names) for began, names in found if names]
 
     def lights(self) -> list[str]:
         """Which of "total" and "indirect" have any score or image, always with "total"."""
-        def present(light: str) -> bool:
-            columns = [LIGHTS[light] + metric.key for metric in self.metrics]
-            return bool(self.ok[columns].notna().any(axis=None)) or any(
-                self.image(folder, IMAGES[light][0]) for folder in ["reference", *self.ok["variant"]])
-
-        return ["total"] + (["indirect"] if present("indirect") else [])
+        columns = [LIGHTS["indirect"] + metric.key for metric in self.metrics]
+        has_indirect = self.ok[columns].notna().any(axis=None) or any(
+            self.image(folder, IMAGES["indirect"][0]) for folder in ["reference", *self.ok["variant"]])
+        return ["total", "indirect"] if has_indirect else ["total"]
 
     @functools.cached_property
     def references(self) -> list[dict]:
         """The records of the run's references; more than one where the sweep varies what is lit or seen."""
-        return entries(self.manifest, "references") or [section(self.manifest, "reference")]
+        return self.manifest.get("references") or [section(self.manifest, "reference")]
 
     def reference_of(self, variant: str) -> dict | None:
         """The record of a variant's reference, None where several are and none names the variant."""
@@ -140,7 +131,7 @@ class Results:
 
     @functools.cached_property
     def _references_by_variant(self) -> dict[str, dict]:
-        return {variant: record for record in reversed(self.references) for variant in texts(record, "variants")}
+        return {variant: record for record in reversed(self.references) for variant in record["variants"]}
 
     def reference_folder(self, variant: str) -> str | None:
         """The folder below images/ of a variant's reference, None where it is unknown."""
@@ -149,7 +140,7 @@ class Results:
 
     def graph_of(self, variant: str) -> list[dict]:
         """The passes of a variant with their parameters, as the manifest lists them."""
-        return entries(section(self.manifest, "variants"), variant)
+        return section(self.manifest, "variants").get(variant, [])
 
     def noise(self, column: str, reference: dict | None) -> float:
         """About what a perfect image scores against a noisy reference, NaN where the score is freed of noise."""
@@ -216,24 +207,10 @@ def number(value) -> float:
 
 
 def section(parent: dict, key: str) -> dict:
-    """parent[key] where that is an object, {} otherwise."""
-    value = parent.get(key)
-    return value if isinstance(value, dict) else {}
-
-
-def entries(parent: dict, key: str) -> list[dict]:
-    """The objects in parent[key] where that is a list, [] otherwise."""
-    value = parent.get(key)
-    return [entry for entry in value if isinstance(entry, dict)] if isinstance(value, list) else []
-
-
-def texts(parent: dict, key: str) -> list[str]:
-    """The entries of parent[key] as text where that is a list, [] otherwise."""
-    value = parent.get(key)
-    return list(map(str, value)) if isinstance(value, list) else []
+    """parent[key], {} where it is absent or null."""
+    return parent.get(key) or {}
 
 
 def masks_of(manifest: dict) -> dict[str, dict]:
     """The conditions of each mask by its name. Scores of its pixels have columns that end with @ and the name."""
-    masks = section(section(section(manifest, "config"), "measure"), "masks")
-    return {name: conditions for name, conditions in masks.items() if isinstance(conditions, dict)}
+    return section(section(section(manifest, "config"), "measure"), "masks")

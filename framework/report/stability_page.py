@@ -101,22 +101,13 @@ def csv_lines(cells: list[Cell]) -> Iterator[list]:
         yield [row.profile, row.scene, row.measure, cell.method, value, f"{cell.limit:g}", int(cell.fails), reason(cell)]
 
 
-def _percent_cell(cell: Cell | None) -> table.Cell | str:
-    return "" if cell is None else table.number(100 * cell.value, percent(cell.value), title=reason(cell) or cell.row.why,
-                                                mark="worse" if cell.fails else "")
-
-
-def _tables(cells: list[Cell]) -> list[Table]:
-    """All cells, and those that fail with their reasons."""
-    methods = methods_of(cells)
-    every = Table("All cells", ["scene", "measure", "limit", *methods, "why that limit"], words=(0, 1, 3 + len(methods)),
-                  note="In percent, of the indirect light. ▼: over the limit. A cell tells its reason under the pointer.",
-                  rows=[[row.scene, row.measure, limits(row), *map(_percent_cell, found), row.why] for row, found in rows_of(cells)])
-    failing = Table("Failing cells and their reasons", ["scene", "measure", "method", "value", "limit", "reason"], words=(0, 1, 2, 5),
-                    note="In percent, of the indirect light.",
-                    rows=[[cell.row.scene, cell.row.measure, cell.method, _percent_cell(cell), percent(cell.limit), reason(cell)]
-                          for cell in cells if cell.fails])
-    return [every, failing]
+def _table(cells: list[Cell]) -> Table:
+    found = Table("All cells", ["scene", "measure", "method", "value, %", "limit, %", "why it fails", "why that limit"],
+                  words=(0, 1, 2, 5, 6), note="Of the indirect light. ▼: over the limit.")
+    for cell in cells:
+        value = table.number(100 * cell.value, percent(cell.value), mark="worse" if cell.fails else "")
+        found.add(cell.row.scene, cell.row.measure, cell.method, value, percent(cell.limit), reason(cell), cell.row.why)
+    return found
 
 
 def _words(cell: Cell) -> str:
@@ -151,5 +142,5 @@ def _data(cells: list[Cell]) -> dict:
 def render(cells: list[Cell], directory: Path) -> str:
     """The whole page, self-contained. @throws ReportError where an image is no PNG."""
     present = {cell.row.measure for cell in cells}
-    return pages.render("stability.html.j2", scripts=_SCRIPTS, data=_data(cells), summary=summary(cells), tables=_tables(cells),
+    return pages.render("stability.html.j2", scripts=_SCRIPTS, data=_data(cells), summary=summary(cells), cells=_table(cells),
                         directory=str(directory), measures=[(name, meaning) for name, (_, meaning) in MEASURES.items() if name in present])

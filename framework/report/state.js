@@ -49,30 +49,19 @@ function next(key) {
 }
 
 // The address holds what differs from the defaults, in addition to the anchor that it may lead to.
-const addressParts = () => location.hash.slice(1).split("&").filter((part) => part);
-function decoded(text) {
-    try {
-        return decodeURIComponent(text);
-    } catch {
-        return text;
-    }
-}
+const addressParts = () => [...new URLSearchParams(location.hash.slice(1))];
+const anchors = () => addressParts().filter(([, value]) => !value).map(([name]) => name);
 function readAddress() {
-    const pairs = addressParts().filter((part) => part.includes("="));
-    set(Object.fromEntries(pairs.map((part) => [part.slice(0, part.indexOf("=")), decoded(part.slice(part.indexOf("=") + 1))])), false);
-    const anchor = addressParts().find((part) => !part.includes("="));
-    const target = anchor && byId(anchor);
+    set(Object.fromEntries(addressParts()), false);
+    const target = byId(anchors()[0]);
     if (!target) return;
     for (const folded of [target, target.firstElementChild?.nextElementSibling]) if (folded?.tagName === "DETAILS") folded.open = true;
     if (target.hidden) showAllRows(target.closest("table"));
     target.scrollIntoView();
 }
 function writeAddress() {
-    const parts = addressParts().filter((part) => !part.includes("="));
-    for (const key of controls.keys()) {
-        if (state[key] !== defaults[key]) parts.push(`${key}=${encodeURIComponent(state[key])}`);
-    }
-    history.replaceState(null, "", parts.length ? `#${parts.join("&")}` : location.pathname + location.search);
+    const changed = [...controls.keys()].filter((key) => state[key] !== defaults[key]).map((key) => [key, state[key]]);
+    history.replaceState(null, "", `#${[...anchors(), String(new URLSearchParams(changed))].filter((part) => part).join("&")}`);
 }
 
 document.addEventListener("input", ({ target }) => {

@@ -5,19 +5,20 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from report import noise, pareto, text
+import pandas as pd
+
+from report import pareto, text
 from report.methods import methods_of
-from report.ranking import all_beaten, score_marks
-from report.results import LIGHTS, Metric, Results
+from report.ranking import score_marks
+from report.results import LIGHTS, Metric, Results, section
 from report.setting import comparisons
 
-_TENTH_DB = 10.0  # a tenth of a squared error, in dB
+_IMAGES = {"total": "final", "indirect": "indirect"}  # light -> image, as the manifest calls it
 _MAX_MISSING = 6  # variants that are listed by name
-_MAX_SESSIONS = 4  # that are told apart
 
 
 def summary(results: Results, light: str) -> list[str]:
-    """Sentences on the best error, the time at equal error, the fastest variant and what failed.
+    """Sentences on what failed, the best error, the time at equal error, and noise.
 
     @param light "indirect" or "total".
     """
@@ -33,21 +34,18 @@ def summary(results: Results, light: str) -> list[str]:
         found = list(filter(None, (_of_scene(scene, of, len(compared) > 1, light, metric) for scene, of in compared)))
         if found:
             found[0] = f"Of the {light} light, {found[0]}" + (f" {metric.label}: {metric.meaning.split(';')[0]}." if metric.meaning else "")
-        said += found + noise.sentences(results, light)
-    said += _fastest(results, light) if len(compared) == 1 else []
-    return said + _sessions(results) + _worse_than_nothing(results, light)
+        said += found + _noise(results, light)
+    return said + _sessions(results)
 
 
 def unfinished(results: Results) -> str:
     """What of a run that has not ended is there and what is missing; "" of one that has."""
-    if not results.manifest or results.manifest.get("finished"):
+    if results.manifest.get("finished"):
         return ""
     said, missing = "The run had not ended when this page was made.", results.missing
     if total := len(results.variants) + len(missing):
         said += f" {len(results.ok)} of {_count(total, 'variant')} {'is' if total == 1 else 'are'} finished"
-        more = len(missing) - _MAX_MISSING
-        said += f"; missing: {', '.join(missing[:_MAX_MISSING])}" if missing else ""
-        said += f" and {more} more." if more > 0 else "."
+        said += (f"; missing: {text.first(missing, _MAX_MISSING)}" if missing else "") + "."
     return said
 
 
@@ -58,11 +56,11 @@ def _of_scene(scene: str, results: Results, has_others: bool, light: str, metric
     scores = results.ok.set_index("variant")[LIGHTS[light] + metric.key].dropna()
     if len(scores) <= has_others:
         return ""
-    best, ties = scores.map(metric.rank).idxmin(), _ties(results, light, metric)
+    best, marks = scores.map(metric.rank).idxmin(), score_marks(results, metric, LIGHTS[light] + metric.key)
+    ties = [name for name in results.ok["variant"] if marks.get(name) == "tie"]
     own = scores[ties or [best]]
     who = f"{results.listed(ties)} tie" if ties else results.full(best)
     said = f"{f'{scene}: ' if has_others else ''}lowest {metric.label} {' to '.join(dict.fromkeys(map(text.figures, (own.min(), own.max()))))}, {who}."
-    said += _what_tells_apart(results, light, ties) if 2 * len(ties) > len(scores) else ""
     return f"{said}{_speed_up(results, light, metric)}"
 
 
@@ -87,67 +85,27 @@ def _speed_up(results: Results, light: str, metric: Metric) -> str:
             f"{found.count[0, 0, 0, 0]} errors).")
 
 
-def _ties(results: Results, light: str, metric: Metric) -> list[str]:
-    marks = score_marks(results, metric, LIGHTS[light] + metric.key)
-    return [name for name in results.ok["variant"] if marks.get(name) == "tie"]
-
-
-def _what_tells_apart(results: Results, light: str, ties: list[str]) -> str:
-    """Less noise of their own where that is the larger part of all their errors; more samples in the reference where its
-    noise is over a tenth of the ties' squared error, by PSNR of the previews; else nothing that the reference could bring:
-    the ties share an error."""
-    if noise.dominated(results, light).issuperset(ties):
-        return " Most variants tie, within noise of their own."
-    reference = results.reference_of(ties[0])
-    column = LIGHTS[light] + "psnr_db"
-    floor = results.noise(column, reference)
-    scores = results.ok.set_index("variant").get(column)
-    if scores is None or not math.isfinite(floor) or not scores[ties].median() < floor - _TENTH_DB:
-        spp = (reference or {}).get("spp")
-        now = f", now {spp}" if spp else ""
-        return f" Most variants tie: more samples in the reference tell them apart (raise reference.spp{now})."
-    return (" Most variants tie, and not for the reference's noise, which is less than a tenth of their squared error: they "
-            "share an error. ./voxray explain CONFIG says which stage it comes from.")
-
-
-def _fastest(results: Results, light: str) -> list[str]:
-    """The fastest of those that are better than no image at all, where some are."""
-    rows = results.ok.set_index("variant").dropna(subset="frame_ms_median")
-    if rows.empty:
+def _noise(results: Results, light: str) -> list[str]:
+    """Whose error is noise for the larger part, and which parameters lower it, where a second seed tells."""
+    split = [results.ok.set_index("variant")[LIGHTS[light] + metric.key] for metric in results.seed_metrics]
+    bias_and_noise = pd.concat(split, axis=1).dropna() if split else pd.DataFrame()
+    if bias_and_noise.empty:
         return []
-    beaten = {name for metric in results.metrics[:1]
-              for name in all_beaten(results, metric, LIGHTS[light] + metric.key)}
-    usable = rows[~rows.index.isin(beaten)]
-    but = ", of those better than a constant image" if 0 < len(usable) < len(rows) else ""
-    times = (rows if usable.empty else usable)["frame_ms_median"]
-    first = times.idxmin()
-    ties = [name for name in times.index[times <= max(times.min(), rows["frame_ms_p95"][first])] if name != first]
-    tied = f"; within its spread {results.listed(ties)}" if ties else ""
-    return [f"Fastest frame{but}: {results.full(first)}, {text.figures(times.min())} ms{tied}."]
+    is_noise = bias_and_noise.iloc[:, 1] > bias_and_noise.iloc[:, 0]
+    noisy = list(is_noise.index[is_noise])
+    if not noisy:
+        return ["Bias is the larger part of every variant's error."]
+    lower = section(section(results.manifest, "noise_parameters"), _IMAGES[light])
+    parameters = ", ".join(dict.fromkeys(path for name in noisy for path in lower.get(name, [])))
+    return [f"Noise is the larger part of the error of {results.listed(noisy)}"
+            + (f"; it falls as these rise: {parameters}." if parameters else ".")]
 
 
 def _sessions(results: Results) -> list[str]:
     """Where times come from, if the run was resumed or done in parts: the machine may have been busier during one."""
-    sessions = results.sessions()
-    if len(sessions) < 2:
-        return []
-    told = [f"{_count(len(names), 'variant')} of {began or 'an unknown time'}" for began, names in sessions[:_MAX_SESSIONS]]
-    more = f" and {len(sessions) - _MAX_SESSIONS} more" if len(sessions) > _MAX_SESSIONS else ""
-    return [f"Times come from {len(sessions)} processes, for the run was resumed or done in parts ({', '.join(told)}{more}): "
-            "compare those of different ones only where the machine was equally idle."]
-
-
-def _worse_than_nothing(results: Results, light: str) -> list[str]:
-    # Variants that are worse in the same metrics share a sentence.
-    worse: dict[str, list[str]] = {}
-    for metric in results.charted:
-        for name in all_beaten(results, metric, LIGHTS[light] + metric.key):
-            worse.setdefault(name, []).append(metric.label)
-    groups: dict[tuple[str, ...], list[str]] = {}
-    for name, labels in worse.items():
-        groups.setdefault(tuple(labels), []).append(name)
-    return [f"Worse than a black or a constant image in {text.joined(labels)}: {results.listed(names)}."
-            for labels, names in groups.items()]
+    count = len(results.sessions())
+    return [f"Times come from {count} processes, for the run was resumed or done in parts: compare those of different ones "
+            "only where the machine was equally idle."] if count > 1 else []
 
 
 def _count(count: int, noun: str) -> str:

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterable
 
 import yaml
-from markupsafe import Markup, escape
 
 
 def figures(value: float, digits: int = 3) -> str:
@@ -28,6 +26,12 @@ def joined(words: Iterable) -> str:
     """a, b and c"""
     *first, last = [*map(str, words)] or [""]
     return f"{', '.join(first)} and {last}" if first else last
+
+
+def first(words: list[str], limit: int) -> str:
+    """The first words, and how many more there are."""
+    more = len(words) - limit
+    return ", ".join(words[:limit]) + (f" and {more} more" if more > 0 else "")
 
 
 def cost(value: float) -> str:
@@ -73,17 +77,13 @@ def size(value: float) -> str:
     return "–" if math.isnan(value) else f"{figures(scaled)} {unit}{'iB' if unit else 'B'}"
 
 
-def breakable(value: str) -> Markup:
-    """`value` as HTML that may be broken after the marks between its words; copied, it is `value` again."""
-    return Markup(re.sub(r"([,=._/])", r"\1<wbr>", str(escape(value))))
-
-
-def yaml_of(value) -> str:
-    """A JSON value as YAML, what holds no list and no map on one line."""
-    dumped = yaml.safe_dump(value, sort_keys=False, allow_unicode=True, default_flow_style=None, width=120)
+def yaml_of(value, is_one_line: bool = False) -> str:
+    """A JSON value as YAML, what holds no list and no map on one line, or all of it."""
+    dumped = yaml.safe_dump(value, sort_keys=False, allow_unicode=True, default_flow_style=is_one_line or None,
+                            width=math.inf if is_one_line else 120)
     return dumped.removesuffix("...\n").strip()
 
 
 def plain(value) -> str:
-    """A JSON value for a reader: text without quotes, everything else as YAML."""
-    return value if isinstance(value, str) else yaml_of(value)
+    """A JSON value for a reader: text without quotes, everything else as YAML on one line."""
+    return value if isinstance(value, str) else yaml_of(value, True)

@@ -67,7 +67,6 @@ class Results(Run):
             "final": dict.fromkeys(VARIANTS, ["inject.rays_per_light", "direct_shadow_rays.light_samples"])})
         page = self.bytes("out", "report.html").decode()
         self.assertIn("resolution 16", page)
-        self.assertIn("Bias and noise are not told apart: set measure.second_seed: true.", page)
         self.assertNotRegex(page, r"(src|href)=[\"']https?:")
 
     def test_two_runs_are_bit_identical(self):

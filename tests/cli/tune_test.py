@@ -52,6 +52,9 @@ class Tune(CommandTest):
         for row in full:  # The same images as in the sweep
             self.assertEqual(row["excess"], sweep[row["variant"]]["excess"])
 
+        self.assertIn("Page: out/tune.html", done.stdout)
+        self.assertIn(f"after {len(trail)} trials".encode(), self.bytes("out", "tune.html"))
+
         # The chosen config is one that runs, without a sweep, and gives what the search found
         self.expect(0, "run", "out/chosen.yaml", "--tracer", "embree", "--out", "again", "--quiet", "--no-report")
         rows = self.rows("again", "results.csv")

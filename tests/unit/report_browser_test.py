@@ -211,6 +211,20 @@ class InABrowser(unittest.TestCase):
         self.open("filter=rsm")
         self.assertEqual(self.browser.run(VISIBLE.replace("e.offsetParent", "e.getBoundingClientRect().width"), "#speed .mark.faint"), 3 * 3)
 
+    def test_names_in_charts_do_not_cover_each_other(self):
+        # Those of lines for the noise, a black and a constant image among them
+        for width in (1400, 400):
+            self.browser.resize(width, 900)
+            self.open()
+            boxes = self.browser.run("""return [...document.querySelectorAll('#speed .plot')].filter((plot) => plot.offsetParent).map((plot) =>
+                [...plot.querySelectorAll('.name, text.level')].map((name) => {
+                const box = name.getBoundingClientRect(); return [box.left, box.top, box.right, box.bottom]; }))""")
+            self.assertEqual([len(names) for names in boxes], [8, 8, 9])
+            for names in boxes:
+                for i, a in enumerate(names):
+                    for b in names[:i]:
+                        self.assertFalse(a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3], (width, a, b))
+
     def test_sequences_play_in_a_loop(self):
         self.assertEqual(self.browser.run(VISIBLE, ".film img"), 6)
         self.assertTrue(self.browser.run("return [...document.querySelectorAll('.film img')].every((i) => i.complete && i.naturalWidth === 320)"))

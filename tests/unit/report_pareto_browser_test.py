@@ -9,7 +9,7 @@ import xml.etree.ElementTree
 from pathlib import Path
 
 import browser
-import report_support  # noqa: F401
+from report_support import made_up
 import pareto_results
 
 from report import pareto_page
@@ -170,15 +170,31 @@ class InABrowser(unittest.TestCase):
             self.press(Keys.SPACE)
             self.assertIn("rays", self.browser.run(names))
 
+    def check_names(self, counts: list[int]):
+        """Charts have so many names; none covers another one, or leaves the chart."""
+        scenes = self.browser.run("""return [...document.querySelectorAll('.scene')].map((scene) => ['svg.chart', '.name'].map((selector) =>
+            [...scene.querySelectorAll(selector)].map((part) => { const box = part.getBoundingClientRect(); return [box.left, box.top, box.right, box.bottom]; })))""")
+        self.assertEqual([len(names) for _, names in scenes], counts)
+        for [chart], names in scenes:
+            for i, a in enumerate(names):
+                self.assertTrue(chart[0] <= a[0] and a[2] <= chart[2] and chart[1] - 1 <= a[1] and a[3] <= chart[3], (a, chart))
+                for b in names[:i]:
+                    self.assertFalse(a[0] < b[2] and b[0] < a[2] and a[1] < b[3] and b[1] < a[3], (a, b))
+
     def test_names_do_not_cover_each_other(self):
         for _ in self.at_both_widths():
-            boxes = self.browser.run("""return [...document.querySelectorAll('.scene')].map((scene) => [...scene.querySelectorAll('.name')].map((name) => {
-                const box = name.getBoundingClientRect(); return [box.left, box.top + 2, box.right, box.bottom - 2]; }))""")
-            for scene in boxes:
-                self.assertGreater(len(scene), 10)
-                for i, a in enumerate(scene):
-                    for b in scene[:i]:
-                        self.assertFalse(a[0] < b[2] - 4 and b[0] < a[2] - 4 and a[1] < b[3] and b[1] < a[3], (a, b))
+            self.check_names(self.browser.run("return [...document.querySelectorAll('.scene')].map((scene) =>"
+                                              " [...scene.querySelectorAll('.curve')].filter((line) => line.getAttribute('d')).length)"))
+
+    def test_names_of_fronts_that_end_at_one_point_do_not_cover_each_other(self):
+        rows = [made_up.variant(f"method-{i}", 100 + i, 0.1 + 0.001 * (i % 4), 0.1 + 0.001 * (i % 4), name=f"method of many, {i}") for i in range(14)]
+        run = made_up.manifest([]) | {"variants": {row["variant"]: [{"pass": f"gather_{i}"}] for i, row in enumerate(rows)}}
+        page = self.root / "crowded.html"
+        pareto_page.write(page, [made_up.write_results(self.root / "crowded", rows, run, images=False)], "nrmse", "indirect")
+        for size in ((1400, 900), (400, 800)):
+            self.browser.resize(*size)
+            self.browser.open(page)
+            self.check_names([14])
 
     def test_dragging_zooms_and_escape_shows_all(self):
         ticks = "return [...document.querySelectorAll('#scene-0 .axis text')].map((tick) => tick.textContent)"
@@ -232,13 +248,16 @@ class InABrowser(unittest.TestCase):
             self.assertEqual(self.browser.run(display, selector) != "none", is_shown, selector)
         self.assertEqual(self.browser.run("return getComputedStyle(document.body).backgroundColor"), "rgb(255, 255, 255)")
 
-    def test_large_pages_open_soon(self):
-        self.browser.resize(1400, 900)
+    def test_large_pages_open_soon_and_scroll_down_alone(self):
         for scenes, copies in ((pareto_results.SCENES, 1), (("cornell",), 244)):
+            self.browser.resize(1400, 900)
             page = self.root / f"{copies}.html"
             pareto_page.write(page, [pareto_results.write(self.root / str(copies), scenes, copies, images=False)], "nrmse", "indirect")
             print(f"{41 * len(scenes) * copies} variants: {page.stat().st_size / 1e6:.1f} MB, opened in {self.browser.open(page):.1f} s", flush=True)
             self.assertEqual(self.browser.console(), [])
+            for width in (1280, 1000):
+                self.browser.resize(width, 900)
+                self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), width)
 
 
 if __name__ == "__main__":

@@ -28,17 +28,7 @@ class Comparing(ReportTest):
             row.update(made_up.spread("nrmse", row["nrmse"] - 0.02, row["nrmse"] + 0.02))
         results = self.results(rows)
         self.assertEqual(ranking.score_marks(results, NRMSE, "nrmse"), {"a": "tie", "b": "tie"})
-        self.assertEqual(self.summary(results)[0],
-                         "Of the total light, lowest nRMSE 0.200 to 0.230, 1 (a) and 2 (b) tie. Most variants tie: more "
-                         "samples in the reference tell them apart (raise reference.spp, now 64). nRMSE: what nRMSE measures.")
-        # The reference's noise is a tenth of their squared error where it lies 10 dB above.
-        for floor, explains in ((35.6, False), (35.8, True)):  # the ties have 26 and 25.4 dB
-            noise = made_up.manifest([])["reference"] | {"psnr_db_noise": floor}
-            said = self.summary(self.results(rows, reference=noise))[0]
-            self.assertEqual(("voxray explain" in said, "raise reference.spp" in said), (explains, not explains), said)
-        # Less noise of their own is asked for before a better reference
-        grainy = [dict(row, bias_nrmse=0.1, noise_nrmse=0.2) for row in rows]
-        self.assertIn("tie. Most variants tie, within noise of their own.", self.summary(self.results(grainy))[0])
+        self.assertEqual(self.summary(results)[0], "Of the total light, lowest nRMSE 0.200 to 0.230, 1 (a) and 2 (b) tie. nRMSE: what nRMSE measures.")
         # Ties that look alike have one number.
         alike = [dict(row, nrmse=0.2 + 0.0001 * i) for i, row in enumerate(rows[:2])]
         self.assertIn("lowest nRMSE 0.200, 1 (a) and 2 (b) tie.", self.summary(self.results(alike))[0])
@@ -180,13 +170,11 @@ class Comparing(ReportTest):
         self.assertEqual(ranking.score_marks(results, NRMSE, "nrmse"),
                          {"room lookup": "best", "room paths": "best", "hall lookup": "best", "hall paths": "best"})
         self.assertEqual(ranking.cost_marks(results, "frame_ms_median"), {"room lookup": "best", "hall cones": "best"})
-        said = self.summary(results)
-        self.assertEqual(said[:2], [
+        self.assertEqual(self.summary(results), [
             "Of the total light, room: lowest nRMSE 0.100, 1 (lookup). At equal nRMSE lookup is 4.0 times as fast as paths (up to "
             "4.0 within the intervals; that leaves open which is faster; it reaches 1 of 1 errors). nRMSE: what nRMSE measures.",
             "hall: lowest nRMSE 0.300, 3 (lookup). At equal nRMSE lookup is 8.0 times as fast as paths (up to 8.0 within the "
             "intervals; that leaves open which is faster; it reaches 1 of 1 errors)."])
-        self.assertNotIn("Fastest frame", " ".join(said))
 
     def test_the_cost_of_an_error(self):
         costs, reached = (10, 40, 160), (0.4, 0.2, 0.1)

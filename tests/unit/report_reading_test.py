@@ -27,12 +27,6 @@ class Reading(ReportTest):
         self.assertEqual(results.variants["nrmse"][1], 0.2)
         self.assertTrue(math.isnan(results.variants["indirect_nrmse"][0]))
 
-    def test_last_of_repeated_rows_holds(self):
-        rows = [made_up.failed("a", "killed"), made_up.variant("b", 20, 0.2), made_up.variant("a", 10, 0.3)]
-        results = load(made_up.write_results(self.directory, rows, made_up.manifest([]), images=False))
-        self.assertEqual(list(results.variants["status"]), ["ok", "ok"])
-        self.assertTrue(any("repeated" in warning for warning in results.warnings))
-
     def test_no_results(self):
         self.directory.mkdir(parents=True)
         with self.assertRaisesRegex(ReportError, "no such file"):
@@ -44,6 +38,18 @@ class Reading(ReportTest):
         self.assertEqual(status, 2)
         self.assertRegex(errors, "no column 'variant'")
         self.assertEqual(errors.count("\n"), 1)
+
+    def test_broken_files_are_refused_by_name(self):
+        for name, content, words in (("passes.csv", "what,is\nthis,here\n", "passes.csv: has no column 'variant'"), ("passes.csv", None, "passes.csv: no such file"),
+                                     ("values.csv", "what,is\nthis,here\n", "values.csv: has no column 'variant'"), ("frames.csv", "variant\na\n", "no column 'frame'"),
+                                     ("manifest.json", '{"commit": ', "manifest.json: cannot read"), ("manifest.json", None, "manifest.json: cannot read")):
+            made_up.write_results(self.directory, [made_up.variant("a", 10, 0.3)], made_up.manifest([]), images=False)
+            path = self.directory / name
+            path.write_text(content) if content else path.unlink()
+            status, errors = self.run_program()
+            self.assertEqual(status, 2)
+            self.assertIn(words, errors)
+            path.unlink(missing_ok=True)
 
 
 class Writing(ReportTest):
@@ -78,7 +84,6 @@ class Writing(ReportTest):
                          ["0.0123", "12.3", "1\u202f234", "10.0", "0", "–", "∞", "1.00e-09"])
         self.assertEqual(text.size(3 * 2**20), "3.00 MiB")
         self.assertEqual(text.count(262144), "262 k")
-        self.assertEqual(text.breakable("a.b=<i>"), "a.<wbr>b=<wbr>&lt;i&gt;")
 
     def test_config_as_yaml(self):
         config = {"name": "x y", "image": {"width": 8}, "list": [1, 2], "graph": [{"pass": "a", "n": 1}],

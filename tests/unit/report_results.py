@@ -124,10 +124,10 @@ def save_image(path: Path, error: float, size: tuple[int, int], grey: bool = Fal
     Image.fromarray((pixels.clip(0, 1) * 255).astype(np.uint8)).save(path)
 
 
-def write_results(directory: Path, rows: list[dict], run: dict | None, *, reference: bool = True,
+def write_results(directory: Path, rows: list[dict], run: dict, *, reference: bool = True,
                   indirect: bool = True, images: bool = True, floats: bool = False,
                   size: tuple[int, int] = SIZE) -> Path:
-    """Writes a results folder; `run` is its manifest, None for none. `floats`: with EXR files of radiance()."""
+    """Writes a results folder; `run` is its manifest. `floats`: with EXR files of radiance()."""
     rows = [{"name": row["variant"], **row} for row in rows]
     text = ("variant", "name", "status", "error", "device", "tracer")
     numbers = [*COSTS, *SCORES, *(f"indirect_{key}" for key in SCORES)]
@@ -140,8 +140,7 @@ def write_results(directory: Path, rows: list[dict], run: dict | None, *, refere
     write_csv(directory / "results.csv", columns, rows)
     write_csv(directory / "passes.csv", ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays",
                                           "voxel_steps", "memory_bytes", "scratch_bytes", "dispatches", "host_waits", "host_bytes"], passes(rows))
-    if run is not None:
-        (directory / "manifest.json").write_text(json.dumps(run), encoding="utf-8")
+    (directory / "manifest.json").write_text(json.dumps(run), encoding="utf-8")
 
     folders = [("reference", 0.0)] * reference
     folders += [(row["variant"], row["nrmse"]) for row in rows if row["status"] == "ok"]

@@ -7,7 +7,7 @@ from unittest import mock
 
 from report_support import Page, ReportTest, made_up, numbers_of
 
-from report import charts, details, make_report, ranking, selection, style
+from report import charts, make_report, ranking, selection
 from report.load import load
 
 
@@ -82,16 +82,6 @@ class Layers(unittest.TestCase):
         self.assertEqual(ranking.pareto_layers(points, 3), [0, 1, 3])
         self.assertEqual(ranking.pareto_layers(points, 9), [0, 1, 3, 2, 4, 5])
         self.assertEqual(ranking.pareto_layers(points, 4), [0, 1, 3, 2])
-
-
-class Timeline(ReportTest):
-    def test_passes_of_a_phase_follow_one_another(self):
-        made_up.write_results(self.directory, [made_up.variant("a", 10, 0.3)], made_up.manifest([]), images=False)
-        results = load(self.directory)
-        passes = details.variants(results, ["total"], style.pass_colors(results), {"a": "x"}, set())[0].passes
-        # Of 20 ms of build 14 and 5.6, of 10 ms a frame 2, 7 and 0.5; the build is the longest phase
-        for row, start, width in zip(passes.rows, (0, 14, 0, 2, 9), (14, 5.6, 2, 7, 0.5)):
-            self.assertIn(f"margin-left: {100 * start / 19.6:.2f}%; width: {100 * width / 19.6:.2f}%", row[2].text)
 
 
 class ManyPoints(ReportTest):

@@ -80,7 +80,7 @@ class ReportTest(unittest.TestCase):
             status = make_report.main([str(self.directory)])
         return status, errors.getvalue()
 
-    def make(self, rows, run=None, **options) -> Page:
+    def make(self, rows, run, **options) -> Page:
         made_up.write_results(self.directory, rows, run, **options)
         status, errors = self.run_program()
         self.assertEqual((status, errors), (0, ""))

@@ -22,10 +22,11 @@ sys.path.append(str(Path(__file__).resolve().parents[2]))  # of the package `rep
 from report.load import load  # noqa: E402
 from report.results import Results  # noqa: E402
 
+from voxray.display import error_picture, picture, strip  # noqa: E402
 from voxray.errors import VoxrayError  # noqa: E402
 from voxray.session import PROGRAM, Rendering, Session  # noqa: E402
 
-__all__ = ["Rendering", "Results", "Session", "VoxrayError", "load", "open", "run"]
+__all__ = ["Rendering", "Results", "Session", "VoxrayError", "error_picture", "load", "open", "picture", "run", "strip"]
 
 
 def open(config: str | Path, *, set: Mapping[str, Any] | None = None, profile: str | None = None, options: Iterable[str] = ()) -> Session:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import os
 import subprocess
 import tempfile
 from collections.abc import Iterable
@@ -15,9 +16,10 @@ import numpy as np
 import pandas as pd
 from report import exr_pixels
 
+from voxray import display
 from voxray.errors import VoxrayError
 
-PROGRAM = Path(__file__).resolve().parents[3] / "voxray"
+PROGRAM = Path(os.environ.get("VOXRAY_PROGRAM", Path(__file__).resolve().parents[3] / "voxray"))
 PROTOCOL = 1
 
 
@@ -36,6 +38,10 @@ class Rendering:
     values: pd.DataFrame
     frame_ms: float
     memory_bytes: int
+
+    def _repr_html_(self) -> str:
+        shown = {"final": self.final} | ({} if self.indirect is None else {"indirect": self.indirect})
+        return display.strip({name: display.picture(image) for name, image in shown.items()}) + self.passes.to_html(index=False)
 
 
 class Session:

@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <glm/gtx/component_wise.hpp>
 
 #include "base/error.h"
 #include "passes/common/triangle_voxelizer/raster_voxelizer.h"
@@ -19,9 +19,10 @@ class DominantAxisVoxelizer final : public RasterVoxelizer {
 
     void plan(PassPlan& plan) override {
         if (!plan.device.geometryShader)
-            throw Error("{} needs geometry shaders (geometryShader), which device '{}' lacks; use {}",
-                        samples_ > 0 ? "voxelize_octree" : "voxelize: method dominant_axis", plan.device.name,
-                        samples_ > 0 ? "voxelize and filter_voxels" : "method exact");
+            throw Error(
+                "{} needs geometry shaders (geometryShader), which device '{}' lacks; use {}",
+                samples_ > 0 ? "rasterization as in Arnebäck 2017" : "voxelize: method dominant_axis", plan.device.name,
+                samples_ > 0 ? "voxelize and filter_voxels, or voxelize_clipmap and light_clipmap" : "method exact");
         RasterVoxelizer::plan(plan);
     }
 
@@ -37,7 +38,7 @@ class DominantAxisVoxelizer final : public RasterVoxelizer {
     void run(PassContext& context, const Program& program, const gpu::VoxelGrid& grid,
              std::span<const Binding> bindings, float fixedPointScale) const override {
         // One square image that holds the columns along any axis.
-        const uint32_t side = std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z});
+        const uint32_t side = glm::compMax(grid.resolution - glm::uvec3(grid.first));
         RasterTargets targets;
         targets.extent = {side, side, 1};
         context.stream.draw(program, targets, corners(),

@@ -1,5 +1,6 @@
 // Projects each triangle along its dominant axis and draws its bounding box, grown by more than half a pixel: all
-// pixels that the triangle touches have their centers inside. The fragment shader discards the box's other pixels.
+// pixels that the triangle touches have their centers inside. The fragment shader discards the box's other pixels. The
+// image begins at the voxel grid.first.
 #include "passes/common/triangle_voxelizer/grid_triangle.glsl"
 #include "passes/common/triangle_voxelizer/voxelizer_push.glsl"
 layout(triangles) in;
@@ -18,8 +19,9 @@ void main() {
     if (t.area == 0.0) return;
     // Half a pixel and the error of the rasterizer's fixed-point coordinates.
     const float grow = 0.5 + 1.0 / 64.0;
-    const vec2 lower = 2.0 * (t.lower.xy - grow) / float(voxelizer.imageSide) - 1.0;
-    const vec2 upper = 2.0 * (t.upper.xy + grow) / float(voxelizer.imageSide) - 1.0;
+    const vec2 first = vec2(permutedVoxels(uvec3(voxelizer.grid.first), dominant).xy);
+    const vec2 lower = 2.0 * (t.lower.xy - grow - first) / float(voxelizer.imageSide) - 1.0;
+    const vec2 upper = 2.0 * (t.upper.xy + grow - first) / float(voxelizer.imageSide) - 1.0;
     for (int corner = 0; corner < 4; ++corner) {
         triangle = triangles[0];
         axis = dominant;

@@ -19,7 +19,7 @@ float measureFragment(GridTriangle t, ivec3 permutedVoxel, uint subSamples, out 
 void main() {
     const GridTriangle t = gridTriangle(voxelizer.grid, triangle, axis);
     const ivec3 resolution = ivec3(permutedVoxels(voxelizer.grid.resolution, axis));
-    const ivec2 column = ivec2(gl_FragCoord.xy);
+    const ivec2 column = ivec2(permutedVoxels(uvec3(voxelizer.grid.first), axis).xy) + ivec2(gl_FragCoord.xy);
     // Twice the margin of `exact`: its voxels are among these, whatever rounding does.
     const float margin = 2.0 * kMargin;
     const ivec4 range = columnRange(t, margin, resolution.xy);

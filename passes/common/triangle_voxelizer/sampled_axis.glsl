@@ -37,11 +37,12 @@ bool isCovered(GridTriangle t, vec2 center) {
 
 void main() {
     const GridTriangle t = gridTriangle(voxelizer.grid, triangle, axis);
-    const ivec3 resolution = ivec3(permutedVoxels(voxelizer.grid.resolution, axis));
-    const ivec2 column = ivec2(gl_FragCoord.xy);
+    const ivec3 first = ivec3(permutedVoxels(uvec3(voxelizer.grid.first), axis));
+    const ivec3 end = ivec3(permutedVoxels(voxelizer.grid.resolution, axis));
+    const ivec2 column = first.xy + ivec2(gl_FragCoord.xy);
     const vec2 center = vec2(column) + 0.5;
-    if (any(greaterThanEqual(column, resolution.xy)) || t.winding.z == 0.0 || !isCovered(t, center)) return;
+    if (any(greaterThanEqual(column, end.xy)) || t.winding.z == 0.0 || !isCovered(t, center)) return;
     const int depth = int(floor(depthAt(t, center)));
-    if (depth < 0 || depth >= resolution.z) return;
+    if (depth < first.z || depth >= end.z) return;
     processFragment(TriangleFragment(triangle, unpermuted(ivec3(column, depth), axis), barycentricsAt(t, center)));
 }

@@ -44,8 +44,8 @@ std::unique_ptr<TriangleVoxelizer> makeExactVoxelizer();
 /// Conservative rasterization of each triangle along its dominant axis.
 std::unique_ptr<TriangleVoxelizer> makeDominantAxisVoxelizer();
 /// Rasterization of each triangle along its dominant axis with one voxel per pixel, as published in Arnebäck
-/// 2017, section 3.2.1. @param samples per pixel: 1, in its center, or 8, the standard pattern of D3D and
-/// Vulkan.
+/// 2017, section 3.2.1. Fragments are those in voxels from grid.first up to grid.resolution, which may be a
+/// part of a level. @param samples per pixel: 1, in its center, or 8, the standard pattern of D3D and Vulkan.
 std::unique_ptr<TriangleVoxelizer> makeSampledAxisVoxelizer(uint32_t samples);
 /// Rasterization along all three axes, with samples² points per voxel face.
 std::unique_ptr<TriangleVoxelizer> makeThreeAxisVoxelizer(uint32_t samples);

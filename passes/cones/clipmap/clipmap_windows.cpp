@@ -6,7 +6,9 @@
 #include <glm/gtx/component_wise.hpp>
 
 #include "base/error.h"
+#include "passes/common/compute/bit_words.h"
 #include "passes/common/voxels/grid_levels.h"
+#include "passes/common/voxels/voxels.h"
 
 namespace voxray {
 namespace {
@@ -32,6 +34,15 @@ uint32_t clipmapLevels(glm::uvec3 resolution, const ClipmapParams& params, const
             "set 'clipmap_levels' to {} or more, or raise 'clipmap_resolution'",
             pass, params.clipmapLevels, params.clipmapResolution, resolution.x, resolution.y, resolution.z, least);
     return std::min(params.clipmapLevels, gridLevels(resolution));
+}
+
+gpu::VoxelGrid levelGrid(const gpu::VoxelGrid& finest, uint32_t level, uint32_t windowSize) {
+    gpu::VoxelGrid grid = finest;
+    grid.voxelSize *= float(1u << level);
+    grid.resolution = levelResolution(finest.resolution, level);
+    grid.windowSize = windowSize;
+    grid.wordsPerRow = uint32_t(bitWords(windowVoxels(grid).size.x));
+    return grid;
 }
 
 ClipmapWindows::ClipmapWindows(const gpu::RadianceGrid& grid, uint32_t windowSize)

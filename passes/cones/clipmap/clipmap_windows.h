@@ -7,6 +7,7 @@
 #include "base/schema.h"
 #include "passes/common/voxels/voxel_box.h"
 #include "passes/cones/radiance/radiance_types.h"
+#include "shaders/voxels/voxel_types.h"
 
 namespace voxray {
 
@@ -28,6 +29,9 @@ struct ClipmapParams {
 /// Levels of a clipmap over a grid of `resolution` voxels. @throws Error naming `pass` if none of them holds
 /// the whole grid.
 uint32_t clipmapLevels(glm::uvec3 resolution, const ClipmapParams& params, const std::string& pass);
+
+/// The grid of a level over `finest`, without the position of its window of up to `windowSize` voxels.
+gpu::VoxelGrid levelGrid(const gpu::VoxelGrid& finest, uint32_t level, uint32_t windowSize);
 
 /// Windows of a clipmap over `grid` (Panteleev 2014), around the camera: at most `windowSize` voxels of each
 /// level along an axis. The windows of smaller levels are their whole grids.

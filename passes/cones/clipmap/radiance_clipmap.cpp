@@ -29,11 +29,12 @@ struct ClipmapTextureHeader {
 
 }  // namespace
 
-void RadianceClipmap::plan(PassPlan& plan, const std::string& pass, RadianceVoxels& radiance) const {
+void RadianceClipmap::plan(PassPlan& plan, const std::string& pass, RadianceVoxels& radiance,
+                           const std::string& remedy) const {
     const gpu::RadianceGrid& grid = radiance.grid;
     if (radiance.layout == RadianceLayout::ClipmapTextures) {
         const glm::uvec3 extent = packAtlas(windows_, grid.levels, grid.directions).extent;
-        planRadianceTexture(plan, pass, "set 'layout' to clipmap", extent, 1, radiance);
+        planRadianceTexture(plan, pass, remedy, extent, 1, radiance);
         plan.buffer(radiance.header, "radiance clipmap's header", sizeof(ClipmapHeader) + sizeof(ClipmapTextureHeader));
         return;
     }

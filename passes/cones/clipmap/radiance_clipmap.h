@@ -38,8 +38,9 @@ class RadianceClipmap {
 
     /// Describes the memory of `radiance`, whose layout and grid are set. Sets the unit to 1 in a buffer,
     /// where values have exponents. @throws Error naming `pass` for more values than 32 bits number, or a
-    /// texture that the device can't make.
-    void plan(PassPlan& plan, const std::string& pass, RadianceVoxels& radiance) const;
+    /// texture that the device can't make. @param remedy in the latter case
+    void plan(PassPlan& plan, const std::string& pass, RadianceVoxels& radiance,
+              const std::string& remedy = "set 'layout' to clipmap") const;
     void prepare(PassSetup& setup, RadianceVoxels& radiance) const;
     /// Moves the windows to the frame's camera. Stored values remain. @return the windows, by level.
     std::vector<gpu::ClipmapWindow> moveWindows(PassContext& context, RadianceVoxels& radiance) const;

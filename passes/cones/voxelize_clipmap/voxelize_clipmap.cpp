@@ -2,24 +2,10 @@
 
 #include "base/error.h"
 #include "graph/registry.h"
-#include "passes/common/compute/bit_words.h"
 #include "passes/common/voxel_builder/voxel_builder.h"
-#include "passes/common/voxels/grid_levels.h"
 #include "passes/cones/clipmap/clipmap_voxels.h"
 
 namespace voxray {
-namespace {
-
-/// A level's grid, without the position of its window.
-gpu::VoxelGrid levelGrid(gpu::VoxelGrid grid, uint32_t level, uint32_t windowSize) {
-    grid.voxelSize *= float(1u << level);
-    grid.resolution = levelResolution(grid.resolution, level);
-    grid.windowSize = windowSize;
-    grid.wordsPerRow = uint32_t(bitWords(windowVoxels(grid).size.x));
-    return grid;
-}
-
-}  // namespace
 
 /// Voxelizes triangles into a clipmap whose windows follow the camera: what scrolls in is voxelized, and
 /// where surfaces moved, their old and new voxels. Docs: docs/clipmap.md.

@@ -16,15 +16,20 @@ class GatherSteppedCones final : public Pass {
     struct Params {
         float step = 0.5f;
         float start = 1.0f;
+        bool opacityCorrection = true;
         static constexpr auto schema() {
-            return std::tuple{field("step", &Params::step,
-                                    "Distance between samples, in widths of the cone; "
-                                    "a sample's opacity counts for this fraction of its width.",
-                                    0.125f, 1.0f),
-                              field("start", &Params::start,
-                                    "Voxels from the surface to a cone's first sample (not given in the thesis). "
-                                    "If small, the surface itself is sampled; if large, close surfaces are skipped.",
-                                    0.5f, 16.0f)};
+            return std::tuple{
+                field("step", &Params::step, "Distance between samples, in widths of the cone.", 0.125f, 1.0f),
+                field("start", &Params::start,
+                      "Voxels, of the size that counts there, from the surface to a cone's first sample "
+                      "(not given in the thesis). "
+                      "If small, the surface itself is sampled; if large, close surfaces are skipped.",
+                      0.5f, 16.0f),
+                field("opacity_correction", &Params::opacityCorrection,
+                      "Whether opacity is per length: a sample's opacity a is 1 - (1 - a)^step, "
+                      "and that of two levels is interpolated for equal lengths. "
+                      "Off: as in the thesis's equation 3, "
+                      "where each sample counts in full, so that shorter steps find more opacity.")};
         }
     };
     explicit GatherSteppedCones(const Params& params) : params_(params) {}
@@ -33,6 +38,7 @@ class GatherSteppedCones final : public Pass {
         plan[indirect_].lightBounces = plan[radiance_].lightBounces;
         plan.frameImage(indirect_);
         traceCones_.define(plan[radiance_].defines());
+        traceCones_.specialize({{"kCorrectsOpacity", params_.opacityCorrection}});
     }
     void record(PassContext& context) override {
         context.dispatch(traceCones_, context.frame.pixels(),

@@ -1,6 +1,7 @@
 // Radiance that each pixel reflects of six cones' light, averaged over its texels (Arnebäck 2017, sections 3.1.5 and
-// 3.2.5). The thesis does not give a cone's first sample: `start`. A cone ends one sample width outside of the grid,
-// beyond which all samples are empty.
+// 3.2.5). The thesis does not give a cone's first sample: `start`. Samples are at least as wide as the voxels that count
+// at their place, in a clipmap those of its minimum level (section 4.2.1). A cone ends one sample width outside of the
+// grid, beyond which all samples are empty.
 #include "passes/cones/radiance/sample_radiance.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -15,23 +16,26 @@ layout(push_constant) uniform Push {
     float start;
 } push;
 
+layout(constant_id = 0) const bool kCorrectsOpacity = true;
+
 const float CONE_WIDTH = 1.1547005;  // At distance 1: 2 tan 30°, so that cones 60° apart touch.
 const int MAX_STEPS = 1024;
 
-// Equation 3, front to back. A sample's opacity is that of its whole width, of which a step is a fraction.
+// Equation 3, front to back. Corrected, a sample's opacity is that of its whole width, of which a step is a fraction.
 vec3 coneRadiance(vec3 origin, vec3 direction) {
     const RadianceGrid g = radianceVoxels.grid;
     const vec3 gridEnd = g.origin + g.voxelSize * vec3(g.resolution);
     vec3 radiance = vec3(0.0);
     float opacity = 0.0;
-    float t = push.start * g.voxelSize;
+    float t = push.start * radianceVoxelSize(startLevel(origin, 0.0));
     for (int i = 0; i < MAX_STEPS && opacity < 0.999; ++i) {
         const vec3 samplePosition = origin + t * direction;
-        const float width = max(g.voxelSize, CONE_WIDTH * t);
+        const float width = max(radianceVoxelSize(startLevel(samplePosition, 0.0)), CONE_WIDTH * t);
         if (any(lessThan(samplePosition, g.origin - width)) || any(greaterThan(samplePosition, gridEnd + width))) break;
-        const vec4 radianceAndOpacity = sampleRadiance(samplePosition, width, direction);
+        const vec4 radianceAndOpacity = sampleLevels(samplePosition, width, direction, kCorrectsOpacity);
         if (radianceAndOpacity.a > 0.0) {
-            const float alpha = 1.0 - pow(1.0 - min(radianceAndOpacity.a, 1.0), push.step_);
+            const float sampled = min(radianceAndOpacity.a, 1.0);
+            const float alpha = kCorrectsOpacity ? 1.0 - pow(1.0 - sampled, push.step_) : sampled;
             radiance += (1.0 - opacity) * alpha * radianceAndOpacity.rgb / radianceAndOpacity.a;
             opacity += (1.0 - opacity) * alpha;
         }
