@@ -181,8 +181,10 @@ class Page(Look):
 
     def shown(self):
         """Pixels of the canvas."""
-        data = self.browser.run("""const canvas = document.getElementById("image");
-            return [canvas.height, canvas.width, [...canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data]]""")
+        data = self.browser.run("""const canvas = document.getElementById("image"), copy = new OffscreenCanvas(canvas.width, canvas.height);
+            const context = copy.getContext("2d", {willReadFrequently: true});
+            context.drawImage(canvas, 0, 0);
+            return [canvas.height, canvas.width, [...context.getImageData(0, 0, canvas.width, canvas.height).data]]""")
         return np.array(data[2], np.uint8).reshape(data[0], data[1], 4)[..., :3]
 
     def entry(self, name):
