@@ -133,6 +133,16 @@ def benchmarks_table(data: dict) -> Table:
     return table
 
 
+def writes_table(data: dict) -> Table:
+    table = Table("Merging light near a floor", ["pass", "voxels", "write", "ms", "p05 to p95", "over none"], words=(0, 2),
+                  note="Light of a lamp 25 cm above the floor, 2^20 rays: each pass that merges what meets in a voxel, by way of writing; over "
+                  "a plain store by the same pass. The paper's numbers, and ours without a GPU, stand in docs/papers/magalhaes2020.md.")
+    for row in data.get("writes", []):
+        table.add(row["kind"], str(row["voxels"]), row["write"], number(row["ms"]), f"{number(row['ms_p05'])} to {number(row['ms_p95'])}",
+                  number(row["over_none"], 2))
+    return table
+
+
 def papers_tables(data: dict) -> list[Table]:
     tables = []
     for paper in data.get("papers", []):
@@ -153,8 +163,8 @@ def papers_tables(data: dict) -> list[Table]:
 
 def tables_of(data: dict, slowest: list[dict], rays: list[dict]) -> list[Table]:
     """All tables that have rows."""
-    found = [parts_table(data), runs_table(data), parity_table(data), passes_table(slowest), absent_table(data), rays_table(rays), benchmarks_table(data),
-             *papers_tables(data)]
+    found = [parts_table(data), runs_table(data), parity_table(data), passes_table(slowest), absent_table(data), rays_table(rays), writes_table(data),
+             benchmarks_table(data), *papers_tables(data)]
     return [table for table in found if table.rows]
 
 

@@ -17,6 +17,7 @@ PAPERS = ("magalhaes2020/base", "arneback2017/dynamic_light", "sun2015/table1", 
           "arneback2017/fly_through", "magalhaes2020/published_sampling", "arneback2017/cone_cost", "sun2015/resolution",
           "seok2021/table1_bunnies")
 _PASSES = "bench/gpu_passes.yaml"
+_WRITES = "papers/magalhaes2020/published_write_strategies.yaml"
 _LISTING = 30  # seconds for `voxray devices`
 # A GPU's clock rises with its work: builds that repeat bring it up before the median of them, and the frames, are timed
 _WARM = ("measure.build_repeats=20",)
@@ -111,6 +112,17 @@ def time_passes(bench: Bench, clock: Clock) -> Ending:
     return ending
 
 
+def time_writes(bench: Bench, clock: Clock) -> Ending:
+    """Ways of merging light that meets in a voxel, where it crowds into few voxels."""
+    ending = Ending()
+    run = runs.run_config(bench.program, _WRITES, "writes", bench.out, clock, tracer=next(iter(bench.tracers), "embree"),
+                          profile="near_floor", assignments=bench.warming)
+    ending.add_run(run)
+    bench.runs.append(run)
+    bench.data["writes"] = tables.write_rows(run)
+    return ending
+
+
 def run_papers(bench: Bench, clock: Clock) -> Ending:
     ending = Ending()
     bench.data["papers"] = []
@@ -157,5 +169,6 @@ class Part:
 PARTS = (Part("devices", 0.1, "devices, their drivers and features", list_devices),
          Part("parity", 0.45, "the same images by the device's own tracers, by Embree, twice, and by a device in software", compare_images),
          Part("passes", 0.35, "the time of every pass", time_passes),
+         Part("writes", 0.25, "what merging light near a floor costs, by way of writing", time_writes),
          Part("papers", 0.4, "the configs whose tables stand in docs/papers", run_papers),
          Part("throughput", 0.35, "rays, steps, scans and sorts a second", measure_throughput))

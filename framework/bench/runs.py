@@ -31,8 +31,10 @@ class Program:
     def call(self, *arguments: str, limit: float, accepted: tuple[int, ...] = (0,), progress: Callable[[], float] | None = None) -> Outcome:
         return processes.run([str(self.path), *arguments], limit, accepted, progress)
 
-    def profile_of(self, config: str) -> list[str]:
-        """The wanted profile, `small` where the config does not have it; none for "full"."""
+    def profile_of(self, config: str, own: str = "") -> list[str]:
+        """The config's own profile if one is named, else the wanted one, `small` where the config does not have it; none for "full"."""
+        if own:
+            return ["--profile", own]
         if self.profile == "full":
             return []
         _, _, profiles = (self.configs / config).read_text(encoding="utf-8").partition("\nprofiles:")
@@ -45,10 +47,15 @@ class Variant:
     """What a run knows of one variant: `result` is its result.json, None with an `error` where it failed or did not run."""
 
     name: str  # its id, also of its folder and of its part
-    kinds: dict[str, str]  # of its passes, by id
+    graph: list[dict]  # its passes with all their parameters
     result: dict | None
     error: str
     alone: bool = False  # ran in a process of its own, after others
+
+    @property
+    def kinds(self) -> dict[str, str]:
+        """Of its passes, by id."""
+        return {str(entry.get("id", entry.get("pass"))): str(entry.get("pass")) for entry in self.graph}
 
 
 @dataclass
@@ -87,10 +94,10 @@ class Run:
 
 
 def run_config(program: Program, config: str, name: str, out: Path, clock: Clock, *, tracer: str = "", device: str | None = None,
-               assignments: tuple[str, ...] = ()) -> Run:
+               profile: str = "", assignments: tuple[str, ...] = ()) -> Run:
     """Runs a config within the clock's time. What a crash or a lost device took with it runs again, a process a variant."""
     device = program.device if device is None else device
-    arguments = [str(program.configs / config), *program.profile_of(config), *(["--device", device] if device else []),
+    arguments = [str(program.configs / config), *program.profile_of(config, profile), *(["--device", device] if device else []),
                  *(["--tracer", tracer] if tracer else []), *(["--scenes", str(program.scenes)] if program.scenes else [])]
     for assignment in assignments:
         arguments += ["--set", assignment]
@@ -120,7 +127,7 @@ def _run_rest_alone(program: Program, run: Run, arguments: list[str], clock: Clo
         found = next((v for v in read_variants(folder) if v.name == variant.name and v.result), None)
         result = found.result if found else None
         failures = 0 if result else failures + 1
-        run.variants[i] = Variant(variant.name, variant.kinds, result, "" if result else done.last or variant.error, True)
+        run.variants[i] = Variant(variant.name, variant.graph, result, "" if result else done.last or variant.error, True)
 
 
 def _alone_of(folder: Path) -> Path:
@@ -133,9 +140,8 @@ def read_variants(folder: Path) -> list[Variant]:
     errors = {row["variant"]: row.get("error", "") for row in read_csv(folder / "results.csv")}
     variants = []
     for name, graph in (manifest.get("variants") or {}).items():
-        kinds = {str(entry.get("id", entry.get("pass"))): str(entry.get("pass")) for entry in graph if isinstance(entry, dict)}
         result = read_json(folder / "images" / name / "result.json") or None
-        variants.append(Variant(name, kinds, result, "" if result else errors.get(name) or "did not run"))
+        variants.append(Variant(name, [entry for entry in graph if isinstance(entry, dict)], result, "" if result else errors.get(name) or "did not run"))
     return variants
 
 

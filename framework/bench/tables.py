@@ -77,6 +77,20 @@ def variant_rows(run: Run) -> list[dict]:
     return rows
 
 
+def write_rows(run: Run) -> list[dict]:
+    """Passes by each way of writing: their time, and that over the time of a plain store by the same pass into as many voxels."""
+    rows = []
+    for variant in run.variants:
+        writers = {str(entry.get("id", entry["pass"])): entry for entry in variant.graph if "write" in entry}
+        voxels = next((entry["resolution"] for entry in variant.graph if "resolution" in entry), 0)
+        for cost in (variant.result or {}).get("passes", []):
+            if cost["phase"] == "build" and (entry := writers.get(cost["pass"])):
+                low, median, high = cost["ms"]
+                rows.append({"kind": entry["pass"], "voxels": int(voxels), "write": entry["write"], "ms": median, "ms_p05": low, "ms_p95": high})
+    plain = {(row["kind"], row["voxels"]): row["ms"] for row in rows if row["write"] == "none"}
+    return [{**row, "over_none": row["ms"] / base if (base := plain.get((row["kind"], row["voxels"]))) else None} for row in rows]
+
+
 def pass_names(program: Program, limit: float) -> list[str]:
     """All passes that the program has."""
     listing = program.call("passes", limit=limit).output

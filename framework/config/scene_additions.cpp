@@ -6,7 +6,7 @@
 namespace voxray {
 namespace {
 
-const std::vector<std::string> kAdditionKeys{"transform", "material"};
+const std::vector<std::string> kAdditionKeys{"transform", "material", "swing"};
 
 SceneAddition readAddition(const Value& entry, const std::string& owner) {
     if (!entry.isMap())
@@ -17,6 +17,11 @@ SceneAddition readAddition(const Value& entry, const std::string& owner) {
         addition.placement = readPlacement(*transform, owner + ".transform");
     if (const Value* material = entry.find("material"); material && !material->isNull())
         addition.material = readParams<MaterialSettings>(*material, owner + ".material");
+    if (const Value* swing = entry.find("swing"); swing && !swing->isNull()) {
+        addition.swing = readParams<Swing>(*swing, owner + ".swing");
+        if (addition.swing->by == glm::vec3(0.0f))
+            throw UsageError(swing->where, "{}.swing: moves nothing without 'by', as in {{by: [0.2, 0, 0]}}", owner);
+    }
     return addition;
 }
 

@@ -8,6 +8,7 @@
 #include "base/value.h"
 #include "scene/compose.h"
 #include "scene/material_change.h"
+#include "scene/swing.h"
 
 namespace voxray {
 
@@ -41,6 +42,7 @@ struct SceneAddition {
     SceneSource source;
     Placement placement;
     std::optional<MaterialSettings> material;  ///< Replaces all added materials; empty: none.
+    std::optional<Swing> swing;                ///< Of all that is added; empty: it stays.
 };
 
 /// An entry of `scene.override`.

@@ -133,6 +133,7 @@ Value additionSchema() {
     Value& properties = *schema.find("properties");
     properties.set("transform", mapSchema(describeParams<Placement>()));
     properties.set("material", mapSchema(describeParams<MaterialSettings>()));
+    properties.set("swing", mapSchema(describeParams<Swing>()));
     addSource(schema);
     return schema;
 }

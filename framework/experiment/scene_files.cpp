@@ -183,12 +183,13 @@ std::string SceneLoader::key(const SceneSettings& settings) {
     Hasher hasher;
     hasher.add(load(settings.source)->contentHash);
     if (settings.placement) hasher.add("transform").add(writeParams(*settings.placement).text());
-    for (const auto& [source, placement, material] : settings.additions)
+    for (const auto& [source, placement, material, swing] : settings.additions)
         hasher.add("add")
             .add(load(source)->contentHash)
             .add(source.name())
             .add(writeParams(placement).text())
-            .add(material ? writeParams(*material).text() : "");
+            .add(material ? writeParams(*material).text() : "")
+            .add(swing ? writeParams(*swing).text() : "");
     checkOverrides(settings);
     for (const auto& [name, change, where] : settings.overrides)
         hasher.add("override")

@@ -164,10 +164,12 @@ std::shared_ptr<const Scene> SceneLoader::compose(const SceneSettings& settings)
 
     auto composed = settings.placement ? std::make_shared<Scene>(placedScene(*scene, *settings.placement))
                                        : std::make_shared<Scene>(*scene);
-    for (const auto& [source, placement, settingsOfMaterial] : settings.additions) {
+    for (const auto& [source, placement, settingsOfMaterial, swing] : settings.additions) {
         std::optional<Material> material;
         if (settingsOfMaterial) material = makeMaterial(source.name(), *settingsOfMaterial);
+        const auto node = uint32_t(composed->nodes.size());  // The node that places all that is added
         addScene(*composed, *loadInMode(source), placement, source.name(), material ? &*material : nullptr);
+        if (swing) composed->animation.push_back(translationOf(*swing, node, placement.translate));
     }
     checkOverrides(settings);
     for (const MaterialOverride& entry : settings.overrides)

@@ -16,8 +16,15 @@ struct PortInfo {
     bool output = false;
     bool optional = false;
     std::type_index type = typeid(void);
-    Resource* (*create)() = nullptr;  ///< Makes the resource of an output.
+    Resource* (*create)() = nullptr;             ///< Makes the resource of an output.
+    bool (*accepts)(const Resource&) = nullptr;  ///< Whether an input can read a resource.
 };
+
+/// Whether a resource is a T, or derived from it.
+template <typename T>
+bool isResource(const Resource& resource) {
+    return dynamic_cast<const T*>(&resource) != nullptr;
+}
 
 class Port;
 
@@ -69,7 +76,7 @@ class In : public Port {
  public:
     /// @param isPresent false if the pass has no such port with its parameters.
     In(PortOwner& owner, std::string name, std::string help, bool isPresent = true)
-        : Port(owner, {std::move(name), std::move(help), false, false, typeid(T)}, isPresent) {}
+        : Port(owner, {std::move(name), std::move(help), false, false, typeid(T), nullptr, isResource<T>}, isPresent) {}
 };
 
 /// An input without which the graph is valid, too.
@@ -77,7 +84,7 @@ template <typename T>
 class InOptional : public Port {
  public:
     InOptional(PortOwner& owner, std::string name, std::string help, bool isPresent = true)
-        : Port(owner, {std::move(name), std::move(help), false, true, typeid(T)}, isPresent) {}
+        : Port(owner, {std::move(name), std::move(help), false, true, typeid(T), nullptr, isResource<T>}, isPresent) {}
 };
 
 /// An output of a pass.

@@ -234,7 +234,7 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
                                                            : implicitSource(nodes, n, port, registry);
             if (!source) continue;
             const GraphNode& writer = nodes[source->node];
-            if (writer.ports[source->port].type != port.type)
+            if (!port.accepts(*writer.resources[source->port]))
                 throw UsageError(nodes[n].where, "{}: port '{}' can't read '{}.{}', which is of another type",
                                  nodes[n].id, port.name, writer.id, writer.ports[source->port].name);
             nodes[n].resources[p] = writer.resources[source->port];

@@ -1,6 +1,7 @@
 #include "scene/moving_spheres.h"
 
 #include "scene/shapes.h"
+#include "scene/swing.h"
 
 namespace voxray {
 
@@ -22,12 +23,8 @@ void addMovingSpheres(Scene& scene, const MovingSpheres& spheres) {
     for (uint32_t i = 0; i < spheres.count; ++i) {
         const glm::vec3 cell(i % n, i / (n * n), i / n % n);
         const glm::vec3 position = spheres.center + spheres.spacing * (cell - half);
-        const glm::vec4 center(position, 0), swing(spheres.swing, 0);
-        scene.animation.push_back({uint32_t(scene.nodes.size()),
-                                   AnimatedProperty::Translation,
-                                   Interpolation::Linear,
-                                   {0, 0.25f * spheres.period, 0.75f * spheres.period, spheres.period},
-                                   {center, center + swing, center - swing, center}});
+        scene.animation.push_back(
+            translationOf({spheres.swing, spheres.period}, uint32_t(scene.nodes.size()), position));
         scene.instances.push_back({mesh, int32_t(scene.nodes.size())});
         scene.nodes.push_back({.name = fmt::format("moving sphere {}", i), .translation = position});
     }

@@ -17,8 +17,8 @@ struct ClusterVisibility : Resource {
 
     /// The lists of a range of patches.
     struct Chunk {
-        Buffer offsets;  ///< First entry of each patch; then the end of the last list.
-        Buffer entries;  ///< `layout.entryBits` bits each, sorted by target; gpu::entryTarget(), entryRays().
+        Buffer offsets;  ///< First bit of each patch's list; then the end of the last list.
+        Buffer entries;  ///< Bit-packed lists; visibility_list_types.h.
     };
     std::vector<Chunk> chunks;
     Buffer chunkAddresses;               ///< Device addresses of `offsets` and `entries` of each chunk.

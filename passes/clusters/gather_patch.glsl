@@ -12,11 +12,11 @@ layout(scalar) readonly buffer PatchRadiosityRef { LargeUints patchRadiosity; };
 // W/m²
 vec3 gatherPatch(VisibilityListLayout lists, uint patchNumber) {
     vec3 sum = vec3(0.0);
-    for (VisibilityListIterator it = visibilityListOf(lists, patchNumber); nextEntry(lists, it);) {
-        const uint target = entryTarget(lists, it.entry);
-        const uint radiosity = target < lists.firstPatchTarget ? componentRadiosity.data[target]
-                                                               : patchRadiosity.data[target - lists.firstPatchTarget];
-        sum += float(entryRays(lists, it.entry)) * unpackRadiosity(radiosity);
+    for (VisibilityListIterator it = visibilityListOf(lists, patchNumber); nextEntry(it);) {
+        const uint radiosity = it.target < lists.firstPatchTarget
+                                   ? componentRadiosity.data[it.target]
+                                   : patchRadiosity.data[it.target - lists.firstPatchTarget];
+        sum += float(it.rays) * unpackRadiosity(radiosity);
     }
     return sum / float(lists.raysPerPatch);
 }

@@ -1,5 +1,5 @@
 // Iterates over a patch's visibility list:
-// for (VisibilityListIterator it = visibilityListOf(lists, patch); nextEntry(lists, it);).
+// for (VisibilityListIterator it = visibilityListOf(lists, patch); nextEntry(it);).
 #ifndef VOXRAY_VISIBILITY_LIST_GLSL
 #define VOXRAY_VISIBILITY_LIST_GLSL
 
@@ -7,15 +7,18 @@
 #include "shaders/compute/large_buffer.glsl"
 
 struct VisibilityListChunk {
-    LargeUints offsets;  // First entry of each patch; then the end of the last list.
+    LargeUints offsets;  // First bit of each patch's list; then the end of the last one.
     LargeUints entries;
 };
 layout(scalar) readonly buffer VisibilityListChunks { VisibilityListChunk data[]; } visibilityLists;
 
 // Reads each word once: on software Vulkan reads are most of the cost.
 struct VisibilityListIterator {
-    uint entry;  // For entryTarget() and entryRays().
-    uint remaining;
+    uint target;
+    uint rays;       // That hit it.
+    uint remaining;  // Entries.
+    uint entryBits;
+    uint rayBits;
     LargeUints entries;
     uint word;        // Index of the current word.
     uint unread;      // Its bits that have not been decoded yet.
@@ -24,34 +27,45 @@ struct VisibilityListIterator {
 
 uint shiftRight(uint word, uint bits) { return bits < 32u ? word >> bits : 0u; }
 
+// `bits`: 1 to 32.
+uint readBits(inout VisibilityListIterator it, uint bits) {
+    uint value = it.unread;
+    if (it.unreadBits < bits) {
+        const uint next = it.entries.data[++it.word];
+        value |= next << it.unreadBits;
+        it.unread = shiftRight(next, bits - it.unreadBits);
+        it.unreadBits += 32u;
+    } else {
+        it.unread = shiftRight(it.unread, bits);
+    }
+    it.unreadBits -= bits;
+    return bitfieldExtract(value, 0, int(bits));
+}
+
 VisibilityListIterator visibilityListOf(VisibilityListLayout lists, uint patchNumber) {
     VisibilityListChunk chunk = visibilityLists.data[patchNumber / lists.patchesPerChunk];
-    const uint i = patchNumber % lists.patchesPerChunk, first = chunk.offsets.data[i], bit = first * lists.entryBits;
+    const uint i = patchNumber % lists.patchesPerChunk, first = chunk.offsets.data[i], end = chunk.offsets.data[i + 1u];
     VisibilityListIterator it;
-    it.remaining = chunk.offsets.data[i + 1u] - first;
+    it.target = 0u;
+    it.remaining = 0u;
+    if (first == end) return it;
     it.entries = chunk.entries;
-    it.word = bit / 32u;
-    it.unreadBits = 32u - bit % 32u;
-    it.unread = 0u;
-    if (it.remaining > 0u) it.unread = chunk.entries.data[it.word] >> bit % 32u;
+    it.word = first / 32u;
+    it.unread = chunk.entries.data[it.word] >> first % 32u;
+    it.unreadBits = 32u - first % 32u;
+    const uint header = readBits(it, LIST_HEADER_BITS);
+    it.rayBits = rayBitsOf(header);
+    it.entryBits = targetBitsOf(header) + it.rayBits;
+    it.remaining = (end - first - LIST_HEADER_BITS) / it.entryBits;
     return it;
 }
 
-bool nextEntry(VisibilityListLayout lists, inout VisibilityListIterator it) {
+bool nextEntry(inout VisibilityListIterator it) {
     if (it.remaining == 0u) return false;
     --it.remaining;
-    const uint entryBits = lists.entryBits;
-    uint entry = it.unread;
-    if (it.unreadBits < entryBits) {
-        const uint next = it.entries.data[++it.word];
-        entry |= next << it.unreadBits;
-        it.unread = shiftRight(next, entryBits - it.unreadBits);
-        it.unreadBits += 32u;
-    } else {
-        it.unread = shiftRight(it.unread, entryBits);
-    }
-    it.unreadBits -= entryBits;
-    it.entry = bitfieldExtract(entry, 0, int(entryBits));
+    const uint entry = readBits(it, it.entryBits);
+    it.target += entry >> it.rayBits;
+    it.rays = bitfieldExtract(entry, 0, int(it.rayBits)) + 1u;
     return true;
 }
 

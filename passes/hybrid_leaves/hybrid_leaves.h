@@ -41,21 +41,21 @@ struct HybridLeaves : Resource {
     Buffer gridBits, gridRanks;   ///< Occupancy of cells, and its prefix sums by word.
     Buffer cells;                 ///< shape.cellWords each. Empty, as the bits are, without grids.
 
-    /// Surface voxels, and voxels of masked triangles that are too transparent to be one; without materials.
-    /// Empty in scenes without alpha masks. Its version is that of the surface voxels.
-    SurfaceVoxels masked;
+    /// Surface voxels, and others that list triangles: of masked triangles that are too transparent, and of raster
+    /// fragments; without materials. Empty where there are none of either. Its version is that of the surface voxels.
+    SurfaceVoxels listing;
 
     /// The voxels that leaves are indexed by. @param surface the surface voxels that they are built over.
-    const SurfaceVoxels& voxels(const SurfaceVoxels& surface) const { return masked.occupancy ? masked : surface; }
+    const SurfaceVoxels& voxels(const SurfaceVoxels& surface) const { return listing.occupancy ? listing : surface; }
     std::vector<Binding> bindings() const { return {ifUsed({"hybridLeaves", header})}; }
     uint64_t structureBytes() const {
-        return header.bytes() + words.bytes() + masked.occupancy.bytes() + masked.rank.bytes();
+        return header.bytes() + words.bytes() + listing.occupancy.bytes() + listing.rank.bytes();
     }
     uint64_t listBytes() const { return primitives.bytes(); }
     uint64_t gridBytes() const { return gridBits.bytes() + gridRanks.bytes() + cells.bytes(); }
     /// Frees all but the header and the corners.
     void release() {
-        words = {}, primitives = {}, gridBits = {}, gridRanks = {}, cells = {}, masked = {};
+        words = {}, primitives = {}, gridBits = {}, gridRanks = {}, cells = {}, listing = {};
         gridCount = emptyCount = primitiveCount = cellCount = 0;
     }
 };

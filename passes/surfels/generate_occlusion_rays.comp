@@ -2,6 +2,9 @@
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"
 #include "passes/surfels/occlusion_ray.glsl"
+#ifdef VOXEL_LEVELS
+#include "shaders/voxels/voxel_levels.glsl"
+#endif
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
@@ -9,7 +12,9 @@ layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(scalar) writeonly buffer OcclusionRays { Ray data[]; } occlusionRays;
 layout(push_constant) uniform Push {
     uint rayCount;
+#ifndef VOXEL_LEVELS
     float voxelSize;  // m
+#endif
 } push;
 
 void main() {
@@ -22,5 +27,10 @@ void main() {
     const SurfacePoint p = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
     if (dot(p.geometricNormal, p.geometricNormal) == 0.0) return;
     const vec3 normal = dot(p.geometricNormal, ray.direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
-    occlusionRays.data[i] = occlusionRay(p.position + normal * p.offset, normal, push.voxelSize);
+#ifdef VOXEL_LEVELS
+    const float voxelSize = gridAt(p.position).voxelSize;
+#else
+    const float voxelSize = push.voxelSize;
+#endif
+    occlusionRays.data[i] = occlusionRay(p.position + normal * p.offset, normal, voxelSize);
 }

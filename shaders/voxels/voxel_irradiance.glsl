@@ -58,14 +58,15 @@ vec3 voxelIrradiance(VoxelGrid g, vec3 position, vec3 normal, float radius, bool
 }
 
 // The same by the dominant face of the normal only, bilinearly interpolated between four voxels in the point's layer
-// across its axis (Cosin and Patow 2022, section 4.5). Where these have too little area, and in grids of one direction,
-// as voxelIrradiance().
-vec3 bilinearFaceIrradiance(VoxelGrid g, vec3 position, vec3 normal) {
+// across its axis (Cosin and Patow 2022, section 4.5), or of the point's own voxel. Where these have too little area, and
+// in grids of one direction, as voxelIrradiance().
+vec3 dominantFaceIrradiance(VoxelGrid g, vec3 position, vec3 normal, bool interpolates) {
     const vec3 size = abs(normal);
     const uint axis = size.x >= max(size.y, size.z) ? 0u : size.y >= size.z ? 1u : 2u;
     const uint face = 2u * axis + (normal[axis] < 0.0 ? 1u : 0u);
     vec3 center = (position - g.origin) / g.voxelSize - 0.5;
     center[axis] = floor(center[axis] + 0.5);
+    if (!interpolates) center = floor(center + 0.5);
     const vec3 corner = floor(center), fraction = center - corner;
     vec3 flux = vec3(0.0);
     float area = 0.0;

@@ -21,6 +21,15 @@ struct VoxelGrid {
     uint directions;   // 6: light is stored by face; 1: all faces share one value.
     uint windowSize;   // A power of two; of the resolution or more without a window.
     ivec3 first;       // 0 along axes that the window covers.
+    uint firstWord;    // Of a level of VoxelLevels: of its occupancy among that of all levels; else 0.
+};
+
+// A level of VoxelLevels: a place is stored at the first level that holds its voxel. The bounds are multiples of two
+// voxels, so that a voxel of the next level is held by this level as a whole, or not at all.
+struct VoxelLevel {
+    VoxelGrid grid;
+    ivec3 first;  // Of the voxels that it holds.
+    ivec3 end;
 };
 
 // Means over the surfaces in a voxel, weighted by area. Packed: voxel_packing.h.

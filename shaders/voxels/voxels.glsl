@@ -33,11 +33,11 @@ bool insideGrid(VoxelGrid g, ivec3 voxel) {
 // The occupancy word of a voxel of the window, and its bit in the word.
 uint voxelWord(VoxelGrid g, ivec3 voxel) {
     const uvec3 wrapped = uvec3(voxel) & (g.windowSize - 1u);
-    return (wrapped.z * windowVoxels(g).y + wrapped.y) * g.wordsPerRow + (wrapped.x >> 5);
+    return g.firstWord + (wrapped.z * windowVoxels(g).y + wrapped.y) * g.wordsPerRow + (wrapped.x >> 5);
 }
 uint voxelBit(VoxelGrid g, ivec3 voxel) { return 1u << (uint(voxel.x) & (g.windowSize - 1u) & 31u); }
 
-// The wrapped coordinates of an occupancy word's first voxel, and the voxel with given wrapped coordinates.
+// The wrapped coordinates of the first voxel of an occupancy word of the grid, and the voxel with given wrapped coordinates.
 uvec3 wordCoordinates(VoxelGrid g, uint word) {
     const uint row = word / g.wordsPerRow, rows = windowVoxels(g).y;
     return uvec3(32u * (word % g.wordsPerRow), row % rows, row / rows);

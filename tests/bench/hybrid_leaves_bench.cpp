@@ -176,6 +176,44 @@ void hybridLeaves(benchmark::State& state, const std::string& config) {
     state.counters["leaves"] = leaves.shape.leaves;
 }
 
+/// Reflected rays through lists alone of one kind: the part of those that meet a triangle that meet another one by
+/// lists, farther away, or none; pairs of a triangle and a leaf; memory of the lists and of the ray tracers' BVHs.
+void hybridListHits(benchmark::State& state, const std::string& config, const std::string& lists) {
+    test::Chain& chain =
+        mirrorScene(config, ", {pass: build_hybrid_leaves, primitives: 1048576, lists: " + lists + "}");
+    const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
+    const HybridLeaves& leaves = *chain.graph().resource<HybridLeaves>("hybrid_leaves");
+    ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
+    CommandStream stream(test::device());
+    const GpuScene scene = makeGpuScene(test::device(), stream, chain.state());
+    const auto embree = makeRayTracer(TracerKind::Embree, test::device(), compiler, chain.state());
+    const std::vector<Ray> rays = mirrorRays(stream, *embree, chain.state());
+    const std::vector<Hit> expected = closestHits(stream, *embree, rays);
+    test::TestPrograms programs;
+    HybridTracer tracer(programs, HybridTraversal::Hierarchical);
+    test::prepare(programs, tracer, voxels);
+    tracer.begin(stream, scene, voxels, leaves);
+    size_t hits = 0, missed = 0;
+    for (auto _ : state) {
+        const std::vector<Hit> found = closestHits(stream, tracer, rays);
+        for (size_t i = 0; i < rays.size(); ++i) {
+            const Hit &a = expected[i], &b = found[i];
+            if (a.triangle == Hit::kMiss) continue;
+            ++hits;
+            missed += b.triangle == Hit::kMiss || b.t > a.t + 1e-5f * (1 + a.t);
+        }
+    }
+    state.counters["hits"] = double(hits);
+    state.counters["missed_percent"] = 100 * double(missed) / double(hits);
+    state.counters["listed_pairs"] = leaves.primitiveCount;
+    state.counters["leaves"] = leaves.shape.leaves;
+    state.counters["lists_KiB"] = double(leaves.listBytes()) / 1024;
+    state.counters["embree_KiB"] = double(embree->memoryBytes()) / 1024;
+    if (!test::device().info().rayQuery) return;
+    const auto rayQuery = makeRayTracer(TracerKind::RayQuery, test::device(), compiler, chain.state());
+    state.counters["ray_query_KiB"] = double(rayQuery->memoryBytes()) / 1024;
+}
+
 /// Capacities p and grids of m³.
 void manyLeaves(benchmark::internal::Benchmark* b) {
     b->ArgNames({"primitives", "grid"});
@@ -201,6 +239,11 @@ BENCHMARK_CAPTURE(hybridLeaves, kitchen, "table1_kitchen")
     ->MeasureProcessCPUTime()
     ->Iterations(3)
     ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(hybridListHits, sponza_exact, "table1", "exact")->Iterations(1);
+BENCHMARK_CAPTURE(hybridListHits, sponza_fragments, "table1", "fragments")->Iterations(1);
+BENCHMARK_CAPTURE(hybridListHits, sponza_conservative, "table1", "conservative")->Iterations(1);
+BENCHMARK_CAPTURE(hybridListHits, bunnies_exact, "table1_bunnies", "exact")->Iterations(1);
+BENCHMARK_CAPTURE(hybridListHits, kitchen_exact, "table1_kitchen", "exact")->Iterations(1);
 
 }  // namespace
 }  // namespace voxray

@@ -5,6 +5,7 @@
 
 #include "passes/hybrid_leaves/hybrid_leaves.h"
 #include "tests/bench/sponza.h"
+#include "tests/physics/hybrid_lists.h"
 #include "tests/physics/triangle_box.h"
 
 namespace voxray {
@@ -12,35 +13,6 @@ namespace {
 
 // Clear is what is so in voxels smaller, or larger, by this on each side: four of the voxelizer's margins.
 constexpr double kEpsilon = 1e-3;
-
-using Lists = std::vector<std::vector<uint32_t>>;
-
-/// Triangles of each leaf, without the items that stand before groups (passes/hybrid_leaves/hybrid_types.h).
-Lists listsOf(const std::vector<uint32_t>& words, const std::vector<uint32_t>& items) {
-    Lists lists(words.size());
-    for (size_t leaf = 0; leaf < words.size(); ++leaf) {
-        if (words[leaf] == LEAF_EMPTY) continue;
-        const bool hasGroups = (words[leaf] & LIST_HAS_GROUPS) != 0;
-        const uint32_t* item = &items[size_t(words[leaf] & ~LIST_HAS_GROUPS) * LIST_ITEM_WORDS];
-        bool ends = false;
-        for (size_t i = 0; !ends; ++i, item += LIST_ITEM_WORDS) {
-            if (hasGroups && i % (LIST_GROUP + 1) == 0) continue;
-            lists[leaf].push_back(item[1]);
-            ends = (item[0] & LIST_ENDS) != 0;
-        }
-    }
-    return lists;
-}
-
-/// The number of each voxel's leaf, x fastest; ~0 where none is.
-std::vector<uint32_t> leafNumbers(const gpu::VoxelGrid& grid, const std::vector<uint32_t>& occupancy) {
-    std::vector<uint32_t> numbers;
-    uint32_t leaf = 0;
-    for (uint32_t row = 0; row < grid.resolution.z * grid.resolution.y; ++row)
-        for (uint32_t x = 0; x < grid.resolution.x; ++x)
-            numbers.push_back(occupancy[row * grid.wordsPerRow + x / 32] >> (x % 32) & 1u ? leaf++ : ~0u);
-    return numbers;
-}
 
 /// Calls visit(glm::ivec3) for each voxel in a cube of `side`, a power of two, that a triangle clearly meets.
 template <typename Visit>
@@ -69,8 +41,9 @@ void hybridListsMissing(benchmark::State& state, const std::string& file) {
     const HybridLeaves& leaves = *chain.graph().resource<HybridLeaves>("hybrid_leaves");
     const SurfaceVoxels& voxels = leaves.voxels(*chain.graph().resource<SurfaceVoxels>("voxels"));
     const gpu::VoxelGrid& grid = voxels.grid;
-    const std::vector<uint32_t> numbers = leafNumbers(grid, chain.read<uint32_t>(voxels.occupancy));
-    const Lists lists = listsOf(chain.read<uint32_t>(leaves.words), chain.read<uint32_t>(leaves.primitives));
+    const std::vector<uint32_t> numbers = test::leafNumbers(grid, chain.read<uint32_t>(voxels.occupancy));
+    const test::LeafLists lists =
+        test::listsOf(chain.read<uint32_t>(leaves.words), chain.read<uint32_t>(leaves.primitives));
     const glm::ivec3 resolution(grid.resolution);
     const Geometry& g = scene->geometry;
 

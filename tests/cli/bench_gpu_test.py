@@ -11,7 +11,7 @@ import unittest
 from support import PROGRAM, SOURCE, CommandTest
 
 sys.path.append(os.path.join(SOURCE, "framework"))
-from bench import devices, processes, tables  # noqa: E402
+from bench import devices, processes, runs, tables  # noqa: E402
 
 SCRIPT = os.path.join(SOURCE, "scripts", "bench_gpu.py")
 
@@ -134,6 +134,17 @@ llvmpipe (LLVM 15) (CPU)
         self.assertIsNone(devices.chosen(found, "old"))
         self.assertEqual(devices.software(found, found[0]).name, "llvmpipe (LLVM 15)")
         self.assertIsNone(devices.software(found, found[2]))
+
+    def test_ways_of_writing_stand_over_the_plain_store_of_their_pass_and_voxels(self):
+        def variant(kind, voxels, write, ms):
+            graph = [{"pass": "voxelize", "resolution": voxels}, {"pass": kind, "id": "inject", "rays_per_light": 9, "write": write}]
+            costs = [{"pass": "voxelize", "phase": "build", "ms": [9, 9, 9]}, {"pass": "inject", "phase": "build", "ms": [ms, ms, ms]}]
+            return runs.Variant(write, graph, {"passes": costs} if ms else None, "")
+        done = [variant("a", "64", "none", 2), variant("a", "64", "max", 3), variant("a", "128", "none", 0), variant("a", "128", "max", 4),
+                variant("b", "64", "max", 8), variant("b", "64", "none", 4)]
+        rows = tables.write_rows(runs.Run("writes", "", "", None, None, done))
+        self.assertEqual([(row["kind"], row["voxels"], row["write"], row["over_none"]) for row in rows],
+                         [("a", 64, "none", 1), ("a", 64, "max", 1.5), ("a", 128, "max", None), ("b", 64, "max", 2), ("b", 64, "none", 1)])
 
     def test_benchmarks_of_a_program_that_was_stopped(self):
         entry = {"name": "scan", "real_time": 2.0, "time_unit": "ms", "words": 3.0}

@@ -37,6 +37,8 @@ WARNINGS = {
     "lights that the scene lacks": ("  lights:", "  keep_file_lights: false\n  lights:", 5, "punctual"),
     "spheres that have no time to move": ("  lights:", "  moving_spheres: {count: 1, center: [0, 1, 0]}\n  lights:", 5,
         "'time_step'"),
+    "an added scene that has no time to move": ("  lights:",
+        "  add: [{builtin: mirror_row, swing: {by: [0.1, 0, 0]}}]\n  lights:", 5, "'time_step'"),
     "a sweep of the value that is written": ("[4096, 8192]", "[4096]", 20, "sweep.inject.rays_per_light"),
     "a sweep of the pass that is written": (VALUES, "gather: [gather_rays]", 20, "sweep.gather"),
     "a reference that can't be halved": ("spp: 8", "spp: 3", 18, "reference.spp"),

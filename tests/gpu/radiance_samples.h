@@ -60,7 +60,7 @@ inline std::vector<glm::vec4> sampleRadiance(const Chain& chain, const std::vect
 /// Samples everywhere in voxels with one direction.
 inline std::vector<glm::vec4> samplesOf(const Chain& chain) {
     const gpu::RadianceGrid& g = radiance(chain).grid;
-    return sampleRadiance(chain, randomQueries({g.origin, g.voxelSize, g.resolution, 0, 1, 1024, {}}, 20000));
+    return sampleRadiance(chain, randomQueries({g.origin, g.voxelSize, g.resolution, 0, 1, 1024, {}, 0}, 20000));
 }
 
 /// All that a layout stores, in one buffer or a texture, as words.

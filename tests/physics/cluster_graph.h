@@ -81,22 +81,28 @@ struct VisibilityEntry {
     uint32_t target, rays;
 };
 
-/// The visibility list of each patch: entries of a chunk lie end to end, the first one in its lowest bits.
+/// The visibility list of each patch.
 inline std::vector<std::vector<VisibilityEntry>> readVisibilityLists(Chain& chain) {
     const ClusterVisibility& visibility = chain.get<ClusterVisibility>("cluster_visibility");
-    const gpu::VisibilityListLayout& layout = visibility.layout;
     std::vector<std::vector<VisibilityEntry>> lists;
     for (const ClusterVisibility::Chunk& chunk : visibility.chunks) {
         const auto offsets = chain.read<uint32_t>(chunk.offsets), words = chain.read<uint32_t>(chunk.entries);
-        const auto entry = [&](uint32_t number) {
+        const auto read = [&](uint32_t first, uint32_t count) {
             uint32_t bits = 0;
-            for (uint32_t i = 0, bit = number * layout.entryBits; i < layout.entryBits; ++i, ++bit)
-                bits |= (words[bit / 32] >> bit % 32 & 1u) << i;
-            return VisibilityEntry{gpu::entryTarget(layout, bits), gpu::entryRays(layout, bits)};
+            for (uint32_t i = 0, bit = first; i < count; ++i, ++bit) bits |= (words[bit / 32] >> bit % 32 & 1u) << i;
+            return bits;
         };
         for (size_t i = 0; i + 1 < offsets.size(); ++i) {
             lists.emplace_back();
-            for (uint32_t k = offsets[i]; k < offsets[i + 1]; ++k) lists.back().push_back(entry(k));
+            if (offsets[i] == offsets[i + 1]) continue;
+            const uint32_t header = read(offsets[i], LIST_HEADER_BITS), targetBits = gpu::targetBitsOf(header),
+                           rayBits = gpu::rayBitsOf(header);
+            uint32_t target = 0, bit = offsets[i] + LIST_HEADER_BITS;
+            for (; bit < offsets[i + 1]; bit += targetBits + rayBits) {
+                target += read(bit + rayBits, targetBits);
+                lists.back().push_back({target, read(bit, rayBits) + 1});
+            }
+            EXPECT_EQ(bit, offsets[i + 1]);
         }
     }
     return lists;

@@ -1,6 +1,7 @@
 // Bytes that clusters keep for a new light, counted by what exists.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 
 #include "passes/common/compute/bit_words.h"
@@ -46,17 +47,27 @@ TEST(ClusterMemory, CountsWhatExists) {
             EXPECT_EQ(light.patches.bytes() + light.direct.bytes(), 8ull * patches.patchCount);
             EXPECT_EQ(light.components.bytes(), 4ull * patches.componentFaceCount);
             EXPECT_LT(patches.componentFaceCount, 6 * patches.componentCount);
-            // An entry: 5 bits for the number of 1 to 32 rays, and what the largest target needs
+            // A list: a header, and for each entry the widths of the largest difference and number of rays
             const ClusterVisibility& visibility = chain.get<ClusterVisibility>("cluster_visibility");
-            const uint32_t targets = patches.componentFaceCount + (near == "0" ? 0 : patches.patchCount);
-            EXPECT_EQ(visibility.layout.entryBits, 5 + uint32_t(std::bit_width(targets - 1)));
-            uint64_t entries = 0;
-            for (const ClusterVisibility::Chunk& chunk : visibility.chunks) {
-                const uint32_t count = chain.read<uint32_t>(chunk.offsets).back();
-                EXPECT_EQ(chunk.entries.bytes(), words(uint64_t(count) * visibility.layout.entryBits));
-                entries += count;
+            uint64_t entries = 0, bits = 0;
+            for (const std::vector<VisibilityEntry>& list : readVisibilityLists(chain)) {
+                uint32_t difference = 1, rays = 1, previous = 0;
+                for (const VisibilityEntry& entry : list) {
+                    difference = std::max(difference, entry.target - previous);
+                    rays = std::max(rays, entry.rays);
+                    previous = entry.target;
+                }
+                entries += list.size();
+                if (!list.empty()) bits += 9 + list.size() * (std::bit_width(difference) + std::bit_width(rays - 1));
             }
             EXPECT_EQ(entries, visibility.entryCount);
+            uint64_t stored = 0;
+            for (const ClusterVisibility::Chunk& chunk : visibility.chunks) {
+                const uint32_t end = chain.read<uint32_t>(chunk.offsets).back();
+                EXPECT_EQ(chunk.entries.bytes(), words(end));
+                stored += end;
+            }
+            EXPECT_EQ(stored, bits);
         }
 }
 

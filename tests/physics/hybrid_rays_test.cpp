@@ -175,18 +175,5 @@ TEST(HybridRays, RaysWiderThanAVoxelEnd) {
     EXPECT_GT(ended, 2000u);
 }
 
-TEST(HybridRays, FragmentsMissTriangles) {
-    const State state = builtin("clutter");
-    Hybrid exact(state, 32, "primitives: 1000"), fragments(state, 32, "primitives: 1000, lists: fragments");
-    EXPECT_LT(fragments.leaves().primitiveCount, exact.leaves().primitiveCount);
-    const std::vector<Ray> rays = raysThrough(state->geometry, 20000);
-    const std::vector<Hit> expected = exact.embree(rays);
-    const double missed = differing(expected, fragments.closest(HybridTraversal::Hierarchical, rays));
-    EXPECT_GT(missed, 0.001);
-    EXPECT_LE(differing(expected, exact.closest(HybridTraversal::Hierarchical, rays)), 1e-4);
-    std::printf("fragments: %u of %u triangles in lists, %.2g of the rays differ\n", fragments.leaves().primitiveCount,
-                exact.leaves().primitiveCount, missed);
-}
-
 }  // namespace
 }  // namespace voxray::test

@@ -156,7 +156,7 @@ TEST(VoxelLookup, SevenTapKeepsAConstantAndBlursAnEdge) {
 
     // Emissive walls of albedo 0.6 and radiance 1 reflect 0.6 of it, but for noise where few samples fall.
     const std::string furnace = "{shape: box, albedo: 0.6, emission: 1}";
-    for (const std::string lookup : {"trilinear", "seven_tap", "bilinear_face"}) {
+    for (const std::string lookup : {"trilinear", "seven_tap", "bilinear_face", "nearest_face"}) {
         double worst = 0;
         for (const float value : direct("furnace", furnace, lookup).data)
             worst = std::max(worst, std::abs(value - 0.6) / 0.6);
@@ -173,8 +173,11 @@ TEST(VoxelLookup, SevenTapKeepsAConstantAndBlursAnEdge) {
     };
     const ImageF sharp = direct("plane", "{light: spot}", "trilinear");
     const ImageF blurred = direct("plane", "{light: spot}", "seven_tap");
+    const ImageF faceted = direct("plane", "{light: spot}", "nearest_face");
     EXPECT_LT(steepest(blurred), 0.9f * steepest(sharp));
     EXPECT_NEAR(mean(blurred) / mean(sharp), 1.0, 0.05);
+    EXPECT_GT(steepest(faceted), 1.5f * steepest(sharp));
+    EXPECT_NEAR(mean(faceted) / mean(sharp), 1.0, 0.05);
 }
 
 TEST(Chain, CornellIndirectMatchesTheReference) {

@@ -44,10 +44,10 @@ void followWalk(const std::string& graph, size_t stride, const Compare& compare)
 }
 
 TEST(MovingVoxels, HybridLeavesAreThoseThatAreRebuilt) {
-    for (const std::string levels : {"finest", "footprint"}) {
-        SCOPED_TRACE(levels);
-        const std::string graph = graphYaml(
-            {"voxelize, resolution: 24", "build_hybrid_leaves, primitives: 6, grid: 4, grid_levels: " + levels});
+    for (const std::string parameters : {"grid_levels: finest", "grid_levels: footprint", "lists: fragments"}) {
+        SCOPED_TRACE(parameters);
+        const std::string graph =
+            graphYaml({"voxelize, resolution: 24", "build_hybrid_leaves, primitives: 6, grid: 4, " + parameters});
         followWalk(graph, 2, [](Chain& moved, Chain& made) {
             const auto& a = moved.get<HybridLeaves>("hybrid_leaves");
             const auto& b = made.get<HybridLeaves>("hybrid_leaves");

@@ -26,7 +26,7 @@ TEST(SvoLayout, AgreesWithTheDenseLayout) {
         const auto dense = chain("dense"), svo = chain("svo");
         const gpu::RadianceGrid& grid = radiance(*svo).grid;
         const std::vector<RadianceQuery> queries =
-            randomQueries({grid.origin, grid.voxelSize, grid.resolution, 0, grid.directions, 1024, {}},
+            randomQueries({grid.origin, grid.voxelSize, grid.resolution, 0, grid.directions, 1024, {}, 0},
                           directions == "1" ? 200000 : 1000000);
         const std::vector<glm::vec4> a = sampleRadiance(*dense, queries), b = sampleRadiance(*svo, queries);
         double worst = 0, worstCoverage = 0, brightest = 0;

@@ -158,6 +158,23 @@ TEST(ComposedSceneLoader, AddedAnimationsPlay) {
     EXPECT_EQ(moved.state.geometry.positions, there.state.geometry.positions);
 }
 
+TEST(ComposedSceneLoader, AddedScenesSwing) {
+    SceneLoader loader({});
+    const auto withPlane = [](const std::string& more) {
+        return settingsOf("  time_step: 0.5\n  add: [{builtin: plane, transform: {translate: " + more + "}]\n");
+    };
+    const SceneSettings start = withPlane("[0, 1, 0]}, swing: {by: [0.4, 0, 0.2], period: 2}");
+    PreparedScene moved = loader.prepare(start);
+    uint32_t frame = 0;
+    for (const char* place : {"[0, 1, 0]}", "[0.4, 1, 0.2]}", "[0, 1, 0]}", "[-0.4, 1, -0.2]}", "[0, 1, 0]}"}) {
+        SceneLoader::goToFrame(moved, start, frame++);
+        const std::vector<glm::vec3> there = loader.prepare(withPlane(place)).state.geometry.positions;
+        ASSERT_EQ(moved.state.geometry.positions.size(), there.size());
+        for (size_t i = 0; i < there.size(); ++i)
+            EXPECT_LT(glm::length(moved.state.geometry.positions[i] - there[i]), 1e-6f) << place;
+    }
+}
+
 TEST(ComposedSceneLoader, KeysTellCompositionsApart) {
     SceneLoader loader({});
     std::set<std::string> keys;
@@ -167,7 +184,9 @@ TEST(ComposedSceneLoader, KeysTellCompositionsApart) {
           "  add: [{builtin: plane, albedo: 0.25}]\n", "  add: [{builtin: plane}, {builtin: plane}]\n",
           "  add: [{builtin: plane, transform: {scale: 2}}]\n",
           "  add: [{builtin: plane, transform: {translate: [0, 1, 0]}}]\n", "  add: [{builtin: plane, material: {}}]\n",
-          "  add: [{builtin: plane, material: {roughness: 0.5}}]\n", "  override: {grey: {roughness: 0.5}}\n",
+          "  add: [{builtin: plane, material: {roughness: 0.5}}]\n",
+          "  add: [{builtin: plane, swing: {by: [1, 0, 0]}}]\n",
+          "  add: [{builtin: plane, swing: {by: [1, 0, 0], period: 2}}]\n", "  override: {grey: {roughness: 0.5}}\n",
           "  override: {grey: {specular: 1}}\n", "  override: {red: {specular: 1}}\n"}) {
         keys.insert(loader.key(settingsOf(rest)));
         EXPECT_EQ(keys.size(), ++count) << rest;
@@ -192,6 +211,7 @@ TEST(ComposedSceneLoader, ErrorsNamePlaceAndNearestWord) {
     expectError("  add: [{builtin: plan}]\n", "x.yaml:5: scene.add[0].builtin: ", "'plane'");
     expectError("  add: [{builtin: plane, heigth: 2}]\n", "x.yaml:5: scene.add[0]: ", "'height'");
     expectError("  add: [{builtin: plane, matrial: {}}]\n", "x.yaml:5: ", "'material'");
+    expectError("  add: [{builtin: plane, swing: {period: 2}}]\n", "x.yaml:5: scene.add[0].swing: ", "without 'by'");
     expectError("  add: [{file: nowhere.glb}]\n", "x.yaml:5: ", "'nowhere.glb'");
 }
 

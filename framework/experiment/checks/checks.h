@@ -50,7 +50,7 @@ void checkAddedSceneUnits(const PlannedVariant&, Diagnostics&);
 /// @param prepared that of `scene`, which `loader` has loaded.
 Diagnostics checkAddedSceneUnits(const SceneSettings& scene, const PreparedScene& prepared, SceneLoader& loader);
 void keepFileLightsWithoutLights(const PlannedVariant&, Diagnostics&);
-void staticMovingSpheres(const PlannedVariant&, Diagnostics&);
+void staticSwings(const PlannedVariant&, Diagnostics&);
 // Time and memory (cost.cpp)
 void slowShadowRays(const PlannedVariant&, Diagnostics&);
 // What is compared (comparison.cpp)
@@ -61,7 +61,7 @@ void missingLobes(const PlannedVariant&, Diagnostics&);
 
 /// Checks of each variant.
 inline constexpr Check<PlannedVariant> kVariantChecks[] = {checkAddedSceneUnits, keepFileLightsWithoutLights,
-                                                           staticMovingSpheres,  slowShadowRays,
+                                                           staticSwings,         slowShadowRays,
                                                            shortHistory,         missingLight,
                                                            differentBounces,     missingLobes};
 

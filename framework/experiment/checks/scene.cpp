@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -90,12 +91,18 @@ void keepFileLightsWithoutLights(const PlannedVariant& v, Diagnostics& found) {
                      "none' the sky"});
 }
 
-/// Warns of moving spheres without a time step.
-void staticMovingSpheres(const PlannedVariant& v, Diagnostics& found) {
+/// Warns of what swings without a time step.
+void staticSwings(const PlannedVariant& v, Diagnostics& found) {
     const SceneSettings& scene = v.variant.setup.scene;
-    if (!scene.movingSpheres || scene.movingSpheres->count == 0 || scene.options.timeStep > 0) return;
-    found.push_back({locationOf(v.variant.config, "scene.moving_spheres"), "scene.moving_spheres: they stand still",
-                     "for ones that move write 'time_step', the seconds from one frame to the next, next to it"});
+    if (scene.options.timeStep > 0) return;
+    const auto warn = [&](const char* key, const char* what) {
+        found.push_back({locationOf(v.variant.config, key), what,
+                         "for motion write 'time_step', the seconds from one frame to the next, in 'scene'"});
+    };
+    if (scene.movingSpheres && scene.movingSpheres->count > 0)
+        warn("scene.moving_spheres", "scene.moving_spheres: they stand still");
+    if (std::ranges::any_of(scene.additions, [](const SceneAddition& added) { return added.swing.has_value(); }))
+        warn("scene.add", "scene.add: what has a 'swing' stands still");
 }
 
 }  // namespace voxray

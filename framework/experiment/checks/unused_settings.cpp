@@ -45,7 +45,8 @@ void UnusedMotionSettings::add(const Variant& variant, const Scene& scene) {
     };
     const SceneSettings& settings = variant.setup.scene;
     const bool isAnimated = !scene.animation.empty();
-    const char* nothing = "nothing in the scene is animated: leave it out, or add 'moving_spheres' to the scene";
+    const char* nothing =
+        "nothing in the scene is animated: leave it out, or add 'moving_spheres', or a 'swing' to an entry of 'add'";
     if (settings.options.time > 0) addUse("scene.time", isAnimated, nothing);
     if (settings.options.timeStep > 0 && !isAnimated) addUse("scene.time_step", false, nothing);
 

@@ -148,7 +148,7 @@ class FindClusterVisibility final : public Pass {
     Kernel mergeTargets_{*this, "merge_targets.comp"};
     Kernel packLists_{*this, "pack_lists.comp"};
     LargeBuffer surfels_;  ///< gpu::PatchSurfel each, while the pass records.
-    Buffer patchFaces_, packedHits_, targets_, entryCounts_, lostRays_;  ///< Scratch.
+    Buffer patchFaces_, packedHits_, targets_, listHeaders_, listBits_, entryCount_, lostRays_;  ///< Scratch.
     Buffer flags_, listedRays_, rays_, hits_, candidates_, occlusionRays_, occluded_;
 };
 
@@ -157,10 +157,12 @@ void FindClusterVisibility::plan(PassPlan& plan) {
     ClusterVisibility& visibility = plan[visibility_];
     const uint32_t chunk = kChunkRays / params_.rays;
     visibility.listsPatches = listsPatches();
-    visibility.layout = {params_.rays, chunk, 0, uint32_t(std::bit_width(params_.rays - 1)), 32};
+    visibility.layout = {params_.rays, chunk, 0, uint32_t(std::bit_width(params_.rays - 1))};
     const uint64_t rays = uint64_t(chunk) * params_.rays;
     plan.scratchBuffer(targets_, "targets of rays", rays * sizeof(uint32_t));
-    plan.scratchBuffer(entryCounts_, "entry counts of patches", (chunk + 1) * sizeof(uint32_t));
+    plan.scratchBuffer(listHeaders_, "headers of visibility lists", chunk * sizeof(uint32_t));
+    plan.scratchBuffer(listBits_, "lengths of visibility lists", (chunk + 1) * sizeof(uint32_t));
+    plan.scratchBuffer(entryCount_, "number of visibility list entries", sizeof(uint32_t));
     plan.scratchBuffer(lostRays_, "rays without a target", 2 * sizeof(uint32_t));
     const bool reusesHits = tracesTriangles() && !movingInstanceRanges(plan.frame.scene->geometry).empty();
     if (reusesHits) {
@@ -202,14 +204,11 @@ void FindClusterVisibility::record(PassContext& context) {
     ClusterVisibility& visibility = context[visibility_];
     const std::optional<std::vector<Box>>& changed = context.frame.changedRegions;
     visibility.chunks.clear();
-    visibility.entryCount = 0;
     visibility.chunkAddresses = {};
     visibility.patchCount = patches.patchCount;
     visibility.layout.firstPatchTarget = patches.componentFaceCount;
     const uint64_t targets = uint64_t(patches.componentFaceCount) + (listsPatches() ? uint64_t(patches.patchCount) : 0);
-    gpu::VisibilityListLayout& layout = visibility.layout;
-    layout.entryBits = std::max(layout.rayBits + uint32_t(std::bit_width(targets)), 1u);
-    if (layout.entryBits > 32)
+    if (visibility.layout.rayBits + std::bit_width(targets) > 32)
         throw Error(
             "{}: a list entry needs over 32 bits for {} targets and {} rays; set 'near_distance: 0', or lower 'rays', "
             "cluster_voxels's 'target' or voxelize's 'resolution'",
@@ -230,6 +229,7 @@ void FindClusterVisibility::record(PassContext& context) {
     context.dispatch(listPatchFaces_, patches.groupCount,
                      {{"groups", patches.groups}, {"patchFaces", patchFaces_}, {"groupCount", patches.groupCount}});
     stream.fill(lostRays_, 0);
+    stream.fill(entryCount_, 0);
     tracedRays_ = 0;
     for (uint32_t first = 0; first < count; first += perChunk)
         buildChunk(context, first, std::min(perChunk, count - first));
@@ -246,6 +246,7 @@ void FindClusterVisibility::record(PassContext& context) {
         Buffer(context.device, "addresses of visibility lists", addresses.size() * sizeof(uint64_t));
     stream.upload(visibility.chunkAddresses, addresses);
     const double rays = double(count) * params_.rays;
+    visibility.entryCount = stream.readAs<uint32_t>(entryCount_, 1).front();
     const std::vector<uint32_t> lostRays = stream.readAs<uint32_t>(lostRays_, 2);
     const auto percent = [&](uint32_t lost) { return count > 0 ? 100 * lost / rays : 0; };
     // "Hits without surfel": no candidate surfel saw the hit (HIT_NO_GROUP, packed_hit.glsl)
@@ -371,18 +372,18 @@ void FindClusterVisibility::buildChunk(PassContext& context, uint32_t first, uin
                       {"listLayout", visibility.layout},
                       {"rays", rayCount}});
 
-    const Bindings lists{{"targets", targets_}, {"listLayout", visibility.layout}, {"patchCount", count}};
-    context.dispatch(mergeTargets_, uint64_t(count) + 1, {lists.all(), {"entryCounts", entryCounts_}});
+    const Bindings lists{
+        {"targets", targets_}, {"listHeaders", listHeaders_}, {"listLayout", visibility.layout}, {"patchCount", count}};
+    context.dispatch(mergeTargets_, uint64_t(count) + 1,
+                     {lists.all(), {"listBits", listBits_}, {"EntryCount", entryCount_}});
     ClusterVisibility::Chunk chunk;
     chunk.offsets = Buffer(context.device, "offsets of visibility lists", (count + 1) * sizeof(uint32_t));
-    const uint32_t entries = prefixSum_.run(stream, entryCounts_, chunk.offsets, count + 1);
-    const uint64_t words = bitWords(uint64_t(entries) * visibility.layout.entryBits);
+    const uint64_t words = bitWords(prefixSum_.run(stream, listBits_, chunk.offsets, count + 1));
     chunk.entries = Buffer(context.device, "visibility lists", std::max<uint64_t>(words, 1) * sizeof(uint32_t));
     stream.fill(chunk.entries, 0);
     context.dispatch(packLists_, count, {lists.all(), {"offsets", chunk.offsets}, {"entries", chunk.entries}});
     stream.finish();
     visibility.chunks.push_back(std::move(chunk));
-    visibility.entryCount += entries;
 }
 
 VOXRAY_REGISTER_PASS(FindClusterVisibility);

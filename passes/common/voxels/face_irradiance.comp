@@ -1,6 +1,7 @@
 // Irradiance of each voxel's faces, flux over area, of one flux buffer or the sum of two; and the area.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/voxels/packed_flux.glsl"
+#include "shaders/voxels/voxel_levels.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) buffer FluxRef { LargeUints flux; };
@@ -9,9 +10,8 @@ layout(scalar) readonly buffer Area { uint data[]; } area;
 layout(buffer_reference, scalar, buffer_reference_align = 16) writeonly buffer Faces { vec4 data[]; };
 layout(scalar) readonly buffer FacesRef { Faces faces; };
 layout(push_constant) uniform Push {
-    uint count;           // Faces.
-    float voxelFaceArea;  // m²
-    float addedWeight;    // 1: adds `added`; 0: doesn't.
+    uint count;         // Faces.
+    float addedWeight;  // 1: adds `added`; 0: doesn't.
 } push;
 
 void main() {
@@ -19,5 +19,6 @@ void main() {
     if (face >= push.count) return;
     const float a = areaOf(area.data[face / 2u], face);
     const vec3 sum = loadFlux(flux, face) + push.addedWeight * loadFlux(added, face);
-    faces.data[face] = a > 0.0 ? vec4(sum / (a * push.voxelFaceArea), a) : vec4(0.0);
+    const float size = voxelSizeOf(face / 6u);
+    faces.data[face] = a > 0.0 ? vec4(sum / (a * (size * size)), a) : vec4(0.0);
 }

@@ -12,17 +12,17 @@ class FaceIrradiance {
 
     /// Divides flux, or the sum of `flux` and `added`, by area. Reallocates when the number of voxels has
     /// changed. @param area, flux, added as in VoxelIrradiance.
-    void update(CommandStream& stream, const SurfaceVoxels& voxels, const Buffer& area, const LargeBuffer& flux,
+    void update(CommandStream& stream, const VoxelLevels& voxels, const Buffer& area, const LargeBuffer& flux,
                 const LargeBuffer* added = nullptr) {
         const uint32_t faces = voxels.voxelCount * kFaces;
         ensureSize(faces_, stream.device(), "face irradiance", uint64_t(faces) * 4 * sizeof(float));
         stream.dispatch(program_, faces,
-                        {{"FluxRef", flux.ref()},
+                        {voxels,
+                         {"FluxRef", flux.ref()},
                          {"AddedRef", (added ? *added : flux).ref()},
                          {"area", area},
                          {"FacesRef", faces_.ref()},
                          {"count", faces},
-                         {"voxelFaceArea", voxels.grid.voxelSize * voxels.grid.voxelSize},
                          {"addedWeight", added ? 1.0f : 0.0f}});
     }
     /// Frees the irradiance, once the stream has finished.

@@ -16,7 +16,7 @@ class FluxAccumulator {
 
     /// Allocates and clears. @param power of all lights, W: 2^56 units, so that a sum stays below 2^63 even
     /// if all of it arrives at one face in each of 64 bounces.
-    void begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels, double power) {
+    void begin(Device& device, CommandStream& stream, const VoxelLevels& voxels, double power) {
         const uint64_t sums = uint64_t(std::max(voxels.voxelCount, 1u)) * kFaces * 3;
         sums_ = LargeBuffer(device, "flux accumulator", sums * sizeof(uint64_t));
         stream.fill(sums_, 0);
@@ -25,7 +25,7 @@ class FluxAccumulator {
     std::vector<Binding> bindings() const { return {{"FluxAccumulatorRef", sums_.ref()}}; }
     float unitsPerWatt() const { return unitsPerWatt_; }
     /// Writes watts to `flux` (VoxelIrradiance::direct or ::indirect).
-    void resolve(CommandStream& stream, const SurfaceVoxels& voxels, const LargeBuffer& flux) const {
+    void resolve(CommandStream& stream, const VoxelLevels& voxels, const LargeBuffer& flux) const {
         const uint32_t pairs = voxels.voxelCount * 3;
         stream.dispatch(resolve_, pairs,
                         {*this, {"FluxRef", flux.ref()}, {"pairs", pairs}, {"wattsPerUnit", 1.0f / unitsPerWatt_}});

@@ -40,7 +40,7 @@ Defines VoxelAccumulator::defines(Write write) {
     return {{"WRITE", enumDefine("WRITE_", write)}};
 }
 
-void VoxelAccumulator::begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels,
+void VoxelAccumulator::begin(Device& device, CommandStream& stream, const VoxelLevels& voxels,
                              float typicalIrradiance) {
     const BytesPerVoxel bytes = bytesPerVoxel(params_.write);
     const auto clear = [&](Buffer& buffer, const char* name, uint64_t size) {

@@ -57,7 +57,7 @@ class VoxelAccumulator {
 
     /// Clears the sums, and reallocates them if their size has changed. @param typicalIrradiance W/m²: the
     /// unit of fixed-point sums is 2^-24 of it (meanIrradiance() of passes/common/lights/light_sources.h).
-    void begin(Device& device, CommandStream& stream, const SurfaceVoxels& voxels, float typicalIrradiance);
+    void begin(Device& device, CommandStream& stream, const VoxelLevels& voxels, float typicalIrradiance);
     /// For the shader that writes.
     std::vector<Binding> bindings() const;
     /// Units per W/m², to be passed to writeIrradiance().

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <climits>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -11,10 +12,19 @@
 
 namespace voxray {
 
-std::vector<Binding> SurfaceVoxels::bindings(std::vector<Binding> more) const {
-    more.insert(more.begin(), {ifUsed({"voxelOccupancy", occupancy}), ifUsed({"voxelRank", rank}),
-                               ifUsed({"VoxelMaterialsRef", materials.ref()}), ifUsed({"grid", grid})});
+gpu::VoxelLevel wholeLevel(const gpu::VoxelGrid& grid) {
+    return {grid, glm::ivec3(INT_MIN), glm::ivec3(INT_MAX)};
+}
+
+std::vector<Binding> VoxelLevels::bindings(std::vector<Binding> more) const {
+    more.insert(more.begin(),
+                {ifUsed({"voxelLevels", levels}), ifUsed({"voxelOccupancy", occupancy}), ifUsed({"voxelRank", rank})});
     return more;
+}
+
+std::vector<Binding> SurfaceVoxels::bindings(std::vector<Binding> more) const {
+    more.insert(more.begin(), {ifUsed({"VoxelMaterialsRef", materials.ref()}), ifUsed({"grid", grid})});
+    return VoxelLevels::bindings(std::move(more));
 }
 
 void VoxelIrradiance::allocate(Device& device, uint32_t voxelCount) {
@@ -26,7 +36,7 @@ void VoxelIrradiance::allocate(Device& device, uint32_t voxelCount) {
     area = Buffer(device, "voxel area", uint64_t(voxelCount) * kAreaWords * sizeof(uint32_t));
 }
 
-void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
+void requireLight(CommandStream& stream, const VoxelLevels& voxels, const VoxelIrradiance& irradiance,
                   const SceneState& scene) {
     const auto emits = [&](uint32_t material) {
         const glm::vec3 emission = scene.scene->materials[material].emission;

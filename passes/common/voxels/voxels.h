@@ -18,24 +18,42 @@ inline VoxelBox windowVoxels(const gpu::VoxelGrid& grid) {
     return {grid.first, glm::min(grid.resolution, glm::uvec3(grid.windowSize))};
 }
 
-/// The voxels that surfaces pass through: an occupancy bit for each voxel of the grid, ranks that number the
-/// occupied ones, and their materials. Empty space takes two bits per voxel. GLSL access:
-/// shaders/voxels/voxels.glsl.
-struct SurfaceVoxels : Resource {
-    gpu::VoxelGrid grid{};
+/// Words of the occupancy bits of a grid's window.
+inline uint64_t occupancyWords(const gpu::VoxelGrid& grid) {
+    const glm::uvec3 window = windowVoxels(grid).size;
+    return uint64_t(grid.wordsPerRow) * window.y * window.z;
+}
+
+/// The level that holds all of a grid.
+gpu::VoxelLevel wholeLevel(const gpu::VoxelGrid& grid);
+
+/// The voxels that surfaces pass through, of one or more levels: an occupancy bit for each voxel of each level,
+/// and ranks that number the occupied ones of all levels through. No place is in two levels. GLSL access:
+/// shaders/voxels/voxel_levels.glsl.
+struct VoxelLevels : Resource {
+    gpu::VoxelGrid grid{};  ///< Of the finest level.
     /// Areas are those of unoccluded sides of surfaces, and light on occluded sides must be ignored.
     bool areasAreUnoccluded = false;
     uint32_t voxelCount = 0;    ///< Occupied voxels; known after the voxelizing pass has run.
     double estimatedCount = 0;  ///< Estimate of it for memory; known from plan() on.
-    Buffer occupancy;           ///< A bit per voxel of the grid's window.
+    Buffer levels;              ///< gpu::VoxelLevel each, the finest first.
+    Buffer occupancy;           ///< A bit per voxel of the levels' windows, level by level.
     Buffer rank;                ///< A uint per word of `occupancy`: occupied voxels before it.
-    LargeBuffer materials;      ///< PackedVoxelMaterial per surface voxel.
+    Buffer unoccludedArea;      ///< As VoxelIrradiance::area; SurfaceVoxels have it in their materials.
+
+    std::vector<Binding> bindings(std::vector<Binding> more = {}) const;
+    std::vector<Binding> bindings(std::initializer_list<Binding> more) const {
+        return bindings(std::vector<Binding>(more));
+    }
+};
+
+/// Voxels of one grid, the only level, with their materials. Empty space takes two bits per voxel. GLSL access:
+/// shaders/voxels/voxels.glsl.
+struct SurfaceVoxels : VoxelLevels {
+    LargeBuffer materials;  ///< PackedVoxelMaterial per surface voxel.
 
     /// Words of `occupancy`.
-    uint64_t words() const {
-        const glm::uvec3 window = windowVoxels(grid).size;
-        return uint64_t(grid.wordsPerRow) * window.y * window.z;
-    }
+    uint64_t words() const { return occupancyWords(grid); }
     /// For shaders that include shaders/voxels/voxels.glsl or declare `grid`; then `more`.
     std::vector<Binding> bindings(std::vector<Binding> more = {}) const;
     std::vector<Binding> bindings(std::initializer_list<Binding> more) const {
@@ -72,7 +90,7 @@ struct VoxelIrradiance : Resource {
 
 /// @throws Error if no direct light arrives at any voxel, which is a mistake in the scene unless all surfaces
 /// are emissive. Waits for the device.
-void requireLight(CommandStream& stream, const SurfaceVoxels& voxels, const VoxelIrradiance& irradiance,
+void requireLight(CommandStream& stream, const VoxelLevels& voxels, const VoxelIrradiance& irradiance,
                   const SceneState& scene);
 
 /// The smallest grid of cubic voxels around a box, with `resolution` voxels along its longest axis and a

@@ -91,6 +91,7 @@ void VoxelizeClipmap::record(PassContext& context) {
         for (const VoxelBox& box : level.boxes) updated += box.count();
     }
     context.report(kUpdatedVoxels, double(updated));
+    if (updated == 0) context.markOutputsUnchanged();
     sceneVersion_ = frame.sceneVersion;
     if (clipmap.levels.back().voxels.voxelCount == 0)
         throw Error("{}: no surface meets the grid; the scene needs triangles with an area", kName);

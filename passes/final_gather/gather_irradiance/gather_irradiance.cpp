@@ -17,12 +17,12 @@ struct EnumNames<GatheredLight> {
                                       std::pair{GatheredLight::Direct, "direct"}};
 };
 
-enum class VoxelLookup { Trilinear, SevenTap, BilinearFace };
+enum class VoxelLookup { Trilinear, SevenTap, BilinearFace, NearestFace };
 template <>
 struct EnumNames<VoxelLookup> {
-    static constexpr std::array names{std::pair{VoxelLookup::Trilinear, "trilinear"},
-                                      std::pair{VoxelLookup::SevenTap, "seven_tap"},
-                                      std::pair{VoxelLookup::BilinearFace, "bilinear_face"}};
+    static constexpr std::array names{
+        std::pair{VoxelLookup::Trilinear, "trilinear"}, std::pair{VoxelLookup::SevenTap, "seven_tap"},
+        std::pair{VoxelLookup::BilinearFace, "bilinear_face"}, std::pair{VoxelLookup::NearestFace, "nearest_face"}};
 };
 
 /// Light of each pixel by a lookup in the voxels at its surface: albedo / pi times the irradiance there.
@@ -47,12 +47,13 @@ class GatherIrradiance final : public Pass {
                       "direct: light straight from its sources, in place of direct_shadow_rays."),
                 field("radius", &Params::radius,
                       "Radius of the interpolation's kernel in voxels; 1 is trilinear, more is smoother.", 0.5f, 8.0f)
-                    .onlyWith(noneOf(&Params::lookup, {VoxelLookup::BilinearFace})),
+                    .onlyWith(oneOf(&Params::lookup, {VoxelLookup::Trilinear, VoxelLookup::SevenTap})),
                 field("lookup", &Params::lookup,
                       "trilinear: at the surface. seven_tap: there and at one voxel's distance along each axis, "
                       "which hides holes in the voxels and blurs (Magalhães 2020, listing 4.8, "
                       "but empty voxels are omitted instead of black). bilinear_face: "
-                      "only the face closest to the normal, between four voxels of one layer (Cosin and Patow 2022).")};
+                      "only the face closest to the normal, between four voxels of one layer (Cosin and Patow 2022). "
+                      "nearest_face: that face of the surface's own voxel, without interpolation (figure 12 there).")};
         }
     };
 
@@ -67,7 +68,7 @@ class GatherIrradiance final : public Pass {
 
     const Params params_;
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
-    In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels"};
+    In<VoxelLevels> voxels_{*this, "voxels", "surface voxels"};
     In<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
     Out<FrameImage> reflected_{*this, enumName(params_.light),
                                "radiance reflected of " + enumName(params_.light) + " light"};
@@ -75,7 +76,8 @@ class GatherIrradiance final : public Pass {
 };
 
 uint32_t GatherIrradiance::reach() const {
-    const float radius = params_.lookup == VoxelLookup::BilinearFace ? 1.0f : params_.radius;
+    const bool usesRadius = params_.lookup == VoxelLookup::Trilinear || params_.lookup == VoxelLookup::SevenTap;
+    const float radius = usesRadius ? params_.radius : 1.0f;
     const uint32_t tap = params_.lookup == VoxelLookup::SevenTap ? 1 : 0;
     // voxel_irradiance.glsl reads centers closer than the radius, which it doubles up to twice; the point may
     // be anywhere in its voxel

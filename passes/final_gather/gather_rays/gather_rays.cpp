@@ -122,7 +122,6 @@ void GatherRays::plan(PassPlan& plan) {
 
     const uint32_t rays = hits.blocksPerBatch * hits.layout.raysPerBlock;
     plan.buffer(light_, "light of gather rays", rays * sizeof(glm::vec4));
-    stored_.plan(plan);
     paths_.plan(plan,
                 {.measureDirect = !stored_.holdsDirect(plan),
                  .lightSamples = params_.lightSamples,

@@ -14,10 +14,6 @@ StoredLight::StoredLight(Pass& pass, GatherSource source, bool readsVoxelDirect,
     if (source == GatherSource::Voxels) faces_.emplace(pass);
 }
 
-void StoredLight::plan(PassPlan& plan) {
-    if (faces_) plan.buffer(grid_, "grid of voxels", sizeof(gpu::VoxelGrid));
-}
-
 bool StoredLight::holdsDirect(const PassPlan& plan) const {
     if (source_ == GatherSource::MergedVoxels) return plan[tree_].holdsDirect;
     return source_ == GatherSource::RadianceCache || readsVoxelDirect_;
@@ -40,13 +36,12 @@ std::vector<Binding> StoredLight::update(PassContext& context) {
     if (source_ == GatherSource::MergedVoxels) return context[tree_].bindings();
     if (source_ == GatherSource::RadianceCache) return context[cache_].bindings();
 
-    const SurfaceVoxels& voxels = context[voxels_];
+    const VoxelLevels& voxels = context[voxels_];
     if (context.changed(voxels_) || context.changed(irradiance_)) {
         const VoxelIrradiance& light = context[irradiance_];
         faces_->update(context.stream, voxels, light.area, light.indirect, readsVoxelDirect_ ? &light.direct : nullptr);
-        context.stream.upload(grid_, std::vector{voxels.grid});
     }
-    return voxels.bindings({faces_->binding(), {"grid", grid_}});
+    return voxels.bindings({faces_->binding()});
 }
 
 }  // namespace voxray

@@ -4,7 +4,7 @@
 
 #if defined(STORED_IN_VOXELS)
 #include "shaders/voxels/face_irradiance.glsl"
-layout(scalar) readonly buffer Grid { VoxelGrid data; } grid;
+#include "shaders/voxels/voxel_levels.glsl"
 #elif defined(STORED_IN_MERGED_VOXELS)
 #include "passes/final_gather/merged_voxels/irradiance_tree.glsl"
 #elif defined(STORED_IN_RADIANCE_CACHE)
@@ -21,7 +21,7 @@ struct StoredLight {
 StoredLight storedLight(vec3 position, vec3 normal) {
     StoredLight stored = StoredLight(vec3(0.0), 0.0, false);
 #if defined(STORED_IN_VOXELS)
-    const VoxelGrid g = grid.data;
+    const VoxelGrid g = gridAt(position);
     stored.irradiance = irradianceAt(g, position, normal, stored.known);
     stored.cellSize = g.voxelSize;
 #elif defined(STORED_IN_MERGED_VOXELS)

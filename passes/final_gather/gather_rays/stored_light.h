@@ -27,7 +27,6 @@ class StoredLight {
     /// a cell of the cache needs.
     StoredLight(Pass& pass, GatherSource source, bool readsVoxelDirect, uint32_t minSamples);
 
-    void plan(PassPlan& plan);
     /// Whether direct light is stored, too.
     bool holdsDirect(const PassPlan& plan) const;
     /// Resource::lightBounces.
@@ -41,12 +40,11 @@ class StoredLight {
     const GatherSource source_;
     const bool readsVoxelDirect_;
     const uint32_t minSamples_;
-    In<SurfaceVoxels> voxels_;
+    In<VoxelLevels> voxels_;
     In<VoxelIrradiance> irradiance_;
     In<IrradianceTree> tree_;
     In<RadianceCache> cache_;
     std::optional<FaceIrradiance> faces_;  ///< Of voxels.
-    Buffer grid_;                          ///< Of voxels: gpu::VoxelGrid.
 };
 
 }  // namespace voxray

@@ -51,11 +51,12 @@ uint32_t wordsPerGrid(uint32_t m, uint32_t levels) {
 }  // namespace
 
 /// Which triangles leaves list.
-enum class LeafLists { Exact, Fragments };
+enum class LeafLists { Exact, Fragments, Conservative };
 template <>
 struct EnumNames<LeafLists> {
     static constexpr std::array names{std::pair{LeafLists::Exact, "exact"},
-                                      std::pair{LeafLists::Fragments, "fragments"}};
+                                      std::pair{LeafLists::Fragments, "fragments"},
+                                      std::pair{LeafLists::Conservative, "conservative"}};
 };
 
 /// Which levels of cells grids have.
@@ -93,8 +94,10 @@ class BuildHybridLeaves final : public Pass {
                       "Resolution m of a leaf's grid: cells along its edge. An empty cell takes two bits.", 2u, 16u),
                 field("lists", &Params::lists,
                       "exact: every triangle that overlaps the leaf. "
-                      "fragments: every triangle with a raster fragment in the leaf, which misses some (Seok 2021, "
-                      "figures 24 and 25)."),
+                      "fragments: every triangle with a fragment in the leaf, of a conservative raster pass along its "
+                      "dominant axis; a fragment is in one voxel, so that some are missing (Seok 2021, figures 24 "
+                      "and 25). conservative: the same with all voxels of a fragment's range of depths; none is "
+                      "missing, and some are listed that the leaf's border excludes."),
                 field("write", &Params::write,
                       "average: a cell is the mean of its surfaces, weighted by area. "
                       "none: the last one that is written, which changes from run to run (Seok 2021, section 3.2)."),
@@ -116,9 +119,10 @@ class BuildHybridLeaves final : public Pass {
     /// Builds the leaves of a region and copies the others. False if sums need other fixed-point units:
     /// then all leaves must be rebuilt.
     bool build(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& surface, HybridLeaves& leaves);
-    /// Adds voxels of masked triangles that are too transparent to be surface voxels.
-    void addMaskedVoxels(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& voxels,
-                         HybridLeaves& leaves);
+    /// Adds voxels that list triangles and are no surface voxels: of masked triangles that are too transparent, and
+    /// of fragments.
+    void addListVoxels(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& voxels,
+                       HybridLeaves& leaves);
     /// Counts the triangles of leaves, and assigns lists and grids.
     void classifyLeaves(PassContext& context, const SurfaceVoxels& voxels, HybridLeaves& leaves);
     /// Fills lists, and the pairs of a triangle and a leaf with a grid.
@@ -128,20 +132,20 @@ class BuildHybridLeaves final : public Pass {
 
     uint32_t gridLevels() const;
 
-    Defines listDefines() const {
-        return params_.lists == LeafLists::Fragments ? Defines{{"FRAGMENTS", "1"}} : Defines{};
-    }
-    std::unique_ptr<PassProgram> voxelizerProgram(const char* file, const Defines& defines = {}) {
-        return voxelizer_->makeProgram(*this, std::string("passes/hybrid_leaves/build_hybrid_leaves/") + file, defines);
+    std::unique_ptr<PassProgram> voxelizerProgram(const char* file) {
+        return voxelizer_->makeProgram(
+            *this, std::string("passes/hybrid_leaves/build_hybrid_leaves/") + file,
+            params_.lists == LeafLists::Fragments ? Defines{{"ONE_VOXEL_PER_FRAGMENT", "1"}} : Defines{});
     }
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels: the leaves"};
     Out<HybridLeaves> leaves_{*this, "hybrid_leaves", "lists and grids of the leaves"};
-    std::unique_ptr<TriangleVoxelizer> voxelizer_ = makeExactVoxelizer();
+    std::unique_ptr<TriangleVoxelizer> voxelizer_ =
+        params_.lists == LeafLists::Exact ? makeExactVoxelizer() : makeDominantAxisVoxelizer();
     std::unique_ptr<PassProgram> markLeaves_ = voxelizerProgram("mark_leaves"),
-                                 countTriangles_ = voxelizerProgram("count_triangles", listDefines()),
-                                 fillLists_ = voxelizerProgram("fill_lists", listDefines());
+                                 countTriangles_ = voxelizerProgram("count_triangles"),
+                                 fillLists_ = voxelizerProgram("fill_lists");
     Kernel copyCorners_{*this, "copy_corners.comp"};
     Kernel sizeLists_{*this, "size_lists.comp"};
     Kernel classifyLeaves_{*this, "classify_leaves.comp"};
@@ -165,6 +169,11 @@ uint32_t BuildHybridLeaves::gridLevels() const {
 }
 
 void BuildHybridLeaves::plan(PassPlan& plan) {
+    if (params_.lists != LeafLists::Exact && !plan.device.geometryShader)
+        throw Error(
+            "build_hybrid_leaves: raster fragments need geometry shaders (geometryShader), which device '{}' lacks; "
+            "set 'lists' to exact",
+            plan.device.name);
     const gpu::VoxelGrid& grid = plan[voxels_].grid;
     if (grid.windowSize < std::max({grid.resolution.x, grid.resolution.y, grid.resolution.z}))
         throw Error("build_hybrid_leaves needs all voxels, and this grid holds a window of them: take voxelize");
@@ -208,7 +217,7 @@ void BuildHybridLeaves::record(PassContext& context) {
 bool BuildHybridLeaves::build(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& surface,
                               HybridLeaves& leaves) {
     leaves.release();
-    addMaskedVoxels(context, region, surface, leaves);
+    addListVoxels(context, region, surface, leaves);
     const SurfaceVoxels& voxels = leaves.voxels(surface);
     voxelizer_->select(context, voxels.grid, region, region.triangles(context.frame.scene->geometry));
     const float previousUnitsPerFace = unitsPerFace_;
@@ -226,23 +235,25 @@ bool BuildHybridLeaves::build(PassContext& context, const VoxelRegion& region, c
     return true;
 }
 
-void BuildHybridLeaves::addMaskedVoxels(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& voxels,
-                                        HybridLeaves& leaves) {
-    const std::vector<uint32_t> triangles = maskedTriangles(*context.frame.scene);
-    if (triangles.empty()) return;
+void BuildHybridLeaves::addListVoxels(PassContext& context, const VoxelRegion& region, const SurfaceVoxels& voxels,
+                                      HybridLeaves& leaves) {
+    const SceneState& scene = *context.frame.scene;
+    const bool ofFragments = params_.lists == LeafLists::Fragments;
+    const std::vector<uint32_t> triangles = ofFragments ? region.triangles(scene.geometry) : maskedTriangles(scene);
+    if (triangles.empty() && !ofFragments) return;
     CommandStream& stream = context.stream;
-    SurfaceVoxels& masked = leaves.masked;
-    masked.grid = voxels.grid;
-    masked.version = voxels.version;
-    masked.occupancy = Buffer(context.device, "occupancy with masks", voxels.occupancy.bytes());
-    masked.rank = Buffer(context.device, "ranks with masks", voxels.rank.bytes());
-    stream.copy(voxels.occupancy, masked.occupancy, voxels.occupancy.bytes());
-    voxelizer_->select(context, masked.grid, region, triangles);
-    voxelizer_->run(context, *markLeaves_, masked.grid, std::vector<Binding>{{"occupancy", masked.occupancy}}, 0);
+    SurfaceVoxels& listing = leaves.listing;
+    listing.grid = voxels.grid;
+    listing.version = voxels.version;
+    listing.occupancy = Buffer(context.device, "occupancy of leaves", voxels.occupancy.bytes());
+    listing.rank = Buffer(context.device, "ranks of leaves", voxels.rank.bytes());
+    stream.copy(voxels.occupancy, listing.occupancy, voxels.occupancy.bytes());
+    voxelizer_->select(context, listing.grid, region, triangles);
+    voxelizer_->run(context, *markLeaves_, listing.grid, std::vector<Binding>{{"occupancy", listing.occupancy}}, 0);
     if (isUpdate())
-        masked.occupancy =
-            regionMerge_.merged(stream, updateCache_->region(), updateCache_->occupancy(), masked.occupancy);
-    masked.voxelCount = bitPrefixSum_.run(stream, masked.occupancy, masked.rank, uint32_t(masked.words()));
+        listing.occupancy =
+            regionMerge_.merged(stream, updateCache_->region(), updateCache_->occupancy(), listing.occupancy);
+    listing.voxelCount = bitPrefixSum_.run(stream, listing.occupancy, listing.rank, uint32_t(listing.words()));
     voxelizer_->release();
 }
 

@@ -1,11 +1,2 @@
-// Fragment callback: counts the triangles of each leaf, nearly transparent ones included, since rays may hit what the
-// alpha mask leaves.
-#include "passes/hybrid_leaves/build_hybrid_leaves/is_listed.glsl"
-#include "shaders/voxels/voxels.glsl"
-
-buffer Counts { uint triangles[]; } counts;  // By leaf.
-
-void processFragment(TriangleFragment f) {
-    const uint leaf = voxelNumber(voxelizer.grid, f.voxel);
-    if (leaf != NO_VOXEL && isListed(f)) atomicAdd(counts.triangles[leaf], 1u);
-}
+#include "passes/common/triangle_voxelizer/exact.glsl"
+#include "passes/hybrid_leaves/build_hybrid_leaves/count_triangles.glsl"

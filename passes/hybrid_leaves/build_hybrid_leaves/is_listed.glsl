@@ -1,18 +1,17 @@
-// Which pairs of a triangle and a leaf are listed.
+// Which pairs of a triangle and a voxel are listed.
 #ifndef VOXRAY_IS_LISTED_GLSL
 #define VOXRAY_IS_LISTED_GLSL
 
-#include "passes/common/triangle_voxelizer/exact.glsl"
+#include "passes/common/triangle_voxelizer/clipped_fragment.glsl"
 
-// With FRAGMENTS those of which rasterization along the dominant axis makes a fragment: where the center of the voxel's
-// column is in the triangle, at a depth in the voxel. Triangles between centers, and a second voxel of a column, are
-// missed (Seok 2021, figure 24).
+// With ONE_VOXEL_PER_FRAGMENT one voxel of each column that the triangle overlaps, as a raster fragment has one depth:
+// that of the triangle's plane at the column's center, within the triangle's bounds. Where the triangle passes through
+// more voxels of the column, it is missing in the others (Seok 2021, figure 24).
 bool isListed(TriangleFragment f) {
-#ifdef FRAGMENTS
+#ifdef ONE_VOXEL_PER_FRAGMENT
     const GridTriangle t = f.permutedTriangle;
-    const vec2 center = vec2(f.permutedVoxel.xy) + 0.5;
-    return isInsideEdge(t.p0.xy, t.p1.xy, t.winding.z, center) && isInsideEdge(t.p1.xy, t.p2.xy, t.winding.z, center) &&
-           isInsideEdge(t.p2.xy, t.p0.xy, t.winding.z, center) && int(floor(depthAt(t, center))) == f.permutedVoxel.z;
+    const float depth = clamp(depthAt(t, vec2(f.permutedVoxel.xy) + 0.5), t.lower.z, t.upper.z);
+    return int(floor(depth)) == f.permutedVoxel.z;
 #else
     return true;
 #endif

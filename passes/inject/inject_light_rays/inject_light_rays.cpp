@@ -44,7 +44,11 @@ class InjectLightRays final : public Pass {
         plan.lightRays = uint64_t(params_.raysPerLight) * (params_.lastBounce() + 1) * sources.size();
     }
     void record(PassContext& context) override {
-        const SurfaceVoxels& voxels = context[voxels_];
+        // Voxels that follow the camera are lit again where they or the scene have changed
+        const uint64_t sceneVersion = context.frame.sceneVersion;
+        if (!context.changed(voxels_) && sceneVersion_ == sceneVersion) return context.markOutputsUnchanged();
+        sceneVersion_ = sceneVersion;
+        const VoxelLevels& voxels = context[voxels_];
         const std::vector<LightSource> sources = lightSources(*context.frame.scene);
         paths_.begin(context, voxels, sources);
         for (uint32_t s = 0; s < sources.size(); ++s) {
@@ -62,10 +66,11 @@ class InjectLightRays final : public Pass {
     static constexpr uint32_t kMaxBatchRays = 1u << 20;  ///< Bounds the memory of rays to 108 MiB.
 
     const Params params_;
-    In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels to light"};
+    In<VoxelLevels> voxels_{*this, "voxels", "surface voxels to light"};
     Out<VoxelIrradiance> irradiance_{*this, "irradiance", "light that arrives at the voxels' surfaces"};
     LightEmission emission_{*this};
     LightPaths paths_{*this, params_};
+    uint64_t sceneVersion_ = 0;  ///< Of the last injection.
 };
 VOXRAY_REGISTER_PASS(InjectLightRays);
 

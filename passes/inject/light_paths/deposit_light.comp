@@ -1,7 +1,7 @@
 // Deposits the light of each ray in the voxel at its hit, then scatters the ray.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/inject/light_paths/material_bounce.glsl"
-#include "shaders/voxels/voxels.glsl"
+#include "shaders/voxels/voxel_levels.glsl"
 #ifdef FLUX
 #include "shaders/voxels/flux_accumulator.glsl"
 #else
@@ -17,7 +17,6 @@ layout(scalar) buffer Paths { LightPath data[]; } paths;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 readonly buffer Occluded { uint data[]; } occluded;  // Of hits.
 layout(push_constant, scalar) uniform Push {
-    VoxelGrid grid;
     uint firstRay;
     uint batchRays;
     uint seed;
@@ -42,7 +41,7 @@ void main() {
     LightPath path = paths.data[i];
     path.travelled += hit.t;
     if (occluded.data[i] == 0u) {
-        const uint voxel = nearestVoxel(push.grid, s.position);
+        const uint voxel = nearestVoxel(gridAt(s.position), s.position);
         if (voxel != NO_VOXEL) {
 #ifdef FLUX
             addFlux(voxel, v.faceNormal, path.power, push.scale);

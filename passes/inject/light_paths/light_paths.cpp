@@ -30,7 +30,7 @@ void checkBeams(const std::string& pass, const LightPathParams& params, const st
 LightPaths::LightPaths(ProgramOwner& owner, const LightPathParams& params)
     : params_(params),
       sumsFlux_(params.write == Write::Average),
-      generateOcclusionRays_(owner, "passes/surfels/generate_occlusion_rays.comp"),
+      generateOcclusionRays_(owner, "passes/surfels/generate_occlusion_rays.comp", Defines{{"VOXEL_LEVELS", "1"}}),
       deposit_(owner, "deposit_light.comp",
                sumsFlux_ ? Defines{{"FLUX", "1"}} : VoxelAccumulator::defines(params.write)),
       unoccludedArea_(owner, "passes/common/voxels/unoccluded_area.comp"),
@@ -43,7 +43,7 @@ LightPaths::LightPaths(ProgramOwner& owner, const LightPathParams& params)
     }
 }
 
-void LightPaths::plan(PassPlan& plan, const std::string& pass, uint32_t batch, const SurfaceVoxels& voxels,
+void LightPaths::plan(PassPlan& plan, const std::string& pass, uint32_t batch, const VoxelLevels& voxels,
                       const std::vector<LightSource>& sources) {
     deposit_.specialize({{"kSecondary", uint32_t(params_.secondary)}, {"kCaustics", params_.caustics}});
     if (sumsFlux_) {
@@ -52,6 +52,9 @@ void LightPaths::plan(PassPlan& plan, const std::string& pass, uint32_t batch, c
                         plan.device.name);
     } else {
         checkBeams(pass, params_, sources);
+        if (!isResource<SurfaceVoxels>(voxels))
+            throw Error("{}: 'write: {}' needs the voxels of one grid ('voxelize'); in a clipmap use 'write: average'",
+                        pass, enumName(params_.write));
         VoxelAccumulator::plan(plan, pass, params_);
     }
     plan.scratchBuffer(rays_, "light rays", batch * sizeof(Ray));
@@ -63,7 +66,7 @@ void LightPaths::plan(PassPlan& plan, const std::string& pass, uint32_t batch, c
     plan.estimate(voxels.estimatedCount * VoxelIrradiance::bytes(1));
 }
 
-void LightPaths::begin(PassContext& context, const SurfaceVoxels& voxels, const std::vector<LightSource>& sources) {
+void LightPaths::begin(PassContext& context, const VoxelLevels& voxels, const std::vector<LightSource>& sources) {
     const double power = totalPower(sources);
     const float typical = meanIrradiance(sources, context.frame.scene->geometry);
     for (size_t i = 0; i < accumulatorCount(); ++i) {
@@ -75,7 +78,7 @@ void LightPaths::begin(PassContext& context, const SurfaceVoxels& voxels, const 
     context.stream.fill(occluded_, 0);
 }
 
-void LightPaths::trace(PassContext& context, const SurfaceVoxels& voxels, const Batch& batch) {
+void LightPaths::trace(PassContext& context, const VoxelLevels& voxels, const Batch& batch) {
     CommandStream& stream = context.stream;
     for (uint32_t bounce = 0; bounce <= params_.lastBounce(); ++bounce) {
         if (bounce > 0 || !batch.hasFirstHits) context.tracer.closestHit(stream, rays_, hits_, batch.count);
@@ -87,11 +90,11 @@ void LightPaths::trace(PassContext& context, const SurfaceVoxels& voxels, const 
         if (voxels.areasAreUnoccluded) {
             stream.dispatch(generateOcclusionRays_, batch.count,
                             {context.scene,
+                             voxels,
                              {"rays", rays_},
                              {"hits", hits_},
                              {"occlusionRays", occlusionRays_},
-                             {"rayCount", batch.count},
-                             {"voxelSize", voxels.grid.voxelSize}});
+                             {"rayCount", batch.count}});
             context.tracer.occluded(stream, occlusionRays_, occluded_, batch.count);
         }
 
@@ -114,18 +117,22 @@ void LightPaths::trace(PassContext& context, const SurfaceVoxels& voxels, const 
     }
 }
 
-void LightPaths::finish(PassContext& context, const SurfaceVoxels& voxels, VoxelIrradiance& irradiance) {
+void LightPaths::finish(PassContext& context, const VoxelLevels& voxels, VoxelIrradiance& irradiance) {
     CommandStream& stream = context.stream;
     irradiance.allocate(context.device, voxels.voxelCount);
 
     // Faces that no ray hit are dark, not unknown
-    stream.dispatch(unoccludedArea_, voxels.voxelCount,
-                    {voxels, {"area", irradiance.area}, {"voxelCount", voxels.voxelCount}});
+    const auto* surfaces = dynamic_cast<const SurfaceVoxels*>(&voxels);
+    if (surfaces)
+        stream.dispatch(unoccludedArea_, voxels.voxelCount,
+                        {*surfaces, {"area", irradiance.area}, {"voxelCount", voxels.voxelCount}});
+    else
+        stream.copy(voxels.unoccludedArea, irradiance.area, irradiance.area.bytes());
     const auto resolve = [&](size_t i, const LargeBuffer& flux) {
         if (sumsFlux_)
             fluxes_[i]->resolve(stream, voxels, flux);
         else
-            irradiances_[i]->resolve(stream, voxels, flux, irradiance.area);
+            irradiances_[i]->resolve(stream, *surfaces, flux, irradiance.area);
     };
     resolve(0, irradiance.direct);
     if (params_.lastBounce() > 0)

@@ -58,10 +58,10 @@ class LightPaths {
 
     /// Describes the memory of rays and estimates the result's. @param batch maximum number of rays at once.
     /// @throws Error naming `pass` for parameters, lights or devices that don't fit.
-    void plan(PassPlan& plan, const std::string& pass, uint32_t batch, const SurfaceVoxels& voxels,
+    void plan(PassPlan& plan, const std::string& pass, uint32_t batch, const VoxelLevels& voxels,
               const std::vector<LightSource>& sources);
 
-    void begin(PassContext& context, const SurfaceVoxels& voxels, const std::vector<LightSource>& sources);
+    void begin(PassContext& context, const VoxelLevels& voxels, const std::vector<LightSource>& sources);
     /// Rays [first, first + count) of one source.
     struct Batch {
         uint32_t seed;
@@ -69,10 +69,10 @@ class LightPaths {
         uint32_t count;
         bool hasFirstHits = false;  ///< Whether hits() are written.
     };
-    void trace(PassContext& context, const SurfaceVoxels& voxels, const Batch& batch);
+    void trace(PassContext& context, const VoxelLevels& voxels, const Batch& batch);
     /// Allocates and fills the result, and frees the accumulators. @throws Error where no light fell on any
     /// voxel.
-    void finish(PassContext& context, const SurfaceVoxels& voxels, VoxelIrradiance& irradiance);
+    void finish(PassContext& context, const VoxelLevels& voxels, VoxelIrradiance& irradiance);
 
     const Buffer& rays() const { return rays_; }    ///< Ray each.
     const Buffer& hits() const { return hits_; }    ///< Hit each.

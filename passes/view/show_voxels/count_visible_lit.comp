@@ -16,11 +16,10 @@ layout(push_constant, scalar) uniform Push {
 
 uint countVisibleLit(uint number) {
     uint lit = 0u;
-    for (VisibilityListIterator it = visibilityListOf(push.listLayout, number); nextEntry(push.listLayout, it);) {
-        const uint target = entryTarget(push.listLayout, it.entry);
-        if (target < push.listLayout.firstPatchTarget)
-            lit += litPatches.data[target];
-        else if (isLit(target - push.listLayout.firstPatchTarget))
+    for (VisibilityListIterator it = visibilityListOf(push.listLayout, number); nextEntry(it);) {
+        if (it.target < push.listLayout.firstPatchTarget)
+            lit += litPatches.data[it.target];
+        else if (isLit(it.target - push.listLayout.firstPatchTarget))
             ++lit;
     }
     return lit;

@@ -45,6 +45,10 @@ class VoxelizePass final : public Pass {
 
     explicit VoxelizePass(const Params& params) : params_(params) {}
     void plan(PassPlan& plan) override;
+    void prepare(PassSetup& setup) override {
+        const SurfaceVoxels& v = setup[voxels_];
+        setup.stream.upload(v.levels, std::vector{wholeLevel(v.grid)});
+    }
     void record(PassContext& context) override;
 
  private:
@@ -69,6 +73,7 @@ void VoxelizePass::plan(PassPlan& plan) {
     v.grid.directions = params_.directions;
     v.estimatedCount = estimateVoxels(geometry, v.grid);
     plan.estimate(v.estimatedCount * sizeof(gpu::PackedVoxelMaterial));
+    plan.buffer(v.levels, "grid of voxels", sizeof(gpu::VoxelLevel));
     VoxelBuilder::planVoxels(plan, v);
     builder_.planWork(plan);
 }

@@ -10,13 +10,25 @@
 #include "passes/common/voxel_march/voxel_tracer.h"
 #include "passes/hybrid_leaves/hybrid_tracer.h"
 #include "passes/vpls/gather_vpls/compensation.h"
+#include "passes/vpls/gather_vpls/cube_shadow_maps.h"
 #include "passes/vpls/gather_vpls/imperfect_shadow_maps.h"
 #include "passes/vpls/gather_vpls/traced_shadow_maps.h"
 
 namespace voxray {
 
 /// How the visibility of virtual point lights is tested.
-enum class VplVisibility { Svo, SvoRestart, Bricks, Bits, HybridLeaves, ShadowMap, ImperfectShadowMap, Exact, None };
+enum class VplVisibility {
+    Svo,
+    SvoRestart,
+    Bricks,
+    Bits,
+    HybridLeaves,
+    CubeShadowMap,
+    ShadowMap,
+    ImperfectShadowMap,
+    Exact,
+    None
+};
 template <>
 struct EnumNames<VplVisibility> {
     static constexpr std::array names{std::pair{VplVisibility::Svo, "svo"},
@@ -24,6 +36,7 @@ struct EnumNames<VplVisibility> {
                                       std::pair{VplVisibility::Bricks, "bricks"},
                                       std::pair{VplVisibility::Bits, "bits"},
                                       std::pair{VplVisibility::HybridLeaves, "hybrid_leaves"},
+                                      std::pair{VplVisibility::CubeShadowMap, "cube_shadow_map"},
                                       std::pair{VplVisibility::ShadowMap, "shadow_map"},
                                       std::pair{VplVisibility::ImperfectShadowMap, "imperfect_shadow_map"},
                                       std::pair{VplVisibility::Exact, "exact"},
@@ -104,7 +117,8 @@ class GatherVpls final : public Pass {
                       "What occludes virtual lights. "
                       "svo, bricks, bits: surface voxels, by three traversals with equal results. "
                       "svo_restart: surface voxels, by the paper's traversal. hybrid_leaves: "
-                      "triangles and grids in the leaves of an octree (build_hybrid_leaves). shadow_map: "
+                      "triangles and grids in the leaves of an octree (build_hybrid_leaves). cube_shadow_map: "
+                      "a cube shadow map of each virtual light, rasterized. shadow_map: "
                       "a shadow map of each virtual light's hemisphere, by a ray per texel. imperfect_shadow_map: "
                       "the same, splatted from points (Ritschel et al. 2008). exact: triangles. none: nothing."),
                 field("restart_epsilon", &Params::restartEpsilon,
@@ -117,10 +131,10 @@ class GatherVpls final : public Pass {
                       "0 moves the ends out of their surfaces' voxels along normals.",
                       0.0f, 64.0f)
                     .onlyWith(oneOf(&Params::visibility, {VplVisibility::SvoRestart})),
-                field("map_resolution", &Params::mapResolution, "Texels along an edge of a virtual light's shadow map.",
-                      4u, 1024u)
-                    .onlyWith(
-                        oneOf(&Params::visibility, {VplVisibility::ShadowMap, VplVisibility::ImperfectShadowMap})),
+                field("map_resolution", &Params::mapResolution,
+                      "Texels along an edge of a virtual light's shadow map; of a cube's face.", 4u, 1024u)
+                    .onlyWith(oneOf(&Params::visibility, {VplVisibility::CubeShadowMap, VplVisibility::ShadowMap,
+                                                          VplVisibility::ImperfectShadowMap})),
                 field("map_points", &Params::mapPoints,
                       "Points of the scene's surfaces that each map is splatted from.", 64u, 1u << 20)
                     .onlyWith(oneOf(&Params::visibility, {VplVisibility::ImperfectShadowMap}))};
@@ -145,7 +159,7 @@ class GatherVpls final : public Pass {
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light, unfiltered"};
     std::optional<VoxelTracer> voxelTracer_;
     std::optional<HybridTracer> hybridTracer_;
-    std::unique_ptr<VplShadowMaps> shadowMaps_;  ///< For both kinds of shadow maps.
+    std::unique_ptr<VplShadowMaps> shadowMaps_;  ///< For all kinds of shadow maps.
     VplGather vplGather_{*this};
     std::optional<VplCompensation> compensation_;  ///< Where a bound takes light away and rays restore it.
     Image texelMoments_;                           ///< Of the G-buffer's extent.
@@ -156,6 +170,8 @@ class GatherVpls final : public Pass {
 GatherVpls::GatherVpls(const Params& params) : params_(params) {
     if (traversal_) voxelTracer_.emplace(*this, *traversal_, params_.restartEpsilon);
     if (params_.visibility == VplVisibility::HybridLeaves) hybridTracer_.emplace(*this, HybridTraversal::Hierarchical);
+    if (params_.visibility == VplVisibility::CubeShadowMap)
+        shadowMaps_ = std::make_unique<CubeShadowMaps>(*this, params_.mapResolution);
     if (params_.visibility == VplVisibility::ShadowMap)
         shadowMaps_ = std::make_unique<TracedShadowMaps>(*this, params_.mapResolution);
     if (params_.visibility == VplVisibility::ImperfectShadowMap)
@@ -200,7 +216,7 @@ void GatherVpls::record(PassContext& context) {
     const NoisyIrradiance& noisy = context[noisy_];
     VplGather::Visibility visibility{&context.tracer};
     if (params_.visibility == VplVisibility::None) visibility.tracer = nullptr;
-    if (shadowMaps_) shadowMaps_->beginFrame(context);
+    if (shadowMaps_) shadowMaps_->beginFrame(context, vpls);
     if (voxelTracer_) {
         const SurfaceVoxels& voxels = context[voxels_];
         voxelTracer_->begin(stream, voxels);

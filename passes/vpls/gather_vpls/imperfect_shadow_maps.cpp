@@ -1,5 +1,6 @@
 #include "passes/vpls/gather_vpls/imperfect_shadow_maps.h"
 
+#include <algorithm>
 #include <glm/gtc/constants.hpp>
 
 #include "passes/common/lights/light_sources.h"
@@ -26,7 +27,7 @@ std::vector<float> areaCdf(const Geometry& g) {
 }  // namespace
 
 ImperfectShadowMaps::ImperfectShadowMaps(ProgramOwner& owner, uint32_t resolution, uint32_t pointsPerMap)
-    : VplShadowMaps(resolution, kMaxSplats / pointsPerMap),
+    : VplShadowMaps(resolution, std::min(kTexels / (resolution * resolution), kMaxSplats / pointsPerMap)),
       pointsPerMap_(pointsPerMap),
       samplePoints_(owner, "ism_sample_points.comp"),
       splat_(owner, "ism_splat.comp"),
@@ -43,7 +44,7 @@ void ImperfectShadowMaps::plan(PassPlan& plan) {
                     uint64_t(capacity()) * levelResolution(level) * levelResolution(level) * sizeof(float));
 }
 
-void ImperfectShadowMaps::beginFrame(PassContext& context) {
+void ImperfectShadowMaps::beginFrame(PassContext& context, const Vpls&) {
     if (sceneVersion_ == context.frame.sceneVersion) return;
     sceneVersion_ = context.frame.sceneVersion;
     const Geometry& geometry = context.frame.scene->geometry;

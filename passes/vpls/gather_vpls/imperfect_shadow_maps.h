@@ -6,7 +6,7 @@
 
 namespace voxray {
 
-/// Imperfect shadow maps (Ritschel et al. 2008): points, uniformly distributed over all surfaces, are
+/// Imperfect shadow maps (Ritschel et al. 2008), hemi-octahedral: points, uniformly distributed over all surfaces, are
 /// splatted as discs along their triangles into many small maps at once. Adjacent maps use different points.
 /// Holes are filled from coarser levels of the map (pull-push). The nearest disc wins by an atomic maximum of
 /// inverse depth, so that the order of splats does not matter.
@@ -15,10 +15,10 @@ class ImperfectShadowMaps final : public VplShadowMaps {
     ImperfectShadowMaps(ProgramOwner& owner, uint32_t resolution, uint32_t pointsPerMap);
     void plan(PassPlan& plan) override;
     /// Samples the points again where surfaces have moved.
-    void beginFrame(PassContext& context) override;
+    void beginFrame(PassContext& context, const Vpls& vpls) override;
     void render(PassContext& context, const Vpls& vpls, uint32_t first, uint32_t count) const override;
     Defines defines() const override { return {{"SPLATTED", "1"}}; }
-    Binding binding() const override { return {"maps", levels_[0]}; }
+    std::vector<Binding> bindings() const override { return {{"maps", levels_[0]}}; }
 
  private:
     /// Levels of a map, each of half the resolution of the one before: more levels fill larger holes.

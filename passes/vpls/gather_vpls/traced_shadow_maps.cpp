@@ -3,7 +3,7 @@
 namespace voxray {
 
 TracedShadowMaps::TracedShadowMaps(ProgramOwner& owner, uint32_t resolution)
-    : VplShadowMaps(resolution), generateRays_(owner, "generate_map_rays.comp") {}
+    : VplShadowMaps(resolution, kTexels / (resolution * resolution)), generateRays_(owner, "generate_map_rays.comp") {}
 
 void TracedShadowMaps::plan(PassPlan& plan) {
     plan.buffer(rays_, "rays of shadow maps", kTexels * sizeof(Ray));

@@ -4,15 +4,15 @@
 
 namespace voxray {
 
-/// Shadow maps by one ray per texel.
+/// Hemi-octahedral shadow maps (hemi_octahedral.glsl) by one ray per texel.
 class TracedShadowMaps final : public VplShadowMaps {
  public:
     TracedShadowMaps(ProgramOwner& owner, uint32_t resolution);
     void plan(PassPlan& plan) override;
-    void beginFrame(PassContext&) override {}
+    void beginFrame(PassContext&, const Vpls&) override {}
     void render(PassContext& context, const Vpls& vpls, uint32_t first, uint32_t count) const override;
     Defines defines() const override { return {}; }
-    Binding binding() const override { return {"hits", hits_}; }
+    std::vector<Binding> bindings() const override { return {{"hits", hits_}}; }
 
  private:
     Kernel generateRays_;

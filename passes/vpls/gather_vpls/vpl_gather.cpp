@@ -123,7 +123,7 @@ void VplGather::gather(PassContext& context, const Vpls& vpls, const Visibility&
                     stream.dispatch(programs.testShadowMaps, rays,
                                     {lights.all(),
                                      {"rays", rays_},
-                                     shadowMaps->binding(),
+                                     shadowMaps->bindings(),
                                      {"occluded", occluded_},
                                      {"batch", batch},
                                      {"resolution", shadowMaps->resolution()}});

@@ -1,0 +1,112 @@
+#include <algorithm>
+
+#include "graph/registry.h"
+#include "passes/common/compute/prefix_sum.h"
+#include "passes/cones/clipmap/clipmap_voxels.h"
+
+namespace voxray {
+namespace {
+
+/// A level, with the voxels that it holds: its window without odd ones at its border, so that none is half a
+/// voxel of the next level.
+gpu::VoxelLevel heldLevel(const gpu::VoxelGrid& window) {
+    gpu::VoxelLevel level = wholeLevel(window);
+    for (int axis = 0; axis < 3; ++axis) {
+        if (window.resolution[axis] <= window.windowSize) continue;
+        level.first[axis] = window.first[axis] + (window.first[axis] & 1);
+        level.end[axis] = (window.first[axis] + int(window.windowSize)) & ~1;
+    }
+    return level;
+}
+
+/// Estimates the voxels of all levels, as if surfaces were spread evenly over the scene.
+double estimateJoined(const Geometry& geometry, const ClipmapVoxels& clipmap) {
+    double voxels = 0, finer = 0;
+    for (const ClipmapVoxels::Level& level : clipmap.levels) {
+        const gpu::VoxelGrid& grid = level.voxels.grid;
+        const double window = double(windowVoxels(grid).count()), whole = double(VoxelBox{{}, grid.resolution}.count());
+        voxels += estimateVoxels(geometry, grid) * std::max(0.0, window - finer) / whole;
+        finer = window / 8;
+    }
+    return voxels;
+}
+
+}  // namespace
+
+/// Joins the levels of a clipmap to voxels that are numbered through, so that irradiance is stored in windows round
+/// the camera. Docs: docs/injection.md.
+class JoinClipmapLevels final : public Pass {
+ public:
+    static constexpr const char* kName = "join_clipmap_levels";
+    static constexpr bool kDependsOnLight = false;
+    static constexpr const char* kHelp =
+        "Numbers the voxels of voxelize_clipmap's levels through, each place at the finest level whose window holds "
+        "it, for inject_light_rays, gather_irradiance and gather_rays. "
+        "Biased by: distance from the camera; light changes at the borders of windows. "
+        "Source: Magalhães 2020, section 3.2.5.3, which names clipmaps as the store to prefer, and builds none.";
+
+    void plan(PassPlan& plan) override;
+    void record(PassContext& context) override;
+
+ private:
+    In<ClipmapVoxels> clipmap_{*this, "clipmap", "surface voxels of each level's window"};
+    Out<VoxelLevels> voxels_{*this, "voxels", "surface voxels of all levels, numbered through"};
+    Kernel markLevel_{*this, "mark_level.comp"}, copyAreas_{*this, "copy_areas.comp"};
+    PrefixSum prefixSum_{*this, PrefixSum::Input::SetBits};
+};
+
+void JoinClipmapLevels::plan(PassPlan& plan) {
+    const ClipmapVoxels& clipmap = plan[clipmap_];
+    VoxelLevels& joined = plan[voxels_];
+    joined.grid = clipmap.levels[0].voxels.grid;
+    joined.areasAreUnoccluded = clipmap.levels[0].voxels.areasAreUnoccluded;
+    joined.estimatedCount = estimateJoined(plan.frame.scene->geometry, clipmap);
+    uint64_t words = 0;
+    for (const ClipmapVoxels::Level& level : clipmap.levels) words += level.voxels.words();
+    plan.buffer(joined.levels, "levels of voxels", clipmap.levels.size() * sizeof(gpu::VoxelLevel));
+    plan.buffer(joined.occupancy, "voxel occupancy", words * sizeof(uint32_t));
+    plan.buffer(joined.rank, "voxel ranks", words * sizeof(uint32_t));
+    plan.estimate(joined.estimatedCount * kAreaWords * sizeof(uint32_t));
+}
+
+void JoinClipmapLevels::record(PassContext& context) {
+    if (!context.inputsChanged()) return;
+    const ClipmapVoxels& clipmap = context[clipmap_];
+    VoxelLevels& joined = context[voxels_];
+    std::vector<gpu::VoxelLevel> levels;
+    uint32_t words = 0;
+    for (const ClipmapVoxels::Level& level : clipmap.levels) {
+        levels.push_back(heldLevel(level.voxels.grid));
+        levels.back().grid.firstWord = words;
+        words += uint32_t(level.voxels.words());
+    }
+    context.stream.upload(joined.levels, levels);
+
+    for (uint32_t l = 0; l < levels.size(); ++l) {
+        const SurfaceVoxels& window = clipmap.levels[l].voxels;
+        context.dispatch(markLevel_, window.words(),
+                         {joined,
+                          {"window", window.occupancy},
+                          {"joined", joined.occupancy},
+                          {"level", l},
+                          {"words", uint32_t(window.words())}});
+    }
+    joined.voxelCount = prefixSum_.run(context.stream, joined.occupancy, joined.rank, words);
+    ensureSize(joined.unoccludedArea, context.device, "unoccluded area",
+               std::max(joined.voxelCount, 1u) * uint64_t(kAreaWords) * sizeof(uint32_t));
+    for (uint32_t l = 0; l < levels.size(); ++l) {
+        const SurfaceVoxels& window = clipmap.levels[l].voxels;
+        context.dispatch(copyAreas_, window.words(),
+                         {joined,
+                          {"window", window.occupancy},
+                          {"windowRank", window.rank},
+                          {"WindowMaterialsRef", window.materials.ref()},
+                          {"area", joined.unoccludedArea},
+                          {"level", l},
+                          {"words", uint32_t(window.words())}});
+    }
+}
+
+VOXRAY_REGISTER_PASS(JoinClipmapLevels);
+
+}  // namespace voxray

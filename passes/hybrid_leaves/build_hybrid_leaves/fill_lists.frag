@@ -1,0 +1,2 @@
+#include "passes/common/triangle_voxelizer/raster.glsl"
+#include "passes/hybrid_leaves/build_hybrid_leaves/fill_lists.glsl"
