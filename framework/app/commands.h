@@ -14,6 +14,7 @@ void addExportSceneCommand(CLI::App& app, int& status);
 void addCompareCommand(CLI::App& app, int& status);
 void addJobsCommand(CLI::App& app, int& status);
 void addMergeCommand(CLI::App& app, int& status);
+void addLookCommand(CLI::App& app, int& status);
 void addSessionCommand(CLI::App& app, int& status);
 void addSweepCommand(CLI::App& app, int& status);
 void addParetoCommand(CLI::App& app, int& status);

@@ -78,6 +78,7 @@ int main(int argc, char** argv) {
     addMergeCommand(app, status);
     addSweepCommand(app, status);
     addSessionCommand(app, status);
+    addLookCommand(app, status);
     addValidateCommand(app, status);
     addSchemaCommand(app, status);
     addSceneCommand(app, status);

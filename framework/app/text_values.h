@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <string>
 #include <vector>
 
@@ -10,6 +12,15 @@ namespace voxray {
 /// Text that JSON quotes, even if it looks like a number.
 inline Value quotedText(const std::string& text) {
     return Value::fromScalar(text, true);
+}
+
+template <typename Number>
+Value numberValue(Number number) {
+    return Value::fromScalar(fmt::format("{}", number));
+}
+
+inline Value flag(bool value) {
+    return Value::fromScalar(value ? "true" : "false");
 }
 
 inline Value listOf(const std::vector<std::string>& texts) {

@@ -11,7 +11,7 @@ namespace voxray {
 namespace {
 
 // Signal handlers may only access lock-free statics.
-std::atomic<bool> requested{false};
+std::atomic<bool> requested{false}, cancelled{false};
 std::atomic<pid_t> child{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<pid_t>::is_always_lock_free);
 
@@ -45,7 +45,15 @@ void onSignal(int number) {
 }  // namespace
 
 bool interruptRequested() {
-    return requested.load();
+    return requested.load() || cancelled.load();
+}
+
+void requestCancel() {
+    cancelled.store(true);
+}
+
+void clearCancel() {
+    cancelled.store(false);
 }
 
 InterruptScope::InterruptScope() {

@@ -12,9 +12,13 @@ class Interrupted : public Error {
     Interrupted() : Error("interrupted") {}
 };
 
-/// Whether SIGINT or SIGTERM arrived during an InterruptScope. Long work (path tracing of references, rays on
-/// the CPU, waits for the device) polls it and throws Interrupted.
+/// Whether SIGINT or SIGTERM arrived during an InterruptScope, or requestCancel() was called. Long work (path tracing
+/// of references, rays on the CPU, waits for the device) polls it and throws Interrupted.
 bool interruptRequested();
+
+/// Makes interruptRequested() true until clearCancel(), for a thread that ends the long work of another one.
+void requestCancel();
+void clearCancel();
 
 /// In this scope SIGINT and SIGTERM set a flag instead of ending the process; a second signal ends it and the
 /// InterruptedChild. Both print a message to stderr. At most one instance.

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "config/overrides.h"
 #include "experiment/scene_files.h"
@@ -64,11 +65,15 @@ void InteractiveSession::select(const std::string& id) {
     study_ = checkedStudy(variantConfigs_[size_t(found - variants_.begin())]);
 }
 
+void InteractiveSession::apply(Value& config, const Change& change) {
+    applyOverride(config, change.path, change.value);
+    if (const Value* sweep = config.find("sweep"); sweep && !sweep->members.empty())
+        throw UsageError(change.value.where, "sweep: a session shows one variant; select another by its id");
+}
+
 void InteractiveSession::set(const std::string& path, const Value& value) {
     Value changed = config();
-    applyOverride(changed, path, value);
-    if (const Value* sweep = changed.find("sweep"); sweep && !sweep->members.empty())
-        throw UsageError(value.where, "sweep: a session shows one variant; select another by its id");
+    apply(changed, {path, value});
     study_ = checkedStudy(std::move(changed));
 }
 
@@ -79,35 +84,69 @@ std::vector<std::string> InteractiveSession::warnings() const {
 }
 
 InteractiveSession::Rendering InteractiveSession::render(const std::function<void(double)>& progress) {
-    const Setup& setup = variant().setup;
+    Graph graph = study_.graphOf(variant());
+    const MeasureSettings measure = oneFrame(study_.experiment.measure, graph);
+    return render(std::move(graph), variant().setup, measure, progress);
+}
+
+InteractiveSession::Rendering InteractiveSession::draft(const std::vector<Change>& changes, uint32_t shrink,
+                                                        const std::function<void(double)>& progress) {
+    Value changed = config();
+    for (const Change& change : changes) apply(changed, change);
+    Study study = makeStudy(withConfig(opened_, std::move(changed)), registry_);
+    Variant& variant = study.variants.front();
+    Setup setup = variant.setup;
+    setup.image.width = std::max(1u, setup.image.width / shrink);
+    setup.image.height = std::max(1u, setup.image.height / shrink);
+    MeasureSettings measure = oneFrame(study.experiment.measure, variant.graph);
+    measure.warmup = 0;
+    return render(std::move(variant.graph), setup, measure, progress);
+}
+
+InteractiveSession::Rendering InteractiveSession::render(Graph graph, const Setup& setup,
+                                                         const MeasureSettings& measure,
+                                                         const std::function<void(double)>& progress) {
     SceneOnDevice& scene = session_.scene(setup);
     const bool changes = changesInTime(setup.scene, !scene.prepared.state.scene->animation.empty());
-    const std::string builtFor =
-        fmt::format("{} {} {} {}", scene.cameraless, setup.image.width, setup.image.height, setup.general.seed);
+    const std::string builtFor = fmt::format("{} {}", scene.cameraless, setup.general.seed);
+    const std::string viewOf = fmt::format("{} {} {}", scene.key, setup.image.width, setup.image.height);
     const Frame frame = frameOf(setup, scene.prepared, setup.general.seed);
+    std::optional<Graph> previous = std::exchange(graph_, std::nullopt);
+    if (previous && builtFor == builtFor_ && !changes) graph.reuse(*previous, viewOf == viewOf_);
+    builtFor_ = builtFor;
+    viewOf_ = viewOf;
 
-    Graph graph = study_.graphOf(variant());
-    std::optional<Graph> previous;
-    previous.swap(graph_);
-    if (previous && builtFor == builtFor_ && !changes) graph.reuse(*previous);
-    session_.plan(graph, frame, study_.experiment.measure.memoryLimitMb);
-    graph.prepare(frame, session_.device(), session_.compiler(), session_.stream());
-    previous.reset();  // After its programs were shared.
-
-    GraphTarget target{frame, session_.device(), session_.stream(), *scene.tracer, scene.gpu, {}};
-    if (changes) target.goToFrame = [&](Frame& moved, int number) { session_.goToFrame(setup, moved, number); };
     Rendering rendering;
-    const size_t messages = session_.device().validationMessages().size();
-    rendering.measurement =
-        measureGraph(graph, target, oneFrame(study_.experiment.measure, graph), progress,
-                     [&](const Frame&, uint32_t number) { rendering.images = downloadFrame(graph, number, session_); });
-    if (const auto all = session_.device().validationMessages(); all.size() > messages)
-        throw Error("Vulkan validation: {}", all[messages]);
+    rendering.imageSettings = setup.image;
+    const Geometry& geometry = scene.prepared.state.geometry;
+    rendering.sceneSize = glm::distance(geometry.boundsMin, geometry.boundsMax);
+    const Camera& camera = scene.prepared.camera;
+    rendering.camera.position = camera.position + scene.prepared.origin;
+    rendering.camera.target = rendering.camera.position + camera.forward;
+    rendering.camera.up = camera.up;
+    rendering.camera.fovDegrees = glm::degrees(camera.verticalFovRadians);
+    try {
+        session_.plan(graph, frame, measure.memoryLimitMb);
+        graph.prepare(frame, session_.device(), session_.compiler(), session_.stream());
+        previous.reset();  // After its programs were shared.
+
+        GraphTarget target{frame, session_.device(), session_.stream(), *scene.tracer, scene.gpu, {}};
+        if (changes) target.goToFrame = [&](Frame& moved, int number) { session_.goToFrame(setup, moved, number); };
+        const size_t messages = session_.device().validationMessages().size();
+        rendering.measurement = measureGraph(graph, target, measure, progress, [&](const Frame&, uint32_t number) {
+            rendering.images = downloadFrame(graph, number, session_);
+        });
+        if (const auto all = session_.device().validationMessages(); all.size() > messages)
+            throw Error("Vulkan validation: {}", all[messages]);
+    } catch (...) {
+        session_.stream().discard();
+        if (!changes) graph_.emplace(std::move(graph));  // The next one reuses what was built.
+        throw;
+    }
     for (const Graph::PassInfo& pass : graph.passes())
         if (pass.isReused) rendering.reused.push_back(pass.id);
     // After motion build passes hold what they updated from frame to frame
     if (!changes) graph_.emplace(std::move(graph));
-    builtFor_ = builtFor;
     return rendering;
 }
 

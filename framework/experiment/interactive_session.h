@@ -38,20 +38,37 @@ class InteractiveSession {
 
     struct Rendering {
         FrameImages images;
+        ImageSettings imageSettings;
+        CameraSettings camera;            ///< In the config's coordinates; its target is 1 m away.
+        float sceneSize;                  ///< Diagonal of the scene's bounds, m.
         Measurement measurement;          ///< Of reused passes: that of their last run.
         std::vector<std::string> reused;  ///< Ids of the passes that did not run again.
     };
     /// Renders the compared frame. Warm-up frames of the config are rendered if a pass has temporal history.
-    /// @param progress is called with the fraction done. @throws Error, Interrupted; the next call builds all again.
+    /// @param progress is called with the fraction done. @throws Error, Interrupted.
     Rendering render(const std::function<void(double)>& progress);
+
+    struct Change {
+        std::string path;
+        Value value;
+    };
+    /// Renders the config with changes that are not kept, as a first look: without warm-up frames and without the
+    /// checks of scene and view. @param shrink width and height are divided by it.
+    /// @throws UsageError for what is wrong by itself, Error, Interrupted.
+    Rendering draft(const std::vector<Change>& changes, uint32_t shrink, const std::function<void(double)>& progress);
 
     /// Scores images of the current values against the reference, which is rendered if it isn't cached.
     /// @throws UsageError if the config has no reference, Error, Interrupted.
     ScoredFrame score(const FrameImages& rendered, const std::function<void(double)>& progress);
 
  private:
+    /// The config with a change. @throws UsageError
+    static void apply(Value& config, const Change& change);
     /// Makes and checks the study of a config without sweep.
     Study checkedStudy(Value config);
+    /// Renders a graph that has not run.
+    Rendering render(Graph graph, const Setup& setup, const MeasureSettings& measure,
+                     const std::function<void(double)>& progress);
     const Variant& variant() const { return study_.variants.front(); }
 
     const Registry& registry_;
@@ -64,7 +81,8 @@ class InteractiveSession {
 
     // Of the last rendering
     std::optional<Graph> graph_;
-    std::string builtFor_;  ///< What build passes depend on besides the graph: scene, tracer, image size, seed.
+    std::string builtFor_;  ///< What build passes depend on besides the graph: scene, tracer, seed.
+    std::string viewOf_;    ///< Camera and image size.
     std::optional<PreparedReference> reference_;
     std::string preparedFor_;  ///< What the prepared reference depends on.
 };

@@ -76,10 +76,10 @@ class Graph {
 
     /// Takes over the build passes of another graph, with their outputs, that have the same parameters and read the
     /// same outputs. They do not run again; run() returns the samples of their last run. Before plan(). Both graphs
-    /// must have the same scene, seed and image size, and the scene must not change in time. Afterwards `previous` can
-    /// only be destroyed; programs of this graph that are equal to its programs are shared if it is destroyed after
-    /// prepare().
-    void reuse(Graph& previous);
+    /// must have the same scene and seed, and the scene must not change in time. Afterwards `previous` can only be
+    /// destroyed; programs of this graph that are equal to its programs are shared if it is destroyed after prepare().
+    /// @param sameView whether camera and image size are the same, too.
+    void reuse(Graph& previous, bool sameView);
 
     /// Checks parameters against the scene and the device and sums up the known memory, before any
     /// allocation. Memory sized on the device is checked against `memoryLimitBytes` when it is allocated.
@@ -94,7 +94,8 @@ class Graph {
     void prepare(const Frame& frame, Device& device, const ShaderCompiler& compiler, CommandStream& stream);
 
     /// Runs all passes of a phase once; with `checkFinite` checks their outputs for NaN and infinity (outside
-    /// the measured time). @throws Error naming the pass, also one that runs out of memory.
+    /// the measured time). @throws Error naming the pass, also one that runs out of memory; Interrupted. None of the
+    /// phase's passes is then reused.
     /// @return a sample by pass of that phase, in the order of passes().
     std::vector<PassSample> run(Phase phase, const Frame& frame, Device& device, CommandStream& stream,
                                 RayTracer& tracer, const GpuScene& scene, uint32_t frameIndex, bool checkFinite);

@@ -25,6 +25,25 @@ class MemoryLimit {
     const uint64_t before_;
 };
 
+/// Unless a phase ends, its passes count as never run: what they recorded may not have been executed.
+class PhaseRun {
+ public:
+    PhaseRun(std::vector<GraphNode>& nodes, Phase phase) : nodes_(nodes), phase_(phase) {}
+    ~PhaseRun() {
+        if (hasEnded_) return;
+        for (GraphNode& node : nodes_)
+            if (node.phase == phase_ && !node.isReused) node.seenVersions.reset();
+    }
+    PhaseRun(const PhaseRun&) = delete;
+    PhaseRun& operator=(const PhaseRun&) = delete;
+    void end() { hasEnded_ = true; }
+
+ private:
+    std::vector<GraphNode>& nodes_;
+    const Phase phase_;
+    bool hasEnded_ = false;
+};
+
 /// Increments the versions of the outputs, and records which versions of all resources the pass has seen.
 void updateVersions(GraphNode& node, bool outputsUnchanged) {
     if (!outputsUnchanged)
@@ -120,6 +139,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
     const MemoryLimit limit(device, memoryLimitBytes_, usedBytes);
     stream.finish();
     stream.resetTimestamps();
+    PhaseRun phaseRun(nodes_, phase);
     for (GraphNode& node : nodes_) {
         if (node.phase != phase || node.isReused) continue;
         const uint64_t raysBefore = tracer.raysTraced();
@@ -161,6 +181,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         }
         if (!marchCounters.empty()) sample.reported.push_back({"voxel visits", double(visits)});
     }
+    phaseRun.end();
     std::vector<PassSample> samples;
     for (const GraphNode& node : nodes_)
         if (node.phase == phase) samples.push_back(node.lastSample);

@@ -166,6 +166,8 @@ class Pass : public PortOwner, public ProgramOwner {
     /// Frame for a pass that depends on the frame itself, such as its camera. Build for all others, which
     /// still run in each frame if they read a frame pass.
     virtual Phase phase() const { return Phase::Build; }
+    /// Whether it reads the frame's camera or size, though it runs in the build phase.
+    virtual bool buildReadsView() const { return false; }
     /// Frames until the result of a pass with temporal history has converged.
     virtual uint32_t warmupFrames() const { return 0; }
     /// Checks parameters against scene and device, describes outputs and all memory. Runs in graph order.

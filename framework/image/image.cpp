@@ -98,6 +98,20 @@ void writeWhole(const fs::path& path, const char* format, const OIIO::ImageSpec&
     });
 }
 
+/// Display values in 8 bits. @throws Error for NaN.
+std::vector<uint8_t> displayBytes(const std::string& name, const ImageF& display) {
+    std::vector<uint8_t> bytes(display.data.size());
+    for (size_t i = 0; i < bytes.size(); ++i) {
+        const float value = display.data[i];
+        if (std::isnan(value)) {
+            const size_t pixel = i / display.channels;
+            throw Error("{}: the image has NaN at ({}, {})", name, pixel % display.width, pixel / display.width);
+        }
+        bytes[i] = uint8_t(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
+    }
+    return bytes;
+}
+
 }  // namespace
 
 LayeredImage readLayer(const fs::path& path, const std::string& wanted) {
@@ -220,19 +234,19 @@ void writeExr(const fs::path& path, const ImageF& image, const std::vector<std::
 void writePng(const fs::path& path, const ImageF& display) {
     checkChannels(path, display);
     checkWritable(path, display);
-    std::vector<uint8_t> bytes(display.data.size());
-    for (size_t i = 0; i < bytes.size(); ++i) {
-        const float value = display.data[i];
-        if (std::isnan(value)) {
-            const size_t pixel = i / display.channels;
-            throw Error("{}: the image has NaN at ({}, {})", path.string(), pixel % display.width,
-                        pixel / display.width);
-        }
-        bytes[i] = uint8_t(std::clamp(value, 0.0f, 1.0f) * 255.0f + 0.5f);
-    }
+    const std::vector<uint8_t> bytes = displayBytes(path.string(), display);
     OIIO::ImageSpec spec(int(display.width), int(display.height), int(display.channels), OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
     writeWhole(path, "png", spec, OIIO::TypeDesc::UINT8, bytes.data());
+}
+
+std::vector<uint8_t> encodePng(const ImageF& display) {
+    const std::vector<uint8_t> bytes = displayBytes("image", display);
+    DecodedImage rgba{display.width, display.height, std::vector<uint8_t>(display.pixelCount() * 4, 255)};
+    for (size_t i = 0; i < display.pixelCount(); ++i)
+        for (size_t c = 0; c < 3; ++c)
+            rgba.rgba[i * 4 + c] = bytes[i * display.channels + std::min(c, size_t(display.channels) - 1)];
+    return encodePng(rgba);
 }
 
 std::vector<uint8_t> encodePng(const DecodedImage& image) {

@@ -57,6 +57,9 @@ DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name);
 /// A PNG file of 8-bit RGBA; lossless. @throws Error if the number of bytes doesn't match the size.
 std::vector<uint8_t> encodePng(const DecodedImage& image);
 
+/// A PNG file of encoded display values, 1 or 3 channels, as writePng() writes them. @throws Error as writePng().
+std::vector<uint8_t> encodePng(const ImageF& display);
+
 /// Writes a float32 EXR (ZIP; channels R, G, B or Y) atomically. Equal images give equal files.
 /// @throws Error if the image is empty or has neither 1 nor 3 channels, or the file cannot be written.
 void writeExr(const std::filesystem::path& path, const ImageF& image);

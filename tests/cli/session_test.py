@@ -80,6 +80,28 @@ class Session(CommandTest):
         self.expect_images_of_run("--only", "voxelize.resolution=16", "--set", "seed=8", "--set",
                                   "scene.camera={position: [0, 1, 3], target: [0, 1, 0], fov_deg: 50}")
 
+    def test_a_cache_that_is_filled_from_the_camera_is_filled_again(self):
+        self.start("""
+name: cached
+scene: {builtin: cornell}
+image: {width: 32, height: 24}
+seed: 7
+graph:
+  - {pass: gbuffer}
+  - {pass: update_radiance_cache, update: once, rays_per_image: 4096, bounces: 1}
+  - {pass: trace_gather_rays}
+  - {pass: gather_rays, source: radiance_cache}
+  - {pass: direct_shadow_rays}
+  - {pass: composite}
+""")
+        self.done("render")
+        self.assertIn("update_radiance_cache", self.reused())
+        camera = {"position": [0.2, 1, 3], "target": [0, 1, 0], "fov_deg": 50}
+        self.done("set", path="scene.camera", value=camera)
+        self.assertNotIn("update_radiance_cache", self.reused())
+        self.done("set", path="image.width", value=40)
+        self.assertNotIn("update_radiance_cache", self.reused())
+
     def test_what_is_refused_changes_nothing(self):
         self.start(TINY)
         self.assertIn("nothing is rendered", self.refusal("score"))

@@ -72,6 +72,7 @@ THIRD_PARTY = {
     r"vulkan/vulkan": ["framework/vulkan/", "framework/trace/", "tests/"],
     r"(glslang|SPIRV|spirv_cross)/": ["framework/vulkan/"],
     r"CLI/": ["framework/app/"],
+    r"httplib\.h": ["framework/app/look_server.cpp"],
     r"xxhash\.h": ["framework/base/"],
     r"gtest/": ["tests/", "docs/examples/"],
     r"benchmark/": ["tests/"],

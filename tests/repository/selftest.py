@@ -126,7 +126,7 @@ class Layers(Tree):
     def test_third_party(self):
         self.refused(("framework/experiment/x.cpp", "<tiny_gltf.h>"), ("framework/trace/x.cpp", '"tiny_gltf.h"'),
                      ("tests/bench/x.cpp", "<embree4/rtcore.h>"), ("passes/view/one/x.cpp", "<vulkan/vulkan.h>"),
-                     ("framework/image/x.cpp", "<gtest/gtest.h>"))
+                     ("framework/image/x.cpp", "<gtest/gtest.h>"), ("framework/app/x.cpp", "<httplib.h>"))
         self.allowed(("framework/scene/x.cpp", "<tiny_gltf.h>"), ("framework/vulkan/x.cpp", "<vulkan/vulkan.h>"),
                      ("framework/trace/embree_api.h", "<embree4/rtcore.h>"))
 

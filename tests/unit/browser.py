@@ -30,7 +30,7 @@ class Browser:
         options = webdriver.ChromeOptions()
         options.binary_location = shutil.which("chromium") or ""
         flags = ["--headless=new", "--disable-gpu", "--hide-scrollbars", "--force-device-scale-factor=1", "--disable-dev-shm-usage",
-                 "--host-resolver-rules=MAP * ~NOTFOUND", f"--window-size={width},{height}"]
+                 "--host-resolver-rules=MAP * ~NOTFOUND, EXCLUDE 127.0.0.1", f"--window-size={width},{height}"]
         # Root, as in a container, has no sandbox
         for flag in flags + ["--no-sandbox"] * (os.geteuid() == 0):
             options.add_argument(flag)

@@ -66,6 +66,19 @@ struct AskForOutput final : Pass {
     Out<Number> number_{*this, "number", "a number"};
 };
 
+/// Writes the image's width, in the build phase. Fails where it is odd.
+struct WriteWidth final : Pass {
+    static constexpr const char* kName = "write_width";
+    static constexpr const char* kHelp = "Writes the image's width.";
+    bool buildReadsView() const override { return true; }
+    void plan(PassPlan&) override {}
+    void record(PassContext& context) override {
+        context[width_].value = context.frame.width;
+        if (context.frame.width % 2 == 1) throw Error("odd");
+    }
+    Out<Number> width_{*this, "width", "a number"};
+};
+
 class GraphChanges : public testing::Test {
  protected:
     GraphChanges() {
@@ -73,6 +86,7 @@ class GraphChanges : public testing::Test {
         registry_.add<Double>();
         registry_.add<Watch>();
         registry_.add<AskForOutput>();
+        registry_.add<WriteWidth>();
         frame_.scene = &state_;
         make("[{pass: write}, {pass: double}, {pass: watch}]");
     }
@@ -82,6 +96,20 @@ class GraphChanges : public testing::Test {
         graph_->prepare(frame_, device_, compiler_, stream_);
     }
     void runBuild() { samples_ = graph_->run(Phase::Build, frame_, device_, stream_, *tracer_, scene_, 0, false); }
+    /// Makes and builds a graph that reuses the last one. @return ids of reused passes
+    std::string next(const std::string& graph, bool sameView = true) {
+        stream_.discard();  // What a failed one recorded
+        const std::unique_ptr<Graph> previous = std::move(graph_);
+        graph_ = std::make_unique<Graph>(registry_, parseYaml(graph, "g.yaml"));
+        graph_->reuse(*previous, sameView);
+        graph_->plan(frame_, device_.info(), device_.memoryLimitBytes());
+        graph_->prepare(frame_, device_, compiler_, stream_);
+        runBuild();
+        std::string reused;
+        for (const Graph::PassInfo& pass : graph_->passes())
+            if (pass.isReused) reused += pass.id + " ";
+        return reused;
+    }
     /// What Watch reports of a run, as "first run number twice absent".
     std::string run() {
         runBuild();
@@ -122,18 +150,6 @@ TEST_F(GraphChanges, WhoSeesNoneLeavesItsOutputs) {
 }
 
 TEST_F(GraphChanges, OutputsOfAnotherGraphAreReusedWhereNothingChanged) {
-    const auto next = [&](const std::string& graph) {
-        const std::unique_ptr<Graph> previous = std::move(graph_);
-        graph_ = std::make_unique<Graph>(registry_, parseYaml(graph, "g.yaml"));
-        graph_->reuse(*previous);
-        graph_->plan(frame_, device_.info(), device_.memoryLimitBytes());
-        graph_->prepare(frame_, device_, compiler_, stream_);
-        runBuild();
-        std::string reused;
-        for (const Graph::PassInfo& pass : graph_->passes())
-            if (pass.isReused) reused += pass.id + " ";
-        return reused;
-    };
     const char* whole = "[{pass: write}, {pass: double}, {pass: watch}]";
     frame_.sceneVersion = 3;
     runBuild();
@@ -149,6 +165,32 @@ TEST_F(GraphChanges, OutputsOfAnotherGraphAreReusedWhereNothingChanged) {
     EXPECT_EQ(next("[{pass: write, id: other}, {pass: write}, {pass: double, inputs: {number: other}}, "
                    "{pass: watch, inputs: {number: other}}]"),
               "other ");
+}
+
+TEST_F(GraphChanges, WhatReadsTheViewIsReusedInTheSameViewAlone) {
+    const char* passes = "[{pass: write_width}, {pass: write}]";
+    make(passes);
+    frame_.width = 6;
+    runBuild();
+    EXPECT_EQ(next(passes, true), "write_width write ");
+    frame_.width = 8;
+    EXPECT_EQ(next(passes, false), "write ");
+    EXPECT_EQ(graph_->resource<Number>("width")->value, 8u);
+}
+
+TEST_F(GraphChanges, NothingOfAPhaseThatFailedIsReused) {
+    const char* passes = "[{pass: write}, {pass: write_width}]";
+    make(passes);
+    frame_.width = 7;
+    EXPECT_THROW(runBuild(), Error);
+    frame_.width = 8;
+    EXPECT_EQ(next(passes, true), "");
+    // What was reused before stays
+    frame_.width = 9;
+    EXPECT_THROW(next(passes, false), Error);
+    frame_.width = 10;
+    EXPECT_EQ(next(passes, true), "write ");
+    EXPECT_EQ(graph_->resource<Number>("width")->value, 10u);
 }
 
 TEST_F(GraphChanges, AreToldOfInputsAlone) {

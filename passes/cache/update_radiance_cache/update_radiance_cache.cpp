@@ -92,6 +92,7 @@ class UpdateRadianceCache final : public Pass {
 
     explicit UpdateRadianceCache(const Params& params) : params_(params) {}
     Phase phase() const override { return params_.update == CacheUpdate::EachFrame ? Phase::Frame : Phase::Build; }
+    bool buildReadsView() const override { return true; }
     uint32_t warmupFrames() const override { return params_.historyFrames - 1; }
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;

@@ -1,0 +1,191 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "app/commands.h"
+#include "app/config_options.h"
+#include "app/image_requests.h"
+#include "app/look_server.h"
+#include "app/session_requests.h"
+#include "app/source_root.h"
+#include "app/text_values.h"
+#include "base/interrupt.h"
+#include "config/yaml.h"
+#include "experiment/config_schema.h"
+#include "passes/common/families.h"
+#include "passes/path_trace/preview.h"
+
+namespace voxray {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kPatience{100};  // Between looks at whether Ctrl-C was pressed
+
+struct LookArguments : ConfigArguments {
+    std::filesystem::path file;
+    RunOptions options;
+    int port = 0;
+};
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// A port of a pass, for the page.
+Value portValue(const PortDoc& port) {
+    Value value = Value::map();
+    value.set("name", quotedText(port.name));
+    value.set("optional", flag(port.optional));
+    value.set("with", quotedText(port.with));
+    return value;
+}
+
+/// Names, ports and families of passes, which the schema lacks.
+Value passesOf(const Registry& registry) {
+    Value passes = Value::map();
+    for (const PassKind& kind : registry.kinds()) {
+        Value pass = Value::map(), inputs = Value::list(), outputs = Value::list();
+        for (const PortDoc& port : kind.ports) (port.output ? outputs : inputs).items.push_back(portValue(port));
+        pass.set("family", quotedText(kind.family));
+        pass.set("inputs", std::move(inputs));
+        pass.set("outputs", std::move(outputs));
+        passes.set(kind.name, std::move(pass));
+    }
+    return passes;
+}
+
+/// @throws UsageError
+ImageRequest parseRequest(const std::string& body) {
+    const Value value = parseYaml(body, "request");
+    if (!value.isMap()) throw UsageError("request: it is no map");
+    ImageRequest request;
+    for (const auto& [key, entry] : value.members) {
+        if (key == "page") {
+            request.page = entry.asString(key);
+        } else if (key == "variant") {
+            request.variant = entry.asString(key);
+        } else if (key == "shrink") {
+            const int64_t shrink = entry.asInteger(key);
+            if (shrink < 1 || shrink > 64) throw UsageError("request: shrink is from 1 to 64");
+            request.shrink = uint32_t(shrink);
+        } else if (key == "changes") {
+            if (!entry.isList()) throw UsageError("request: changes is no list");
+            for (const Value& change : entry.items) {
+                if (!change.isMap() || change.members.size() != 2 || !change.find("value"))
+                    throw UsageError("request: a change is a map with path and value");
+                request.changes.push_back({textOf(change, "path"), *change.find("value")});
+            }
+        } else {
+            throw UsageError("request: unknown key '{}'", key);
+        }
+    }
+    return request;
+}
+
+/// Keeps the changes that a config allows. @return the others, each with its path and error.
+Value keep(InteractiveSession& session, const std::vector<InteractiveSession::Change>& changes) {
+    Value refused = Value::list();
+    for (const auto& [path, value] : changes) try {
+            session.set(path, value);
+        } catch (const std::exception& error) {
+            if (interruptRequested()) throw Interrupted();
+            Value refusal = Value::map();
+            refusal.set("path", quotedText(path));
+            refusal.set("error", quotedText(error.what()));
+            refused.items.push_back(std::move(refusal));
+        }
+    return refused;
+}
+
+Value vectorValue(const glm::vec3& v) {
+    Value list = Value::list();
+    list.items = {numberValue(v.x), numberValue(v.y), numberValue(v.z)};
+    return list;
+}
+
+/// A line of JSON, then a PNG file, if the image could be rendered. @throws Interrupted
+std::string answerTo(InteractiveSession& session, const ImageRequest& request) {
+    const Clock::time_point start = Clock::now();
+    Value answer = Value::map();
+    std::vector<uint8_t> png;
+    try {
+        if (!request.variant.empty()) session.select(request.variant);
+        if (request.shrink == 1) answer.set("refused", keep(session, request.changes));
+        const double setMs = millisecondsSince(start);
+        const InteractiveSession::Rendering rendering =
+            request.shrink == 1 ? session.render([](double) {})
+                                : session.draft(request.changes, request.shrink, [](double) {});
+        const double renderedMs = millisecondsSince(start);
+        const ImageSettings& settings = rendering.imageSettings;
+        png = encodePng(preview(rendering.images.final, settings.exposureStops, settings.tone));
+        describe(answer, rendering);
+        Value camera = Value::map();
+        camera.set("position", vectorValue(rendering.camera.position));
+        camera.set("target", vectorValue(rendering.camera.target));
+        camera.set("fov_deg", numberValue(rendering.camera.fovDegrees));
+        answer.set("camera", std::move(camera));
+        answer.set("scene_size", numberValue(rendering.sceneSize));
+        answer.set("set_ms", numberValue(setMs));
+        answer.set("render_ms", numberValue(renderedMs - setMs));
+        answer.set("png_ms", numberValue(millisecondsSince(start) - renderedMs));
+    } catch (const std::exception& error) {
+        if (interruptRequested()) throw Interrupted();
+        answer.set("error", quotedText(error.what()));
+    }
+    answer.set("config", session.config());
+    answer.set("warnings", listOf(session.warnings()));
+    return answer.json(-1) + "\n" + std::string(png.begin(), png.end());
+}
+
+/// Serves the page until Ctrl-C.
+void look(const LookArguments& arguments) {
+    Registry registry;
+    registerPasses(registry);
+    RunOptions options = arguments.options;
+    options.scenes = arguments.scenes;
+    options.sourceRoot = sourceRoot();
+    options.previewTracer = pathTracedPreview;
+    ConfigOptions config = arguments.config;
+    if (!options.tracer.empty()) config.assignments.push_back("tracer=" + options.tracer);
+
+    const InterruptScope interruptScope;
+    InteractiveSession session(loadExperiment(arguments.file, config), registry, options);
+    Value start = greetingOf(session);
+    start.set("schema", configJsonSchema(registry));
+    start.set("passes", passesOf(registry));
+    ImageRequests requests;
+    const LookServer server({.sourceRoot = options.sourceRoot,
+                             .start = start.json(-1),
+                             .image = [&](const std::string& body) { return requests.ask(parseRequest(body)); }},
+                            arguments.port);
+    fmt::print("{}\nCtrl-C ends it.\n", server.address());
+    std::fflush(stdout);
+    const auto answer = [&](const ImageRequest& request) { return answerTo(session, request); };
+    while (!interruptRequested()) requests.answerNext(kPatience, answer);
+    requests.close();
+}
+
+}  // namespace
+
+void addLookCommand(CLI::App& app, int&) {
+    CLI::App* command = app.add_subcommand(
+        "look",
+        "Serve a page for this machine's browser, on which a config is flown through and changed (docs/look.md).");
+    auto arguments = std::make_shared<LookArguments>();
+    command->add_option("CONFIG", arguments->file, "Config file.")->required();
+    command->add_option("--port", arguments->port, "Port of the loopback; default: one that is free.")
+        ->type_name("N")
+        ->check(CLI::Range(1, 65535));
+    addConfigOptions(*command, *arguments);
+    addDeviceOptions(*command, arguments->options);
+    command->add_flag("--validate", arguments->options.validation,
+                      "Turn Vulkan's validation layer on: its messages are shown as errors.");
+    command->callback([arguments] { look(*arguments); });
+}
+
+}  // namespace voxray

@@ -1,0 +1,118 @@
+#include "app/session_requests.h"
+
+#include <algorithm>
+
+#include "app/text_values.h"
+
+namespace voxray {
+namespace {
+
+void allow(const Value& request, const std::vector<std::string>& keys) {
+    for (const auto& [key, value] : request.members)
+        if (key != "id" && key != "command" && std::ranges::count(keys, key) == 0)
+            throw UsageError(value.where, "{}: unknown key '{}'", textOf(request, "command"), key);
+}
+
+}  // namespace
+
+std::string textOf(const Value& request, const std::string& key) {
+    const Value* value = request.find(key);
+    if (!value) throw UsageError(request.where, "the request has no '{}'", key);
+    return value->asString(key);
+}
+
+Value greetingOf(const InteractiveSession& session) {
+    Value answer = Value::map(), variants = Value::list();
+    answer.set("voxray", quotedText(VOXRAY_VERSION));
+    answer.set("protocol", numberValue(kSessionProtocol));
+    for (const auto& [name, id] : session.variants()) {
+        Value variant = Value::map();
+        variant.set("id", quotedText(id));
+        variant.set("name", quotedText(name));
+        variants.items.push_back(std::move(variant));
+    }
+    answer.set("variants", std::move(variants));
+    answer.set("warnings", listOf(session.warnings()));
+    return answer;
+}
+
+void describe(Value& answer, const InteractiveSession::Rendering& rendering) {
+    const Measurement& m = rendering.measurement;
+    Value passes = Value::list(), values = Value::list();
+    for (const PassCost& cost : m.passes) {
+        Value pass = Value::map();
+        pass.set("id", quotedText(cost.id));
+        pass.set("phase", quotedText(cost.phase == Phase::Build ? "build" : "frame"));
+        pass.set("ms", numberValue(cost.milliseconds.median));
+        pass.set("rays", numberValue(cost.rays));
+        pass.set("memory_bytes", numberValue(cost.memoryBytes));
+        pass.set("reused", flag(std::ranges::count(rendering.reused, cost.id) > 0));
+        passes.items.push_back(std::move(pass));
+    }
+    for (const ReportedValue& reported : m.values) {
+        Value value = Value::map();
+        value.set("pass", quotedText(reported.pass));
+        value.set("name", quotedText(reported.name));
+        value.set("value", numberValue(reported.value));
+        values.items.push_back(std::move(value));
+    }
+    answer.set("width", numberValue(rendering.images.final.width));
+    answer.set("height", numberValue(rendering.images.final.height));
+    answer.set("frame_ms", numberValue(m.frameMs.median));
+    answer.set("memory_bytes", numberValue(m.memoryBytes));
+    answer.set("passes", std::move(passes));
+    answer.set("values", std::move(values));
+}
+
+Value RequestHandler::answer(const Value& request) {
+    const std::string command = textOf(request, "command");
+    Value answer = Value::map();
+    if (command == "set") {
+        allow(request, {"path", "value"});
+        const Value* value = request.find("value");
+        if (!value) throw UsageError(request.where, "set: it has no 'value'; null takes the config's entry out");
+        session_.set(textOf(request, "path"), *value);
+        answer.set("warnings", listOf(session_.warnings()));
+    } else if (command == "select") {
+        allow(request, {"variant"});
+        session_.select(textOf(request, "variant"));
+        answer.set("warnings", listOf(session_.warnings()));
+    } else if (command == "config") {
+        allow(request, {});
+        answer.set("config", session_.config());
+    } else if (command == "render") {
+        allow(request, {});
+        render(answer);
+    } else if (command == "score") {
+        allow(request, {});
+        score(answer);
+    } else {
+        throw UsageError(request.where, "no command '{}'; there are config, render, score, select, set", command);
+    }
+    return answer;
+}
+
+void RequestHandler::render(Value& answer) {
+    rendering_.reset();
+    rendering_ = session_.render([](double) {});
+    Value files = Value::map();
+    const auto write = [&](const std::string& name, const ImageF& image) {
+        const std::filesystem::path file = images_ / (name + ".exr");
+        writeExr(file, image);
+        files.set(name, quotedText(file.string()));
+    };
+    write(kComparedImage, rendering_->images.final);
+    if (rendering_->images.indirect) write(kIndirectImage, *rendering_->images.indirect);
+    answer.set("images", std::move(files));
+    describe(answer, *rendering_);
+}
+
+void RequestHandler::score(Value& answer) {
+    if (!rendering_) throw UsageError("score: nothing is rendered yet");
+    Value scores = Value::map();
+    for (const auto& [column, value] : session_.score(rendering_->images, [](double) {}).scores)
+        scores.set(column, numberValue(value));
+    answer.set("scores", std::move(scores));
+}
+
+}  // namespace voxray

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/value.h"
+#include "experiment/interactive_session.h"
+
+/// Requests and answers of docs/session.md.
+namespace voxray {
+
+inline constexpr int kSessionProtocol = 1;
+
+/// What a client is told first.
+Value greetingOf(const InteractiveSession& session);
+
+/// Size, times, memory, passes and values of a rendering, without its images.
+void describe(Value& answer, const InteractiveSession::Rendering& rendering);
+
+/// The entry `key` of a request. @throws UsageError if it is missing or no text.
+std::string textOf(const Value& request, const std::string& key);
+
+/// Answers requests of `voxray session`.
+class RequestHandler {
+ public:
+    RequestHandler(InteractiveSession& session, std::filesystem::path images)
+        : session_(session), images_(std::move(images)) {}
+
+    /// @throws UsageError, Error, Interrupted.
+    Value answer(const Value& request);
+
+ private:
+    void render(Value& answer);
+    void score(Value& answer);
+
+    InteractiveSession& session_;
+    const std::filesystem::path images_;
+    std::optional<InteractiveSession::Rendering> rendering_;  ///< The last one, if none failed since.
+};
+
+}  // namespace voxray

@@ -1,0 +1,100 @@
+// A camera that is flown with mouse and keys.
+
+const TURN = 0.004;  // Radians by pixel of a drag
+const KEY_TURN = 1.2;  // Radians in a second
+const CROSS_SECONDS = 8;  // For the scene's size at first
+const POLE = 0.05;  // Smallest angle to `up`, radians
+const MOVES = { KeyW: [0, 0, 1], KeyS: [0, 0, -1], KeyA: [-1, 0, 0], KeyD: [1, 0, 0], KeyE: [0, 1, 0], KeyQ: [0, -1, 0] };
+const TURNS = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+
+const add = (a, b, scale = 1) => a.map((value, i) => value + scale * b[i]);
+const dot = (a, b) => a.reduce((sum, value, i) => sum + value * b[i], 0);
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const unit = (a) => a.map((value) => value / Math.hypot(...a));
+const rotate = (v, axis, angle) =>  // Rodrigues
+    add(add(v.map((value) => value * Math.cos(angle)), cross(axis, v), Math.sin(angle)), axis, dot(axis, v) * (1 - Math.cos(angle)));
+
+export class FlyCamera {
+    /** @param moved is called with a value of scene.camera, and the time of the event. */
+    constructor(canvas, moved) {
+        this.moved = moved;
+        this.keys = new Set();
+        this.speed = null;  // m/s
+        this.isDragged = false;
+        canvas.addEventListener("pointerdown", (event) => {
+            canvas.setPointerCapture(event.pointerId);
+            canvas.focus();
+            this.isDragged = true;
+            canvas.classList.add("dragged");
+        });
+        canvas.addEventListener("pointermove", (event) => {
+            if (!this.isDragged || !this.position) return;
+            this.turn(-TURN * event.movementX, -TURN * event.movementY);
+            this.tell(event.timeStamp);
+        });
+        for (const name of ["pointerup", "pointercancel"])
+            canvas.addEventListener(name, () => {
+                this.isDragged = false;
+                canvas.classList.remove("dragged");
+            });
+        canvas.addEventListener("wheel", (event) => {
+            event.preventDefault();
+            this.speed *= 1.1 ** -Math.sign(event.deltaY);
+        }, { passive: false });
+        document.addEventListener("keydown", (event) => {
+            if (event.target.closest("input, select, button") || event.ctrlKey || event.metaKey || event.altKey) return;
+            this.isFast = event.shiftKey;
+            if (!(event.code in MOVES) && !(event.code in TURNS)) return;
+            event.preventDefault();
+            if (!this.keys.size) this.fly(event.timeStamp);
+            this.keys.add(event.code);
+        });
+        document.addEventListener("keyup", (event) => this.keys.delete(event.code));
+        window.addEventListener("blur", () => this.keys.clear());
+    }
+
+    get isMoving() {
+        return this.isDragged || this.keys.size > 0;
+    }
+
+    /** Where the image was taken from, unless the camera was moved since. */
+    take({ position, target, fov_deg }, up, sceneSize) {
+        this.fov = Number(fov_deg.toPrecision(6));
+        this.position = position;
+        this.forward = unit(add(target, position, -1));
+        this.up = unit(up);
+        this.speed ??= sceneSize / CROSS_SECONDS;
+    }
+
+    turn(yaw, pitch) {
+        const angle = Math.acos(dot(this.forward, this.up));
+        const allowed = Math.min(Math.max(pitch, angle - Math.PI + POLE), angle - POLE);
+        const right = unit(cross(this.forward, this.up));
+        this.forward = unit(rotate(rotate(this.forward, right, allowed), this.up, yaw));
+    }
+
+    /** Moves until no key is held. */
+    fly(time) {
+        let last = time;
+        const step = (now) => {
+            if (!this.keys.size || !this.position) return;
+            const seconds = Math.min(Math.max(now - last, 0) / 1000, 0.2);
+            last = now;
+            const right = unit(cross(this.forward, this.up));
+            for (const key of this.keys) {
+                const [x, y, z] = MOVES[key] ?? [0, 0, 0];
+                const way = seconds * this.speed * (this.isFast ? 4 : 1);
+                this.position = add(add(add(this.position, right, way * x), this.up, way * y), this.forward, way * z);
+                const [yaw, pitch] = TURNS[key] ?? [0, 0];
+                this.turn(KEY_TURN * seconds * yaw, KEY_TURN * seconds * pitch);
+            }
+            this.tell(now);
+            requestAnimationFrame(step);
+        };
+        requestAnimationFrame(step);
+    }
+
+    tell(time) {
+        this.moved({ position: this.position, target: add(this.position, this.forward), fov_deg: this.fov }, time);
+    }
+}

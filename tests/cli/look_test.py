@@ -1,0 +1,263 @@
+"""`voxray look`: what its server refuses, and its page in a browser."""
+import http.client
+import io
+import json
+import os
+import random
+import re
+import signal
+import socket
+import subprocess
+import sys
+import time
+import unittest
+
+import numpy as np
+from PIL import Image
+from support import PROGRAM, SOURCE, TINY, CommandTest
+
+sys.path.insert(0, os.path.join(SOURCE, "tests", "unit"))
+import browser  # noqa: E402
+
+if not browser.MISSING:
+    from selenium.webdriver.common.action_chains import ActionChains
+    from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
+    from selenium.webdriver.support.ui import Select
+
+CONFIG = TINY.replace("width: 32, height: 24", "width: 64, height: 48")
+
+
+class Look(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.write("look.yaml", CONFIG)
+        self.process = subprocess.Popen([PROGRAM, "look", "look.yaml", "--validate"], cwd=self.folder, env=self.environment, text=True,
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.addCleanup(self.process.stderr.close)
+        self.addCleanup(self.process.stdout.close)
+        self.addCleanup(self.process.wait)
+        self.addCleanup(self.process.kill)
+        self.address = self.process.stdout.readline().strip()
+        self.port, self.token = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/(\w{32})/", self.address).groups()
+        self.process.stdout.readline()
+
+    def ask(self, method="GET", name="", body=None, headers=None, path=None):
+        """@return status, body"""
+        connection = http.client.HTTPConnection("127.0.0.1", int(self.port))
+        self.addCleanup(connection.close)
+        connection.request(method, path or f"/{self.token}/{name}", body, headers or {})
+        answer = connection.getresponse()
+        return answer.status, answer.read()
+
+    def image(self, **request):
+        status, body = self.ask("POST", "image", json.dumps(request))
+        self.assertEqual(status, 200, body)
+        line, _, png = body.partition(b"\n")
+        return json.loads(line), png
+
+
+def pixels(png):
+    with Image.open(io.BytesIO(png)) as image:
+        return np.asarray(image.convert("RGB"))
+
+
+class Server(Look):
+    def test_serves_its_own_page_alone(self):
+        for name in ("", "look.js", "camera.js", "passes.js", "look.css", "style.css", "start.json"):
+            self.assertEqual(self.ask(name=name)[0], 200, name)
+        self.assertEqual(self.ask(headers={"Host": f"localhost:{self.port}"})[0], 200)
+        own = f"http://127.0.0.1:{self.port}"
+        self.assertEqual(self.ask("POST", "image", "{}", {"Origin": own})[0], 200)
+        for headers, why in (({"Host": "evil.example"}, b"foreign Host"), ({"Host": f"evil.example:{self.port}"}, b"foreign Host"),
+                             ({"Origin": "http://evil.example"}, b"foreign Origin"), ({"Origin": "null"}, b"foreign Origin"),
+                             ({"Origin": f"http://localhost:{self.port}"}, b"foreign Origin")):
+            for method, name in (("GET", ""), ("GET", "start.json"), ("POST", "image")):
+                status, body = self.ask(method, name, "{}", headers)
+                self.assertEqual(status, 403)
+                self.assertIn(why, body)
+        for path in ("/", "/look.js", "/image", f"/{self.token}", f"/{self.token[:-1]}x/", f"/{self.token.upper()}x/", "/../" + self.token + "/"):
+            for method in ("GET", "POST"):
+                status, body = self.ask(method, path=path)
+                self.assertEqual(status, 403, path)
+                self.assertIn(b"no token", body)
+        for name in ("../look/look.js", "look.html", "%2e%2e/look.js", "image"):
+            self.assertEqual(self.ask(name=name)[0], 404, name)
+        for method in ("PUT", "DELETE", "OPTIONS", "PATCH"):
+            self.assertGreaterEqual(self.ask(method, "image", "{}")[0], 400, method)
+
+    def test_is_reached_from_this_machine_alone(self):
+        with socket.socket() as other:
+            other.settimeout(2)
+            with self.assertRaises(OSError):
+                other.connect((socket.gethostbyname(socket.gethostname()).replace("127.0.0.1", "127.0.0.2"), int(self.port)))
+        done = self.expect(1, "look", "look.yaml", "--port", self.port)
+        self.assertIn("not free", done.stderr)
+
+    def test_malformed_requests_are_refused_with_a_word(self):
+        for body in ("", "{", "[1]", "1", '{"shrink": 0}', '{"shrink": 65}', '{"shrink": "x"}', '{"what": 1}', '{"changes": {}}', '{"changes": [1]}',
+                     '{"changes": [{"path": "seed"}]}', '{"changes": [{"path": [1], "value": 1}]}', '{"variant": [1]}', "\x01", "{" * 200):
+            status, answer = self.ask("POST", "image", body.encode())
+            self.assertEqual(status, 400, body)
+            self.assertIn(b"request", answer, body)
+        self.assertEqual(self.ask("POST", "image", b" " * (1 << 17))[0], 413)
+        chance = random.Random(5)
+        for _ in range(200):
+            with socket.create_connection(("127.0.0.1", int(self.port))) as raw:
+                raw.sendall(chance.randbytes(chance.randrange(1, 400)) + b"\r\n\r\n")
+        self.assertIn("config", self.image()[0])
+
+    def test_changes_are_kept_by_whole_images_alone(self):
+        first, png = self.image()
+        self.assertEqual(pixels(png).shape, (48, 64, 3))
+        draft, small = self.image(shrink=4, changes=[{"path": "voxelize.resolution", "value": 9}])
+        self.assertEqual(pixels(small).shape, (12, 16, 3))
+        self.assertEqual(draft["config"], first["config"])
+        answer, same = self.image(changes=[{"path": "voxelize.resolution", "value": "many"}, {"path": "seed", "value": 8}])
+        self.assertEqual([one["path"] for one in answer["refused"]], ["voxelize.resolution"])
+        self.assertIn("voxelize.resolution", answer["refused"][0]["error"])
+        self.assertEqual(answer["config"], {**first["config"], "seed": 8})
+        answer, same = self.image(changes=[{"path": "seed", "value": 7}])
+        self.assertEqual(answer["config"], first["config"])
+        np.testing.assert_array_equal(pixels(same), pixels(png))
+        self.assertIn("no variant", self.image(variant="nothing")[0]["error"])
+        self.assertNotEqual(self.image(variant="resolution-16")[0]["config"], first["config"])
+
+    def test_a_draft_costs_no_build(self):
+        self.image()
+        camera = {"path": "scene.camera", "value": {"position": [0, 1, 2], "target": [0, 1, 0], "fov_deg": 60}}
+        for request in ({"shrink": 4}, {}, {"shrink": 4, "changes": [camera]}, {"changes": [camera]}):
+            answer, _ = self.image(**request)
+            self.assertEqual({one["id"] for one in answer["passes"] if one["reused"]}, {"voxelize", "inject"}, request)
+
+    def test_a_newer_request_takes_the_place_of_an_older_one(self):
+        self.image()
+        slow = json.dumps({"changes": [{"path": "inject.rays_per_light", "value": 1 << 22}]})
+        connections = []
+        for body in (slow, "{}", "{}"):
+            connection = http.client.HTTPConnection("127.0.0.1", int(self.port))
+            self.addCleanup(connection.close)
+            connection.request("POST", f"/{self.token}/image", body)
+            connections.append(connection)
+            time.sleep(0.3)
+        last, first = connections[2], connections[0]
+        self.assertEqual(first.getresponse().status, 409)
+        self.assertEqual(connections[1].getresponse().status, 409)
+        # What it wanted is kept; whoever asks for another value has its image
+        answer, _ = self.image(changes=[{"path": "inject.rays_per_light", "value": 4096}])
+        self.assertNotIn("error", answer)
+        self.assertIn(last.getresponse().status, (200, 409))
+
+    def test_ends_with_an_interrupt(self):
+        self.image()
+        self.process.send_signal(signal.SIGINT)
+        self.assertEqual(self.process.wait(20), 0)
+
+
+@unittest.skipIf(browser.MISSING, browser.MISSING)
+class Page(Look):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = browser.Browser()
+        cls.addClassCleanup(cls.browser.close)
+
+    def setUp(self):
+        super().setUp()
+        self.browser.resize(1400, 900)
+        self.browser.console()
+        self.browser.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": self.folder})
+        self.browser.driver.get(self.address)
+        self.settle()
+
+    def settle(self):
+        """Waits for the whole image of the newest state."""
+        self.browser.driver.execute_async_script("""
+            const done = arguments[0];
+            const wait = () => (window.look?.settled && !document.querySelector('[aria-busy]') ? done() : setTimeout(wait, 20));
+            wait();""")
+
+    def config(self):
+        return self.browser.run("return window.look.config")
+
+    def shown(self):
+        """Pixels of the canvas."""
+        data = self.browser.run("""const canvas = document.getElementById("image"), copy = new OffscreenCanvas(canvas.width, canvas.height);
+            const context = copy.getContext("2d", {willReadFrequently: true});
+            context.drawImage(canvas, 0, 0);
+            return [canvas.height, canvas.width, [...context.getImageData(0, 0, canvas.width, canvas.height).data]]""")
+        return np.array(data[2], np.uint8).reshape(data[0], data[1], 4)[..., :3]
+
+    def entry(self, name):
+        return next(one for one in self.config()["graph"] if one.get("id", one["pass"]) == name)
+
+    def error(self):
+        return self.browser.run("const p = document.getElementById('error'); return p.hidden ? '' : p.textContent")
+
+    def test_what_is_shown_is_what_run_renders(self):
+        first = self.shown()
+        # Fly with a key and turn with the mouse
+        canvas = self.browser.driver.find_element(By.ID, "image")
+        ActionChains(self.browser.driver).click(canvas).key_down("w").pause(0.4).key_up("w").perform()
+        ActionChains(self.browser.driver).move_to_element(canvas).click_and_hold().move_by_offset(40, 10).move_by_offset(20, 0).release().perform()
+        self.settle()
+        self.assertGreater(self.browser.run("return window.look.latencies.length"), 1)
+        flown = self.shown()
+        self.assertGreater(np.abs(flown.astype(int) - first).mean(), 1)
+        # Slide a parameter
+        slider = self.browser.driver.find_element(By.CSS_SELECTOR, "input[type=range][name='inject.bounces']")
+        slider.send_keys(Keys.HOME)
+        self.settle()
+        self.assertEqual(self.entry("inject")["bounces"], 0)
+        self.assertGreater(np.abs(self.shown().astype(int) - flown).mean(), 0.1)
+        # Swap a pass
+        swap = self.browser.driver.find_element(By.CSS_SELECTOR, "[data-id=gather_irradiance] select")
+        Select(swap).select_by_value("path_trace")
+        self.settle()
+        self.assertEqual(self.error(), "")
+        self.assertEqual(self.entry("gather_irradiance")["pass"], "path_trace")
+        self.browser.driver.find_element(By.ID, "download").click()
+        while not os.path.exists(self.path("tiny.yaml")):
+            time.sleep(0.05)
+        self.expect(0, "run", "tiny.yaml", "--out", "run", "--no-report")
+        [variant] = [name for name in os.listdir(self.path("run", "images")) if name != "reference"]
+        with Image.open(self.path("run", "images", variant, "final.png")) as image:
+            np.testing.assert_array_equal(self.shown(), np.asarray(image.convert("RGB")))
+        self.assertEqual(self.browser.console(), [])
+
+    def test_what_is_refused_is_said_and_not_shown(self):
+        before = self.config()
+        Select(self.browser.driver.find_element(By.CSS_SELECTOR, "[data-id=gather_irradiance] select")).select_by_value("gather_cones")
+        self.settle()
+        self.assertIn("missing port 'radiance'", self.error())
+        self.assertEqual(self.config(), before)
+        swap = self.browser.driver.find_element(By.CSS_SELECTOR, "[data-id=gather_irradiance] select")
+        self.assertEqual(swap.get_attribute("value"), "gather_irradiance")
+        # The next change takes the words away
+        box = self.browser.driver.find_element(By.CSS_SELECTOR, "input[type=number][name='voxelize.resolution']")
+        box.clear()
+        box.send_keys("12" + Keys.ENTER)
+        self.settle()
+        self.assertEqual(self.error(), "")
+        self.assertEqual(self.entry("voxelize")["resolution"], 12)
+
+    def test_shows_the_passes_of_the_graph(self):
+        self.assertEqual(self.browser.run("return [...document.querySelectorAll('#passes section')].map((card) => card.dataset.id)"),
+                         [one.get("id", one["pass"]) for one in self.config()["graph"]])
+        self.assertGreater(len(self.browser.run("return document.querySelector('.parameter').title")), 10)
+        self.assertIn("ms", self.browser.run("return document.getElementById('status').textContent"))
+        self.assertEqual(self.browser.run("return document.querySelectorAll('#times .bar-name').length"), len(self.config()["graph"]))
+        Select(self.browser.driver.find_element(By.NAME, "variant")).select_by_value("resolution-16")
+        self.settle()
+        self.assertEqual(self.entry("voxelize")["resolution"], 16)
+        dark = self.shown().mean()
+        self.browser.driver.find_element(By.NAME, "exposure").send_keys(Keys.ARROW_RIGHT * 2)
+        self.settle()
+        self.assertEqual(self.config()["image"]["exposure_stops"], 1)
+        self.assertGreater(self.shown().mean(), 1.1 * dark)
+        for width in (400, 1400):
+            self.browser.resize(width, 800)
+            self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), width)
+
+
+if __name__ == "__main__":
+    unittest.main()
