@@ -40,8 +40,9 @@ class JoinClipmapLevels final : public Pass {
     static constexpr const char* kName = "join_clipmap_levels";
     static constexpr bool kDependsOnLight = false;
     static constexpr const char* kHelp =
-        "Numbers the voxels of voxelize_clipmap's levels through, each place at the finest level whose window holds "
-        "it, for inject_light_rays, gather_irradiance and gather_rays. "
+        "Makes one list of the voxels of voxelize_clipmap's levels, to be lit and looked up. "
+        "A place has a voxel at the finest level whose window holds it. Read by inject_light_rays, gather_irradiance "
+        "and gather_rays. "
         "Biased by: distance from the camera; light changes at the borders of windows. "
         "Source: Magalhães 2020, section 3.2.5.3, which names clipmaps as the store to prefer, and builds none.";
 

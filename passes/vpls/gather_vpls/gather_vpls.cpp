@@ -109,8 +109,8 @@ class GatherVpls final : public Pass {
                       "Saves rays for noise; 0: none.",
                       0.0f, 100.0f),
                 field("early_out", &Params::earlyOut,
-                      "As 'roulette', but such virtual lights are left out altogether, as in the paper: "
-                      "the image loses their light. 0: none are.",
+                      "As 'roulette', but such virtual lights are left out altogether: the image loses their light. "
+                      "Sun and Agu 2015, section 3.2, leave out lights by their luminance alone. 0: none are.",
                       0.0f, 100.0f)
                     .onlyWith(oneOf(&Params::roulette, {0.0f})),
                 field("visibility", &Params::visibility,
