@@ -30,7 +30,7 @@ void checkBeams(const std::string& pass, const LightPathParams& params, const st
 LightPaths::LightPaths(ProgramOwner& owner, const LightPathParams& params)
     : params_(params),
       sumsFlux_(params.write == Write::Average),
-      generateOcclusionRays_(owner, "passes/surfels/generate_occlusion_rays.comp", Defines{{"VOXEL_LEVELS", "1"}}),
+      generateOcclusionRays_(owner, "passes/surfels/generate_occlusion_rays.comp"),
       deposit_(owner, "deposit_light.comp",
                sumsFlux_ ? Defines{{"FLUX", "1"}} : VoxelAccumulator::defines(params.write)),
       unoccludedArea_(owner, "passes/common/voxels/unoccluded_area.comp"),
@@ -46,6 +46,8 @@ LightPaths::LightPaths(ProgramOwner& owner, const LightPathParams& params)
 void LightPaths::plan(PassPlan& plan, const std::string& pass, uint32_t batch, const VoxelLevels& voxels,
                       const std::vector<LightSource>& sources) {
     deposit_.specialize({{"kSecondary", uint32_t(params_.secondary)}, {"kCaustics", params_.caustics}});
+    if (!isResource<SurfaceVoxels>(voxels))
+        for (Kernel* kernel : {&generateOcclusionRays_, &deposit_}) kernel->define({{"VOXEL_LEVELS", "1"}});
     if (sumsFlux_) {
         if (!plan.device.shaderInt64Atomics)
             throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", pass,
@@ -94,7 +96,8 @@ void LightPaths::trace(PassContext& context, const VoxelLevels& voxels, const Ba
                              {"rays", rays_},
                              {"hits", hits_},
                              {"occlusionRays", occlusionRays_},
-                             {"rayCount", batch.count}});
+                             {"rayCount", batch.count},
+                             ifUsed({"voxelSize", voxels.grid.voxelSize})});
             context.tracer.occluded(stream, occlusionRays_, occluded_, batch.count);
         }
 
@@ -113,7 +116,8 @@ void LightPaths::trace(PassContext& context, const VoxelLevels& voxels, const Ba
                          {"batchRays", batch.count},
                          {"seed", batch.seed},
                          {"bounce", bounce},
-                         {"lastBounce", params_.lastBounce()}});
+                         {"lastBounce", params_.lastBounce()},
+                         ifUsed({"grid", voxels.grid})});
     }
 }
 
