@@ -47,6 +47,22 @@ std::vector<Ray> mirrorRays(CommandStream& stream, RayTracer& tracer, const Scen
     return reflected;
 }
 
+/// The mirror rays of a scene, with what Embree finds along them.
+struct MirrorRays {
+    explicit MirrorRays(const SceneState& state)
+        : scene(makeGpuScene(test::device(), stream, state)),
+          embree(makeRayTracer(TracerKind::Embree, test::device(), compiler, state)),
+          rays(mirrorRays(stream, *embree, state)),
+          expected(closestHits(stream, *embree, rays)) {}
+
+    ShaderCompiler compiler{test::sourceRoot(), test::shaderCache()};
+    CommandStream stream{test::device()};
+    GpuScene scene;
+    std::unique_ptr<RayTracer> embree;
+    std::vector<Ray> rays;
+    std::vector<Hit> expected;
+};
+
 /// Rays by the octant of their direction, then along a Morton curve by their origin.
 std::vector<Ray> sorted(const std::vector<Ray>& rays, const Geometry& geometry) {
     const glm::vec3 scale = 1023.0f / (geometry.boundsMax - geometry.boundsMin);
@@ -99,12 +115,8 @@ void hybridLeaves(benchmark::State& state, const std::string& config) {
                                                          state.range(0), state.range(1)));
     const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
     const HybridLeaves& leaves = *chain.graph().resource<HybridLeaves>("hybrid_leaves");
-    ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
-    CommandStream stream(test::device());
-    const GpuScene scene = makeGpuScene(test::device(), stream, chain.state());
-    const auto embree = makeRayTracer(TracerKind::Embree, test::device(), compiler, chain.state());
-    const std::vector<Ray> rays = mirrorRays(stream, *embree, chain.state());
-    const std::vector<Hit> expected = closestHits(stream, *embree, rays);
+    MirrorRays mirror(chain.state());
+    auto& [compiler, stream, scene, embree, rays, expected] = mirror;
     const double count = double(rays.size());
 
     // Once each outside of the measurement
@@ -183,12 +195,8 @@ void hybridListHits(benchmark::State& state, const std::string& config, const st
         mirrorScene(config, ", {pass: build_hybrid_leaves, primitives: 1048576, lists: " + lists + "}");
     const SurfaceVoxels& voxels = *chain.graph().resource<SurfaceVoxels>("voxels");
     const HybridLeaves& leaves = *chain.graph().resource<HybridLeaves>("hybrid_leaves");
-    ShaderCompiler compiler(test::sourceRoot(), test::shaderCache());
-    CommandStream stream(test::device());
-    const GpuScene scene = makeGpuScene(test::device(), stream, chain.state());
-    const auto embree = makeRayTracer(TracerKind::Embree, test::device(), compiler, chain.state());
-    const std::vector<Ray> rays = mirrorRays(stream, *embree, chain.state());
-    const std::vector<Hit> expected = closestHits(stream, *embree, rays);
+    MirrorRays mirror(chain.state());
+    auto& [compiler, stream, scene, embree, rays, expected] = mirror;
     test::TestPrograms programs;
     HybridTracer tracer(programs, HybridTraversal::Hierarchical);
     test::prepare(programs, tracer, voxels);

@@ -10,23 +10,23 @@ The module calls the program ./voxray of the clone that it lies in; PYTHONPATH h
 
 from __future__ import annotations
 
-import json
 import subprocess
 import sys
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-sys.path.append(str(Path(__file__).resolve().parents[2]))  # of the package `report`
+sys.path.append(str(Path(__file__).resolve().parents[2]))  # of the packages `orchestration` and `report`
 
+from orchestration.program import assignment  # noqa: E402
 from report.load import load  # noqa: E402
 from report.results import Results  # noqa: E402
 
-from voxray.display import error_picture, picture, strip  # noqa: E402
+from voxray.display import picture, strip  # noqa: E402
 from voxray.errors import VoxrayError  # noqa: E402
 from voxray.session import PROGRAM, Rendering, Session  # noqa: E402
 
-__all__ = ["Rendering", "Results", "Session", "VoxrayError", "error_picture", "load", "open", "picture", "run", "strip"]
+__all__ = ["Rendering", "Results", "Session", "VoxrayError", "load", "open", "picture", "run", "strip"]
 
 
 def open(config: str | Path, *, set: Mapping[str, Any] | None = None, profile: str | None = None, options: Iterable[str] = ()) -> Session:
@@ -52,5 +52,5 @@ def run(config: str | Path, *, set: Mapping[str, Any] | None = None, profile: st
 def _words(values: Mapping[str, Any] | None, profile: str | None) -> list[str]:
     words = ["--profile", profile] if profile else []
     for path, value in (values or {}).items():
-        words += ["--set", f"{path}={json.dumps(value, ensure_ascii=False)}"]
+        words += ["--set", assignment(path, value)]
     return words

@@ -16,13 +16,6 @@ def picture(radiance: np.ndarray, stops: float = 0) -> Image.Image:
     return Image.fromarray((255 * srgb).round().astype(np.uint8))
 
 
-def error_picture(radiance: np.ndarray, reference: np.ndarray) -> Image.Image:
-    """The signed relative error of luminance, (image - reference) / mean of both: blue -1, white 0, red 1."""
-    a, b = radiance @ images.LUMINANCE, reference @ images.LUMINANCE
-    error = np.divide(2 * (a - b), a + b, out=np.zeros_like(a), where=a + b > 0)
-    return Image.fromarray(images.colors(images.SIGNED_ERROR_COLORS, 0.5 + error.clip(-1, 1) / 2))
-
-
 def strip(pictures: Mapping[str, Image.Image], width: int = 320) -> str:
     """HTML of pictures side by side, by their captions. width: of each, CSS pixels."""
     figures = (f'<figure style="margin:0"><img src="{images.embed_image(shown).uri}" width="{width}" alt="{caption}">'
