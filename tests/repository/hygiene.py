@@ -15,6 +15,7 @@ NOTES = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X)\b")
 REGISTRIES = re.compile(
     r"\b(debian|ubuntu|fedoraproject|archlinux|pypi|pythonhosted|npmjs|crates|conan|golang|rubygems)\.(org|com|io|net)\b",
     re.I)
+CONFLICTS = re.compile(r"^(<{7}|={7}|>{7})( |$)")
 MACHINE_PATHS = re.compile(r"(?<![\w.])/(work|farm|tmp/brief|home/\w+)/")
 
 
@@ -44,7 +45,7 @@ def check(root):
             (problems if len(lines) > MAX else remarks).append(text)
         for number, line in enumerate(lines, 1):
             for pattern, what in ((NOTES, "left-over note"), (REGISTRIES, "host name of a package registry"),
-                                  (MACHINE_PATHS, "path of one machine")):
+                                  (MACHINE_PATHS, "path of one machine"), (CONFLICTS, "conflict marker of a merge")):
                 if pattern.search(line):
                     problems.append(f"{path}:{number}: {what}")
         if lines and re.match(r"#!.*\bbash\b", lines[0]):
