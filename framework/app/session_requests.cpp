@@ -98,7 +98,7 @@ void RequestHandler::render(Value& answer) {
     Value files = Value::map();
     const auto write = [&](const std::string& name, const ImageF& image) {
         const std::filesystem::path file = images_ / (name + ".exr");
-        writeExr(file, image);
+        writePlainExr(file, image);
         files.set(name, quotedText(file.string()));
     };
     write(kComparedImage, rendering_->images.final);

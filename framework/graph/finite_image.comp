@@ -6,7 +6,8 @@ uniform sampler3D image;
 #else
 uniform sampler2D image;
 #endif
-buffer Count { uint bad; } count;
+buffer Counts { uint bad[]; } counts;
+layout(push_constant) uniform Push { uint slot; } push;
 
 void main() {
     const ivec3 p = ivec3(gl_GlobalInvocationID);
@@ -19,5 +20,5 @@ void main() {
 #endif
     // All exponent bits set: infinite or NaN, whatever the compiler makes of float comparisons.
     const uvec4 exponent = floatBitsToUint(texel) & 0x7f800000u;
-    if (any(equal(exponent, uvec4(0x7f800000u)))) atomicAdd(count.bad, 1u);
+    if (any(equal(exponent, uvec4(0x7f800000u)))) atomicAdd(counts.bad[push.slot], 1u);
 }

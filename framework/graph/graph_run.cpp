@@ -140,8 +140,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
     stream.finish();
     stream.resetTimestamps();
     PhaseRun phaseRun(nodes_, phase);
-    for (GraphNode& node : nodes_) {
-        if (node.phase != phase || node.isReused) continue;
+    const auto recordPass = [&](GraphNode& node) {
         const uint64_t raysBefore = tracer.raysTraced();
 
         // Device timestamps; host work of the Embree backend falls between them.
@@ -168,6 +167,14 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
                 throw Error("pass '{}' reported {} as '{}'", node.id, value.value, value.name);
         pending.push_back({begin, end, std::move(context.marchCounters), &node});
         if (checkFinite) checkFiniteOutputs(node, stream);
+    };
+    try {
+        for (GraphNode& node : nodes_)
+            if (node.phase == phase && !node.isReused) recordPass(node);
+        finiteCheck_->finish(stream);
+    } catch (const Error&) {
+        finiteCheck_->abandon();  // What failed may have read NaN
+        throw;
     }
     stream.finish();
     for (const auto& [begin, end, marchCounters, node] : pending) {
@@ -200,19 +207,12 @@ void Graph::checkFiniteOutputs(const GraphNode& node, CommandStream& stream) {
     for (size_t p = 0; p < node.ports.size(); ++p) {
         const PortInfo& port = node.ports[p];
         if (!port.output) continue;
+        const std::string what = fmt::format("pass '{}' wrote NaN or infinity to '{}'", node.id, port.name);
         const Resource& resource = *node.resources[p];
-        for (const Image* image : resource.checkedImages()) {
-            if (!*image) continue;
-            if (const uint32_t bad = finiteCheck_->badTexels(stream, *image))
-                throw Error("pass '{}' wrote NaN or infinity to '{}' ({}, {} texels)", node.id, port.name,
-                            image->name(), bad);
-        }
-        for (const Buffer* buffer : resource.checkedBuffers()) {
-            if (!*buffer) continue;
-            if (const uint32_t bad = finiteCheck_->badFloats(stream, *buffer))
-                throw Error("pass '{}' wrote NaN or infinity to '{}' ({}, {} values)", node.id, port.name,
-                            buffer->name(), bad);
-        }
+        for (const Image* image : resource.checkedImages())
+            if (*image) finiteCheck_->count(stream, *image, what);
+        for (const Buffer* buffer : resource.checkedBuffers())
+            if (*buffer) finiteCheck_->count(stream, *buffer, what);
     }
 }
 

@@ -88,14 +88,38 @@ std::string freeMiB(const fs::path& path) {
     return code ? "?" : std::to_string(space.available >> 20);
 }
 
+/// @param path for errors, of the file that becomes `temporary`.
+void write(const fs::path& path, const fs::path& temporary, const char* format, const OIIO::ImageSpec& spec,
+           OIIO::TypeDesc type, const void* values) {
+    const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(format);
+    if (!out) throw Error("{}: no writer for {}: {}", path.string(), format, reasonOr(OIIO::geterror()));
+    if (!out->open(temporary.string(), spec) || !out->write_image(type, values) || !out->close())
+        throw Error("{}: {}; {} MiB are free there", path.string(), reasonOr(out->geterror()), freeMiB(path));
+}
+
 void writeWhole(const fs::path& path, const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
                 const void* values) {
-    writeFileAtomically(path, [&](const fs::path& temporary) {
-        const std::unique_ptr<OIIO::ImageOutput> out = OIIO::ImageOutput::create(format);
-        if (!out) throw Error("{}: no writer for {}: {}", path.string(), format, reasonOr(OIIO::geterror()));
-        if (!out->open(temporary.string(), spec) || !out->write_image(type, values) || !out->close())
-            throw Error("{}: {}; {} MiB are free there", path.string(), reasonOr(out->geterror()), freeMiB(path));
-    });
+    writeFileAtomically(path,
+                        [&](const fs::path& temporary) { write(path, temporary, format, spec, type, values); });
+}
+
+std::vector<std::string> channelNamesOf(const ImageF& image) {
+    if (image.channels == 3) return {"R", "G", "B"};
+    return {"Y"};
+}
+
+/// @throws Error if an image of these channels can't be written.
+OIIO::ImageSpec exrSpec(const fs::path& path, const ImageF& image, const std::vector<std::string>& channelNames,
+                        const char* compression) {
+    checkWritable(path, image);
+    if (channelNames.size() != image.channels)
+        throw Error("{}: {} names for {} channels", path.string(), channelNames.size(), image.channels);
+    OIIO::ImageSpec spec(int(image.width), int(image.height), int(image.channels), OIIO::TypeDesc::FLOAT);
+    spec.channelnames = channelNames;
+    spec.attribute("compression", compression);
+    // Fixed date, since OpenImageIO writes the time of day: equal images should be equal files.
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
+    return spec;
 }
 
 /// Display values in 8 bits. @throws Error for NaN.
@@ -215,20 +239,18 @@ DecodedImage decodeImage(std::span<const uint8_t> encoded, const char* name) {
 
 void writeExr(const fs::path& path, const ImageF& image) {
     checkChannels(path, image);
-    writeExr(path, image,
-             image.channels == 3 ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"});
+    writeExr(path, image, channelNamesOf(image));
 }
 
 void writeExr(const fs::path& path, const ImageF& image, const std::vector<std::string>& channelNames) {
-    checkWritable(path, image);
-    if (channelNames.size() != image.channels)
-        throw Error("{}: {} names for {} channels", path.string(), channelNames.size(), image.channels);
-    OIIO::ImageSpec spec(int(image.width), int(image.height), int(image.channels), OIIO::TypeDesc::FLOAT);
-    spec.channelnames = channelNames;
-    spec.attribute("compression", "zip");
-    // Fixed date, since OpenImageIO writes the time of day: equal images should be equal files.
-    spec.attribute("DateTime", "1970:01:01 00:00:00");
+    const OIIO::ImageSpec spec = exrSpec(path, image, channelNames, "zip");
     writeWhole(path, "openexr", spec, OIIO::TypeDesc::FLOAT, image.data.data());
+}
+
+void writePlainExr(const fs::path& path, const ImageF& image) {
+    checkChannels(path, image);
+    const OIIO::ImageSpec spec = exrSpec(path, image, channelNamesOf(image), "none");
+    write(path, path, "openexr", spec, OIIO::TypeDesc::FLOAT, image.data.data());
 }
 
 void writePng(const fs::path& path, const ImageF& display) {

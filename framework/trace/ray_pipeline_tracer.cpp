@@ -9,7 +9,7 @@ RayPipelineTracer::RayPipelineTracer(Device& device, ShaderCompiler& compiler, c
     : GpuTracer(device, state, trianglesPerChunk) {
     std::vector<ShaderModule> modules;
     for (const char* stage : {"rgen", "rmiss", "rchit", "rahit"})
-        modules.push_back(compiler.compile(std::string("shaders/trace/ray_pipeline.") + stage));
+        modules.push_back(*compiler.compile(std::string("shaders/trace/ray_pipeline.") + stage));
     closestHit_ = makePipeline(device, modules, false);
     occluded_ = makePipeline(device, modules, true);
     traceRays_ = device.function<PFN_vkCmdTraceRaysKHR>("vkCmdTraceRaysKHR");

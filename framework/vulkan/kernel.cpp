@@ -120,7 +120,7 @@ void compile(const std::vector<PassProgram*>& programs, Device& device, const Sh
     }
     std::ranges::sort(sources);
     sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
-    std::vector<ShaderModule> modules(sources.size());
+    std::vector<std::shared_ptr<const ShaderModule>> modules(sources.size());
     forEachInParallel(sources.size(),
                       [&](size_t i) { modules[i] = compiler.compile(sources[i].first, sources[i].second); });
 
@@ -130,9 +130,8 @@ void compile(const std::vector<PassProgram*>& programs, Device& device, const Sh
         Hasher hash;  // Without defines, whose effect is in the SPIR-V
         for (const std::string& file : program.files_) {
             const auto source = std::ranges::lower_bound(sources, Source{file, program.defines_});
-            const ShaderModule& module = *stages.emplace_back(&modules[size_t(source - sources.begin())]);
-            hash.add(file).addPlain(module.spirv.size());
-            hash.add(module.spirv.data(), module.spirv.size() * sizeof(uint32_t));
+            const ShaderModule& module = *stages.emplace_back(modules[size_t(source - sources.begin())].get());
+            hash.add(file).add(module.hash);
         }
         for (const auto& [name, value] : program.constants_) hash.add(name).addPlain(value);
         program.addState(hash);

@@ -18,6 +18,8 @@
 
 namespace voxray {
 
+class ShaderSources;
+
 /// Preprocessor definitions of one variant of a shader, e.g. {{"DIRECTIONS", "6"}}.
 using Defines = std::map<std::string, std::string>;
 
@@ -53,6 +55,7 @@ struct ShaderModule {
     std::string file;  ///< For messages.
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
     std::vector<uint32_t> spirv;
+    std::string hash;  ///< Of the SPIR-V.
     std::vector<ShaderBinding> bindings;
     uint32_t pushConstantBytes = 0;  ///< Size of the block, padded to its largest scalar as in C++.
     std::vector<ShaderPushMember> pushMembers;
@@ -63,20 +66,25 @@ struct ShaderModule {
 /// Compiles GLSL 4.60 to SPIR-V with glslang, at run time. Version and extensions are added without shifting
 /// the lines of messages. Includes are searched relative to the including file, then in the source root
 /// ("shaders/...", "passes/..."). SPIR-V is cached on disk by the contents of all sources, the defines and
-/// the compiler's version.
+/// the compiler's version. Modules stay in memory while none of their files changes. From any thread.
 class ShaderCompiler {
  public:
     /// @param sourceRoot folder that holds shaders/ and passes/; cacheFolder may be empty: no disk cache.
     ShaderCompiler(std::filesystem::path sourceRoot, std::filesystem::path cacheFolder);
+    ~ShaderCompiler();
 
     /// Stage by extension: .comp .vert .geom .frag .rgen .rmiss .rchit .rahit.
     /// @param file relative to the source root.
     /// @throws Error with "file:line: message" of each compile error. Errors of the cache are ignored.
-    ShaderModule compile(const std::string& file, const Defines& defines = {}) const;
+    std::shared_ptr<const ShaderModule> compile(const std::string& file, const Defines& defines = {}) const;
 
  private:
+    class KnownModules;
+    ShaderModule make(const std::string& file, const Defines& defines, const ShaderSources& sources) const;
+
     std::filesystem::path sourceRoot_;
     std::filesystem::path cacheFolder_;
+    std::unique_ptr<KnownModules> known_;
 };
 
 /// A pipeline with its layout and reflected bindings. Move-only.

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstring>
 #include <list>
+#include <mutex>
 #include <regex>
 #include <sstream>
 
@@ -171,12 +172,50 @@ void writeCached(const std::filesystem::path& path, const std::vector<uint32_t>&
 
 }  // namespace
 
-ShaderCompiler::ShaderCompiler(std::filesystem::path sourceRoot, std::filesystem::path cacheFolder)
-    : sourceRoot_(std::move(sourceRoot)), cacheFolder_(std::move(cacheFolder)) {}
+/// Modules in memory, to be compiled neither again nor read and reflected again.
+class ShaderCompiler::KnownModules {
+ public:
+    using Key = std::pair<std::string, Defines>;
 
-ShaderModule ShaderCompiler::compile(const std::string& file, const Defines& defines) const {
-    const Stage& stage = stageOf(file);
+    /// The module of a file and defines; null if it isn't known, or its files have changed.
+    std::shared_ptr<const ShaderModule> find(const Key& key) {
+        const std::lock_guard lock(mutex_);
+        const auto known = known_.find(key);
+        return known != known_.end() && known->second.stamps.areCurrent() ? known->second.module : nullptr;
+    }
+    void add(const Key& key, FileStamps stamps, std::shared_ptr<const ShaderModule> module) {
+        const std::lock_guard lock(mutex_);
+        if (known_.size() >= kMaxModules) known_.clear();
+        known_.insert_or_assign(key, Known{std::move(stamps), std::move(module)});
+    }
+
+ private:
+    static constexpr size_t kMaxModules = 256;  // Several times those of a graph
+    struct Known {
+        FileStamps stamps;
+        std::shared_ptr<const ShaderModule> module;
+    };
+    std::mutex mutex_;
+    std::map<Key, Known> known_;
+};
+
+ShaderCompiler::ShaderCompiler(std::filesystem::path sourceRoot, std::filesystem::path cacheFolder)
+    : sourceRoot_(std::move(sourceRoot)),
+      cacheFolder_(std::move(cacheFolder)),
+      known_(std::make_unique<KnownModules>()) {}
+
+ShaderCompiler::~ShaderCompiler() = default;
+
+std::shared_ptr<const ShaderModule> ShaderCompiler::compile(const std::string& file, const Defines& defines) const {
+    if (auto known = known_->find({file, defines})) return known;
     const ShaderSources sources(sourceRoot_, file);
+    auto module = std::make_shared<const ShaderModule>(make(file, defines, sources));
+    known_->add({file, defines}, sources.stamps(), module);
+    return module;
+}
+
+ShaderModule ShaderCompiler::make(const std::string& file, const Defines& defines, const ShaderSources& sources) const {
+    const Stage& stage = stageOf(file);
     ShaderModule module;
     module.file = file;
     module.stage = stage.flag;
@@ -189,6 +228,7 @@ ShaderModule ShaderCompiler::compile(const std::string& file, const Defines& def
         module.spirv = compileGlsl(file, stage, sources, defines);
         if (cached) writeCached(path, module.spirv);
     }
+    module.hash = Hasher().add(module.spirv.data(), module.spirv.size() * sizeof(uint32_t)).hex();
     reflect(module);
     return module;
 }

@@ -1,10 +1,44 @@
 #include "vulkan/shader_sources.h"
 
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "base/files.h"
 
 namespace voxray {
+namespace {
+
+constexpr int64_t kNanoseconds = 1'000'000'000;
+/// Clocks of file systems advance by steps, at most as long as this.
+constexpr int64_t kClockStep = 2 * kNanoseconds;
+
+int64_t now() {
+    const auto time = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(time).count();
+}
+
+}  // namespace
+
+std::optional<FileStamps::Stamp> FileStamps::of(const std::filesystem::path& path) {
+    struct stat file;
+    if (::stat(path.c_str(), &file) != 0) return std::nullopt;
+    return Stamp{file.st_dev, file.st_ino, uint64_t(file.st_size),
+                 file.st_mtim.tv_sec * kNanoseconds + file.st_mtim.tv_nsec};
+}
+
+void FileStamps::add(const std::filesystem::path& path) {
+    const std::optional<Stamp> stamp = files_[path] = of(path);
+    if (stamp) newest_ = std::max(newest_, stamp->nanoseconds);
+    read_ = now();
+}
+
+bool FileStamps::areCurrent() const {
+    return newest_ + kClockStep < read_ &&
+           std::ranges::all_of(files_, [](const auto& file) { return of(file.first) == file.second; });
+}
 
 ShaderSources::ShaderSources(std::filesystem::path sourceRoot, const std::string& file)
     : sourceRoot_(std::move(sourceRoot)) {
@@ -13,6 +47,7 @@ ShaderSources::ShaderSources(std::filesystem::path sourceRoot, const std::string
 
 void ShaderSources::gather(const std::string& file) {
     if (files_.contains(file)) return;
+    stamps_.add(sourceRoot_ / file);
     const std::string& text = files_[file] = readTextFile(sourceRoot_ / file);
     // std::regex took 2 ms a kernel here, seven times as long
     for (size_t at = text.find('#'); at != std::string::npos; at = text.find('#', at + 1)) {
@@ -22,16 +57,25 @@ void ShaderSources::gather(const std::string& file) {
         if (quote == std::string::npos || text[quote] != '"') continue;
         const size_t end = text.find_first_of("\"\n", quote + 1);
         if (end == std::string::npos || text[end] != '"') continue;
-        if (const auto found = resolve(text.substr(quote + 1, end - quote - 1), file)) gather(*found);
+        const std::string header = text.substr(quote + 1, end - quote - 1);
+        const auto found = resolve(header, file);
+        for (const std::string& candidate : candidates(header, file)) {
+            if (candidate == found) break;
+            stamps_.add(sourceRoot_ / candidate);
+        }
+        if (found) gather(*found);
     }
 }
 
-std::optional<std::string> ShaderSources::resolve(const std::string& header, const std::string& includer) const {
+std::array<std::string, 2> ShaderSources::candidates(const std::string& header, const std::string& includer) {
     const std::filesystem::path adjacent = std::filesystem::path(includer).parent_path() / header;
-    for (const std::filesystem::path& candidate : {adjacent, std::filesystem::path(header)}) {
-        const std::string name = candidate.lexically_normal().generic_string();
+    return {adjacent.lexically_normal().generic_string(),
+            std::filesystem::path(header).lexically_normal().generic_string()};
+}
+
+std::optional<std::string> ShaderSources::resolve(const std::string& header, const std::string& includer) const {
+    for (const std::string& name : candidates(header, includer))
         if (files_.contains(name) || std::filesystem::is_regular_file(sourceRoot_ / name)) return name;
-    }
     return std::nullopt;
 }
 

@@ -1,3 +1,4 @@
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 
@@ -29,7 +30,7 @@ class ShaderCompile : public testing::Test {
 
     void write(const std::string& file, const std::string& text) const { std::ofstream(root_ / file) << text; }
     ShaderModule compile(const Defines& defines = {{"SCALE", "1.0"}}) const {
-        return ShaderCompiler(root_, root_ / "cache").compile("passes/one/one.comp", defines);
+        return *ShaderCompiler(root_, root_ / "cache").compile("passes/one/one.comp", defines);
     }
     std::vector<std::filesystem::path> cacheFiles() const {
         std::vector<std::filesystem::path> files;
@@ -95,6 +96,39 @@ TEST_F(ShaderCompile, CacheIsKeyedByContentIncludesAndDefines) {
     write("shaders/detail.glsl", "float detail(float x) { return x * 3.0; }\n");
     EXPECT_NE(compile().spirv, first);
     EXPECT_EQ(cacheFiles().size(), 3u);
+}
+
+TEST_F(ShaderCompile, ModulesStayInMemoryUntilAFileChanges) {
+    const auto age = [&] {
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(root_))
+            if (entry.is_regular_file())
+                last_write_time(entry.path(), std::filesystem::file_time_type::clock::now() - std::chrono::hours(1));
+    };
+    const ShaderCompiler compiler(root_, {});
+    const auto module = [&](const Defines& defines = {{"SCALE", "1.0"}}) {
+        return compiler.compile("passes/one/one.comp", defines);
+    };
+    age();
+    const auto first = module();
+    EXPECT_EQ(module(), first);
+    EXPECT_NE(module({{"SCALE", "2.0"}})->spirv, first->spirv);
+    EXPECT_EQ(module(), first);
+
+    write("shaders/detail.glsl", "float detail(float x) { return x * 3.0; }\n");
+    const auto second = module();
+    EXPECT_NE(second->spirv, first->spirv);
+    EXPECT_NE(second->hash, first->hash);
+    // A change right after another may not change the file's time
+    write("shaders/detail.glsl", "float detail(float x) { return x * 4.0; }\n");
+    age();
+    const auto third = module();
+    EXPECT_NE(third->spirv, second->spirv);
+    EXPECT_EQ(module(), third);
+
+    // A new file that is nearer than the one that was included
+    std::filesystem::create_directories(root_ / "passes/one/shaders");
+    write("passes/one/shaders/common.glsl", "float twice(float x) { return x + x + 1.0; }\n");
+    EXPECT_NE(module()->spirv, third->spirv);
 }
 
 TEST_F(ShaderCompile, CacheIsReadBack) {

@@ -19,7 +19,7 @@ class VulkanTest : public testing::Test {
     static ShaderCompiler compiler() { return ShaderCompiler(test::sourceRoot(), {}); }
     static Program computeProgram(const std::string& file, const Defines& defines = {},
                                   const SpecializationConstants& constants = {}) {
-        return makeComputeProgram(device(), compiler().compile("tests/gpu/" + file, defines), constants);
+        return makeComputeProgram(device(), *compiler().compile("tests/gpu/" + file, defines), constants);
     }
 };
 

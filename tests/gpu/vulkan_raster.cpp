@@ -10,8 +10,8 @@ class VulkanRaster : public VulkanTest {
     static constexpr uint32_t kSize = 16;
 
     static Program program(const char* fragment, const RasterState& state) {
-        const std::vector<ShaderModule> modules{compiler().compile("tests/gpu/vulkan_triangle.vert"),
-                                                compiler().compile(std::string("tests/gpu/") + fragment)};
+        const std::vector<ShaderModule> modules{*compiler().compile("tests/gpu/vulkan_triangle.vert"),
+                                                *compiler().compile(std::string("tests/gpu/") + fragment)};
         return makeRasterProgram(device(), modules, state);
     }
 };

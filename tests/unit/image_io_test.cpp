@@ -61,6 +61,16 @@ TEST_F(ImageFiles, ExrKeepsEveryBit) {
     EXPECT_EQ(back.data, image.data);
 }
 
+TEST_F(ImageFiles, APlainExrHasTheSamePixels) {
+    const ImageF image = gradient(37, 23, 3);
+    writePlainExr(file("plain.exr"), image);
+    EXPECT_EQ(readImage(file("plain.exr")).data, image.data);
+    writePlainExr(file("plain.exr"), gradient(5, 4, 3));  // In its place
+    EXPECT_EQ(readImage(file("plain.exr")).width, 5u);
+    EXPECT_THROW(writePlainExr(file("a.exr"), ImageF(2, 2, 2)), Error);
+    EXPECT_THROW(writePlainExr(file("no folder") / "a.exr", image), Error);
+}
+
 TEST_F(ImageFiles, EqualImagesGiveEqualFiles) {
     for (const char* name : {"a.exr", "b.exr"}) writeExr(file(name), gradient(37, 23, 3));
     EXPECT_EQ(readFile(file("a.exr")), readFile(file("b.exr")));
