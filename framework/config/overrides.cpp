@@ -1,5 +1,7 @@
 #include "config/overrides.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
@@ -90,7 +92,12 @@ void swapPass(Value& graph, size_t index, const Value& value, const std::string&
     else
         chain.push_back(passEntry(value, path));
     if (chain.empty()) throw UsageError(value.where, "{}: a chain needs at least one pass", path);
-    Value id = Value::fromScalar(passId(graph.items[index]));
+    const std::string kept = passId(graph.items[index]);
+    if (const Value* own = chain.back().find("id"); own && !(own->isScalar() && own->scalar == kept))
+        throw UsageError(own->where, "{}: {} has the id '{}', which later passes read: leave out its own id{}", path,
+                         chain.size() > 1 ? "the last pass of the chain" : "the pass", kept,
+                         own->isScalar() ? fmt::format(", '{}'", own->scalar) : "");
+    Value id = Value::fromScalar(kept);
     id.where = value.where;
     chain.back().set("id", id);
     graph.items[index] = std::move(chain.back());
@@ -130,6 +137,18 @@ std::string nearestPath(const Value& config, const std::string& path, const std:
     return didYouMean(word, candidates);
 }
 
+/// Changes named values of an axis: null takes one out. @throws UsageError where there is none of that name.
+void changeAxis(Value* axis, const std::string& path, const Value& changes) {
+    for (const auto& [name, value] : changes.members) {
+        std::vector<std::string> names;
+        for (const auto& member : axis ? axis->members : std::vector<Value::Member>()) names.push_back(member.key);
+        if (value.isNull() && std::ranges::count(names, name) == 0)
+            throw UsageError(value.where, "sweep.{}: null takes a named value out, but there is no '{}'{}", path, name,
+                             names.empty() ? "" : didYouMean(name, names));
+        setNested(*axis, name, value, Merge::Replace);
+    }
+}
+
 void overrideSweep(Value& config, const std::string& subpath, const Value& value) {
     if (subpath.empty()) {
         if (value.isNull())
@@ -145,7 +164,12 @@ void overrideSweep(Value& config, const std::string& subpath, const Value& value
         created.where = value.where;
         sweep = &config.set("sweep", created);
     }
-    setNested(*sweep, subpath, value, Merge::Replace);
+    const bool changesValues =
+        std::ranges::any_of(value.members, [](const Value::Member& member) { return member.value.isNull(); });
+    if (changesValues)
+        changeAxis(sweep->find(subpath), subpath, value);
+    else
+        setNested(*sweep, subpath, value, Merge::Replace);
 }
 
 }  // namespace

@@ -9,8 +9,9 @@
 ///   image.width            a key of the config
 ///   voxelize.resolution    a parameter of the pass with that id
 ///   inject                 a pass: its name, a map with `pass`, or a list of these (a chain), whose last
-///                          pass gets the id
-///   sweep.inject           an axis of the sweep (followed by the axis' path)
+///                          pass gets the id and may have no other
+///   sweep.inject           an axis of the sweep (followed by the axis' path); a map in which a name has null
+///                          changes its named values, others take its place
 ///   scene.override."Wood.001".metallic    a name with dots, in quotes unless it exists already
 namespace voxray {
 

@@ -66,7 +66,7 @@ TEST(Sweep, ParameterReachesSwappedPassWhateverTheOrder) {
 
 TEST(Sweep, ChainReplacesOnePassAndItsLastKeepsTheId) {
     const auto variants = expand(
-        "  inject: [inject_rsm, [place_surfels, {pass: inject_voxel_rays, id: x, paths_per_point: 4}]]\n"
+        "  inject: [inject_rsm, [place_surfels, {pass: inject_voxel_rays, id: inject, paths_per_point: 4}]]\n"
         "  inject.write: [max]\n");
     ASSERT_EQ(variants.size(), 2u);
     EXPECT_EQ(variants[0].setup.graph.items.size(), 2u);
@@ -75,6 +75,8 @@ TEST(Sweep, ChainReplacesOnePassAndItsLastKeepsTheId) {
               "inject, paths_per_point: 4, write: max}]");
     EXPECT_EQ(variants[1].name, "inject_voxel_rays, write max");
 
+    EXPECT_CONTAINS(sweepError("  inject: [[a, {pass: b, id: x}]]\n"), "demo.yaml:7: inject: the last pass of the chain");
+    EXPECT_CONTAINS(sweepError("  inject: [{pass: b, id: x}]\n"), "leave out its own id, 'x'");
     EXPECT_CONTAINS(sweepError("  inject: [[]]\n"), "demo.yaml:7: inject: ");
     EXPECT_CONTAINS(sweepError("  inject: [[[a]]]\n"), "demo.yaml:7: inject: ");
     EXPECT_CONTAINS(sweepError("  inject: [[{id: a}, b]]\n"), "demo.yaml:7: inject: ");
