@@ -10,6 +10,7 @@
 #include "app/config_options.h"
 #include "app/image_requests.h"
 #include "app/look_server.h"
+#include "app/open_config.h"
 #include "app/session_requests.h"
 #include "app/source_root.h"
 #include "app/text_values.h"
@@ -150,11 +151,11 @@ void look(const LookArguments& arguments) {
     options.scenes = arguments.scenes;
     options.sourceRoot = sourceRoot();
     options.previewTracer = pathTracedPreview;
-    ConfigOptions config = arguments.config;
-    if (!options.tracer.empty()) config.assignments.push_back("tracer=" + options.tracer);
+    ConfigArguments changed = arguments;
+    if (!options.tracer.empty()) changed.config.assignments.push_back("tracer=" + options.tracer);
 
     const InterruptScope interruptScope;
-    InteractiveSession session(loadExperiment(arguments.file, config), registry, options);
+    InteractiveSession session(openConfig(arguments.file, changed), registry, options);
     Value start = greetingOf(session);
     start.set("schema", configJsonSchema(registry));
     start.set("passes", passesOf(registry));
@@ -177,7 +178,7 @@ void addLookCommand(CLI::App& app, int&) {
         "look",
         "Serve a page for this machine's browser, on which a config is flown through and changed (docs/look.md).");
     auto arguments = std::make_shared<LookArguments>();
-    command->add_option("CONFIG", arguments->file, "Config file.")->required();
+    command->add_option("CONFIG", arguments->file, kOpenedHelp)->required();
     command->add_option("--port", arguments->port, "Port of the loopback; default: one that is free.")
         ->type_name("N")
         ->check(CLI::Range(1, 65535));

@@ -1,5 +1,6 @@
 #include "app/look_server.h"
 
+#include <fmt/format.h>
 #include <httplib.h>
 
 #include <array>
@@ -77,8 +78,12 @@ LookServer::LookServer(Content content, int port)
         }
     });
     server_->set_error_handler([](const Request& request, Response& response) {
-        if (response.body.empty())
-            refuse(response, response.status, "no request for " + request.method + " of this page");
+        if (!response.body.empty()) return;
+        refuse(response, response.status,
+               response.status == 404   ? fmt::format("the page has no answer to {}", request.method)
+               : response.status == 413 ? fmt::format("a request has at most {} bytes", kMaxRequestBytes)
+               : response.status == 414 ? "the address is too long"
+                                        : "this is no HTTP request that the page makes");
     });
 
     const int bound = port == 0                                  ? server_->bind_to_any_port("127.0.0.1")

@@ -162,12 +162,7 @@ void writeConfig(const std::filesystem::path& file, const SceneSource& source, c
                  const std::string& light) {
     if (std::filesystem::exists(file))
         throw UsageError("{}: it is there already; give another name, or remove it", file.string());
-    const auto quoted = [](const std::string& text) { return Value::fromScalar(text, true).json(-1); };
-    writeFileAtomically(file, starterConfig({.name = quoted(file.stem().string()),
-                                             .source = source.builtin.empty() ? "file: " + quoted(source.file)
-                                                                              : "builtin: " + source.builtin,
-                                             .camera = yamlOf(camera),
-                                             .light = light}));
+    writeFileAtomically(file, starterConfig(starterScene(file.stem().string(), source, camera, light)));
     fmt::print("{0}: a config of this scene; './voxray run {0}' renders it and makes a report\n", file.string());
 }
 
@@ -200,34 +195,24 @@ void describe(const SceneArguments& arguments) {
     printObjects(*scene.state.scene);
 
     // Suggest a camera and a light
-    bool isSeen = false;
-    CameraSettings suggested;
-    std::string light;
+    const std::optional<Camera> own = hasCamera ? std::optional(scene.camera) : std::nullopt;
+    const FirstView first = firstView(scene.state, tracer, own, settings.camera && original.cameras.empty());
+    if (first.own) fmt::print("the camera in use:\n  {}\n", yamlOf(*first.own));
     std::optional<Light> lamp;
-    if (hasCamera) {
-        suggested = settingsOf(scene.camera, g, tracer);
-        isSeen = seesLight(scene.state, tracer, suggested);
-        fmt::print("the camera in use:\n  {}\n", yamlOf(suggested));
-    }
-    if (!isSeen || (settings.camera && original.cameras.empty())) {
-        const SuggestedView view = suggestView(scene.state, tracer);
+    if (const auto& view = first.searched) {
         fmt::print("{}:\n  {}\n", hasCamera ? "another camera, which sees more" : "a camera to begin with",
-                   yamlOf(view.camera));
-        if (!view.light.empty())
+                   yamlOf(view->camera));
+        if (!view->light.empty())
             fmt::print("{}; write under 'scene'\n  {}\n", hasLight ? "no light is seen from there" : "nothing shines",
-                       view.light);
-        if (!hasCamera) scene.camera = cameraOf(view.camera);
-        const bool isSeenWithLight =
-            hasCamera && !hasLight && !view.light.empty() && seesLight(withEnvironment(scene.state), tracer, suggested);
-        if (!isSeen) light = view.light;
-        if (!isSeen && (!hasCamera || !hasLight)) lamp = view.lamp;
-        if (!isSeen && !isSeenWithLight) suggested = view.camera;
+                       view->light);
+        if (!hasCamera) scene.camera = cameraOf(view->camera);
+        if (!first.seesOwnLight && (!hasCamera || !hasLight)) lamp = view->lamp;
     }
     for (const std::string& warning : loader.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     if (!arguments.picture.empty())
-        writePicture(scene.state, tracer, scene.camera, hasLight, lamp, isSeen || (!hasCamera && light.empty()),
-                     arguments.picture);
-    if (!arguments.newConfig.empty()) writeConfig(arguments.newConfig, settings.source, suggested, light);
+        writePicture(scene.state, tracer, scene.camera, hasLight, lamp,
+                     first.seesOwnLight || (!hasCamera && first.light.empty()), arguments.picture);
+    if (!arguments.newConfig.empty()) writeConfig(arguments.newConfig, settings.source, first.camera, first.light);
 }
 
 }  // namespace

@@ -105,6 +105,23 @@ SuggestedView suggestView(const SceneState& state, const EmbreeScene& tracer) {
     return view;
 }
 
+FirstView firstView(const SceneState& state, const EmbreeScene& tracer, const std::optional<Camera>& own,
+                    bool alwaysSearches) {
+    FirstView view;
+    if (own) {
+        view.own = view.camera = settingsOf(*own, state.geometry, tracer);
+        view.seesOwnLight = seesLight(state, tracer, view.camera);
+    }
+    if (view.seesOwnLight && !alwaysSearches) return view;
+    view.searched = suggestView(state, tracer);
+    if (view.seesOwnLight) return view;
+    view.light = view.searched->light;
+    const bool seesAddedLight =
+        own && !hasLight(state) && !view.light.empty() && seesLight(withEnvironment(state), tracer, view.camera);
+    if (!seesAddedLight) view.camera = view.searched->camera;
+    return view;
+}
+
 bool seesLight(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera) {
     const ViewStats stats = measureView(state, tracer, camera);
     return stats.filled > 0.01f && stats.lit > 0.02f && stats.fronts >= 0.5f;

@@ -24,6 +24,19 @@ SceneState withEnvironment(SceneState state);
 /// inwards, else one from outside. Deterministic.
 SuggestedView suggestView(const SceneState& state, const EmbreeScene& tracer);
 
+/// The view with which a config of a scene begins: its own camera if that sees light, or would see that of an
+/// environment, else one that is searched.
+struct FirstView {
+    CameraSettings camera;
+    std::string light;                     ///< As SuggestedView::light.
+    std::optional<CameraSettings> own;     ///< The scene's own camera.
+    bool seesOwnLight = false;             ///< Whether the own camera sees the scene's own light.
+    std::optional<SuggestedView> searched;  ///< If a view was searched.
+};
+/// @param own a camera of the scene, if it has one. @param alwaysSearches even if the own camera sees light.
+FirstView firstView(const SceneState& state, const EmbreeScene& tracer, const std::optional<Camera>& own,
+                    bool alwaysSearches);
+
 /// Whether a camera sees lit surfaces, and more front sides than back sides.
 bool seesLight(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera);
 

@@ -8,6 +8,7 @@
 
 #include "app/commands.h"
 #include "app/config_options.h"
+#include "app/open_config.h"
 #include "app/session_requests.h"
 #include "app/source_root.h"
 #include "app/text_values.h"
@@ -60,7 +61,7 @@ void addSessionCommand(CLI::App& app, int&) {
                                            "Keep a config open: change its values and render again, by requests in "
                                            "JSON on the standard input (docs/session.md).");
     auto arguments = std::make_shared<SessionArguments>();
-    command->add_option("CONFIG", arguments->file, "Config file.")->required();
+    command->add_option("CONFIG", arguments->file, kOpenedHelp)->required();
     command
         ->add_flag("--stdio", arguments->usesStdio, "Requests and answers are lines of the standard input and output.")
         ->required();
@@ -79,7 +80,7 @@ void addSessionCommand(CLI::App& app, int&) {
         options.sourceRoot = sourceRoot();
         options.previewTracer = pathTracedPreview;
         if (!options.tracer.empty()) arguments->config.assignments.push_back("tracer=" + options.tracer);
-        InteractiveSession session(loadExperiment(arguments->file, arguments->config), registry, options);
+        InteractiveSession session(openConfig(arguments->file, *arguments), registry, options);
         std::filesystem::create_directories(arguments->images);
         RequestHandler handler(session, std::filesystem::absolute(arguments->images));
         serve(handler, greetingOf(session));

@@ -2,7 +2,19 @@
 
 #include <fmt/format.h>
 
+#include "app/scene_view.h"
+#include "base/value.h"
+
 namespace voxray {
+
+StarterScene starterScene(const std::string& name, const SceneSource& source, const CameraSettings& camera,
+                          const std::string& light) {
+    const auto quoted = [](const std::string& text) { return Value::fromScalar(text, true).json(-1); };
+    return {.name = quoted(name),
+            .source = source.builtin.empty() ? "file: " + quoted(source.file) : "builtin: " + source.builtin,
+            .camera = yamlOf(camera),
+            .light = light};
+}
 
 std::string starterConfig(const StarterScene& scene) {
     return fmt::format(R"(name: {}

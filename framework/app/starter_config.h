@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "config/settings.h"
+
 namespace voxray {
 
 /// The scene of a starter config, as parts of its YAML.
@@ -11,6 +13,9 @@ struct StarterScene {
     std::string camera;  ///< "camera: {...}"
     std::string light;   ///< "environment: 1" or "lights: [...]"; "": the scene's own lights are visible.
 };
+/// @param light as StarterScene::light.
+StarterScene starterScene(const std::string& name, const SceneSource& source, const CameraSettings& camera,
+                          const std::string& light);
 
 /// The config of docs/tutorial.md, which compares voxel lookups and gather rays with filtered path tracing.
 std::string starterConfig(const StarterScene& scene);

@@ -119,6 +119,8 @@ class Planner {
             Diagnostics found;
             for (const Check<PlannedVariant> check : kVariantChecks) check(planned, found);
             warnings.add(found, variant);
+        } catch (const Interrupted&) {
+            throw;
         } catch (const Error& error) {
             throw UsageError("{}{}", error.what(),
                              study_.variants.size() > 1 ? fmt::format(" (variant {})", variant.name) : "");

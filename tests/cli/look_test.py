@@ -17,7 +17,9 @@ from PIL import Image
 from support import PROGRAM, SOURCE, TINY, CommandTest
 
 sys.path.insert(0, os.path.join(SOURCE, "tests", "unit"))
+sys.path.insert(0, os.path.join(SOURCE, "tests", "scale"))
 import browser  # noqa: E402
+import look_abuse  # noqa: E402
 
 if not browser.MISSING:
     from selenium.webdriver.common.action_chains import ActionChains
@@ -107,6 +109,35 @@ class Server(Look):
                 raw.sendall(chance.randbytes(chance.randrange(1, 400)) + b"\r\n\r\n")
         self.assertIn("config", self.image()[0])
 
+    def test_mutations_of_right_requests_are_refused_with_a_word(self):
+        wrong, answers, _ = look_abuse.run(PROGRAM, 300, 2, self.folder)
+        self.assertEqual(wrong, [])
+        self.assertGreater(min(answers[status] for status in (200, 400, 403, 404)), 3)
+
+    def test_two_programs_show_one_config(self):
+        first, png = self.image()
+        other = look_abuse.Look(PROGRAM, self.folder)
+        self.addCleanup(other.process.stderr.close)
+        self.addCleanup(other.process.stdout.close)
+        self.addCleanup(other.process.wait)
+        self.addCleanup(other.process.kill)
+        self.assertNotEqual(other.address, self.address)
+        self.assertEqual(self.ask(path=f"/{other.token}/")[0], 403)
+        self.assertEqual(other.image(changes=[{"path": "seed", "value": 8}])[1]["config"]["seed"], 8)
+        answer, same = self.image()
+        self.assertEqual(answer["config"], first["config"])
+        self.assertEqual(same, png)
+
+    def test_an_asker_that_goes_away_takes_nothing_with_it(self):
+        first, png = self.image()
+        for body in ('{"changes": [{"path": "inject.rays_per_light", "value": 4194304}]}', "{}", '{"shrink": 4}'):
+            connection = http.client.HTTPConnection("127.0.0.1", int(self.port))
+            connection.request("POST", f"/{self.token}/image", body)
+            connection.sock.close()
+        answer, same = self.image(page="another", changes=[{"path": "inject.rays_per_light", "value": 4096}])
+        self.assertEqual(answer["config"], first["config"])
+        self.assertEqual(pixels(same).tolist(), pixels(png).tolist())
+
     def test_changes_are_kept_by_whole_images_alone(self):
         first, png = self.image()
         self.assertEqual(pixels(png).shape, (48, 64, 3))
@@ -152,6 +183,28 @@ class Server(Look):
         self.image()
         self.process.send_signal(signal.SIGINT)
         self.assertEqual(self.process.wait(20), 0)
+
+
+class SceneFile(CommandTest):
+    def test_a_scene_file_is_shown_with_a_camera_and_light_of_its_own(self):
+        self.write("tiny.yaml", TINY)
+        self.expect(0, "export-scene", "tiny.yaml", "room.glb")
+        look = look_abuse.Look(PROGRAM, self.folder, scene="room.glb", options=["--set", "image.width=64", "--set", "image.height=36"])
+        self.addCleanup(look.process.stderr.close)
+        self.addCleanup(look.process.stdout.close)
+        self.addCleanup(look.process.wait)
+        self.addCleanup(look.process.kill)
+        status, answer, png = look.image()
+        self.assertEqual((status, answer.get("error")), (200, None))
+        self.assertEqual(answer["config"]["name"], "room")
+        self.assertGreater(pixels(png).mean(), 20)
+        # What the page would download is a config for run
+        self.write("room.yaml", json.dumps(answer["config"]))
+        self.expect(0, "run", "room.yaml", "--out", "run", "--no-report", "--set", "reference=null", "--set", "measure.second_seed=false")
+        [variant] = os.listdir(self.path("run", "images"))
+        with Image.open(self.path("run", "images", variant, "final.png")) as image:
+            np.testing.assert_array_equal(pixels(png), np.asarray(image.convert("RGB")))
+        self.assertIn("room2.glb", self.expect(2, "look", "room2.glb").stderr)
 
 
 @unittest.skipIf(browser.MISSING, browser.MISSING)
@@ -223,6 +276,28 @@ class Page(Look):
         with Image.open(self.path("run", "images", variant, "final.png")) as image:
             np.testing.assert_array_equal(self.shown(), np.asarray(image.convert("RGB")))
         self.assertEqual(self.browser.console(), [])
+
+    def test_two_pages_and_the_programs_end(self):
+        self.browser.driver.switch_to.new_window("tab")
+        self.addCleanup(self.browser.driver.switch_to.window, self.browser.driver.window_handles[0])
+        self.addCleanup(self.browser.driver.close)
+        self.browser.driver.get(self.address)
+        self.settle()
+        first = self.shown()
+        self.browser.driver.find_element(By.CSS_SELECTOR, "input[type=range][name='inject.bounces']").send_keys(Keys.HOME)
+        self.settle()
+        self.browser.driver.switch_to.window(self.browser.driver.window_handles[0])
+        self.browser.driver.find_element(By.NAME, "exposure").send_keys(Keys.ARROW_RIGHT)
+        self.settle()
+        self.assertEqual((self.entry("inject")["bounces"], self.config()["image"]["exposure_stops"]), (0, 0.5))
+        self.assertGreater(np.abs(self.shown().astype(int) - first).mean(), 1)
+        self.process.kill()
+        self.process.wait()
+        self.browser.driver.find_element(By.NAME, "exposure").send_keys(Keys.ARROW_RIGHT)
+        while not self.error():
+            time.sleep(0.05)
+        self.assertIn("Start voxray look again", self.error())
+        self.browser.driver.switch_to.window(self.browser.driver.window_handles[1])
 
     def test_what_is_refused_is_said_and_not_shown(self):
         before = self.config()

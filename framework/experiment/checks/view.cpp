@@ -22,6 +22,8 @@ struct Quality {
 /// A preview of low quality finds light within milliseconds in most views. Black ones are repeated.
 constexpr Quality kQualities[] = {{32, 4, 4}, {64, 8, 16}, {64, 64, 16}};
 
+constexpr size_t kMaxKnownViews = 1024;  // Several times those of all configs of a folder.
+
 struct Size {
     uint32_t width, height;
 };
@@ -156,6 +158,7 @@ const ViewCheck& CameraViewChecks::of(const Setup& setup, const std::string& sce
     for (const std::string& key : {viewKey, configKey})
         if (const auto known = known_.find(key); known != known_.end()) return known->second;
     ViewCheck checked = checkView(setup, prepared, preview_);
+    if (known_.size() >= kMaxKnownViews) known_.clear();
     return known_.emplace(checked.found.empty() ? viewKey : configKey, std::move(checked)).first->second;
 }
 

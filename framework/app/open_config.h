@@ -1,0 +1,16 @@
+#pragma once
+
+#include <filesystem>
+
+#include "app/config_options.h"
+
+namespace voxray {
+
+inline constexpr const char* kOpenedHelp =
+    "Config file, or a .glb or .gltf file, of which a config to begin with is made.";
+
+/// Reads a config, or makes the starter config of a scene file (.glb, .gltf): as `voxray scene --write-config`, without
+/// a file. @throws UsageError, Error.
+Experiment openConfig(const std::filesystem::path& file, const ConfigArguments& arguments);
+
+}  // namespace voxray
