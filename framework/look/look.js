@@ -49,11 +49,13 @@ export const state = {
 window.look = state;
 
 function changed(name, value, time) {
-    for (const side of split.sidesOf(name)) {
-        // Maps are merged
-        const hasPath = side.config?.scene.camera?.path || "path" in (side.pending.get(name) ?? {});
-        side.change(name, name === "scene.camera" && hasPath && !value.path ? { ...value, path: null } : value, time);
-    }
+    for (const side of split.sidesOf(name)) side.change(name, name === "scene.camera" ? cameraFor(side, value) : value, time);
+}
+
+/** A camera takes the place of one with a path: maps are merged. */
+function cameraFor(side, camera) {
+    const hasPath = side.config?.scene.camera?.path || "path" in (side.pending.get("scene.camera") ?? {});
+    return hasPath && !camera.path ? { ...camera, path: null } : camera;
 }
 
 function showConfig(side) {
