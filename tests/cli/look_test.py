@@ -335,7 +335,7 @@ class Page(Look):
         # A refusal says whose it is
         Select(self.find("[data-id=gather_irradiance] select")).select_by_value("gather_cones")
         self.settle()
-        self.assertRegex(self.error(), "^resolution 8, changed: .*missing port")
+        self.assertRegex(self.error(), "^A: resolution 8, changed\n.*missing port")
         self.choose("compare", "none")
         self.assertEqual(len(self.configs()), 1)
         self.assertFalse(self.find("#other").is_displayed())
