@@ -1,10 +1,18 @@
 #include "app/image_requests.h"
 
 #include <algorithm>
+#include <exception>
 
 #include "base/interrupt.h"
 
 namespace voxray {
+namespace {
+
+bool isOfSameSide(const ImageRequest& a, const ImageRequest& b) {
+    return a.page == b.page && a.side == b.side;
+}
+
+}  // namespace
 
 std::optional<std::string> ImageRequests::ask(ImageRequest request) {
     std::future<std::optional<std::string>> answer;
@@ -12,12 +20,13 @@ std::optional<std::string> ImageRequests::ask(ImageRequest request) {
         const std::lock_guard lock(mutex_);
         if (isClosed_) return {};
         const auto older =
-            std::ranges::find_if(waiting_, [&](const Asked& asked) { return asked.request.page == request.page; });
+            std::ranges::find_if(waiting_, [&](const Asked& asked) { return isOfSameSide(asked.request, request); });
         if (older != waiting_.end()) {
             older->answer.set_value(std::nullopt);
             waiting_.erase(older);
         }
-        if (wholeOf_ == request.page) requestCancel();
+        if (whole_ && isOfSameSide(*whole_, request)) isReplaced_ = true;
+        if (isReplaced_ || (whole_ && whole_->page == request.page && request.isDraft())) requestCancel();
         answer = waiting_.emplace_back(Asked{std::move(request), {}}).answer.get_future();
     }
     arrived_.notify_one();
@@ -28,20 +37,34 @@ void ImageRequests::answerNext(std::chrono::milliseconds patience,
                                const std::function<std::string(const ImageRequest&)>& answer) {
     std::unique_lock lock(mutex_);
     if (!arrived_.wait_for(lock, patience, [&] { return !waiting_.empty(); })) return;
-    Asked asked = std::move(waiting_.front());
-    waiting_.pop_front();
-    if (asked.request.shrink == 1) wholeOf_ = asked.request.page;
+    auto next = std::ranges::find_if(waiting_, [](const Asked& asked) { return asked.request.isDraft(); });
+    if (next == waiting_.end()) next = waiting_.begin();
+    Asked asked = std::move(*next);
+    waiting_.erase(next);
+    if (!asked.request.isDraft()) whole_ = &asked.request;
     lock.unlock();
     std::optional<std::string> body;
+    std::exception_ptr error;
     try {
         body = answer(asked.request);
     } catch (const Interrupted&) {
+    } catch (...) {
+        error = std::current_exception();
     }
     lock.lock();
-    wholeOf_.reset();
+    const bool isPutOff = !body && !error && whole_ && !isReplaced_ && !isClosed_;
+    whole_ = nullptr;
+    isReplaced_ = false;
     clearCancel();
+    if (isPutOff) {
+        waiting_.push_back(std::move(asked));
+        return;
+    }
     lock.unlock();
-    asked.answer.set_value(std::move(body));
+    if (error)
+        asked.answer.set_exception(error);
+    else
+        asked.answer.set_value(std::move(body));
 }
 
 void ImageRequests::close() {

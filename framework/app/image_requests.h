@@ -8,26 +8,18 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "experiment/interactive_session.h"
+#include "app/image_request.h"
 
 namespace voxray {
 
-/// What a page asks to see.
-struct ImageRequest {
-    std::string page;     ///< Tells pages apart.
-    std::string variant;  ///< Id; empty: the values as they are.
-    std::vector<InteractiveSession::Change> changes;
-    /// 1: the changes are kept, and the whole image is rendered. Above: InteractiveSession::draft().
-    uint32_t shrink = 1;
-};
-
-/// Hands requests of a server's threads to the one thread that renders. Of each page the newest one counts: an older
-/// one that waits is dropped, and a whole image of that page in the making is cancelled.
+/// Hands requests of a server's threads to the one thread that renders. Of each side of a page the newest one counts:
+/// an older one that waits is dropped, and a whole image of that side in the making is cancelled. Drafts come first:
+/// one for the page's other side puts a whole image off, which is begun anew after it.
 class ImageRequests {
  public:
     /// Waits for the answer. @return nullopt if a newer request took its place, or after close().
+    /// @throws what the answer threw.
     std::optional<std::string> ask(ImageRequest request);
 
     /// Answers a request, if one arrives in time. @param answer may throw Interrupted.
@@ -42,8 +34,9 @@ class ImageRequests {
 
     std::mutex mutex_;
     std::condition_variable arrived_;
-    std::list<Asked> waiting_;            ///< At most one of each page.
-    std::optional<std::string> wholeOf_;  ///< The page whose whole image is in the making.
+    std::list<Asked> waiting_;             ///< At most one of each side of a page.
+    const ImageRequest* whole_ = nullptr;  ///< The one whose whole image is in the making.
+    bool isReplaced_ = false;              ///< Whether a newer one took its place.
     bool isClosed_ = false;
 };
 

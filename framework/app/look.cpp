@@ -15,7 +15,7 @@
 #include "app/source_root.h"
 #include "app/text_values.h"
 #include "base/interrupt.h"
-#include "config/yaml.h"
+#include "config/overrides.h"
 #include "experiment/config_schema.h"
 #include "passes/common/families.h"
 #include "passes/path_trace/preview.h"
@@ -35,6 +35,13 @@ struct LookArguments : ConfigArguments {
 
 double millisecondsSince(Clock::time_point start) {
     return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// The file or built-in scene of a config; null if it names none.
+Value sourceOf(const Value& config) {
+    for (const char* key : {"scene.file", "scene.builtin"})
+        if (const Value* source = valueAt(config, key)) return *source;
+    return {};
 }
 
 /// A port of a pass, for the page.
@@ -60,39 +67,11 @@ Value passesOf(const Registry& registry) {
     return passes;
 }
 
-/// @throws UsageError
-ImageRequest parseRequest(const std::string& body) {
-    const Value value = parseYaml(body, "request");
-    if (!value.isMap()) throw UsageError("request: it is no map");
-    ImageRequest request;
-    for (const auto& [key, entry] : value.members) {
-        if (key == "page") {
-            request.page = entry.asString(key);
-        } else if (key == "variant") {
-            request.variant = entry.asString(key);
-        } else if (key == "shrink") {
-            const int64_t shrink = entry.asInteger(key);
-            if (shrink < 1 || shrink > 64) throw UsageError("request: shrink is from 1 to 64");
-            request.shrink = uint32_t(shrink);
-        } else if (key == "changes") {
-            if (!entry.isList()) throw UsageError("request: changes is no list");
-            for (const Value& change : entry.items) {
-                if (!change.isMap() || change.members.size() != 2 || !change.find("value"))
-                    throw UsageError("request: a change is a map with path and value");
-                request.changes.push_back({textOf(change, "path"), *change.find("value")});
-            }
-        } else {
-            throw UsageError("request: unknown key '{}'", key);
-        }
-    }
-    return request;
-}
-
 /// Keeps the changes that a config allows. @return the others, each with its path and error.
-Value keep(InteractiveSession& session, const std::vector<InteractiveSession::Change>& changes) {
+Value keep(ShownState& state, const std::vector<ShownState::Change>& changes) {
     Value refused = Value::list();
     for (const auto& [path, value] : changes) try {
-            session.set(path, value);
+            state.set(path, value);
         } catch (const std::exception& error) {
             if (interruptRequested()) throw Interrupted();
             Value refusal = Value::map();
@@ -110,17 +89,18 @@ Value vectorValue(const glm::vec3& v) {
 }
 
 /// A line of JSON, then a PNG file, if the image could be rendered. @throws Interrupted
-std::string answerTo(InteractiveSession& session, const ImageRequest& request) {
+std::string answerTo(ShownState& state, const ImageRequest& request) {
     const Clock::time_point start = Clock::now();
     Value answer = Value::map();
     std::vector<uint8_t> png;
     try {
-        if (!request.variant.empty()) session.select(request.variant);
-        if (request.shrink == 1) answer.set("refused", keep(session, request.changes));
+        if (!request.variant.empty()) state.select(request.variant);
+        if (!request.config.isNull()) state.open(request.config);
+        if (!request.isDraft()) answer.set("refused", keep(state, request.changes));
         const double setMs = millisecondsSince(start);
-        const InteractiveSession::Rendering rendering =
-            request.shrink == 1 ? session.render([](double) {})
-                                : session.draft(request.changes, request.shrink, [](double) {});
+        const ShownState::Rendering rendering = request.isDraft()
+                                                    ? state.draft(request.changes, request.shrink, [](double) {})
+                                                    : state.render([](double) {});
         const double renderedMs = millisecondsSince(start);
         const ImageSettings& settings = rendering.imageSettings;
         png = encodePng(preview(rendering.images.final, settings.exposureStops, settings.tone));
@@ -138,8 +118,8 @@ std::string answerTo(InteractiveSession& session, const ImageRequest& request) {
         if (interruptRequested()) throw Interrupted();
         answer.set("error", quotedText(error.what()));
     }
-    answer.set("config", session.config());
-    answer.set("warnings", listOf(session.warnings()));
+    answer.set("config", state.config());
+    answer.set("warnings", listOf(state.warnings()));
     return answer.json(-1) + "\n" + std::string(png.begin(), png.end());
 }
 
@@ -157,16 +137,22 @@ void look(const LookArguments& arguments) {
     const InterruptScope interruptScope;
     InteractiveSession session(openConfig(arguments.file, changed), registry, options);
     Value start = greetingOf(session);
+    for (Value& variant : start.find("variants")->items)
+        variant.set("source", sourceOf(session.configOf(textOf(variant, "id"))));
     start.set("schema", configJsonSchema(registry));
     start.set("passes", passesOf(registry));
     ImageRequests requests;
     const LookServer server({.sourceRoot = options.sourceRoot,
                              .start = start.json(-1),
-                             .image = [&](const std::string& body) { return requests.ask(parseRequest(body)); }},
+                             .image = [&](const std::string& body) { return requests.ask(parseImageRequest(body)); }},
                             arguments.port);
     fmt::print("{}\nCtrl-C ends it.\n", server.address());
     std::fflush(stdout);
-    const auto answer = [&](const ImageRequest& request) { return answerTo(session, request); };
+    const auto answer = [&](const ImageRequest& request) {
+        if (!request.closes) return answerTo(session.side(request.side), request);
+        session.closeSecondSide();
+        return std::string("{}\n");
+    };
     while (!interruptRequested()) requests.answerNext(kPatience, answer);
     requests.close();
 }

@@ -12,7 +12,7 @@
 namespace voxray {
 namespace {
 
-constexpr size_t kMaxRequestBytes = 1 << 16;
+constexpr size_t kMaxRequestBytes = 1 << 20;
 constexpr size_t kKeptRequests = 1 << 30;  // In one connection
 
 struct PageFile {
@@ -23,6 +23,11 @@ constexpr std::array kPageFiles = {PageFile{"", "framework/look/look.html", "tex
                                    PageFile{"look.js", "framework/look/look.js", "text/javascript; charset=utf-8"},
                                    PageFile{"camera.js", "framework/look/camera.js", "text/javascript; charset=utf-8"},
                                    PageFile{"passes.js", "framework/look/passes.js", "text/javascript; charset=utf-8"},
+                                   PageFile{"keys.js", "framework/look/keys.js", "text/javascript; charset=utf-8"},
+                                   PageFile{"path.js", "framework/look/path.js", "text/javascript; charset=utf-8"},
+                                   PageFile{"split.js", "framework/look/split.js", "text/javascript; charset=utf-8"},
+                                   PageFile{"side.js", "framework/look/side.js", "text/javascript; charset=utf-8"},
+                                   PageFile{"times.js", "framework/look/times.js", "text/javascript; charset=utf-8"},
                                    PageFile{"look.css", "framework/look/look.css", "text/css; charset=utf-8"},
                                    PageFile{"style.css", "framework/report/style.css", "text/css; charset=utf-8"}};
 

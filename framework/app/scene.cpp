@@ -176,7 +176,7 @@ void describe(const SceneArguments& arguments) {
     SceneLoader loader(folders);
     const SceneState original = evaluate(loader.load(settings.source), settings.options.time);
     const bool hasCamera = settings.camera || !original.cameras.empty();
-    if (!hasCamera) settings.camera = CameraSettings{.target = {0, 0, -1}};  // Replaced below.
+    if (!hasCamera) settings.camera.emplace().target = {0, 0, -1};  // Replaced below.
     PreparedScene scene = loader.prepare(settings);
     const Geometry& g = scene.state.geometry;
     const EmbreeScene tracer(scene.state);

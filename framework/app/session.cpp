@@ -82,7 +82,7 @@ void addSessionCommand(CLI::App& app, int&) {
         if (!options.tracer.empty()) arguments->config.assignments.push_back("tracer=" + options.tracer);
         InteractiveSession session(openConfig(arguments->file, *arguments), registry, options);
         std::filesystem::create_directories(arguments->images);
-        RequestHandler handler(session, std::filesystem::absolute(arguments->images));
+        RequestHandler handler(session.side(0), std::filesystem::absolute(arguments->images));
         serve(handler, greetingOf(session));
     });
 }

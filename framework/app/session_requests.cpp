@@ -21,7 +21,7 @@ std::string textOf(const Value& request, const std::string& key) {
     return value->asString(key);
 }
 
-Value greetingOf(const InteractiveSession& session) {
+Value greetingOf(InteractiveSession& session) {
     Value answer = Value::map(), variants = Value::list();
     answer.set("voxray", quotedText(VOXRAY_VERSION));
     answer.set("protocol", numberValue(kSessionProtocol));
@@ -32,11 +32,11 @@ Value greetingOf(const InteractiveSession& session) {
         variants.items.push_back(std::move(variant));
     }
     answer.set("variants", std::move(variants));
-    answer.set("warnings", listOf(session.warnings()));
+    answer.set("warnings", listOf(session.side(0).warnings()));
     return answer;
 }
 
-void describe(Value& answer, const InteractiveSession::Rendering& rendering) {
+void describe(Value& answer, const ShownState::Rendering& rendering) {
     const Measurement& m = rendering.measurement;
     Value passes = Value::list(), values = Value::list();
     for (const PassCost& cost : m.passes) {
@@ -71,15 +71,15 @@ Value RequestHandler::answer(const Value& request) {
         allow(request, {"path", "value"});
         const Value* value = request.find("value");
         if (!value) throw UsageError(request.where, "set: it has no 'value'; null takes the config's entry out");
-        session_.set(textOf(request, "path"), *value);
-        answer.set("warnings", listOf(session_.warnings()));
+        state_.set(textOf(request, "path"), *value);
+        answer.set("warnings", listOf(state_.warnings()));
     } else if (command == "select") {
         allow(request, {"variant"});
-        session_.select(textOf(request, "variant"));
-        answer.set("warnings", listOf(session_.warnings()));
+        state_.select(textOf(request, "variant"));
+        answer.set("warnings", listOf(state_.warnings()));
     } else if (command == "config") {
         allow(request, {});
-        answer.set("config", session_.config());
+        answer.set("config", state_.config());
     } else if (command == "render") {
         allow(request, {});
         render(answer);
@@ -94,7 +94,7 @@ Value RequestHandler::answer(const Value& request) {
 
 void RequestHandler::render(Value& answer) {
     rendering_.reset();
-    rendering_ = session_.render([](double) {});
+    rendering_ = state_.render([](double) {});
     Value files = Value::map();
     const auto write = [&](const std::string& name, const ImageF& image) {
         const std::filesystem::path file = images_ / (name + ".exr");
@@ -110,7 +110,7 @@ void RequestHandler::render(Value& answer) {
 void RequestHandler::score(Value& answer) {
     if (!rendering_) throw UsageError("score: nothing is rendered yet");
     Value scores = Value::map();
-    for (const auto& [column, value] : session_.score(rendering_->images, [](double) {}).scores)
+    for (const auto& [column, value] : state_.score(rendering_->images, [](double) {}).scores)
         scores.set(column, numberValue(value));
     answer.set("scores", std::move(scores));
 }

@@ -14,10 +14,10 @@ namespace voxray {
 inline constexpr int kSessionProtocol = 1;
 
 /// What a client is told first.
-Value greetingOf(const InteractiveSession& session);
+Value greetingOf(InteractiveSession& session);
 
 /// Size, times, memory, passes and values of a rendering, without its images.
-void describe(Value& answer, const InteractiveSession::Rendering& rendering);
+void describe(Value& answer, const ShownState::Rendering& rendering);
 
 /// The entry `key` of a request. @throws UsageError if it is missing or no text.
 std::string textOf(const Value& request, const std::string& key);
@@ -25,8 +25,7 @@ std::string textOf(const Value& request, const std::string& key);
 /// Answers requests of `voxray session`.
 class RequestHandler {
  public:
-    RequestHandler(InteractiveSession& session, std::filesystem::path images)
-        : session_(session), images_(std::move(images)) {}
+    RequestHandler(ShownState& state, std::filesystem::path images) : state_(state), images_(std::move(images)) {}
 
     /// @throws UsageError, Error, Interrupted.
     Value answer(const Value& request);
@@ -35,9 +34,9 @@ class RequestHandler {
     void render(Value& answer);
     void score(Value& answer);
 
-    InteractiveSession& session_;
+    ShownState& state_;
     const std::filesystem::path images_;
-    std::optional<InteractiveSession::Rendering> rendering_;  ///< The last one, if none failed since.
+    std::optional<ShownState::Rendering> rendering_;  ///< The last one, if none failed since.
 };
 
 }  // namespace voxray

@@ -6,6 +6,7 @@
 
 #include "base/hex_color.h"
 #include "base/suggest.h"
+#include "config/camera_path.h"
 #include "config/settings.h"
 
 namespace voxray {
@@ -94,7 +95,7 @@ void readCamera(const Value& value, SceneSettings& settings) {
     }
     if (!value.isMap())
         throw UsageError(value.where, "scene.camera: expected a camera's name, or a map with position and target");
-    settings.camera = readParams<CameraSettings>(value, "scene.camera");
+    settings.camera = readParams<CameraSettings>(value, "scene.camera", {"path"});
     for (const char* key : {"position", "target"})
         if (!value.find(key)) throw UsageError(value.where, "scene.camera: '{}' is missing", key);
     const glm::vec3 forward = settings.camera->target - settings.camera->position;
@@ -103,6 +104,7 @@ void readCamera(const Value& value, SceneSettings& settings) {
     const glm::vec3 up = direction(settings.camera->up, value, "scene.camera.up");
     if (!(glm::length(glm::cross(glm::normalize(forward), up)) > 1e-4f))
         throw UsageError(value.where, "scene.camera: looks along its own 'up'; give another up");
+    if (const Value* path = value.find("path"); path && !path->isNull()) readCameraPath(*path, *settings.camera);
 }
 
 /// Names of the radiance of a constant environment in other tools.

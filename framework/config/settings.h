@@ -165,13 +165,29 @@ struct SceneOptions {
     }
 };
 
-/// `scene.camera` as a map.
+/// An entry of `path` of `scene.camera`.
+struct CameraKey {
+    uint32_t frame = 1;
+    glm::vec3 position{0.0f};
+    glm::vec3 target{0.0f};
+    static constexpr auto schema() {
+        return std::tuple{
+            field("frame", &CameraKey::frame,
+                  "The measured frame in which the camera is there; in the first one, 0, it is at its own `position`.",
+                  1u, 100000u),
+            vectorField("position", &CameraKey::position, "Position of the camera in that frame, metres."),
+            vectorField("target", &CameraKey::target, "The point that it looks at then, metres.")};
+    }
+};
+
+/// `scene.camera` as a map; the schema has its keys but `path`.
 struct CameraSettings {
     glm::vec3 position{0.0f};
     glm::vec3 target{0.0f};
     glm::vec3 up{0, 1, 0};
     float fovDegrees = 60;
     glm::vec3 move{0.0f};
+    std::vector<CameraKey> path;  ///< By frame.
     static constexpr auto schema() {
         return std::tuple{
             vectorField("position", &CameraSettings::position, "Position of the camera, metres."),

@@ -146,6 +146,12 @@ Value overrideSchema() {
 
 Value sceneSchema() {
     Value camera = withRequired(mapSchema(describeParams<CameraSettings>()), {"position", "target"});
+    camera.find("properties")
+        ->set("path",
+              object({{"type", text("array")},
+                      {"items", withRequired(mapSchema(describeParams<CameraKey>()), {"frame", "position", "target"})},
+                      {"description", text("Where the camera is in later frames, in place of `move`: between two "
+                                           "keys position and target go along straight lines by equal steps.")}}));
     Value lights = Value::list();
     lights.items = {withRequired(mapSchema(describeParams<DirectionalLightSettings>()), {"directional"}),
                     withRequired(mapSchema(describeParams<PointLightSettings>()), {"point"}),

@@ -1,22 +1,24 @@
 #pragma once
 
-#include <functional>
+#include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "experiment/runner.h"
-#include "experiment/scoring.h"
 #include "experiment/session.h"
+#include "experiment/shown_state.h"
 
 namespace voxray {
 
-/// A config that stays open on a device: values are changed one after another, and a render builds again only what
-/// they touch. Scene, ray tracer and build passes stay on the device while neither their parameters nor what they
-/// read changes. Images are those of `run` with the same values.
+/// A config that stays open on a device. It shows one state, or two side by side: both share device, scenes, ray
+/// tracers and compiler; what build passes wrote is kept for each.
 class InteractiveSession {
  public:
-    /// Opens the first variant of the experiment. @param registry must outlive the session.
+    static constexpr size_t kSides = 2;
+
+    /// Opens the first variant of the experiment on side 0. @param registry must outlive the session.
     /// @throws UsageError as makeStudy() and planVariants().
     InteractiveSession(Experiment experiment, const Registry& registry, const RunOptions& options);
     InteractiveSession(const InteractiveSession&) = delete;
@@ -24,67 +26,29 @@ class InteractiveSession {
 
     /// Names and ids of the experiment's variants as it was opened.
     const std::vector<std::pair<std::string, std::string>>& variants() const { return variants_; }
-    /// Takes the values of a variant, by its id, in place of all values that were set. @throws UsageError, as set().
-    void select(const std::string& id);
+    /// The config of a variant, by its id. @throws UsageError if there is no such variant.
+    const Value& configOf(const std::string& id) const;
 
-    /// Sets the value at a path of the config (config/overrides.h); null removes it.
-    /// @throws UsageError as a run would; the session is then as it was.
-    void set(const std::string& path, const Value& value);
+    /// Side 0 or 1. Side 1 begins with the values that side 0 has when it is first asked for.
+    ShownState& side(size_t number);
+    /// Frees what side 1 holds; it begins anew when it is asked for again.
+    void closeSecondSide();
 
-    /// The config with all values that were set, and without sweep.
-    const Value& config() const { return study_.experiment.config; }
-    /// Warnings of the current values and of scenes.
-    std::vector<std::string> warnings() const;
-
-    struct Rendering {
-        FrameImages images;
-        ImageSettings imageSettings;
-        CameraSettings camera;            ///< In the config's coordinates; its target is 1 m away.
-        float sceneSize;                  ///< Diagonal of the scene's bounds, m.
-        Measurement measurement;          ///< Of reused passes: that of their last run.
-        std::vector<std::string> reused;  ///< Ids of the passes that did not run again.
-    };
-    /// Renders the compared frame. Warm-up frames of the config are rendered if a pass has temporal history.
-    /// @param progress is called with the fraction done. @throws Error, Interrupted.
-    Rendering render(const std::function<void(double)>& progress);
-
-    struct Change {
-        std::string path;
-        Value value;
-    };
-    /// Renders the config with changes that are not kept, as a first look: without warm-up frames and without the
-    /// checks of scene and view. @param shrink width and height are divided by it.
-    /// @throws UsageError for what is wrong by itself, Error, Interrupted.
-    Rendering draft(const std::vector<Change>& changes, uint32_t shrink, const std::function<void(double)>& progress);
-
-    /// Scores images of the current values against the reference, which is rendered if it isn't cached.
-    /// @throws UsageError if the config has no reference, Error, Interrupted.
-    ScoredFrame score(const FrameImages& rendered, const std::function<void(double)>& progress);
+    // For the states
+    /// Makes the study of a config without sweep. @throws UsageError
+    Study studyOf(Value config) const;
+    /// The same, checked against scene and device.
+    Study checkedStudy(Value config);
+    Session& resources() { return session_; }
 
  private:
-    /// The config with a change. @throws UsageError
-    static void apply(Value& config, const Change& change);
-    /// Makes and checks the study of a config without sweep.
-    Study checkedStudy(Value config);
-    /// Renders a graph that has not run.
-    Rendering render(Graph graph, const Setup& setup, const MeasureSettings& measure,
-                     const std::function<void(double)>& progress);
-    const Variant& variant() const { return study_.variants.front(); }
-
     const Registry& registry_;
     const Experiment opened_;
     Session session_;
     CameraViewChecks viewChecks_;
     std::vector<std::pair<std::string, std::string>> variants_;  ///< Name and id.
     std::vector<Value> variantConfigs_;
-    Study study_;  ///< Of one variant.
-
-    // Of the last rendering
-    std::optional<Graph> graph_;
-    std::string builtFor_;  ///< What build passes depend on besides the graph: scene, tracer, seed.
-    std::string viewOf_;    ///< Camera and image size.
-    std::optional<PreparedReference> reference_;
-    std::string preparedFor_;  ///< What the prepared reference depends on.
+    std::array<std::optional<ShownState>, kSides> sides_;
 };
 
 }  // namespace voxray

@@ -128,7 +128,7 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
             if (measured) storeValues(Phase::Build, frameIndex, updates);
             samples.insert(samples.end(), updates.begin(), updates.end());
         }
-        frame.camera.position += float(fromCompared) * frame.cameraMove;
+        if (frame.moveCamera) frame.moveCamera(frame.camera, fromCompared);
         const auto frameSamples = run(Phase::Frame, frameIndex, checkFinite);
         if (measured) storeValues(Phase::Frame, frameIndex, frameSamples);
         samples.insert(samples.end(), frameSamples.begin(), frameSamples.end());

@@ -69,7 +69,7 @@ inline constexpr const char* kSceneUpdate = "scene";
 /// Runs a prepared graph: the build passes once untimed and then `buildRepeats` times (with 0 repeats the
 /// first run is timed), then warm-up frames and measured frames. Measured frames have indices from 0, warm-up
 /// frames from 1,000,000, so that frame 0 does not depend on the number of measured frames. From frame to
-/// frame the camera moves by `cameraMove`. If the target has `goToFrame`, it and the build passes run before
+/// frame the camera moves by Frame::moveCamera. If the target has `goToFrame`, it and the build passes run before
 /// the passes of each frame, and build passes have a second cost, of phase Frame. They use the random numbers
 /// of frame 0 each time, so that only moving surfaces and lights make a difference. Outputs are checked for
 /// NaN and infinity, outside of the timings, in the first build and in the first and last measured frame.

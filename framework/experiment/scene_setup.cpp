@@ -256,9 +256,11 @@ void SceneLoader::setCamera(PreparedScene& prepared, const SceneSettings& settin
 
 std::vector<std::string> SceneLoader::warnings() const {
     std::vector<std::string> lines = mapWarnings_;
-    for (const auto& [name, scene] : scenes_)
+    for (const auto& [name, scene] : scenes_) {
+        if (!scene) continue;  // It could not be loaded
         for (const std::string& warning : scene->warnings)
             lines.push_back(fs::path(name).filename().string() + ": " + warning);
+    }
     lines.insert(lines.end(), changes_.begin(), changes_.end());
     return lines;
 }

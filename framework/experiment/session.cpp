@@ -4,6 +4,7 @@
 
 #include "base/files.h"
 #include "base/interrupt.h"
+#include "config/camera_path.h"
 #include "experiment/checks/cost.h"
 #include "vulkan/size_error.h"
 
@@ -31,16 +32,18 @@ std::string Session::tracerName(const Setup& setup) const {
 
 bool Session::moveCamera(const Setup& setup) {
     const std::string sceneKey = loader_.key(setup.scene), key = sceneKey + " " + tracerName(setup);
-    if (!scene_) return false;
-    if (scene_->key != key) {
-        if (!setup.scene.camera || scene_->cameraless != cameralessKey(setup)) return false;
-        SceneLoader::setCamera(scene_->prepared, setup.scene);
-        scene_->key = key;
+    auto found = std::ranges::find(scenes_, key, &SceneOnDevice::key);
+    if (found == scenes_.end()) {
+        if (setup.scene.camera) found = std::ranges::find(scenes_, cameralessKey(setup), &SceneOnDevice::cameraless);
+        if (found == scenes_.end()) return false;
+        SceneLoader::setCamera(found->prepared, setup.scene);
+        found->key = key;
     }
+    scenes_.splice(scenes_.begin(), scenes_, found);
     Frame ignored;
-    if (sceneMoved_) goToFrame(setup, ignored, 0);
-    sceneMoved_ = false;
-    loader_.setTaken(&scene_->prepared, sceneKey);
+    if (found->isMoved) goToFrame(setup, ignored, 0);
+    found->isMoved = false;
+    loader_.setTaken(&found->prepared, sceneKey);
     return true;
 }
 
@@ -51,43 +54,56 @@ std::string Session::cameralessKey(const Setup& setup) {
     return loader_.key(settings) + " " + tracerName(setup);
 }
 
-SceneOnDevice& Session::scene(const Setup& setup) {
-    if (moveCamera(setup)) return *scene_;
-    const std::string sceneKey = loader_.key(setup.scene);
+void Session::keepScenes(size_t count) {
+    keptScenes_ = count;
+    while (scenes_.size() > keptScenes_) scenes_.pop_back();
+}
 
-    // The old scene is freed first: two may not fit. The tracer keeps a pointer to the state
+SceneOnDevice& Session::scene(const Setup& setup) {
+    if (moveCamera(setup)) return scenes_.front();
+    const std::string sceneKey = loader_.key(setup.scene);
+    // Old scenes are freed first: more than keptScenes_ may not fit
     loader_.setTaken(nullptr, {});
-    scene_.reset();
-    scene_.emplace();
-    sceneMoved_ = false;
+    while (scenes_.size() >= keptScenes_) scenes_.pop_back();
     try {
-        scene_->prepared = loader_.takeCached(setup.scene, sceneKey);
-        scene_->gpu = makeGpuScene(device_, stream_, scene_->prepared.state);
-        scene_->tracer = makeRayTracer(setup.general.tracer, device_, compiler_, scene_->prepared.state);
+        loadScene(setup, sceneKey);
+    } catch (const SizeError&) {
+        if (scenes_.empty()) throw;
+        scenes_.clear();
+        loadScene(setup, sceneKey);
+    }
+    return scenes_.front();
+}
+
+void Session::loadScene(const Setup& setup, const std::string& sceneKey) {
+    SceneOnDevice& scene = scenes_.emplace_front();  // The tracer keeps a pointer to the state
+    try {
+        scene.prepared = loader_.takeCached(setup.scene, sceneKey);
+        scene.gpu = makeGpuScene(device_, stream_, scene.prepared.state);
+        scene.tracer = makeRayTracer(setup.general.tracer, device_, compiler_, scene.prepared.state);
         stream_.finish();
     } catch (const SizeError& error) {
-        const std::string advice = sceneSizeAdvice(setup.scene, scene_->prepared.state);
-        scene_.reset();
-        throw Error(setup.scene.where, "scene: {}; {}", error.what(), advice);
+        const std::string advice = sceneSizeAdvice(setup.scene, scene.prepared.state);
+        scenes_.pop_front();
+        throw SizeError(setup.scene.where, "scene: {}; {}", error.what(), advice);
     } catch (...) {
-        scene_.reset();
+        scenes_.pop_front();
         throw;
     }
-    scene_->key = sceneKey + " " + tracerName(setup);
-    scene_->cameraless = cameralessKey(setup);
-    loader_.setTaken(&scene_->prepared, sceneKey);
-    return *scene_;
+    scene.key = sceneKey + " " + tracerName(setup);
+    scene.cameraless = cameralessKey(setup);
+    loader_.setTaken(&scene.prepared, sceneKey);
 }
 
 void Session::goToFrame(const Setup& setup, Frame& frame, int fromCompared) {
-    PreparedScene& prepared = scene_->prepared;
-    sceneMoved_ = true;
+    SceneOnDevice& scene = scenes_.front();
+    scene.isMoved = true;
     loader_.setTaken(nullptr, {});
-    frame.changedRegions = SceneLoader::goToFrame(prepared, setup.scene, fromCompared);
+    frame.changedRegions = SceneLoader::goToFrame(scene.prepared, setup.scene, fromCompared);
     ++frame.sceneVersion;
-    frame.camera = prepared.camera;
-    updateGpuScene(stream_, prepared.state, scene_->gpu);
-    scene_->tracer->update(stream_);
+    frame.camera = scene.prepared.camera;
+    updateGpuScene(stream_, scene.prepared.state, scene.gpu);
+    scene.tracer->update(stream_);
     stream_.finish();
 }
 
@@ -98,7 +114,7 @@ Frame Session::enterFrame(const Setup& setup, uint32_t number, uint64_t seed) {
         goToFrame(setup, frame, int(number));
         frame.changedRegions.reset();
     }
-    frame.camera.position += float(number) * frame.cameraMove;
+    if (frame.moveCamera) frame.moveCamera(frame.camera, int(number));
     return frame;
 }
 
@@ -130,6 +146,8 @@ std::string Session::referenceHashOf(const Study& study, const Setup& setup, uin
     Hasher hasher;
     hasher.add(first).addPlain(number).addPlain(setup.scene.options.timeStep);
     hasher.addPlain(setup.scene.camera ? setup.scene.camera->move : glm::vec3(0.0f));
+    if (setup.scene.camera)
+        for (const CameraKey& key : setup.scene.camera->path) hasher.add(writeParams(key).text());
     for (const ConfigLight& light : setup.scene.lights) hasher.addPlain(light.move).addPlain(light.offAt);
     return hasher.hex();
 }
@@ -194,7 +212,7 @@ RenderedPart Session::renderPart(const Study& study, const Setup& setup, uint32_
                                  const std::function<void(double)>& progress) {
     Frame frame = enterFrame(setup, number, referenceSeed(setup.general.seed));
     frame.samples = samples;
-    SceneOnDevice& onDevice = *scene_;
+    SceneOnDevice& onDevice = scenes_.front();
     Graph graph = study.referenceGraph();
     plan(graph, frame, 0);
     graph.prepare(frame, device_, compiler_, stream_);
@@ -208,14 +226,22 @@ std::vector<std::string> Session::warnings() const {
 }
 
 bool isStatic(const SceneSettings& settings) {
-    return !changesInTime(settings) && (!settings.camera || settings.camera->move == glm::vec3(0.0f));
+    return !changesInTime(settings) && (!settings.camera || !cameraMoves(*settings.camera));
 }
 
 Frame frameOf(const Setup& setup, const PreparedScene& prepared, uint64_t seed) {
     Frame frame;
     frame.scene = &prepared.state;
     frame.camera = prepared.camera;
-    if (setup.scene.camera) frame.cameraMove = setup.scene.camera->move;
+    if (setup.scene.camera && cameraMoves(*setup.scene.camera))
+        frame.moveCamera = [settings = *setup.scene.camera, origin = prepared.origin](Camera& camera, int number) {
+            if (settings.path.empty()) {
+                camera.position += float(number) * settings.move;
+                return;
+            }
+            camera = cameraOf(cameraOnPath(settings, number));
+            camera.position -= origin;
+        };
     frame.width = setup.image.width;
     frame.height = setup.image.height;
     frame.seed = seed;

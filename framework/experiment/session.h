@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -21,6 +22,7 @@ struct SceneOnDevice {
     PreparedScene prepared;
     GpuScene gpu;
     std::unique_ptr<RayTracer> tracer;
+    bool isMoved = false;  ///< Whether it is not in the compared frame.
 };
 
 /// Resources that the variants of a run share: the device, the shader compiler, scenes, references.
@@ -37,14 +39,16 @@ class Session {
     /// The ray-tracing backend of a variant. @throws Error if the device lacks its features.
     std::string tracerName(const Setup& setup) const;
 
-    /// The variant's scene in the compared frame. It stays on the device until another scene is requested.
+    /// How many scenes stay on the device if their memory suffices: the last requested ones. 1 unless it is set.
+    void keepScenes(size_t count);
+    /// The variant's scene in the compared frame. It stays on the device until keepScenes() others are requested.
     SceneOnDevice& scene(const Setup& setup);
-    /// Gives the scene on the device the variant's camera, if they differ in nothing else and the camera is one of the
-    /// config. @return whether the scene on the device is the variant's.
+    /// Gives a scene on the device the variant's camera, if they differ in nothing else and the camera is one of the
+    /// config. @return whether the scene, now the last requested one, is the variant's.
     bool moveCamera(const Setup& setup);
-    /// Origin of the coordinates of the scene on the device, m.
-    glm::vec3 origin() const { return scene_ ? scene_->prepared.origin : glm::vec3(0.0f); }
-    /// Updates the scene on the device and `frame` to a frame whose index is relative to the compared one.
+    /// Origin of the coordinates of the last requested scene, m.
+    glm::vec3 origin() const { return scenes_.empty() ? glm::vec3(0.0f) : scenes_.front().prepared.origin; }
+    /// Updates the last requested scene and `frame` to a frame whose index is relative to the compared one.
     void goToFrame(const Setup& setup, Frame& frame, int fromCompared);
 
     /// A frame of the scene's sequence by its index; the scene on the device is updated to it. Frame::changedRegions
@@ -79,6 +83,8 @@ class Session {
     std::vector<std::string> warnings() const;
 
  private:
+    /// Loads a scene onto the device, in front of the others. @throws SizeError if they don't fit together.
+    void loadScene(const Setup& setup, const std::string& sceneKey);
     /// SceneOnDevice::cameraless
     std::string cameralessKey(const Setup& setup);
     /// Loads a reference from the cache or merges its parts.
@@ -94,8 +100,8 @@ class Session {
     SceneLoader loader_;
     ReferenceCache cache_;
     std::optional<ReferenceParts> parts_;
-    std::optional<SceneOnDevice> scene_;
-    bool sceneMoved_ = false;  ///< Whether the scene is not in the compared frame.
+    size_t keptScenes_ = 1;
+    std::list<SceneOnDevice> scenes_;  ///< The last requested one first.
     std::optional<ReferenceImages> reference_;
     std::map<std::string, std::string> failedReferences_;  ///< Hash -> error.
     std::vector<std::string> warnings_;

@@ -33,8 +33,9 @@ enum class Phase { Build, Frame };
 /// Input of all passes of a graph. Everything outlives the graph.
 struct Frame {
     const SceneState* scene = nullptr;
-    Camera camera;               ///< World space.
-    glm::vec3 cameraMove{0.0f};  ///< From this frame to the next, m.
+    Camera camera;  ///< World space.
+    /// Moves the compared frame's camera to another frame, by its index relative to that one; empty: it rests.
+    std::function<void(Camera&, int)> moveCamera;
     uint32_t width = 0;
     uint32_t height = 0;
     uint64_t seed = 0;

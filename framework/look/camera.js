@@ -1,8 +1,11 @@
 // A camera that is flown with mouse and keys.
 
+import { isFree } from "./keys.js";
+
 const TURN = 0.004;  // Radians by pixel of a drag
 const KEY_TURN = 1.2;  // Radians in a second
 const CROSS_SECONDS = 8;  // For the scene's size at first
+const UP = [0, 1, 0];
 const POLE = 0.05;  // Smallest angle to `up`, radians
 const MOVES = { KeyW: [0, 0, 1], KeyS: [0, 0, -1], KeyA: [-1, 0, 0], KeyD: [1, 0, 0], KeyE: [0, 1, 0], KeyQ: [0, -1, 0] };
 const TURNS = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
@@ -16,11 +19,27 @@ const rotate = (v, axis, angle) =>  // Rodrigues
 
 export class FlyCamera {
     /** @param moved is called with a value of scene.camera, and the time of the event. */
-    constructor(canvas, moved) {
+    constructor(canvases, moved) {
         this.moved = moved;
         this.keys = new Set();
         this.speed = null;  // m/s
         this.isDragged = false;
+        for (const canvas of canvases) this.watch(canvas);
+        document.addEventListener("keydown", (event) => {
+            this.isFast = event.shiftKey;
+            if (!(event.code in MOVES) && !(event.code in TURNS) || !isFree(event)) return;
+            event.preventDefault();
+            if (!this.keys.size) this.fly(event.timeStamp);
+            this.keys.add(event.code);
+        });
+        document.addEventListener("keyup", (event) => {
+            this.isFast = event.shiftKey;
+            this.keys.delete(event.code);
+        });
+        window.addEventListener("blur", () => this.keys.clear());
+    }
+
+    watch(canvas) {
         canvas.addEventListener("pointerdown", (event) => {
             canvas.setPointerCapture(event.pointerId);
             canvas.focus();
@@ -41,16 +60,6 @@ export class FlyCamera {
             event.preventDefault();
             this.speed *= 1.1 ** -Math.sign(event.deltaY);
         }, { passive: false });
-        document.addEventListener("keydown", (event) => {
-            if (event.target.closest("input, select, button") || event.ctrlKey || event.metaKey || event.altKey) return;
-            this.isFast = event.shiftKey;
-            if (!(event.code in MOVES) && !(event.code in TURNS)) return;
-            event.preventDefault();
-            if (!this.keys.size) this.fly(event.timeStamp);
-            this.keys.add(event.code);
-        });
-        document.addEventListener("keyup", (event) => this.keys.delete(event.code));
-        window.addEventListener("blur", () => this.keys.clear());
     }
 
     get isMoving() {
@@ -58,11 +67,12 @@ export class FlyCamera {
     }
 
     /** Where the image was taken from, unless the camera was moved since. */
-    take({ position, target, fov_deg }, up, sceneSize) {
+    take({ position, target, fov_deg }, up = UP, sceneSize) {
         this.fov = Number(fov_deg.toPrecision(6));
         this.position = position;
         this.forward = unit(add(target, position, -1));
         this.up = unit(up);
+        this.sceneSize = sceneSize;
         this.speed ??= sceneSize / CROSS_SECONDS;
     }
 
@@ -94,7 +104,13 @@ export class FlyCamera {
         requestAnimationFrame(step);
     }
 
+    /** A value of scene.camera. */
+    get value() {
+        const up = this.up.some((value, i) => value !== UP[i]) ? { up: this.up } : {};
+        return { position: this.position, target: add(this.position, this.forward), ...up, fov_deg: this.fov };
+    }
+
     tell(time) {
-        this.moved({ position: this.position, target: add(this.position, this.forward), fov_deg: this.fov }, time);
+        this.moved(this.value, time);
     }
 }

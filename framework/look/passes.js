@@ -31,6 +31,16 @@ function scaleOf({ minimum: low, maximum: high, type }) {
     return { value: (t) => whole(low + t * (high - low)), position: (value) => (value - low) / (high - low) };
 }
 
+/** Shows a value in a box, unless it is being typed into. */
+function showerOf(box, textOf) {
+    let isTyped = false;
+    box.addEventListener("input", () => (isTyped = true));
+    box.addEventListener("change", () => (isTyped = false));
+    return (value) => {
+        if (!isTyped) box.value = textOf(value);
+    };
+}
+
 /** @return elements of a parameter's control, and a function that shows a value. */
 function controlOf(schema, changed) {
     if (schema.enum) {
@@ -45,9 +55,10 @@ function controlOf(schema, changed) {
     }
     if (schema.type === "integer" || schema.type === "number") {
         const number = make("input", { type: "number", step: schema.type === "integer" ? 1 : "any" });
+        const showNumber = showerOf(number, (value) => value);
         if (schema.minimum === undefined) {
             number.addEventListener("change", () => changed(number.valueAsNumber));
-            return [[number], (value) => (number.value = value)];
+            return [[number], showNumber];
         }
         Object.assign(number, { min: schema.minimum, max: schema.maximum });
         const scale = scaleOf(schema), slider = make("input", { type: "range", min: 0, max: STEPS, step: 1 });
@@ -60,7 +71,7 @@ function controlOf(schema, changed) {
             changed(number.valueAsNumber);
         });
         return [[slider, number], (value) => {
-            number.value = value;
+            showNumber(value);
             slider.value = STEPS * scale.position(value);
         }];
     }
@@ -73,7 +84,7 @@ function controlOf(schema, changed) {
             changed(text.value);  // Which the config's check refuses in words
         }
     });
-    return [[text], (value) => (text.value = isText ? value : JSON.stringify(value))];
+    return [[text], showerOf(text, (value) => (isText ? value : JSON.stringify(value)))];
 }
 
 export class PassList {

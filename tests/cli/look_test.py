@@ -66,7 +66,7 @@ def pixels(png):
 
 class Server(Look):
     def test_serves_its_own_page_alone(self):
-        for name in ("", "look.js", "camera.js", "passes.js", "look.css", "style.css", "start.json"):
+        for name in ("", "look.js", "camera.js", "keys.js", "passes.js", "path.js", "side.js", "split.js", "times.js", "look.css", "style.css", "start.json"):
             self.assertEqual(self.ask(name=name)[0], 200, name)
         self.assertEqual(self.ask(headers={"Host": f"localhost:{self.port}"})[0], 200)
         own = f"http://127.0.0.1:{self.port}"
@@ -98,11 +98,12 @@ class Server(Look):
 
     def test_malformed_requests_are_refused_with_a_word(self):
         for body in ("", "{", "[1]", "1", '{"shrink": 0}', '{"shrink": 65}', '{"shrink": "x"}', '{"what": 1}', '{"changes": {}}', '{"changes": [1]}',
-                     '{"changes": [{"path": "seed"}]}', '{"changes": [{"path": [1], "value": 1}]}', '{"variant": [1]}', "\x01", "{" * 200):
+                     '{"changes": [{"path": "seed"}]}', '{"changes": [{"path": [1], "value": 1}]}', '{"variant": [1]}', '{"side": 2}', '{"side": -1}', '{"side": 0.5}', '{"config": 1}', '{"close": 1}', '{"close": true}',
+                      "\x01", "{" * 200):
             status, answer = self.ask("POST", "image", body.encode())
             self.assertEqual(status, 400, body)
             self.assertIn(b"request", answer, body)
-        self.assertEqual(self.ask("POST", "image", b" " * (1 << 17))[0], 413)
+        self.assertEqual(self.ask("POST", "image", b" " * (1 << 21))[0], 413)
         chance = random.Random(5)
         for _ in range(200):
             with socket.create_connection(("127.0.0.1", int(self.port))) as raw:
@@ -152,6 +153,7 @@ class Server(Look):
         self.assertEqual(answer["config"], first["config"])
         np.testing.assert_array_equal(pixels(same), pixels(png))
         self.assertIn("no variant", self.image(variant="nothing")[0]["error"])
+        self.assertIn("'nowhere'", self.image(changes=[{"path": "scene", "value": {"builtin": "nowhere"}}])[0]["refused"][0]["error"])
         self.assertNotEqual(self.image(variant="resolution-16")[0]["config"], first["config"])
 
     def test_a_draft_costs_no_build(self):
@@ -178,6 +180,51 @@ class Server(Look):
         answer, _ = self.image(changes=[{"path": "inject.rays_per_light", "value": 4096}])
         self.assertNotIn("error", answer)
         self.assertIn(last.getresponse().status, (200, 409))
+
+    def test_two_sides_keep_what_each_has_built(self):
+        first, png = self.image()
+        second, other = self.image(side=1, variant="resolution-16")
+        self.assertEqual(second["config"], self.image(variant="resolution-16")[0]["config"])
+        np.testing.assert_array_equal(pixels(self.image()[1]), pixels(other))
+        self.image(variant="resolution-8")
+        for request in ({"side": 1}, {}, {"side": 1, "shrink": 4}, {"shrink": 4}, {"side": 1}, {}):
+            answer, shown = self.image(**request)
+            self.assertEqual({one["id"] for one in answer["passes"] if one["reused"]}, {"voxelize", "inject"}, request)
+            if "shrink" not in request:
+                np.testing.assert_array_equal(pixels(shown), pixels(other if request else png))
+        # One of another scene
+        changes = [{"path": "scene", "value": {"builtin": "still_life"}}, {"path": "seed", "value": 9}]
+        other = self.image(side=1, changes=changes)[1]
+        for request in ({}, {"side": 1}, {}, {"side": 1}):
+            answer, shown = self.image(**request)
+            self.assertEqual({one["id"] for one in answer["passes"] if one["reused"]}, {"voxelize", "inject"}, request)
+            np.testing.assert_array_equal(pixels(shown), pixels(other if request else png))
+        self.assertEqual(self.image()[0]["config"], first["config"])
+        self.assertEqual(self.image(side=1, config=first["config"])[0]["config"], first["config"])
+        np.testing.assert_array_equal(pixels(self.image(side=1)[1]), pixels(png))
+        self.assertEqual(self.image(side=1, close=True)[0], {})
+        answer, shown = self.image(side=1)
+        self.assertEqual(answer["config"], first["config"])
+        self.assertEqual([one["id"] for one in answer["passes"] if one["reused"]], [])
+        self.assertIn("one variant", self.image(side=1, config={**first["config"], "sweep": {"seed": [1, 2]}})[0]["error"])
+
+    def test_sides_do_not_drop_one_another(self):
+        for side in (0, 1):
+            self.image(side=side)
+        connections = []
+        slow = {"page": "a", "side": 1, "changes": [{"path": "inject.rays_per_light", "value": 1 << 20}]}
+        for request in (slow, {"page": "a", "shrink": 4}, {"page": "a"}):
+            connection = http.client.HTTPConnection("127.0.0.1", int(self.port))
+            self.addCleanup(connection.close)
+            connection.request("POST", f"/{self.token}/image", json.dumps(request))
+            connections.append(connection)
+            time.sleep(0.3)
+        answers = []
+        for connection in connections:
+            response = connection.getresponse()
+            self.assertEqual(response.status, 200)
+            answers.append(json.loads(response.read().partition(b"\n")[0]))
+        self.assertEqual([answer["width"] for answer in answers], [64, 16, 64])
 
     def test_ends_with_an_interrupt(self):
         self.image()
@@ -232,12 +279,12 @@ class Page(Look):
     def config(self):
         return self.browser.run("return window.look.config")
 
-    def shown(self):
-        """Pixels of the canvas."""
-        data = self.browser.run("""const canvas = document.getElementById("image"), copy = new OffscreenCanvas(canvas.width, canvas.height);
+    def shown(self, canvas="image"):
+        """Pixels of a canvas."""
+        data = self.browser.run("""const canvas = document.getElementById(arguments[0]), copy = new OffscreenCanvas(canvas.width, canvas.height);
             const context = copy.getContext("2d", {willReadFrequently: true});
             context.drawImage(canvas, 0, 0);
-            return [canvas.height, canvas.width, [...context.getImageData(0, 0, canvas.width, canvas.height).data]]""")
+            return [canvas.height, canvas.width, [...context.getImageData(0, 0, canvas.width, canvas.height).data]]""", canvas)
         return np.array(data[2], np.uint8).reshape(data[0], data[1], 4)[..., :3]
 
     def entry(self, name):
@@ -245,6 +292,30 @@ class Page(Look):
 
     def error(self):
         return self.browser.run("const p = document.getElementById('error'); return p.hidden ? '' : p.textContent")
+
+    def find(self, selector):
+        return self.browser.driver.find_element(By.CSS_SELECTOR, selector)
+
+    def press(self, *keys):
+        ActionChains(self.browser.driver).send_keys(*keys).perform()
+
+    def hold(self, key, seconds):
+        ActionChains(self.browser.driver).key_down(key).pause(seconds).key_up(key).perform()
+
+    def choose(self, name, text):
+        Select(self.find(f"select[name={name}]")).select_by_visible_text(text)
+        self.settle()
+
+    def downloaded_runs(self):
+        """Downloads the config, runs it, and returns the image of the run's only variant."""
+        self.find("#download").click()
+        while not os.path.exists(self.path("tiny.yaml")):
+            time.sleep(0.05)
+        self.expect(0, "validate", "tiny.yaml")
+        self.expect(0, "run", "tiny.yaml", "--out", "run", "--no-report")
+        [variant] = [name for name in os.listdir(self.path("run", "images")) if name != "reference"]
+        with Image.open(self.path("run", "images", variant, "final.png")) as image:
+            return np.asarray(image.convert("RGB"))
 
     def test_what_is_shown_is_what_run_renders(self):
         first = self.shown()
@@ -268,13 +339,7 @@ class Page(Look):
         self.settle()
         self.assertEqual(self.error(), "")
         self.assertEqual(self.entry("gather_irradiance")["pass"], "path_trace")
-        self.browser.driver.find_element(By.ID, "download").click()
-        while not os.path.exists(self.path("tiny.yaml")):
-            time.sleep(0.05)
-        self.expect(0, "run", "tiny.yaml", "--out", "run", "--no-report")
-        [variant] = [name for name in os.listdir(self.path("run", "images")) if name != "reference"]
-        with Image.open(self.path("run", "images", variant, "final.png")) as image:
-            np.testing.assert_array_equal(self.shown(), np.asarray(image.convert("RGB")))
+        np.testing.assert_array_equal(self.shown(), self.downloaded_runs())
         self.assertEqual(self.browser.console(), [])
 
     def test_two_pages_and_the_programs_end(self):
@@ -299,6 +364,147 @@ class Page(Look):
         self.assertIn("Start voxray look again", self.error())
         self.browser.driver.switch_to.window(self.browser.driver.window_handles[1])
 
+    def configs(self):
+        return self.browser.run("return window.look.configs")
+
+    def edited(self):
+        return self.browser.run("return [...document.querySelectorAll('figcaption [aria-pressed=true]')].map((one) => one.textContent)")
+
+    def test_two_sides(self):
+        first = self.shown()
+        self.choose("compare", "resolution 16")
+        self.assertEqual([one["graph"][1]["resolution"] for one in self.configs()], [8, 16])
+        np.testing.assert_array_equal(self.shown(), first)
+        second = self.shown("other")
+        self.assertGreater(np.abs(second.astype(int) - first).mean(), 0.1)
+        # One of them is edited: by a key or a click
+        self.assertEqual(self.edited(), ["A: resolution 8 (edited)"])
+        self.find("#image").send_keys("x")
+        self.assertEqual(self.edited(), ["B: resolution 16 (edited)"])
+        self.assertIn("resolution 16", self.find("#times-title").text)
+        self.find("input[type=range][name='inject.bounces']").send_keys(Keys.HOME)
+        self.settle()
+        self.assertEqual([one["graph"][2]["bounces"] for one in self.configs()], [2, 0])
+        self.assertEqual(self.edited(), ["B: resolution 16, changed (edited)"])
+        np.testing.assert_array_equal(self.shown(), first)
+        self.assertGreater(np.abs(self.shown("other").astype(int) - second).mean(), 0.1)
+        self.find("figcaption button").click()
+        self.assertEqual(self.edited(), ["A: resolution 8 (edited)"])
+        self.assertEqual(self.find("input[type=number][name='voxelize.resolution']").get_attribute("value"), "8")
+        # Camera and exposure are those of both
+        latencies = self.browser.run("return window.look.latencies.length")
+        self.find("#image").send_keys("")
+        self.hold("w", 0.4)
+        self.find("input[name=exposure]").send_keys(Keys.ARROW_RIGHT)
+        self.settle()
+        for one in self.configs():
+            self.assertEqual(one["image"]["exposure_stops"], 0.5)
+            self.assertEqual(one["scene"]["camera"], self.configs()[0]["scene"]["camera"])
+        drafted = self.browser.run("return window.look.latencies.slice(arguments[0]).map((one) => one.side)", latencies)
+        self.assertEqual(set(drafted), {0, 1})
+        self.assertGreater(np.abs(self.shown("other").astype(int) - self.shown()).mean(), 0.1)
+        # The config is that of the edited side
+        self.press("x")
+        self.press("x")
+        np.testing.assert_array_equal(self.shown(), self.downloaded_runs())
+        # A refusal says whose it is
+        Select(self.find("[data-id=gather_irradiance] select")).select_by_value("gather_cones")
+        self.settle()
+        self.assertRegex(self.error(), "^A: resolution 8, changed\n.*missing port")
+        self.choose("compare", "none")
+        self.assertEqual(len(self.configs()), 1)
+        self.assertFalse(self.find("#other").is_displayed())
+        self.assertEqual(self.browser.console(), [])
+
+    def test_a_state_is_pinned_and_the_image_is_split(self):
+        self.find("input[type=range][name='inject.bounces']").send_keys(Keys.HOME)
+        self.choose("compare", "this state")
+        np.testing.assert_array_equal(self.shown("other"), self.shown())
+        pinned = self.configs()[1]
+        self.assertEqual(pinned, self.configs()[0])
+        self.find("input[type=range][name='inject.bounces']").send_keys(Keys.END)
+        self.settle()
+        self.assertEqual(self.configs()[1], pinned)
+        self.assertGreater(np.abs(self.shown("other").astype(int) - self.shown()).mean(), 0.1)
+        # The slider over the image: by mouse, by keys
+        camera = self.config()["scene"]
+        slider = self.find("input[name=split]")
+        self.assertEqual(slider.get_attribute("value"), "50")
+        ActionChains(self.browser.driver).move_to_element(slider).click_and_hold().move_by_offset(150, 0).release().perform()
+        self.settle()
+        dragged = float(slider.get_attribute("value"))
+        self.assertGreater(dragged, 55)
+        self.assertEqual(self.config()["scene"], camera)
+        slider.send_keys(Keys.ARROW_LEFT)
+        self.assertEqual(float(slider.get_attribute("value")), dragged - 0.5)
+        at = "const [x, y] = arguments, box = document.getElementById('images').getBoundingClientRect(); " \
+             "return document.elementFromPoint(box.x + x * box.width, box.y + y * box.height).id"
+        self.assertEqual([self.browser.run(at, x, 0.8) for x in (0.1, 0.9)], ["image", "other"])
+        # Letters fly while it is in focus
+        self.hold("d", 0.3)
+        self.settle()
+        self.assertNotEqual(self.config()["scene"], camera)
+        self.choose("layout", "side by side")
+        self.assertFalse(slider.is_displayed())
+        left, right = (self.find(name).rect for name in ("#image", "#other"))
+        self.assertLess(left["x"] + left["width"], right["x"])
+        for width in (400, 1400):
+            self.browser.resize(width, 800)
+            self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), width)
+
+    def test_a_path_is_recorded(self):
+        before = self.config()
+        self.press("r")
+        self.assertEqual(self.find("#record").text, "End path")
+        self.hold("w", 0.4)
+        self.hold(Keys.ARROW_LEFT, 0.3)
+        self.press("r")
+        self.settle()
+        path = self.config()["scene"]["camera"]["path"]
+        frames = self.config()["measure"]["frames"]
+        self.assertEqual(path[-1]["frame"], frames - 1)
+        self.assertGreater(frames, 15)
+        self.assertLess(len(path), frames - 1)
+        self.assertIn(f"{frames} frames", self.find("#path").text)
+        image = self.shown()
+        np.testing.assert_array_equal(image, self.downloaded_runs())
+        # The camera leaves it and goes back
+        self.hold("s", 0.3)
+        self.settle()
+        self.assertNotIn("path", self.config()["scene"]["camera"])
+        self.assertEqual(self.config()["measure"], before["measure"])
+        self.find("#path button").click()
+        self.settle()
+        self.assertEqual(self.config()["scene"]["camera"]["path"], path)
+        np.testing.assert_array_equal(self.shown(), image)
+        self.assertEqual(self.browser.console(), [])
+
+    def test_the_keyboard_reaches_everything(self):
+        self.choose("compare", "resolution 16")
+        reached = self.browser.driver.execute_async_script("""
+            const done = arguments[0], controls = "button, select, input, summary, canvas, a[href]";
+            document.body.focus();
+            done([...document.querySelectorAll(controls)].filter((one) => one.checkVisibility() && !one.disabled).length);""")
+        self.browser.run("document.activeElement.blur(); window.reached = new Set(); window.unmarked = []")
+        for _ in range(reached + 3):
+            self.press(Keys.TAB)
+            self.browser.run("""const one = document.activeElement;
+                if (one !== document.body) window.reached.add(one);
+                if (one !== document.body && getComputedStyle(one).outlineStyle === "none") window.unmarked.push(one.outerHTML)""")
+        self.assertEqual(self.browser.run("return window.reached.size"), reached)
+        self.assertEqual(self.browser.run("return window.unmarked"), [])
+        # What is typed into a box is no flight
+        camera = self.config()["scene"].get("camera")
+        box = self.find("input[type=number][name='voxelize.resolution']")
+        box.send_keys(Keys.CONTROL + "a")
+        box.send_keys("1e1")
+        box.send_keys(Keys.ARROW_UP + Keys.ENTER)
+        self.settle()
+        self.assertEqual(self.entry("voxelize")["resolution"], 11)
+        self.assertEqual(self.config()["scene"].get("camera"), camera)
+        self.find("#download").send_keys("x")
+        self.assertEqual(self.edited(), ["B: resolution 16 (edited)"])
+
     def test_what_is_refused_is_said_and_not_shown(self):
         before = self.config()
         Select(self.browser.driver.find_element(By.CSS_SELECTOR, "[data-id=gather_irradiance] select")).select_by_value("gather_cones")
@@ -309,7 +515,7 @@ class Page(Look):
         self.assertEqual(swap.get_attribute("value"), "gather_irradiance")
         # The next change takes the words away
         box = self.browser.driver.find_element(By.CSS_SELECTOR, "input[type=number][name='voxelize.resolution']")
-        box.clear()
+        box.send_keys(Keys.CONTROL + "a")
         box.send_keys("12" + Keys.ENTER)
         self.settle()
         self.assertEqual(self.error(), "")

@@ -314,3 +314,33 @@ TEST_F(SceneSize, ASceneThatTheDeviceHasNoRoomForIsToldWithAdvice) {
     session.device().setMemoryLimitBytes(limit);
     EXPECT_EQ(session.scene(setup).gpu.triangleCount, 9216u);
 }
+
+TEST_F(SceneSize, ScenesStayOnTheDeviceAsLongAsTheyFit) {
+    Session session({}, test::sourceRoot(), {});
+    const auto setupOf = [](const std::string& scene) {
+        return parseExperiment("name: x\nscene: {" + scene + "}\ngraph: [{pass: a}]\n", "x.yaml").setup;
+    };
+    const voxray::Setup small = setupOf("builtin: cornell"), large = setupOf("builtin: cornell, subdivide: 4");
+    const auto usedWith = [&](const voxray::Setup& setup) {
+        session.scene(setup);
+        return session.device().memoryUsedBytes();
+    };
+    const uint64_t smallBytes = usedWith(small), largeBytes = usedWith(large);
+    EXPECT_EQ(usedWith(small), smallBytes) << "one by default";
+
+    session.keepScenes(2);
+    const uint64_t bothBytes = usedWith(large);
+    EXPECT_GT(bothBytes, largeBytes);
+    const RayTracer* tracer = session.scene(large).tracer.get();
+    EXPECT_EQ(usedWith(small), bothBytes);
+    EXPECT_EQ(session.scene(large).tracer.get(), tracer);
+    session.scene(small);
+    session.keepScenes(1);
+    EXPECT_EQ(session.device().memoryUsedBytes(), smallBytes);
+
+    // The first one makes room for a second that would not fit beside it
+    session.keepScenes(2);
+    session.device().setMemoryLimitBytes(bothBytes - 1);
+    EXPECT_EQ(usedWith(large), largeBytes);
+    EXPECT_EQ(usedWith(small), smallBytes);
+}

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "base/files.h"
+#include "config/camera_path.h"
 #include "config/overrides.h"
 #include "config/yaml.h"
 #include "tests/support/errors.h"
@@ -143,6 +144,48 @@ TEST(Config, Motion) {
     expectError(with("  moving_spheres: 9\n"), {"demo.yaml:4: ", "scene.moving_spheres"});
     expectError(with("  moving_sphere: {count: 9}\n"), {"demo.yaml:4: ", "'moving_spheres'"});
     expectError(with("  lights: [{point: [0, 0, 0], move: 3 m}]\n"), {"demo.yaml:4: ", "scene.lights[0].move"});
+}
+
+TEST(Config, CameraPath) {
+    const auto with = [](const std::string& keys) {
+        return "name: x\nscene:\n  file: a.glb\n  camera:\n    position: [0, 0, 4]\n    target: [0, 0, 3]\n" + keys +
+               "graph: [{pass: a}]\n";
+    };
+    const auto cameraWith = [&](const std::string& path) {
+        return *parseExperiment(with("    path: " + path + "\n"), "x").setup.scene.camera;
+    };
+    EXPECT_FALSE(cameraMoves(cameraWith("[]")));
+    EXPECT_FALSE(cameraMoves(cameraWith("null")));
+    const CameraSettings camera = cameraWith(
+        "[{frame: 4, position: [2, 0, 4], target: [2, 0, 3]}, {frame: 6, position: [2, 0, 4], target: [3, 0, 3]}]");
+    EXPECT_TRUE(cameraMoves(camera));
+    EXPECT_TRUE(cameraOnPath(camera, 1).path.empty());
+    const auto at = [&](int frame) {
+        const CameraSettings moved = cameraOnPath(camera, frame);
+        return std::pair(moved.position, moved.target);
+    };
+    EXPECT_EQ(at(-2), std::pair(camera.position, camera.target));
+    EXPECT_EQ(at(0), at(-2));
+    EXPECT_EQ(at(1), std::pair(glm::vec3(0.5f, 0, 4), glm::vec3(0.5f, 0, 3)));
+    EXPECT_EQ(at(4), std::pair(glm::vec3(2, 0, 4), glm::vec3(2, 0, 3)));
+    EXPECT_EQ(at(5), std::pair(glm::vec3(2, 0, 4), glm::vec3(2.5f, 0, 3)));
+    EXPECT_EQ(at(6), std::pair(glm::vec3(2, 0, 4), glm::vec3(3, 0, 3)));
+    EXPECT_EQ(at(99), at(6));
+
+    const auto error = [&](const std::string& path, std::initializer_list<const char*> parts) {
+        expectError(with("    path: " + path + "\n"), parts);
+    };
+    error("3", {"demo.yaml:7: ", "scene.camera.path: expected a list"});
+    error("[{frame: 1, position: [0, 0, 4]}]", {"demo.yaml:7: ", "scene.camera.path[0]: 'target' is missing"});
+    error("[{frame: 0, position: [0, 0, 4], target: [0, 0, 0]}]", {"path[0].frame", "out of range"});
+    error("[{frame: 1, position: [0, 0, 4], target: [0, 0, 0], up: [0, 0, 1]}]", {"'up'"});
+    error("[{frame: 2, position: [0, 0, 4], target: [1, 0, 0]}, {frame: 2, position: [0, 0, 4], target: [0, 0, 0]}]",
+          {"path[1]: frame 2 does not come after frame 2"});
+    error("[{frame: 2, position: [0, 0, 4], target: [0, 0, 4]}]", {"path[0]: ", "or nowhere"});
+    error("[{frame: 2, position: [0, 0, 4], target: [0, 2, 4]}]", {"path[0]: ", "its own 'up'"});
+    error("[{frame: 2, position: [0, 0, 4], target: [0, 0, 5]}]", {"path[0]: ", "give another key"});
+    expectError(with("    move: [0, 0, 1]\n    path: [{frame: 2, position: [0, 0, 4], target: [1, 0, 0]}]\n"),
+                {"demo.yaml:8: ", "'move'"});
 }
 
 TEST(Config, Environment) {

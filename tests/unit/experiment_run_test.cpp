@@ -181,6 +181,11 @@ TEST_F(RunTest, TheCameraMovesFromFrameToFrame) {
     const int references = Truth::runs;
     EXPECT_EQ(runAndMove(""), (std::vector<float>{2, 2, 2, 2}));
     EXPECT_EQ(Truth::runs, references);
+    // A path begins at the first measured frame
+    EXPECT_EQ(runAndMove(", path: [{frame: 1, position: [4, 1, 3], target: [0, 1, 0]}, "
+                         "{frame: 3, position: [8, 1, 3], target: [0, 1, 0]}]"),
+              (std::vector<float>{2, 2, 4, 6}));
+    EXPECT_EQ(Truth::runs, references);
 }
 
 TEST_F(RunTest, SurfacesAndLightsMoveFromFrameToFrame) {

@@ -99,9 +99,14 @@ TEST_F(PartsTest, EachFrameThatMovesHasAReferenceOfItsOwn) {
     EXPECT_EQ(run(camera("[0.1, 0, 0]")), 4);  // From the cache.
     EXPECT_EQ(run(camera("[0.2, 0, 0]")), 7);  // Frame 0 is the same.
     EXPECT_EQ(run(camera("[0, 0, 0]")), 7);    // So is a sequence that stands still.
-    EXPECT_EQ(run("scene.lights=[{point: [0, 1, 0], move: [0.1, 0, 0]}]"), 11);
-    EXPECT_EQ(run("scene.lights=[{point: [0, 1, 0], move: [0.2, 0, 0]}]"), 14);
-    EXPECT_NE(Truth::seeds[12], Truth::seeds[13]);
+    const auto path = [&](const std::string& keys) { return camera("[0, 0, 0], path: [" + keys + "]"); };
+    const std::string key = "{frame: 2, position: [0, 1, 2], target: [0, 1, 0]}";
+    EXPECT_EQ(run(path(key)), 10);
+    EXPECT_EQ(run(path(key)), 10);
+    EXPECT_EQ(run(path(key + ", {frame: 3, position: [1, 1, 2], target: [0, 1, 0]}")), 13);
+    EXPECT_EQ(run("scene.lights=[{point: [0, 1, 0], move: [0.1, 0, 0]}]"), 17);
+    EXPECT_EQ(run("scene.lights=[{point: [0, 1, 0], move: [0.2, 0, 0]}]"), 20);
+    EXPECT_NE(Truth::seeds[18], Truth::seeds[19]);
 }
 
 TEST_F(PartsTest, ResumeTakesFramesOver) {

@@ -141,6 +141,12 @@ TEST(Validate, MotionIsRefusedWhereItHasNoEffectInAnyVariant) {
     EXPECT_CONTAINS(refusal("builtin: cornell, lights: [{point: [0, 1, 0], move: [0, 0.1, 0]}]", single),
                     "scene.lights: no effect");
     EXPECT_EQ(refusal(camera, "measure: {frames: 1, warmup: 1}"), "");
+    const std::string path =
+        "builtin: cornell, camera: {position: [0, 1, 3], target: [0, 1, 0], "
+        "path: [{frame: 1, position: [0, 1, 2], target: [0, 1, 0]}]}";
+    EXPECT_CONTAINS(refusal(path, "measure: {frames: 1, warmup: 1}"),
+                    "x.yaml:2: scene.camera.path: no effect: there is one measured frame");
+    EXPECT_EQ(refusal(path, "measure: {frames: 2}"), "");
 }
 
 TEST(Schema, ConfigSchemaHoldsEveryPassAndKey) {

@@ -56,6 +56,9 @@ void UnusedMotionSettings::add(const Variant& variant, const Scene& scene) {
     const auto moves = [](const ConfigLight& light) { return light.move != glm::vec3(0.0f); };
     if (settings.options.timeStep > 0 && isAnimated) addUse("scene.time_step", hasFrames, single);
     if (settings.camera && settings.camera->move != glm::vec3(0.0f)) addUse("scene.camera.move", hasFrames, single);
+    if (settings.camera && !settings.camera->path.empty())
+        addUse("scene.camera.path", measure_.frames > 1,
+               "there is one measured frame, in which the path begins: raise measure.frames, or leave it out");
     if (std::ranges::any_of(settings.lights, moves)) addUse("scene.lights", hasFrames, single);
 }
 

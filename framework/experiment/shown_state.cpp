@@ -1,0 +1,137 @@
+#include "experiment/shown_state.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "config/overrides.h"
+#include "experiment/interactive_session.h"
+#include "experiment/variant_run.h"
+
+namespace voxray {
+namespace {
+
+/// Settings for one compared frame. Warm-up frames make no difference to passes without temporal history.
+MeasureSettings oneFrame(MeasureSettings measure, const Graph& graph) {
+    const auto hasHistory = [](const Graph::PassInfo& pass) { return pass.warmupFrames > 0; };
+    measure.buildRepeats = 0;
+    measure.frames = 1;
+    if (std::ranges::none_of(graph.passes(), hasHistory)) measure.warmup = 0;
+    return measure;
+}
+
+void refuseSweep(const Value& config, const TextLocation& where) {
+    if (const Value* sweep = config.find("sweep"); sweep && !sweep->members.empty())
+        throw UsageError(where, "sweep: a session shows one variant; select another by its id");
+}
+
+}  // namespace
+
+ShownState::ShownState(InteractiveSession& session, Value config)
+    : session_(session), resources_(session.resources()), study_(session.checkedStudy(std::move(config))) {}
+
+void ShownState::open(Value config) {
+    refuseSweep(config, config.where);
+    study_ = session_.checkedStudy(std::move(config));
+}
+
+void ShownState::select(const std::string& id) {
+    open(session_.configOf(id));
+}
+
+void ShownState::apply(Value& config, const Change& change) {
+    applyOverride(config, change.path, change.value);
+    refuseSweep(config, change.value.where);
+}
+
+void ShownState::set(const std::string& path, const Value& value) {
+    Value changed = config();
+    apply(changed, {path, value});
+    study_ = session_.checkedStudy(std::move(changed));
+}
+
+std::vector<std::string> ShownState::warnings() const {
+    std::vector<std::string> lines = resources_.warnings();
+    lines.insert(lines.end(), study_.warnings.begin(), study_.warnings.end());
+    return lines;
+}
+
+ShownState::Rendering ShownState::render(const std::function<void(double)>& progress) {
+    Graph graph = study_.graphOf(variant());
+    const MeasureSettings measure = oneFrame(study_.experiment.measure, graph);
+    return render(std::move(graph), variant().setup, measure, progress);
+}
+
+ShownState::Rendering ShownState::draft(const std::vector<Change>& changes, uint32_t shrink,
+                                        const std::function<void(double)>& progress) {
+    Value changed = config();
+    for (const Change& change : changes) apply(changed, change);
+    Study study = session_.studyOf(std::move(changed));
+    Variant& variant = study.variants.front();
+    Setup setup = variant.setup;
+    setup.image.width = std::max(1u, setup.image.width / shrink);
+    setup.image.height = std::max(1u, setup.image.height / shrink);
+    MeasureSettings measure = oneFrame(study.experiment.measure, variant.graph);
+    measure.warmup = 0;
+    return render(std::move(variant.graph), setup, measure, progress);
+}
+
+ShownState::Rendering ShownState::render(Graph graph, const Setup& setup, const MeasureSettings& measure,
+                                         const std::function<void(double)>& progress) {
+    SceneOnDevice& scene = resources_.scene(setup);
+    const bool changes = changesInTime(setup.scene, !scene.prepared.state.scene->animation.empty());
+    const std::string builtFor = fmt::format("{} {}", scene.cameraless, setup.general.seed);
+    const std::string viewOf = fmt::format("{} {} {}", scene.key, setup.image.width, setup.image.height);
+    const Frame frame = frameOf(setup, scene.prepared, setup.general.seed);
+    std::optional<Graph> previous = std::exchange(graph_, std::nullopt);
+    if (previous && builtFor == builtFor_ && !changes) graph.reuse(*previous, viewOf == viewOf_);
+    builtFor_ = builtFor;
+    viewOf_ = viewOf;
+
+    Rendering rendering;
+    rendering.imageSettings = setup.image;
+    const Geometry& geometry = scene.prepared.state.geometry;
+    rendering.sceneSize = glm::distance(geometry.boundsMin, geometry.boundsMax);
+    const Camera& camera = scene.prepared.camera;
+    rendering.camera.position = camera.position + scene.prepared.origin;
+    rendering.camera.target = rendering.camera.position + camera.forward;
+    rendering.camera.up = camera.up;
+    rendering.camera.fovDegrees = glm::degrees(camera.verticalFovRadians);
+    try {
+        resources_.plan(graph, frame, measure.memoryLimitMb);
+        graph.prepare(frame, resources_.device(), resources_.compiler(), resources_.stream());
+        previous.reset();  // After its programs were shared.
+
+        GraphTarget target{frame, resources_.device(), resources_.stream(), *scene.tracer, scene.gpu, {}};
+        if (changes) target.goToFrame = [&](Frame& moved, int number) { resources_.goToFrame(setup, moved, number); };
+        const size_t messages = resources_.device().validationMessages().size();
+        rendering.measurement = measureGraph(graph, target, measure, progress, [&](const Frame&, uint32_t number) {
+            rendering.images = downloadFrame(graph, number, resources_);
+        });
+        if (const auto all = resources_.device().validationMessages(); all.size() > messages)
+            throw Error("Vulkan validation: {}", all[messages]);
+    } catch (...) {
+        resources_.stream().discard();
+        if (!changes) graph_.emplace(std::move(graph));  // The next one reuses what was built.
+        throw;
+    }
+    for (const Graph::PassInfo& pass : graph.passes())
+        if (pass.isReused) rendering.reused.push_back(pass.id);
+    // After motion build passes hold what they updated from frame to frame
+    if (!changes) graph_.emplace(std::move(graph));
+    return rendering;
+}
+
+ScoredFrame ShownState::score(const FrameImages& rendered, const std::function<void(double)>& progress) {
+    if (study_.reference.isNull()) throw UsageError(config().where, "the config has no reference to score against");
+    const Setup& setup = variant().setup;
+    const std::string key = variant().referenceHash + " " + writeParams(setup.image).text();
+    if (!reference_ || preparedFor_ != key) {
+        reference_.reset();
+        const ReferenceImages& images = resources_.reference(study_, setup, progress);
+        reference_ = prepareReference(images, resources_.selectPixels(study_, setup, 0), setup.image, "");
+        preparedFor_ = key;
+    }
+    return scoreFrame(rendered, reference_->images, reference_->masks, reference_->record, setup.image.exposureStops);
+}
+
+}  // namespace voxray
