@@ -18,7 +18,7 @@ Experiment openConfig(const std::filesystem::path& file, const ConfigArguments& 
     SceneSettings settings = readSceneSettings(keys);
     SceneLoader loader(sceneFolders(arguments.scenes, sourceRoot(), file));
     const bool hasCamera = !evaluate(loader.load(settings.source), 0).cameras.empty();
-    if (!hasCamera) settings.camera = CameraSettings{.target = {0, 0, -1}};  // Replaced below
+    if (!hasCamera) settings.camera.emplace().target = {0, 0, -1};  // Replaced below
     const PreparedScene scene = loader.prepare(settings);
     const std::optional<Camera> own = hasCamera ? std::optional(scene.camera) : std::nullopt;
     const FirstView view = firstView(scene.state, EmbreeScene(scene.state), own, false);

@@ -3,7 +3,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
+#include "config/overrides.h"
 #include "experiment/scene_files.h"
 
 namespace voxray {
@@ -14,6 +16,13 @@ DeviceOptions deviceOptions(const RunOptions& options) {
     device.name = options.deviceName;
     device.validation = options.validation;
     return device;
+}
+
+/// A variant's config without parameters that other variants of the sweep need: alone they are refused as unused.
+Value alone(const Variant& variant) {
+    Value config = variant.config;
+    for (const UnusedSetting& parameter : variant.unused) applyOverride(config, parameter.name, Value());
+    return config;
 }
 
 }  // namespace
@@ -27,8 +36,10 @@ InteractiveSession::InteractiveSession(Experiment experiment, const Registry& re
     const Study all = makeStudy(opened_, registry_);
     for (const Variant& variant : all.variants) {
         variants_.emplace_back(variant.name, variant.id);
-        variantConfigs_.push_back(variant.config);
+        variantConfigs_.push_back(alone(variant));
     }
+    for (const auto& [id, count] : cullCounts(all))
+        if (runsSomewhere(all, id)) idlePasses_.push_back(id);
     sides_[0].emplace(*this, variantConfigs_.front());
 }
 
@@ -57,7 +68,9 @@ void InteractiveSession::closeSecondSide() {
 }
 
 Study InteractiveSession::studyOf(Value config) const {
-    return makeStudy(withConfig(opened_, std::move(config)), registry_);
+    Study study = makeStudy(withConfig(opened_, std::move(config)), registry_);
+    study.excludedPasses = idlePasses_;
+    return study;
 }
 
 Study InteractiveSession::checkedStudy(Value config) {
@@ -67,7 +80,10 @@ Study InteractiveSession::checkedStudy(Value config) {
         variant.referenceHash = session_.referenceHashOf(study, variant.setup);
         session_.moveCamera(variant.setup);  // So that checks find the scene loaded
     }
+    const std::string scene = session_.cameralessKey(study.variants.front().setup);
+    viewChecks_.setTracesNewViews(scene != checkedScene_);
     planVariants(study, session_.loader(), viewChecks_, session_.device().info());
+    checkedScene_ = scene;
     return study;
 }
 

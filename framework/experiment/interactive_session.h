@@ -37,7 +37,8 @@ class InteractiveSession {
     // For the states
     /// Makes the study of a config without sweep. @throws UsageError
     Study studyOf(Value config) const;
-    /// The same, checked against scene and device.
+    /// The same, checked against scene and device. Where the camera or the image alone is another than in the study
+    /// before, its view is not path traced to find what may mislead, but for a view that was before.
     Study checkedStudy(Value config);
     Session& resources() { return session_; }
 
@@ -46,6 +47,8 @@ class InteractiveSession {
     const Experiment opened_;
     Session session_;
     CameraViewChecks viewChecks_;
+    std::string checkedScene_;              ///< SceneOnDevice::cameraless of the last checked study.
+    std::vector<std::string> idlePasses_;  ///< Ids of passes that are culled in some variants and run in others.
     std::vector<std::pair<std::string, std::string>> variants_;  ///< Name and id.
     std::vector<Value> variantConfigs_;
     std::array<std::optional<ShownState>, kSides> sides_;

@@ -135,7 +135,7 @@ class Planner {
         key_ = variant.sceneKey;
         shadowRayCost_.emplace(scene.state);
         checkMaskNames(study_.experiment.measure.masks, *scene.state.scene);
-        const ViewCheck& view = viewChecks_.of(variant.setup, key_, scene);
+        const ViewCheck view = viewChecks_.of(variant.setup, key_, scene);
         visibleMetalFraction_ = view.visibleMetalFraction;
         warnings.add(view.found, variant);
     }

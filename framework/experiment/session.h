@@ -36,6 +36,8 @@ class Session {
     ShaderCompiler& compiler() { return compiler_; }
     SceneLoader& loader() { return loader_; }
 
+    /// SceneOnDevice::cameraless
+    std::string cameralessKey(const Setup& setup);
     /// The ray-tracing backend of a variant. @throws Error if the device lacks its features.
     std::string tracerName(const Setup& setup) const;
 
@@ -85,8 +87,6 @@ class Session {
  private:
     /// Loads a scene onto the device, in front of the others. @throws SizeError if they don't fit together.
     void loadScene(const Setup& setup, const std::string& sceneKey);
-    /// SceneOnDevice::cameraless
-    std::string cameralessKey(const Setup& setup);
     /// Loads a reference from the cache or merges its parts.
     std::optional<ReferenceImages> stored(const std::string& hash, const Setup& setup);
     RenderedPart renderPart(const Study& study, const Setup& setup, uint32_t number, SamplePart samples,

@@ -105,6 +105,17 @@ graph:
         self.done("set", path="image.width", value=40)
         self.assertNotIn("update_radiance_cache", self.reused())
 
+    def test_a_new_view_of_a_known_scene_is_checked_for_a_surface_alone(self):
+        self.start(TINY)
+        camera = {"position": [0, 1, 3], "target": [0, 1, 9], "fov_deg": 50}
+        self.assertIn("no surface lies in its view", self.refusal("set", path="scene.camera", value=camera))
+        camera["target"] = [0, 1, 0]
+        self.done("set", path="scene.camera", value=camera)
+        self.assertNotIn("black", str(self.done("set", path="image.exposure_stops", value=-20)["warnings"]))
+        # Other lights are another scene
+        lamp = {"point": [0, 1.5, 0], "intensity": [1, 1, 1]}
+        self.assertIn("black", str(self.done("set", path="scene.lights", value=[lamp])["warnings"]))
+
     def test_what_is_refused_changes_nothing(self):
         self.start(TINY)
         self.assertIn("nothing is rendered", self.refusal("score"))
@@ -126,6 +137,20 @@ graph:
             self.assertFalse(answer["ok"], answer)
             self.assertRegex(answer["error"], r"request \d+|the request")
         self.done("render")
+
+    def test_a_variant_stands_alone(self):
+        # What other variants of the sweep need is neither warned of nor refused
+        greeting = self.start(TINY.replace("voxelize, resolution: 16", "voxelize, resolution: 16, samples_per_voxel_edge: 2").replace(
+            "  voxelize.resolution: [8, 16]", "  voxelize.method: [exact, three_axis]\n  gather_irradiance: [gather_irradiance, {pass: path_trace, light: indirect}]"))
+        self.assertEqual(len(greeting["variants"]), 4)
+        images = []
+        for variant in greeting["variants"]:
+            self.assertNotIn("never run", str(self.done("select", variant=variant["id"])["warnings"]))
+            self.done("render")
+            images.append(self.bytes("shown", "final.exr"))
+        self.assertNotEqual(images[0], images[2])
+        graph = [*self.done("config")["config"]["graph"], {"pass": "voxelize", "id": "idle"}]
+        self.assertIn("'idle' is never run", str(self.done("set", path="graph", value=graph)["warnings"]))
 
     def test_it_needs_a_config_that_is_right(self):
         self.write("wrong.yaml", TINY.replace("resolution: 16", "resolution: x"))

@@ -152,11 +152,12 @@ ViewCheck checkView(const Setup& setup, const PreparedScene& prepared, const Pre
     return checked;
 }
 
-const ViewCheck& CameraViewChecks::of(const Setup& setup, const std::string& sceneKey, const PreparedScene& prepared) {
+ViewCheck CameraViewChecks::of(const Setup& setup, const std::string& sceneKey, const PreparedScene& prepared) {
     // Diagnostics have locations in a config and are not valid for other configs
     const std::string viewKey = keyOf(setup, sceneKey), configKey = setup.scene.where.file + " " + viewKey;
     for (const std::string& key : {viewKey, configKey})
         if (const auto known = known_.find(key); known != known_.end()) return known->second;
+    if (!tracesNewViews_) return checkView(setup, prepared, {});
     ViewCheck checked = checkView(setup, prepared, preview_);
     if (known_.size() >= kMaxKnownViews) known_.clear();
     return known_.emplace(checked.found.empty() ? viewKey : configKey, std::move(checked)).first->second;

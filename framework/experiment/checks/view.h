@@ -65,11 +65,14 @@ ViewCheck checkView(const Setup& setup, const PreparedScene& prepared, const Pre
 class CameraViewChecks {
  public:
     explicit CameraViewChecks(Preview preview) : preview_(std::move(preview)) {}
+    /// Whether new views are traced. Else one is only checked for a surface in view, and not remembered.
+    void setTracesNewViews(bool traces) { tracesNewViews_ = traces; }
     /// As checkView(). @param sceneKey SceneLoader::key() of the scene.
-    const ViewCheck& of(const Setup& setup, const std::string& sceneKey, const PreparedScene& prepared);
+    ViewCheck of(const Setup& setup, const std::string& sceneKey, const PreparedScene& prepared);
 
  private:
     Preview preview_;
+    bool tracesNewViews_ = true;
     std::map<std::string, ViewCheck> known_;  ///< By everything that a view depends on.
 };
 
