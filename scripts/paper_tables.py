@@ -71,16 +71,22 @@ def values_of(folder):
     return found
 
 
+def commit_of(root):
+    """The commit, with "-dirty" where anything but docs, which no result depends on, differs from it."""
+    def git(*arguments):
+        return subprocess.run(["git", *arguments], cwd=root, check=True, capture_output=True, text=True).stdout.strip()
+    return git("describe", "--always") + ("-dirty" if git("status", "--porcelain", "--", ".", ":!docs") else "")
+
+
 def measure(root, name, run, program):
     """Makes the run and writes its CSV."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(folder) / "run"
         subprocess.run([program, *shlex.split(run["command"]), "--out", str(out)], cwd=root, check=True)
         found = values_of(out)
-    commit = subprocess.run(["git", "describe", "--always", "--dirty"], cwd=root, check=True, capture_output=True, text=True)
     device = next(iter(found.values()))["device"]
     with open(csv_path(root, name), "w", newline="", encoding="utf-8") as file:
-        file.write(f"# {commit.stdout.strip()}; {device}; {run['command']}\n")
+        file.write(f"# {commit_of(root)}; {device}; {run['command']}\n")
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["variant", *run["values"]])
         for variant, values in found.items():

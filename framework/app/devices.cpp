@@ -31,6 +31,9 @@ void printDevice(const DeviceInfo& device) {
     fmt::print("  ray tracers       {}\n", tracersOf(device));
     fmt::print("  geometry shader   {}\n", yesNo(device.geometryShader));
     fmt::print("  64-bit atomics    {}\n", yesNo(device.shaderInt64Atomics));
+    fmt::print("  conservative      {}\n",
+               device.conservativeRaster ? "yes" : "no, lacks VK_EXT_conservative_rasterization");
+    fmt::print("  samples a pixel   {}\n", fmt::join(listSampleCounts(device), ", "));
 }
 
 /// Prints all devices. @throws Error if none qualifies.

@@ -37,6 +37,8 @@ DeviceInfo capableDevice() {
     device.rayQuery = device.rayPipeline = device.geometryShader = true;
     device.shaderInt64Atomics = true;
     device.filteredVolumeSide = UINT32_MAX;
+    device.conservativeRaster = true;
+    device.sampleCounts = VK_SAMPLE_COUNT_FLAG_BITS_MAX_ENUM;
     return device;
 }
 

@@ -25,10 +25,19 @@ struct DeviceInfo {
     bool rayPipeline = false;
     bool geometryShader = false;
     bool shaderInt64Atomics = false;
+    /// VK_EXT_conservative_rasterization, by its extension alone: it has no feature bits.
+    bool conservativeRaster = false;
+    /// Pixels by which conservative raster grows triangles beyond those that they touch; 0 where it can't.
+    float rasterOverestimation = 0;
+    /// Samples per pixel of targets without attachments.
+    VkSampleCountFlags sampleCounts = VK_SAMPLE_COUNT_1_BIT;
     /// Maximum side of a 3D image of four half floats with storage and linear filtering; 0: unsupported.
     uint32_t filteredVolumeSide = 0;
     std::vector<std::string> missing;  ///< Required features it lacks; empty: the device qualifies.
 };
+
+/// Numbers of samples per pixel among DeviceInfo::sampleCounts, ascending.
+std::vector<uint32_t> listSampleCounts(const DeviceInfo& device);
 
 /// All Vulkan devices, best first (discrete GPU, integrated GPU, CPU; those that qualify before those that
 /// don't). Empty where there is no Vulkan.

@@ -34,7 +34,14 @@ Program makeRasterProgram(Device& device, std::span<const ShaderModule> modules,
                     device.info().name);
     ProgramBuilder builder(device, modules, constants, VK_PIPELINE_BIND_POINT_GRAPHICS);
 
-    // Triangles without vertex inputs, one sample per pixel, no blending.
+    const DeviceInfo& info = device.info();
+    if (state.isConservative && !info.conservativeRaster)
+        throw Error("{}: device '{}' lacks VK_EXT_conservative_rasterization", modules.front().file, info.name);
+    if (!(info.sampleCounts & state.samples))
+        throw Error("{}: device '{}' has no {} samples a pixel without attachments", modules.front().file, info.name,
+                    state.samples);
+
+    // Triangles without vertex inputs, no blending.
     auto vertexInput =
         structure<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
     auto assembly =
@@ -47,9 +54,14 @@ Program makeRasterProgram(Device& device, std::span<const ShaderModule> modules,
     raster.cullMode = state.cull;
     raster.frontFace = state.frontFace;
     raster.lineWidth = 1.0f;
+    auto conservative = structure<VkPipelineRasterizationConservativeStateCreateInfoEXT>(
+        VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_CONSERVATIVE_STATE_CREATE_INFO_EXT);
+    conservative.conservativeRasterizationMode = VK_CONSERVATIVE_RASTERIZATION_MODE_OVERESTIMATE_EXT;
+    conservative.extraPrimitiveOverestimationSize = info.rasterOverestimation;
+    if (state.isConservative) raster.pNext = &conservative;
     auto samples =
         structure<VkPipelineMultisampleStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
-    samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
+    samples.rasterizationSamples = VkSampleCountFlagBits(state.samples);
 
     // Depth is tested and written if there is a depth target.
     auto depth =

@@ -129,6 +129,8 @@ struct RasterState {
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
     VkFrontFace frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     bool writeColor = true;
+    bool isConservative = false;  ///< All pixels that a triangle touches (VK_EXT_conservative_rasterization).
+    uint32_t samples = 1;         ///< Per pixel, a bit of DeviceInfo::sampleCounts; without attachments alone.
 };
 Program makeRasterProgram(Device& device, std::span<const ShaderModule> modules, const RasterState& state,
                           const SpecializationConstants& constants = {});

@@ -53,6 +53,9 @@ const std::array kRayTracingExtensions{VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_N
                                        VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME, VK_KHR_RAY_QUERY_EXTENSION_NAME,
                                        VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME};
 
+/// Covers what snapping to the rasterizer's fixed-point coordinates takes from a triangle.
+constexpr float kRasterOverestimation = 1.0f / 64;
+
 bool contains(const std::vector<std::string>& list, const char* name) {
     return std::ranges::find(list, name) != list.end();
 }
@@ -67,10 +70,12 @@ std::vector<std::string> extensionsOf(VkPhysicalDevice physical) {
     return names;
 }
 
-/// Extensions to enable: the required one, and those of ray tracing with acceleration structures alone.
+/// Extensions to enable: the required one, conservative rasterization, and those of ray tracing with
+/// acceleration structures alone.
 std::vector<std::string> chooseExtensions(const std::vector<std::string>& available) {
     std::vector<std::string> chosen;
-    if (contains(available, kRequiredExtension)) chosen.emplace_back(kRequiredExtension);
+    for (const char* name : {kRequiredExtension, VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME})
+        if (contains(available, name)) chosen.emplace_back(name);
     const bool hasStructures = contains(available, VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME) &&
                                contains(available, VK_KHR_DEFERRED_HOST_OPERATIONS_EXTENSION_NAME);
     for (const char* name : kRayTracingExtensions)
@@ -120,6 +125,17 @@ uint32_t filteredVolumeSide(VkPhysicalDevice physical) {
     return std::min({image.maxExtent.width, image.maxExtent.height, image.maxExtent.depth});
 }
 
+/// The least overestimation that the device offers from kRasterOverestimation on.
+float rasterOverestimation(VkPhysicalDevice physical) {
+    auto conservative = structure<VkPhysicalDeviceConservativeRasterizationPropertiesEXT>(
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_CONSERVATIVE_RASTERIZATION_PROPERTIES_EXT);
+    auto properties =
+        structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &conservative);
+    vkGetPhysicalDeviceProperties2(physical, &properties);
+    return std::min(std::max(kRasterOverestimation, conservative.extraPrimitiveOverestimationSizeGranularity),
+                    conservative.maxExtraPrimitiveOverestimationSize);
+}
+
 DeviceSupport inspect(VkPhysicalDevice physical) {
     DeviceSupport support;
     support.physical = physical;
@@ -152,6 +168,9 @@ DeviceSupport inspect(VkPhysicalDevice physical) {
     info.geometryShader = enabled.core.features.geometryShader;
     info.shaderInt64Atomics = enabled.v12.shaderBufferInt64Atomics;
     info.filteredVolumeSide = filteredVolumeSide(physical);
+    info.conservativeRaster = contains(support.extensions, VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME);
+    if (info.conservativeRaster) info.rasterOverestimation = rasterOverestimation(physical);
+    info.sampleCounts = properties.properties.limits.framebufferNoAttachmentsSampleCounts;
     return support;
 }
 
@@ -202,6 +221,13 @@ std::vector<DeviceSupport> inspectDevices(VkInstance instance) {
     };
     std::ranges::stable_sort(devices, {}, key);
     return devices;
+}
+
+std::vector<uint32_t> listSampleCounts(const DeviceInfo& device) {
+    std::vector<uint32_t> counts;
+    for (uint32_t count = VK_SAMPLE_COUNT_1_BIT; count <= VK_SAMPLE_COUNT_64_BIT; count *= 2)
+        if (device.sampleCounts & count) counts.push_back(count);
+    return counts;
 }
 
 std::vector<DeviceInfo> listDevices() {

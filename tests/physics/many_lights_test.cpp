@@ -111,6 +111,22 @@ TEST(ManyLights, ABoundTakesLightAwayAndVanishesWithMoreLights) {
     EXPECT_NEAR(energy("16384", "1") / without, 1, 0.01);
 }
 
+TEST(ManyLights, ABoundInMetersTakesAsMuchFromFewLightsAsFromMany) {
+    // The room's walls of 24 m² over 256 and 4096 paths: discs of 17.3 and 4.3 cm
+    const auto energy = [](const std::string& count, const std::string& bound) {
+        return meanIndirect("white_room", "{}",
+                            manyLights("vpls_per_bounce: " + count, "visibility: exact, bound: " + bound), 32, 32);
+    };
+    const auto disc = [](double paths) { return std::to_string(std::sqrt(24 / (kPi * paths))); };
+    EXPECT_NEAR(energy("256", disc(256) + ", bound_unit: meter") / energy("256", "1"), 1, 1e-4);
+    const double without = energy("4096", "0");
+    const auto taken = [&](const std::string& count) { return 1 - energy(count, "0.5, bound_unit: meter") / without; };
+    const double few = taken("1024"), many = taken("4096");
+    std::printf("a bound of 0.5 m takes %.4f and %.4f of the light\n", few, many);
+    EXPECT_GT(many, 0.05);
+    EXPECT_NEAR(few / many, 1, 0.2);
+}
+
 TEST(ManyLights, CompensationKeepsTheEnergyOfAFurnaceWithAnyBound) {
     // As above, with bounds of a sixteenth of the sphere's radius, of a half, and of more than its diameter:
     // then all light comes by rays

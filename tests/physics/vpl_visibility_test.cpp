@@ -58,6 +58,24 @@ TEST(VplVisibility, EarlyOutsTakeLightThatRouletteBrings) {
     EXPECT_GT(mean(indirect("visibility: exact, early_out: 0.1")) / all, early);
 }
 
+TEST(VplVisibility, LightsOfLittlePowerAreLeftOutWhereverTheyAre) {
+    // Walls in one color have lights of one power, if they come out of reflective shadow maps: all or none are dim
+    const auto light = [](const std::string& earlyOut) {
+        return mean(indirectLight(
+            "white_room", "{}",
+            graphYaml({"gbuffer", "render_rsm", "sample_vpls, first: rsm, bounces: 1, vpls_per_bounce: 256",
+                       "gather_vpls, visibility: exact, early_out_by: power, " + earlyOut})));
+    };
+    EXPECT_GT(light("early_out: 0.99"), 0);
+    EXPECT_EQ(light("early_out: 1.01"), 0);
+    // Of paths each bounce has less: at half the mean later ones are left out, and the light of the first stays
+    const double all = mean(indirect("visibility: exact"));
+    const double left = mean(indirect("visibility: exact, early_out: 0.5, early_out_by: power")) / all;
+    std::printf("without lights of less than half the mean power: %.4f\n", left);
+    EXPECT_LT(left, 0.999);
+    EXPECT_GT(left, 0.5);
+}
+
 TEST(VplVisibility, TwiceTheLightsTakeTwiceTheRaysAndSteps) {
     uint64_t rays = 0, steps = 0;
     for (const std::string lights : {"1024", "2048", "4096"}) {

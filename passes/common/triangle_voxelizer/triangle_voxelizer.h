@@ -41,8 +41,13 @@ class TriangleVoxelizer {
 
 /// Triangle-box overlap tests in a compute shader.
 std::unique_ptr<TriangleVoxelizer> makeExactVoxelizer();
-/// Conservative rasterization of each triangle along its dominant axis.
+/// Rasterization of each triangle along its dominant axis: all voxels that its plane crosses in the columns of
+/// voxels whose pixels are drawn. Conservative: shaders grow triangles, so that all that they touch are.
 std::unique_ptr<TriangleVoxelizer> makeDominantAxisVoxelizer();
+/// The same by the device's conservative rasterization (VK_EXT_conservative_rasterization).
+std::unique_ptr<TriangleVoxelizer> makeHardwareConservativeVoxelizer();
+/// The same by multisampling: pixels with a sample in the triangle. @param samples per pixel, a power of two.
+std::unique_ptr<TriangleVoxelizer> makeMultisampledVoxelizer(uint32_t samples);
 /// Rasterization of each triangle along its dominant axis with one voxel per pixel, as published in Arnebäck
 /// 2017, section 3.2.1. Fragments are those in voxels from grid.first up to grid.resolution, which may be a
 /// part of a level. @param samples per pixel: 1, in its center, or 8, the standard pattern of D3D and Vulkan.

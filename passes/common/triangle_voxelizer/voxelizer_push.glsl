@@ -10,7 +10,7 @@ layout(push_constant, scalar) uniform Push {
     uint tiles;             // exact: number of tiles.
     uint axis;              // three_axis: axis of projection.
     uint samples;           // three_axis: sample points along a voxel's edge; sampled_axis: per pixel, 1 or 8.
-    uint imageSide;         // dominant_axis, sampled_axis: pixels along an edge of the image.
+    uint imageSide;         // dominant_axis.geom: pixels along an edge of the image.
 } voxelizer;
 
 #endif

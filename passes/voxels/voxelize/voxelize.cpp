@@ -4,12 +4,13 @@
 
 namespace voxray {
 
-enum class VoxelizeMethod { Exact, DominantAxis, ThreeAxis };
+enum class VoxelizeMethod { Exact, DominantAxis, HardwareConservative, Multisampled, ThreeAxis };
 template <>
 struct EnumNames<VoxelizeMethod> {
-    static constexpr std::array names{std::pair{VoxelizeMethod::Exact, "exact"},
-                                      std::pair{VoxelizeMethod::DominantAxis, "dominant_axis"},
-                                      std::pair{VoxelizeMethod::ThreeAxis, "three_axis"}};
+    static constexpr std::array names{
+        std::pair{VoxelizeMethod::Exact, "exact"}, std::pair{VoxelizeMethod::DominantAxis, "dominant_axis"},
+        std::pair{VoxelizeMethod::HardwareConservative, "hardware_conservative"},
+        std::pair{VoxelizeMethod::Multisampled, "msaa"}, std::pair{VoxelizeMethod::ThreeAxis, "three_axis"}};
 };
 
 /// Voxelizes triangles into surface voxels: the whole scene first, then the regions where surfaces change.
@@ -21,6 +22,8 @@ class VoxelizePass final : public Pass {
         "Voxelizes the scene's triangles into surface voxels with materials. A voxel holds albedo, normal, emission, "
         "metallic, roughness, opacity and area. method exact tests triangles against voxel boxes; "
         "dominant_axis rasterizes once and conservatively, which adds voxels that are only grazed and samples areas; "
+        "hardware_conservative does so by the device; "
+        "msaa rasterizes once, multisampled, and misses surfaces between samples; "
         "three_axis rasterizes three times and misses surfaces between sample points, "
         "those thinner than a voxel / samples_per_voxel_edge in two directions. "
         "Source: Magalhães 2020, section 3.2; Schwarz and Seidel 2010 (exact).";
@@ -28,17 +31,23 @@ class VoxelizePass final : public Pass {
         VoxelizeMethod method = VoxelizeMethod::Exact;
         uint32_t resolution = 128;
         uint32_t samplesPerVoxelEdge = 2;
+        uint32_t msaaSamples = 4;
         static constexpr auto schema() {
             return std::tuple_cat(
                 std::tuple{
                     field("method", &Params::method,
                           "Test for the voxels that triangles overlap: "
                           "exact (compute shader, overlap of triangles and boxes), "
-                          "dominant_axis (one conservative raster pass), three_axis (three raster passes)."),
+                          "dominant_axis (one conservative raster pass, by shaders), "
+                          "hardware_conservative (the same by VK_EXT_conservative_rasterization), "
+                          "msaa (one multisampled raster pass), three_axis (three raster passes)."),
                     field("resolution", &Params::resolution, "Voxels along the scene's longest side.", 1u, 1024u),
                     field("samples_per_voxel_edge", &Params::samplesPerVoxelEdge,
                           "Sample points along a voxel's edge, in each of the three projections.", 1u, 16u)
-                        .onlyWith(oneOf(&Params::method, {VoxelizeMethod::ThreeAxis}))},
+                        .onlyWith(oneOf(&Params::method, {VoxelizeMethod::ThreeAxis})),
+                    field("msaa_samples", &Params::msaaSamples,
+                          "Samples a pixel, a voxel wide, at the device's standard places.", powersOfTwo(1, 64))
+                        .onlyWith(oneOf(&Params::method, {VoxelizeMethod::Multisampled}))},
                 VoxelBuildParams::schema());
         }
     };
@@ -60,9 +69,18 @@ class VoxelizePass final : public Pass {
 };
 
 std::unique_ptr<TriangleVoxelizer> VoxelizePass::makeVoxelizer() {
-    if (params_.method == VoxelizeMethod::Exact) return makeExactVoxelizer();
-    if (params_.method == VoxelizeMethod::DominantAxis) return makeDominantAxisVoxelizer();
-    return makeThreeAxisVoxelizer(params_.samplesPerVoxelEdge);
+    switch (params_.method) {
+        case VoxelizeMethod::DominantAxis:
+            return makeDominantAxisVoxelizer();
+        case VoxelizeMethod::HardwareConservative:
+            return makeHardwareConservativeVoxelizer();
+        case VoxelizeMethod::Multisampled:
+            return makeMultisampledVoxelizer(params_.msaaSamples);
+        case VoxelizeMethod::ThreeAxis:
+            return makeThreeAxisVoxelizer(params_.samplesPerVoxelEdge);
+        default:
+            return makeExactVoxelizer();
+    }
 }
 
 void VoxelizePass::plan(PassPlan& plan) {

@@ -43,6 +43,20 @@ struct EnumNames<VplVisibility> {
                                       std::pair{VplVisibility::None, "none"}};
 };
 
+/// Unit of the bound on near lights.
+enum class VplBoundUnit { Disc, Meter };
+template <>
+struct EnumNames<VplBoundUnit> {
+    static constexpr std::array names{std::pair{VplBoundUnit::Disc, "disc"}, std::pair{VplBoundUnit::Meter, "meter"}};
+};
+
+/// By what virtual lights count as dim.
+enum class DimVpls { Irradiance, Power };
+template <>
+struct EnumNames<DimVpls> {
+    static constexpr std::array names{std::pair{DimVpls::Irradiance, "irradiance"}, std::pair{DimVpls::Power, "power"}};
+};
+
 namespace {
 
 /// How shadow rays traverse surface voxels; nullopt: visibility is not that of surface voxels.
@@ -79,9 +93,11 @@ class GatherVpls final : public Pass {
     struct Params {
         uint32_t block = 4;
         float bound = 1;
+        VplBoundUnit boundUnit = VplBoundUnit::Disc;
         uint32_t compensationRays = 0;
         float roulette = 0;
         float earlyOut = 0;
+        DimVpls earlyOutBy = DimVpls::Irradiance;
         VplVisibility visibility = VplVisibility::Svo;
         float restartEpsilon = 0;
         float endEpsilon = 0;
@@ -93,10 +109,13 @@ class GatherVpls final : public Pass {
                       "Texels along the edge of a block, over whose texels the virtual lights are divided.",
                       powersOfTwo(1, 16)),
                 field("bound", &Params::bound,
-                      "Distance below which virtual lights get no brighter, "
-                      "in radii of a disc with the area of all surfaces divided by the number of light paths. "
-                      "0: no bound.",
-                      0.0f, 1000.0f),
+                      "Distance below which virtual lights get no brighter, in bound_unit. 0: no bound.", 0.0f,
+                      1000.0f),
+                field("bound_unit", &Params::boundUnit,
+                      "disc: radii of a disc with the area of all surfaces divided by the number of light paths, "
+                      "so that the bound shrinks as lights are added. "
+                      "meter: constant, the root of B in Sun and Agu 2015, equation 2.")
+                    .onlyWith(noneOf(&Params::bound, {0.0f})),
                 field("compensation_rays", &Params::compensationRays,
                       "Rays per texel that restore the light that 'bound' takes away, "
                       "so that it is no bias but noise near contacts; 0: none.",
@@ -109,10 +128,15 @@ class GatherVpls final : public Pass {
                       "Saves rays for noise; 0: none.",
                       0.0f, 100.0f),
                 field("early_out", &Params::earlyOut,
-                      "As 'roulette', but such virtual lights are left out altogether: the image loses their light. "
-                      "Sun and Agu 2015, section 3.2, leave out lights by their luminance alone. 0: none are.",
+                      "Virtual lights that are dimmer than this times the mean of the texel's lights are left out: "
+                      "the image loses their light. 0: none are.",
                       0.0f, 100.0f)
                     .onlyWith(oneOf(&Params::roulette, {0.0f})),
+                field(
+                    "early_out_by", &Params::earlyOutBy,
+                    "irradiance: unoccluded, at the texel. "
+                    "power: the luminance of the light's flux, wherever the texel is (Sun and Agu 2015, section 3.2).")
+                    .onlyWith(noneOf(&Params::earlyOut, {0.0f})),
                 field("visibility", &Params::visibility,
                       "What occludes virtual lights. "
                       "svo, bricks, bits: surface voxels, by three traversals with equal results. "
@@ -182,12 +206,17 @@ void GatherVpls::plan(PassPlan& plan) {
     const Vpls& vpls = plan[vpls_];
     const uint32_t samples = plan[gbuffer_].samples;
     const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
-    // Squared radius of the disc of that area. Moving surfaces keep their area
-    const float minDistanceSquared = params_.bound * params_.bound * vpls.areaPerPath / glm::pi<float>();
+    // Moving surfaces keep their area
+    const float discRadiusSquared = vpls.areaPerPath / glm::pi<float>();
+    const float minDistanceSquared =
+        params_.bound * params_.bound * (params_.boundUnit == VplBoundUnit::Disc ? discRadiusSquared : 1);
     const bool isCompensated = params_.compensationRays > 0 && minDistanceSquared > 0;
     if (shadowMaps_) shadowMaps_->plan(plan);
     const bool usesRoulette = params_.roulette > 0;
-    const VplGather::DimLightCulling culling{usesRoulette ? params_.roulette : params_.earlyOut, usesRoulette};
+    const VplGather::DimLights earlyOut =
+        params_.earlyOutBy == DimVpls::Power ? VplGather::DimLights::LeftOutByPower : VplGather::DimLights::LeftOut;
+    const VplGather::DimLightCulling culling{usesRoulette ? params_.roulette : params_.earlyOut,
+                                             usesRoulette ? VplGather::DimLights::Sampled : earlyOut};
     const float endEpsilon = params_.visibility == VplVisibility::SvoRestart ? params_.endEpsilon : 0;
     vplGather_.plan(plan,
                     {params_.block, minDistanceSquared, culling, endEpsilon, shadowMaps_.get(), isCompensated,

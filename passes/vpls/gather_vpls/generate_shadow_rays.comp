@@ -10,7 +10,7 @@
 layout(local_size_x = 64) in;
 
 readonly buffer ActiveVpls { uint data[]; } activeVpls;
-#if defined(ROULETTE) || defined(EARLY_OUT)
+#if defined(ROULETTE) || defined(EARLY_OUT) || defined(EARLY_OUT_BY_POWER)
 readonly buffer MeanLuminance { float data[]; } meanLuminance;  // mean_unoccluded_irradiance.comp
 #endif
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
@@ -23,10 +23,19 @@ layout(push_constant, scalar) uniform Push {
     VplBatch batch;
     float minDistanceSquared;  // m²
     uint seed;                 // Of Russian roulette.
-    float cullThreshold;       // Times the mean luminance: dimmer lights are culled (EARLY_OUT) or sampled (ROULETTE).
+    float cullThreshold;       // Times the mean luminance: dimmer lights are culled (EARLY_OUT*) or sampled (ROULETTE).
     VoxelGrid grid;            // Where rays are traced through voxels; its voxelSize is 0 where through triangles.
     float endEpsilon;          // Voxels; 0: voxel rays start and end off their surfaces.
 } push;
+
+// Whether a light is left out wherever the receiver is (Sun and Agu 2015, section 3.2).
+bool isTooDim(Vpl vpl) {
+#ifdef EARLY_OUT_BY_POWER
+    return luminance(vpl.flux) < push.cullThreshold * meanLuminance.data[0];
+#else
+    return false;
+#endif
+}
 
 // Probability that a shadow ray is traced to a virtual light of that unoccluded luminance.
 float survivalProbability(uint i, float unoccludedLuminance) {
@@ -67,8 +76,9 @@ void main() {
     if (isWithinBounces(b, vplIndex) && receiver(b, i % b.receiverCount, r)) {
         const Vpl vpl = vpls.data[vplIndex];
         vec3 direction;
-        const float geometry =
-            vplGeometryTerm(vpl, r.position, r.normal, r.faceNormal, push.minDistanceSquared, direction);
+        float geometry = 0.0;
+        if (!isTooDim(vpl))
+            geometry = vplGeometryTerm(vpl, r.position, r.normal, r.faceNormal, push.minDistanceSquared, direction);
         const float survival = survivalProbability(i, luminance(vpl.flux) * geometry);
         if (geometry > 0.0 && random(i, vplIndex) < survival) {
             const float distance_ = max(distance(vpl.position, r.position), sqrt(push.minDistanceSquared));

@@ -10,6 +10,11 @@ namespace {
 
 constexpr uint32_t kBatchRays = 1u << 20;  // Bounds the memory of rays and contributions to 52 MiB.
 
+const char* defineOf(VplGather::DimLights kind) {
+    if (kind == VplGather::DimLights::Sampled) return "ROULETTE";
+    return kind == VplGather::DimLights::LeftOut ? "EARLY_OUT" : "EARLY_OUT_BY_POWER";
+}
+
 }  // namespace
 
 VplGather::Programs::Programs(ProgramOwner& owner, const Defines& defines)
@@ -18,12 +23,14 @@ VplGather::Programs::Programs(ProgramOwner& owner, const Defines& defines)
       testShadowMaps(owner, "test_shadow_maps.comp", defines),
       accumulate(owner, "accumulate_irradiance.comp", defines) {}
 
-VplGather::VplGather(ProgramOwner& owner) : texelPrograms_(owner, {}), surfelPrograms_(owner, {{"SURFELS", "1"}}) {}
+VplGather::VplGather(ProgramOwner& owner)
+    : texelPrograms_(owner, {}), surfelPrograms_(owner, {{"SURFELS", "1"}}), meanPower_(owner, "mean_power.comp") {}
 
 void VplGather::plan(PassPlan& plan, const Settings& settings, glm::uvec2 texels, uint64_t maxVpls) {
     settings_ = settings;
     define(texelPrograms_, true);
     define(surfelPrograms_, settings.gathersAtSurfels);
+    meanPower_.compileIf(settings.culling.threshold > 0 && settings.culling.kind == DimLights::LeftOutByPower);
     const glm::uvec2 extent = (texels + settings.block - 1u) / settings.block;
     const uint64_t receiversPerSubset = std::min(extent.x * extent.y, kBatchRays);
     const uint64_t rays = std::min(receiversPerSubset * (maxVpls / subsetCount() + 1), uint64_t(kBatchRays));
@@ -38,14 +45,14 @@ void VplGather::plan(PassPlan& plan, const Settings& settings, glm::uvec2 texels
 void VplGather::define(Programs& programs, bool isUsed) const {
     const bool cullsDimLights = settings_.culling.threshold > 0;
     Defines defines;
-    if (cullsDimLights) defines.emplace(settings_.culling.usesRoulette ? "ROULETTE" : "EARLY_OUT", "1");
+    if (cullsDimLights) defines.emplace(defineOf(settings_.culling.kind), "1");
     if (settings_.writesStarts) defines.emplace("STARTS", "1");
     for (Kernel* kernel : {&programs.computeMean, &programs.generateRays, &programs.accumulate})
         kernel->define(defines);
     if (settings_.shadowMaps) defines.merge(settings_.shadowMaps->defines());
     programs.testShadowMaps.define(defines);
 
-    programs.computeMean.compileIf(isUsed && cullsDimLights);
+    programs.computeMean.compileIf(isUsed && cullsDimLights && settings_.culling.kind != DimLights::LeftOutByPower);
     programs.generateRays.compileIf(isUsed);
     programs.testShadowMaps.compileIf(isUsed && settings_.shadowMaps);
     programs.accumulate.compileIf(isUsed);
@@ -68,6 +75,20 @@ void VplGather::gatherAtSurfels(PassContext& context, const Vpls& vpls, const Vi
     batch.reflections = reflections;
     gather(context, vpls, visibility, batch, (count + subsetCount() - 1) / subsetCount(), surfelPrograms_,
            {{"surfels", surfels}, {"faceNormals", faceNormals}}, {{"irradiance", irradiance}});
+}
+
+void VplGather::recordMean(PassContext& context, const Vpls& vpls, const gpu::VplBatch& subset,
+                           const Programs& programs, const std::vector<Binding>& receiverBindings) const {
+    const Bindings shared{{"VplsRef", vpls.points.ref()},
+                          {"activeVpls", vpls.activeIndices},
+                          {"meanLuminance", meanLuminance_},
+                          {"batch", subset}};
+    if (settings_.culling.kind == DimLights::LeftOutByPower)
+        context.stream.dispatch(meanPower_, 1, shared);
+    else
+        context.stream.dispatch(
+            programs.computeMean, subset.receiverCount,
+            {context.scene, receiverBindings, shared.all(), {"minDistanceSquared", settings_.minDistanceSquared}});
 }
 
 void VplGather::gather(PassContext& context, const Vpls& vpls, const Visibility& visibility, gpu::VplBatch batch,
@@ -95,12 +116,7 @@ void VplGather::gather(PassContext& context, const Vpls& vpls, const Visibility&
                 gpu::VplBatch wholeSubset = batch;
                 wholeSubset.firstVpl = firstVpl;
                 wholeSubset.vplCount = endVpl - firstVpl;
-                stream.dispatch(programs.computeMean, batch.receiverCount,
-                                {context.scene,
-                                 lights.all(),
-                                 {"meanLuminance", meanLuminance_},
-                                 {"batch", wholeSubset},
-                                 {"minDistanceSquared", settings_.minDistanceSquared}});
+                recordMean(context, vpls, wholeSubset, programs, receiverBindings);
             }
             for (batch.firstVpl = firstVpl; batch.firstVpl < endVpl; batch.firstVpl += batch.vplCount) {
                 batch.vplCount = std::min(endVpl - batch.firstVpl, maxVpls);

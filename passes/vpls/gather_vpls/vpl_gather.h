@@ -18,10 +18,16 @@ struct VplTarget {
 /// light of its subset (interleaved sampling, Segovia et al. 2006).
 class VplGather {
  public:
-    /// Which lights get no shadow ray for their low unoccluded irradiance.
+    /// What becomes of lights that bring little.
+    enum class DimLights {
+        Sampled,         ///< By unoccluded irradiance at the receiver, in proportion to it (unbiased).
+        LeftOut,         ///< By unoccluded irradiance at the receiver.
+        LeftOutByPower,  ///< By the luminance of the light's flux (Sun and Agu 2015, section 3.2).
+    };
+    /// Which lights get no shadow ray.
     struct DimLightCulling {
-        float threshold;    ///< Times the mean of the subset's lights; 0: no culling.
-        bool usesRoulette;  ///< Dim lights are sampled in proportion to it (unbiased); else left out.
+        float threshold;  ///< Times the mean of the subset's lights; 0: no culling.
+        DimLights kind;
     };
     struct Settings {
         uint32_t block;            ///< Edge of an interleaving block, texels.
@@ -62,6 +68,9 @@ class VplGather {
     };
     /// Defines programs by the settings.
     void define(Programs& programs, bool isUsed) const;
+    /// The mean that dim lights are compared with.
+    void recordMean(PassContext& context, const Vpls& vpls, const gpu::VplBatch& subset, const Programs& programs,
+                    const std::vector<Binding>& receiverBindings) const;
     void gather(PassContext& context, const Vpls& vpls, const Visibility& visibility, gpu::VplBatch batch,
                 uint32_t receiversPerSubset, const Programs& programs, const std::vector<Binding>& receiverBindings,
                 const std::vector<Binding>& targetBindings) const;
@@ -69,6 +78,7 @@ class VplGather {
 
     Settings settings_{};
     Programs texelPrograms_, surfelPrograms_;
+    Kernel meanPower_;
     Buffer rays_, starts_, contributions_, occluded_, meanLuminance_;
 };
 
