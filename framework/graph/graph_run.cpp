@@ -141,7 +141,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
     stream.resetTimestamps();
     PhaseRun phaseRun(nodes_, phase);
     for (GraphNode& node : nodes_) {
-        if (node.phase != phase || node.isReused) continue;
+        if (node.phase != phase || node.isReused || node.isSkipped) continue;
         const uint64_t raysBefore = tracer.raysTraced();
 
         // Device timestamps; host work of the Embree backend falls between them.
