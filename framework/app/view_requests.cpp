@@ -55,7 +55,7 @@ void describe(Value& answer, const ViewPicture& picture) {
 }
 
 Value writeView(ShownState& state, const ViewChoice& choice, bool withPicture, const std::filesystem::path& folder) {
-    const View view = state.view(choice, std::numeric_limits<uint64_t>::max());
+    const ViewArray view = state.view(choice, std::numeric_limits<uint64_t>::max());
     Value answer = describe(view);
     answer.set("file", quotedText(writeView(folder, view).string()));
     if (withPicture) {

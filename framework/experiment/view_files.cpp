@@ -30,7 +30,7 @@ const char* codeOf(ViewInfo::Type type) {
 }
 
 /// Source: numpy.lib.format, "Format Version 1.0".
-void writeNpy(const std::filesystem::path& path, const View& view) {
+void writeNpy(const std::filesystem::path& path, const ViewArray& view) {
     constexpr size_t kAlignment = 64, kPrefixBytes = 10;
     std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({},), }}", codeOf(view.type),
                                      fmt::join(view.shape, ", "));
@@ -46,7 +46,7 @@ void writeNpy(const std::filesystem::path& path, const View& view) {
 
 }  // namespace
 
-std::filesystem::path writeView(const std::filesystem::path& folder, const View& view) {
+std::filesystem::path writeView(const std::filesystem::path& folder, const ViewArray& view) {
     if (view.channels.empty()) {
         writeNpy(folder / "view.npy", view);
         return folder / "view.npy";

@@ -21,14 +21,14 @@ constexpr size_t kMaxSorted = 1u << 16;            ///< Values of which percenti
 constexpr double kAspect = 16.0 / 9.0;             ///< Of a picture of a buffer.
 
 template <typename T>
-T plain(const View& view, size_t i) {
+T plain(const ViewArray& view, size_t i) {
     T value;
     std::memcpy(&value, view.bytes.data() + i * sizeof(T), sizeof(T));
     return value;
 }
 
 /// The value with an index, as a number. Large 64-bit integers are rounded.
-double valueAt(const View& view, size_t i) {
+double valueAt(const ViewArray& view, size_t i) {
     switch (view.type) {
         case ViewInfo::Type::Uint8:
             return plain<uint8_t>(view, i) / 255.0;
@@ -44,7 +44,7 @@ double valueAt(const View& view, size_t i) {
     return 0;
 }
 
-bool isWord(const View& view) {
+bool isWord(const ViewArray& view) {
     return view.type == ViewInfo::Type::Uint32 || view.type == ViewInfo::Type::Uint64;
 }
 
@@ -65,7 +65,7 @@ Layout rowByRow(uint64_t pixels, uint32_t valuesPerPixel, uint64_t pixelsPerElem
             [width](uint64_t i) { return glm::uvec2(i % width, i / width); }};
 }
 
-Layout layoutOf(const View& view) {
+Layout layoutOf(const ViewArray& view) {
     const std::vector<uint64_t>& shape = view.shape;
     if (view.kind == ViewInfo::Kind::Buffer) {
         const uint64_t values = shape.size() > 1 ? shape[1] : 1;
@@ -87,7 +87,7 @@ Layout layoutOf(const View& view) {
 }
 
 /// The range of the finite values that are shown.
-std::pair<double, double> rangeOf(const View& view, const Layout& layout) {
+std::pair<double, double> rangeOf(const ViewArray& view, const Layout& layout) {
     const uint64_t shown = std::min(layout.valuesPerPixel, 3u), all = layout.pixels * shown;
     const uint64_t stride = (all + kMaxSorted - 1) / kMaxSorted;
     std::vector<double> values;
@@ -113,7 +113,7 @@ Color colorOf(uint64_t number) {
 }
 
 /// Colors of pixels; a NaN is a color of its own.
-ImageF fill(const View& view, const Layout& layout, const std::function<Color(const Color&, uint64_t)>& colorOf) {
+ImageF fill(const ViewArray& view, const Layout& layout, const std::function<Color(const Color&, uint64_t)>& colorOf) {
     ImageF image(layout.width, layout.height, 3);
     for (uint64_t i = 0; i < layout.pixels; ++i) {
         Color values{};
@@ -134,7 +134,7 @@ Color each(const Color& values, const Function& function) {
     return {function(values[0]), function(values[1]), function(values[2])};
 }
 
-ViewPicture radiance(const View& view, const Layout& layout, const ImageSettings& settings) {
+ViewPicture radiance(const ViewArray& view, const Layout& layout, const ImageSettings& settings) {
     const ImageF linear = fill(view, layout, [](const Color& values, uint64_t) { return values; });
     ViewPicture picture{preview(linear, settings.exposureStops, settings.tone), {}, {}};
     // The mark of a NaN is no radiance
@@ -147,7 +147,7 @@ ViewPicture radiance(const View& view, const Layout& layout, const ImageSettings
     return picture;
 }
 
-ViewPicture numbers(const View& view, const Layout& layout) {
+ViewPicture numbers(const ViewArray& view, const Layout& layout) {
     const bool isSigned = view.type == ViewInfo::Type::Float32;
     const auto color = [&](const Color& values, uint64_t i) {
         if (isSigned) return values[0] < 0 ? kBlack : colorOf(uint64_t(values[0]) + 1);
@@ -164,7 +164,7 @@ ViewPicture numbers(const View& view, const Layout& layout) {
             {}};
 }
 
-ViewPicture scaled(const View& view, const Layout& layout) {
+ViewPicture scaled(const ViewArray& view, const Layout& layout) {
     const auto [low, high] = rangeOf(view, layout);
     const auto color = [low, high](const Color& values, uint64_t) {
         return each(values,
@@ -177,7 +177,7 @@ ViewPicture scaled(const View& view, const Layout& layout) {
             std::pair{low, high}};
 }
 
-ViewPicture picture(const View& view, const Layout& layout, const ImageSettings& settings) {
+ViewPicture picture(const ViewArray& view, const Layout& layout, const ImageSettings& settings) {
     if (view.quantity == Quantity::Radiance) return radiance(view, layout, settings);
     if (view.quantity == Quantity::Fraction)
         return {fill(view, layout,
@@ -197,12 +197,13 @@ ViewPicture picture(const View& view, const Layout& layout, const ImageSettings&
 
 }  // namespace
 
-ViewPicture pictureOf(const View& view, const ImageSettings& settings) {
+ViewPicture pictureOf(const ViewArray& view, const ImageSettings& settings) {
     const Layout layout = layoutOf(view);
     ViewPicture result = picture(view, layout, settings);
     uint64_t bad = 0;
     for (uint64_t i = 0; i < valuesOf(view); ++i) bad += std::isnan(valueAt(view, i));
-    if (const uint64_t values = layout.pixels * layout.valuesPerPixel, whole = view.elements * valuesOf(view) / view.shape[0];
+    if (const uint64_t values = layout.pixels * layout.valuesPerPixel,
+        whole = view.elements * valuesOf(view) / view.shape[0];
         values < whole)
         result.legend += fmt::format("; the first {} of {} values", values, whole);
     if (bad > 0) result.legend += fmt::format("; magenta: NaN ({} values)", bad);

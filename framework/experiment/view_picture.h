@@ -24,6 +24,6 @@ inline constexpr uint64_t kMaxPictureValues = 1u << 20;
 /// sRGB curve; components of directions n as (n + 1) / 2; numbers of things, and words, in a color for each; others
 /// from the 1st to the 99th percentile. NaN is magenta. A 2D image has its own extent, slices of a 3D one are side by
 /// side; a buffer's values stand row by row, elements of 3 or 4 values as colors.
-ViewPicture pictureOf(const View& view, const ImageSettings& settings);
+ViewPicture pictureOf(const ViewArray& view, const ImageSettings& settings);
 
 }  // namespace voxray

@@ -123,7 +123,7 @@ std::vector<std::byte> readImage(const RenderedFrame& rendered, const Image& ima
     return rendered.stream.read(buffer, bytes);
 }
 
-View readBuffer(const RenderedFrame& rendered, ViewInfo info, const Buffer& buffer, uint64_t maxValues) {
+ViewArray readBuffer(const RenderedFrame& rendered, ViewInfo info, const Buffer& buffer, uint64_t maxValues) {
     const uint64_t values = info.shape.size() > 1 ? info.shape[1] : 1;
     const uint64_t elements = info.shape[0];
     info.shape[0] = std::min(elements, std::max<uint64_t>(maxValues / values, 1));
@@ -152,17 +152,17 @@ uint64_t valuesOf(const ViewInfo& info) {
     return std::accumulate(info.shape.begin(), info.shape.end(), uint64_t(1), std::multiplies<>());
 }
 
-View viewOfImage(ViewInfo info, const ImageF& image, std::vector<std::string> channels) {
+ViewArray viewOfImage(ViewInfo info, const ImageF& image, std::vector<std::string> channels) {
     info.type = Type::Float32;
     info.shape = {image.height, image.width};
     if (image.channels > 1) info.shape.push_back(image.channels);
     info.channels = std::move(channels);
-    View view{std::move(info), std::vector<std::byte>(image.data.size() * sizeof(float)), 0};
+    ViewArray view{std::move(info), std::vector<std::byte>(image.data.size() * sizeof(float)), 0};
     std::memcpy(view.bytes.data(), image.data.data(), view.bytes.size());
     return view;
 }
 
-ImageF imageOf(const View& view) {
+ImageF imageOf(const ViewArray& view) {
     const uint32_t channels = view.shape.size() > 2 ? uint32_t(view.shape[2]) : 1;
     ImageF image(uint32_t(view.shape[1]), uint32_t(view.shape[0]), channels);
     std::memcpy(image.data.data(), view.bytes.data(), view.bytes.size());
@@ -175,7 +175,7 @@ std::vector<ViewInfo> listViews(const Graph& graph, Device& device) {
     return infos;
 }
 
-View readView(const RenderedFrame& rendered, const std::string& name, uint64_t maxValues) {
+ViewArray readView(const RenderedFrame& rendered, const std::string& name, uint64_t maxValues) {
     std::vector<Source> sources = sourcesOf(rendered.graph, rendered.device);
     const auto found = std::ranges::find_if(sources, [&](const Source& source) { return source.info.name == name; });
     if (found == sources.end()) {

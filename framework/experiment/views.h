@@ -41,10 +41,10 @@ struct EnumNames<ViewInfo::Type> {
 };
 template <>
 struct EnumNames<Quantity> {
-    static constexpr std::array names{
-        std::pair{Quantity::Radiance, "radiance"}, std::pair{Quantity::Fraction, "fraction"},
-        std::pair{Quantity::Direction, "direction"}, std::pair{Quantity::Number, "number"},
-        std::pair{Quantity::Other, "other"}};
+    static constexpr std::array names{std::pair{Quantity::Radiance, "radiance"},
+                                      std::pair{Quantity::Fraction, "fraction"},
+                                      std::pair{Quantity::Direction, "direction"},
+                                      std::pair{Quantity::Number, "number"}, std::pair{Quantity::Other, "other"}};
 };
 
 /// Bytes of a value.
@@ -53,15 +53,15 @@ uint32_t bytesOf(ViewInfo::Type type);
 uint64_t valuesOf(const ViewInfo& info);
 
 /// A view with its values, in the host's byte order.
-struct View : ViewInfo {
+struct ViewArray : ViewInfo {
     std::vector<std::byte> bytes;
     uint64_t elements = 0;  ///< Of the whole buffer, of which `shape` may be a part.
 };
 
 /// Values of a 2D image as a view. @param channels names of all channels.
-View viewOfImage(ViewInfo info, const ImageF& image, std::vector<std::string> channels);
+ViewArray viewOfImage(ViewInfo info, const ImageF& image, std::vector<std::string> channels);
 /// The image of a view that viewOfImage() made.
-ImageF imageOf(const View& view);
+ImageF imageOf(const ViewArray& view);
 
 /// The compared frame, as a graph has rendered it.
 struct RenderedFrame {
@@ -76,6 +76,6 @@ struct RenderedFrame {
 std::vector<ViewInfo> listViews(const Graph& graph, Device& device);
 /// Reads one of them. @param maxValues of a buffer; its first ones, as whole elements.
 /// @throws UsageError for a name that is not listed, with the most similar one.
-View readView(const RenderedFrame& rendered, const std::string& name, uint64_t maxValues);
+ViewArray readView(const RenderedFrame& rendered, const std::string& name, uint64_t maxValues);
 
 }  // namespace voxray

@@ -18,6 +18,7 @@ class LiveMemory {
         const Image* image = nullptr;
     };
 
+    /// From 1; 0 is nobody.
     uint64_t newMaker() { return ++makers_; }
     /// What is made while it lives has this maker; before and after, the one before.
     class Making {
@@ -31,11 +32,11 @@ class LiveMemory {
         LiveMemory& live_;
         const uint64_t before_;
     };
-    /// What a maker made, in the order in which it was made.
+    /// What a maker made, in the order in which it was made; nothing for nobody.
     std::vector<Entry> madeBy(uint64_t maker) const {
         std::vector<Entry> made;
         for (const auto& [number, entry] : entries_)
-            if (entry.maker == maker) made.push_back(entry);
+            if (maker != 0 && entry.maker == maker) made.push_back(entry);
         return made;
     }
 
