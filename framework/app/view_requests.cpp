@@ -1,7 +1,5 @@
 #include "app/view_requests.h"
 
-#include <limits>
-
 #include "app/text_values.h"
 #include "base/field.h"
 #include "experiment/view_files.h"
@@ -36,8 +34,8 @@ Value listViews(ShownState& state) {
     return views;
 }
 
-ViewChoice viewChoice(const std::string& name, const Value* parameters) {
-    ViewChoice choice{name, Value::map()};
+ViewChoice viewChoice(const std::string& name, const Value* parameters, uint64_t maxValues) {
+    ViewChoice choice{name, Value::map(), maxValues};
     if (!parameters || parameters->isNull()) return choice;
     if (!parameters->isMap()) throw UsageError(parameters->where, "view: parameters is no map");
     if (name != kShowVoxels && !parameters->members.empty())
@@ -55,11 +53,11 @@ void describe(Value& answer, const ViewPicture& picture) {
 }
 
 Value writeView(ShownState& state, const ViewChoice& choice, bool withPicture, const std::filesystem::path& folder) {
-    const ViewArray view = state.view(choice, std::numeric_limits<uint64_t>::max());
+    const ViewArray view = state.view(choice);
     Value answer = describe(view);
     answer.set("file", quotedText(writeView(folder, view).string()));
     if (withPicture) {
-        const ViewPicture picture = pictureOf(view, state.renderedImageSettings());
+        const ViewPicture picture = pictureOf(view, state.renderedImage());
         const std::filesystem::path file = folder / "view.png";
         writePng(file, picture.display);
         answer.set("picture", quotedText(file.string()));

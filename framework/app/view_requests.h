@@ -11,8 +11,8 @@ namespace voxray {
 Value describe(const ViewInfo& info);
 /// A list of all views of a state's last rendering. @throws UsageError if nothing is rendered.
 Value listViews(ShownState& state);
-/// Reads parameters of show_voxels, a map; null: none. @throws UsageError
-ViewChoice viewChoice(const std::string& name, const Value* parameters);
+/// @param parameters of show_voxels, a map; null: none. @throws UsageError
+ViewChoice viewChoice(const std::string& name, const Value* parameters, uint64_t maxValues);
 /// Reads a view, writes it into a folder, and describes it. @param withPicture writes a PNG file, too.
 /// @throws UsageError, Error
 Value writeView(ShownState& state, const ViewChoice& choice, bool withPicture, const std::filesystem::path& folder);

@@ -56,7 +56,7 @@ void ShownState::runOnlyFor(Graph& graph, const ViewChoice& choice) const {
                                                 : passOf(graph, choice.name).id);
 }
 
-ViewArray ShownState::readShown(Graph& graph, const Frame& frame, const glm::vec3& origin,
+ViewArray ShownState::readShown(const Graph& graph, const Frame& frame, const glm::vec3& origin,
                                 const ViewChoice& choice) const {
     if (choice.name == kShowVoxels) return voxelsView(graph, resources_, choice);
     return readView({graph, frame, origin, resources_.device(), resources_.stream()}, choice.name, choice.maxValues);

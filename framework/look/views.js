@@ -53,7 +53,12 @@ export class Views {
         for (const show of this.passes.shows) show(new Map([[VOXELS, { pass: VOXELS, ...this.parameters }]]), () => false);
     }
 
-    /** Lists the views of an answer. One that is shown and not there any more gives way to the image. */
+    /** Lists the views of an answer. One that is not there gives way to the image. */
+    take(answer) {
+        if (answer.views) this.list(answer.views);
+        else if (answer.error && this.select.selectedOptions[0]?.closest("optgroup")) this.leave();
+    }
+
     list(views) {
         const listed = JSON.stringify(views);
         if (listed === this.listed) return;
@@ -68,7 +73,10 @@ export class Views {
         for (const old of this.select.querySelectorAll("optgroup")) old.remove();
         this.select.append(...groups.values());
         this.select.value = chosen;
-        if (this.select.value === chosen) return;
+        if (this.select.value !== chosen) this.leave();
+    }
+
+    leave() {
         this.select.value = "image";
         this.showControls();
         this.changed(performance.now());
