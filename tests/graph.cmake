@@ -1,6 +1,6 @@
 # Tests of the graph, of the passes and of what they share with shaders.
 voxray_tests(graph
-  SOURCES unit/graph_changes_test.cpp unit/graph_index_test.cpp unit/graph_memory_test.cpp unit/graph_wiring_test.cpp
+  SOURCES unit/graph_changes_test.cpp unit/graph_index_test.cpp unit/graph_memory_test.cpp unit/graph_views_test.cpp unit/graph_wiring_test.cpp
   DEPENDS voxray_experiment)
 
 # What follows from where surfaces lie: offsets of rays, counts of voxels, regions.

@@ -1,10 +1,13 @@
 #include "app/image_request.h"
 
 #include "app/session_requests.h"
+#include "app/view_requests.h"
 #include "config/yaml.h"
 
 namespace voxray {
 namespace {
+
+constexpr const char* kShowImage = "image";
 
 uint32_t wholeNumber(const Value& value, const std::string& key, int64_t low, int64_t high) {
     const int64_t number = value.asInteger(key);
@@ -29,6 +32,8 @@ ImageRequest parseImageRequest(const std::string& body) {
     const Value value = parseYaml(body, "request");
     if (!value.isMap()) throw UsageError("request: it is no map");
     ImageRequest request;
+    std::string shown = kShowImage;
+    const Value* parameters = nullptr;
     for (const auto& [key, entry] : value.members) {
         if (key == "page") {
             request.page = entry.asString(key);
@@ -41,6 +46,10 @@ ImageRequest parseImageRequest(const std::string& body) {
             request.config = entry;
         } else if (key == "shrink") {
             request.shrink = wholeNumber(entry, key, 1, 64);
+        } else if (key == "show") {
+            shown = entry.asString(key);
+        } else if (key == "parameters") {
+            parameters = &entry;
         } else if (key == "close") {
             request.closes = entry.asBool(key);
         } else if (key == "changes") {
@@ -49,6 +58,7 @@ ImageRequest parseImageRequest(const std::string& body) {
             throw UsageError("request: unknown key '{}'", key);
         }
     }
+    if (shown != kShowImage) request.view = viewChoice(shown, parameters, kMaxPictureValues);
     if (request.closes && request.side == 0) throw UsageError("request: side 0 is always open");
     return request;
 }

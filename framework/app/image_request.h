@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,8 @@ struct ImageRequest {
     std::vector<ShownState::Change> changes;
     /// 1: the changes are kept, and the whole image is rendered. Above: ShownState::draft().
     uint32_t shrink = 1;
-    bool closes = false;  ///< Side 1 is shown no more: what it holds is freed, and there is no image.
+    std::optional<ViewChoice> view;  ///< What is shown in place of the image.
+    bool closes = false;             ///< Side 1 is shown no more: what it holds is freed, and there is no image.
 
     bool isDraft() const { return shrink > 1; }
 };

@@ -14,6 +14,7 @@
 #include "app/session_requests.h"
 #include "app/source_root.h"
 #include "app/text_values.h"
+#include "app/view_requests.h"
 #include "base/interrupt.h"
 #include "config/overrides.h"
 #include "experiment/config_schema.h"
@@ -88,6 +89,15 @@ Value vectorValue(const glm::vec3& v) {
     return list;
 }
 
+/// The image, or the view that is shown in place of it; its meaning is added to the answer.
+ImageF displayed(const ShownState::Rendering& rendering, Value& answer) {
+    const ImageSettings& settings = rendering.imageSettings;
+    if (!rendering.view) return preview(rendering.images.final, settings.exposureStops, settings.tone);
+    const ViewPicture picture = pictureOf(*rendering.view, settings);
+    describe(answer, picture);
+    return picture.display;
+}
+
 /// A line of JSON, then a PNG file, if the image could be rendered. @throws Interrupted
 std::string answerTo(ShownState& state, const ImageRequest& request) {
     const Clock::time_point start = Clock::now();
@@ -98,13 +108,15 @@ std::string answerTo(ShownState& state, const ImageRequest& request) {
         if (!request.config.isNull()) state.open(request.config);
         if (!request.isDraft()) answer.set("refused", keep(state, request.changes));
         const double setMs = millisecondsSince(start);
+        const ViewChoice* view = request.view ? &*request.view : nullptr;
         const ShownState::Rendering rendering = request.isDraft()
-                                                    ? state.draft(request.changes, request.shrink, [](double) {})
-                                                    : state.render([](double) {});
+                                                    ? state.draft(
+                                                          request.changes, request.shrink, [](double) {}, view)
+                                                    : state.render([](double) {}, view);
         const double renderedMs = millisecondsSince(start);
-        const ImageSettings& settings = rendering.imageSettings;
-        png = encodePng(preview(rendering.images.final, settings.exposureStops, settings.tone));
+        png = encodePng(displayed(rendering, answer));
         describe(answer, rendering);
+        if (!request.isDraft()) answer.set("views", listViews(state));
         Value camera = Value::map();
         camera.set("position", vectorValue(rendering.camera.position));
         camera.set("target", vectorValue(rendering.camera.target));

@@ -28,6 +28,7 @@ constexpr std::array kPageFiles = {PageFile{"", "framework/look/look.html", "tex
                                    PageFile{"split.js", "framework/look/split.js", "text/javascript; charset=utf-8"},
                                    PageFile{"side.js", "framework/look/side.js", "text/javascript; charset=utf-8"},
                                    PageFile{"times.js", "framework/look/times.js", "text/javascript; charset=utf-8"},
+                                   PageFile{"views.js", "framework/look/views.js", "text/javascript; charset=utf-8"},
                                    PageFile{"look.css", "framework/look/look.css", "text/css; charset=utf-8"},
                                    PageFile{"style.css", "framework/report/style.css", "text/css; charset=utf-8"}};
 

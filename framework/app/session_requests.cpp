@@ -1,8 +1,10 @@
 #include "app/session_requests.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "app/text_values.h"
+#include "app/view_requests.h"
 
 namespace voxray {
 namespace {
@@ -56,8 +58,8 @@ void describe(Value& answer, const ShownState::Rendering& rendering) {
         value.set("value", numberValue(reported.value));
         values.items.push_back(std::move(value));
     }
-    answer.set("width", numberValue(rendering.images.final.width));
-    answer.set("height", numberValue(rendering.images.final.height));
+    answer.set("width", numberValue(rendering.imageSettings.width));
+    answer.set("height", numberValue(rendering.imageSettings.height));
     answer.set("frame_ms", numberValue(m.frameMs.median));
     answer.set("memory_bytes", numberValue(m.memoryBytes));
     answer.set("passes", std::move(passes));
@@ -86,8 +88,19 @@ Value RequestHandler::answer(const Value& request) {
     } else if (command == "score") {
         allow(request, {});
         score(answer);
+    } else if (command == "views") {
+        allow(request, {});
+        answer.set("views", listViews(state_));
+    } else if (command == "view") {
+        allow(request, {"name", "parameters", "picture"});
+        const Value* picture = request.find("picture");
+        answer = writeView(
+            state_,
+            viewChoice(textOf(request, "name"), request.find("parameters"), std::numeric_limits<uint64_t>::max()),
+            picture && picture->asBool("picture"), images_);
     } else {
-        throw UsageError(request.where, "no command '{}'; there are config, render, score, select, set", command);
+        throw UsageError(request.where, "no command '{}'; there are config, render, score, select, set, view, views",
+                         command);
     }
     return answer;
 }

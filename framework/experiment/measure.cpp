@@ -137,7 +137,8 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
     for (uint32_t i = 0; i < settings.warmup; ++i)
         runFrame(int(i) - int(settings.warmup), kFirstWarmupFrame + i, false);
     for (uint32_t i = 0; i < settings.frames; ++i) {
-        frames.add(runFrame(int(i), i, i == 0 || i + 1 == settings.frames));
+        const bool isChecked = target.checksFrames && (i == 0 || i + 1 == settings.frames);
+        frames.add(runFrame(int(i), i, isChecked));
         afterFrame(frame, i);
     }
 

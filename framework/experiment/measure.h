@@ -61,6 +61,7 @@ struct GraphTarget {
     /// Updates scene, tracer and the frame's camera and `changed` to another frame, whose index is relative
     /// to the compared one. Empty: only the camera moves.
     std::function<void(Frame&, int)> goToFrame;
+    bool checksFrames = true;  ///< Whether outputs of measured frames are checked for NaN and infinity.
 };
 
 /// The time of GraphTarget::goToFrame is recorded as that of a pass with this name.

@@ -12,7 +12,7 @@ namespace {
 
 /// Settings for one compared frame. Warm-up frames make no difference to passes without temporal history.
 MeasureSettings oneFrame(MeasureSettings measure, const Graph& graph) {
-    const auto hasHistory = [](const Graph::PassInfo& pass) { return pass.warmupFrames > 0; };
+    const auto hasHistory = [](const Graph::PassInfo& pass) { return pass.warmupFrames > 0 && !pass.isSkipped; };
     measure.buildRepeats = 0;
     measure.frames = 1;
     if (std::ranges::none_of(graph.passes(), hasHistory)) measure.warmup = 0;
@@ -55,14 +55,15 @@ std::vector<std::string> ShownState::warnings() const {
     return lines;
 }
 
-ShownState::Rendering ShownState::render(const std::function<void(double)>& progress) {
+ShownState::Rendering ShownState::render(const std::function<void(double)>& progress, const ViewChoice* shown) {
     Graph graph = study_.graphOf(variant());
+    if (shown) runOnlyFor(graph, *shown);
     const MeasureSettings measure = oneFrame(study_.experiment.measure, graph);
-    return render(std::move(graph), variant().setup, measure, progress);
+    return render(std::move(graph), variant().setup, measure, progress, shown);
 }
 
 ShownState::Rendering ShownState::draft(const std::vector<Change>& changes, uint32_t shrink,
-                                        const std::function<void(double)>& progress) {
+                                        const std::function<void(double)>& progress, const ViewChoice* shown) {
     Value changed = config();
     for (const Change& change : changes) apply(changed, change);
     Study study = session_.studyOf(std::move(changed));
@@ -70,13 +71,16 @@ ShownState::Rendering ShownState::draft(const std::vector<Change>& changes, uint
     Setup setup = variant.setup;
     setup.image.width = std::max(1u, setup.image.width / shrink);
     setup.image.height = std::max(1u, setup.image.height / shrink);
+    if (shown) runOnlyFor(variant.graph, *shown);
     MeasureSettings measure = oneFrame(study.experiment.measure, variant.graph);
     measure.warmup = 0;
-    return render(std::move(variant.graph), setup, measure, progress);
+    return render(std::move(variant.graph), setup, measure, progress, shown);
 }
 
 ShownState::Rendering ShownState::render(Graph graph, const Setup& setup, const MeasureSettings& measure,
-                                         const std::function<void(double)>& progress) {
+                                         const std::function<void(double)>& progress, const ViewChoice* shown) {
+    rendered_.reset();
+    if (!isReusable_) graph_.reset();
     SceneOnDevice& scene = resources_.scene(setup);
     const bool changes = changesInTime(setup.scene, !scene.prepared.state.scene->animation.empty());
     const std::string builtFor = fmt::format("{} {}", scene.cameraless, setup.general.seed);
@@ -102,22 +106,35 @@ ShownState::Rendering ShownState::render(Graph graph, const Setup& setup, const 
         previous.reset();  // After its programs were shared.
 
         GraphTarget target{frame, resources_.device(), resources_.stream(), *scene.tracer, scene.gpu, {}};
+        target.checksFrames = !shown;  // Views show NaN
         if (changes) target.goToFrame = [&](Frame& moved, int number) { resources_.goToFrame(setup, moved, number); };
         const size_t messages = resources_.device().validationMessages().size();
-        rendering.measurement = measureGraph(graph, target, measure, progress, [&](const Frame&, uint32_t number) {
-            rendering.images = downloadFrame(graph, number, resources_);
+        rendering.measurement = measureGraph(graph, target, measure, progress, [&](const Frame& now, uint32_t number) {
+            rendered_.emplace(Rendered{setup, now});
+            rendered_->frame.progress = {};
+            if (shown)
+                rendering.view = readShown(graph, now, scene.prepared.origin, *shown);
+            else
+                rendering.images = downloadFrame(graph, number, resources_);
         });
         if (const auto all = resources_.device().validationMessages(); all.size() > messages)
             throw Error("Vulkan validation: {}", all[messages]);
     } catch (...) {
         resources_.stream().discard();
+        rendered_.reset();
+        isReusable_ = !changes;
         if (!changes) graph_.emplace(std::move(graph));  // The next one reuses what was built.
         throw;
     }
-    for (const Graph::PassInfo& pass : graph.passes())
+    for (const Graph::PassInfo& pass : graph.passes()) {
         if (pass.isReused) rendering.reused.push_back(pass.id);
+        if (pass.isSkipped)
+            std::erase_if(rendering.measurement.passes, [&](const PassCost& cost) { return cost.id == pass.id; });
+    }
+    if (shown && shown->name == kShowVoxels) graph.dropLast();
     // After motion build passes hold what they updated from frame to frame
-    if (!changes) graph_.emplace(std::move(graph));
+    isReusable_ = !changes;
+    graph_.emplace(std::move(graph));
     return rendering;
 }
 

@@ -4,16 +4,10 @@
 #include <functional>
 #include <optional>
 
+#include "experiment/aovs.h"
 #include "experiment/scoring.h"
 
 namespace voxray {
-
-/// The AOVs of one resource of a variant as channels of an image.
-struct AovImage {
-    std::string pass;  ///< Id of the pass that wrote the resource.
-    ImageF image;
-    std::vector<std::string> channels;
-};
 
 /// The images of a variant: those of frame 0, and of later frames if they are compared.
 struct VariantImages {

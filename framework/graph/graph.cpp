@@ -61,8 +61,8 @@ uint64_t estimatedBytes(const std::vector<PassMemory>& passes) {
 std::vector<Graph::PassInfo> Graph::passes() const {
     std::vector<PassInfo> infos;
     for (const GraphNode& node : nodes_)
-        infos.push_back(
-            {node.id, node.kind, node.phase, node.pass->warmupFrames(), node.where, node.lightRays, node.isReused});
+        infos.push_back({node.id, node.kind, node.phase, node.pass->warmupFrames(), node.where, node.lightRays,
+                         node.isReused, node.isSkipped});
     return infos;
 }
 

@@ -37,6 +37,7 @@ class Graph {
         TextLocation where;
         uint64_t lightRays;  ///< PassPlan::lightRays; 0 before plan().
         bool isReused;       ///< Taken over by reuse().
+        bool isSkipped;      ///< By runOnlyFor().
     };
     /// In execution order.
     std::vector<PassInfo> passes() const;
@@ -80,6 +81,32 @@ class Graph {
     /// destroyed; programs of this graph that are equal to its programs are shared if it is destroyed after prepare().
     /// @param sameView whether camera and image size are the same, too.
     void reuse(Graph& previous, bool sameView);
+
+    /// Adds a pass that runs last in each frame and reads what the others write. Before plan(), or, after keepAll(),
+    /// before another plan(). @throws UsageError as the constructor, and for an input that is empty because no other
+    /// pass reads it.
+    void append(const Registry& registry, const Value& entry);
+    /// Takes the appended pass away. The device must have run it.
+    void dropLast() { nodes_.pop_back(); }
+    /// Marks all passes as reused: plan(), prepare() and run() leave them and what they wrote as they are.
+    void keepAll();
+    /// Frame passes that a pass does not depend on, and that it isn't, are skipped by run(). Their samples are 0.
+    void runOnlyFor(const std::string& id);
+
+    /// What can be looked at of a pass in device memory: an image, of which an AOV is a part, or a buffer.
+    struct View {
+        std::string pass;
+        std::string name;  ///< Of an AOV's layer, an image or a buffer; unlike all others of the pass.
+        const Image* image = nullptr;
+        std::vector<std::string> channels{};  ///< Names of the image's components; empty: unnamed.
+        uint32_t firstChannel = 0;            ///< Of an AOV.
+        bool isAov = false;
+        Quantity quantity = Quantity::Other;
+        Elements elements{nullptr};  ///< Has a buffer where `image` is null.
+    };
+    /// All that exists, by pass in execution order; of each, AOVs first, then output images of the frame, other images
+    /// and buffers.
+    std::vector<View> views(Device& device) const;
 
     /// Checks parameters against the scene and the device and sums up the known memory, before any
     /// allocation. Memory sized on the device is checked against `memoryLimitBytes` when it is allocated.

@@ -170,7 +170,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
     };
     try {
         for (GraphNode& node : nodes_)
-            if (node.phase == phase && !node.isReused) recordPass(node);
+            if (node.phase == phase && !node.isReused && !node.isSkipped) recordPass(node);
         finiteCheck_->finish(stream);
     } catch (const Error&) {
         finiteCheck_->abandon();  // What failed may have read NaN

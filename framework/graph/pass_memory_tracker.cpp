@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "vulkan/live_memory.h"
+
 namespace voxray {
 
 PassMemory PassMemoryTracker::planned() const {
@@ -25,6 +27,8 @@ bool PassMemoryTracker::make(Device& device, bool scratch) const {
 void PassMemoryTracker::prepare(CommandStream& stream, const std::function<void()>& preparePass) {
     Device& device = stream.device();
     const uint64_t before = device.memoryUsedBytes();
+    maker_ = device.liveMemory().newMaker();
+    const LiveMemory::Making making(device.liveMemory(), maker_);
     make(device, false);
     preparePass();
     stream.finish();
@@ -34,6 +38,7 @@ void PassMemoryTracker::prepare(CommandStream& stream, const std::function<void(
 void PassMemoryTracker::record(CommandStream& stream, const std::function<void()>& recordPass) {
     Device& device = stream.device();
     const uint64_t before = device.memoryUsedBytes();
+    const LiveMemory::Making making(device.liveMemory(), maker_);
     device.resetMemoryPeak();
     const bool hasScratch = make(device, true);
     recordPass();

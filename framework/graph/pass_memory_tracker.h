@@ -18,6 +18,8 @@ class PassMemoryTracker {
     PassMemory planned() const;
     /// Measured memory so far.
     const PassMemory& used() const { return used_; }
+    /// Of the memory that it made and that exists, in LiveMemory; 0 before prepare().
+    uint64_t maker() const { return maker_; }
 
     /// Makes persistent memory, then calls `preparePass`. Waits for the device.
     void prepare(CommandStream& stream, const std::function<void()>& preparePass);
@@ -30,6 +32,7 @@ class PassMemoryTracker {
 
     MemoryPlan plan_;
     PassMemory used_;
+    uint64_t maker_ = 0;
 };
 
 }  // namespace voxray

@@ -9,10 +9,28 @@
 
 namespace voxray {
 
+/// What an image's values are, which decides how it is shown (docs/look.md).
+enum class Quantity {
+    Radiance,   ///< Or irradiance: 0 to infinity.
+    Fraction,   ///< Reflectance and others from 0 to 1.
+    Direction,  ///< Components from -1 to 1.
+    Number,     ///< Of a thing; -1: none.
+    Other,
+};
+
 /// An AOV, as channels of an EXR file: "P.X" is the channel X of the layer P.
 struct Aov {
     const Image* image;                 ///< RGBA32F or RGBA16F.
     std::vector<std::string> channels;  ///< Names of the image's first components.
+    Quantity quantity = Quantity::Other;
+};
+
+/// How to read a buffer as an array: as elements of `components` values each.
+struct Elements {
+    enum class Type { Uint32, Uint64, Float32 };
+    const Buffer* buffer;
+    Type type = Type::Uint32;
+    uint32_t components = 1;
 };
 
 /// Buffers and images that a pass writes and others read. The writer describes them in plan(), or makes them
@@ -37,6 +55,8 @@ struct Resource {
     virtual std::vector<const Buffer*> checkedBuffers() const { return {}; }
     /// Images that `run --aovs` writes, all of one size.
     virtual std::vector<Aov> aovs() const { return {}; }
+    /// How to look at buffers; others are words.
+    virtual std::vector<Elements> elements() const { return {}; }
 };
 
 /// Bounces of stored light after surfaces reflect it, from its Resource::lightBounces.

@@ -111,19 +111,19 @@ Source explicitSource(const std::vector<GraphNode>& nodes, const GraphNode& read
 }
 
 /// The nearest earlier pass that writes a port of this name, or nothing for an optional port.
-std::optional<Source> implicitSource(const std::vector<GraphNode>& nodes, size_t reader, const PortInfo& port,
-                                     const Registry& registry) {
-    for (size_t n = reader; n-- > 0;)
+/// @param position of the reader in the list, which it need not be in.
+std::optional<Source> implicitSource(const std::vector<GraphNode>& nodes, size_t position, const GraphNode& reader,
+                                     const PortInfo& port, const Registry& registry) {
+    for (size_t n = position; n-- > 0;)
         if (const auto output = outputNamed(nodes[n], port.name)) return Source{n, *output};
     if (port.optional) return {};
-    for (size_t n = reader + 1; n < nodes.size(); ++n)
+    for (size_t n = position + 1; n < nodes.size(); ++n)
         if (outputNamed(nodes[n], port.name))
-            throw UsageError(nodes[reader].where, "{}: reads '{}', which '{}' writes only later; move '{}' up",
-                             nodes[reader].id, port.name, nodes[n].id, nodes[n].id);
+            throw UsageError(reader.where, "{}: reads '{}', which '{}' writes only later; move '{}' up", reader.id,
+                             port.name, nodes[n].id, nodes[n].id);
     const std::vector<std::string> writers = registry.writersOf(port.name);
-    throw UsageError(nodes[reader].where, "{}: missing port '{}' ({}); no pass before it writes it{}", nodes[reader].id,
-                     port.name, port.help,
-                     writers.empty() ? "" : fmt::format("; these can: {}", fmt::join(writers, ", ")));
+    throw UsageError(reader.where, "{}: missing port '{}' ({}); no pass before it writes it{}", reader.id, port.name,
+                     port.help, writers.empty() ? "" : fmt::format("; these can: {}", fmt::join(writers, ", ")));
 }
 
 /// ", as in {irradiance: inject}" for `inputs` that are no map, with the pass that they name, if any.
@@ -231,7 +231,7 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
             if (port.output) continue;
             const Value* reference = inputs ? inputs->find(port.name) : nullptr;
             const std::optional<Source> source = reference ? explicitSource(nodes, nodes[n], port, *reference)
-                                                           : implicitSource(nodes, n, port, registry);
+                                                           : implicitSource(nodes, n, nodes[n], port, registry);
             if (!source) continue;
             const GraphNode& writer = nodes[source->node];
             if (!port.accepts(*writer.resources[source->port]))
@@ -255,6 +255,34 @@ std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList
     for (const size_t n : order) ordered.push_back(std::move(nodes[n]));
     bindIndexResources(ordered);
     return ordered;
+}
+
+GraphNode wireLast(const Registry& registry, const std::vector<GraphNode>& nodes, const Value& entry) {
+    GraphNode node = readNode(registry, entry, Value::list());
+    for (const GraphNode& other : nodes)
+        if (other.id == node.id) throw UsageError(entry.where, "graph: there is a pass '{}' already", node.id);
+    const Value* inputs = entry.find("inputs");
+    if (inputs) checkInputKeys(nodes, node, *inputs);
+    for (const PortInfo& port : node.ports) {
+        if (port.output) {
+            node.outputs.emplace_back(port.create());
+            node.resources.push_back(node.outputs.back().get());
+            continue;
+        }
+        const Value* reference = inputs ? inputs->find(port.name) : nullptr;
+        const std::optional<Source> source = reference ? explicitSource(nodes, node, port, *reference)
+                                                       : implicitSource(nodes, nodes.size(), node, port, registry);
+        Resource* resource = source ? nodes[source->node].resources[source->port] : nullptr;
+        if (resource && !port.accepts(*resource))
+            throw UsageError(node.where, "{}: port '{}' can't read that of '{}', which is of another type", node.id,
+                             port.name, nodes[source->node].id);
+        if (resource && !resource->isRead)
+            throw UsageError(node.where, "{}: '{}' of '{}' is empty, since no pass of the config reads it", node.id,
+                             port.name, nodes[source->node].id);
+        node.resources.push_back(resource);
+    }
+    node.phase = Phase::Frame;
+    return node;
 }
 
 }  // namespace voxray

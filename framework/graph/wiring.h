@@ -38,8 +38,9 @@ struct GraphNode {
     TextLocation where;
     uint64_t lightRays = 0;  ///< As planned.
     PassMemoryTracker memory;
-    PassSample lastSample;  ///< Of its last run.
-    bool isReused = false;  ///< Taken from another graph with its outputs (Graph::reuse()).
+    PassSample lastSample;   ///< Of its last run.
+    bool isReused = false;   ///< Taken from another graph with its outputs (Graph::reuse()).
+    bool isSkipped = false;  ///< Does not run (Graph::runOnlyFor()).
 };
 
 /// Index of a node's port of that name.
@@ -54,5 +55,10 @@ void checkEntry(const Registry& registry, const Value& entry);
 /// Passes that don't depend on each other keep the list's order.
 /// @throws UsageError with file and line.
 std::vector<GraphNode> wireGraph(const Registry& registry, const Value& passList);
+
+/// Reads one more pass, and binds its inputs to outputs of a wired graph. It runs in each frame.
+/// @throws UsageError with file and line, also for an input that its writer leaves empty because no other pass reads
+/// it.
+GraphNode wireLast(const Registry& registry, const std::vector<GraphNode>& nodes, const Value& entry);
 
 }  // namespace voxray

@@ -6,6 +6,7 @@ import { PathControls } from "./path.js";
 import { Side } from "./side.js";
 import { Split } from "./split.js";
 import { frameText, showTimes } from "./times.js";
+import { Views } from "./views.js";
 
 const byId = (id) => document.getElementById(id);
 const exposure = document.querySelector("[name=exposure]"), variant = document.querySelector("[name=variant]");
@@ -14,15 +15,19 @@ const start = await (await fetch("start.json")).json();
 const page = crypto.randomUUID(), errors = new Map();  // By side
 const hooks = {
     isMoving: () => camera.isMoving,
-    extras: () => ({}),
-    whole: (side) => {
-        if (side === split.edited) showConfig(side);
+    extras: () => views.fields,
+    whole: (side, answer) => {
+        if (side !== split.edited) return;
+        showConfig(side);
+        views.take(answer);
     },
     drawn: (side, answer, ms) => {
         side.drawn = answer;
         if (answer.shrink > 1)
             state.latencies.push({ side: side.number, ms, set: answer.set_ms, render: answer.render_ms, png: answer.png_ms, frame: answer.frame_ms });
-        if (side === split.edited) byId("status").textContent = frameText(answer);
+        if (side !== split.edited) return;
+        byId("status").textContent = frameText(answer);
+        byId("legend").textContent = answer.legend ?? "";
     },
     say,
     ended: (side, error) => say(side, `The program does not answer: ${error.message}. Start voxray look again.`),
@@ -39,6 +44,7 @@ const passes = new PassList(byId("passes"), start, (name, value) => {
     split.arrange();
     changed(name, value, performance.now());
 });
+const views = new Views(document.querySelector("[name=show]"), byId("voxels"), start, (time) => split.shown.forEach((side) => side.ask(time)));
 // For tests and measurements
 export const state = {
     latencies: [],

@@ -115,7 +115,8 @@ export class Side {
         if (answer.error) return;
         if (shrink > 1 && this.shown >= sent.version) return;  // The whole image was faster
         const image = await createImageBitmap(new Blob([body.subarray(end + 1)], { type: "image/png" }));
-        if (shrink === 1 || !this.config) [this.canvas.width, this.canvas.height] = [answer.width * shrink, answer.height * shrink];
+        if (shrink === 1 || !this.config) [this.canvas.width, this.canvas.height] = [image.width * shrink, image.height * shrink];
+        this.canvas.classList.toggle("texels", "legend" in answer);
         this.canvas.getContext("2d").drawImage(image, 0, 0, this.canvas.width, this.canvas.height);
         requestAnimationFrame(() => this.hooks.drawn(this, { ...answer, shrink }, performance.now() - sent.time));
     }

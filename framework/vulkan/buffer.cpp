@@ -3,6 +3,7 @@
 
 #include "base/byte_units.h"
 #include "vulkan/allocate.h"
+#include "vulkan/live_memory.h"
 #include "vulkan/memory.h"
 #include "vulkan/size_error.h"
 #include "vulkan/structure.h"
@@ -22,6 +23,7 @@ Buffer::Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind
     device_ = &device;
     name_ = std::move(name);
     bytes_ = bytes;
+    if (kind == MemoryKind::Device) number_ = device.liveMemory().add(this, nullptr);
     if (bytes == 0) throw Error("buffer '{}' would hold 0 bytes", name_);
     if (device.isHost()) {
         device.reserveMemory(bytes, name_);
@@ -56,6 +58,7 @@ Buffer::Buffer(Device& device, std::string name, uint64_t bytes, MemoryKind kind
 
 Buffer::~Buffer() {
     if (!device_) return;
+    device_->liveMemory().remove(number_);
     if (host_) device_->releaseMemory(bytes_, name_);
     if (device_->isHost()) return;
     if (mapped_) vkUnmapMemory(device_->handle(), memory_.handle);
@@ -69,6 +72,7 @@ Buffer::Buffer(Buffer&& other) noexcept {
 
 Buffer& Buffer::operator=(Buffer&& other) noexcept {
     std::swap(device_, other.device_);
+    std::swap(number_, other.number_);
     std::swap(name_, other.name_);
     std::swap(bytes_, other.bytes_);
     std::swap(handle_, other.handle_);
@@ -76,6 +80,8 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
     std::swap(address_, other.address_);
     std::swap(mapped_, other.mapped_);
     std::swap(host_, other.host_);
+    for (const Buffer* buffer : {this, &other})
+        if (buffer->device_) buffer->device_->liveMemory().move(buffer->number_, buffer, nullptr);
     return *this;
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/byte_units.h"
 #include "base/lower_case.h"
+#include "vulkan/live_memory.h"
 #include "vulkan/memory_pool.h"
 #include "vulkan/program_cache.h"
 #include "vulkan/size_error.h"
@@ -53,7 +54,10 @@ std::string whyNoDevice(const std::vector<DeviceInfo>& devices) {
 }
 
 Device::Device(std::unique_ptr<Instance> instance, bool hasValidation)
-    : instance_(std::move(instance)), hasValidation_(hasValidation), programs_(std::make_unique<ProgramCache>()) {}
+    : instance_(std::move(instance)),
+      hasValidation_(hasValidation),
+      live_(std::make_unique<LiveMemory>()),
+      programs_(std::make_unique<ProgramCache>()) {}
 
 // Delegating first makes the destructor clean up where the rest throws.
 Device::Device(const DeviceOptions& options)

@@ -12,6 +12,7 @@
 namespace voxray {
 
 class Instance;
+class LiveMemory;
 class MemoryPool;
 class ProgramCache;
 struct DeviceSupport;
@@ -126,6 +127,8 @@ class Device {
     void reserveMemory(uint64_t bytes, const std::string& name);
     void releaseMemory(uint64_t bytes, const std::string& name);
     MemoryPool& memoryPool() { return *pool_; }
+    /// Buffers and images that exist.
+    LiveMemory& liveMemory() { return *live_; }
     ProgramCache& programCache() { return *programs_; }
     /// Bytes in use now, by resource name.
     const std::map<std::string, uint64_t>& memoryByResource() const { return memoryByResource_; }
@@ -156,6 +159,7 @@ class Device {
     VkPhysicalDeviceAccelerationStructurePropertiesKHR accelerationStructure_{};
     uint64_t memoryLimit_ = 0, memoryUsed_ = 0, memoryPeak_ = 0;
     std::map<std::string, uint64_t> memoryByResource_;
+    std::unique_ptr<LiveMemory> live_;
     std::unique_ptr<MemoryPool> pool_;
     std::unique_ptr<ProgramCache> programs_;
 };

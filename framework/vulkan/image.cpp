@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "vulkan/allocate.h"
+#include "vulkan/live_memory.h"
 #include "vulkan/memory.h"
 #include "vulkan/size_error.h"
 #include "vulkan/structure.h"
@@ -89,6 +90,7 @@ Image::Image(Device& device, std::string name, const ImageDesc& desc) : Image() 
     device_ = &device;
     name_ = std::move(name);
     desc_ = desc;
+    number_ = device.liveMemory().add(nullptr, this);
     if (desc.extent.x == 0 || desc.extent.y == 0 || desc.extent.z == 0 || desc.mipLevels == 0)
         throw Error("image '{}' would hold no texel", name_);
     if (device.isHost()) {
@@ -134,6 +136,7 @@ Image::Image(Device& device, std::string name, const ImageDesc& desc) : Image() 
 
 Image::~Image() {
     if (!device_) return;
+    device_->liveMemory().remove(number_);
     if (host_) device_->releaseMemory(memory_.bytes, name_);
     if (device_->isHost()) return;
     for (VkImageView view : levelViews_) vkDestroyImageView(device_->handle(), view, nullptr);
@@ -148,6 +151,7 @@ Image::Image(Image&& other) noexcept {
 
 Image& Image::operator=(Image&& other) noexcept {
     std::swap(device_, other.device_);
+    std::swap(number_, other.number_);
     std::swap(name_, other.name_);
     std::swap(desc_, other.desc_);
     std::swap(handle_, other.handle_);
@@ -155,6 +159,8 @@ Image& Image::operator=(Image&& other) noexcept {
     std::swap(view_, other.view_);
     std::swap(levelViews_, other.levelViews_);
     std::swap(host_, other.host_);
+    for (const Image* image : {this, &other})
+        if (image->device_) image->device_->liveMemory().move(image->number_, nullptr, image);
     return *this;
 }
 

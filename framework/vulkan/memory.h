@@ -56,6 +56,7 @@ class Buffer {
 
  private:
     Device* device_ = nullptr;
+    uint64_t number_ = 0;  ///< In Device::liveMemory(); 0: not there.
     std::string name_;
     uint64_t bytes_ = 0;
     VkBuffer handle_ = VK_NULL_HANDLE;
@@ -106,6 +107,7 @@ class Image {
 
  private:
     Device* device_ = nullptr;
+    uint64_t number_ = 0;  ///< In Device::liveMemory().
     std::string name_;
     ImageDesc desc_;
     VkImage handle_ = VK_NULL_HANDLE;

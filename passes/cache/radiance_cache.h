@@ -17,6 +17,10 @@ struct RadianceCache : Resource {
     Buffer keys;        ///< uint64_t a slot; 0: empty.
     Buffer sums;        ///< 4 uint64_t a slot: irradiance of all samples, and their number.
 
+    std::vector<Elements> elements() const override {
+        return {{&keys, Elements::Type::Uint64, 1}, {&sums, Elements::Type::Uint64, 4}};
+    }
+
     static constexpr uint64_t kKeyBytes = sizeof(uint64_t), kSumBytes = 4 * sizeof(uint64_t);
     /// For shaders that include radiance_cache.glsl.
     std::vector<Binding> bindings() const {

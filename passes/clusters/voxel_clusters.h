@@ -14,6 +14,8 @@ struct VoxelClusters : Resource {
     Buffer clusters;        ///< gpu::VoxelCluster each, in the order of their seeds.
     Buffer clusterOfVoxel;  ///< Cluster of each voxel, or NO_CLUSTER.
     Buffer coordinates;     ///< Per voxel: three uints.
+
+    std::vector<Elements> elements() const override { return {{&coordinates, Elements::Type::Uint32, 3}}; }
 };
 
 }  // namespace voxray

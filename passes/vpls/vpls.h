@@ -19,6 +19,9 @@ struct Vpls : Resource {
     uint32_t activeCount = 0;  ///< Of `activeIndices`; known once sample_vpls has recorded.
 
     std::vector<const Buffer*> checkedBuffers() const override { return {&points}; }
+    std::vector<Elements> elements() const override {
+        return {{&points, Elements::Type::Float32, sizeof(gpu::Vpl) / sizeof(float)}};
+    }
 
     /// Number of `points`, and the most that `activeIndices` can have. @throws Error where a buffer of these
     /// indices would exceed maxStorageBufferRange of some device.

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 
+import numpy as np
 from support import PROGRAM, SOURCE, TINY, CommandTest
 
 sys.path[:0] = [os.path.join(SOURCE, "tests", "scale"), os.path.join(SOURCE, "framework")]
@@ -82,6 +83,82 @@ class Session(CommandTest):
         self.assertEqual(self.reused(), {"voxelize", "inject"})
         self.expect_images_of_run("--only", "voxelize.resolution=16", "--set", "seed=8", "--set",
                                   "scene.camera={position: [0, 1, 3], target: [0, 1, 0], fov_deg: 50}")
+
+    def view(self, name, **parameters):
+        """@return channels by name, or the array of a .npy file"""
+        answer = self.done("view", name=name, parameters=parameters)
+        if answer["file"].endswith(".npy"):
+            array = np.load(answer["file"])
+            self.assertEqual([list(array.shape), array.dtype], [answer["shape"], answer["type"]], name)
+            return array
+        channels = exr_pixels.read(answer["file"])
+        self.assertEqual(set(channels), set(answer["channels"]), name)
+        return channels
+
+    def expect_same(self, channels, expected):
+        for name, values in channels.items():
+            self.assertEqual(values.tobytes(), expected[name].tobytes(), name)
+
+    def test_views_are_what_a_run_writes(self):
+        self.start(TINY)
+        self.assertIn("nothing is rendered", self.refusal("views"))
+        self.assertIn("nothing is rendered", self.refusal("view", name="gbuffer.N"))
+        self.done("render")
+        views = {one["name"]: one for one in self.done("views")["views"]}
+        self.expect(0, "run", "session.yaml", "--only", "voxelize.resolution=8", "--out", "run", "--no-report", "--aovs")
+        aovs = exr_pixels.read(self.path("run", "images", "resolution-8", "aovs.gbuffer.exr"))
+        seen = set()
+        for name, view in views.items():
+            if view["kind"] != "aov":
+                continue
+            channels = self.view(name)
+            self.assertEqual(view["shape"], [24, 32] + [len(channels)] * (len(channels) > 1), name)
+            self.expect_same(channels, aovs)
+            seen |= set(channels)
+        self.assertEqual(seen, set(aovs))
+        for name, file in (("composite.final", "final"), ("gather_irradiance.indirect", "indirect")):
+            self.assertEqual(views[name]["quantity"], "radiance")
+            self.expect_same(self.view(name), exr_pixels.read(self.path("run", "images", "resolution-8", file + ".exr")))
+        # All others can be read, too
+        for name, view in views.items():
+            if view["kind"] == "voxels":
+                continue
+            self.assertTrue(os.path.isfile(self.done("view", name=name, picture=True)["picture"]), name)
+            if view["kind"] == "buffer":
+                self.assertEqual(list(self.view(name).shape), view["shape"])
+        occupied = sum(int(word).bit_count() for word in self.view("voxelize.voxel occupancy"))
+        self.assertEqual(self.view("voxelize.voxel materials").shape, (occupied, 9))
+        # Nothing was touched
+        self.assertEqual(self.reused(), {"voxelize", "inject"})
+        self.expect_images_of_run("--only", "voxelize.resolution=8")
+
+    def test_voxels_are_those_of_show_voxels(self):
+        self.start(TINY)
+        self.done("render")
+        [voxels] = [one for one in self.done("views")["views"] if one["kind"] == "voxels"]
+        self.assertEqual(voxels["name"], "show_voxels")
+        self.assertEqual(voxels["shows"], ["albedo", "irradiance", "opacity", "normal"])
+        self.write("voxels.yaml", TINY[:TINY.index("  - {pass: direct")].replace("resolution: 16", "resolution: 8")
+                   + "  - {pass: show_voxels}\nsweep: {show_voxels.show: [albedo, irradiance, opacity, normal]}\n")
+        self.expect(0, "run", "voxels.yaml", "--out", "run", "--no-report")
+        for show in voxels["shows"]:
+            self.expect_same(self.view("show_voxels", show=show), exr_pixels.read(self.path("run", "images", f"show-{show}", "final.exr")))
+        self.assertEqual(self.reused(), {"voxelize", "inject"})
+        self.expect_images_of_run("--only", "voxelize.resolution=8")
+
+    def test_views_that_are_not_there(self):
+        self.start(TINY)
+        self.done("render")
+        for name, parameters, message in (("gbuffer.Ns", {}, "did you mean 'gbuffer.N"), ("nothing", {}, "no view 'nothing'"),
+                                          ("gbuffer.N", {"show": "albedo"}, "show_voxels"), ("show_voxels", {"show": "radiance"}, "'radiance'"),
+                                          ("show_voxels", {"show": "colors"}, "show_voxels.show"), ("show_voxels", {"size": 1}, "'size'")):
+            self.assertIn(message, self.refusal("view", name=name, parameters=parameters), (name, parameters))
+        self.assertIn("N.X", self.view("gbuffer.N"))
+        self.done("set", path="image.width", value=16)
+        self.assertEqual(self.view("gbuffer.Z")["Z"].shape, (24, 32))  # Of the last rendering
+        self.refusal("set", path="image.width", value=0)
+        self.done("render")
+        self.assertEqual(self.view("gbuffer.Z")["Z"].shape, (24, 16))
 
     def test_a_cache_that_is_filled_from_the_camera_is_filled_again(self):
         self.start("""

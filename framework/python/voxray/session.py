@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from PIL import Image
 from report import exr_pixels
 
 from voxray import display
@@ -85,6 +86,39 @@ class Session:
         """Scores of the last rendering against the config's reference, by column of results.csv. A reference that isn't
         cached is rendered first. @throws VoxrayError"""
         return self._ask("score")["scores"]
+
+    @property
+    def views(self) -> pd.DataFrame:
+        """What can be looked at of the last rendering besides its image: a row for each view, by pass in execution order.
+
+        name: for view(), "PASS.WHAT". kind: aov, image, buffer, voxels. type, shape: of the array; None for voxels. channels:
+        names of its last axis, or of its only channel; empty where it has none. quantity: radiance (or irradiance), fraction,
+        direction, number, other, as in docs/look.md. @throws VoxrayError before the first render()"""
+        return pd.DataFrame(self._ask("views")["views"], columns=["name", "pass", "kind", "type", "shape", "channels", "quantity"])
+
+    def view(self, name: str, **parameters: Any) -> np.ndarray:
+        """A view of the last rendering, by its name in `views`. Nothing is rendered again, but for voxels.
+
+        AOVs are float32, shape (height, width) or (height, width, channels), as `run --aovs` writes them (units:
+        docs/writing-a-config.md); radiance of passes is float32, shape (height, width, 3), W/(m² sr). Other images have the
+        device's type and channels, shape (height, width[, channels]) or (depth, height, width, channels). Buffers have the shape
+        (elements,) or (elements, values): uint32 words unless the type is known; ndarray.view() reads them as another.
+        "show_voxels" draws voxels with `parameters` of that pass, such as show="irradiance"; shape (height, width, 3).
+        @throws VoxrayError for a name or a parameter that isn't there"""
+        answer = self._ask("view", name=name, parameters=parameters)
+        if answer["file"].endswith(".npy"):
+            return np.load(answer["file"])
+        channels = exr_pixels.read(answer["file"])
+        return np.stack([channels[channel] for channel in answer["channels"]], axis=-1).reshape(answer["shape"])
+
+    def view_picture(self, name: str, **parameters: Any) -> Image.Image:
+        """The same as the page of `voxray look` shows it, 8-bit sRGB. Its `info["legend"]` says in words what the colors mean.
+        @throws VoxrayError, as view()"""
+        answer = self._ask("view", name=name, parameters=parameters, picture=True)
+        with Image.open(answer["picture"]) as picture:
+            shown = picture.convert("RGB")
+        shown.info["legend"] = answer["legend"]
+        return shown
 
     @property
     def process_id(self) -> int:

@@ -48,6 +48,10 @@ struct NoisyIrradiance : Resource {
 
     std::vector<const Image*> checkedImages() const override { return {&irradiance}; }
     std::vector<const Buffer*> checkedBuffers() const override { return {&moments, &statistics}; }
+    std::vector<Elements> elements() const override {
+        return {{&moments, Elements::Type::Float32, sizeof(gpu::RayMoments) / sizeof(float)},
+                {&statistics, Elements::Type::Float32, sizeof(gpu::RayStatistics) / sizeof(float)}};
+    }
 };
 
 }  // namespace voxray

@@ -31,6 +31,10 @@ struct Rsm : Resource {
     Buffer views;                      ///< gpu::RsmView each, in this frame.
     LargeBuffer texels;                ///< gpu::RsmTexel each, by view, row and column.
 
+    std::vector<Elements> elements() const override {
+        return {{&texels, Elements::Type::Uint32, sizeof(gpu::RsmTexel) / sizeof(uint32_t)}};
+    }
+
     uint32_t texelsPerView() const { return resolution * resolution; }
     std::vector<Binding> bindings() const { return {{"rsmViews", views}, {"RsmTexelsRef", texels.ref()}}; }
 };

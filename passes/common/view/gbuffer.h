@@ -28,12 +28,12 @@ struct GBuffer : Resource {
         return all;
     }
     std::vector<Aov> aovs() const override {
-        return {{&position, {"P.X", "P.Y", "P.Z"}},
-                {&normal, {"N.X", "N.Y", "N.Z"}},
-                {&geometricNormal, {"Ng.X", "Ng.Y", "Ng.Z"}},
-                {&albedo, {"albedo.R", "albedo.G", "albedo.B"}},
-                {&emission, {"emission.R", "emission.G", "emission.B"}},
-                {&specular, {"specular.R", "specular.G", "specular.B", "roughness"}}};
+        return {{&position, {"P.X", "P.Y", "P.Z"}, Quantity::Other},
+                {&normal, {"N.X", "N.Y", "N.Z"}, Quantity::Direction},
+                {&geometricNormal, {"Ng.X", "Ng.Y", "Ng.Z"}, Quantity::Direction},
+                {&albedo, {"albedo.R", "albedo.G", "albedo.B"}, Quantity::Fraction},
+                {&emission, {"emission.R", "emission.G", "emission.B"}, Quantity::Radiance},
+                {&specular, {"specular.R", "specular.G", "specular.B", "roughness"}, Quantity::Fraction}};
     }
     std::vector<const Image*> checkedImages() const override {
         return {&position, &normal, &geometricNormal, &albedo, &emission, &specular};

@@ -14,7 +14,7 @@ struct SurfaceMotion : Resource {
     /// where there is no surface.
     Image previous;
 
-    std::vector<Aov> aovs() const override { return {{&motion, {"motion.X", "motion.Y"}}}; }
+    std::vector<Aov> aovs() const override { return {{&motion, {"motion.X", "motion.Y"}, Quantity::Other}}; }
     std::vector<const Image*> checkedImages() const override { return {&motion, &previous}; }
 };
 

@@ -60,6 +60,10 @@ struct SurfaceVoxels : VoxelLevels {
         return bindings(std::vector<Binding>(more));
     }
     std::vector<const Buffer*> checkedBuffers() const override { return {&materials}; }
+    std::vector<Elements> elements() const override {
+        return {{&materials, Elements::Type::Uint32, MATERIAL_WORDS},
+                {&unoccludedArea, Elements::Type::Uint32, 3 * AREA_WORDS_PER_AXIS}};
+    }
 };
 
 /// Faces of a voxel: +x -x +y -y +z -z.
@@ -86,6 +90,11 @@ struct VoxelIrradiance : Resource {
     /// Reallocates the buffers if their size has changed; their content is undefined.
     void allocate(Device& device, uint32_t voxelCount);
     std::vector<const Buffer*> checkedBuffers() const override { return {&direct, &indirect, &area}; }
+    std::vector<Elements> elements() const override {
+        return {{&direct, Elements::Type::Uint32, kFluxWords},
+                {&indirect, Elements::Type::Uint32, kFluxWords},
+                {&area, Elements::Type::Uint32, kAreaWords}};
+    }
 };
 
 /// @throws Error if no direct light arrives at any voxel, which is a mistake in the scene unless all surfaces

@@ -12,7 +12,7 @@ struct MirrorEnds : Resource {
                       ///< without rays.
 
     std::vector<Aov> aovs() const override {
-        return {{&fractions, {"ends.triangles", "ends.cells", "ends.cones", "ends.nowhere"}}};
+        return {{&fractions, {"ends.triangles", "ends.cells", "ends.cones", "ends.nowhere"}, Quantity::Fraction}};
     }
 };
 
