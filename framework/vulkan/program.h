@@ -71,8 +71,10 @@ class ShaderCompiler {
 
     /// Stage by extension: .comp .vert .geom .frag .rgen .rmiss .rchit .rahit.
     /// @param file relative to the source root.
+    /// @param text a compute shader that is no file: `file` is its name in messages, and next to it includes are
+    /// searched; empty: the file's.
     /// @throws Error with "file:line: message" of each compile error. Errors of the cache are ignored.
-    ShaderModule compile(const std::string& file, const Defines& defines = {}) const;
+    ShaderModule compile(const std::string& file, const Defines& defines = {}, const std::string& text = {}) const;
 
  private:
     std::filesystem::path sourceRoot_;

@@ -174,9 +174,9 @@ void writeCached(const std::filesystem::path& path, const std::vector<uint32_t>&
 ShaderCompiler::ShaderCompiler(std::filesystem::path sourceRoot, std::filesystem::path cacheFolder)
     : sourceRoot_(std::move(sourceRoot)), cacheFolder_(std::move(cacheFolder)) {}
 
-ShaderModule ShaderCompiler::compile(const std::string& file, const Defines& defines) const {
-    const Stage& stage = stageOf(file);
-    const ShaderSources sources(sourceRoot_, file);
+ShaderModule ShaderCompiler::compile(const std::string& file, const Defines& defines, const std::string& text) const {
+    const Stage& stage = text.empty() ? stageOf(file) : kStages.front();
+    const ShaderSources sources(sourceRoot_, file, text);
     ShaderModule module;
     module.file = file;
     module.stage = stage.flag;

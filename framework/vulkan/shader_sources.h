@@ -13,7 +13,8 @@ class ShaderSources {
  public:
     /// Reads `file` and, recursively, all `#include "..."` in the text. Missing includes are skipped; the
     /// compiler reports them if the preprocessor gets there. @throws Error if `file` can't be read.
-    ShaderSources(std::filesystem::path sourceRoot, const std::string& file);
+    /// @param text of `file` in place of what is on the disk; empty: none.
+    ShaderSources(std::filesystem::path sourceRoot, const std::string& file, const std::string& text = {});
 
     /// Name and text of every file that was read.
     const std::map<std::string, std::string>& files() const { return files_; }
@@ -23,7 +24,7 @@ class ShaderSources {
     std::optional<std::string> resolve(const std::string& header, const std::string& includer) const;
 
  private:
-    void gather(const std::string& file);
+    void gather(const std::string& file, std::string content);
 
     std::filesystem::path sourceRoot_;
     std::map<std::string, std::string> files_;
