@@ -78,6 +78,9 @@ void printJson(const std::vector<Row>& rows, const CompareOptions& options, cons
     range.set("count", number(exposures.count));
     out.set("flip_exposures", std::move(range));
     out.set("exposure_stops", number(options.exposureStops));
+    Value better = Value::map();
+    for (const Metric& metric : metrics()) better.set(metric.name, Value::fromScalar(nameOf(metric.better), true));
+    out.set("better", std::move(better));
     fmt::print("{}\n", out.json());
 }
 

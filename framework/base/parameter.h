@@ -30,9 +30,19 @@ class ParameterType {
     virtual std::vector<std::string> choices() const { return {}; }  ///< The only values; empty: any.
 };
 
-/// Defined for bool, the integers, float, double, glm::vec3 and std::string (parameter.cpp).
+/// A text file by its name, which is relative to the file that names it, or to the working folder where that is
+/// none; it is read with the parameter.
+struct TextFile {
+    std::string name;  ///< As it was written; empty: none.
+    std::string path;  ///< For messages.
+    std::string text;
+};
+
+/// Defined for bool, the integers, float, double, glm::vec3, std::string and TextFile (parameter.cpp).
 template <typename T>
 std::shared_ptr<const ParameterType> parameterType(T min, T max, bool isRanged, std::vector<T> allowed, bool isVector);
+template <>
+std::shared_ptr<const ParameterType> parameterType<TextFile>(TextFile, TextFile, bool, std::vector<TextFile>, bool);
 
 /// An enum of 32 bits by its names.
 std::shared_ptr<const ParameterType> choiceType(std::vector<std::pair<uint32_t, std::string>> names);

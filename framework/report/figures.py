@@ -20,23 +20,25 @@ from report import pages, style, text
 from report.pareto import CHARTED, COSTS, Scene
 
 _COLUMN, _FULL = 84.5 / 25.4, 178 / 25.4  # widths of acmart, inches
+CHART = (_COLUMN, 0.75 * _COLUMN)
 _FOLDS = LinearSegmentedColormap.from_list("folds", [style.VALUES[f"f{i}"] for i in range(5)])
 _MOST_FOLD = float(style.VALUES["most-fold"])  # at which colors are strongest
-_RC = {"font.size": 7, "axes.linewidth": 0.5, "xtick.major.width": 0.5, "ytick.major.width": 0.5, "xtick.minor.width": 0.3,
-       "ytick.minor.width": 0.3, "hatch.linewidth": 0.4, "text.parse_math": False,
-       "pdf.fonttype": 42, "svg.fonttype": "path", "svg.hashsalt": "voxray"}  # TrueType in PDF; outlines in SVG
+STYLE = {"font.size": 7, "axes.linewidth": 0.5, "xtick.major.width": 0.5, "ytick.major.width": 0.5, "xtick.minor.width": 0.3,
+         "ytick.minor.width": 0.3, "hatch.linewidth": 0.4, "text.parse_math": False,
+         "pdf.fonttype": 42, "svg.fonttype": "path", "svg.hashsalt": "voxray"}  # TrueType in PDF; outlines in SVG
 
 
 def write(folder: Path, compared) -> None:
     """Each figure by each cost, by the first error. @param compared a pareto_page.Comparison"""
     folder.mkdir(parents=True, exist_ok=True)
-    with matplotlib.rc_context(_RC):
+    with matplotlib.rc_context(STYLE):
         for cost in compared.costs:
             end = CHARTED[cost].replace(" + ", "-")
             _save(folder / f"matrix-{end}", _matrix(compared, cost), _matrix_rows(compared, cost))
             for scene in compared.scenes:
                 stem = re.sub(r"[^\w.-]+", "-", scene.name).strip("-")
-                _save(folder / f"{stem}-{end}", _chart(compared, scene, cost), _chart_rows(compared, scene, cost))
+                figure = chart(FigureCanvasAgg(Figure(figsize=CHART)).figure, compared, scene, cost)
+                _save(folder / f"{stem}-{end}", figure, _chart_rows(compared, scene, cost))
 
 
 def _save(path: Path, figure: Figure, rows: list[list]) -> None:
@@ -45,10 +47,9 @@ def _save(path: Path, figure: Figure, rows: list[list]) -> None:
     pages.write_whole(path.with_name(f"{path.name}.csv"), pages.csv_text(rows))
 
 
-def _chart(compared, scene: Scene, cost: int) -> Figure:
+def chart(figure: Figure, compared, scene: Scene, cost: int) -> Figure:
+    """Draws a scene's variants, error against cost, and the front of each method."""
     error = compared.first
-    figure = Figure(figsize=(_COLUMN, 0.75 * _COLUMN))
-    FigureCanvasAgg(figure)
     axes = figure.add_axes((0.15, 0.15, 0.84, 0.83))
     axes.set(xscale="log", yscale="log", xlabel=f"{COSTS[CHARTED[cost]]} (← cheaper)",
              ylabel=f"{compared.errors[error].label} of {compared.light} light (↓ better)")

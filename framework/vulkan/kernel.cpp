@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <tuple>
 #include <utility>
 
 #include "base/error.h"
@@ -52,8 +53,12 @@ void forEachInParallel(size_t count, const F& f) {
 
 }  // namespace
 
-PassProgram::PassProgram(ProgramOwner& owner, std::vector<std::string> files, Defines defines)
-    : owner_(owner), files_(std::move(files)), baseDefines_(std::move(defines)), defines_(baseDefines_) {
+PassProgram::PassProgram(ProgramOwner& owner, std::vector<std::string> files, Defines defines, std::string text)
+    : owner_(owner),
+      files_(std::move(files)),
+      text_(std::move(text)),
+      baseDefines_(std::move(defines)),
+      defines_(baseDefines_) {
     owner_.programs_.push_back(this);
 }
 
@@ -83,6 +88,9 @@ PassProgram::operator const Program&() const {
 Kernel::Kernel(ProgramOwner& owner, std::string_view file, Defines defines, const char* sourceFile)
     : PassProgram(owner, {resolvePath(sourceFile, file)}, std::move(defines)) {}
 
+Kernel::Kernel(ProgramOwner& owner, ShaderText source, Defines defines)
+    : PassProgram(owner, {std::move(source.name)}, std::move(defines), std::move(source.text)) {}
+
 Program Kernel::make(Device& device, std::span<const ShaderModule> modules,
                      const SpecializationConstants& constants) const {
     return makeComputeProgram(device, modules.front(), constants);
@@ -111,26 +119,28 @@ Program RasterPipeline::make(Device& device, std::span<const ShaderModule> modul
 }
 
 void compile(const std::vector<PassProgram*>& programs, Device& device, const ShaderCompiler& compiler) {
-    using Source = std::pair<std::string, Defines>;
+    using Source = std::tuple<std::string, Defines, std::string>;  // File, definitions, text
     std::vector<PassProgram*> pending;
     std::vector<Source> sources;
     for (PassProgram* program : programs) {
         if (!program->isUsed_ || program->program_) continue;
         pending.push_back(program);
-        for (const std::string& file : program->files_) sources.emplace_back(file, program->defines_);
+        for (const std::string& file : program->files_) sources.emplace_back(file, program->defines_, program->text_);
     }
     std::ranges::sort(sources);
     sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
     std::vector<std::shared_ptr<const ShaderModule>> modules(sources.size());
-    forEachInParallel(sources.size(),
-                      [&](size_t i) { modules[i] = compiler.compile(sources[i].first, sources[i].second); });
+    forEachInParallel(sources.size(), [&](size_t i) {
+        const auto& [file, defines, text] = sources[i];
+        modules[i] = compiler.compile(file, defines, text);
+    });
 
     forEachInParallel(pending.size(), [&](size_t i) {
         PassProgram& program = *pending[i];
         std::vector<const ShaderModule*> stages;
         Hasher hash;  // Without defines, whose effect is in the SPIR-V
         for (const std::string& file : program.files_) {
-            const auto source = std::ranges::lower_bound(sources, Source{file, program.defines_});
+            const auto source = std::ranges::lower_bound(sources, Source{file, program.defines_, program.text_});
             const ShaderModule& module = *stages.emplace_back(modules[size_t(source - sources.begin())].get());
             hash.add(file).add(module.hash);
         }

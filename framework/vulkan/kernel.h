@@ -49,7 +49,7 @@ class PassProgram {
     operator const Program&() const;
 
  protected:
-    PassProgram(ProgramOwner& owner, std::vector<std::string> files, Defines defines);
+    PassProgram(ProgramOwner& owner, std::vector<std::string> files, Defines defines, std::string text = {});
 
     std::shared_ptr<const Program> program_;  ///< Null until it is compiled.
 
@@ -62,14 +62,22 @@ class PassProgram {
 
     ProgramOwner& owner_;
     std::vector<std::string> files_;  ///< Relative to the source root.
+    std::string text_;                ///< Of the only file, where that is not on the disk.
     Defines baseDefines_, defines_;   ///< Those of the constructor; and with those of define().
     SpecializationConstants constants_;
     bool isUsed_ = true;
 };
 
+/// GLSL of a compute shader that is no file of the source root.
+struct ShaderText {
+    std::string name;  ///< In messages, without a colon; includes are searched next to it, too.
+    std::string text;
+};
+
 /// A compute shader, such as Kernel{*this, "composite.comp"}.
 class Kernel final : public PassProgram {
  public:
+    Kernel(ProgramOwner& owner, ShaderText source, Defines defines = {});
     /// @param file relative to the folder of `sourceFile`, or from "passes/" or "shaders/" on.
     Kernel(ProgramOwner& owner, std::string_view file, Defines defines = {}, const char* sourceFile = __builtin_FILE());
 

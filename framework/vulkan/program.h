@@ -75,12 +75,16 @@ class ShaderCompiler {
 
     /// Stage by extension: .comp .vert .geom .frag .rgen .rmiss .rchit .rahit.
     /// @param file relative to the source root.
+    /// @param text a compute shader that is no file: `file` is its name in messages, and next to it includes are
+    /// searched; empty: the file's.
     /// @throws Error with "file:line: message" of each compile error. Errors of the cache are ignored.
-    std::shared_ptr<const ShaderModule> compile(const std::string& file, const Defines& defines = {}) const;
+    std::shared_ptr<const ShaderModule> compile(const std::string& file, const Defines& defines = {},
+                                                const std::string& text = {}) const;
 
  private:
     class KnownModules;
-    ShaderModule make(const std::string& file, const Defines& defines, const ShaderSources& sources) const;
+    ShaderModule make(const std::string& file, const Defines& defines, const std::string& text,
+                      const ShaderSources& sources) const;
 
     std::filesystem::path sourceRoot_;
     std::filesystem::path cacheFolder_;

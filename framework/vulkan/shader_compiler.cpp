@@ -175,7 +175,7 @@ void writeCached(const std::filesystem::path& path, const std::vector<uint32_t>&
 /// Modules in memory, to be compiled neither again nor read and reflected again.
 class ShaderCompiler::KnownModules {
  public:
-    using Key = std::pair<std::string, Defines>;
+    using Key = std::tuple<std::string, Defines, std::string>;  ///< File, defines, text.
 
     /// The module of a file and defines; null if it isn't known, or its files have changed.
     std::shared_ptr<const ShaderModule> find(const Key& key) {
@@ -206,16 +206,18 @@ ShaderCompiler::ShaderCompiler(std::filesystem::path sourceRoot, std::filesystem
 
 ShaderCompiler::~ShaderCompiler() = default;
 
-std::shared_ptr<const ShaderModule> ShaderCompiler::compile(const std::string& file, const Defines& defines) const {
-    if (auto known = known_->find({file, defines})) return known;
-    const ShaderSources sources(sourceRoot_, file);
-    auto module = std::make_shared<const ShaderModule>(make(file, defines, sources));
-    known_->add({file, defines}, sources.stamps(), module);
+std::shared_ptr<const ShaderModule> ShaderCompiler::compile(const std::string& file, const Defines& defines,
+                                                            const std::string& text) const {
+    if (auto known = known_->find({file, defines, text})) return known;
+    const ShaderSources sources(sourceRoot_, file, text);
+    auto module = std::make_shared<const ShaderModule>(make(file, defines, text, sources));
+    known_->add({file, defines, text}, sources.stamps(), module);
     return module;
 }
 
-ShaderModule ShaderCompiler::make(const std::string& file, const Defines& defines, const ShaderSources& sources) const {
-    const Stage& stage = stageOf(file);
+ShaderModule ShaderCompiler::make(const std::string& file, const Defines& defines, const std::string& text,
+                                  const ShaderSources& sources) const {
+    const Stage& stage = text.empty() ? stageOf(file) : kStages.front();
     ShaderModule module;
     module.file = file;
     module.stage = stage.flag;

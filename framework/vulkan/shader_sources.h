@@ -37,7 +37,8 @@ class ShaderSources {
  public:
     /// Reads `file` and, recursively, all `#include "..."` in the text. Missing includes are skipped; the
     /// compiler reports them if the preprocessor gets there. @throws Error if `file` can't be read.
-    ShaderSources(std::filesystem::path sourceRoot, const std::string& file);
+    /// @param text of `file` in place of what is on the disk; empty: none.
+    ShaderSources(std::filesystem::path sourceRoot, const std::string& file, const std::string& text = {});
 
     /// Name and text of every file that was read.
     const std::map<std::string, std::string>& files() const { return files_; }
@@ -49,7 +50,8 @@ class ShaderSources {
     std::optional<std::string> resolve(const std::string& header, const std::string& includer) const;
 
  private:
-    void gather(const std::string& file);
+    void gatherFile(const std::string& file);
+    void gather(const std::string& file, std::string content);
     static std::array<std::string, 2> candidates(const std::string& header, const std::string& includer);
 
     std::filesystem::path sourceRoot_;

@@ -1,13 +1,23 @@
 """The Python module: its images, tables and errors against those of the command."""
+import csv
+import json
 import os
 import sys
+import tempfile
+from pathlib import Path
 
+import matplotlib
 import numpy as np
 from support import PROGRAM, SOURCE, TINY, CommandTest
 
-sys.path.insert(0, os.path.join(SOURCE, "framework", "python"))
+matplotlib.use("Agg")
+sys.path[:0] = [os.path.join(SOURCE, "framework", "python"), os.path.join(SOURCE, "tests", "unit")]
+import pareto_results  # noqa: E402
 import voxray  # noqa: E402
+import voxray.exr  # noqa: E402
 import voxray.session  # noqa: E402
+from matplotlib import pyplot  # noqa: E402
+from report import exr_pixels  # noqa: E402
 
 
 class Module(CommandTest):
@@ -45,3 +55,127 @@ class Module(CommandTest):
         self.assertTrue((results.variants["nrmse"] > 0).all())
         with self.assertRaisesRegex(voxray.VoxrayError, "image.wide"):
             voxray.run(self.config, set={"image.wide": 16}, out=self.path("out"), program=PROGRAM)
+
+    def test_a_kernel(self):
+        with voxray.Session(self.config, program=PROGRAM) as study:
+            before = study.render().final
+            study.kernel("own", "vec3 shade(ivec2 pixel, ivec2 texel) { return 2.0 * texelOf(finalImage, pixel).rgb; }")
+            np.testing.assert_array_equal(study.render().final, 2 * before)
+            study.kernel("own", "vec3 shade(ivec2 pixel, ivec2 texel) { return kernel.values; }", after="composite", values=[1, 2, 3])
+            np.testing.assert_array_equal(study.render().final[5, 7], [1, 2, 3])
+            study.kernel("own", "vec3 shade(ivec2 pixel, ivec2 texel) {\n    return wait;\n}")
+            with self.assertRaisesRegex(voxray.VoxrayError, "source:2: 'wait' : undeclared identifier"):
+                study.render()
+            with self.assertRaisesRegex(voxray.VoxrayError, "did you mean 'composite'"):
+                study.kernel("other", "", after="composit")
+
+
+class OfARun(CommandTest):
+    """One run for all tests."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        folder = tempfile.TemporaryDirectory(prefix="voxray-cli-")
+        cls.addClassCleanup(folder.cleanup)
+        config = Path(folder.name, "tiny.yaml")
+        config.write_text(TINY, encoding="utf-8")
+        cls.results = voxray.run(config, set={"image.exposure_stops": 1, "measure.frames": 1}, out=Path(folder.name, "out"), program=PROGRAM)
+
+    def test_images_of_a_variant(self):
+        variant = self.results["resolution 8"]
+        self.assertEqual(variant.id, "resolution-8")
+        truth = variant.reference("total")
+        self.assertEqual(variant.final.shape, (24, 32, 3))
+        np.testing.assert_allclose(np.mean(truth.halves, axis=0), truth.mean, rtol=1e-5, atol=1e-6)
+        with self.assertRaisesRegex(voxray.VoxrayError, "no variant 'resolution-9'"):
+            self.results["resolution-9"]
+        for shown in (self.results, variant):
+            self.assertIn("data:image/png", shown._repr_html_())
+
+    def test_scores_are_those_of_the_run(self):
+        variant = self.results["resolution-16"]
+        for light, prefix in (("total", ""), ("indirect", "indirect_")):
+            scores = voxray.score(variant, light=light)
+            for metric in scores.index:
+                self.assertAlmostEqual(scores["value"][metric], variant.row[prefix + metric], places=5)
+            self.assertAlmostEqual(scores["high"]["nrmse"], variant.row[f"{prefix}nrmse_high"], places=5)
+        # As files, as arrays, and by the command
+        truth = variant.reference()
+        said = json.loads(self.expect(0, "compare", str(variant.file()), str(truth.file), "--json").stdout)
+        for image, reference in ((variant.file(), truth.file), (variant.indirect, truth)):
+            scores = voxray.score(image, reference)
+            self.assertAlmostEqual(scores["value"]["ssim"], said["scores"]["ssim"], places=6)
+            self.assertAlmostEqual(scores["low"]["relmse"], said["scores"]["relmse_low"], places=6)
+        self.assertTrue(np.isnan(voxray.score(variant.indirect, truth.mean)["low"]["nrmse"]))
+        with self.assertRaisesRegex(voxray.VoxrayError, "no reference"):
+            voxray.score(variant.indirect)
+        with self.assertRaisesRegex(voxray.VoxrayError, "one size"):
+            voxray.score(np.zeros((4, 4, 3)), truth)
+
+    def test_two_variants_side_by_side(self):
+        coarse, fine = self.results["resolution-8"], self.results["resolution-16"]
+        table = voxray.compare(coarse, fine)
+        for metric in ("nrmse", "ssim", "mean_ratio"):
+            self.assertAlmostEqual(table["a"][metric], coarse.row[f"indirect_{metric}"], places=5)
+            self.assertAlmostEqual(table["b"][metric], fine.row[f"indirect_{metric}"], places=5)
+        self.assertEqual(table["better"]["ssim"], "a" if table["a"]["ssim"] > table["b"]["ssim"] else "b")
+        self.assertEqual(table["better"]["nrmse"] == "\u2248", table["a_low"]["nrmse"] <= table["b_high"]["nrmse"] and
+                         table["b_low"]["nrmse"] <= table["a_high"]["nrmse"])
+        self.assertEqual(set(voxray.compare(fine, fine)["better"]), {"\u2248"})
+        truth = fine.reference()
+        self.assertEqual(voxray.compare(truth.mean, 3 * truth.mean, truth)["better"]["nrmse"], "a")
+
+    def test_two_runs(self):
+        table = voxray.compare(self.results, self.results)
+        self.assertEqual(list(table.index.get_level_values("variant").unique()), ["resolution-8", "resolution-16"])
+        self.assertEqual(set(table["better"]), {"\u2248"})
+
+    def test_a_metric_of_ones_own(self):
+        def error(image, reference):
+            return float(np.abs(image - reference).mean())
+        scores = self.results.metric(error, "total").set_index("variant")
+        variant = self.results["resolution-8"]
+        truth = variant.reference("total")
+        self.assertEqual(scores["value"]["resolution-8"], error(variant.final, truth.mean))
+        self.assertEqual(scores["high"]["resolution-8"], max(error(variant.final, image) for image in (truth.mean, *truth.halves)))
+        self.assertAlmostEqual(scores["floor"]["resolution-8"], error(truth.halves[0], truth.halves[1]) / 2)
+        for halves in Path(self.results.directory, "images", "reference").glob("*_[ab].exr"):
+            halves.rename(halves.with_suffix(".away"))
+        try:
+            self.assertEqual(list(self.results.metric(error, "total")), ["variant", "name", "value"])
+        finally:
+            for halves in Path(self.results.directory, "images", "reference").glob("*.away"):
+                halves.rename(halves.with_suffix(".exr"))
+
+
+class Files(CommandTest):
+    def test_methods_as_pareto_has_them(self):
+        pareto_results.write(Path(self.path("results")), ("cornell", "sponza"), images=False)
+        self.expect(0, "pareto", self.path("results"), "--out", self.path("page.html"), "--no-images")
+        with open(self.path("page.csv"), newline="", encoding="utf-8") as file:
+            rows = [row for row in csv.DictReader(file) if row["scene"] == "sponza"]
+        results = voxray.load(self.path("results"))
+        pyplot.close("all")
+        table = results.pareto("sponza", cost="build + frame")
+        self.assertEqual(len(pyplot.get_fignums()), 1)
+        self.assertEqual(list(table)[:-1], list(rows[0]))
+        for column in ("variant", "method", "name"):
+            self.assertEqual(list(table[column]), [row[column] for row in rows])
+        for column in ("frame", "memory", "nrmse", "nrmse_high", "flip"):
+            np.testing.assert_array_equal(table[column], [float(row[column]) for row in rows])
+        front = table[table["front"]].sort_values("build + frame")
+        self.assertTrue((np.diff(front["nrmse"]) < 0).all())
+        for scene, cost, error, said in ((None, "frame", "nrmse", "several scenes"), ("kitchen", "frame", "nrmse", "no scene 'kitchen'"),
+                                         ("sponza", "price", "nrmse", "cost 'price'"), ("sponza", "frame", "beauty", "'beauty' is none of")):
+            with self.assertRaisesRegex(voxray.VoxrayError, said):
+                results.pareto(scene, cost=cost, error=error)
+
+    def test_a_folder_without_results(self):
+        with self.assertRaisesRegex(voxray.VoxrayError, "name the folder that a run wrote"):
+            voxray.load(self.folder)
+
+    def test_exr_files_are_read_as_they_were_written(self):
+        image = np.random.default_rng(1).normal(size=(5, 7, 3)).astype(np.float32)
+        voxray.exr.write(Path(self.path("image.exr")), image)
+        np.testing.assert_array_equal(exr_pixels.rgb(self.path("image.exr")), image)

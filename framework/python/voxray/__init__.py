@@ -1,11 +1,15 @@
-"""Voxray from Python: a config that stays open (open()), runs and their results (run(), load()).
+"""Voxray from Python: a config that stays open (open()), runs and their results (run(), load()), scores (score(), compare()).
 
     import voxray
     study = voxray.open("configs/quickstart.yaml")
     study.set("voxelize.resolution", 128)
     image = study.render().indirect     # numpy, (height, width, 3), linear
+    results = voxray.run("configs/quickstart.yaml")
+    results.pareto()                    # a DataFrame, and a chart
+    voxray.compare(results["lookup"], results["cones"])
 
-The module calls the program ./voxray of the clone that it lies in; PYTHONPATH has to hold framework/python of it.
+docs/python.md shows more. The module calls the program ./voxray of the clone that it lies in; PYTHONPATH has to hold
+framework/python of it.
 """
 
 from __future__ import annotations
@@ -19,14 +23,15 @@ from typing import Any
 sys.path.append(str(Path(__file__).resolve().parents[2]))  # of the packages `orchestration` and `report`
 
 from orchestration.program import assignment  # noqa: E402
-from report.load import load  # noqa: E402
-from report.results import Results  # noqa: E402
 
+from voxray.compare import compare, score  # noqa: E402
 from voxray.display import picture, strip  # noqa: E402
 from voxray.errors import VoxrayError  # noqa: E402
+from voxray.results import Reference, Results, Variant, load  # noqa: E402
 from voxray.session import PROGRAM, Rendering, Session  # noqa: E402
 
-__all__ = ["Rendering", "Results", "Session", "VoxrayError", "load", "open", "picture", "run", "strip"]
+__all__ = ["PROGRAM", "Reference", "Rendering", "Results", "Session", "Variant", "VoxrayError", "compare", "load", "open", "picture", "run", "score",
+           "strip"]
 
 
 def open(config: str | Path, *, set: Mapping[str, Any] | None = None, profile: str | None = None, options: Iterable[str] = ()) -> Session:
@@ -37,8 +42,8 @@ def open(config: str | Path, *, set: Mapping[str, Any] | None = None, profile: s
 
 def run(config: str | Path, *, set: Mapping[str, Any] | None = None, profile: str | None = None, out: str | Path | None = None,
         options: Iterable[str] = (), program: str | Path = PROGRAM) -> Results:
-    """Runs a config as the command `run` does, and loads its results (docs/reading-a-report.md): `.variants`, `.passes` and
-    `.values` are DataFrames. out: the results folder, results/NAME where left out. Variants that failed are rows.
+    """Runs a config as the command `run` does, and loads its results: `.variants`, `.passes` and `.values` are DataFrames. out: the
+    results folder, results/NAME where left out. Variants that failed are rows.
     @throws VoxrayError where the config is wrong or the run was interrupted"""
     folder = Path(out) if out is not None else Path("results") / Path(config).stem
     done = subprocess.run([str(program), "run", str(config), *_words(set, profile), "--out", str(folder), "--quiet", *options],

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import html
 from collections.abc import Mapping
 
 import numpy as np
 from PIL import Image
 from report import images
+
+
+_SMALL = 210  # CSS pixels: four side by side in a notebook
 
 
 def picture(radiance: np.ndarray, stops: float = 0) -> Image.Image:
@@ -21,3 +25,13 @@ def strip(pictures: Mapping[str, Image.Image], width: int = 320) -> str:
     figures = (f'<figure style="margin:0"><img src="{images.embed_image(shown).uri}" width="{width}" alt="{caption}">'
                f"<figcaption>{caption}</figcaption></figure>" for caption, shown in pictures.items())
     return f'<div style="display:flex;flex-wrap:wrap;gap:.5em">{"".join(figures)}</div>'
+
+
+def error_picture(error: np.ndarray) -> Image.Image:
+    """An error map, shape (height, width), from 0 (black) to 1 (light yellow)."""
+    return Image.fromarray(images.colors(images.ERROR_COLORS, np.clip(error, 0, 1)))
+
+
+def captioned(pictures: Mapping[str, Image.Image]) -> str:
+    """strip() of what any name may stand under."""
+    return strip({html.escape(caption): shown for caption, shown in pictures.items()}, _SMALL) if pictures else ""

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+from orchestration.errors import did_you_mean
 from PIL import Image
 from report import exr_pixels
 
@@ -39,6 +40,9 @@ class Rendering:
     values: pd.DataFrame
     frame_ms: float
     memory_bytes: int
+
+    def __repr__(self) -> str:
+        return f"Rendering of {self.final.shape[1]} x {self.final.shape[0]} pixels"
 
     def _repr_html_(self) -> str:
         shown = {"final": self.final} | ({} if self.indirect is None else {"indirect": self.indirect})
@@ -69,6 +73,24 @@ class Session:
     def select(self, variant: str) -> None:
         """Takes a variant's values, by its id, in place of all that were set. @throws VoxrayError"""
         self.warnings = self._ask("select", variant=variant)["warnings"]
+
+    def kernel(self, id: str, source: str, *, after: str | None = None, **parameters: Any) -> None:
+        """Puts the pass `glsl` with a GLSL text into the graph (docs/writing-a-pass.md); one with that id gives way to it.
+
+        @param after the id of the pass that it follows; None: the last one
+        @param parameters of the pass, such as writes="indirect", and `inputs`
+        @throws VoxrayError where there is no such pass; mistakes of the text show when it is rendered
+        """
+        graph = [entry if isinstance(entry, dict) else {"pass": entry} for entry in self.config["graph"]]
+        ids = [entry.get("id", entry["pass"]) for entry in graph]
+        if after is not None and after not in ids:
+            raise VoxrayError(f"no pass '{after}'{did_you_mean(after, ids)}")
+        own = {"pass": "glsl", "id": id, "source": source, **parameters}
+        if id in ids:
+            graph[ids.index(id)] = own
+        else:
+            graph.insert(len(graph) if after is None else ids.index(after) + 1, own)
+        self.set("graph", graph)
 
     @property
     def config(self) -> dict:
