@@ -36,6 +36,7 @@ DeviceInfo capableDevice() {
     device.name = "any";
     device.rayQuery = device.rayPipeline = device.geometryShader = true;
     device.shaderInt64Atomics = true;
+    device.viewports = UINT32_MAX;
     device.filteredVolumeSide = UINT32_MAX;
     return device;
 }

@@ -24,6 +24,7 @@ struct DeviceInfo {
     bool rayQuery = false;
     bool rayPipeline = false;
     bool geometryShader = false;
+    uint32_t viewports = 1;  ///< Of one draw, at most.
     bool shaderInt64Atomics = false;
     /// Maximum side of a 3D image of four half floats with storage and linear filtering; 0: unsupported.
     uint32_t filteredVolumeSide = 0;

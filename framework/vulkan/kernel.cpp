@@ -101,7 +101,7 @@ void RasterPipeline::addState(Hasher& hash) const {
     hash.addPlain(state_.colorFormats.size());
     for (const VkFormat format : state_.colorFormats) hash.addPlain(format);
     hash.addPlain(state_.depthFormat).addPlain(state_.depthCompare).addPlain(state_.cull);
-    hash.addPlain(state_.frontFace).addPlain(state_.writeColor);
+    hash.addPlain(state_.frontFace).addPlain(state_.writeColor).addPlain(state_.viewports);
 }
 
 Program RasterPipeline::make(Device& device, std::span<const ShaderModule> modules,

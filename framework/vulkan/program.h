@@ -121,6 +121,7 @@ struct RasterState {
     VkCullModeFlags cull = VK_CULL_MODE_NONE;
     VkFrontFace frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     bool writeColor = true;
+    uint32_t viewports = 1;  ///< At most DeviceInfo::viewports; a geometry shader chooses by gl_ViewportIndex.
 };
 Program makeRasterProgram(Device& device, std::span<const ShaderModule> modules, const RasterState& state,
                           const SpecializationConstants& constants = {});
