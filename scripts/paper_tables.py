@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Writes tables of docs/papers from results that are kept beside them, and measures those results.
 
-paper_tables.py [--measure RUN...] [--program PROGRAM] [--root ROOT]
+paper_tables.py [--measure RUN...] [--out DIR] [--program PROGRAM] [--root ROOT]
 
 Writes each table into the page that has a line "<!-- table: NAME -->", in place of the table below that line. With --measure the
 runs named are made first, by the build in build/release. tests/repository/docs.py fails where a page says something else.
@@ -78,11 +78,12 @@ def commit_of(root):
     return git("describe", "--always") + ("-dirty" if git("status", "--porcelain", "--", ".", ":!docs") else "")
 
 
-def measure(root, name, run, program):
-    """Makes the run and writes its CSV."""
+def measure(root, name, run, program, kept_in=None):
+    """Makes the run and writes its CSV. `kept_in`: a folder that keeps the run's results; variants that are there already stay."""
     with tempfile.TemporaryDirectory() as folder:
-        out = Path(folder) / "run"
-        subprocess.run([program, *shlex.split(run["command"]), "--out", str(out)], cwd=root, check=True)
+        out = Path(kept_in or folder) / name
+        resume = ["--resume"] if kept_in else []
+        subprocess.run([program, *shlex.split(run["command"]), "--out", str(out), *resume], cwd=root, check=True)
         found = values_of(out)
     device = next(iter(found.values()))["device"]
     with open(csv_path(root, name), "w", newline="", encoding="utf-8") as file:
@@ -152,6 +153,7 @@ def check(root):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--measure", nargs="+", default=[], metavar="RUN", help="runs to make first")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="folder that keeps results of runs; one that was interrupted goes on")
     parser.add_argument("--program", default=str(ROOT / "build/release/bin/voxray"))
     parser.add_argument("--root", type=Path, default=ROOT)
     options = parser.parse_args()
@@ -160,7 +162,7 @@ def main():
         for name in options.measure:
             if name not in runs:
                 parser.error(f"no run {name}; there are {', '.join(runs) or 'none'}")
-            measure(options.root, name, runs[name], options.program)
+            measure(options.root, name, runs[name], options.program, options.out)
         for path, text, right in pages(options.root):
             if text != right:
                 path.write_text(right, encoding="utf-8")

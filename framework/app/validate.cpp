@@ -36,6 +36,7 @@ DeviceInfo capableDevice() {
     device.name = "any";
     device.rayQuery = device.rayPipeline = device.geometryShader = true;
     device.shaderInt64Atomics = true;
+    device.viewports = UINT32_MAX;
     device.filteredVolumeSide = UINT32_MAX;
     device.conservativeRaster = true;
     device.sampleCounts = VK_SAMPLE_COUNT_FLAG_BITS_MAX_ENUM;

@@ -164,7 +164,14 @@ void CommandStream::draw(const Program& program, const RasterTargets& targets, u
     }
 
     const VkRect2D area{{0, 0}, {targets.extent.x, targets.extent.y}};
-    const VkViewport viewport{0, 0, float(targets.extent.x), float(targets.extent.y), 0, 1};
+    std::vector<VkViewport> viewports;
+    std::vector<VkRect2D> scissors;
+    const auto addViewport = [&](glm::uvec2 extent) {
+        viewports.push_back({0, 0, float(extent.x), float(extent.y), 0, 1});
+        scissors.push_back({{0, 0}, {extent.x, extent.y}});
+    };
+    for (const glm::uvec2& extent : targets.viewports) addViewport(extent);
+    if (viewports.empty()) addViewport(targets.extent);
     auto rendering = structure<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
     rendering.renderArea = area;
     rendering.layerCount = 1;
@@ -172,8 +179,8 @@ void CommandStream::draw(const Program& program, const RasterTargets& targets, u
     rendering.pColorAttachments = colors.data();
     rendering.pDepthAttachment = targets.depth ? &depth : nullptr;
     vkCmdBeginRendering(commands, &rendering);
-    vkCmdSetViewport(commands, 0, 1, &viewport);
-    vkCmdSetScissor(commands, 0, 1, &area);
+    vkCmdSetViewport(commands, 0, uint32_t(viewports.size()), viewports.data());
+    vkCmdSetScissor(commands, 0, uint32_t(scissors.size()), scissors.data());
     vkCmdDraw(commands, vertexCount, instanceCount, 0, 0);
     vkCmdEndRendering(commands);
     ++counts_.dispatches;

@@ -31,6 +31,8 @@ struct RasterTargets {
     const Image* depth = nullptr;
     float depthClear = 1;
     glm::uvec3 extent{0, 0, 1};  ///< Viewport, from (0, 0); the rendered area if there are no targets.
+    /// Viewports within `extent`, each from (0, 0), for a program with as many (RasterState::viewports); empty: one.
+    std::vector<glm::uvec2> viewports;
 };
 
 /// Counts of a stream's operations.

@@ -25,6 +25,7 @@ struct DeviceInfo {
     bool rayQuery = false;
     bool rayPipeline = false;
     bool geometryShader = false;
+    uint32_t viewports = 1;  ///< Of one draw, at most.
     bool shaderInt64Atomics = false;
     /// VK_EXT_conservative_rasterization, by its extension alone: it has no feature bits.
     bool conservativeRaster = false;

@@ -110,7 +110,7 @@ void RasterPipeline::addState(Hasher& hash) const {
     for (const VkFormat format : state_.colorFormats) hash.addPlain(format);
     hash.addPlain(state_.depthFormat).addPlain(state_.depthCompare).addPlain(state_.cull);
     hash.addPlain(state_.frontFace).addPlain(state_.writeColor);
-    hash.addPlain(state_.isConservative).addPlain(state_.samples);
+    hash.addPlain(state_.isConservative).addPlain(state_.samples).addPlain(state_.viewports);
 }
 
 Program RasterPipeline::make(Device& device, std::span<const ShaderModule> modules,

@@ -135,6 +135,7 @@ struct RasterState {
     bool writeColor = true;
     bool isConservative = false;  ///< All pixels that a triangle touches (VK_EXT_conservative_rasterization).
     uint32_t samples = 1;         ///< Per pixel, a bit of DeviceInfo::sampleCounts; without attachments alone.
+    uint32_t viewports = 1;       ///< At most DeviceInfo::viewports; a geometry shader chooses by gl_ViewportIndex.
 };
 Program makeRasterProgram(Device& device, std::span<const ShaderModule> modules, const RasterState& state,
                           const SpecializationConstants& constants = {});

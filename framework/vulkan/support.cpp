@@ -28,6 +28,7 @@ const std::array kFeatures{
     VOXRAY_FEATURE(core.features, vertexPipelineStoresAndAtomics, true),
     VOXRAY_FEATURE(core.features, shaderStorageImageWriteWithoutFormat, true),
     VOXRAY_FEATURE(core.features, geometryShader, false),
+    VOXRAY_FEATURE(core.features, multiViewport, false),
     VOXRAY_FEATURE(v12, bufferDeviceAddress, true),
     VOXRAY_FEATURE(v12, scalarBlockLayout, true),
     VOXRAY_FEATURE(v12, runtimeDescriptorArray, true),
@@ -166,6 +167,7 @@ DeviceSupport inspect(VkPhysicalDevice physical) {
     info.rayQuery = structures && enabled.rayQuery.rayQuery;
     info.rayPipeline = structures && enabled.rayPipeline.rayTracingPipeline;
     info.geometryShader = enabled.core.features.geometryShader;
+    if (enabled.core.features.multiViewport) info.viewports = properties.properties.limits.maxViewports;
     info.shaderInt64Atomics = enabled.v12.shaderBufferInt64Atomics;
     info.filteredVolumeSide = filteredVolumeSide(physical);
     info.conservativeRaster = contains(support.extensions, VK_EXT_CONSERVATIVE_RASTERIZATION_EXTENSION_NAME);

@@ -154,6 +154,28 @@ TEST(RasterizedClipmap, ScrolledIsAsMadeFromScratch) {
     EXPECT_NE(content(scrolled), first);
 }
 
+TEST(RasterizedClipmap, OneDrawHasTheVoxelsOfADrawForEachLevel) {
+    const std::string instanced = "rasterize_clipmap, resolution: 80, clipmap_resolution: 16, instanced: true";
+    const glm::vec3 start(-0.31f, 0.9f, 0.2f), end(0.8f, 1.8f, -0.77f);
+    // Without light no average depends on the order of threads
+    for (const char* light : {", light: false", ""}) {
+        const std::string one = graphYaml({instanced + light});
+        const std::string each =
+            graphYaml({"rasterize_clipmap, resolution: 80, clipmap_resolution: 16" + std::string(light)});
+        Chain all(cornellFrom(start), one, 8, 8), levels(cornellFrom(start), each, 8, 8);
+        for (const glm::vec3& camera : {start, end}) {
+            all.runFrameFrom(camera);
+            levels.runFrameFrom(camera);
+            EXPECT_EQ(updated(all), updated(levels));
+            EXPECT_GT(std::ranges::count(content(all), 1.0f), 1000);
+            if (*light)
+                EXPECT_EQ(content(all), content(levels));
+            else
+                expectSameContent(content(all), content(levels));
+        }
+    }
+}
+
 TEST(RasterizedClipmap, FollowsWhatMoves) {
     auto scene = builtinScene("cornell", "{lights: point}");
     addMovingSphere(*scene, 0, {{0.3f, 1.4f, 0.3f}, {0.32f, 1.41f, 0.3f}, {-0.86f, 0.7f, 0.3f}, {0.87f, 0.13f, -0.8f}});

@@ -57,8 +57,7 @@ class DominantAxisVoxelizer final : public RasterVoxelizer {
                              {"fixedPointScale", fixedPointScale},
                              {"tiles", 0u},
                              {"axis", 0u},
-                             {"samples", samples_},
-                             {"imageSide", side}});
+                             {"samples", samples_}});
     }
 
  private:

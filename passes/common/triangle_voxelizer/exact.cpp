@@ -31,8 +31,7 @@ class ExactVoxelizer final : public TriangleVoxelizer {
                           {"fixedPointScale", fixedPointScale},
                           {"tiles", tiles_.count()},
                           {"axis", 0u},
-                          {"samples", 0u},
-                          {"imageSide", 0u}});
+                          {"samples", 0u}});
     }
 
     void release() override { tiles_ = {}; }

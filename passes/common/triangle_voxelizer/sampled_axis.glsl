@@ -6,10 +6,16 @@
 
 layout(location = 0) flat in uint triangle;
 layout(location = 1) flat in uint axis;
+#ifdef LEVELS
+layout(location = 2) flat in uint level;
+#else
+const uint level = 0u;
+#endif
 
 struct TriangleFragment {
     uint triangle;
     ivec3 voxel;  // In grid coordinates.
+    uint level;   // Of LEVELS grids; 0 where there is one.
     vec2 barycentrics;
 };
 
@@ -36,13 +42,15 @@ bool isCovered(GridTriangle t, vec2 center) {
 }
 
 void main() {
-    const GridTriangle t = gridTriangle(voxelizer.grid, triangle, axis);
-    const ivec3 first = ivec3(permutedVoxels(uvec3(voxelizer.grid.first), axis));
-    const ivec3 end = ivec3(permutedVoxels(voxelizer.grid.resolution, axis));
+    const VoxelGrid grid = DRAWN_GRID(level);
+    const GridTriangle t = gridTriangle(grid, triangle, axis);
+    const ivec3 first = ivec3(permutedVoxels(uvec3(grid.first), axis));
+    const ivec3 end = ivec3(permutedVoxels(grid.resolution, axis));
     const ivec2 column = first.xy + ivec2(gl_FragCoord.xy);
     const vec2 center = vec2(column) + 0.5;
     if (any(greaterThanEqual(column, end.xy)) || t.winding.z == 0.0 || !isCovered(t, center)) return;
     const int depth = int(floor(depthAt(t, center)));
     if (depth < first.z || depth >= end.z) return;
-    processFragment(TriangleFragment(triangle, unpermuted(ivec3(column, depth), axis), barycentricsAt(t, center)));
+    const ivec3 voxel = unpermuted(ivec3(column, depth), axis);
+    processFragment(TriangleFragment(triangle, voxel, level, barycentricsAt(t, center)));
 }

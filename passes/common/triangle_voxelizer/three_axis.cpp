@@ -29,8 +29,7 @@ class ThreeAxisVoxelizer final : public RasterVoxelizer {
                                  {"fixedPointScale", fixedPointScale},
                                  {"tiles", 0u},
                                  {"axis", axis},
-                                 {"samples", samples_},
-                                 {"imageSide", 0u}});
+                                 {"samples", samples_}});
         }
     }
 

@@ -10,7 +10,14 @@ layout(push_constant, scalar) uniform Push {
     uint tiles;             // exact: number of tiles.
     uint axis;              // three_axis: axis of projection.
     uint samples;           // three_axis: sample points along a voxel's edge; sampled_axis: per pixel, 1 or 8.
-    uint imageSide;         // dominant_axis.geom: pixels along an edge of the image.
 } voxelizer;
+
+#ifdef LEVELS
+// The grids into which one draw rasterizes (level_voxelizer.h).
+layout(scalar) readonly buffer LevelGrids { VoxelGrid data[]; } levelGrids;
+#define DRAWN_GRID(level) levelGrids.data[level]
+#else
+#define DRAWN_GRID(level) voxelizer.grid
+#endif
 
 #endif

@@ -66,8 +66,7 @@ void LeafGrids::fill(PassContext& context, const gpu::VoxelGrid& voxels, const T
                                 {"fixedPointScale", pairs.unitsPerFace},
                                 {"tiles", pairs.count},
                                 {"axis", 0u},
-                                {"samples", 0u},
-                                {"imageSide", 0u}};
+                                {"samples", 0u}};
 
     // Mark cells, then rank them
     stream.dispatch(markCells_, pairs.count, pairBindings);

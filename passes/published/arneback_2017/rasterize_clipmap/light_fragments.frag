@@ -3,6 +3,12 @@
 // the unit of radiance.
 #include "passes/common/triangle_voxelizer/raster.glsl"
 #include "passes/published/arneback_2017/rasterize_clipmap/lit_voxels.glsl"
+#ifdef LEVELS
+readonly buffer FirstVoxels { uint data[]; } firstVoxels;  // By level.
+#define FIRST_VOXEL(level) firstVoxels.data[level]
+#else
+#define FIRST_VOXEL(level) 0u
+#endif
 #ifndef UNLIT
 #include "shaders/lights/lights.glsl"
 #include "shaders/lights/shadow_maps.glsl"
@@ -28,5 +34,6 @@ void processFragment(TriangleFragment f) {
 #else
     const bool isLit = false;
 #endif
-    mergeFragment(indexInRegion(voxelizer.grid.first, voxelizer.grid.resolution, f.voxel), radiance, isLit);
+    const VoxelGrid grid = DRAWN_GRID(f.level);
+    mergeFragment(FIRST_VOXEL(f.level) + indexInRegion(grid.first, grid.resolution, f.voxel), radiance, isLit);
 }

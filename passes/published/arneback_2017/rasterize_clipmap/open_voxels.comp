@@ -5,5 +5,6 @@ layout(local_size_x = 64) in;
 
 void main() {
     ivec3 voxel;
-    if (voxelOfBox(voxel) && isInRegion(voxel)) litVoxels.data[indexInRegion(push.first, push.end, voxel)] = 0ul;
+    if (!voxelOfBox(voxel) || !isInRegion(voxel)) return;
+    litVoxels.data[push.firstVoxel + indexInRegion(push.first, push.end, voxel)] = 0ul;
 }

@@ -11,6 +11,7 @@ layout(push_constant, scalar) uniform Push {
     ivec3 boxFirst;
     uvec3 boxSize;
     uint level;
+    uint firstVoxel;  // Of the level, among the voxels that are rasterized at once.
 } push;
 
 // The voxel of this invocation; false beyond the box.

@@ -10,7 +10,8 @@ void main() {
     if (!voxelOfBox(voxel)) return;
     vec4 value = vec4(0.0);
     if (isInRegion(voxel)) {
-        const LitVoxel lit = unpackVoxel(litVoxels.data[indexInRegion(push.first, push.end, voxel)]);
+        const uint index = push.firstVoxel + indexInRegion(push.first, push.end, voxel);
+        const LitVoxel lit = unpackVoxel(litVoxels.data[index]);
         value = vec4(radianceVoxels.grid.unit * lit.radiance, lit.isOpaque ? 1.0 : 0.0);
     }
     storeRadiance(radianceIndex(push.level, voxel), 0u, value);
