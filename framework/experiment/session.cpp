@@ -1,6 +1,7 @@
 #include "experiment/session.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "base/files.h"
 #include "base/interrupt.h"
@@ -63,8 +64,11 @@ SceneOnDevice& Session::scene(const Setup& setup) {
     try {
         scene_->prepared = loader_.takeCached(setup.scene, sceneKey);
         scene_->gpu = makeGpuScene(device_, stream_, scene_->prepared.state);
-        scene_->tracer = makeRayTracer(setup.general.tracer, device_, compiler_, scene_->prepared.state);
         stream_.finish();
+        const auto start = std::chrono::steady_clock::now();
+        scene_->tracer = makeRayTracer(setup.general.tracer, device_, compiler_, scene_->prepared.state);
+        const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+        scene_->tracerBuildMs = taken.count();
     } catch (const SizeError& error) {
         const std::string advice = sceneSizeAdvice(setup.scene, scene_->prepared.state);
         scene_.reset();

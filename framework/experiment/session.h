@@ -21,6 +21,7 @@ struct SceneOnDevice {
     PreparedScene prepared;
     GpuScene gpu;
     std::unique_ptr<RayTracer> tracer;
+    double tracerBuildMs = 0;  ///< Time to make the tracer: BVHs, its copies of the scene, its programs.
 };
 
 /// Resources that the variants of a run share: the device, the shader compiler, scenes, references.
