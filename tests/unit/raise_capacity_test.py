@@ -48,6 +48,12 @@ class Search(unittest.TestCase):
 
 
 class Command(unittest.TestCase):
+    def rows(self, trail):
+        if not os.path.exists(trail):
+            return []
+        with open(trail, encoding="utf-8") as file:
+            return file.read().splitlines()
+
     def run_command(self, *arguments):
         with tempfile.TemporaryDirectory(prefix="voxray-capacity-") as folder:
             tune.PROGRAM = os.path.join(folder, "program")
@@ -64,7 +70,7 @@ class Command(unittest.TestCase):
                 sys.argv = before
             trail = os.path.join(results, "trail.csv")
             rows = open(trail, encoding="utf-8").read().splitlines() if os.path.exists(trail) else []
-            return status, out.getvalue(), err.getvalue(), rows
+            return status, out.getvalue(), err.getvalue(), self.rows(os.path.join(results, "trail.csv"))
 
     def test_results(self):
         status, out, _, rows = self.run_command("--start", "20")
