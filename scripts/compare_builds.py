@@ -23,8 +23,8 @@ import numpy
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.realpath(__file__))), "framework"))
 from report import exr_pixels  # noqa: E402
 
-TIMES = ("build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95")
-MEMORY = ("memory_bytes", "peak_bytes")
+TIMES = ("build_ms", "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "tracer_build_ms")
+MEMORY = ("memory_bytes", "peak_bytes", "tracer_bytes")
 
 
 def config_names(tree):

@@ -49,6 +49,8 @@ struct Measurement {
     uint64_t memoryBytes = 0;           ///< Persistent memory of the passes, without the scene.
     uint64_t peakBytes = 0;             ///< The same with the largest scratch memory of a pass.
     uint64_t rays = 0;                  ///< In one build and one frame.
+    double tracerBuildMs = 0;           ///< Of the scene's tracer: SceneOnDevice.
+    uint64_t tracerBytes = 0;           ///< RayTracer::memoryBytes()
 };
 
 /// Everything that a graph needs to run.

@@ -34,6 +34,8 @@ struct VariantResult {
     uint64_t memoryBytes = 0;  ///< This and peakBytes are those of Measurement.
     uint64_t peakBytes = 0;
     uint64_t rays = 0;
+    double tracerBuildMs = 0;  ///< This and tracerBytes are those of Measurement.
+    uint64_t tracerBytes = 0;
     Scores scores;  ///< By column. Only of images that the graph writes, and only with a reference.
     std::vector<PassCost> passes;
     std::vector<ReportedValue> values;

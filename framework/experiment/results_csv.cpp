@@ -7,8 +7,9 @@
 namespace voxray {
 namespace {
 
-const std::vector<std::string> kCostColumns{"build_ms",     "frame_ms_median", "frame_ms_p05", "frame_ms_p95",
-                                            "memory_bytes", "peak_bytes",      "rays"};
+const std::vector<std::string> kCostColumns{"build_ms",     "frame_ms_median", "frame_ms_p05",
+                                            "frame_ms_p95", "memory_bytes",    "peak_bytes",
+                                            "rays",         "tracer_build_ms", "tracer_bytes"};
 
 std::string csvLine(const std::vector<std::string>& fields) {
     std::string line;
@@ -111,7 +112,7 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
         if (r.ok)
             append(fields, {numberText(r.buildMs), numberText(r.frameMs.median), numberText(r.frameMs.p05),
                             numberText(r.frameMs.p95), std::to_string(r.memoryBytes), std::to_string(r.peakBytes),
-                            std::to_string(r.rays)});
+                            std::to_string(r.rays), numberText(r.tracerBuildMs), std::to_string(r.tracerBytes)});
         else
             append(fields, std::vector<std::string>(kCostColumns.size()));
         append(fields, scoreFields(columns, r.scores, measure));

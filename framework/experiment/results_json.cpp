@@ -105,6 +105,8 @@ std::string resultJson(const VariantResult& r, const VariantInputs& inputs) {
     json["memory_bytes"] = r.memoryBytes;
     json["peak_bytes"] = r.peakBytes;
     json["rays"] = r.rays;
+    json["tracer_build_ms"] = r.tracerBuildMs;
+    json["tracer_bytes"] = r.tracerBytes;
     json["scores"] = scoresJson(r.scores);
     json["passes"] = Json::array();
     for (const PassCost& p : r.passes)
@@ -147,6 +149,8 @@ std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text)
         r.memoryBytes = json.at("memory_bytes").get<uint64_t>();
         r.peakBytes = json.at("peak_bytes").get<uint64_t>();
         r.rays = json.at("rays").get<uint64_t>();
+        r.tracerBuildMs = json.at("tracer_build_ms").get<double>();
+        r.tracerBytes = json.at("tracer_bytes").get<uint64_t>();
         r.scores = scoresFrom(json.at("scores"));
         for (const Json& p : json.at("passes")) {
             const Phase phase = p.at("phase").get<std::string>() == "build" ? Phase::Build : Phase::Frame;

@@ -1,6 +1,7 @@
 #include "experiment/session.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "base/files.h"
 #include "base/interrupt.h"
@@ -80,8 +81,11 @@ void Session::loadScene(const Setup& setup, const std::string& sceneKey) {
     try {
         scene.prepared = loader_.takeCached(setup.scene, sceneKey);
         scene.gpu = makeGpuScene(device_, stream_, scene.prepared.state);
-        scene.tracer = makeRayTracer(setup.general.tracer, device_, compiler_, scene.prepared.state);
         stream_.finish();
+        const auto start = std::chrono::steady_clock::now();
+        scene.tracer = makeRayTracer(setup.general.tracer, device_, compiler_, scene.prepared.state);
+        const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+        scene.tracerBuildMs = taken.count();
     } catch (const SizeError& error) {
         const std::string advice = sceneSizeAdvice(setup.scene, scene.prepared.state);
         scenes_.pop_front();

@@ -23,6 +23,7 @@ struct SceneOnDevice {
     GpuScene gpu;
     std::unique_ptr<RayTracer> tracer;
     bool isMoved = false;  ///< Whether it is not in the compared frame.
+    double tracerBuildMs = 0;  ///< Time to make the tracer: BVHs, its copies of the scene, its programs.
 };
 
 /// Resources that the variants of a run share: the device, the shader compiler, scenes, references.

@@ -43,8 +43,11 @@ Measurement runGraph(Graph graph, const Setup& setup, uint64_t seed, const Measu
     GraphTarget target{frame, session.device(), session.stream(), *scene.tracer, scene.gpu, {}};
     if (changesInTime(setup.scene, !scene.prepared.state.scene->animation.empty()))
         target.goToFrame = [&](Frame& moved, int fromCompared) { session.goToFrame(setup, moved, fromCompared); };
-    return measureGraph(graph, target, measure, progress,
-                        [&](const Frame& now, uint32_t number) { afterFrame(graph, now, number); });
+    Measurement measured = measureGraph(graph, target, measure, progress,
+                                        [&](const Frame& now, uint32_t number) { afterFrame(graph, now, number); });
+    measured.tracerBuildMs = scene.tracerBuildMs;
+    measured.tracerBytes = scene.tracer->memoryBytes();
+    return measured;
 }
 
 ImageF previewOf(const ImageF& image, const ImageSettings& settings) {
@@ -116,6 +119,8 @@ VariantImages renderVariant(Variant& variant, const Study& study, Session& sessi
     result.memoryBytes = m.memoryBytes;
     result.peakBytes = m.peakBytes;
     result.rays = m.rays;
+    result.tracerBuildMs = m.tracerBuildMs;
+    result.tracerBytes = m.tracerBytes;
     result.passes = std::move(m.passes);
     result.values = std::move(m.values);
     if (const auto messages = device.validationMessages(); messages.size() > messagesBefore)

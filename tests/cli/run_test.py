@@ -6,7 +6,8 @@ from run_support import VARIANTS, Run
 from support import TINY
 
 COST_COLUMNS = ["variant", "name", "status", "error", "device", "tracer", "voxelize.resolution", "build_ms",
-                "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays"]
+                "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays",
+                "tracer_build_ms", "tracer_bytes"]
 PASS_COLUMNS = ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes",
                 "scratch_bytes", "dispatches", "host_waits", "host_bytes"]
 

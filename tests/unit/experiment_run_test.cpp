@@ -60,7 +60,7 @@ TEST_F(RunTest, ColumnsAreTheDocumentedOnes) {
     // Every metric, the ends of its interval right after it; the total light's, then the indirect light's.
     std::string expected =
         "variant,name,status,error,device,tracer,constant.value,build_ms,frame_ms_median,frame_ms_p05,"
-        "frame_ms_p95,memory_bytes,peak_bytes,rays";
+        "frame_ms_p95,memory_bytes,peak_bytes,rays,tracer_build_ms,tracer_bytes";
     for (const std::string light : {",", ",indirect_"})
         for (const Metric& metric : metrics()) {
             expected += light + metric.name;
@@ -68,7 +68,7 @@ TEST_F(RunTest, ColumnsAreTheDocumentedOnes) {
         }
     const std::string text = readTextFile(root_ / "out" / "results.csv");
     EXPECT_EQ(text.substr(0, text.find('\n')), expected);
-    EXPECT_CONTAINS(expected, ",rays,nrmse,nrmse_low,nrmse_high,");
+    EXPECT_CONTAINS(expected, ",tracer_bytes,nrmse,nrmse_low,nrmse_high,");
     EXPECT_CONTAINS(expected, ",indirect_mean_ratio");
 }
 

@@ -224,6 +224,8 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     r.memoryBytes = uint64_t(1) << 40;
     r.peakBytes = uint64_t(1) << 41;
     r.rays = 77;
+    r.tracerBuildMs = 0.7;
+    r.tracerBytes = uint64_t(1) << 33;
     r.scores = {{"psnr_db", HUGE_VAL}, {"nrmse", 0.1}};
     r.passes.push_back({"p", Phase::Build, {1, 2, 3}, 4, 5, 6, 7, {8, 9, 10}});
     r.values = {{"p", "voxels, missed", std::nullopt, 7}, {"p", "change", 3, 0.1}};
@@ -237,6 +239,8 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     EXPECT_EQ(back.frameMs.p95, 0.3);
     EXPECT_EQ(back.memoryBytes, r.memoryBytes);
     EXPECT_EQ(back.peakBytes, r.peakBytes);
+    EXPECT_EQ(back.tracerBuildMs, 0.7);
+    EXPECT_EQ(back.tracerBytes, r.tracerBytes);
     EXPECT_EQ(back.passes.at(0).scratchBytes, 7u);
     EXPECT_EQ(passesCsv({back}), passesCsv({r}));
     EXPECT_CONTAINS(passesCsv({back}), ",4,5,6,7,8,9,10\n");

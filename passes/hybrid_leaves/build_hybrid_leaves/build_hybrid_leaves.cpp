@@ -206,6 +206,7 @@ void BuildHybridLeaves::record(PassContext& context) {
     context.report("leaves with a list", lists);
     context.report("leaves with a grid", leaves.gridCount);
     context.report("triangles in lists", leaves.primitiveCount);
+    if (!canUpdate) context.report("triangles in leaves with grids", pairCount_);
     context.report("cells in grids", leaves.cellCount);
     context.report("bytes of leaves", double(leaves.structureBytes()));
     context.report("bytes of lists", double(leaves.listBytes()));
