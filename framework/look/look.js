@@ -66,11 +66,14 @@ function cameraFor(side, camera) {
 
 function showConfig(side) {
     const { config, answer } = side;
+    showErrors();
     if (!config) return;
     document.title = document.querySelector("h1").textContent = config.name;
     variant.value = side.variant;
     if (!side.pending.has("image.exposure_stops")) byId("stops").textContent = exposure.value = config.image?.exposure_stops ?? 0;
     byId("times-title").textContent = split.isOpen ? `Times of ${split.titleOf(side)}` : "Times";
+    byId("passes-title").textContent = `Passes of ${split.titleOf(side)}`;
+    byId("passes-title").hidden = !split.isOpen;
     byId("warnings").replaceChildren(...answer.warnings.map((text) => Object.assign(document.createElement("li"), { textContent: text })));
     passes.show(config.graph, new Set((answer.passes ?? config.graph.map((entry) => ({ id: idOf(entry) }))).map((pass) => pass.id)),
         (name) => side.pending.has(name));
@@ -83,8 +86,12 @@ function showConfig(side) {
 
 function say(side, text) {
     errors.set(side, text);
+    showErrors();
+}
+
+function showErrors() {
     const lines = split.shown.filter((one) => errors.get(one))
-        .map((one) => (split.isOpen ? `${split.titleOf(one)}: ${errors.get(one)}` : errors.get(one)));
+        .map((one) => (split.isOpen ? `${split.titleOf(one)}\n${errors.get(one)}` : errors.get(one)));
     byId("error").textContent = lines.join("\n");
     byId("error").hidden = !lines.length;
 }
@@ -107,4 +114,5 @@ byId("download").addEventListener("click", download);
 variant.append(...start.variants.map(({ id, name }) => new Option(name, id)));
 byId("variants").hidden = start.variants.length < 2;
 variant.addEventListener("change", () => split.select(start.variants[variant.selectedIndex]));
+window.addEventListener("pagehide", () => split.isOpen && sides[1].close());
 sides[0].next();

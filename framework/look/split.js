@@ -61,10 +61,10 @@ export class Split {
             return this.edit(0);
         }
         if (variant) this.nameBy(second, variant);
-        else Object.assign(second, { name: `${this.titleOf(first)}, as it was`, variant: first.variant, isChanged: false });
+        else Object.assign(second, { name: `${first.name}, pinned`, variant: first.variant, isChanged: false });
         if (variant) second.open({ variant: variant.id }, this.sharedBy(first, variant), performance.now());
         else second.open({ config: first.config }, first.pending, performance.now());
-        this.arrange();
+        this.edit(this.edited.number);
     }
 
     /** Changes that give a variant the image settings and the camera of a side. */
@@ -80,7 +80,7 @@ export class Split {
     }
 
     titleOf(side) {
-        return `${side.name}${side.isChanged ? ", changed" : ""}`;
+        return `${this.isOpen ? `${SIDE_NAMES[side.number]}: ` : ""}${side.name}${side.isChanged ? ", changed" : ""}`;
     }
 
     edit(number) {
@@ -99,7 +99,7 @@ export class Split {
         for (const [i, button] of this.captions.entries()) {
             const side = this.sides[i];
             button.hidden = !this.isOpen;
-            button.textContent = `${SIDE_NAMES[i]}: ${this.titleOf(side)}${this.edited === side ? " (edited)" : ""}`;
+            button.textContent = `${this.titleOf(side)}${this.edited === side ? " (edited)" : ""}`;
             button.setAttribute("aria-pressed", this.edited === side);
         }
     }

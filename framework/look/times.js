@@ -3,7 +3,7 @@
 /** A line on the whole frame. */
 export function frameText(answer) {
     return `${answer.width} × ${answer.height}: frame ${answer.frame_ms.toFixed(1)} ms, `
-        + `${(1000 / answer.frame_ms).toFixed(0)} a second, ${(answer.memory_bytes / 2 ** 20).toFixed(1)} MiB`;
+        + `${Number((1000 / answer.frame_ms).toPrecision(2))} a second, ${(answer.memory_bytes / 2 ** 20).toFixed(1)} MiB`;
 }
 
 /** Bars of the passes' times, those of passes that run once apart from the rest. */

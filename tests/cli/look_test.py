@@ -207,14 +207,17 @@ class Server(Look):
         self.assertEqual(self.image(side=1, config=first["config"])[0]["config"], first["config"])
         np.testing.assert_array_equal(pixels(self.image(side=1)[1]), pixels(png))
         self.assertEqual(self.image(side=1, close=True)[0], {})
-        answer, shown = self.image(side=1)
+        status, body = self.ask("POST", "image", '{"side": 1}')
+        self.assertEqual(status, 400)
+        self.assertIn(b"side 1 was closed", body)
+        answer, shown = self.image(side=1, config=first["config"])
         self.assertEqual(answer["config"], first["config"])
         self.assertEqual([one["id"] for one in answer["passes"] if one["reused"]], [])
         self.assertIn("one variant", self.image(side=1, config={**first["config"], "sweep": {"seed": [1, 2]}})[0]["error"])
 
     def test_sides_do_not_drop_one_another(self):
         for side in (0, 1):
-            self.image(side=side)
+            self.image(side=side, variant="resolution-8")
         connections = []
         slow = {"page": "a", "side": 1, "changes": [{"path": "inject.rays_per_light", "value": 1 << 20}]}
         for request in (slow, {"page": "a", "shrink": 4}, {"page": "a"}):
@@ -370,7 +373,7 @@ class Page(Look):
         # A refusal says whose it is
         Select(self.find("[data-id=gather_irradiance] select")).select_by_value("gather_cones")
         self.settle()
-        self.assertRegex(self.error(), "^resolution 8, changed: .*missing port")
+        self.assertRegex(self.error(), "^A: resolution 8, changed\n.*missing port")
         self.choose("compare", "none")
         self.assertEqual(len(self.configs()), 1)
         self.assertFalse(self.find("#other").is_displayed())
@@ -433,8 +436,16 @@ class Page(Look):
         self.settle()
         self.assertNotIn("path", self.config()["scene"]["camera"])
         self.assertEqual(self.config()["measure"], before["measure"])
-        self.find("#path button").click()
+        back = self.find("#path button:last-child")
+        back.click()
         self.settle()
+        self.assertEqual(self.config()["scene"]["camera"]["path"], path)
+        # It is played in drafts
+        latencies = self.browser.run("return window.look.latencies.length")
+        self.find("#path button").click()
+        time.sleep(0.2)
+        self.settle()
+        self.assertGreater(self.browser.run("return window.look.latencies.length"), latencies)
         self.assertEqual(self.config()["scene"]["camera"]["path"], path)
         np.testing.assert_array_equal(self.shown(), image)
         self.assertEqual(self.browser.console(), [])

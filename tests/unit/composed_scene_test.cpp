@@ -314,3 +314,32 @@ TEST_F(SceneSize, ASceneThatTheDeviceHasNoRoomForIsToldWithAdvice) {
     session.device().setMemoryLimitBytes(limit);
     EXPECT_EQ(session.scene(setup).gpu.triangleCount, 9216u);
 }
+
+TEST_F(SceneSize, ScenesStayOnTheDeviceAsLongAsTheyFit) {
+    Session session({}, test::sourceRoot(), {});
+    const auto setupOf = [](const std::string& scene) {
+        return parseExperiment("name: x\nscene: {" + scene + "}\ngraph: [{pass: a}]\n", "x.yaml").setup;
+    };
+    const voxray::Setup first = setupOf("builtin: cornell, subdivide: 4"),
+                        second = setupOf("builtin: cornell, subdivide: 4, override: {red: {metallic: 1}}");
+    const auto usedWith = [&](const voxray::Setup& setup) {
+        session.scene(setup);
+        return session.device().memoryUsedBytes();
+    };
+    const uint64_t oneBytes = usedWith(first);
+    EXPECT_EQ(usedWith(second), oneBytes) << "one by default";
+
+    session.keepScenes(2);
+    const RayTracer* tracer = session.scene(second).tracer.get();
+    const uint64_t bothBytes = usedWith(first);
+    EXPECT_GT(bothBytes, 3 * oneBytes / 2);
+    EXPECT_EQ(session.scene(second).tracer.get(), tracer);
+    session.keepScenes(1);
+    EXPECT_EQ(session.device().memoryUsedBytes(), oneBytes);
+    EXPECT_EQ(session.scene(second).tracer.get(), tracer);
+
+    // The one makes room for another that would not fit beside it
+    session.keepScenes(2);
+    session.device().setMemoryLimitBytes(bothBytes - 1);
+    EXPECT_EQ(usedWith(first), oneBytes);
+}
