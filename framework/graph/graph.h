@@ -35,9 +35,9 @@ class Graph {
         Phase phase;
         uint32_t warmupFrames;  ///< Pass::warmupFrames()
         TextLocation where;
-        uint64_t lightRays;  ///< PassPlan::lightRays; 0 before plan().
-        bool isReused;       ///< Taken over by reuse().
-        bool isSkipped;      ///< By runOnlyFor().
+        uint64_t lightRays;      ///< PassPlan::lightRays; 0 before plan().
+        bool isReused;           ///< Taken over by reuse().
+        bool isSkipped = false;  ///< By runOnlyFor().
     };
     /// In execution order.
     std::vector<PassInfo> passes() const;

@@ -16,10 +16,11 @@ import numpy as np
 from PIL import Image
 from support import PROGRAM, SOURCE, TINY, CommandTest
 
-sys.path.insert(0, os.path.join(SOURCE, "tests", "unit"))
-sys.path.insert(0, os.path.join(SOURCE, "tests", "scale"))
+sys.path[:0] = [os.path.join(SOURCE, "tests", "unit"), os.path.join(SOURCE, "tests", "scale")]
+sys.path.append(os.path.join(SOURCE, "framework"))
 import browser  # noqa: E402
 import look_abuse  # noqa: E402
+from report import exr_pixels  # noqa: E402
 
 if not browser.MISSING:
     from selenium.webdriver.common.action_chains import ActionChains
@@ -66,7 +67,7 @@ def pixels(png):
 
 class Server(Look):
     def test_serves_its_own_page_alone(self):
-        for name in ("", "look.js", "camera.js", "keys.js", "passes.js", "path.js", "side.js", "split.js", "times.js", "look.css", "style.css", "start.json"):
+        for name in ("", "look.js", "camera.js", "keys.js", "passes.js", "path.js", "side.js", "split.js", "times.js", "views.js", "look.css", "style.css", "start.json"):
             self.assertEqual(self.ask(name=name)[0], 200, name)
         self.assertEqual(self.ask(headers={"Host": f"localhost:{self.port}"})[0], 200)
         own = f"http://127.0.0.1:{self.port}"
@@ -99,6 +100,7 @@ class Server(Look):
     def test_malformed_requests_are_refused_with_a_word(self):
         for body in ("", "{", "[1]", "1", '{"shrink": 0}', '{"shrink": 65}', '{"shrink": "x"}', '{"what": 1}', '{"changes": {}}', '{"changes": [1]}',
                      '{"changes": [{"path": "seed"}]}', '{"changes": [{"path": [1], "value": 1}]}', '{"variant": [1]}', '{"side": 2}', '{"side": -1}', '{"side": 0.5}', '{"config": 1}', '{"close": 1}', '{"close": true}',
+                     '{"show": [1]}', '{"show": "gbuffer.N", "parameters": {"show": "albedo"}}', '{"show": "show_voxels", "parameters": 1}',
                       "\x01", "{" * 200):
             status, answer = self.ask("POST", "image", body.encode())
             self.assertEqual(status, 400, body)
@@ -163,6 +165,39 @@ class Server(Look):
             answer, _ = self.image(**request)
             self.assertEqual({one["id"] for one in answer["passes"] if one["reused"]}, {"voxelize", "inject"}, request)
 
+    def test_a_view_takes_the_place_of_the_image(self):
+        first, png = self.image()
+        names = {one["name"] for one in first["views"]}
+        self.assertIn("show_voxels", names)
+        self.expect(0, "run", "look.yaml", "--only", "voxelize.resolution=8", "--out", "run", "--no-report", "--aovs")
+        aovs = exr_pixels.read(self.path("run", "images", "resolution-8", "aovs.gbuffer.exr"))
+        for request in ({}, {"shrink": 4}):
+            answer, shown = self.image(show="gbuffer.N", **request)
+            # What it does not need did not run
+            self.assertEqual([one["id"] for one in answer["passes"]], ["gbuffer", "voxelize", "inject"])
+            self.assertEqual({one["id"] for one in answer["passes"] if one["reused"]}, {"voxelize", "inject"})
+            self.assertIn("direction", answer["legend"])
+            if not request:
+                normal = np.stack([aovs["N." + axis] for axis in "XYZ"], axis=-1)
+                expected = np.where((normal == 0).all(-1, keepdims=True), 0, 0.5 * normal + 0.5)
+                np.testing.assert_allclose(pixels(shown), 255 * expected, atol=0.51)
+                self.assertEqual({one["name"] for one in answer["views"]}, names)
+        answer, shown = self.image(show="gbuffer.Z")
+        depth = aovs["Z"]
+        np.testing.assert_allclose(answer["range"], np.percentile(depth[np.isfinite(depth)], [1, 99]), rtol=0.01)
+        ids = pixels(self.image(show="gbuffer.id")[1])
+        self.assertEqual(len(np.unique(ids.reshape(-1, 3), axis=0)), len(np.unique(aovs["id"])))
+        answer, voxels = self.image(show="show_voxels", parameters={"show": "normal"})
+        self.assertEqual([one["id"] for one in answer["passes"]], ["voxelize", "inject", "show_voxels"])
+        self.assertGreater(pixels(voxels).mean(), 10)
+        self.assertIn("no view 'nothing.x'", self.image(show="nothing.x")[0]["error"])
+        self.assertIn("did you mean 'gbuffer.N", self.image(show="gbuffer.Ns")[0]["error"])
+        self.assertIn("missing port 'radiance'", self.image(show="show_voxels", parameters={"show": "radiance"})[0]["error"])
+        # The image is what it was, and nothing was built again
+        answer, same = self.image()
+        self.assertEqual({one["id"] for one in answer["passes"] if one["reused"]}, {"voxelize", "inject"})
+        np.testing.assert_array_equal(pixels(same), pixels(png))
+
     def test_a_newer_request_takes_the_place_of_an_older_one(self):
         self.image()
         slow = json.dumps({"changes": [{"path": "inject.rays_per_light", "value": 1 << 22}]})
@@ -203,14 +238,17 @@ class Server(Look):
         self.assertEqual(self.image(side=1, config=first["config"])[0]["config"], first["config"])
         np.testing.assert_array_equal(pixels(self.image(side=1)[1]), pixels(png))
         self.assertEqual(self.image(side=1, close=True)[0], {})
-        answer, shown = self.image(side=1)
+        status, body = self.ask("POST", "image", '{"side": 1}')
+        self.assertEqual(status, 400)
+        self.assertIn(b"side 1 was closed", body)
+        answer, shown = self.image(side=1, config=first["config"])
         self.assertEqual(answer["config"], first["config"])
         self.assertEqual([one["id"] for one in answer["passes"] if one["reused"]], [])
         self.assertIn("one variant", self.image(side=1, config={**first["config"], "sweep": {"seed": [1, 2]}})[0]["error"])
 
     def test_sides_do_not_drop_one_another(self):
         for side in (0, 1):
-            self.image(side=side)
+            self.image(side=side, variant="resolution-8")
         connections = []
         slow = {"page": "a", "side": 1, "changes": [{"path": "inject.rays_per_light", "value": 1 << 20}]}
         for request in (slow, {"page": "a", "shrink": 4}, {"page": "a"}):
@@ -473,8 +511,16 @@ class Page(Look):
         self.settle()
         self.assertNotIn("path", self.config()["scene"]["camera"])
         self.assertEqual(self.config()["measure"], before["measure"])
-        self.find("#path button").click()
+        back = self.find("#path button:last-child")
+        back.click()
         self.settle()
+        self.assertEqual(self.config()["scene"]["camera"]["path"], path)
+        # It is played in drafts
+        latencies = self.browser.run("return window.look.latencies.length")
+        self.find("#path button").click()
+        time.sleep(0.2)
+        self.settle()
+        self.assertGreater(self.browser.run("return window.look.latencies.length"), latencies)
         self.assertEqual(self.config()["scene"]["camera"]["path"], path)
         np.testing.assert_array_equal(self.shown(), image)
         self.assertEqual(self.browser.console(), [])
@@ -504,6 +550,44 @@ class Page(Look):
         self.assertEqual(self.config()["scene"].get("camera"), camera)
         self.find("#download").send_keys("x")
         self.assertEqual(self.edited(), ["B: resolution 16 (edited)"])
+
+    def test_shows_every_kind_of_view(self):
+        image = self.shown()
+        select = Select(self.find("select[name=show]"))
+        for name, legend in (("gbuffer.N", "direction"), ("gbuffer.P", "percentile"), ("gbuffer.id", "each number"), ("gbuffer.albedo", "sRGB"),
+                             ("gather_irradiance.indirect", "exposure"), ("voxelize.voxel occupancy", "each value")):
+            select.select_by_value(name)
+            self.settle()
+            self.assertEqual(self.error(), "", name)
+            self.assertGreater(self.shown().mean(), 5, name)
+            self.assertIn(legend, self.find("#legend").text, name)
+        before = None
+        select.select_by_value("show_voxels")
+        for show in ("irradiance", "normal", "albedo"):
+            Select(self.find("select[name='show_voxels.show']")).select_by_value(show)
+            self.settle()
+            self.assertEqual(self.error(), "", show)
+            self.assertGreater(self.shown().mean(), 5, show)
+            self.assertTrue(before is None or (before != self.shown()).any(), show)
+            before = self.shown()
+        self.assertFalse(self.find("select[name='show_voxels.show'] option[value=radiance]").is_enabled())
+        self.assertIn("culled", self.find("#passes [data-id=gather_irradiance]").get_attribute("class"))
+        # Flying and parameters work as in the image
+        self.find("#image").click()
+        self.hold("w", 0.4)
+        self.settle()
+        self.assertGreater(np.abs(self.shown().astype(int) - before).mean(), 1)
+        slider = self.find("input[type=range][name='voxelize.resolution']")
+        slider.send_keys(Keys.ARROW_RIGHT * 3)
+        self.settle()
+        self.assertEqual(self.error(), "")
+        select.select_by_value("image")
+        self.settle()
+        self.assertGreater(np.abs(self.shown().astype(int) - image).mean(), 1)
+        self.assertEqual(self.find("#legend").text, "")
+        self.assertFalse(self.find("#voxels").is_displayed())
+        np.testing.assert_array_equal(self.shown(), self.downloaded_runs())
+        self.assertEqual(self.browser.console(), [])
 
     def test_what_is_refused_is_said_and_not_shown(self):
         before = self.config()

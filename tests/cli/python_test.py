@@ -38,6 +38,18 @@ class Module(CommandTest):
             self.assertGreater(study.score()["nrmse"], 0)
             with self.assertRaisesRegex(voxray.VoxrayError, "voxelize.resolution"):
                 study.set("voxelize.resolution", "many")
+            views = study.views.set_index("name")
+            self.assertEqual(study.view("gbuffer.N").shape, (24, 32, 3))
+            self.assertEqual([study.view("gbuffer.Z").shape, views["shape"]["gbuffer.Z"]], [(24, 32), [24, 32]])
+            np.testing.assert_array_equal(study.view("composite.final"), second.final.astype(np.float32))
+            occupancy = study.view("voxelize.voxel occupancy")
+            self.assertEqual([occupancy.dtype, list(occupancy.shape)], [np.uint32, views["shape"]["voxelize.voxel occupancy"]])
+            self.assertEqual(study.view("show_voxels", show="irradiance").shape, (24, 32, 3))
+            picture = study.view_picture("gbuffer.id")
+            self.assertEqual([picture.size, picture.mode], [(32, 24), "RGB"])
+            self.assertIn("number", picture.info["legend"])
+            with self.assertRaisesRegex(voxray.VoxrayError, "no view 'gbuffer.M'"):
+                study.view("gbuffer.M")
             study.select("resolution-8")
             self.assertEqual(study.config["name"], "tiny")
             np.testing.assert_array_equal(study.render().final, first.final)
