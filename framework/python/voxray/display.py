@@ -21,3 +21,8 @@ def strip(pictures: Mapping[str, Image.Image], width: int = 320) -> str:
     figures = (f'<figure style="margin:0"><img src="{images.embed_image(shown).uri}" width="{width}" alt="{caption}">'
                f"<figcaption>{caption}</figcaption></figure>" for caption, shown in pictures.items())
     return f'<div style="display:flex;flex-wrap:wrap;gap:.5em">{"".join(figures)}</div>'
+
+
+def error_picture(error: np.ndarray) -> Image.Image:
+    """An error map, shape (height, width), from 0 (black) to 1 (light yellow)."""
+    return Image.fromarray(images.colors(images.ERROR_COLORS, np.clip(error, 0, 1)))
