@@ -26,20 +26,33 @@ std::vector<ShownState::Change> changesIn(const Value& list) {
     return changes;
 }
 
+Value mapIn(const std::string& body) {
+    Value value = parseYaml(body, "request");
+    if (!value.isMap()) throw UsageError("request: it is no map");
+    return value;
+}
+
+/// Takes an entry that all requests have. @return whether it is one.
+bool takeSender(ImageRequest& request, const std::string& key, const Value& entry) {
+    if (key == "page")
+        request.page = entry.asString(key);
+    else if (key == "side")
+        request.side = wholeNumber(entry, key, 0, InteractiveSession::kSides - 1);
+    else
+        return false;
+    return true;
+}
+
 }  // namespace
 
 ImageRequest parseImageRequest(const std::string& body) {
-    const Value value = parseYaml(body, "request");
-    if (!value.isMap()) throw UsageError("request: it is no map");
+    const Value value = mapIn(body);
     ImageRequest request;
     std::string shown = kShowImage;
     const Value* parameters = nullptr;
     for (const auto& [key, entry] : value.members) {
-        if (key == "page") {
-            request.page = entry.asString(key);
-        } else if (key == "side") {
-            request.side = wholeNumber(entry, key, 0, InteractiveSession::kSides - 1);
-        } else if (key == "variant") {
+        if (takeSender(request, key, entry)) continue;
+        if (key == "variant") {
             request.variant = entry.asString(key);
         } else if (key == "config") {
             if (!entry.isMap()) throw UsageError("request: config is no map");
@@ -60,6 +73,24 @@ ImageRequest parseImageRequest(const std::string& body) {
     }
     if (shown != kShowImage) request.view = viewChoice(shown, parameters, kMaxPictureValues);
     if (request.closes && request.side == 0) throw UsageError("request: side 0 is always open");
+    return request;
+}
+
+ImageRequest parseReferenceRequest(const std::string& body) {
+    const Value value = mapIn(body);
+    ImageRequest request;
+    request.asksReference = true;
+    for (const auto& [key, entry] : value.members) {
+        if (takeSender(request, key, entry)) continue;
+        if (key == "show")
+            request.show = entry.asString(key);
+        else if (key == "known")
+            request.known = entry.asString(key);
+        else
+            throw UsageError("request: unknown key '{}'", key);
+    }
+    if (!request.show.empty() && request.show != kShowReference && request.show != kShowError)
+        throw UsageError("request: show is '{}' or '{}'", kShowReference, kShowError);
     return request;
 }
 

@@ -8,6 +8,10 @@
 
 namespace voxray {
 
+/// Values of ImageRequest::show.
+inline constexpr const char* kShowReference = "reference";
+inline constexpr const char* kShowError = "error";
+
 /// What a page asks to see.
 struct ImageRequest {
     std::string page;     ///< Tells pages apart.
@@ -20,6 +24,11 @@ struct ImageRequest {
     std::optional<ViewChoice> view;  ///< What is shown in place of the image.
     bool closes = false;             ///< Side 1 is shown no more: what it holds is freed, and there is no image.
 
+    /// Asks for the reference and the scores of the last whole image. Nothing is changed, and it waits for all others.
+    bool asksReference = false;
+    std::string show;   ///< With asksReference: whose image is asked for, too; "": none.
+    std::string known;  ///< With asksReference: the state that the page was told last.
+
     bool isDraft() const { return shrink > 1; }
     /// Whether it says what the side shows.
     bool opens() const { return !variant.empty() || !config.isNull(); }
@@ -27,5 +36,6 @@ struct ImageRequest {
 
 /// @param body a map in JSON. @throws UsageError for one that is no such request.
 ImageRequest parseImageRequest(const std::string& body);
+ImageRequest parseReferenceRequest(const std::string& body);
 
 }  // namespace voxray

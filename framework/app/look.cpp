@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include "app/commands.h"
 #include "app/config_options.h"
 #include "app/image_requests.h"
+#include "app/look_reference.h"
 #include "app/look_server.h"
 #include "app/open_config.h"
 #include "app/session_requests.h"
@@ -26,7 +28,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kPatience{100};  // Between looks at whether Ctrl-C was pressed
+/// Between looks at whether Ctrl-C was pressed, and after an image before a reference is rendered on.
+constexpr std::chrono::milliseconds kPatience{100};
+/// References are rendered for about this long at a time.
+constexpr std::chrono::milliseconds kSlice{100};
 
 struct LookArguments : ConfigArguments {
     std::filesystem::path file;
@@ -98,21 +103,22 @@ ImageF displayed(const ShownState::Rendering& rendering, Value& answer) {
     return picture.display;
 }
 
-/// A line of JSON, then a PNG file, if the image could be rendered. @throws Interrupted
-std::string answerTo(ShownState& state, const ImageRequest& request) {
+/// A line of JSON, then a PNG file, if the image could be rendered. @param shown gets a whole image. @throws
+/// Interrupted
+std::string answerTo(ShownState& state, const ImageRequest& request, ShownImage& shown) {
     const Clock::time_point start = Clock::now();
     Value answer = Value::map();
     std::vector<uint8_t> png;
+    if (!request.isDraft()) shown.rendering.reset();
     try {
         if (!request.variant.empty()) state.select(request.variant);
         if (!request.config.isNull()) state.open(request.config);
         if (!request.isDraft()) answer.set("refused", keep(state, request.changes));
         const double setMs = millisecondsSince(start);
         const ViewChoice* view = request.view ? &*request.view : nullptr;
-        const ShownState::Rendering rendering = request.isDraft()
-                                                    ? state.draft(
-                                                          request.changes, request.shrink, [](double) {}, view)
-                                                    : state.render([](double) {}, view);
+        ShownState::Rendering rendering = request.isDraft() ? state.draft(
+                                                                  request.changes, request.shrink, [](double) {}, view)
+                                                            : state.render([](double) {}, view);
         const double renderedMs = millisecondsSince(start);
         png = encodePng(displayed(rendering, answer));
         describe(answer, rendering);
@@ -126,6 +132,10 @@ std::string answerTo(ShownState& state, const ImageRequest& request) {
         answer.set("set_ms", numberValue(setMs));
         answer.set("render_ms", numberValue(renderedMs - setMs));
         answer.set("png_ms", numberValue(millisecondsSince(start) - renderedMs));
+        if (!request.isDraft() && !view) {
+            shown.rendering = std::move(rendering);
+            ++shown.number;
+        }
     } catch (const std::exception& error) {
         if (interruptRequested()) throw Interrupted();
         answer.set("error", quotedText(error.what()));
@@ -153,21 +163,43 @@ void look(const LookArguments& arguments) {
         variant.set("source", sourceOf(session.configOf(textOf(variant, "id"))));
     start.set("schema", configJsonSchema(registry));
     start.set("passes", passesOf(registry));
+    start.set("metrics", metricsValue());
     ImageRequests requests;
-    const LookServer server({.sourceRoot = options.sourceRoot,
-                             .start = start.json(-1),
-                             .image = [&](const std::string& body) { return requests.ask(parseImageRequest(body)); }},
-                            arguments.port);
+    const LookServer server(
+        {.sourceRoot = options.sourceRoot,
+         .start = start.json(-1),
+         .image = [&](const std::string& body) { return requests.ask(parseImageRequest(body)); },
+         .reference = [&](const std::string& body) { return requests.ask(parseReferenceRequest(body)); }},
+        arguments.port);
     fmt::print("{}\nCtrl-C ends it.\n", server.address());
     std::fflush(stdout);
+    std::array<ShownImage, InteractiveSession::kSides> shown;
+    Clock::time_point lastImage = Clock::now();
     const auto answer = [&](const ImageRequest& request) {
+        ShownImage& image = shown[request.side];
+        if (request.asksReference)
+            return answerAboutReference(session.isOpen(request.side) ? &session.side(request.side) : nullptr, image,
+                                        request);
         if (!session.isOpen(request.side) && !request.opens() && !request.closes)
             throw UsageError("request: side {} was closed, perhaps by another page; compare again", request.side);
-        if (!request.closes) return answerTo(session.side(request.side), request);
-        session.closeSecondSide();
-        return std::string("{}\n");
+        std::string body = "{}\n";
+        if (request.closes) {
+            session.closeSecondSide();
+            image.rendering.reset();
+        } else {
+            body = answerTo(session.side(request.side), request, image);
+        }
+        lastImage = Clock::now();
+        return body;
     };
-    while (!interruptRequested()) requests.answerNext(kPatience, answer);
+    bool misses = true;  // Samples of a reference
+    while (!interruptRequested()) {
+        const bool isQuiet = Clock::now() - lastImage >= kPatience;
+        if (requests.answerNext(misses && isQuiet ? std::chrono::milliseconds(0) : kPatience, answer))
+            misses = true;
+        else if (misses)
+            requests.work([&] { misses = session.advanceReferences(kSlice); });
+    }
     requests.close();
 }
 

@@ -19,18 +19,20 @@ struct PageFile {
     std::string_view name, path;
     const char* type;
 };
-constexpr std::array kPageFiles = {PageFile{"", "framework/look/look.html", "text/html; charset=utf-8"},
-                                   PageFile{"look.js", "framework/look/look.js", "text/javascript; charset=utf-8"},
-                                   PageFile{"camera.js", "framework/look/camera.js", "text/javascript; charset=utf-8"},
-                                   PageFile{"passes.js", "framework/look/passes.js", "text/javascript; charset=utf-8"},
-                                   PageFile{"keys.js", "framework/look/keys.js", "text/javascript; charset=utf-8"},
-                                   PageFile{"path.js", "framework/look/path.js", "text/javascript; charset=utf-8"},
-                                   PageFile{"split.js", "framework/look/split.js", "text/javascript; charset=utf-8"},
-                                   PageFile{"side.js", "framework/look/side.js", "text/javascript; charset=utf-8"},
-                                   PageFile{"times.js", "framework/look/times.js", "text/javascript; charset=utf-8"},
-                                   PageFile{"views.js", "framework/look/views.js", "text/javascript; charset=utf-8"},
-                                   PageFile{"look.css", "framework/look/look.css", "text/css; charset=utf-8"},
-                                   PageFile{"style.css", "framework/report/style.css", "text/css; charset=utf-8"}};
+constexpr std::array kPageFiles = {
+    PageFile{"", "framework/look/look.html", "text/html; charset=utf-8"},
+    PageFile{"look.js", "framework/look/look.js", "text/javascript; charset=utf-8"},
+    PageFile{"camera.js", "framework/look/camera.js", "text/javascript; charset=utf-8"},
+    PageFile{"passes.js", "framework/look/passes.js", "text/javascript; charset=utf-8"},
+    PageFile{"reference.js", "framework/look/reference.js", "text/javascript; charset=utf-8"},
+    PageFile{"keys.js", "framework/look/keys.js", "text/javascript; charset=utf-8"},
+    PageFile{"path.js", "framework/look/path.js", "text/javascript; charset=utf-8"},
+    PageFile{"split.js", "framework/look/split.js", "text/javascript; charset=utf-8"},
+    PageFile{"side.js", "framework/look/side.js", "text/javascript; charset=utf-8"},
+    PageFile{"times.js", "framework/look/times.js", "text/javascript; charset=utf-8"},
+    PageFile{"views.js", "framework/look/views.js", "text/javascript; charset=utf-8"},
+    PageFile{"look.css", "framework/look/look.css", "text/css; charset=utf-8"},
+    PageFile{"style.css", "framework/report/style.css", "text/css; charset=utf-8"}};
 
 void refuse(httplib::Response& response, int status, const std::string& why) {
     response.status = status;
@@ -73,12 +75,16 @@ LookServer::LookServer(Content content, int port)
         refuse(response, 404, "nothing has this name");
     });
     server_->Post(".*", [this](const Request& request, Response& response) {
-        if (guard_->nameIn(request.path) != "image") return refuse(response, 404, "nothing has this name");
+        const std::string name = guard_->nameIn(request.path).value_or("");
+        if (name != "image" && name != "reference") return refuse(response, 404, "nothing has this name");
         try {
-            if (const std::optional<std::string> body = content_.image(request.body))
+            const auto& answer = name == "image" ? content_.image : content_.reference;
+            if (const std::optional<std::string> body = answer(request.body))
                 response.set_content(*body, "application/octet-stream");
-            else
+            else if (name == "image")
                 refuse(response, 409, "a newer request took the place of this one");
+            else
+                response.status = 204;  // Nothing is wrong: it is asked for again
         } catch (const std::exception& error) {
             refuse(response, 400, error.what());
         }

@@ -24,6 +24,8 @@ class LookServer {
         /// Answers a request for an image, in a thread of the server; nullopt if a newer one took its place.
         /// @throws UsageError for a body that is no such request.
         std::function<std::optional<std::string>(const std::string& body)> image;
+        /// The same for a request about the reference.
+        std::function<std::optional<std::string>(const std::string& body)> reference;
     };
     /// @param port 0: one that is free. @throws Error if it is not free.
     LookServer(Content content, int port);

@@ -66,6 +66,18 @@ void describe(Value& answer, const ShownState::Rendering& rendering) {
     answer.set("values", std::move(values));
 }
 
+void describe(Value& answer, ProgressiveReference& reference) {
+    answer.set("samples", numberValue(reference.samples()));
+    answer.set("of", numberValue(reference.of()));
+    answer.set("noise", scoresOf(reference.noise()));
+}
+
+Value scoresOf(const Scores& scores) {
+    Value all = Value::map();
+    for (const auto& [column, value] : scores) all.set(column, numberValue(value));
+    return all;
+}
+
 Value RequestHandler::answer(const Value& request) {
     const std::string command = textOf(request, "command");
     Value answer = Value::map();
@@ -85,6 +97,9 @@ Value RequestHandler::answer(const Value& request) {
     } else if (command == "render") {
         allow(request, {});
         render(answer);
+    } else if (command == "reference") {
+        allow(request, {"ms"});
+        reference(request, answer);
     } else if (command == "score") {
         allow(request, {});
         score(answer);
@@ -99,10 +114,18 @@ Value RequestHandler::answer(const Value& request) {
             viewChoice(textOf(request, "name"), request.find("parameters"), std::numeric_limits<uint64_t>::max()),
             picture && picture->asBool("picture"), images_);
     } else {
-        throw UsageError(request.where, "no command '{}'; there are config, render, score, select, set, view, views",
+        throw UsageError(request.where,
+                         "no command '{}'; there are config, reference, render, score, select, set, "
+                         "view, views",
                          command);
     }
     return answer;
+}
+
+Value RequestHandler::write(const std::string& name, const ImageF& image) const {
+    const std::filesystem::path file = images_ / (name + ".exr");
+    writeExr(file, image);
+    return quotedText(file.string());
 }
 
 void RequestHandler::render(Value& answer) {
@@ -120,12 +143,33 @@ void RequestHandler::render(Value& answer) {
     describe(answer, *rendering_);
 }
 
+void RequestHandler::reference(const Value& request, Value& answer) {
+    std::optional<std::chrono::milliseconds> budget;
+    if (const Value* given = request.find("ms")) {
+        const int64_t milliseconds = given->asInteger("ms");
+        if (milliseconds < 0) throw UsageError(given->where, "reference: ms is 0 or more");
+        budget = std::chrono::milliseconds(milliseconds);
+    }
+    const bool isLookedAtAlone = budget && budget->count() == 0;
+    ProgressiveReference& reference = isLookedAtAlone ? state_.reference() : state_.advanceReference(budget);
+    Value files = Value::map();
+    if (const ReferenceImages* images = reference.images()) {
+        files.set(kComparedImage, write("reference_final", images->final.mean));
+        files.set(kIndirectImage, write("reference_indirect", images->indirect.mean));
+    }
+    answer.set("images", std::move(files));
+    describe(answer, reference);
+}
+
 void RequestHandler::score(Value& answer) {
     if (!rendering_) throw UsageError("score: nothing is rendered yet");
-    Value scores = Value::map();
-    for (const auto& [column, value] : state_.score(rendering_->images, [](double) {}).scores)
-        scores.set(column, numberValue(value));
-    answer.set("scores", std::move(scores));
+    const ScoredFrame scored = state_.score(rendering_->images);
+    Value files = Value::map();
+    files.set(kComparedImage, write("flip", scored.flip));
+    if (scored.indirectFlip) files.set(kIndirectImage, write("indirect_flip", *scored.indirectFlip));
+    answer.set("images", std::move(files));
+    answer.set("scores", scoresOf(scored.scores));
+    describe(answer, state_.reference());
 }
 
 }  // namespace voxray

@@ -19,6 +19,12 @@ Value greetingOf(InteractiveSession& session);
 /// Size, times, memory, passes and values of a rendering, without its images.
 void describe(Value& answer, const ShownState::Rendering& rendering);
 
+/// Samples and noise of a reference, without its images.
+void describe(Value& answer, ProgressiveReference& reference);
+
+/// Scores by column.
+Value scoresOf(const Scores& scores);
+
 /// The entry `key` of a request. @throws UsageError if it is missing or no text.
 std::string textOf(const Value& request, const std::string& key);
 
@@ -32,7 +38,10 @@ class RequestHandler {
 
  private:
     void render(Value& answer);
+    void reference(const Value& request, Value& answer);
     void score(Value& answer);
+    /// Writes an image to <name>.exr. @return the file.
+    Value write(const std::string& name, const ImageF& image) const;
 
     ShownState& state_;
     const std::filesystem::path images_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/interrupt.h"
 #include "config/overrides.h"
 #include "experiment/scene_files.h"
 
@@ -65,6 +66,46 @@ ShownState& InteractiveSession::side(size_t number) {
 void InteractiveSession::closeSecondSide() {
     sides_[1].reset();
     session_.keepScenes(1);
+    dropReferences();
+}
+
+bool InteractiveSession::isShown(const ProgressiveReference& reference) const {
+    return std::ranges::any_of(sides_,
+                               [&](const auto& side) { return side && side->referenceHash() == reference.hash(); });
+}
+
+ProgressiveReference& InteractiveSession::reference(const Study& study) {
+    const std::string& hash = study.variants.front().referenceHash;
+    for (auto& reference : references_)
+        if (reference && reference->hash() == hash) return *reference;
+    // There are as many as sides, so that the study's side has one left: that of its earlier values, if any
+    auto free = std::ranges::find_if(references_, [&](const auto& one) { return one && !isShown(*one); });
+    if (free == references_.end()) free = std::ranges::find_if(references_, [](const auto& one) { return !one; });
+    if (!*free) free->emplace(session_);
+    (*free)->follow(study);
+    return **free;
+}
+
+void InteractiveSession::dropReferences() {
+    for (auto& reference : references_)
+        if (reference && !isShown(*reference)) reference.reset();
+}
+
+bool InteractiveSession::advanceReferences(std::chrono::milliseconds budget) {
+    for (auto& side : sides_) {
+        if (!side || !side->hasReference()) continue;
+        const ProgressiveReference& reference = side->reference();
+        if (reference.isWhole() || reference.hasFailed()) continue;
+        try {
+            side->advanceReference(budget);
+        } catch (const Interrupted&) {
+            throw;
+        } catch (const Error&) {
+            // hasFailed() tells it
+        }
+        return true;
+    }
+    return false;
 }
 
 Study InteractiveSession::studyOf(Value config) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,6 +36,11 @@ class InteractiveSession {
     /// Frees what side 1 holds; it begins anew when it is asked for again.
     void closeSecondSide();
 
+    /// Renders more of the sides' references, of one after the other, as ProgressiveReference::advance(). One that
+    /// fails is left alone (ProgressiveReference::hasFailed()). @return whether samples are missing. @throws
+    /// Interrupted.
+    bool advanceReferences(std::chrono::milliseconds budget);
+
     // For the states
     /// Makes the study of a config without sweep. @throws UsageError
     Study studyOf(Value config) const;
@@ -42,8 +48,14 @@ class InteractiveSession {
     /// before, its view is not path traced to find what may mislead, but for a view that was before.
     Study checkedStudy(Value config);
     Session& resources() { return session_; }
+    /// The reference of a side's study, which sides with the same one share.
+    ProgressiveReference& reference(const Study& study);
+    /// Frees references of which no side has the study any more.
+    void dropReferences();
 
  private:
+    bool isShown(const ProgressiveReference& reference) const;
+
     const Registry& registry_;
     const Experiment opened_;
     Session session_;
@@ -53,6 +65,7 @@ class InteractiveSession {
     std::vector<std::pair<std::string, std::string>> variants_;  ///< Name and id.
     std::vector<Value> variantConfigs_;
     std::array<std::optional<ShownState>, kSides> sides_;
+    std::array<std::optional<ProgressiveReference>, kSides> references_;
 };
 
 }  // namespace voxray

@@ -22,9 +22,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kIdentity = "identity";
 
-/// Suffix of the keys of a reference's noise floors.
-constexpr const char* kNoiseSuffix = "_noise";
-
 template <typename Infos>
 Json metricsJson(const Infos& infos) {
     Json list = Json::array();
@@ -51,7 +48,7 @@ Json entryJson(const ReferenceRecord& r, const Value& pass) {
     json["seconds"] = r.seconds;
     json["cached"] = r.cached;
     json["mask_fractions"] = r.maskFractions;
-    json.update(scoresJson(r.noise, kNoiseSuffix));
+    json.update(scoresJson(r.noise, kNoise));
     json["flip_exposures"] = exposuresJson(r.exposures);
     json["indirect_flip_exposures"] = exposuresJson(r.indirectExposures);
     json["baselines"] = {{"black", scoresJson(r.black)}, {"constant", scoresJson(r.constant)}};

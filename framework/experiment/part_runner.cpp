@@ -87,8 +87,10 @@ const PreparedReference* PartRunner::referenceOf(const Variant& variant, Progres
                         "'./voxray scene' tells where the scene is, and what shines",
                         variant.name));
     printWarnings(progress);
-    reference_ = prepareReference(images, std::move(masks), variant.setup.image, referenceFolder(hash));
-    return &*reference_;
+    PreparedReference reference =
+        prepareReference(images, std::move(masks), variant.setup.image, referenceFolder(hash));
+    addBaselines(reference, variant.setup.image);
+    return &reference_.emplace(std::move(reference));
 }
 
 void PartRunner::writeReference(const Variant& variant, Progress& progress) {

@@ -44,12 +44,6 @@ uint32_t partsIn(const std::string& id) {
     return std::max(parts, 1u);
 }
 
-/// Samples per pixel of the reference, which is the limit of its parts; 1 if there is no reference.
-uint32_t referenceSamples(const PreparedExperiment& prepared) {
-    const Value* spp = prepared.manifest().referencePass.find("spp");
-    return spp ? uint32_t(spp->asInteger("reference.spp")) : 1;
-}
-
 /// Estimated memory and cost of a part.
 struct PartNeed {
     uint64_t bytes = 0;
@@ -64,7 +58,7 @@ PartNeed partNeedOf(const Part& part, PreparedExperiment& prepared, Forecaster& 
     if (part.kind == Part::Kind::Reference) {
         // Total and indirect light of two halves, in double
         const uint64_t pixels = uint64_t(variant.setup.image.width) * variant.setup.image.height;
-        const uint64_t spp = referenceSamples(prepared);
+        const uint64_t spp = referenceSamples(prepared.manifest().referencePass);
         return {
             pixels * 4 * 3 * sizeof(double), pixels * (part.samples.end(spp) - part.samples.first(spp)), "paths", {}};
     }
@@ -123,10 +117,11 @@ void print(const Forecast& forecast) {
 }  // namespace
 
 std::vector<Part> partsOf(PreparedExperiment& prepared, uint32_t referenceParts) {
-    if (!prepared.experiment().reference.isNull() && referenceParts > referenceSamples(prepared))
+    if (!prepared.experiment().reference.isNull() &&
+        referenceParts > referenceSamples(prepared.manifest().referencePass))
         throw UsageError(prepared.experiment().reference.where,
-                         "reference.spp: {} samples a pixel can't be divided into {} parts", referenceSamples(prepared),
-                         referenceParts);
+                         "reference.spp: {} samples a pixel can't be divided into {} parts",
+                         referenceSamples(prepared.manifest().referencePass), referenceParts);
     std::vector<Part> references, variants;
     Part merge;
     std::set<std::string> listed;

@@ -119,6 +119,11 @@ std::vector<std::string> referencePorts() {
     return {"sums"};
 }
 
+uint32_t referenceSamples(const Value& resolvedPass) {
+    const Value* spp = resolvedPass.find("spp");
+    return spp ? uint32_t(spp->asInteger("reference.spp")) : 1;
+}
+
 RenderedPart renderReference(Graph& graph, const GraphTarget& target, uint32_t frameIndex,
                              const std::function<void(double)>& progress) {
     Frame frame = target.frame;

@@ -33,6 +33,9 @@ uint64_t referenceSeed(uint64_t seed);
 /// The outputs that a reference's pass must write.
 std::vector<std::string> referencePorts();
 
+/// Samples a pixel of a reference: the parameter 'spp' of its pass; 1 without one.
+uint32_t referenceSamples(const Value& resolvedPass);
+
 /// A rendered part of a reference, or the sum of several parts.
 struct RenderedPart {
     ReferenceSums sums;

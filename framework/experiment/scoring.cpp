@@ -51,9 +51,6 @@ PreparedReference prepareReference(ReferenceImages images, std::vector<PixelSele
         r.maskFractions[mask.name] = double(mask.count) / double(ref.final.mean.pixelCount());
     const auto addLight = [&](const std::string& prefix, const ReferenceLight& light, const FlipExposures& exposures) {
         const ScoreOptions options{image.exposureStops, exposures};
-        const ImageF black = blackLike(light.mean), constant = constantLike(light.mean);
-        addScores(r.black, prefix, {black, light.mean, options, light.halves()}, reference.masks);
-        addScores(r.constant, prefix, {constant, light.mean, options, light.halves()}, reference.masks);
         const Comparison a(light.a, light.mean, options), b(light.b, light.mean, options);
         forEachRegion(reference.masks, [&](const std::string& region, PixelMask mask) {
             add(r.noise, prefix, noiseFloors(a, b, mask), region);
@@ -62,6 +59,18 @@ PreparedReference prepareReference(ReferenceImages images, std::vector<PixelSele
     addLight(kTotal, ref.final, r.exposures);
     addLight(kIndirect, ref.indirect, r.indirectExposures);
     return reference;
+}
+
+void addBaselines(PreparedReference& reference, const ImageSettings& image) {
+    ReferenceRecord& r = reference.record;
+    const auto addLight = [&](const std::string& prefix, const ReferenceLight& light, const FlipExposures& exposures) {
+        const ScoreOptions options{image.exposureStops, exposures};
+        const ImageF black = blackLike(light.mean), constant = constantLike(light.mean);
+        addScores(r.black, prefix, {black, light.mean, options, light.halves()}, reference.masks);
+        addScores(r.constant, prefix, {constant, light.mean, options, light.halves()}, reference.masks);
+    };
+    addLight(kTotal, reference.images.final, r.exposures);
+    addLight(kIndirect, reference.images.indirect, r.indirectExposures);
 }
 
 ScoredFrame scoreFrame(const FrameImages& test, const ReferenceImages& reference,

@@ -18,9 +18,11 @@ struct PreparedReference {
     std::vector<PixelSelection> masks;
     ReferenceRecord record;
 };
-/// Computes exposures, and the scores of a black and a constant image and noise floors for all masks.
+/// Computes exposures, and noise floors for all masks. @throws Interrupted.
 PreparedReference prepareReference(ReferenceImages images, std::vector<PixelSelection> masks,
                                    const ImageSettings& image, const std::string& folder);
+/// Computes the scores of a black and a constant image for all masks. @throws Interrupted.
+void addBaselines(PreparedReference& reference, const ImageSettings& image);
 
 /// The images of a variant in one of its measured frames.
 struct FrameImages {
@@ -35,7 +37,7 @@ struct ScoredFrame {
     ImageF flip;
     std::optional<ImageF> indirectFlip;
 };
-/// Scores both lights on the whole image and under each mask that selects a pixel.
+/// Scores both lights on the whole image and under each mask that selects a pixel. @throws Interrupted.
 /// @param pinned has the exposures: those of frame 0 are used for all frames.
 ScoredFrame scoreFrame(const FrameImages& test, const ReferenceImages& reference,
                        const std::vector<PixelSelection>& masks, const ReferenceRecord& pinned, float exposureStops);

@@ -98,12 +98,14 @@ void Session::loadScene(const Setup& setup, const std::string& sceneKey) {
     }
     scene.key = sceneKey + " " + tracerName(setup);
     scene.cameraless = cameralessKey(setup);
+    scene.version = ++sceneVersions_;
     loader_.setTaken(&scene.prepared, sceneKey);
 }
 
 void Session::goToFrame(const Setup& setup, Frame& frame, int fromCompared) {
     SceneOnDevice& scene = scenes_.front();
     scene.isMoved = true;
+    scene.version = ++sceneVersions_;
     loader_.setTaken(nullptr, {});
     frame.changedRegions = SceneLoader::goToFrame(scene.prepared, setup.scene, fromCompared);
     ++frame.sceneVersion;
@@ -177,17 +179,17 @@ bool Session::hasReference(const std::string& hash) const {
     return cache_.has(hash) || (parts_ && parts_->isWhole(hash));
 }
 
-std::optional<ReferenceImages> Session::stored(const std::string& hash, const Setup& setup) {
+std::optional<ReferenceImages> Session::storedReference(const std::string& hash, const Setup& setup) {
     const uint32_t width = setup.image.width, height = setup.image.height;
     if (auto cached = cache_.load(hash, width, height)) return cached;
     if (!parts_ || !parts_->isWhole(hash)) return {};
     ReferenceImages merged = imagesOf(parts_->load(hash, width, height));
     merged.hash = hash;
-    store(merged);
+    storeReference(merged);
     return merged;
 }
 
-void Session::store(const ReferenceImages& reference) {
+void Session::storeReference(const ReferenceImages& reference) {
     if (!cacheError_.empty()) return;
     try {
         cache_.store(reference);
@@ -200,10 +202,10 @@ void Session::store(const ReferenceImages& reference) {
 ReferenceImages Session::frameReference(const Study& study, const Setup& setup, uint32_t number,
                                         const std::function<void(double)>& progress) {
     const std::string hash = referenceHashOf(study, setup, number);
-    if (auto known = stored(hash, setup)) return std::move(*known);
+    if (auto known = storedReference(hash, setup)) return std::move(*known);
     ReferenceImages rendered = imagesOf(renderPart(study, setup, number, {}, progress));
     rendered.hash = hash;
-    store(rendered);
+    storeReference(rendered);
     return rendered;
 }
 

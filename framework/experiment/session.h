@@ -19,6 +19,7 @@ namespace voxray {
 struct SceneOnDevice {
     std::string key;         ///< Of everything it depends on.
     std::string cameraless;  ///< The same without the camera.
+    uint64_t version = 0;    ///< Another one whenever a scene is loaded or anything but the camera moves.
     PreparedScene prepared;
     GpuScene gpu;
     std::unique_ptr<RayTracer> tracer;
@@ -74,6 +75,10 @@ class Session {
     /// Renders a part of a reference, or loads the whole from the cache. @throws Error, Interrupted.
     RenderedPart referencePart(const Study& study, const Setup& setup, uint32_t number, SamplePart samples,
                                const std::function<void(double)>& progress);
+    /// A whole reference from the cache on disk or from its parts.
+    std::optional<ReferenceImages> storedReference(const std::string& hash, const Setup& setup);
+    /// Writes a whole reference to the cache on disk, if that can be written.
+    void storeReference(const ReferenceImages& reference);
     /// Whether a reference is available without rendering it.
     bool hasReference(const std::string& hash) const;
     /// Hash of a variant's reference; "" if the experiment has none.
@@ -88,11 +93,8 @@ class Session {
  private:
     /// Loads a scene onto the device, in front of the others. @throws SizeError if they don't fit together.
     void loadScene(const Setup& setup, const std::string& sceneKey);
-    /// Loads a reference from the cache or merges its parts.
-    std::optional<ReferenceImages> stored(const std::string& hash, const Setup& setup);
     RenderedPart renderPart(const Study& study, const Setup& setup, uint32_t number, SamplePart samples,
                             const std::function<void(double)>& progress);
-    void store(const ReferenceImages& reference);
 
     Device device_;
     CommandStream stream_;
@@ -103,6 +105,7 @@ class Session {
     std::optional<ReferenceParts> parts_;
     size_t keptScenes_ = 1;
     std::list<SceneOnDevice> scenes_;  ///< The last requested one first.
+    uint64_t sceneVersions_ = 0;
     std::optional<ReferenceImages> reference_;
     std::map<std::string, std::string> failedReferences_;  ///< Hash -> error.
     std::vector<std::string> warnings_;

@@ -31,7 +31,13 @@ ShownState::ShownState(InteractiveSession& session, Value config)
 
 void ShownState::open(Value config) {
     refuseSweep(config, config.where);
-    study_ = session_.checkedStudy(std::move(config));
+    take(session_.checkedStudy(std::move(config)));
+}
+
+void ShownState::take(Study study) {
+    study_ = std::move(study);
+    if (prepared_ && prepared_->images.hash != referenceHash()) prepared_.reset();
+    if (!hasReference()) session_.dropReferences();
 }
 
 void ShownState::select(const std::string& id) {
@@ -46,7 +52,7 @@ void ShownState::apply(Value& config, const Change& change) {
 void ShownState::set(const std::string& path, const Value& value) {
     Value changed = config();
     apply(changed, {path, value});
-    study_ = session_.checkedStudy(std::move(changed));
+    take(session_.checkedStudy(std::move(changed)));
 }
 
 std::vector<std::string> ShownState::warnings() const {
@@ -138,17 +144,34 @@ ShownState::Rendering ShownState::render(Graph graph, const Setup& setup, const 
     return rendering;
 }
 
-ScoredFrame ShownState::score(const FrameImages& rendered, const std::function<void(double)>& progress) {
-    if (study_.reference.isNull()) throw UsageError(config().where, "the config has no reference to score against");
+ProgressiveReference& ShownState::reference() {
+    if (!hasReference()) throw UsageError(config().where, "the config has no reference to score against");
+    return session_.reference(study_);
+}
+
+ProgressiveReference& ShownState::advanceReference(std::optional<std::chrono::milliseconds> budget) {
+    ProgressiveReference& reference = this->reference();
+    reference.advance(study_, budget);
+    return reference;
+}
+
+ScoredFrame ShownState::score(const FrameImages& rendered) {
+    ProgressiveReference& reference = this->reference();
+    if (!reference.images()) reference.advance(study_, {});
     const Setup& setup = variant().setup;
-    const std::string key = variant().referenceHash + " " + writeParams(setup.image).text();
-    if (!reference_ || preparedFor_ != key) {
-        reference_.reset();
-        const ReferenceImages& images = resources_.reference(study_, setup, progress);
-        reference_ = prepareReference(images, resources_.selectPixels(study_, setup, 0), setup.image, "");
+    std::string key = fmt::format("{} {} {} {}", reference.hash(), reference.samples(), writeParams(setup.image).text(),
+                                  writeParams(study_.experiment.measure).text());
+    for (const MaskSettings& mask : study_.experiment.measure.masks) key += " " + mask.name + writeParams(mask).text();
+    if (!prepared_ || preparedFor_ != key) {
+        prepared_.reset();
+        prepared_ = prepareReference(*reference.images(), resources_.selectPixels(study_, setup, 0), setup.image, "");
         preparedFor_ = key;
     }
-    return scoreFrame(rendered, reference_->images, reference_->masks, reference_->record, setup.image.exposureStops);
+    const ReferenceRecord& record = prepared_->record;
+    ScoredFrame scored = scoreFrame(rendered, prepared_->images, prepared_->masks, record, setup.image.exposureStops);
+    for (const auto& [column, floor] : record.noise)
+        if (scored.scores.contains(column)) scored.scores[column + kNoise] = floor;
+    return scored;
 }
 
 }  // namespace voxray

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "experiment/progressive_reference.h"
 #include "experiment/scoring.h"
 #include "experiment/session.h"
 #include "experiment/view_picture.h"
@@ -81,11 +83,20 @@ class ShownState {
     /// Of the last rendering. @throws UsageError, as views().
     const ImageSettings& renderedImage() const;
 
-    /// Scores images of the current values against the reference, which is rendered if it isn't cached.
+    bool hasReference() const { return !study_.reference.isNull(); }
+    /// Variant::referenceHash of the current values.
+    const std::string& referenceHash() const { return variant().referenceHash; }
+    /// The reference of the current values, with the samples that it has. @throws UsageError if the config has none.
+    ProgressiveReference& reference();
+    /// Renders more of it (ProgressiveReference::advance()). @throws also UsageError if the config has none.
+    ProgressiveReference& advanceReference(std::optional<std::chrono::milliseconds> budget);
+    /// Scores images of the current values against all samples of the reference so far; one without images is
+    /// rendered to its end first. Scores without an interval have their noise floor, too (kNoise).
     /// @throws UsageError if the config has no reference, Error, Interrupted.
-    ScoredFrame score(const FrameImages& rendered, const std::function<void(double)>& progress);
+    ScoredFrame score(const FrameImages& rendered);
 
  private:
+    void take(Study study);
     /// The config with a change. @throws UsageError
     static void apply(Value& config, const Change& change);
     /// A rendering whose graph and frame are kept for views.
@@ -114,7 +125,7 @@ class ShownState {
     std::optional<Rendered> rendered_;  ///< Unless it failed.
     std::string builtFor_;              ///< What build passes depend on besides the graph: scene, tracer, seed.
     std::string viewOf_;                ///< Camera and image size.
-    std::optional<PreparedReference> reference_;
+    std::optional<PreparedReference> prepared_;
     std::string preparedFor_;  ///< What the prepared reference depends on.
 };
 

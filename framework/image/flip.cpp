@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/interrupt.h"
 #include "base/srgb.h"
 #include "image/flip_tone.h"
 #include "image/metrics.h"
@@ -262,6 +263,7 @@ ErrorMap flipHdr(const ImageF& test, const ImageF& reference, const FlipExposure
     const double step = (exposures.stop - exposures.start) / std::max(count - 1, 1);
     Plane largest(reference.width, reference.height);
     for (int i = 0; i < count; ++i) {
+        if (interruptRequested()) throw Interrupted();
         const double scale = std::exp2(exposures.start + i * step);
         const auto filter = [&](const ImageF& image) {
             return filterImage(image.width, image.height, filters, [&](size_t x, size_t y) {

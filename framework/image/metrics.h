@@ -72,7 +72,7 @@ struct FlipExposures {
 FlipExposures flipExposures(const ImageF& reference);
 /// HDR-FLIP of two linear images: each pixel's maximum LDR-FLIP over the exposures. Negative values count as
 /// 0.
-/// @throws Error also if the exposures are not finite or not in order, or their count is below 1.
+/// @throws Error also if the exposures are not finite or not in order, or their count is below 1; Interrupted.
 ErrorMap flipHdr(const ImageF& test, const ImageF& reference, const FlipExposures& exposures,
                  double pixelsPerDegree = flipPixelsPerDegree);
 

@@ -51,6 +51,8 @@ struct MetricInfo {
 /// Suffixes of the ends of an interval.
 inline constexpr const char* kLow = "_low";
 inline constexpr const char* kHigh = "_high";
+/// Suffix of a noise floor (noiseFloors()).
+inline constexpr const char* kNoise = "_noise";
 
 struct Metric : MetricInfo {
     Estimate (*evaluate)(const Comparison& comparison, PixelMask mask);

@@ -3,6 +3,7 @@
 import { FlyCamera } from "./camera.js";
 import { PassList, idOf } from "./passes.js";
 import { PathControls } from "./path.js";
+import { ReferenceBox } from "./reference.js";
 import { Side } from "./side.js";
 import { Split } from "./split.js";
 import { frameText, showTimes } from "./times.js";
@@ -23,6 +24,7 @@ const hooks = {
     },
     drawn: (side, answer, ms) => {
         side.drawn = answer;
+        if (answer.shrink === 1) reference.follow(side);
         if (answer.shrink > 1)
             state.latencies.push({ side: side.number, ms, set: answer.set_ms, render: answer.render_ms, png: answer.png_ms, frame: answer.frame_ms });
         if (side !== split.edited) return;
@@ -33,7 +35,10 @@ const hooks = {
     ended: (side, error) => say(side, `The program does not answer: ${error.message}. Start voxray look again.`),
 };
 const sides = ["image", "other"].map((id, number) => new Side(number, page, byId(id), hooks));
-const split = new Split(byId("images"), sides, start.variants, { edited: showConfig });
+const split = new Split(byId("images"), sides, start.variants, { edited: (side) => {
+    showConfig(side);
+    reference.list();
+} });
 const camera = new FlyCamera(sides.map((side) => side.canvas), (value, time) => {
     path.fly(value, time);
     changed("scene.camera", value, time);
@@ -45,6 +50,7 @@ const passes = new PassList(byId("passes"), start, (name, value) => {
     changed(name, value, performance.now());
 });
 const views = new Views(document.querySelector("[name=show]"), byId("voxels"), start, (time) => split.shown.forEach((side) => side.ask(time)));
+const reference = new ReferenceBox(byId("reference"), document.querySelector("[name=show]"), start.metrics, page, () => split.shown, () => split.edited);
 // For tests and measurements
 export const state = {
     latencies: [],

@@ -45,7 +45,7 @@ export class Views {
     /** Fields of a request. */
     get fields() {
         if (this.select.value === VOXELS) return { show: VOXELS, parameters: this.parameters };
-        return this.select.value === "image" ? {} : { show: this.select.value };
+        return this.select.selectedOptions[0].closest("optgroup") ? { show: this.select.value } : {};
     }
 
     showControls() {

@@ -66,6 +66,9 @@ class Integrator {
     PathLight light_;
 };
 
+/// As pathTrace(), of the integrator's scene; its bounces and light count, not those of `options`.
+PathTraceResult render(const Integrator& integrator, const Camera& camera, const PathTraceOptions& options,
+                       const ProgressCallback& progress);
 /// As pathTrace(), with any strategy.
 PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
                        const PathTraceOptions& options, const ProgressCallback& progress, Strategy strategy);

@@ -1,11 +1,13 @@
 #include <array>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
 #include "graph/reference_sums.h"
 #include "graph/registry.h"
 #include "passes/common/filter/noisy_irradiance.h"
+#include "passes/path_trace/integrator.h"
 #include "passes/path_trace/path_tracer.h"
 #include "trace/embree_scene.h"
 
@@ -94,6 +96,8 @@ class PathTracePass final : public Pass {
     Out<ReferenceSums> sums_{*this, "sums", "sums over the samples of each half, for references"};
     PathTraceOptions options_;
     std::unique_ptr<EmbreeScene> embree_;
+    std::optional<path_trace::Integrator> integrator_;
+    uint64_t sceneVersion_ = 0;  ///< Of the scene that the integrator was made for.
 };
 
 void PathTracePass::plan(PassPlan& plan) {
@@ -104,7 +108,6 @@ void PathTracePass::plan(PassPlan& plan) {
                 .spp = params_.spp,
                 .bounces = params_.bounces,
                 .light = params_.light,
-                .samples = plan.frame.samples,
                 .keepSums = plan[sums_].isRead && params_.light == PathLight::All && params_.spp > 1};
     for (const RenderedImage& image : images_) {
         FrameImage& frame = plan[image.port];
@@ -130,9 +133,14 @@ void PathTracePass::prepare(PassSetup& setup) {
 void PathTracePass::record(PassContext& context) {
     const Frame& frame = context.frame;
     options_.seed = frame.seed + context.frameIndex;
+    options_.samples = frame.samples;
     context.stream.finish();
     if (frame.changedRegions && !frame.changedRegions->empty()) embree_->update();
-    PathTraceResult result = pathTrace(*frame.scene, *embree_, frame.camera, options_, frame.progress);
+    if (!integrator_ || sceneVersion_ != frame.sceneVersion) {
+        integrator_.emplace(*frame.scene, *embree_, options_.bounces, path_trace::Strategy::Mis, options_.light);
+        sceneVersion_ = frame.sceneVersion;
+    }
+    PathTraceResult result = path_trace::render(*integrator_, frame.camera, options_, frame.progress);
     context.extraRays = result.rays;
     for (const RenderedImage& image : images_)
         if (const FrameImage& target = context[image.port]; target.isRead && isRendered(image))

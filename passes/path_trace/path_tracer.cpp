@@ -214,8 +214,8 @@ struct RenderJob {
 
 }  // namespace
 
-PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
-                       const PathTraceOptions& options, const ProgressCallback& progress, Strategy strategy) {
+PathTraceResult render(const Integrator& integrator, const Camera& camera, const PathTraceOptions& options,
+                       const ProgressCallback& progress) {
     const uint32_t width = options.width, height = options.height;
     if (width == 0 || height == 0) throw Error("path tracing: the image size {}x{} has no pixels", width, height);
     if (options.spp == 0) throw Error("path tracing: spp must be at least 1");
@@ -230,7 +230,6 @@ PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const
         const uint32_t block = options.momentsPixels();
         result.moments.resize(size_t((width + block - 1) / block) * ((height + block - 1) / block));
     }
-    const Integrator integrator(state, tracer, options.bounces, strategy, options.light, options.rays);
     const PinholeCamera pinhole(camera, width, height);
 
     // Divide samples among independent batches: of two the first takes odd numbers
@@ -259,6 +258,12 @@ PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const
     if (reporter.isStopped()) throw Error("path tracing was stopped");
     result.rays = rays;
     return result;
+}
+
+PathTraceResult render(const SceneState& state, const EmbreeScene& tracer, const Camera& camera,
+                       const PathTraceOptions& options, const ProgressCallback& progress, Strategy strategy) {
+    return render(Integrator(state, tracer, options.bounces, strategy, options.light, options.rays), camera, options,
+                  progress);
 }
 
 }  // namespace path_trace

@@ -32,9 +32,12 @@ CONFIG = TINY.replace("width: 32, height: 24", "width: 64, height: 48")
 
 
 class Look(CommandTest):
+    yaml = CONFIG
+
     def setUp(self):
         super().setUp()
-        self.write("look.yaml", CONFIG)
+        self.use_own_references("cache")
+        self.write("look.yaml", self.yaml)
         self.process = subprocess.Popen([PROGRAM, "look", "look.yaml", "--validate"], cwd=self.folder, env=self.environment, text=True,
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.addCleanup(self.process.stderr.close)
@@ -67,7 +70,7 @@ def pixels(png):
 
 class Server(Look):
     def test_serves_its_own_page_alone(self):
-        for name in ("", "look.js", "camera.js", "keys.js", "passes.js", "path.js", "side.js", "split.js", "times.js", "views.js", "look.css", "style.css", "start.json"):
+        for name in ("", "look.js", "camera.js", "keys.js", "passes.js", "path.js", "reference.js", "side.js", "split.js", "times.js", "views.js", "look.css", "style.css", "start.json"):
             self.assertEqual(self.ask(name=name)[0], 200, name)
         self.assertEqual(self.ask(headers={"Host": f"localhost:{self.port}"})[0], 200)
         own = f"http://127.0.0.1:{self.port}"
@@ -293,7 +296,9 @@ class SceneFile(CommandTest):
 
 
 @unittest.skipIf(browser.MISSING, browser.MISSING)
-class Page(Look):
+class Browsed(Look):
+    """The page in a browser."""
+
     @classmethod
     def setUpClass(cls):
         cls.browser = browser.Browser()
@@ -355,6 +360,8 @@ class Page(Look):
         with Image.open(self.path("run", "images", variant, "final.png")) as image:
             return np.asarray(image.convert("RGB"))
 
+
+class Page(Browsed):
     def test_what_is_shown_is_what_run_renders(self):
         first = self.shown()
         # Fly with a key and turn with the mouse

@@ -2,6 +2,7 @@
 import csv
 import json
 import os
+import random
 import sys
 import tempfile
 from pathlib import Path
@@ -55,6 +56,36 @@ class Module(CommandTest):
             np.testing.assert_array_equal(study.render().final, first.final)
         with self.assertRaisesRegex(voxray.VoxrayError, "closed"):
             study.render()
+
+    def test_a_reference(self):
+        with voxray.Session(self.config, program=PROGRAM) as study:
+            study.set("seed", random.getrandbits(40))  # Not cached
+            study.set("reference.spp", 256)
+            rendering = study.render()
+            none = study.reference(seconds=0)
+            self.assertEqual((none.samples, none.of, none.final, none.noise), (0, 256, None, {}))
+            self.assertNotIn("FLIP", rendering._repr_html_())
+            first, second = study.reference(seconds=0.002), study.reference(seconds=0.002)
+            self.assertLess(first.samples, second.samples)
+            self.assertEqual((second.final.shape, second.is_whole), ((24, 32, 3), False))
+            self.assertIn(f"{second.samples} of 256 samples", second._repr_html_())
+            shown = rendering._repr_html_()
+            for words in ("HDR-FLIP, final", "reference, indirect", f"{second.samples} of 256 samples", "indirect_nrmse_low"):
+                self.assertIn(words, shown)
+            early = study.score()
+            self.assertLess(early["nrmse_low"], early["nrmse_high"])
+
+            whole = study.reference()
+            self.assertTrue(whole.is_whole)
+            self.assertLess(whole.noise["indirect_nrmse"], second.noise["indirect_nrmse"])
+            self.assertLess(study.score()["flip_noise"], early["flip_noise"])
+            study.render()
+            self.assertNotIn("FLIP", rendering._repr_html_())  # Another one was rendered since
+            study.set("reference", None)
+            last = study.render()
+            self.assertNotIn("FLIP", last._repr_html_())
+            with self.assertRaisesRegex(voxray.VoxrayError, "no reference"):
+                study.reference(seconds=1)
 
     def test_a_config_that_is_wrong(self):
         self.write("wrong.yaml", TINY.replace("voxelize, res", "voxelise, res"))

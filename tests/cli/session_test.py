@@ -193,6 +193,52 @@ graph:
         lamp = {"point": [0, 1.5, 0], "intensity": [1, 1, 1]}
         self.assertIn("black", str(self.done("set", path="scene.lights", value=[lamp])["warnings"]))
 
+    def test_a_reference_grows_until_it_is_that_of_a_run(self):
+        self.use_own_references("grown")
+        self.start(TINY.replace("spp: 8", "spp: 256"))
+        looked = self.done("reference", ms=0)
+        self.assertEqual((looked["samples"], looked["images"]), (0, {}))
+        self.done("render")
+        samples = [self.done("reference", ms=1)["samples"] for _ in range(3)]
+        self.assertEqual(samples, sorted(set(samples)))
+        self.assertLess(samples[2], 256)
+        early = self.done("score")
+        self.assertEqual((early["samples"], early["of"]), (samples[2], 256))
+        self.assertLessEqual(early["scores"]["nrmse_low"], early["scores"]["nrmse"])
+        self.assertGreater(early["scores"]["flip_noise"], 0)
+        # Passes leave it alone, what it shows does not
+        self.done("set", path="inject.bounces", value=1)
+        self.assertEqual(self.done("reference", ms=0)["samples"], samples[2])
+        self.done("set", path="image.width", value=40)
+        self.assertEqual(self.done("reference", ms=0)["samples"], 0)
+        self.done("set", path="image.width", value=32)
+        self.assertEqual(self.done("reference", ms=0)["samples"], 0)
+
+        whole = self.done("reference")
+        self.assertEqual(whole["samples"], whole["of"])
+        self.done("set", path="inject.bounces", value=2)
+        self.done("render")
+        late = self.done("score")["scores"]
+        self.assertLess(late["flip_noise"], early["scores"]["flip_noise"])
+        # A run that renders it at once
+        self.use_own_references("at-once")
+        self.expect(0, "run", "session.yaml", "--out", "run", "--no-report", "--only", "voxelize.resolution=8")
+        for name in ("final", "indirect"):
+            with open(self.path("run", "images", "reference", name + ".exr"), "rb") as a, open(whole["images"][name], "rb") as b:
+                self.assertEqual(a.read(), b.read(), name)
+        with open(self.path("run", "results.csv"), newline="", encoding="utf-8") as file:
+            [row] = csv.DictReader(file)
+        for column in ("nrmse", "nrmse_low", "indirect_flip"):
+            self.assertAlmostEqual(float(row[column]), late[column], 6)
+        # Whoever renders the same one later takes it from the cache
+        self.done("set", path="seed", value=8)
+        self.assertEqual(self.done("reference", ms=0)["samples"], 0)
+        self.done("set", path="seed", value=7)
+        self.assertEqual(self.done("reference", ms=0)["samples"], whole["of"])
+        self.assertIn("0 or more", self.refusal("reference", ms=-1))
+        self.done("set", path="reference", value=None)
+        self.assertIn("no reference", self.refusal("reference"))
+
     def test_what_is_refused_changes_nothing(self):
         self.start(TINY)
         self.assertIn("nothing is rendered", self.refusal("score"))

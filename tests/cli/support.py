@@ -43,6 +43,13 @@ class CommandTest(unittest.TestCase):
         self.environment = dict(os.environ)
         self.environment.pop("VOXRAY_SCENES", None)
 
+    def use_own_references(self, name):
+        """References from here on are cached in a folder of the test."""
+        os.makedirs(self.path(name))
+        if CACHE:
+            os.symlink(os.path.join(CACHE, "spirv"), self.path(name, "spirv"))
+        self.environment["VOXRAY_CACHE"] = self.path(name)
+
     def take_drivers_away(self):
         """No Vulkan device from here on."""
         for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES"):

@@ -69,6 +69,28 @@ TEST(PathTraceParts, AddUpToTheWhole) {
     }
 }
 
+TEST(PathTraceParts, OfASampleEachAddUpToTheSameBits) {
+    const HandScene scene = glossyRoom();
+    for (const uint32_t spp : {64u, 37u}) {
+        const PathTraceResult whole = scene.render(roomCamera(), optionsOf(spp));
+        PathTraceOptions options = optionsOf(spp);
+        options.samples = {0, spp};
+        PathTraceResult sum = scene.render(roomCamera(), options);
+        for (uint32_t i = 1; i < spp; ++i) {
+            options.samples.index = i;
+            const PathTraceResult sample = scene.render(roomCamera(), options);
+            for (size_t half : {0, 1}) {
+                sum.totalSums[half].add(sample.totalSums[half]);
+                sum.indirectSums[half].add(sample.indirectSums[half]);
+            }
+        }
+        for (size_t half : {0, 1}) {
+            EXPECT_EQ(sum.totalSums[half].data, whole.totalSums[half].data) << spp;
+            EXPECT_EQ(sum.indirectSums[half].data, whole.indirectSums[half].data) << spp;
+        }
+    }
+}
+
 TEST(PathTraceParts, EachHasSamplesOfItsOwn) {
     // A part alone, or one of them twice, is another image
     const HandScene scene = glossyRoom();

@@ -7,8 +7,8 @@ import json
 import os
 import subprocess
 import tempfile
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -26,8 +26,45 @@ PROTOCOL = 1
 
 
 @dataclass(frozen=True)
+class GrowingReference:
+    """The reference, of all samples so far. Images are linear Rec. 709 radiance in W/(m² sr), shape (height, width, 3), float64;
+    None with fewer than 2 samples a pixel.
+
+    samples: a pixel; of: those that the config asks for. noise: nRMSE that the images have by their own noise, by column of
+    results.csv: nrmse, indirect_nrmse.
+    """
+
+    final: np.ndarray | None
+    indirect: np.ndarray | None
+    samples: int
+    of: int
+    noise: dict[str, float]
+
+    @property
+    def is_whole(self) -> bool:
+        """Whether it has all samples; then it is bit for bit that of a run."""
+        return self.samples == self.of
+
+    def _repr_html_(self) -> str:
+        shown = {} if self.final is None else {"reference": self.final, "reference, indirect": self.indirect}
+        noise = f", noise {self.noise['nrmse']:.2%} (nRMSE)" if self.noise else ""
+        return (display.strip({name: display.picture(image) for name, image in shown.items()})
+                + f"<p>{self.samples} of {self.of} samples a pixel{noise}</p>")
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A rendering against a reference. errors: HDR-FLIP of "final" and "indirect", shape (height, width), 0 to 1."""
+
+    reference: GrowingReference
+    scores: dict[str, float]
+    errors: dict[str, np.ndarray]
+
+
+@dataclass(frozen=True)
 class Rendering:
-    """One frame. Images are linear Rec. 709 radiance in W/(m² sr), shape (height, width, 3), float64.
+    """One frame. Images are linear Rec. 709 radiance in W/(m² sr), shape (height, width, 3), float64. In Jupyter the last one
+    of a session with a reference (Session.reference()) is shown with that, its error maps and its scores.
 
     final: all light; indirect: light that surfaces reflect, None where no pass writes it. passes: a row for each pass in
     execution order, with id, phase, ms, rays, memory_bytes and whether it was reused. values: what passes reported, with
@@ -40,13 +77,24 @@ class Rendering:
     values: pd.DataFrame
     frame_ms: float
     memory_bytes: int
+    _compare: Callable[[], Comparison | None] = field(default=lambda: None, repr=False, compare=False)
 
     def __repr__(self) -> str:
         return f"Rendering of {self.final.shape[1]} x {self.final.shape[0]} pixels"
 
     def _repr_html_(self) -> str:
-        shown = {"final": self.final} | ({} if self.indirect is None else {"indirect": self.indirect})
-        return display.strip({name: display.picture(image) for name, image in shown.items()}) + self.passes.to_html(index=False)
+        rows, table, compared = [], "", self._compare()
+        for name, image in {"final": self.final, "indirect": self.indirect}.items():
+            if image is None:
+                continue
+            rows.append({name: display.picture(image)})
+            if compared:
+                rows[-1] |= {f"reference, {name}": display.picture(getattr(compared.reference, name)),
+                             f"HDR-FLIP, {name}": display.error_picture(compared.errors[name])}
+        if compared:
+            table = pd.DataFrame([compared.scores], index=[f"{compared.reference.samples} of {compared.reference.of} samples"]).to_html()
+        strips = "".join(map(display.strip, rows)) if compared else display.strip({name: shown for row in rows for name, shown in row.items()})
+        return strips + table + self.passes.to_html(index=False)
 
 
 class Session:
@@ -57,6 +105,8 @@ class Session:
         self._folder = tempfile.TemporaryDirectory(prefix="voxray-")
         self._said = tempfile.TemporaryFile("w+")
         self._numbers = itertools.count()
+        self._renderings = 0
+        self._has_reference = False
         self._process = subprocess.Popen([str(program), "session", str(config), "--stdio", "--images", self._folder.name, *options],
                                          stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._said, text=True)
         greeting = self._read()
@@ -100,14 +150,40 @@ class Session:
     def render(self) -> Rendering:
         """Renders the compared frame; only what changed is built again. @throws VoxrayError"""
         answer = self._ask("render")
+        self._renderings += 1
+        number = self._renderings
         pixels = {name: exr_pixels.rgb(file) for name, file in answer["images"].items()}
         return Rendering(pixels["final"], pixels.get("indirect"), pd.DataFrame(answer["passes"]),
-                         pd.DataFrame(answer["values"], columns=["pass", "name", "value"]), answer["frame_ms"], answer["memory_bytes"])
+                         pd.DataFrame(answer["values"], columns=["pass", "name", "value"]), answer["frame_ms"], answer["memory_bytes"],
+                         lambda: self._compared() if number == self._renderings else None)
+
+    def reference(self, seconds: float | None = None) -> GrowingReference:
+        """Renders samples of the config's reference for about this time, at least one a pixel, and keeps them: another call goes
+        on from there. None: until it is whole; 0: nothing is rendered. It begins anew where scene, camera, image size or the
+        `reference` entry change. A cached one is whole at once. @throws VoxrayError where the config has none"""
+        answer = self._ask("reference", **({} if seconds is None else {"ms": round(1000 * seconds)}))
+        self._has_reference = bool(answer["images"])
+        pixels = {name: exr_pixels.rgb(file) for name, file in answer["images"].items()}
+        return GrowingReference(pixels.get("final"), pixels.get("indirect"), answer["samples"], answer["of"], answer["noise"])
 
     def score(self) -> dict[str, float]:
-        """Scores of the last rendering against the config's reference, by column of results.csv. A reference that isn't
-        cached is rendered first. @throws VoxrayError"""
+        """Scores of the last rendering against the config's reference, by column of results.csv, with the ends of their 95 %
+        intervals (`nrmse_low`, `nrmse_high`) or what a perfect image would score (`flip_noise`). One that has no samples yet
+        is rendered first, to the end. @throws VoxrayError"""
         return self._ask("score")["scores"]
+
+    def _compared(self) -> Comparison | None:
+        if not self._has_reference or self._process.poll() is not None:
+            return None
+        try:
+            reference = self.reference(0)
+        except VoxrayError:  # The config has none any more
+            self._has_reference = False
+        if not self._has_reference:
+            return None
+        answer = self._ask("score")
+        errors = {name: exr_pixels.read(file)["Y"] for name, file in answer["images"].items()}
+        return Comparison(reference, answer["scores"], errors)
 
     @property
     def views(self) -> pd.DataFrame:
