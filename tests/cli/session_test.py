@@ -262,16 +262,17 @@ graph:
         self.done("render")
 
     def test_a_variant_stands_alone(self):
-        # What other variants of the sweep need is neither warned of nor refused
+        # What other variants of the sweep need is neither refused nor warned of
         greeting = self.start(TINY.replace("voxelize, resolution: 16", "voxelize, resolution: 16, samples_per_voxel_edge: 2").replace(
-            "  voxelize.resolution: [8, 16]", "  voxelize.method: [exact, three_axis]\n  gather_irradiance: [gather_irradiance, {pass: path_trace, light: indirect}]"))
-        self.assertEqual(len(greeting["variants"]), 4)
+            "voxelize.resolution: [8, 16]", "voxelize.method: [exact, three_axis]"))
         images = []
         for variant in greeting["variants"]:
-            self.assertNotIn("never run", str(self.done("select", variant=variant["id"])["warnings"]))
+            self.done("select", variant=variant["id"])
             self.done("render")
             images.append(self.bytes("shown", "final.exr"))
-        self.assertNotEqual(images[0], images[2])
+        self.assertNotEqual(*images)
+        self.start(TINY.replace("voxelize.resolution: [8, 16]", "gather_irradiance: [{pass: path_trace, light: indirect}, gather_irradiance]"))
+        self.assertNotIn("never run", str(self.done("select", variant="path_trace")["warnings"]))
         graph = [*self.done("config")["config"]["graph"], {"pass": "voxelize", "id": "idle"}]
         self.assertIn("'idle' is never run", str(self.done("set", path="graph", value=graph)["warnings"]))
 

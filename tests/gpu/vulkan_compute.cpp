@@ -133,7 +133,7 @@ TEST_F(VulkanCompute, UnknownSpecializationConstantIsNamed) {
 }
 
 TEST_F(VulkanCompute, ReflectsWhatTheCodeUses) {
-    const ShaderModule module = compiler().compile("tests/gpu/vulkan_scale.comp");
+    const ShaderModule module = *compiler().compile("tests/gpu/vulkan_scale.comp");
     ASSERT_EQ(module.bindings.size(), 2u);  // `unused` is declared only.
     EXPECT_EQ(module.pushConstantBytes, 8u);
     ASSERT_EQ(module.constants.size(), 1u);

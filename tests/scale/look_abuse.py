@@ -172,7 +172,7 @@ def run(program, count, seed, folder):
         if last["config"] != first["config"] or same != picture:
             wrong.append("the first variant has changed")
         status, said = look.end()
-        if status != 0 or not re.fullmatch(r"voxray: stopping;.*\s*", said):
+        if status != 0 or not re.fullmatch(r"voxray: stopping;.*", said.strip()):
             wrong.append(f"it ends with status {status}: {said}")
     finally:
         look.process.kill()
