@@ -143,7 +143,10 @@ class TextFileType final : public ParameterType {
     }
 
     std::string text(const void* field) const override { return static_cast<const TextFile*>(field)->name; }
-    Value value(const void* field) const override { return Value::fromScalar(text(field), true); }
+    /// The file's text: manifests keep what was run.
+    Value value(const void* field) const override {
+        return Value::fromScalar(static_cast<const TextFile*>(field)->text, true);
+    }
 };
 
 class ChoiceType final : public ParameterType {

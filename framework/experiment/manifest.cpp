@@ -182,7 +182,7 @@ std::string identityOf(const ManifestData& data) {
     Hasher hasher;
     hasher.add(data.version).add(data.commit).add(data.study->experiment.config.json());
     for (const Variant& variant : data.study->variants)
-        hasher.add(variant.id).add(variant.sceneKey).add(variant.referenceHash);
+        hasher.add(variant.id).add(variant.sceneKey).add(variant.referenceHash).add(variant.resolved.json(-1));
     return hasher.hex();
 }
 

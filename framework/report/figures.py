@@ -19,8 +19,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 from report import pages, style, text
 from report.pareto import CHARTED, COSTS, Scene
 
-_COLUMN, _FULL = 84.5 / 25.4, 178 / 25.4  # widths of acmart, inches
-CHART = (_COLUMN, 0.75 * _COLUMN)
+CHART, _FULL = (84.5 / 25.4, 0.75 * 84.5 / 25.4), 178 / 25.4  # widths of acmart, and a chart's height, inches
 _FOLDS = LinearSegmentedColormap.from_list("folds", [style.VALUES[f"f{i}"] for i in range(5)])
 _MOST_FOLD = float(style.VALUES["most-fold"])  # at which colors are strongest
 STYLE = {"font.size": 7, "axes.linewidth": 0.5, "xtick.major.width": 0.5, "ytick.major.width": 0.5, "xtick.minor.width": 0.3,
@@ -80,6 +79,8 @@ def _label(axes, ends: list[tuple]) -> None:
     taken: list = []
     low, high = axes.get_xlim()
     axes.set_xlim(low, high * (high / low) ** 0.2)
+    if high < 10 * low:  # There may be no power of ten
+        axes.xaxis.set_major_locator(LogLocator(subs=(1, 2, 3, 5, 7)))
     renderer = axes.figure.canvas.get_renderer()
     for name, x, y, color, weight in sorted(ends, key=lambda end: end[4] != "bold"):
         label = axes.annotate(name, (x, y), (0, 0), textcoords="offset points", color=color, fontsize=5.5, fontweight=weight,

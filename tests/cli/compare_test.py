@@ -34,6 +34,9 @@ class Compare(CommandTest):
         self.assertAlmostEqual(scores["ssim"], 1, places=6)
         self.assertAlmostEqual(scores["mean_ratio"], 1, places=6)
         self.assertGreaterEqual(scores["psnr_db"], 100)
+        better = json.loads(self.expect(0, "compare", "a.png", "a.png", "--json").stdout)["better"]
+        self.assertEqual(set(better), set(scores))
+        self.assertEqual((better["nrmse"], better["ssim"], better["mean_ratio"]), ("low", "high", "one"))
 
     def test_closed_forms(self):
         self.image("test.png", 90)

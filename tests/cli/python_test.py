@@ -37,6 +37,8 @@ class Module(CommandTest):
             self.assertEqual(list(second.passes["id"][second.passes["reused"]]), ["voxelize", "inject"])
             self.assertGreater(np.abs(second.indirect - first.indirect).max(), 0)
             self.assertGreater(study.score()["nrmse"], 0)
+            self.assertEqual(voxray.score(second, second.indirect)["value"]["nrmse"], 0)
+            self.assertEqual(voxray.compare(second, first, first, light="total")["better"]["nrmse"], "b")
             with self.assertRaisesRegex(voxray.VoxrayError, "voxelize.resolution"):
                 study.set("voxelize.resolution", "many")
             views = study.views.set_index("name")

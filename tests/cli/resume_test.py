@@ -78,6 +78,16 @@ class Resume(Run):
         self.assertEqual({variant: after[variant] for variant in finished}, finished)
         self.check_whole()
 
+    def test_another_text_of_a_kernel_is_refused(self):
+        kernel = "vec3 shade(ivec2 pixel, ivec2 texel) {{ return {} * texelOf(finalImage, pixel).rgb; }}\n"
+        self.write("kernel.yaml", TINY.replace("  - {pass: composite}\n", "  - {pass: composite}\n  - {pass: glsl, file: own.glsl}\n"))
+        self.write("own.glsl", kernel.format("1.0"))
+        arguments = ("run", "kernel.yaml", "--out", "out", "--quiet", "--no-report")
+        self.expect(0, *arguments)
+        self.expect(0, *arguments, "--resume")
+        self.write("own.glsl", kernel.format("2.0"))
+        self.assertIn("another graph", self.expect(2, *arguments, "--resume").stderr)
+
     def test_ctrl_c(self):
         finished, said = self.interrupt(signal.SIGINT, 130)
         self.check_whole()

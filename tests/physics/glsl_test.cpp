@@ -59,21 +59,15 @@ TEST(Glsl, AveragesTheTexelsOfAPixel) {
     }
 }
 
-/// A lookup in the voxels as text is that of gather_irradiance.
+/// The example of docs/writing-a-pass.md is gather_irradiance, of either light.
 TEST(Glsl, LooksLightUpInVoxels) {
-    for (const char* light : {"indirect", "direct"}) {
-        test::Chain chain("cornell", "", kView + R"(
+    const std::string example = (test::sourceRoot() / "docs/examples/glsl/lookup.glsl").string();
+    for (const std::string light : {"indirect", "direct"}) {
+        test::Chain chain("cornell", "",
+                          kView + R"(
 - {pass: gather_irradiance, id: direct_lookup, light: direct}
-- pass: glsl
-  light: )" + light + R"(
-  source: |
-    vec3 shade(ivec2 pixel, ivec2 texel) {
-        const vec4 point = texelFetch(position, texel, 0);
-        if (point.w == 0.0) return vec3(0.0);
-        const vec3 facing = normalize(texelFetch(normal, texel, 0).xyz);
-        return texelFetch(albedo, texel, 0).rgb / 3.14159265358979 * voxelIrradianceAt(point.xyz, facing);
-    }
-)");
+- {pass: glsl, file: )" + example +
+                              ", light: " + light + "}\n");
         const ImageF expected = chain.image(light), image = chain.image("final");
         double sum = 0;
         for (size_t i = 0; i < image.data.size(); ++i) {

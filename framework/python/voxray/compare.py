@@ -6,6 +6,7 @@ import json
 import subprocess
 import tempfile
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 import pandas as pd
@@ -13,9 +14,17 @@ import pandas as pd
 from voxray import exr
 from voxray.errors import VoxrayError
 from voxray.results import LIGHTS, Reference, Results, Variant
-from voxray.session import PROGRAM, Rendering
+from voxray.session import PROGRAM
 
-Image = str | Path | np.ndarray | Rendering | Variant | Reference
+
+class Images(Protocol):
+    """Both lights, such as a rendering has: radiance, shape (height, width, 3); None where one is not there."""
+
+    final: np.ndarray | None
+    indirect: np.ndarray | None
+
+
+Image = str | Path | np.ndarray | Images | Variant | Reference
 TIE = "≈"  # as in a report
 
 
@@ -33,24 +42,16 @@ def score(image: Image, reference: Image | None = None, *, light: str | None = N
     @throws VoxrayError where sizes differ, or there is no reference
     """
     if reference is None:
-        reference = image.reference(light) if isinstance(image, Variant) else None
-        if reference is None:
-            raise VoxrayError("no reference to compare with: give one")
-    stops = image.results.manifest.get("exposure_stops", 0) if exposure_stops is None and isinstance(image, Variant) else exposure_stops or 0
+        reference = _shared_reference([image], light)
+    if exposure_stops is None:
+        exposure_stops = image.results.manifest["exposure_stops"] if isinstance(image, Variant) else 0
     with tempfile.TemporaryDirectory(prefix="voxray-") as folder:
         files = [_file(given, light, Path(folder) / name) for given, name in ((image, "image.exr"), (reference, "reference.exr"))]
-        done = subprocess.run([str(PROGRAM), "compare", *map(str, files), "--json", "--exposure", str(stops)], capture_output=True, text=True,
-                              check=False)
+        done = subprocess.run([str(PROGRAM), "compare", *map(str, files), "--json", "--exposure", str(exposure_stops)], capture_output=True,
+                              text=True, check=False)
     if done.returncode:
         raise VoxrayError(done.stderr.strip().splitlines()[-1].removeprefix("voxray: error: "))
-    said = json.loads(done.stdout)
-    names = list(said["better"])
-    columns = {"value": said["scores"], **{end: {name: said["scores"].get(f"{name}_{end}") for name in names} for end in ("low", "high")},
-               **{other: said.get(other, {}) for other in ("black", "constant", "noise")}}
-    table = pd.DataFrame({column: [scores.get(name) for name in names] for column, scores in columns.items()}, index=pd.Index(names, name="metric"),
-                         dtype=float)
-    table.attrs["better"] = said["better"]
-    return table
+    return _table(json.loads(done.stdout))
 
 
 def compare(a: Image | Results, b: Image | Results, reference: Image | None = None, *, light: str | None = None,
@@ -77,6 +78,17 @@ def compare(a: Image | Results, b: Image | Results, reference: Image | None = No
                        for name, scores in (("a", first), ("b", second))], axis=1)
     better = first.attrs["better"]
     return table.assign(better=[_better(first.loc[metric], second.loc[metric], better[metric]) for metric in table.index])
+
+
+def _table(said: dict) -> pd.DataFrame:
+    """What the command prints as JSON."""
+    names = list(said["better"])
+    columns = {"value": said["scores"], **{end: {name: said["scores"].get(f"{name}_{end}") for name in names} for end in ("low", "high")},
+               **{other: said.get(other, {}) for other in ("black", "constant", "noise")}}
+    table = pd.DataFrame({column: [scores.get(name) for name in names] for column, scores in columns.items()}, index=pd.Index(names, name="metric"),
+                         dtype=float)
+    table.attrs["better"] = said["better"]
+    return table
 
 
 def _shared_reference(given: list[Image], light: str | None) -> Reference:
@@ -114,8 +126,10 @@ def _file(image: Image, light: str | None, path: Path) -> Path:
     if isinstance(image, Variant):
         image.image(light)  # where there is none it says so
         return image.file(light)
-    if isinstance(image, Rendering):
+    if not isinstance(image, np.ndarray):
         name = LIGHTS[light or ("total" if image.indirect is None else "indirect")]
         image = getattr(image, name)
-    exr.write(path, np.asarray(image))
+        if image is None:
+            raise VoxrayError(f"there is no image '{name}'")
+    exr.write(path, image)
     return path
