@@ -37,6 +37,7 @@ class DominantAxisVoxelizer final : public RasterVoxelizer {
         Defines methodDefines = defines;
         methodDefines.emplace(coverage_ == Coverage::Sampled ? "SAMPLED_AXIS" : "DOMINANT_AXIS", "1");
         if (isByDevice()) methodDefines.emplace("DRAWN_BY_DEVICE", "1");
+        if (coverage_ == Coverage::Multisampled) methodDefines.emplace("MULTISAMPLED", "1");
         const std::vector<std::string> files{"passes/common/triangle_voxelizer/dominant_axis.vert",
                                              "passes/common/triangle_voxelizer/dominant_axis.geom", shader + ".frag"};
         RasterState state;

@@ -9,7 +9,7 @@ layout(push_constant, scalar) uniform Push {
     float fixedPointScale;  // For the fragment callback: units of its fixed-point sums, or the like.
     uint tiles;             // exact: number of tiles.
     uint axis;              // three_axis: axis of projection.
-    uint samples;           // three_axis: sample points along a voxel's edge; sampled_axis: per pixel, 1 or 8.
+    uint samples;           // three_axis: sample points along a voxel's edge; others: per pixel.
 } voxelizer;
 
 #ifdef LEVELS
