@@ -203,7 +203,7 @@ TEST(Results, MetricsThatWereNotAskedForStayEmpty) {
     MeasureSettings measure;
     measure.metrics = {"nrmse"};
     // Columns of scores: an empty one for each metric but one, and for the ends of intervals.
-    std::string expected = "v,,ok,,,,0,0,0,0,0,0,0";
+    std::string expected = "v,,ok,,,,0,0,0,0,0,0,0,0,0";
     for (const std::string score : {"0.5", "0.75"})
         for (const Metric& metric : metrics()) {
             expected += "," + (std::string(metric.name) == "nrmse" ? score : "");
