@@ -19,6 +19,8 @@ struct ImageRequest {
     bool closes = false;  ///< Side 1 is shown no more: what it holds is freed, and there is no image.
 
     bool isDraft() const { return shrink > 1; }
+    /// Whether it says what the side shows.
+    bool opens() const { return !variant.empty() || !config.isNull(); }
 };
 
 /// @param body a map in JSON. @throws UsageError for one that is no such request.

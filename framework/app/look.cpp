@@ -149,6 +149,8 @@ void look(const LookArguments& arguments) {
     fmt::print("{}\nCtrl-C ends it.\n", server.address());
     std::fflush(stdout);
     const auto answer = [&](const ImageRequest& request) {
+        if (!session.isOpen(request.side) && !request.opens() && !request.closes)
+            throw UsageError("request: side {} was closed, perhaps by another page; compare again", request.side);
         if (!request.closes) return answerTo(session.side(request.side), request);
         session.closeSecondSide();
         return std::string("{}\n");

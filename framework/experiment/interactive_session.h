@@ -31,6 +31,7 @@ class InteractiveSession {
 
     /// Side 0 or 1. Side 1 begins with the values that side 0 has when it is first asked for.
     ShownState& side(size_t number);
+    bool isOpen(size_t side) const { return sides_.at(side).has_value(); }
     /// Frees what side 1 holds; it begins anew when it is asked for again.
     void closeSecondSide();
 

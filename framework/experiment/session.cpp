@@ -84,9 +84,11 @@ void Session::loadScene(const Setup& setup, const std::string& sceneKey) {
         stream_.finish();
     } catch (const SizeError& error) {
         const std::string advice = sceneSizeAdvice(setup.scene, scene.prepared.state);
+        stream_.discard();
         scenes_.pop_front();
         throw SizeError(setup.scene.where, "scene: {}; {}", error.what(), advice);
     } catch (...) {
+        stream_.discard();
         scenes_.pop_front();
         throw;
     }

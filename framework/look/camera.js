@@ -23,7 +23,7 @@ export class FlyCamera {
         this.moved = moved;
         this.keys = new Set();
         this.speed = null;  // m/s
-        this.isDragged = false;
+        this.isDragged = this.isFollowing = false;
         for (const canvas of canvases) this.watch(canvas);
         document.addEventListener("keydown", (event) => {
             this.isFast = event.shiftKey;
@@ -58,12 +58,12 @@ export class FlyCamera {
             });
         canvas.addEventListener("wheel", (event) => {
             event.preventDefault();
-            this.speed *= 1.1 ** -Math.sign(event.deltaY);
+            if (this.speed) this.speed *= 1.1 ** -Math.sign(event.deltaY);
         }, { passive: false });
     }
 
     get isMoving() {
-        return this.isDragged || this.keys.size > 0;
+        return this.isDragged || this.keys.size > 0 || this.isFollowing;
     }
 
     /** Where the image was taken from, unless the camera was moved since. */
@@ -98,6 +98,21 @@ export class FlyCamera {
                 const [yaw, pitch] = TURNS[key] ?? [0, 0];
                 this.turn(KEY_TURN * seconds * yaw, KEY_TURN * seconds * pitch);
             }
+            this.tell(now);
+            requestAnimationFrame(step);
+        };
+        requestAnimationFrame(step);
+    }
+
+    /** Takes poses until there are no more, or until it is flown. @param poseAt is called with the time in ms */
+    follow(poseAt) {
+        this.isFollowing = true;
+        const step = (now) => {
+            const pose = this.isDragged || this.keys.size ? null : poseAt(now);
+            this.isFollowing = pose !== null;
+            if (!pose) return;
+            this.position = pose.position;
+            this.forward = unit(add(pose.target, pose.position, -1));
             this.tell(now);
             requestAnimationFrame(step);
         };

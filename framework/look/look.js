@@ -108,4 +108,5 @@ byId("download").addEventListener("click", download);
 variant.append(...start.variants.map(({ id, name }) => new Option(name, id)));
 byId("variants").hidden = start.variants.length < 2;
 variant.addEventListener("change", () => split.select(start.variants[variant.selectedIndex]));
+window.addEventListener("pagehide", () => split.isOpen && sides[1].close());
 sides[0].next();

@@ -133,7 +133,7 @@ export class PassList {
     parameter(id, name, properties) {
         const schema = properties[name], path = `${id}.${name}`;
         const [controls, show] = controlOf(schema, (value) => this.changed(path, value));
-        const row = make("label", { className: "parameter", title: schema.description }, make("span", { textContent: name }),
+        const row = make("label", { className: "parameter", title: schema.description }, make("span", {}, ...name.split(/(?<=_)/).flatMap((part) => [part, make("wbr")])),
             make("span", {}, ...controls));
         for (const control of controls) control.name = path;
         const valueOf = (entry, parameter) => entry[parameter] ?? properties[parameter].default;

@@ -17,6 +17,14 @@ function poseAt(samples, ms) {
     return { position: mix(a.position, b.position, t), target: mix(a.target, b.target, t) };
 }
 
+/** Pose of a frame of a camera with a path, as the program has it. */
+function poseOf({ position, target, path }, frame) {
+    const keys = [{ frame: 0, position, target }, ...path], after = keys.findIndex((key) => key.frame >= frame);
+    if (after < 1) return keys.at(after);
+    const [a, b] = [keys[after - 1], keys[after]], t = (frame - a.frame) / (b.frame - a.frame);
+    return { position: mix(a.position, b.position, t), target: mix(a.target, b.target, t) };
+}
+
 /** Frames that are needed so that straight lines between them are close to all poses (Douglas and Peucker 1973). */
 function keysOf(poses, first, last, tolerance) {
     let farthest = 0, at = 0;
@@ -73,9 +81,10 @@ export class PathControls {
         this.recorded = null;
         this.isTaken = false;  // Whether the config has it
         [this.button, this.line] = ["record", "path"].map((id) => document.getElementById(id));
-        [this.text, this.back] = this.line.children;
+        [this.text, this.playing, this.back] = this.line.children;
         this.button.disabled = true;  // Until the camera is known
         this.button.addEventListener("click", () => this.toggle());
+        this.playing.addEventListener("click", () => this.play());
         this.back.addEventListener("click", () => this.take());
         onKey("KeyR", () => this.button.disabled || this.toggle());
     }
@@ -98,6 +107,18 @@ export class PathControls {
         this.isTaken = true;
         this.set("measure.frames", this.recorded.frames);  // First: without frames a path has no effect
         this.set("scene.camera", this.recorded.camera);
+    }
+
+    /** Shows the frames at their speed, and the first one afterwards. */
+    play() {
+        const { recorded, camera } = this, start = performance.now();
+        if (camera.isMoving) return;
+        camera.follow((now) => {
+            const frame = (now - start) / 1000 * FRAMES_A_SECOND;
+            if (frame < recorded.frames - 1) return poseOf(recorded.camera, frame);
+            this.take();
+            return null;
+        });
     }
 
     /** The camera was moved: by the next value it is elsewhere, and the config has no path. */
@@ -123,6 +144,7 @@ export class PathControls {
         this.text.textContent = isRecording ? "Recording: fly, then end the path."
             : this.recorded ? `Path of ${this.recorded.frames} frames, ${this.recorded.camera.path.length + 1} keys`
                 + `${isTaken ? ": the config has it." : "; the camera has left it."}` : "";
+        this.playing.hidden = isRecording;
         this.back.hidden = isRecording || isTaken;
     }
 }

@@ -51,7 +51,8 @@ export class Side {
         this.opened = {};
         this.shown = this.version += 1;
         this.canvas.removeAttribute("aria-busy");
-        fetch("image", { method: "POST", body: JSON.stringify({ page: this.page, side: this.number, close: true }) }).catch(() => {});
+        const body = JSON.stringify({ page: this.page, side: this.number, close: true });
+        fetch("image", { method: "POST", keepalive: true, body }).catch(() => {});
     }
 
     /** Asks for an image of what may have changed. */
