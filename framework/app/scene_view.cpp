@@ -31,18 +31,20 @@ bool hasLight(const SceneState& state) {
 std::pair<CameraSettings, ViewStats> best(const SceneState& state, const EmbreeScene& tracer) {
     std::vector<CameraSettings> cameras = cameraCandidates(state, tracer);
     std::pair found(cameras.front(), measureView(state, tracer, cameras.front()));
-    if (found.second.isGood()) return found;
+    const float least = leastDistance(state);
+    if (found.second.isGood(least)) return found;
 
     std::vector<std::pair<float, size_t>> order;
     for (size_t i = 0; i < cameras.size(); ++i) {
         ViewStats stats = measureGeometry(state, tracer, cameras[i]);
         stats.lit = 1;
-        order.emplace_back(-stats.score(), i);
+        order.emplace_back(-stats.score(least), i);
     }
     std::ranges::sort(order);
     if (order.size() > kMaxPathTraced) order.resize(kMaxPathTraced);
     for (const auto& [score, i] : order)
-        if (const ViewStats stats = measureView(state, tracer, cameras[i]); stats.score() > found.second.score())
+        if (const ViewStats stats = measureView(state, tracer, cameras[i]);
+            stats.score(least) > found.second.score(least))
             found = {cameras[i], stats};
     return found;
 }

@@ -28,9 +28,9 @@ SuggestedView suggestView(const SceneState& state, const EmbreeScene& tracer);
 /// environment, else one that is searched.
 struct FirstView {
     CameraSettings camera;
-    std::string light;                     ///< As SuggestedView::light.
-    std::optional<CameraSettings> own;     ///< The scene's own camera.
-    bool seesOwnLight = false;             ///< Whether the own camera sees the scene's own light.
+    std::string light;                      ///< As SuggestedView::light.
+    std::optional<CameraSettings> own;      ///< The scene's own camera.
+    bool seesOwnLight = false;              ///< Whether the own camera sees the scene's own light.
     std::optional<SuggestedView> searched;  ///< If a view was searched.
 };
 /// @param own a camera of the scene, if it has one. @param alwaysSearches even if the own camera sees light.

@@ -22,6 +22,7 @@ constexpr uint32_t kWidth = 32, kHeight = 18;  ///< Resolution of views.
 constexpr int kRays = 200;                     ///< In all directions.
 constexpr float kEnclosed = 0.7f;              ///< Fraction of them that hits front sides in an enclosed point.
 constexpr size_t kMaxInstances = 6;            ///< Number of instances with cameras of their own.
+constexpr float kLeastDistance = 0.02f;        ///< Relative to the scene's diagonal.
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -95,8 +96,14 @@ void addInside(const Box& box, std::vector<CameraSettings>& cameras) {
 
 }  // namespace
 
-float ViewStats::score() const {
-    return std::sqrt(std::min(1.0f, 2 * filled)) * fronts * (1 - near) * (0.01f + lit);
+float ViewStats::score(float leastDistance) const {
+    const float depth = std::min(1.0f, distance / leastDistance);
+    return std::sqrt(std::min(1.0f, 2 * filled)) * fronts * (1 - near) * depth * (0.01f + lit);
+}
+
+float leastDistance(const SceneState& state) {
+    const Box box = boundsWithoutOutliers(state.geometry);
+    return std::max(kLeastDistance * glm::length(box.max - box.min), 1e-6f);
 }
 
 ViewStats measureGeometry(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& settings) {

@@ -16,12 +16,16 @@ struct ViewStats {
     float distance = 0;  ///< Median distance, m; 0 if nothing is visible.
     float lit = 0;       ///< Fraction of visible surfaces with radiance over 0.
 
-    /// Quality of the view, 0 to 1.
-    float score() const;
+    /// Quality of the view, 0 to 1. @param leastDistance below which a view shows little of the scene, m
+    float score(float leastDistance) const;
     /// Whether the view is good enough to stop the search.
-    bool isGood() const { return filled >= 0.05f && fronts >= 0.6f && near < 0.3f && lit >= 0.5f; }
+    bool isGood(float leastDistance) const {
+        return filled >= 0.05f && fronts >= 0.6f && near < 0.3f && lit >= 0.5f && distance >= leastDistance;
+    }
 };
 
+/// The distance below which a view shows little of the scene: a wall before the camera.
+float leastDistance(const SceneState& state);
 /// Computes all members except `lit`.
 ViewStats measureGeometry(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera);
 /// Computes all members. `lit` is found by path tracing.

@@ -60,7 +60,7 @@ class InteractiveSession {
     const Experiment opened_;
     Session session_;
     CameraViewChecks viewChecks_;
-    std::string checkedScene_;              ///< SceneOnDevice::cameraless of the last checked study.
+    std::string checkedScene_;             ///< SceneOnDevice::cameraless of the last checked study.
     std::vector<std::string> idlePasses_;  ///< Ids of passes that are culled in some variants and run in others.
     std::vector<std::pair<std::string, std::string>> variants_;  ///< Name and id.
     std::vector<Value> variantConfigs_;

@@ -99,8 +99,7 @@ void write(const fs::path& path, const fs::path& temporary, const char* format, 
 
 void writeWhole(const fs::path& path, const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
                 const void* values) {
-    writeFileAtomically(path,
-                        [&](const fs::path& temporary) { write(path, temporary, format, spec, type, values); });
+    writeFileAtomically(path, [&](const fs::path& temporary) { write(path, temporary, format, spec, type, values); });
 }
 
 std::vector<std::string> channelNamesOf(const ImageF& image) {

@@ -66,8 +66,8 @@ void writeExr(const std::filesystem::path& path, const ImageF& image);
 /// The same with channels of any names: "P.X" is the channel X of the layer P.
 void writeExr(const std::filesystem::path& path, const ImageF& image, const std::vector<std::string>& channelNames);
 
-/// Writes the same pixels without compression, not atomically, and without waiting for the disk: for a file that is read
-/// once, right away. @throws Error as writeExr().
+/// Writes the same pixels without compression, not atomically, and without waiting for the disk: for a file that is
+/// read once, right away. @throws Error as writeExr().
 void writePlainExr(const std::filesystem::path& path, const ImageF& image);
 
 /// Writes an 8-bit PNG of encoded display values, clamped to [0, 1], atomically.

@@ -29,7 +29,7 @@ class FileStamps {
 
     std::map<std::filesystem::path, std::optional<Stamp>> files_;  ///< nullopt: missing.
     int64_t newest_ = 0;                                           ///< Largest Stamp::nanoseconds.
-    int64_t read_ = 0;  ///< When the last file was added.
+    int64_t read_ = 0;                                             ///< When the last file was added.
 };
 
 /// Files are named relative to the source root, with '/' and without "..".

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Sends malformed requests to `voxray look`: mutations of right ones, in their JSON and in their HTTP.
 
-look_abuse.py PROGRAM [REQUESTS] [SEED]: each has to be answered, a refusal with a word, unless it breaks off, which may end the
-connection. Right requests stand between them. At the end the first variant has to look as it did at first, to the bit. Prints
+look_abuse.py PROGRAM [REQUESTS] [SEED]: each has to be answered, a refusal with a word, unless it breaks off or is no HTTP of the
+page, which may end the connection. Right requests stand between them. At the end the first variant has to look as it did at first, to the bit. Prints
 how many requests had which answer, and the memory and open files of the program; exit status 1 where something is wrong.
 """
 import http.client
@@ -59,7 +59,7 @@ class Look:
         return 200, json.loads(line), png
 
     def send(self, data, breaks_off):
-        """What comes back. @param breaks_off whether nothing follows the data"""
+        """Status and body, or None where the connection ends. @param breaks_off whether data lacks its end"""
         with socket.create_connection(("127.0.0.1", self.port), SECONDS) as raw:
             try:
                 raw.sendall(data)
@@ -117,11 +117,11 @@ def odd_json(chance):
 
 
 def odd_request(chance, look):
-    """Bytes of a request with something wrong, and whether it breaks off before its end."""
+    """Bytes of a request with something wrong, whether it breaks off before its end, and whether it is HTTP of the page."""
     kind, body = chance.randrange(10), odd_json(chance)
     method, path, version = "POST", f"/{look.token}/image", "HTTP/1.1"
     headers = {"Host": f"127.0.0.1:{look.port}", "Content-Length": str(len(body)), "Connection": "close"}
-    breaks_off = False
+    breaks_off, is_known = False, kind not in (3, 6, 7, 8, 9)
     if kind == 3:
         headers["Content-Length"] = chance.choice(["", "-1", "x", str(len(body) + chance.randrange(1, 100)), str(2**64), "1e3", str(1 << 40)])
         breaks_off = True
@@ -132,19 +132,16 @@ def odd_request(chance, look):
                               f"/{look.token}/" + "x" * chance.choice([10, 9000, 70000]), f"/{look.token}/image?{'a=b&' * 3000}", "*", "http://x/"])
     elif kind == 6:
         method = chance.choice(METHODS)
-        breaks_off = True  # Others have no body, so that it is no request
     elif kind == 7:
         headers |= {f"X-{i}": "y" * chance.choice([1, 9000]) for i in range(chance.choice([1, 90, 300]))}
-        breaks_off = True
     elif kind == 8:
         version = chance.choice(["HTTP/0.9", "HTTP/9", "", "HTTP/1.1 x"])
-        breaks_off = True
     start = f"{method} {path} {version}\r\n" + "".join(f"{name}: {value}\r\n" for name, value in headers.items())
     data = start.encode() + b"\r\n" + body
     if kind == 9:
         breaks_off = True
         data = data[:chance.randrange(len(data))] if chance.random() < 0.5 else chance.randbytes(chance.randrange(1, 400)) + b"\r\n\r\n"
-    return data, breaks_off
+    return data, breaks_off, is_known
 
 
 def run(program, count, seed, folder):
@@ -154,10 +151,10 @@ def run(program, count, seed, folder):
     try:
         _, first, picture = look.image(variant="resolution-12")
         for number in range(1, count + 1):
-            data, breaks_off = odd_request(chance, look)
+            data, breaks_off, is_known = odd_request(chance, look)
             answer = look.send(data, breaks_off)
             answers[answer[0] if answer else None] += 1
-            if answer is None and not breaks_off:
+            if answer is None and is_known:
                 wrong.append(f"no answer to {data[:300]!r}")
             elif answer and (answer[0] >= 500 or (answer[0] >= 300 and not answer[1].strip() and not data.startswith(b"HEAD"))):
                 wrong.append(f"{answer[0]} {answer[1][:100]!r} to {data[:300]!r}")

@@ -75,7 +75,8 @@ TEST(Sweep, ChainReplacesOnePassAndItsLastKeepsTheId) {
               "inject, paths_per_point: 4, write: max}]");
     EXPECT_EQ(variants[1].name, "inject_voxel_rays, write max");
 
-    EXPECT_CONTAINS(sweepError("  inject: [[a, {pass: b, id: x}]]\n"), "demo.yaml:7: inject: the last pass of the chain");
+    EXPECT_CONTAINS(sweepError("  inject: [[a, {pass: b, id: x}]]\n"),
+                    "demo.yaml:7: inject: the last pass of the chain");
     EXPECT_CONTAINS(sweepError("  inject: [{pass: b, id: x}]\n"), "leave out its own id, 'x'");
     EXPECT_CONTAINS(sweepError("  inject: [[]]\n"), "demo.yaml:7: inject: ");
     EXPECT_CONTAINS(sweepError("  inject: [[[a]]]\n"), "demo.yaml:7: inject: ");

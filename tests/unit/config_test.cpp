@@ -225,11 +225,13 @@ TEST(Config, NullTakesANamedValueOutOfAnAxis) {
         return parseExperiment(named, "demo.yaml", {"", {change}}).sweep.find("voxelize.resolution")->text();
     };
     EXPECT_EQ(axis("sweep.voxelize.resolution={low: null}"), "{a.b: c: 48, high: 64}");
-    EXPECT_EQ(axis("sweep={voxelize.resolution: {\"a.b: c\": null, low: 8, top: 128}}"), "{low: 8, high: 64, top: 128}");
+    EXPECT_EQ(axis("sweep={voxelize.resolution: {\"a.b: c\": null, low: 8, top: 128}}"),
+              "{low: 8, high: 64, top: 128}");
     EXPECT_EQ(axis("sweep.voxelize.resolution={low: 8}"), "{low: 8}");
     const std::string profile =
         replaced(named, "    sweep.voxelize.resolution: [8, 16]\n", "    sweep.voxelize.resolution: {low: null}\n");
-    EXPECT_EQ(parseExperiment(profile, "demo.yaml", {"small", {}}).sweep.find("voxelize.resolution")->members.size(), 2u);
+    EXPECT_EQ(parseExperiment(profile, "demo.yaml", {"small", {}}).sweep.find("voxelize.resolution")->members.size(),
+              2u);
     expectError(named, {"no 'lo'", "'low'"}, {"", {"sweep.voxelize.resolution={lo: null}"}});
     expectError(named, {"no 'low'"}, {"", {"sweep.seed={low: null}"}});
     expectError(kValid, {"no 'low'"}, {"", {"sweep.voxelize.resolution={low: null}"}});
