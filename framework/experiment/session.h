@@ -23,7 +23,7 @@ struct SceneOnDevice {
     PreparedScene prepared;
     GpuScene gpu;
     std::unique_ptr<RayTracer> tracer;
-    bool isMoved = false;  ///< Whether it is not in the compared frame.
+    bool isMoved = false;      ///< Whether it is not in the compared frame.
     double tracerBuildMs = 0;  ///< Time to make the tracer: BVHs, its copies of the scene, its programs.
 };
 
