@@ -6,7 +6,8 @@ const STEPS = 1000;  // Of a slider
 export const entryOf = (entry) => (typeof entry === "string" ? { pass: entry } : entry);
 export const idOf = (entry) => entryOf(entry).id ?? entryOf(entry).pass;
 
-function make(tag, properties = {}, ...children) {
+/** An element with properties and children. */
+export function make(tag, properties = {}, ...children) {
     const element = Object.assign(document.createElement(tag), properties);
     element.append(...children);
     return element;

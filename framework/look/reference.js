@@ -1,6 +1,9 @@
 // The reference that gets better while nothing else is asked: its samples and noise, the image or its error map in place of
 // the rendered one, and scores against it.
 
+import { make } from "./passes.js";
+import { SIDE_NAMES } from "./split.js";
+
 const POLL_MS = 700;
 const SCORING_SHARE = 4;  // Times that a score takes pass before the next one
 // Black is no error, light yellow is the largest: matplotlib's magma, as in the report
@@ -10,12 +13,6 @@ const MAGMA = ["#000004", "#1d1147", "#51127c", "#822681", "#b63679", "#e65164",
 const SHOWN = new Map([["reference", "reference"], ["error", "error (HDR-FLIP)"]]);
 
 const figures = (value) => (Math.abs(value) >= 1000 || value === 0 ? value.toFixed(0) : value.toPrecision(3));
-
-function make(tag, properties = {}, ...children) {
-    const element = Object.assign(document.createElement(tag), properties);
-    element.append(...children);
-    return element;
-}
 
 /** Colors a grey picture on a canvas in place. */
 function colorErrors(context) {
@@ -81,15 +78,16 @@ export class ReferenceBox {
             }
             if (!response.ok) return;
             const end = body.indexOf(10), answer = JSON.parse(new TextDecoder().decode(body.subarray(0, end)));
-            await this.take(side, show, answer, body.subarray(end + 1), isCurrent);
+            await this.take(side, show, known ? this.answers.get(side) : {}, answer, body.subarray(end + 1), isCurrent);
             if (!answer.of || answer.error || answer.samples === answer.of) return;
             known = answer.state;
             await later(Math.max(POLL_MS, SCORING_SHARE * (answer.score_ms ?? 0)));
         }
     }
 
-    async take(side, show, answer, png, isCurrent) {
-        const { scores } = this.answers.get(side) ?? {};  // The same as before where they are not told
+    /** @param before the answer before on the same image, whose scores are the same where they are not told */
+    async take(side, show, before, answer, png, isCurrent) {
+        const { scores } = before;
         this.answers.set(side, answer.of && scores ? { scores, ...answer } : answer);
         this.list();
         if (!png.length) return;
@@ -105,7 +103,7 @@ export class ReferenceBox {
         const sides = this.sides();
         this.words.textContent = wordsOf(this.answers.get(this.edited()));
         const rows = sides.flatMap((side) => ["", "indirect_"].map((light) => ({ light, scores: this.answers.get(side)?.scores ?? {},
-            name: `${sides.length > 1 ? `${"AB"[side.number]}, ` : ""}${light ? "indirect" : "all light"}` })))
+            name: `${sides.length > 1 ? `${SIDE_NAMES[side.number]}, ` : ""}${light ? "indirect" : "all light"}` })))
             .filter(({ light, scores }) => light + this.metrics[0].name in scores);
         this.table.hidden = !rows.length;
         this.table.replaceChildren(

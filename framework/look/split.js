@@ -2,7 +2,7 @@
 
 import { onKey } from "./keys.js";
 
-const SIDE_NAMES = ["A", "B"];
+export const SIDE_NAMES = ["A", "B"];
 
 /** What a scene is made of. Cameras of two configs mean the same if that is. */
 const sourceOf = (scene) => scene.file ?? scene.builtin;

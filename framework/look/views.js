@@ -4,11 +4,6 @@ import { PassList } from "./passes.js";
 
 const VOXELS = "show_voxels";  // The name of a view, and the pass that draws it
 
-function option(value, text) {
-    const element = document.createElement("option");
-    return Object.assign(element, { value, textContent: text });
-}
-
 const sizeOf = (bytes) => (bytes < 2 ** 20 ? `${(bytes / 2 ** 10).toFixed(1)} KiB` : `${(bytes / 2 ** 20).toFixed(1)} MiB`);
 const BYTES = { uint8: 1, float16: 2, uint32: 4, float32: 4, uint64: 8 };
 
@@ -67,7 +62,7 @@ export class Views {
         for (const view of views) {
             const isVoxels = view.kind === "voxels", group = isVoxels ? "voxels" : view.pass;
             if (!groups.has(group)) groups.set(group, Object.assign(document.createElement("optgroup"), { label: group }));
-            groups.get(group).append(option(view.name, isVoxels ? "voxels" : textOf(view)));
+            groups.get(group).append(new Option(isVoxels ? "voxels" : textOf(view), view.name));
             if (isVoxels) this.allow(view.shows);
         }
         for (const old of this.select.querySelectorAll("optgroup")) old.remove();
