@@ -28,10 +28,10 @@ from voxray.compare import compare, score  # noqa: E402
 from voxray.display import picture, strip  # noqa: E402
 from voxray.errors import VoxrayError  # noqa: E402
 from voxray.results import Reference, Results, Variant, load  # noqa: E402
-from voxray.session import PROGRAM, Rendering, Session  # noqa: E402
+from voxray.session import PROGRAM, GrowingReference, Rendering, Session  # noqa: E402
 
-__all__ = ["PROGRAM", "Reference", "Rendering", "Results", "Session", "Variant", "VoxrayError", "compare", "load", "open", "picture", "run", "score",
-           "strip"]
+__all__ = ["PROGRAM", "GrowingReference", "Reference", "Rendering", "Results", "Session", "Variant", "VoxrayError", "compare", "load", "open",
+           "picture", "run", "score", "strip"]
 
 
 def open(config: str | Path, *, set: Mapping[str, Any] | None = None, profile: str | None = None, options: Iterable[str] = ()) -> Session:
