@@ -598,7 +598,7 @@ class Page(Browsed):
         self.assertEqual(self.find("#legend").text, "")
         self.assertFalse(self.find("#voxels").is_displayed())
         np.testing.assert_array_equal(self.shown(), self.downloaded_runs())
-        self.assertEqual(self.browser.console(), [])
+        self.assertEqual(self.complaints(), [])
 
     def test_what_is_refused_is_said_and_not_shown(self):
         before = self.config()
