@@ -38,7 +38,7 @@ class ImageRequests {
 
     std::mutex mutex_;
     std::condition_variable arrived_;
-    std::list<Asked> waiting_;             ///< At most one of each side of a page.
+    std::list<Asked> waiting_;             ///< At most one of each side and kind of a page.
     const ImageRequest* whole_ = nullptr;  ///< The one whose whole image is in the making.
     bool isReplaced_ = false;              ///< Whether a newer one took its place.
     bool yields_ = false;                  ///< Whether what is being done is cancelled for any image.

@@ -44,8 +44,8 @@ class InteractiveSession {
     // For the states
     /// Makes the study of a config without sweep. @throws UsageError
     Study studyOf(Value config) const;
-    /// The same, checked against scene and device. Where the camera or the image alone is another than in the study
-    /// before, its view is not path traced to find what may mislead, but for a view that was before.
+    /// The same, checked against scene and device. Where only the camera or the image differ from the study that was
+    /// checked before, a new view is not path traced for what may mislead.
     Study checkedStudy(Value config);
     Session& resources() { return session_; }
     /// The reference of a side's study, which sides with the same one share.

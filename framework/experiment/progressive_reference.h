@@ -27,7 +27,7 @@ class ProgressiveReference {
     /// @throws Interrupted: whole samples are kept. Error of the pass: from then on the same one at once.
     void advance(const Study& study, std::optional<std::chrono::milliseconds> budget);
 
-    /// Referred to by Variant::referenceHash; "" before follow().
+    /// Variant::referenceHash of its study; "" before follow().
     const std::string& hash() const { return hash_; }
     /// Samples a pixel so far, and of the whole reference.
     uint32_t samples() const { return samples_; }
