@@ -37,7 +37,7 @@ function keysOf(poses, first, last, tolerance) {
     return farthest <= 1 ? [last] : [...keysOf(poses, first, at, tolerance), ...keysOf(poses, at, last, tolerance)];
 }
 
-export class PathRecorder {
+class PathRecorder {
     constructor() {
         this.samples = null;
     }
