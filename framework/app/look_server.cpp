@@ -81,10 +81,8 @@ LookServer::LookServer(Content content, int port)
             const auto& answer = name == "image" ? content_.image : content_.reference;
             if (const std::optional<std::string> body = answer(request.body))
                 response.set_content(*body, "application/octet-stream");
-            else if (name == "image")
-                refuse(response, 409, "a newer request took the place of this one");
             else
-                response.status = 204;  // Nothing is wrong: it is asked for again
+                response.status = 204;  // Another request came first
         } catch (const std::exception& error) {
             refuse(response, 400, error.what());
         }

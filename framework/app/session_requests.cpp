@@ -124,7 +124,7 @@ Value RequestHandler::answer(const Value& request) {
 
 Value RequestHandler::write(const std::string& name, const ImageF& image) const {
     const std::filesystem::path file = images_ / (name + ".exr");
-    writeExr(file, image);
+    writePlainExr(file, image);
     return quotedText(file.string());
 }
 
@@ -132,13 +132,8 @@ void RequestHandler::render(Value& answer) {
     rendering_.reset();
     rendering_ = state_.render([](double) {});
     Value files = Value::map();
-    const auto write = [&](const std::string& name, const ImageF& image) {
-        const std::filesystem::path file = images_ / (name + ".exr");
-        writePlainExr(file, image);
-        files.set(name, quotedText(file.string()));
-    };
-    write(kComparedImage, rendering_->images.final);
-    if (rendering_->images.indirect) write(kIndirectImage, *rendering_->images.indirect);
+    files.set(kComparedImage, write(kComparedImage, rendering_->images.final));
+    if (rendering_->images.indirect) files.set(kIndirectImage, write(kIndirectImage, *rendering_->images.indirect));
     answer.set("images", std::move(files));
     describe(answer, *rendering_);
 }

@@ -94,14 +94,14 @@ void InteractiveSession::dropReferences() {
 bool InteractiveSession::advanceReferences(std::chrono::milliseconds budget) {
     for (auto& side : sides_) {
         if (!side || !side->hasReference()) continue;
-        const ProgressiveReference& reference = side->reference();
-        if (reference.isWhole() || reference.hasFailed()) continue;
         try {
+            const ProgressiveReference& reference = side->reference();
+            if (reference.isWhole() || reference.hasFailed()) continue;
             side->advanceReference(budget);
         } catch (const Interrupted&) {
             throw;
         } catch (const Error&) {
-            // hasFailed() tells it
+            continue;  // hasFailed() tells it
         }
         return true;
     }

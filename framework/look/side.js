@@ -83,8 +83,8 @@ export class Side {
                 page: this.page, side: this.number, shrink, ...sent.opened, ...this.hooks.extras(this),
                 changes: [...sent.pending].map(([path, value]) => ({ path, value })) }) });
             const body = new Uint8Array(await response.arrayBuffer());
-            if (response.ok) await this.take(body, sent, shrink);
-            else if (response.status !== 409) {
+            if (response.status === 200) await this.take(body, sent, shrink);
+            else if (response.status !== 204) {  // 204: a newer request took its place
                 this.hooks.say(this, new TextDecoder().decode(body));
                 this.shown = sent.version;
                 this.pending.clear();

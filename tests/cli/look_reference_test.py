@@ -145,7 +145,7 @@ class Shown(look_test.Browsed):
         self.settle()
         self.wait_for(lambda: 0 < self.samples() < many)
         self.assertEqual(self.error(), "")
-        self.assertEqual(self.complaints(), [])
+        self.assertEqual(self.browser.console(), [])
 
     def test_two_sides_share_it(self):
         self.wait_for(lambda: self.samples() > 2)

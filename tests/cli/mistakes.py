@@ -98,7 +98,7 @@ MISTAKES = {
     "passes in the wrong order": ("  - {pass: trace_gather_rays}\n  - {pass: gather_rays, id: gather}\n",
         "  - {pass: gather_rays, id: gather}\n  - {pass: trace_gather_rays}\n", 13, "move 'trace_gather_rays' up"),
     "nothing writes the image": ("  - {pass: composite}\n", "", 9,
-        "no pass writes 'final', the image that is compared; these can: composite, show_voxels, path_trace"),
+        "no pass writes 'final', the image that is compared; these can: composite, glsl, show_voxels, path_trace"),
     "a reference that is no path tracer": ("pass: path_trace, spp: 8, bounces: 3", "pass: gbuffer", 18,
         "'gbuffer' renders no reference"),
     "a reference by a gather": ("pass: path_trace, spp: 8, bounces: 3", "pass: gather_rays", 18,

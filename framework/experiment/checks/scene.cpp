@@ -65,6 +65,7 @@ Diagnostic findingOf(const SceneAddition& addition, const Box& added, const Box&
 Diagnostics checkAddedSceneUnits(const SceneSettings& scene, const PreparedScene& prepared, SceneLoader& loader) {
     // Meshes of additions follow those of the scene. Their indices don't change if instances are hidden
     Diagnostics all;
+    if (scene.additions.empty()) return all;
     size_t first = loader.load(scene.source)->meshes.size();
     const Box whole = boundsOf(prepared.state, 0, first);
     for (const SceneAddition& addition : scene.additions) {

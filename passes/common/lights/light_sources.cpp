@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "scene/region_split.h"
 #include "trace/emission.h"
 
@@ -58,10 +60,15 @@ std::vector<LightSource> requireLightSources(const SceneState& state, const std:
 }
 
 double surfaceArea(const Geometry& geometry) {
-    double area = 0;
-    for (uint32_t t = 0; t < geometry.triangles.size(); ++t)
-        if (isInRegion(geometry, t)) area += triangleArea(geometry, t);
-    return area;
+    // Chunks are added in their order, so that the sum does not depend on the number of threads
+    constexpr size_t kChunk = 1 << 14;
+    const size_t count = geometry.triangles.size();
+    std::vector<double> areas((count + kChunk - 1) / kChunk);
+    parallelRanges(areas.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t t = begin * kChunk; t < std::min(end * kChunk, count); ++t)
+            if (isInRegion(geometry, uint32_t(t))) areas[t / kChunk] += triangleArea(geometry, uint32_t(t));
+    });
+    return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
 double totalPower(const std::vector<LightSource>& sources) {

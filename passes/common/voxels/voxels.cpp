@@ -4,11 +4,10 @@
 #include <bit>
 #include <climits>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "base/error.h"
 #include "passes/common/compute/bit_words.h"
-#include "scene/region_split.h"
+#include "passes/common/lights/light_sources.h"
 
 namespace voxray {
 
@@ -73,16 +72,9 @@ gpu::VoxelGrid makeVoxelGrid(glm::vec3 boundsMin, glm::vec3 boundsMax, uint32_t 
 }
 
 double estimateVoxels(const Geometry& geometry, const gpu::VoxelGrid& grid) {
-    double area = 0;
-    for (uint32_t t = 0; t < geometry.triangles.size(); ++t) {
-        if (!isInRegion(geometry, t)) continue;
-        const glm::uvec3 v = geometry.triangles[t];
-        const glm::dvec3 a = geometry.positions[v.x], b = geometry.positions[v.y], c = geometry.positions[v.z];
-        area += 0.5 * glm::length(glm::cross(b - a, c - a));
-    }
     // A plane with the area of a voxel's face passes through |nx| + |ny| + |nz| voxels: 3/2 on average over
     // all directions
-    const double voxels = 1.5 * area / (double(grid.voxelSize) * grid.voxelSize);
+    const double voxels = 1.5 * surfaceArea(geometry) / (double(grid.voxelSize) * grid.voxelSize);
     return std::min(voxels, double(grid.resolution.x) * grid.resolution.y * grid.resolution.z);
 }
 
