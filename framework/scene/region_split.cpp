@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
+#include <numeric>
+#include <vector>
 
+#include "base/parallel.h"
 #include "scene/append_vertex.h"
 #include "scene/content_hash.h"
 
@@ -123,6 +126,18 @@ bool isInRegion(const Geometry& g, uint32_t triangle) {
     const glm::vec3 center =
         glm::clamp(a / 3.0f + b / 3.0f + c / 3.0f, glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c)));
     return glm::all(glm::greaterThanEqual(center, low)) && glm::all(glm::lessThanEqual(center, high));
+}
+
+double surfaceArea(const Geometry& geometry) {
+    // Chunks are added in their order, so that the sum does not depend on the number of threads
+    constexpr size_t kChunk = 1 << 14;
+    const size_t count = geometry.triangles.size();
+    std::vector<double> areas((count + kChunk - 1) / kChunk);
+    parallelRanges(areas.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t t = begin * kChunk; t < std::min(end * kChunk, count); ++t)
+            if (isInRegion(geometry, uint32_t(t))) areas[t / kChunk] += triangleArea(geometry, uint32_t(t));
+    });
+    return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
 }  // namespace voxray

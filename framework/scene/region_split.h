@@ -12,4 +12,7 @@ SceneState splitAtRegion(const SceneState& state, const Box& region, double time
 /// Whether a triangle is in the geometry's region.
 bool isInRegion(const Geometry& geometry, uint32_t triangle);
 
+/// One-sided area of all surfaces in the region, m².
+double surfaceArea(const Geometry& geometry);
+
 }  // namespace voxray

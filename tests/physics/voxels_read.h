@@ -6,17 +6,11 @@
 #include <vector>
 
 #include "passes/common/voxels/voxels.h"
+#include "scene/region_split.h"
 #include "scene/shapes.h"
 #include "tests/gpu/chain.h"
 
 namespace voxray::test {
-
-inline double surfaceArea(const Geometry& g) {
-    double area = 0;
-    for (const glm::uvec3 t : g.triangles)
-        area += 0.5 * glm::length(glm::cross(g.positions[t.y] - g.positions[t.x], g.positions[t.z] - g.positions[t.x]));
-    return area;
-}
 
 inline std::vector<gpu::VoxelMaterial> readMaterials(Chain& chain, const SurfaceVoxels& voxels) {
     std::vector<gpu::VoxelMaterial> materials;

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 
 #include "base/error.h"
-#include "base/parallel.h"
 #include "scene/region_split.h"
 #include "trace/emission.h"
 
@@ -57,18 +55,6 @@ std::vector<LightSource> requireLightSources(const SceneState& state, const std:
             "[{{point: [0, 2, 0], intensity: 5}}], and leave 'keep_file_lights' true for its own",
             pass);
     return all;
-}
-
-double surfaceArea(const Geometry& geometry) {
-    // Chunks are added in their order, so that the sum does not depend on the number of threads
-    constexpr size_t kChunk = 1 << 14;
-    const size_t count = geometry.triangles.size();
-    std::vector<double> areas((count + kChunk - 1) / kChunk);
-    parallelRanges(areas.size(), 1, [&](size_t begin, size_t end) {
-        for (size_t t = begin * kChunk; t < std::min(end * kChunk, count); ++t)
-            if (isInRegion(geometry, uint32_t(t))) areas[t / kChunk] += triangleArea(geometry, uint32_t(t));
-    });
-    return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
 double totalPower(const std::vector<LightSource>& sources) {

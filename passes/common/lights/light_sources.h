@@ -22,9 +22,6 @@ std::vector<LightSource> lightSources(const SceneState& state);
 /// The same. @throws Error naming the pass if there is none.
 std::vector<LightSource> requireLightSources(const SceneState& state, const std::string& pass);
 
-/// One-sided area of all surfaces in the region, m².
-double surfaceArea(const Geometry& geometry);
-
 /// Sum of LightSource::power, W.
 double totalPower(const std::vector<LightSource>& sources);
 

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "passes/common/compute/bit_words.h"
-#include "passes/common/lights/light_sources.h"
+#include "scene/region_split.h"
 
 namespace voxray {
 

@@ -8,6 +8,7 @@
 #include "passes/common/view/image_rays.h"
 #include "passes/surfels/surfel_injection.h"
 #include "scene/camera_rays.h"
+#include "scene/region_split.h"
 
 namespace voxray {
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <glm/gtc/constants.hpp>
 
-#include "passes/common/lights/light_sources.h"
 #include "passes/vpls/gather_vpls/map_point_types.h"
 #include "scene/region_split.h"
 

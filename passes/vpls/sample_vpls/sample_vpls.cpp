@@ -15,6 +15,7 @@
 #include "passes/inject/light_paths/light_path_types.h"
 #include "passes/vpls/sample_vpls/rsm_sampling.h"
 #include "passes/vpls/vpls.h"
+#include "scene/region_split.h"
 
 namespace voxray {
 namespace {

@@ -4,10 +4,10 @@
 
 #include "graph/registry.h"
 #include "passes/common/compute/random_seed.h"
-#include "passes/common/lights/light_sources.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/vpls/select_vpls/systematic_resampling.h"
 #include "passes/vpls/vpls.h"
+#include "scene/region_split.h"
 
 namespace voxray {
 
