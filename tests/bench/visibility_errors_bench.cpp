@@ -2,6 +2,7 @@
 // rays near the ends of a shadow ray, with voxels that block in part, and with leaves that hold triangles.
 #include <benchmark/benchmark.h>
 
+#include "passes/common/lights/light_sources.h"
 #include "passes/common/voxel_march/voxel_tracer.h"
 #include "passes/hybrid_leaves/hybrid_tracer.h"
 #include "tests/bench/light_rays.h"

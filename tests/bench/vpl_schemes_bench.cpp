@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "passes/common/lights/light_sources.h"
 #include "passes/vpls/select_vpls/systematic_resampling.h"
 #include "tests/bench/light_rays.h"
 #include "tests/bench/light_tree.h"
