@@ -12,6 +12,7 @@ import { Views } from "./views.js";
 const byId = (id) => document.getElementById(id);
 const exposure = document.querySelector("[name=exposure]"), variant = document.querySelector("[name=variant]");
 
+const changedVariant = Object.assign(new Option("", ""), { hidden: true });  // So that the variant can be chosen anew
 const start = await (await fetch("start.json")).json();
 const page = crypto.randomUUID(), errors = new Map();  // By side
 const hooks = {
@@ -61,7 +62,10 @@ export const state = {
 window.look = state;
 
 function changed(name, value, time) {
-    for (const side of split.sidesOf(name)) side.change(name, name === "scene.camera" ? cameraFor(side, value) : value, time);
+    for (const side of split.sidesOf(name)) {
+        side.isFlown ||= name === "scene.camera";
+        side.change(name, name === "scene.camera" ? cameraFor(side, value) : value, time);
+    }
 }
 
 /** A camera takes the place of one with a path: maps are merged. */
@@ -75,7 +79,8 @@ function showConfig(side) {
     showErrors();
     if (!config) return;
     document.title = document.querySelector("h1").textContent = config.name;
-    variant.value = side.variant;
+    changedVariant.textContent = split.titleOf(side);
+    variant.value = side.isChanged ? "" : side.variant;
     if (!side.pending.has("image.exposure_stops")) byId("stops").textContent = exposure.value = config.image?.exposure_stops ?? 0;
     byId("times-title").textContent = split.isOpen ? `Times of ${split.titleOf(side)}` : "Times";
     byId("passes-title").textContent = `Passes of ${split.titleOf(side)}`;
@@ -117,8 +122,8 @@ exposure.addEventListener("input", () => {
     changed("image.exposure_stops", exposure.valueAsNumber, performance.now());
 });
 byId("download").addEventListener("click", download);
-variant.append(...start.variants.map(({ id, name }) => new Option(name, id)));
+variant.append(changedVariant, ...start.variants.map(({ id, name }) => new Option(name, id)));
 byId("variants").hidden = start.variants.length < 2;
-variant.addEventListener("change", () => split.select(start.variants[variant.selectedIndex]));
+variant.addEventListener("change", () => split.select(start.variants.find(({ id }) => id === variant.value)));
 window.addEventListener("pagehide", () => split.isOpen && sides[1].close());
 sides[0].next();

@@ -115,8 +115,8 @@ export class PassList {
 
     card(entry, entries, isOpen) {
         const id = idOf(entry), schema = this.schemas.get(entry.pass), help = schema.pass.description;
-        const others = this.others(entry);
-        const swap = make("select", { title: "Another pass with the same outputs" }, ...this.options(others, entry, entries));
+        const others = this.others(entry, entries);
+        const swap = make("select", { title: "Another pass that writes what is read of this one" }, ...this.options(others, entry, entries));
         swap.value = entry.pass;
         swap.setAttribute("aria-label", `pass of ${id}`);
         swap.addEventListener("change", () => this.changed(id, others[swap.selectedIndex]));
@@ -155,9 +155,13 @@ export class PassList {
         return !port.with || conditionsOf(port).some(([name, values]) => values.includes(String(entry[name] ?? schema[name].default)));
     }
 
-    /** Entries of passes that write what this one writes; parameters on which that depends are set. */
-    others(entry) {
-        const outputs = this.kinds[entry.pass].outputs.filter((port) => this.has(entry, port)).map((port) => port.name);
+    /** Entries of passes that write what others read of this one alone; parameters on which that depends are set. */
+    others(entry, entries) {
+        const namesOf = (one, ports) => this.kinds[one.pass][ports].filter((port) => this.has(one, port)).map((port) => port.name);
+        const rest = entries.filter((other) => other !== entry), written = namesOf(entry, "outputs");
+        const read = new Set(["final", ...rest.flatMap((other) => namesOf(other, "inputs"))]);
+        for (const name of rest.flatMap((other) => namesOf(other, "outputs"))) read.delete(name);
+        const readHere = written.filter((name) => read.has(name)), outputs = readHere.length ? readHere : written;
         return Object.keys(this.kinds).map((kind) => {
             if (kind === entry.pass) return { pass: kind };
             const other = { pass: kind };

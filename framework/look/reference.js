@@ -26,12 +26,14 @@ function colorErrors(context) {
 
 const later = (ms) => new Promise((done) => setTimeout(done, ms));
 
-function wordsOf(answer) {
+/** @param isShown whether it, or its error map, takes the image's place */
+function wordsOf(answer, isShown) {
     if (!answer) return "";
     if (answer.error) return answer.error;
     if (!answer.of) return "The config has no reference: with an entry as 'reference: {pass: path_trace, spp: 256}' errors are shown.";
-    const noise = answer.noise.nrmse === undefined ? "" : `, noise ${(100 * answer.noise.nrmse).toPrecision(2)} % (nRMSE)`;
-    return `Reference: ${answer.samples} of ${answer.of} samples a pixel${noise}`;
+    const noise = answer.noise.nrmse === undefined ? "" : `, noise ${Number((100 * answer.noise.nrmse).toPrecision(2))} % (nRMSE)`;
+    const waits = isShown && answer.samples < 2 ? "; the image is shown until it has 2" : "";
+    return `Reference: ${answer.samples} of ${answer.of} samples a pixel${noise}${waits}`;
 }
 
 /** A score, with its 95 % interval, or with what a perfect image would score for the reference's noise. */
@@ -101,7 +103,7 @@ export class ReferenceBox {
     /** Tells of the reference of the side that is edited, and scores of all sides: columns are metrics. */
     list() {
         const sides = this.sides();
-        this.words.textContent = wordsOf(this.answers.get(this.edited()));
+        this.words.textContent = wordsOf(this.answers.get(this.edited()), SHOWN.has(this.select.value));
         const rows = sides.flatMap((side) => ["", "indirect_"].map((light) => ({ light, scores: this.answers.get(side)?.scores ?? {},
             name: `${sides.length > 1 ? `${SIDE_NAMES[side.number]}, ` : ""}${light ? "indirect" : "all light"}` })))
             .filter(({ light, scores }) => light + this.metrics[0].name in scores);

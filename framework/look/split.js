@@ -45,10 +45,15 @@ export class Split {
         return this.shown.every((side) => !side.config || sourceOf(side.config.scene) === sourceOf(this.sides[0].config.scene));
     }
 
-    /** Takes the values of a variant for the side that is edited. Beside another side, image and camera are as there. */
+    /**
+     * Takes the values of a variant for the side that is edited. Beside another side, image and camera are as there; alone, they
+     * stay if the camera was flown.
+     */
     select(variant) {
+        const source = this.isOpen ? this.sides[1 - this.edited.number] : this.edited, keeps = this.isOpen || this.edited.isFlown;
+        const kept = keeps && source.config ? this.sharedBy(source, variant) : [];
         this.nameBy(this.edited, variant);
-        this.edited.open({ variant: variant.id }, this.isOpen ? this.sharedBy(this.sides[1 - this.edited.number], variant) : [], performance.now());
+        this.edited.open({ variant: variant.id }, kept, performance.now());
         this.arrange();
     }
 
@@ -99,7 +104,7 @@ export class Split {
         for (const [i, button] of this.captions.entries()) {
             const side = this.sides[i];
             button.hidden = !this.isOpen;
-            button.textContent = `${this.titleOf(side)}${this.edited === side ? " (edited)" : ""}`;
+            button.textContent = `${this.titleOf(side)}${this.edited === side ? " (being edited)" : ""}`;
             button.setAttribute("aria-pressed", this.edited === side);
         }
     }

@@ -2,8 +2,8 @@
 
 /** A line on the whole frame. */
 export function frameText(answer) {
-    return `${answer.width} × ${answer.height}: frame ${answer.frame_ms.toFixed(1)} ms, `
-        + `${Number((1000 / answer.frame_ms).toPrecision(2))} a second, ${(answer.memory_bytes / 2 ** 20).toFixed(1)} MiB`;
+    const rate = answer.frame_ms > 0 ? `, ${Number((1000 / answer.frame_ms).toPrecision(2))} a second` : "";  // A view may need no pass
+    return `${answer.width} × ${answer.height}: frame ${answer.frame_ms.toFixed(1)} ms${rate}, ${(answer.memory_bytes / 2 ** 20).toFixed(1)} MiB`;
 }
 
 /** Bars of the passes' times, those of passes that run once apart from the rest. */

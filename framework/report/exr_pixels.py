@@ -56,22 +56,16 @@ def read(path):
     x0, y0, x1, y1 = struct.unpack("<4i", attributes["dataWindow"])
     width, height = x1 - x0 + 1, y1 - y0 + 1
 
-    channels, i = {}, 0
+    types, i = [], 0
     while attributes["channels"][i]:
         name, i = _text(attributes["channels"], i)
-        kind = struct.unpack_from("<i", attributes["channels"], i)[0]
-        channels[name] = numpy.empty((height, width), PIXEL_TYPES[kind])
+        types.append((name, PIXEL_TYPES[struct.unpack_from("<i", attributes["channels"], i)[0]], (width,)))
         i += 16
 
-    bytes_of_line = sum(width * c.dtype.itemsize for c in channels.values())
-    for offset in struct.unpack_from(f"<{-(-height // LINES_OF_BLOCK[compression])}Q", data, at):
+    line, step, blocks = numpy.dtype(types), LINES_OF_BLOCK[compression], []
+    for offset in struct.unpack_from(f"<{-(-height // step)}Q", data, at):
         y, size = struct.unpack_from("<ii", data, offset)
-        lines = range(y - y0, min(y - y0 + LINES_OF_BLOCK[compression], height))
-        block, position = data[offset + 8:offset + 8 + size], 0
-        if size < len(lines) * bytes_of_line:
-            block = _unzip(block)
-        for line in lines:
-            for channel in channels.values():
-                channel[line] = numpy.frombuffer(block, channel.dtype, width, position)
-                position += width * channel.dtype.itemsize
-    return channels
+        block = data[offset + 8:offset + 8 + size]
+        blocks.append(_unzip(block) if size < min(step, y1 + 1 - y) * line.itemsize else block)
+    lines = numpy.frombuffer(b"".join(blocks), line)
+    return {name: lines[name] for name, *_ in types}

@@ -385,6 +385,13 @@ class Page(Browsed):
         self.assertEqual(self.error(), "")
         self.assertEqual(self.entry("gather_irradiance")["pass"], "path_trace")
         np.testing.assert_array_equal(self.shown(), self.downloaded_runs())
+        # It can be swapped back, and the changed variant chosen anew, which keeps the camera
+        swap = self.browser.driver.find_element(By.CSS_SELECTOR, "[data-id=gather_irradiance] select")
+        self.assertIn("gather_irradiance", [option.get_attribute("value") for option in Select(swap).options])
+        camera = self.config()["scene"]["camera"]
+        self.choose("variant", "resolution 8")
+        self.assertEqual(self.entry("gather_irradiance")["pass"], "gather_irradiance")
+        self.assertEqual(self.config()["scene"]["camera"], camera)
         self.assertEqual(self.browser.console(), [])
 
     def test_two_pages_and_the_programs_end(self):
@@ -423,18 +430,18 @@ class Page(Browsed):
         second = self.shown("other")
         self.assertGreater(np.abs(second.astype(int) - first).mean(), 0.1)
         # One of them is edited: by a key or a click
-        self.assertEqual(self.edited(), ["A: resolution 8 (edited)"])
+        self.assertEqual(self.edited(), ["A: resolution 8 (being edited)"])
         self.find("#image").send_keys("x")
-        self.assertEqual(self.edited(), ["B: resolution 16 (edited)"])
+        self.assertEqual(self.edited(), ["B: resolution 16 (being edited)"])
         self.assertIn("resolution 16", self.find("#times-title").text)
         self.find("input[type=range][name='inject.bounces']").send_keys(Keys.HOME)
         self.settle()
         self.assertEqual([one["graph"][2]["bounces"] for one in self.configs()], [2, 0])
-        self.assertEqual(self.edited(), ["B: resolution 16, changed (edited)"])
+        self.assertEqual(self.edited(), ["B: resolution 16, changed (being edited)"])
         np.testing.assert_array_equal(self.shown(), first)
         self.assertGreater(np.abs(self.shown("other").astype(int) - second).mean(), 0.1)
         self.find("figcaption button").click()
-        self.assertEqual(self.edited(), ["A: resolution 8 (edited)"])
+        self.assertEqual(self.edited(), ["A: resolution 8 (being edited)"])
         self.assertEqual(self.find("input[type=number][name='voxelize.resolution']").get_attribute("value"), "8")
         # Camera and exposure are those of both
         latencies = self.browser.run("return window.look.latencies.length")
@@ -556,7 +563,7 @@ class Page(Browsed):
         self.assertEqual(self.entry("voxelize")["resolution"], 11)
         self.assertEqual(self.config()["scene"].get("camera"), camera)
         self.find("#download").send_keys("x")
-        self.assertEqual(self.edited(), ["B: resolution 16 (edited)"])
+        self.assertEqual(self.edited(), ["B: resolution 16 (being edited)"])
 
     def test_shows_every_kind_of_view(self):
         image = self.shown()

@@ -14,6 +14,7 @@ framework/python of it.
 
 from __future__ import annotations
 
+import importlib.util
 import subprocess
 import sys
 from collections.abc import Iterable, Mapping
@@ -21,6 +22,10 @@ from pathlib import Path
 from typing import Any
 
 sys.path.append(str(Path(__file__).resolve().parents[2]))  # of the packages `orchestration` and `report`
+
+_missing = [name for name in ("matplotlib", "numpy", "pandas", "PIL") if importlib.util.find_spec(name) is None]
+if _missing:
+    raise ImportError(f"{sys.executable} has no {', '.join(_missing)}: start /usr/bin/python3, which has Debian's packages")
 
 from orchestration.program import assignment  # noqa: E402
 
