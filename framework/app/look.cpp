@@ -13,15 +13,14 @@
 #include "app/look_reference.h"
 #include "app/look_server.h"
 #include "app/open_config.h"
+#include "app/planning.h"
 #include "app/session_requests.h"
-#include "app/source_root.h"
 #include "app/text_values.h"
 #include "app/view_requests.h"
 #include "base/interrupt.h"
 #include "config/overrides.h"
 #include "experiment/config_schema.h"
 #include "passes/common/families.h"
-#include "passes/path_trace/preview.h"
 
 namespace voxray {
 namespace {
@@ -149,15 +148,9 @@ std::string answerTo(ShownState& state, const ImageRequest& request, ShownImage&
 void look(const LookArguments& arguments) {
     Registry registry;
     registerPasses(registry);
-    RunOptions options = arguments.options;
-    options.scenes = arguments.scenes;
-    options.sourceRoot = sourceRoot();
-    options.previewTracer = pathTracedPreview;
-    ConfigArguments changed = arguments;
-    if (!options.tracer.empty()) changed.config.assignments.push_back("tracer=" + options.tracer);
-
+    const RunOptions options = completed(arguments.options, arguments);
     const InterruptScope interruptScope;
-    InteractiveSession session(openConfig(arguments.file, changed), registry, options);
+    InteractiveSession session(openConfig(arguments.file, arguments, options.tracer), registry, options);
     Value start = greetingOf(session);
     for (Value& variant : start.find("variants")->items)
         variant.set("source", sourceOf(session.configOf(textOf(variant, "id"))));

@@ -11,7 +11,8 @@
 
 namespace voxray {
 
-Experiment openConfig(const std::filesystem::path& file, const ConfigArguments& arguments) {
+Experiment openConfig(const std::filesystem::path& file, ConfigArguments arguments, const std::string& tracer) {
+    if (!tracer.empty()) arguments.config.assignments.push_back("tracer=" + tracer);
     if (!isSceneFile(file)) return loadExperiment(file, arguments.config);
     Value keys = Value::map();
     keys.set("file", Value::fromScalar((std::filesystem::exists(file) ? absolute(file) : file).string(), true));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "app/config_options.h"
 
@@ -10,7 +11,7 @@ inline constexpr const char* kOpenedHelp =
     "Config file, or a .glb or .gltf file, of which a config to begin with is made.";
 
 /// Reads a config, or makes the starter config of a scene file (.glb, .gltf): as `voxray scene --write-config`, without
-/// a file. @throws UsageError, Error.
-Experiment openConfig(const std::filesystem::path& file, const ConfigArguments& arguments);
+/// a file. @param tracer takes the place of the config's, unless it is empty. @throws UsageError, Error.
+Experiment openConfig(const std::filesystem::path& file, ConfigArguments arguments, const std::string& tracer);
 
 }  // namespace voxray

@@ -24,14 +24,19 @@ Study loadStudy(const std::filesystem::path& file, const ConfigOptions& options,
     return study;
 }
 
-void planExperiment(const std::filesystem::path& file, const ConfigArguments& arguments, RunOptions options,
-                    const std::function<void(PreparedExperiment&)>& use) {
-    Registry registry;
-    registerPasses(registry);
+RunOptions completed(RunOptions options, const ConfigArguments& arguments) {
     options.scenes = arguments.scenes;
     options.sourceRoot = sourceRoot();
     options.previewTracer = pathTracedPreview;
-    PreparedExperiment prepared(loadStudy(file, arguments.config, arguments.only, registry), options);
+    return options;
+}
+
+void planExperiment(const std::filesystem::path& file, const ConfigArguments& arguments, const RunOptions& options,
+                    const std::function<void(PreparedExperiment&)>& use) {
+    Registry registry;
+    registerPasses(registry);
+    const RunOptions all = completed(options, arguments);
+    PreparedExperiment prepared(loadStudy(file, arguments.config, arguments.only, registry), all);
     for (const std::string& warning : prepared.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     use(prepared);
 }

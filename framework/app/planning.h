@@ -13,9 +13,12 @@ namespace voxray {
 Study loadStudy(const std::filesystem::path& file, const ConfigOptions& options, const std::vector<std::string>& only,
                 const Registry& registry);
 
+/// Options as given, with what no option says: scene folders, the source root and the tracer of previews.
+RunOptions completed(RunOptions options, const ConfigArguments& arguments);
+
 /// Plans the experiment of a config as a run does, prints warnings, and calls `use`.
 /// @throws UsageError as loadExperiment(), makeStudy() and runExperiment().
-void planExperiment(const std::filesystem::path& file, const ConfigArguments& arguments, RunOptions options,
+void planExperiment(const std::filesystem::path& file, const ConfigArguments& arguments, const RunOptions& options,
                     const std::function<void(PreparedExperiment&)>& use);
 
 }  // namespace voxray

@@ -11,12 +11,10 @@
 #include "app/config_options.h"
 #include "app/planning.h"
 #include "app/run_summary.h"
-#include "app/source_root.h"
 #include "base/thread_limit.h"
 #include "experiment/runner.h"
 #include "experiment/study.h"
 #include "passes/common/families.h"
-#include "passes/path_trace/preview.h"
 
 namespace voxray {
 
@@ -71,10 +69,7 @@ int run(const RunArguments& arguments) {
 
     int status = 0;
     for (size_t i = 0; i < experiments.size(); ++i) {
-        RunOptions options = arguments.options;
-        options.scenes = arguments.scenes;
-        options.sourceRoot = sourceRoot();
-        options.previewTracer = pathTracedPreview;
+        RunOptions options = completed(arguments.options, arguments);
         if (experiments.size() > 1 && !options.out.empty()) options.out /= nameOf(i);
         const RunSummary summary = runExperiment(std::move(experiments[i]), options);
         printSummary(summary, options);

@@ -9,12 +9,11 @@
 #include "app/commands.h"
 #include "app/config_options.h"
 #include "app/open_config.h"
+#include "app/planning.h"
 #include "app/session_requests.h"
-#include "app/source_root.h"
 #include "app/text_values.h"
 #include "config/yaml.h"
 #include "passes/common/families.h"
-#include "passes/path_trace/preview.h"
 
 namespace voxray {
 
@@ -75,12 +74,8 @@ void addSessionCommand(CLI::App& app, int&) {
     command->callback([arguments] {
         Registry registry;
         registerPasses(registry);
-        RunOptions& options = arguments->options;
-        options.scenes = arguments->scenes;
-        options.sourceRoot = sourceRoot();
-        options.previewTracer = pathTracedPreview;
-        if (!options.tracer.empty()) arguments->config.assignments.push_back("tracer=" + options.tracer);
-        InteractiveSession session(openConfig(arguments->file, *arguments), registry, options);
+        const RunOptions options = completed(arguments->options, *arguments);
+        InteractiveSession session(openConfig(arguments->file, *arguments, options.tracer), registry, options);
         std::filesystem::create_directories(arguments->images);
         RequestHandler handler(session.side(0), std::filesystem::absolute(arguments->images));
         serve(handler, greetingOf(session));

@@ -3,8 +3,7 @@
 
 #include "config/yaml.h"
 #include "graph/graph.h"
-#include "scene/load.h"
-#include "tests/support/places.h"
+#include "tests/support/on_device.h"
 
 namespace voxray {
 namespace {
@@ -79,7 +78,7 @@ struct WriteWidth final : Pass {
     Out<Number> width_{*this, "width", "a number"};
 };
 
-class GraphChanges : public testing::Test {
+class GraphChanges : public test::OnDevice {
  protected:
     GraphChanges() {
         registry_.add<Write>();
@@ -118,12 +117,6 @@ class GraphChanges : public testing::Test {
         return text;
     }
 
-    Device device_{{.name = "", .validation = true}};
-    ShaderCompiler compiler_{test::sourceRoot(), {}};
-    CommandStream stream_{device_};
-    const SceneState state_ = evaluate(makeBuiltinScene("cornell", Value()), 0.0);
-    const GpuScene scene_ = makeGpuScene(device_, stream_, state_);
-    const std::unique_ptr<RayTracer> tracer_ = makeRayTracer(TracerKind::Embree, device_, compiler_, state_);
     Registry registry_;
     Frame frame_;
     std::unique_ptr<Graph> graph_;

@@ -3,8 +3,7 @@
 
 #include "config/yaml.h"
 #include "graph/graph.h"
-#include "scene/load.h"
-#include "tests/support/places.h"
+#include "tests/support/on_device.h"
 
 namespace voxray {
 namespace {
@@ -55,7 +54,7 @@ struct Hoard final : Pass {
     Buffer described_, scratch_, atPrepare_, atRecord_;
 };
 
-class GraphMemory : public testing::Test {
+class GraphMemory : public test::OnDevice {
  protected:
     /// Plans, prepares and runs a Hoard twice. @return what it has taken.
     PassMemory run(const std::string& parameters) { return run(parameters, device_.memoryLimitBytes()); }
@@ -82,12 +81,6 @@ class GraphMemory : public testing::Test {
         return "no error";
     }
 
-    Device device_{{.name = "", .validation = true}};
-    ShaderCompiler compiler_{test::sourceRoot(), {}};
-    CommandStream stream_{device_};
-    const SceneState state_ = evaluate(makeBuiltinScene("cornell", Value()), 0.0);
-    const GpuScene scene_ = makeGpuScene(device_, stream_, state_);
-    const std::unique_ptr<RayTracer> tracer_ = makeRayTracer(TracerKind::Embree, device_, compiler_, state_);
     PassMemory planned_;
     uint64_t keptByRecording_ = 0;
 };

@@ -3,9 +3,8 @@
 
 #include "config/yaml.h"
 #include "graph/graph.h"
-#include "scene/load.h"
 #include "tests/support/errors.h"
-#include "tests/support/places.h"
+#include "tests/support/on_device.h"
 
 namespace voxray {
 namespace {
@@ -87,7 +86,7 @@ struct ReadLayers final : Pass {
     In<Layers> layers_{*this, "layers", "images"};
 };
 
-class GraphViews : public testing::Test {
+class GraphViews : public test::OnDevice {
  protected:
     GraphViews() {
         registry_.add<Build>();
@@ -114,12 +113,6 @@ class GraphViews : public testing::Test {
         return text;
     }
 
-    Device device_{{.name = "", .validation = true}};
-    ShaderCompiler compiler_{test::sourceRoot(), {}};
-    CommandStream stream_{device_};
-    const SceneState state_ = evaluate(makeBuiltinScene("cornell", Value()), 0.0);
-    const GpuScene scene_ = makeGpuScene(device_, stream_, state_);
-    const std::unique_ptr<RayTracer> tracer_ = makeRayTracer(TracerKind::Embree, device_, compiler_, state_);
     Registry registry_;
     Frame frame_;
     std::unique_ptr<Graph> graph_;
