@@ -23,14 +23,16 @@ const hooks = {
         showConfig(side);
         views.take(answer);
     },
-    drawn: (side, answer, ms) => {
+    drawn: (side, answer) => {
         side.drawn = answer;
         if (answer.shrink === 1) reference.follow(side);
-        if (answer.shrink > 1)
-            state.latencies.push({ side: side.number, ms, set: answer.set_ms, render: answer.render_ms, png: answer.png_ms, frame: answer.frame_ms });
         if (side !== split.edited) return;
         byId("status").textContent = frameText(answer);
         byId("legend").textContent = answer.legend ?? "";
+    },
+    presented: (side, answer, ms) => {
+        if (answer.shrink > 1)
+            state.latencies.push({ side: side.number, ms, set: answer.set_ms, render: answer.render_ms, png: answer.png_ms, frame: answer.frame_ms });
     },
     say,
     ended: (side, error) => say(side, `The program does not answer: ${error.message}. Start voxray look again.`),

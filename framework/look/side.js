@@ -8,7 +8,7 @@ export class Side {
     /**
      * @param number of the session's side @param page id of this page
      * @param hooks functions, called with this side first: isMoving() whether the camera is being moved, extras() more
-     * entries of a request, whole(answer) for a whole image, drawn(answer, ms) after an image is on the screen, say(text) for
+     * entries of a request, whole(answer) for a whole image, drawn(answer) for a drawn image, presented(answer, ms) when it is on the screen, say(text) for
      * errors, ended(error) when the program does not answer.
      */
     constructor(number, page, canvas, hooks) {
@@ -119,6 +119,8 @@ export class Side {
         if (shrink === 1 || !this.config) [this.canvas.width, this.canvas.height] = [image.width * shrink, image.height * shrink];
         this.canvas.classList.toggle("texels", "legend" in answer);
         this.canvas.getContext("2d").drawImage(image, 0, 0, this.canvas.width, this.canvas.height);
-        requestAnimationFrame(() => this.hooks.drawn(this, { ...answer, shrink }, performance.now() - sent.time));
+        const drawn = { ...answer, shrink };
+        this.hooks.drawn(this, drawn);
+        requestAnimationFrame(() => this.hooks.presented(this, drawn, performance.now() - sent.time));
     }
 }
