@@ -8,8 +8,8 @@ export class Side {
     /**
      * @param number of the session's side @param page id of this page
      * @param hooks functions, called with this side first: isMoving() whether the camera is being moved, extras() more
-     * entries of a request, whole(answer) for a whole image, drawn(answer) for a drawn image, presented(answer, ms) when it is on the screen, say(text) for
-     * errors, ended(error) when the program does not answer.
+     * entries of a request, whole(answer) for a whole image, drawn(answer) for a drawn image, presented(answer, ms) when it is
+     * on the screen, say(text) for errors, ended(error) when the program does not answer.
      */
     constructor(number, page, canvas, hooks) {
         Object.assign(this, { number, page, canvas, hooks });
