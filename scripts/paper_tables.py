@@ -8,14 +8,19 @@ runs named are made first, by the build in build/release. tests/repository/docs.
 
 docs/papers/tables/PAPER.toml has
 - [run.NAME]: `command`, the arguments of the program, and `values`: by a name, where the run has the value. That is a column of
-  results.csv, "PASS.PHASE.COLUMN" of passes.csv, or "PASS.NAME" of values.csv (the median over its frames);
+  results.csv, "PASS.PHASE.COLUMN" of passes.csv, or "PASS.NAME" of values.csv (the median over its frames). Of a command
+  "bench FILTER" a variant is a benchmark, and a value what it reports by that name, a counter or `cpu_time`;
 - [table.NAME]: `run`; `heading` of the first column; `rows`: by variant, what stands there; `columns`: by heading, either a cell
-  of each row in order, or one text for all rows in which {EXPRESSION:FORMAT} is Python's expression of the run's values, and
-  `of["VARIANT"]["NAME"]` a value of another row.
+  of each row in order, or one text for all rows in which {EXPRESSION:FORMAT} is Python's expression of the run's values,
+  `variant` the row's, and `of["VARIANT"]["NAME"]` a value of another row;
+- or, for a table of several runs: `columns`, its headings, and `lines`, the cells of each line, with
+  `of["RUN"]["VARIANT"]["NAME"]`.
 docs/papers/tables/NAME.csv has the values of a run by variant; its first line has the commit, the device and the command.
 """
 import argparse
 import csv
+import json
+import os
 import re
 import shlex
 import statistics
@@ -71,6 +76,21 @@ def values_of(folder):
     return found
 
 
+def benchmarks(program, pattern):
+    """What the benchmarks whose names match report: by benchmark, by the name that `values` uses."""
+    found = {}
+    for bench in sorted(Path(program).parents[1].rglob("bench_*")):
+        if not bench.is_file() or not os.access(bench, os.X_OK):
+            continue
+        listed = subprocess.run([bench, "--benchmark_list_tests", f"--benchmark_filter={pattern}"], capture_output=True, text=True)
+        if listed.returncode == 0 and listed.stdout.strip():
+            done = subprocess.run([bench, f"--benchmark_filter={pattern}", "--benchmark_format=json"], check=True, stdout=subprocess.PIPE)
+            found.update((entry["name"], {k: str(v) for k, v in entry.items()}) for entry in json.loads(done.stdout)["benchmarks"])
+    if not found:
+        raise TableError(f"no benchmark beside {program} matches '{pattern}': './voxray bench {pattern}' builds it")
+    return found
+
+
 def commit_of(root):
     """The commit, with "-dirty" where anything but docs, which no result depends on, differs from it."""
     def git(*arguments):
@@ -80,12 +100,17 @@ def commit_of(root):
 
 def measure(root, name, run, program, kept_in=None):
     """Makes the run and writes its CSV. `kept_in`: a folder that keeps the run's results; variants that are there already stay."""
-    with tempfile.TemporaryDirectory() as folder:
-        out = Path(kept_in or folder) / name
-        resume = ["--resume"] if kept_in else []
-        subprocess.run([program, *shlex.split(run["command"]), "--out", str(out), *resume], cwd=root, check=True)
-        found = values_of(out)
-    device = next(iter(found.values()))["device"]
+    words = shlex.split(run["command"])
+    if words[0] == "bench":
+        found = benchmarks(program, words[1])
+        device = f"{os.cpu_count()} CPU cores"
+    else:
+        with tempfile.TemporaryDirectory() as folder:
+            out = Path(kept_in or folder) / name
+            resume = ["--resume"] if kept_in else []
+            subprocess.run([program, *words, "--out", str(out), *resume], cwd=root, check=True)
+            found = values_of(out)
+        device = next(iter(found.values()))["device"]
     with open(csv_path(root, name), "w", newline="", encoding="utf-8") as file:
         file.write(f"# {commit_of(root)}; {device}; {run['command']}\n")
         writer = csv.writer(file, lineterminator="\n")
@@ -104,22 +129,42 @@ def kept(root, run):
         return {row.pop("variant"): {k: float(v) for k, v in row.items() if v} for row in csv.DictReader(file)}
 
 
+class Runs(dict):
+    """Values of runs by name, read when asked for."""
+
+    def __init__(self, root):
+        super().__init__()
+        self.root = root
+
+    def __missing__(self, run):
+        self[run] = kept(self.root, run)
+        return self[run]
+
+
+def cell(template, names, where):
+    """A cell's text; `names`: what its expressions may use, `where`: for messages."""
+    def value(match):
+        return format(eval(match[1], {"__builtins__": {}}, names), match[2] or "")
+    try:
+        return FIELD.sub(value, template)
+    except (NameError, KeyError) as error:
+        raise TableError(f"table {where}: {error}") from None
+
+
 def table_lines(root, name, table):
     """The table as Markdown."""
+    if "lines" in table:
+        headings, names = table["columns"], {"of": Runs(root)}
+        rows = [[cell(template, names, f"{name}, {line[0]}") for template in line] for line in table["lines"]]
+        return "".join(line + "\n" for line in markdown_table(headings, rows))
     of = kept(root, table["run"])
-
-    def cell(template, variant):
-        def value(match):
-            return format(eval(match[1], {"__builtins__": {}}, {**of[variant], "of": of}), match[2] or "")
-        try:
-            return FIELD.sub(value, template)
-        except (NameError, KeyError) as error:
-            raise TableError(f"table {name}, {variant}: {error}") from None
     rows = [[label] for label in table["rows"].values()]
     for number, (variant, row) in enumerate(zip(table["rows"], rows)):
         if variant not in of:
             raise TableError(f"table {name}: no variant {variant} in the results of {table['run']}")
-        row.extend(cell(column if isinstance(column, str) else column[number], variant) for column in table["columns"].values())
+        names = {**of[variant], "variant": variant, "of": of}
+        row.extend(cell(column if isinstance(column, str) else column[number], names, f"{name}, {variant}")
+                   for column in table["columns"].values())
     return "".join(line + "\n" for line in markdown_table([table["heading"], *table["columns"]], rows))
 
 
