@@ -14,7 +14,7 @@ docs/papers/tables/PAPER.toml has
   of each row in order, or one text for all rows in which {EXPRESSION:FORMAT} is Python's expression of the run's values,
   `variant` the row's, and `of["VARIANT"]["NAME"]` a value of another row;
 - or, for a table of several runs: `columns`, its headings, and `lines`, the cells of each line, with
-  `of["RUN"]["VARIANT"]["NAME"]`.
+  `of["RUN"]["VARIANT"]["NAME"]`. Expressions have min and max besides.
 docs/papers/tables/NAME.csv has the values of a run by variant; its first line has the commit, the device and the command.
 """
 import argparse
@@ -144,7 +144,7 @@ class Runs(dict):
 def cell(template, names, where):
     """A cell's text; `names`: what its expressions may use, `where`: for messages."""
     def value(match):
-        return format(eval(match[1], {"__builtins__": {}}, names), match[2] or "")
+        return format(eval(match[1], {"__builtins__": {}, "min": min, "max": max}, names), match[2] or "")
     try:
         return FIELD.sub(value, template)
     except (NameError, KeyError) as error:
