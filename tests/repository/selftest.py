@@ -6,6 +6,8 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
+from pathlib import Path
 
 import commands
 import docs
@@ -236,6 +238,42 @@ columns = {nRMSE = "{error:.2f}", "over VCT" = "{ms / of['vct']['ms']:.1f} times
         self.assertNotIn("ssim@mirror", values["a"])
         self.assertEqual([values["a"][name] for name in ("nrmse", "gather.frame.ms_median", "gather.build.ms_median", "gather.hits")],
                          ["0.5", "3", "4", "1.5"])
+
+    def measured(self, run):
+        """Lines of the CSV of a run, but for the first; git knows no commit of the tree."""
+        os.makedirs(os.path.join(self.root, "docs/papers/tables"), exist_ok=True)
+        with unittest.mock.patch.object(paper_tables, "commit_of", return_value="abc"):
+            paper_tables.measure(Path(self.root), "found", run, os.path.join(self.root, "program"))
+        with open(os.path.join(self.root, "docs/papers/tables/found.csv"), encoding="utf-8") as file:
+            return file.read().splitlines()[1:]
+
+    def test_values_that_a_script_prints(self):
+        self.write("program", "#!/bin/bash\nmkdir -p ${@: -1}; cd ${@: -1}; echo variant,pass,phase > passes.csv\n"
+                   "printf 'variant,status,device,nrmse\\na,ok,cpu,0.5\\nb,ok,cpu,\\n' > results.csv\n", executable=True)
+        self.write("scripts/rank.py", "print('| scene | spp | time |\\n| --- | --- | --- |\\n| a | 4 | >2.0 |')\n")
+        run = {"command": "run x.yaml", "script": os.path.join(self.root, "scripts/rank.py"), "keys": 2,
+               "values": {"error": "nrmse", "time": "rank.time"}}
+        self.assertEqual(self.measured(run), ["variant,error,time", "a,0.5,", "a 4,,>2.0"])
+
+    def test_values_of_a_search(self):
+        self.write("scripts/search.py", """import os, sys
+out = sys.argv[-1]
+for p in "84":
+    os.makedirs(f"{out}/leaves.p-{p}")
+    open(f"{out}/leaves.p-{p}/results.csv", "w").write(f"variant,status,device,nrmse\\nx,ok,cpu,0.{p}\\n")
+    open(f"{out}/leaves.p-{p}/passes.csv", "w").write("variant,pass,phase\\n")
+open(f"{out}/trail.csv", "w").write("leaves.p,excess,ms\\n8,0,3\\n4,0,2\\n")
+""")
+        self.assertEqual(self.measured({"command": "scripts/search.py x.yaml", "values": {"error": "nrmse"}}),
+                         ["variant,error", "8,0.8", "4,0.4"])
+
+    def test_values_of_benchmarks(self):
+        run = {"command": "bench order/.*", "values": {"speed": "rays_s"}}
+        with self.assertRaisesRegex(paper_tables.TableError, "no benchmark"):
+            self.measured(run)
+        self.write("build/release/bench_x", "#!/bin/bash\n[[ $* == *list_tests* ]] && echo one || echo '{\"context\": {\"num_cpus\": 2}, "
+                   "\"benchmarks\": [{\"name\": \"order/1/iterations:1/process_time\", \"rays_s\": 3}]}'\n", executable=True)
+        self.assertEqual(self.measured(run), ["variant,speed", "order/1,3"])
 
     def test_package_without_a_reason(self):
         self.write("docs/dependencies.md", "# Top\n| `gcc` | compiles |\n")
