@@ -8,8 +8,8 @@ runs named are made first, by the build in build/release. tests/repository/docs.
 
 docs/papers/tables/PAPER.toml has
 - [run.NAME]: `command` and `values`: by a name, where the run has the value. A command is
-  - the arguments of the program. A value is a column of results.csv, "PASS.PHASE.COLUMN" of passes.csv, or "PASS.NAME" of values.csv
-    (the median over its frames). With `script`, one that prints a table of the run's folder, "SCRIPT.COLUMN" of that table, too, whose
+  - the arguments of the program. A value is a column of results.csv, "PASS.PHASE.COLUMN" of passes.csv, "PASS.NAME" of values.csv
+    (the median over its frames), or a noise floor of manifest.json, as "flip_noise". With `script`, one that prints a table of the run's folder, "SCRIPT.COLUMN" of that table, too, whose
     first `keys` cells (1) are the variant;
   - "bench FILTER", benchmarks of a build's bench programs: their variants are their names, values counters, cpu_time or real_time;
   - "scripts/SEARCH.py ARGUMENTS", a search whose trials are variants, in the order tried;
@@ -74,6 +74,12 @@ def values_of(folder):
             reported.setdefault((row["variant"], f"{row['pass']}.{row['name']}"), []).append(float(row["value"]))
     for (variant, name), values in reported.items():
         found.get(variant, {})[name] = str(statistics.median(values))
+    with open(Path(folder) / "manifest.json", encoding="utf-8") as file:
+        references = json.load(file).get("references", [])
+    for reference in references:
+        floors = {k: str(v) for k, v in reference.items() if re.search("_noise(@|$)", k)}
+        for variant in reference["variants"]:
+            found.get(variant, {}).update(floors)
     return found
 
 

@@ -233,8 +233,10 @@ columns = {nRMSE = "{error:.2f}", "over VCT" = "{ms / of['vct']['ms']:.1f} times
         self.write("results.csv", "variant,status,nrmse,ssim@mirror\na,ok,0.5,\nb,failed,,\n")
         self.write("passes.csv", "variant,pass,phase,ms_median\na,gather,frame,3\na,gather,build,4\nb,gather,frame,5\n")
         self.write("values.csv", "variant,pass,name,frame,value\na,gather,hits,0,1\na,gather,hits,1,2\n")
+        self.write("manifest.json", '{"references": [{"flip_noise": 0.25, "hash": "x", "variants": ["a", "b"]}]}')
         values = paper_tables.values_of(self.root)
         self.assertEqual(set(values), {"a"})
+        self.assertEqual((values["a"]["flip_noise"], "hash" in values["a"]), ("0.25", False))
         self.assertNotIn("ssim@mirror", values["a"])
         self.assertEqual([values["a"][name] for name in ("nrmse", "gather.frame.ms_median", "gather.build.ms_median", "gather.hits")],
                          ["0.5", "3", "4", "1.5"])
@@ -248,7 +250,7 @@ columns = {nRMSE = "{error:.2f}", "over VCT" = "{ms / of['vct']['ms']:.1f} times
             return file.read().splitlines()[1:]
 
     def test_values_that_a_script_prints(self):
-        self.write("program", "#!/bin/bash\nmkdir -p ${@: -1}; cd ${@: -1}; echo variant,pass,phase > passes.csv\n"
+        self.write("program", "#!/bin/bash\nmkdir -p ${@: -1}; cd ${@: -1}; echo variant,pass,phase > passes.csv; echo '{}' > manifest.json\n"
                    "printf 'variant,status,device,nrmse\\na,ok,cpu,0.5\\nb,ok,cpu,\\n' > results.csv\n", executable=True)
         self.write("scripts/rank.py", "print('| scene | spp | time |\\n| --- | --- | --- |\\n| a | 4 | >2.0 |')\n")
         run = {"command": "run x.yaml", "script": os.path.join(self.root, "scripts/rank.py"), "keys": 2,
@@ -262,6 +264,7 @@ for p in "84":
     os.makedirs(f"{out}/leaves.p-{p}")
     open(f"{out}/leaves.p-{p}/results.csv", "w").write(f"variant,status,device,nrmse\\nx,ok,cpu,0.{p}\\n")
     open(f"{out}/leaves.p-{p}/passes.csv", "w").write("variant,pass,phase\\n")
+    open(f"{out}/leaves.p-{p}/manifest.json", "w").write("{}")
 open(f"{out}/trail.csv", "w").write("leaves.p,excess,ms\\n8,0,3\\n4,0,2\\n")
 """)
         self.assertEqual(self.measured({"command": "scripts/search.py x.yaml", "values": {"error": "nrmse"}}),
