@@ -9,8 +9,8 @@ runs named are made first, by the build in build/release. tests/repository/docs.
 docs/papers/tables/PAPER.toml has
 - [run.NAME]: `command` and `values`: by a name, where the run has the value. A command is
   - the arguments of the program. A value is a column of results.csv, "PASS.PHASE.COLUMN" of passes.csv, "PASS.NAME" of values.csv
-    (the median over its frames), or a noise floor of manifest.json, as "flip_noise". With `script`, one that prints a table of the run's folder, "SCRIPT.COLUMN" of that table, too, whose
-    first `keys` cells (1) are the variant;
+    (the median over its frames), or a noise floor of manifest.json, as "flip_noise". With `script`, one that prints a table of the
+    run's folder, "SCRIPT.COLUMN" of that table, too, whose first `keys` cells (1) are the variant;
   - "bench FILTER", benchmarks of a build's bench programs: their variants are their names, values counters, cpu_time or real_time;
   - "scripts/SEARCH.py ARGUMENTS", a search whose trials are variants, in the order tried;
 - [table.NAME]: `run`; `heading` of the first column; `rows`: by variant, what stands there; `columns`: by heading, either a cell
