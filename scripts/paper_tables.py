@@ -77,7 +77,7 @@ def values_of(folder):
     with open(Path(folder) / "manifest.json", encoding="utf-8") as file:
         references = json.load(file).get("references", [])
     for reference in references:
-        floors = {k: str(v) for k, v in reference.items() if re.search("_noise(@|$)", k)}
+        floors = {k: str(v) for k, v in reference.items() if re.search("_noise$", k)}
         for variant in reference["variants"]:
             found.get(variant, {}).update(floors)
     return found
