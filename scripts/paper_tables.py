@@ -10,7 +10,7 @@ docs/papers/tables/PAPER.toml has
 - [run.NAME]: `command` and `values`: by a name, where the run has the value. A command is
   - the arguments of the program. A value is a column of results.csv, "PASS.PHASE.COLUMN" of passes.csv, "PASS.NAME" of values.csv
     (the median over its frames), or a noise floor of manifest.json, as "flip_noise". With `script`, one that prints a table of the
-    run's folder, "SCRIPT.COLUMN" of that table, too, whose first `keys` cells (1) are the variant;
+    run's folder, "SCRIPT.COLUMN" of that table, too, whose first column has the variants;
   - "bench FILTER", benchmarks of a build's bench programs: their variants are their names, values counters, cpu_time or real_time;
   - "scripts/SEARCH.py ARGUMENTS", a search whose trials are variants, in the order tried;
 - [table.NAME]: `run`; `heading` of the first column; `rows`: by variant, what stands there; `columns`: by heading, either a cell
@@ -90,10 +90,10 @@ def commit_of(root):
     return git("describe", "--always") + ("-dirty" if git("status", "--porcelain", "--", ".", ":!docs") else "")
 
 
-def printed_values(table, prefix, keys):
-    """Values of a Markdown table that a script printed: by its first cells, by "PREFIX.COLUMN"."""
+def printed_values(table, prefix):
+    """Values of a Markdown table that a script printed: by its first cell, by "PREFIX.COLUMN"."""
     headings, _, *rows = ([cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines() if line.startswith("|"))
-    return {" ".join(row[:keys]): {f"{prefix}.{h}": cell for h, cell in zip(headings[keys:], row[keys:])} for row in rows}
+    return {row[0]: {f"{prefix}.{h}": cell for h, cell in zip(headings[1:], row[1:])} for row in rows}
 
 
 def measure_config(root, run, program, out, resume):
@@ -103,8 +103,8 @@ def measure_config(root, run, program, out, resume):
     device = next(iter(found.values()))["device"]
     if script := run.get("script"):
         done = subprocess.run([sys.executable, script, str(out)], cwd=root, check=True, capture_output=True, text=True)
-        for variant, values in printed_values(done.stdout, Path(script).stem, run.get("keys", 1)).items():
-            found.setdefault(variant, {}).update(values)
+        for variant, values in printed_values(done.stdout, Path(script).stem).items():
+            found[variant].update(values)
     return device, found
 
 
@@ -155,14 +155,6 @@ def measure(root, name, run, program, kept_in=None):
                 writer.writerow([variant, *row])
 
 
-def number(text):
-    """What a CSV has: a number, or a text such as a bound of one."""
-    try:
-        return float(text)
-    except ValueError:
-        return text
-
-
 def kept(root, run):
     """Values of a run's CSV: by variant and name; those that a variant has not are left out."""
     path = csv_path(root, run)
@@ -170,7 +162,7 @@ def kept(root, run):
         raise TableError(f"no {path.relative_to(root)}: paper_tables.py --measure {run}")
     with open(path, newline="", encoding="utf-8") as file:
         file.readline()
-        return {row.pop("variant"): {k: number(v) for k, v in row.items() if v} for row in csv.DictReader(file)}
+        return {row.pop("variant"): {k: float(v) for k, v in row.items() if v} for row in csv.DictReader(file)}
 
 
 def table_lines(root, name, table):
