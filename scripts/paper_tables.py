@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 """Writes tables of docs/papers from results that are kept beside them, and measures those results.
 
-paper_tables.py [--measure RUN...] [--out DIR] [--program PROGRAM] [--root ROOT]
+paper_tables.py [--measure RUN...] [--take RUN=DIR...] [--out DIR] [--program PROGRAM] [--root ROOT]
 
 Writes each table into the page that has a line "<!-- table: NAME -->", in place of the table below that line. With --measure the
-runs named are made first, by the build in build/release. tests/repository/docs.py fails where a page says something else.
+runs named are made first, by the build in build/release; with --take their results are read from a folder DIR, to which another
+machine's were brought, say. tests/repository/docs.py fails where a page says something else.
 
 docs/papers/tables/PAPER.toml has
 - [run.NAME]: `command` and `values`: by a name, where the run has the value. A command is
@@ -96,9 +97,8 @@ def printed_values(table, prefix):
     return {row[0]: {f"{prefix}.{h}": cell for h, cell in zip(headings[1:], row[1:])} for row in rows}
 
 
-def measure_config(root, run, program, out, resume):
-    """(device, values by variant) of a run of a config."""
-    subprocess.run([program, *shlex.split(run["command"]), "--out", str(out), *resume], cwd=root, check=True)
+def results_of(root, run, out):
+    """(device, values by variant) of a config's run, whose results lie in a folder."""
     found = values_of(out)
     device = next(iter(found.values()))["device"]
     if script := run.get("script"):
@@ -144,7 +144,14 @@ def measure(root, name, run, program, kept_in=None):
         elif run["command"].startswith("scripts/"):
             device, found = measure_search(root, run, program, out)
         else:
-            device, found = measure_config(root, run, program, out, ["--resume"] if kept_in else [])
+            resume = ["--resume"] if kept_in else []
+            subprocess.run([program, *shlex.split(run["command"]), "--out", str(out), *resume], cwd=root, check=True)
+            device, found = results_of(root, run, out)
+        keep(root, name, run, device, found)
+
+
+def keep(root, name, run, device, found):
+    """Writes the CSV of a run. `found`: see values_of()."""
     with open(csv_path(root, name), "w", newline="", encoding="utf-8") as file:
         file.write(f"# {commit_of(root)}; {device}; {run['command']}\n")
         writer = csv.writer(file, lineterminator="\n")
@@ -214,16 +221,21 @@ def check(root):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--measure", nargs="+", default=[], metavar="RUN", help="runs to make first")
+    parser.add_argument("--take", nargs="+", default=[], metavar="RUN=DIR", help="runs whose results lie in a folder")
     parser.add_argument("--out", type=Path, metavar="DIR", help="folder that keeps results of runs; one that was interrupted goes on")
     parser.add_argument("--program", default=str(ROOT / "build/release/bin/voxray"))
     parser.add_argument("--root", type=Path, default=ROOT)
     options = parser.parse_args()
     try:
         runs, _ = definitions(options.root)
-        for name in options.measure:
+        taken = dict(entry.partition("=")[::2] for entry in options.take)
+        for name in [*options.measure, *taken]:
             if name not in runs:
                 parser.error(f"no run {name}; there are {', '.join(runs) or 'none'}")
-            measure(options.root, name, runs[name], options.program, options.out)
+            if name in taken:
+                keep(options.root, name, runs[name], *results_of(options.root, runs[name], taken[name]))
+            else:
+                measure(options.root, name, runs[name], options.program, options.out)
         for path, text, right in pages(options.root):
             if text != right:
                 path.write_text(right, encoding="utf-8")

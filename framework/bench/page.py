@@ -92,7 +92,7 @@ def _difference(row: dict | None) -> Cell:
         return Cell("same bytes", "tie")
     ratio = row["mean_ratio"]
     far = ratio is None or abs(ratio - 1) > _FAR
-    apart = "" if row["pixels_apart"] is None else f", {number(100 * row['pixels_apart'], 2)} %"
+    apart = f", {number(100 * row['pixels_apart'], 2)} %"
     return Cell(f"{number(row['nrmse'], 2)}, {'–' if ratio is None else text.ratio(ratio)}, {number(row['flip'], 2)}{apart}",
                 "worse" if far else "")
 
@@ -145,9 +145,11 @@ def writes_table(data: dict) -> Table:
 
 def papers_tables(data: dict) -> list[Table]:
     tables = []
-    for paper in data.get("papers", []):
+    for paper in data.get("papers", []) + data.get("headlines", []):
         stages = list(dict.fromkeys(name for row in paper["variants"] for name in row.get("passes", {})))
-        table = Table(paper["config"], ["variant", "build ms", "frame ms", "p05 to p95", "memory", "indirect nRMSE", "mean ratio", *stages],
+        profile = [] if paper["profile"] in ("", "full") else ["--profile", paper["profile"]]
+        table = Table(" ".join([paper["config"], *profile, *paper["set"]]),
+                      ["variant", "build ms", "frame ms", "p05 to p95", "memory", "indirect nRMSE", "mean ratio", *stages],
                       note=f"The paper's numbers, and ours without a GPU, stand in {paper['page']}. Last columns: median ms of each pass.")
         for row in paper["variants"]:
             if "error" in row:

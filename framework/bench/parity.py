@@ -9,6 +9,7 @@ from pathlib import Path
 from bench import devices, runs
 from bench.processes import Clock
 from bench.runs import Program, Run
+from report import exr_pixels
 
 CONFIG = "bench/gpu_parity.yaml"
 _COMPARISON = 20  # seconds that one comparison of two images may take
@@ -76,13 +77,9 @@ def _error_of(result: dict) -> float | None:
     return scores.get("indirect_nrmse", scores.get("nrmse"))
 
 
-def _pixels_apart(test: Path, reference: Path) -> float | None:
+def _pixels_apart(test: Path, reference: Path) -> float:
     """The fraction of pixels that differ by more than _APART of the reference's, or of its mean where that is larger: few where rays
-    met other triangles at edges, many where all is computed otherwise. None where NumPy is not there."""
-    try:
-        from report import exr_pixels
-    except ImportError:
-        return None
+    met other triangles at edges, many where all is computed otherwise."""
     one, two = (exr_pixels.rgb(path).sum(axis=-1) for path in (test, reference))
     scale = abs(two).clip(min=abs(two).mean())
     return float((abs(one - two) > _APART * scale).mean())

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -16,6 +16,29 @@ PAPERS = ("magalhaes2020/base", "arneback2017/dynamic_light", "sun2015/table1", 
           "magalhaes2020/published_write_strategies", "arneback2017/dynamic_geometry", "cosin2022/table2", "sun2015/table1_sponza",
           "arneback2017/fly_through", "magalhaes2020/published_sampling", "arneback2017/cone_cost", "sun2015/resolution",
           "seok2021/table1_bunnies")
+
+
+@dataclass(frozen=True)
+class Headline:
+    """A config of a paper, and how it is run."""
+
+    config: str
+    profile: str = "full"
+    assignments: tuple[str, ...] = ()
+
+
+_FULL_HD = ("image.width=1920", "image.height=1080")
+_STILL = ("measure.build_repeats=10", "reference=null")
+# Clusters take long to build, and their lists do not depend on the light, whose repetitions warm the clock
+_CLUSTERS = ("measure.build_repeats=4", "reference=null", *_FULL_HD)
+HEADLINES = (Headline("arneback2017/fly_through", assignments=(*_STILL, "image.width=1497", "image.height=1014")),
+             Headline("arneback2017/dynamic_light", "thesis", _STILL),
+             Headline("arneback2017/dynamic_geometry", "thesis", ("reference=null",)),
+             Headline("sun2015/table1", assignments=_STILL), Headline("sun2015/table1_sponza", assignments=_STILL),
+             Headline("magalhaes2020/base", assignments=(*_STILL, *_FULL_HD)),
+             Headline("magalhaes2020/secondary", "tables", _STILL),
+             Headline("seok2021/like_for_like", "times", (*_STILL, *_FULL_HD)),
+             Headline("cosin2022/rivals_vct", assignments=_CLUSTERS), Headline("cosin2022/table1", assignments=_CLUSTERS))
 _PASSES = "bench/gpu_passes.yaml"
 _WRITES = "papers/magalhaes2020/published_write_strategies.yaml"
 _LISTING = 30  # seconds for `voxray devices`
@@ -124,17 +147,26 @@ def time_writes(bench: Bench, clock: Clock) -> Ending:
 
 
 def run_papers(bench: Bench, clock: Clock) -> Ending:
+    return _run_papers(bench, clock, "papers", [Headline(paper, "", bench.warming) for paper in PAPERS])
+
+
+def run_headlines(bench: Bench, clock: Clock) -> Ending:
+    """Times at the papers' own resolutions, without references."""
+    return _run_papers(bench, clock, "headlines", HEADLINES)
+
+
+def _run_papers(bench: Bench, clock: Clock, part: str, headlines: Iterable[Headline]) -> Ending:
     ending = Ending()
-    bench.data["papers"] = []
-    for paper in PAPERS:
-        name = paper.replace("/", ".")
-        run = runs.run_config(bench.program, f"papers/{paper}.yaml", name, bench.out, clock.part(clock.left / 2),
-                              tracer=next(iter(bench.tracers), "embree"), assignments=bench.warming)
+    bench.data[part] = []
+    for line in headlines:
+        run = runs.run_config(bench.program, f"papers/{line.config}.yaml", f"{part}.{line.config.replace('/', '.')}", bench.out,
+                              clock.part(clock.left / 2), tracer=next(iter(bench.tracers), "embree"), profile=line.profile,
+                              assignments=line.assignments)
         ending.add_run(run)
         bench.runs.append(run)
         if run.variants:
-            bench.data["papers"].append({"config": f"configs/{run.config}", "page": f"docs/papers/{paper.split('/')[0]}.md",
-                                         "variants": tables.variant_rows(run)})
+            bench.data[part].append({"config": f"configs/{run.config}", "profile": line.profile, "set": list(line.assignments),
+                                     "page": f"docs/papers/{line.config.split('/')[0]}.md", "variants": tables.variant_rows(run)})
     return ending
 
 
@@ -171,4 +203,5 @@ PARTS = (Part("devices", 0.1, "devices, their drivers and features", list_device
          Part("passes", 0.35, "the time of every pass", time_passes),
          Part("writes", 0.25, "what merging light near a floor costs, by way of writing", time_writes),
          Part("papers", 0.4, "the configs whose tables stand in docs/papers", run_papers),
+         Part("headlines", 0.6, "times of papers' titles at their own resolutions", run_headlines),
          Part("throughput", 0.35, "rays, steps, scans and sorts a second", measure_throughput))

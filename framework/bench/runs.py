@@ -32,11 +32,12 @@ class Program:
         return processes.run([str(self.path), *arguments], limit, accepted, progress)
 
     def profile_of(self, config: str, own: str = "") -> list[str]:
-        """The config's own profile if one is named, else the wanted one, `small` where the config does not have it; none for "full"."""
+        """The profile that a config is to have if one is named, else the wanted one, `small` where the config does not have it; none
+        for "full"."""
+        if (own or self.profile) == "full":
+            return []
         if own:
             return ["--profile", own]
-        if self.profile == "full":
-            return []
         _, _, profiles = (self.configs / config).read_text(encoding="utf-8").partition("\nprofiles:")
         known = re.findall(r"^  ([\w-]+):", profiles, re.M)
         return next((["--profile", name] for name in (self.profile, "small") if name in known), [])

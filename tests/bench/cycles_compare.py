@@ -3,15 +3,16 @@
     ninja -C build/release bench_trace && mkdir rivals
     VOXRAY_EXPORT=rivals build/release/tests/bench/bench_trace --benchmark_filter=pathTraceRival \\
         --benchmark_out=rivals/ours.json --benchmark_out_format=json
-    /usr/bin/python3 tests/bench/cycles_compare.py rivals [SCENE...]
+    /usr/bin/python3 tests/bench/cycles_compare.py rivals [SCENE...] [--nearest]
 
 Both render the same pixels and bounces on all CPU cores with a 1-pixel box filter, no denoising, no adaptive sampling
 and no clamping. All surfaces are Lambert, with the textures of colour, alpha masks and normals that the scene has.
 Lights are points and suns without size: W/sr and W/m² in the file, W and W/m² in Blender. Speed is the slope between
 two numbers of samples, so that starting up does not count. Variance is the spread between seeds times the samples a
 pixel. The last lines of a scene give samples a second at equal variance, by wall clock and by CPU time; the latter
-holds on a busy machine too. Images whose means differ by more than TOLERANCE are of two scenes: no ratio, and exit
-status 1.
+holds on a busy machine too. Cycles filters texels as sRGB stores them and converts afterwards, which darkens: with
+--nearest it takes the nearest texel, whose mean is right. Images whose means differ by more than TOLERANCE are of two
+scenes: no ratio, and exit status 1.
 """
 
 import json
@@ -99,6 +100,13 @@ def set_lights(bpy, scene_path):
             sys.exit(f"{light['name']}: the edge of a {light['type']} light differs in Blender")
 
 
+def take_nearest_texels(bpy):
+    for material in bpy.data.materials:
+        for node in material.node_tree.nodes if material.node_tree else ():
+            if node.type == "TEX_IMAGE":
+                node.interpolation = "Closest"
+
+
 def set_up(bpy, scene_path, setup):
     """Loads the scene into an empty file and sets Cycles to what Voxray renders."""
     import numpy
@@ -109,6 +117,8 @@ def set_up(bpy, scene_path, setup):
     for material in bpy.data.materials:
         if material.node_tree and any(n.type == "BSDF_PRINCIPLED" for n in material.node_tree.nodes):
             make_lambert(material)
+    if setup["nearest"]:
+        take_nearest_texels(bpy)
     set_lights(bpy, scene_path)
     scene = bpy.context.scene
     for mesh in (o for o in bpy.data.objects if o.type == "MESH"):
@@ -208,7 +218,8 @@ def compare(ours, cycles):
 
 
 def main():
-    folder, wanted = sys.argv[1], sys.argv[2:]
+    nearest = "--nearest" in sys.argv
+    folder, *wanted = (word for word in sys.argv[1:] if word != "--nearest")
     with open(os.path.join(folder, "ours.json"), encoding="utf-8") as file:
         runs = [r for r in json.load(file)["benchmarks"] if r["name"].startswith("pathTraceRival/")]
     failed = [r["name"] for r in runs if r.get("error_occurred")]
@@ -221,7 +232,7 @@ def main():
     for ours in runs:
         if wanted and ours["label"] not in wanted:
             continue
-        setup = {key: int(ours[key]) for key in ("width", "height", "bounces", "spp")}
+        setup = {key: int(ours[key]) for key in ("width", "height", "bounces", "spp")} | {"nearest": nearest}
         print(f"{ours['label']}, {setup['width']}x{setup['height']}, {setup['bounces']} bounces, {setup['spp']} spp")
         cycles = measure_cycles(os.path.join(folder, ours["label"] + ".glb"), setup)
         agree = compare(ours, cycles) and agree

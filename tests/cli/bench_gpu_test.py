@@ -7,11 +7,12 @@ import subprocess
 import sys
 import time
 import unittest
+from pathlib import Path
 
 from support import PROGRAM, SOURCE, CommandTest
 
 sys.path.append(os.path.join(SOURCE, "framework"))
-from bench import devices, processes, runs, tables  # noqa: E402
+from bench import devices, parts, processes, runs, tables  # noqa: E402
 
 SCRIPT = os.path.join(SOURCE, "scripts", "bench_gpu.py")
 
@@ -134,6 +135,12 @@ llvmpipe (LLVM 15) (CPU)
         self.assertIsNone(devices.chosen(found, "old"))
         self.assertEqual(devices.software(found, found[0]).name, "llvmpipe (LLVM 15)")
         self.assertIsNone(devices.software(found, found[2]))
+
+    def test_headlines_name_what_their_configs_have(self):
+        for line in parts.HEADLINES:
+            text = Path(SOURCE, "configs", "papers", f"{line.config}.yaml").read_text(encoding="utf-8")
+            if line.profile != "full":
+                self.assertIn(f"\n  {line.profile}:", text.partition("\nprofiles:")[2], line.config)
 
     def test_ways_of_writing_stand_over_the_plain_store_of_their_pass_and_voxels(self):
         def variant(kind, voxels, write, ms):
