@@ -53,7 +53,7 @@ def measure(image, truth, ends):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("run", metavar="RUN")
-    parser.add_argument("--truth", default="mirror-triangles", metavar="VARIANT")
+    parser.add_argument("--truth", default="triangles", metavar="VARIANT")
     options = parser.parse_args()
     images = os.path.join(options.run, "images")
     truth = luminance(os.path.join(images, options.truth, "final.exr"))

@@ -8,9 +8,12 @@ runs named are made first, by the build in build/release; with --take their resu
 machine's were brought, say. tests/repository/docs.py fails where a page says something else.
 
 docs/papers/tables/PAPER.toml has
-- [run.NAME]: `command`, the arguments of the program, and `values`: by a name, where the run has the value. That is a column of
-  results.csv, "PASS.PHASE.COLUMN" of passes.csv, or "PASS.NAME" of values.csv (the median over its frames). Of a command
-  "bench FILTER" a variant is a benchmark, and a value what it reports by that name, a counter or `cpu_time`;
+- [run.NAME]: `command` and `values`: by a name, where the run has the value. A command is
+  - the arguments of the program. A value is a column of results.csv, "PASS.PHASE.COLUMN" of passes.csv, "PASS.NAME" of values.csv
+    (the median over its frames), or a noise floor of manifest.json, as "flip_noise". With `script`, one that prints a table of the
+    run's folder, "SCRIPT.COLUMN" of that table, too, whose first column has the variants;
+  - "bench FILTER", benchmarks of a build's bench programs: their variants are their names, values counters, cpu_time or real_time;
+  - "scripts/SEARCH.py ARGUMENTS", a search whose trials are variants, in the order tried;
 - [table.NAME]: `run`; `heading` of the first column; `rows`: by variant, what stands there; `columns`: by heading, either a cell
   of each row in order, or one text for all rows in which {EXPRESSION:FORMAT} is Python's expression of the run's values,
   `variant` the row's, and `of["VARIANT"]["NAME"]` a value of another row;
@@ -74,21 +77,12 @@ def values_of(folder):
             reported.setdefault((row["variant"], f"{row['pass']}.{row['name']}"), []).append(float(row["value"]))
     for (variant, name), values in reported.items():
         found.get(variant, {})[name] = str(statistics.median(values))
-    return found
-
-
-def benchmarks(program, pattern):
-    """What the benchmarks whose names match report: by benchmark, by the name that `values` uses."""
-    found = {}
-    for bench in sorted(Path(program).parents[1].rglob("bench_*")):
-        if not bench.is_file() or not os.access(bench, os.X_OK):
-            continue
-        listed = subprocess.run([bench, "--benchmark_list_tests", f"--benchmark_filter={pattern}"], capture_output=True, text=True)
-        if listed.returncode == 0 and listed.stdout.strip():
-            done = subprocess.run([bench, f"--benchmark_filter={pattern}", "--benchmark_format=json"], check=True, stdout=subprocess.PIPE)
-            found.update((entry["name"], {k: str(v) for k, v in entry.items()}) for entry in json.loads(done.stdout)["benchmarks"])
-    if not found:
-        raise TableError(f"no benchmark beside {program} matches '{pattern}': './voxray bench {pattern}' builds it")
+    with open(Path(folder) / "manifest.json", encoding="utf-8") as file:
+        references = json.load(file).get("references", [])
+    for reference in references:
+        floors = {k: str(v) for k, v in reference.items() if re.search("_noise$", k)}
+        for variant in reference["variants"]:
+            found.get(variant, {}).update(floors)
     return found
 
 
@@ -99,27 +93,75 @@ def commit_of(root):
     return git("describe", "--always") + ("-dirty" if git("status", "--porcelain", "--", ".", ":!docs") else "")
 
 
+def printed_values(table, prefix):
+    """Values of a Markdown table that a script printed: by its first cell, by "PREFIX.COLUMN"."""
+    headings, _, *rows = ([cell.strip() for cell in line.strip("|").split("|")] for line in table.splitlines() if line.startswith("|"))
+    return {row[0]: {f"{prefix}.{h}": cell for h, cell in zip(headings[1:], row[1:])} for row in rows}
+
+
+def results_of(root, run, out):
+    """(device, values by variant) of a config's run, whose results lie in a folder."""
+    found = values_of(out)
+    device = next(iter(found.values()))["device"]
+    if script := run.get("script"):
+        done = subprocess.run([sys.executable, script, str(out)], cwd=root, check=True, capture_output=True, text=True)
+        for variant, values in printed_values(done.stdout, Path(script).stem).items():
+            found[variant].update(values)
+    return device, found
+
+
+def measure_bench(root, run):
+    """The same of benchmarks. They count CPU time, of the machine that the device says."""
+    benchmarks, context = [], {}
+    for program in sorted((root / "build/release").rglob("bench_*")):
+        if program.is_file() and os.access(program, os.X_OK):
+            which = f"--benchmark_filter={shlex.split(run['command'])[1]}"
+            if subprocess.run([program, "--benchmark_list_tests", which], capture_output=True, check=False).stdout:
+                done = subprocess.run([program, which, "--benchmark_format=json"], cwd=root, check=True, capture_output=True, text=True)
+                context, found = (json.loads(done.stdout)[key] for key in ("context", "benchmarks"))
+                benchmarks += found
+    if not benchmarks:
+        raise TableError(f"no benchmark of {root / 'build/release'} matches '{run['command']}': build it first")
+    return f"{context['num_cpus']} cores", {re.sub("/(iterations:|process_time).*", "", b["name"]): b for b in benchmarks}
+
+
+def measure_search(root, run, program, out):
+    """The same of a search's trials."""
+    environment = {**os.environ, "VOXRAY_PROGRAM": program}
+    subprocess.run([sys.executable, *shlex.split(run["command"]), "--out", str(out)], cwd=root, check=True, env=environment)
+    found = {}
+    for trial in read_rows(out, "trail.csv"):
+        path = next(iter(trial))
+        values, = values_of(out / f"{path}-{trial[path]}").values()
+        found[trial[path]] = values
+    return next(iter(found.values()))["device"], found
+
+
 def measure(root, name, run, program, kept_in=None):
     """Makes the run and writes its CSV. `kept_in`: a folder that keeps the run's results; variants that are there already stay."""
-    words = shlex.split(run["command"])
-    if words[0] == "bench":
-        return keep(root, name, run, benchmarks(program, words[1]))
     with tempfile.TemporaryDirectory() as folder:
         out = Path(kept_in or folder) / name
-        resume = ["--resume"] if kept_in else []
-        subprocess.run([program, *words, "--out", str(out), *resume], cwd=root, check=True)
-        keep(root, name, run, values_of(out))
+        if run["command"].startswith("bench "):
+            device, found = measure_bench(root, run)
+        elif run["command"].startswith("scripts/"):
+            device, found = measure_search(root, run, program, out)
+        else:
+            resume = ["--resume"] if kept_in else []
+            subprocess.run([program, *shlex.split(run["command"]), "--out", str(out), *resume], cwd=root, check=True)
+            device, found = results_of(root, run, out)
+        keep(root, name, run, device, found)
 
 
-def keep(root, name, run, found):
-    """Writes the CSV of a run. `found`: see values_of(); benchmarks() name no device but this machine's cores."""
-    device = next(iter(found.values())).get("device", f"{os.cpu_count()} CPU cores")
+def keep(root, name, run, device, found):
+    """Writes the CSV of a run. `found`: see values_of()."""
     with open(csv_path(root, name), "w", newline="", encoding="utf-8") as file:
         file.write(f"# {commit_of(root)}; {device}; {run['command']}\n")
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["variant", *run["values"]])
         for variant, values in found.items():
-            writer.writerow([variant, *(values.get(source, "") for source in run["values"].values())])
+            row = [values.get(source, "") for source in run["values"].values()]
+            if any(row):
+                writer.writerow([variant, *row])
 
 
 def kept(root, run):
@@ -213,7 +255,7 @@ def main():
             if name not in runs:
                 parser.error(f"no run {name}; there are {', '.join(runs) or 'none'}")
             if name in taken:
-                keep(options.root, name, runs[name], values_of(taken[name]))
+                keep(options.root, name, runs[name], *results_of(options.root, runs[name], taken[name]))
             else:
                 measure(options.root, name, runs[name], options.program, options.out)
         for path, text, right in pages(options.root):

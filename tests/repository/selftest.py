@@ -6,6 +6,8 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
+from pathlib import Path
 
 import commands
 import docs
@@ -254,26 +256,53 @@ columns = {over = "{ms / of[variant.replace('vct', 'leaves')]['ms']:.1f}"}
         self.write("docs/papers/tables/octrees.csv", "#\nvariant,bytes\noctrees/32,8\n")
         self.assertEqual(docs.check(self.root), ["table verdicts, smaller: 'octrees/64'"])
 
-    def test_values_of_benchmarks(self):
-        self.write("release/bin/voxray", "")
-        self.write("release/tests/bench_octrees", """#!/usr/bin/env bash
-[[ $1 == --benchmark_list_tests ]] && { [[ $2 == *octrees ]] && echo octrees/64; exit; }
-echo '{"benchmarks": [{"name": "octrees/64", "cpu_time": 2.5, "bytes": 7}]}'
-""", executable=True)
-        program = os.path.join(self.root, "release/bin/voxray")
-        self.assertEqual(paper_tables.benchmarks(program, "octrees")["octrees/64"]["bytes"], "7")
-        with self.assertRaises(paper_tables.TableError):
-            paper_tables.benchmarks(program, "clipmaps")
-
     def test_values_of_a_run(self):
         self.write("results.csv", "variant,status,nrmse,ssim@mirror\na,ok,0.5,\nb,failed,,\n")
         self.write("passes.csv", "variant,pass,phase,ms_median\na,gather,frame,3\na,gather,build,4\nb,gather,frame,5\n")
         self.write("values.csv", "variant,pass,name,frame,value\na,gather,hits,0,1\na,gather,hits,1,2\n")
+        self.write("manifest.json", '{"references": [{"flip_noise": 0.25, "hash": "x", "variants": ["a", "b"]}]}')
         values = paper_tables.values_of(self.root)
         self.assertEqual(set(values), {"a"})
+        self.assertEqual((values["a"]["flip_noise"], "hash" in values["a"]), ("0.25", False))
         self.assertNotIn("ssim@mirror", values["a"])
         self.assertEqual([values["a"][name] for name in ("nrmse", "gather.frame.ms_median", "gather.build.ms_median", "gather.hits")],
                          ["0.5", "3", "4", "1.5"])
+
+    def measured(self, run):
+        """Lines of the CSV of a run, but for the first; git knows no commit of the tree."""
+        os.makedirs(os.path.join(self.root, "docs/papers/tables"), exist_ok=True)
+        with unittest.mock.patch.object(paper_tables, "commit_of", return_value="abc"):
+            paper_tables.measure(Path(self.root), "found", run, os.path.join(self.root, "program"))
+        with open(os.path.join(self.root, "docs/papers/tables/found.csv"), encoding="utf-8") as file:
+            return file.read().splitlines()[1:]
+
+    def test_values_that_a_script_prints(self):
+        self.write("program", "#!/bin/bash\nmkdir -p ${@: -1}; cd ${@: -1}; echo variant,pass,phase > passes.csv; echo '{}' > manifest.json\n"
+                   "printf 'variant,status,device,nrmse\\na,ok,cpu,0.5\\nb,ok,cpu,\\n' > results.csv\n", executable=True)
+        self.write("scripts/rank.py", "print('| variant | spp | time |\\n| --- | --- | --- |\\n| b | 4 | 2.0 |')\n")
+        run = {"command": "run x.yaml", "script": os.path.join(self.root, "scripts/rank.py"), "values": {"error": "nrmse", "time": "rank.time"}}
+        self.assertEqual(self.measured(run), ["variant,error,time", "a,0.5,", "b,,2.0"])
+
+    def test_values_of_a_search(self):
+        self.write("scripts/search.py", """import os, sys
+out = sys.argv[-1]
+for p in "84":
+    os.makedirs(f"{out}/leaves.p-{p}")
+    open(f"{out}/leaves.p-{p}/results.csv", "w").write(f"variant,status,device,nrmse\\nx,ok,cpu,0.{p}\\n")
+    open(f"{out}/leaves.p-{p}/passes.csv", "w").write("variant,pass,phase\\n")
+    open(f"{out}/leaves.p-{p}/manifest.json", "w").write("{}")
+open(f"{out}/trail.csv", "w").write("leaves.p,excess,ms\\n8,0,3\\n4,0,2\\n")
+""")
+        self.assertEqual(self.measured({"command": "scripts/search.py x.yaml", "values": {"error": "nrmse"}}),
+                         ["variant,error", "8,0.8", "4,0.4"])
+
+    def test_values_of_benchmarks(self):
+        run = {"command": "bench order/.*", "values": {"speed": "rays_s"}}
+        with self.assertRaisesRegex(paper_tables.TableError, "no benchmark"):
+            self.measured(run)
+        self.write("build/release/bench_x", "#!/bin/bash\n[[ $* == *list_tests* ]] && echo one || echo '{\"context\": {\"num_cpus\": 2}, "
+                   "\"benchmarks\": [{\"name\": \"order/1/iterations:1/process_time\", \"rays_s\": 3}]}'\n", executable=True)
+        self.assertEqual(self.measured(run), ["variant,speed", "order/1,3"])
 
     def test_package_without_a_reason(self):
         self.write("docs/dependencies.md", "# Top\n| `gcc` | compiles |\n")
