@@ -15,8 +15,10 @@ docs/papers/tables/PAPER.toml has
   - "bench FILTER", benchmarks of a build's bench programs: their variants are their names, values counters, cpu_time or real_time;
   - "scripts/SEARCH.py ARGUMENTS", a search whose trials are variants, in the order tried;
 - [table.NAME]: `run`; `heading` of the first column; `rows`: by variant, what stands there; `columns`: by heading, either a cell
-  of each row in order, or one text for all rows in which {EXPRESSION:FORMAT} is Python's expression of the run's values, and
-  `of["VARIANT"]["NAME"]` a value of another row.
+  of each row in order, or one text for all rows in which {EXPRESSION:FORMAT} is Python's expression of the run's values,
+  `variant` the row's, and `of["VARIANT"]["NAME"]` a value of another row;
+- or, for a table of several runs: `columns`, its headings, and `lines`, the cells of each line, with
+  `of["RUN"]["VARIANT"]["NAME"]`. Expressions have min and max besides.
 docs/papers/tables/NAME.csv has the values of a run by variant; its first line has the commit, the device and the command.
 """
 import argparse
@@ -172,22 +174,42 @@ def kept(root, run):
         return {row.pop("variant"): {k: float(v) for k, v in row.items() if v} for row in csv.DictReader(file)}
 
 
+class Runs(dict):
+    """Values of runs by name, read when asked for."""
+
+    def __init__(self, root):
+        super().__init__()
+        self.root = root
+
+    def __missing__(self, run):
+        self[run] = kept(self.root, run)
+        return self[run]
+
+
+def cell(template, names, where):
+    """A cell's text; `names`: what its expressions may use, `where`: for messages."""
+    def value(match):
+        return format(eval(match[1], {"__builtins__": {}, "min": min, "max": max}, names), match[2] or "")
+    try:
+        return FIELD.sub(value, template)
+    except (NameError, KeyError) as error:
+        raise TableError(f"table {where}: {error}") from None
+
+
 def table_lines(root, name, table):
     """The table as Markdown."""
+    if "lines" in table:
+        headings, names = table["columns"], {"of": Runs(root)}
+        rows = [[cell(template, names, f"{name}, {line[0]}") for template in line] for line in table["lines"]]
+        return "".join(line + "\n" for line in markdown_table(headings, rows))
     of = kept(root, table["run"])
-
-    def cell(template, variant):
-        def value(match):
-            return format(eval(match[1], {"__builtins__": {}}, {**of[variant], "of": of}), match[2] or "")
-        try:
-            return FIELD.sub(value, template)
-        except (NameError, KeyError) as error:
-            raise TableError(f"table {name}, {variant}: {error}") from None
     rows = [[label] for label in table["rows"].values()]
     for number, (variant, row) in enumerate(zip(table["rows"], rows)):
         if variant not in of:
             raise TableError(f"table {name}: no variant {variant} in the results of {table['run']}")
-        row.extend(cell(column if isinstance(column, str) else column[number], variant) for column in table["columns"].values())
+        names = {**of[variant], "variant": variant, "of": of}
+        row.extend(cell(column if isinstance(column, str) else column[number], names, f"{name}, {variant}")
+                   for column in table["columns"].values())
     return "".join(line + "\n" for line in markdown_table([table["heading"], *table["columns"]], rows))
 
 

@@ -229,6 +229,33 @@ columns = {nRMSE = "{error:.2f}", "over VCT" = "{ms / of['vct']['ms']:.1f} times
         self.write("docs/papers/tables/mirrors.csv", "#\nvariant,error,ms\nleaves,0.125,\nvct,1,20\n")
         self.assertEqual(docs.check(self.root), ["table mirrors, leaves: name 'ms' is not defined"])
 
+    def test_table_of_several_runs(self):
+        self.write("docs/papers/tables/x.toml", """[run.mirrors]
+command = "run x.yaml"
+values = {ms = "gather.frame.ms_median"}
+[run.octrees]
+command = "bench octrees"
+values = {bytes = "bytes"}
+[table.verdicts]
+columns = ["claim", "here"]
+lines = [["faster", "{of['mirrors']['vct']['ms'] / of['mirrors']['leaves']['ms']:.1f} times"], ["smaller", "{of['octrees']['octrees/64']['bytes']:.0f}"]]
+[table.times]
+run = "mirrors"
+heading = "mirror"
+rows = {vct = "VCT"}
+columns = {over = "{ms / of[variant.replace('vct', 'leaves')]['ms']:.1f}"}
+""")
+        self.write("docs/papers/tables/mirrors.csv", "#\nvariant,ms\nleaves,10\nvct,25\n")
+        self.write("docs/papers/tables/octrees.csv", "#\nvariant,bytes\noctrees/64,7\n")
+        times = "\n<!-- table: times -->\n| mirror | over |\n| --- | --- |\n| VCT | 2.5 |\n"
+        page = "<!-- table: verdicts -->\n| claim | here |\n| --- | --- |\n| faster | 2.5 times |\n| smaller | 7 |\n" + times
+        self.write("docs/papers/x.md", page)
+        self.assertEqual(docs.check(self.root), [])
+        self.write("docs/papers/tables/octrees.csv", "#\nvariant,bytes\noctrees/64,8\n")
+        self.assertEqual(len(docs.check(self.root)), 1)
+        self.write("docs/papers/tables/octrees.csv", "#\nvariant,bytes\noctrees/32,8\n")
+        self.assertEqual(docs.check(self.root), ["table verdicts, smaller: 'octrees/64'"])
+
     def test_values_of_a_run(self):
         self.write("results.csv", "variant,status,nrmse,ssim@mirror\na,ok,0.5,\nb,failed,,\n")
         self.write("passes.csv", "variant,pass,phase,ms_median\na,gather,frame,3\na,gather,build,4\nb,gather,frame,5\n")
