@@ -37,9 +37,12 @@ void mergeInto(Value& target, const Value& value, Merge merge) {
     }
 }
 
-/// Sets a key of a map; null removes it.
+/// Sets a key of a map; null removes it. @throws UsageError where `{width:96}` stands for `{width: 96}`.
 void setNested(Value& parent, const std::string& key, const Value& value, Merge merge) {
     if (value.isNull()) {
+        if (const size_t colon = key.find(':'); colon != std::string::npos && !parent.find(key))
+            throw UsageError(value.where, "'{}': no key of that name; a space is missing after the colon, as in '{}: {}'",
+                             key, key.substr(0, colon), key.substr(colon + 1));
         parent.erase(key);
     } else if (Value* existing = parent.find(key)) {
         mergeInto(*existing, value, merge);

@@ -235,6 +235,7 @@ TEST(Config, NullTakesANamedValueOutOfAnAxis) {
     expectError(named, {"no 'lo'", "'low'"}, {"", {"sweep.voxelize.resolution={lo: null}"}});
     expectError(named, {"no 'low'"}, {"", {"sweep.seed={low: null}"}});
     expectError(kValid, {"no 'low'"}, {"", {"sweep.voxelize.resolution={low: null}"}});
+    expectError(kValid, {"'width:96'", "'width: 96'"}, {"", {"image={width:96}"}});
 }
 
 TEST(Config, Assignments) {
