@@ -93,7 +93,7 @@ SuggestedLight lampFor(SceneState state, const EmbreeScene& tracer, const Camera
     return light;
 }
 
-constexpr float kSkyOfSun = 0.25f / glm::pi<float>();  ///< Radiance of the sky by irradiance of the sun, 1/sr.
+constexpr float kSkyOfSun = 0.1f / glm::pi<float>();  ///< Radiance of the sky by irradiance of the sun, 1/sr.
 
 /// A sun from above and left of the camera, with a sky that lights what the sun does not reach.
 SuggestedLight daylightFor(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera,
