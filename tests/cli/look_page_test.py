@@ -288,6 +288,9 @@ class Page(look_test.Browsed):
             for other in [option.get_attribute("value") for option in self.swap_of(name).options if option.is_enabled()]:
                 self.swap_of(name).select_by_value(other)
                 self.settle()
+                if other == "inject_rsm":  # The scene's light forbids it, which ports do not tell
+                    self.assertIn("emissive surfaces", self.error())
+                    continue
                 self.assertEqual(self.error(), "", f"{other} in place of {name}")
                 self.assertEqual(self.entry(name)["pass"], other)
             self.choose("variant", "resolution 8")
