@@ -1,5 +1,7 @@
 #include "app/image_request.h"
 
+#include <algorithm>
+
 #include "app/session_requests.h"
 #include "app/view_requests.h"
 #include "config/yaml.h"
@@ -89,8 +91,9 @@ ImageRequest parseReferenceRequest(const std::string& body) {
         else
             throw UsageError("request: unknown key '{}'", key);
     }
-    if (!request.show.empty() && request.show != kShowReference && request.show != kShowError)
-        throw UsageError("request: show is '{}' or '{}'", kShowReference, kShowError);
+    const auto& known = {"", kShowReference, kShowError, kShowIndirectError};
+    if (std::ranges::find(known, request.show) == std::end(known))
+        throw UsageError("request: show is '{}', '{}' or '{}'", kShowReference, kShowError, kShowIndirectError);
     return request;
 }
 

@@ -11,6 +11,7 @@ namespace voxray {
 /// Values of ImageRequest::show.
 inline constexpr const char* kShowReference = "reference";
 inline constexpr const char* kShowError = "error";
+inline constexpr const char* kShowIndirectError = "indirect_error";
 
 /// What a page asks to see.
 struct ImageRequest {

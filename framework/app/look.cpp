@@ -140,6 +140,10 @@ std::string answerTo(ShownState& state, const ImageRequest& request, ShownImage&
         answer.set("error", quotedText(error.what()));
     }
     answer.set("config", state.config());
+    if (!request.isDraft()) {
+        answer.set("variant", quotedText(state.variantId()));
+        answer.set("changed", flag(state.isChanged()));
+    }
     answer.set("warnings", listOf(state.warnings()));
     return answer.json(-1) + "\n" + std::string(png.begin(), png.end());
 }

@@ -39,6 +39,7 @@ std::vector<uint8_t> addScores(Value& answer, ShownState& state, const ShownStat
     answer.set("score_ms", numberValue(std::chrono::duration<double, std::milli>(Clock::now() - start).count()));
     const ImageSettings& settings = rendering.imageSettings;
     if (show == kShowError) return encodePng(scored.flip);
+    if (show == kShowIndirectError && scored.indirectFlip) return encodePng(*scored.indirectFlip);
     if (show == kShowReference)
         return encodePng(preview(state.reference().images()->final.mean, settings.exposureStops, settings.tone));
     return {};

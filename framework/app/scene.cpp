@@ -12,6 +12,7 @@
 
 #include "app/commands.h"
 #include "app/config_options.h"
+#include "app/opened_scene.h"
 #include "app/scene_view.h"
 #include "app/source_root.h"
 #include "app/starter_config.h"
@@ -137,24 +138,15 @@ void printObjects(const Scene& scene) {
                more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// The scene with an additional lamp.
-SceneState withLamp(SceneState state, const Light& lamp) {
-    state.lights.push_back(lamp);
-    return state;
-}
-
-/// Writes a path-traced picture of a few samples. A scene without light is lit by the suggested lamp, else by
-/// a constant environment.
-void writePicture(const SceneState& scene, const EmbreeScene& tracer, const Camera& camera, bool hasLight,
-                  const std::optional<Light>& lamp, bool isLit, const std::filesystem::path& file) {
-    const SceneState state = lamp ? withLamp(scene, *lamp) : hasLight ? scene : withEnvironment(scene);
+/// Writes a path-traced picture of a few samples. @param added a light that is proposed, or none
+void writePicture(const SceneState& scene, const EmbreeScene& tracer, const Camera& camera, const SuggestedLight& added,
+                  bool isLit, const std::filesystem::path& file) {
     const PathTraceOptions options{.width = 320, .height = 180, .spp = 32, .bounces = 4};
-    writePng(file, preview(pathTrace(state, tracer, camera, options).total, 0));
+    writePng(file, preview(pathTrace(withLight(scene, added), tracer, camera, options).total, 0));
     fmt::print("{}: 320 x 180 pixels{}\n", file.string(),
-               lamp        ? ", by the lamp that is proposed"
-               : !hasLight ? ", in even light, for the scene has none"
-               : isLit     ? ""
-                           : ", nearly all black: its camera sees none of what shines");
+               !added.yaml.empty() ? ", by the light that is proposed"
+               : isLit             ? ""
+                                   : ", nearly all black: its camera sees none of what shines");
 }
 
 /// Writes a config of the scene. @throws UsageError if the file exists.
@@ -170,14 +162,11 @@ void describe(const SceneArguments& arguments) {
     if (!arguments.newConfig.empty() && isConfig(arguments.what))
         throw UsageError("--write-config writes a config of a scene; {} is a config", arguments.what.string());
     const auto folders = sceneFolders(arguments.scenes, sourceRoot(), arguments.what);
-    SceneSettings settings = settingsOf(arguments, folders);
-
-    // Cameras of the scene. Without one here or in the config, a camera is suggested below
+    const SceneSettings settings = settingsOf(arguments, folders);
     SceneLoader loader(folders);
-    const SceneState original = evaluate(loader.load(settings.source), settings.options.time);
-    const bool hasCamera = settings.camera || !original.cameras.empty();
-    if (!hasCamera) settings.camera.emplace().target = {0, 0, -1};  // Replaced below.
-    PreparedScene scene = loader.prepare(settings);
+    OpenedScene opened = openScene(loader, settings);
+    PreparedScene& scene = opened.prepared;
+    const bool hasCamera = opened.hasCamera;
     const Geometry& g = scene.state.geometry;
     const EmbreeScene tracer(scene.state);
 
@@ -187,32 +176,33 @@ void describe(const SceneArguments& arguments) {
                objects == 1 ? "" : "s", scene.state.scene->textures.size());
     fmt::print("bounds: {} to {}, {:.4g} x {:.4g} x {:.4g} m\n", bracketed(g.boundsMin), bracketed(g.boundsMax), size.x,
                size.y, size.z);
-    fmt::print("cameras: {}\n", original.cameras.size());
-    for (const Camera& camera : original.cameras)
+    fmt::print("cameras: {}\n", opened.cameras.size());
+    for (const Camera& camera : opened.cameras)
         fmt::print("  '{}'  {}\n", camera.name, yamlOf(settingsOf(camera, g, tracer)));
     const bool hasLight = printLights(scene.state);
     printMaterials(scene.state);
     printObjects(*scene.state.scene);
 
     // Suggest a camera and a light
-    const std::optional<Camera> own = hasCamera ? std::optional(scene.camera) : std::nullopt;
-    const FirstView first = firstView(scene.state, tracer, own, settings.camera && original.cameras.empty());
+    const FirstView first =
+        firstView(scene.state, tracer, opened.ownCamera(), settings.camera && opened.cameras.empty());
     if (first.own) fmt::print("the camera in use:\n  {}\n", yamlOf(*first.own));
-    std::optional<Light> lamp;
+    SuggestedLight added;
     if (const auto& view = first.searched) {
         fmt::print("{}:\n  {}\n", hasCamera ? "another camera, which sees more" : "a camera to begin with",
                    yamlOf(view->camera));
-        if (!view->light.empty())
+        const SuggestedLight& light = first.seesOwnLight ? view->light : first.light;
+        if (!light.yaml.empty())
             fmt::print("{}; write under 'scene'\n  {}\n", hasLight ? "no light is seen from there" : "nothing shines",
-                       view->light);
+                       light.yaml);
         if (!hasCamera) scene.camera = cameraOf(view->camera);
-        if (!first.seesOwnLight && (!hasCamera || !hasLight)) lamp = view->lamp;
+        if (!first.seesOwnLight && (!hasCamera || !hasLight)) added = light;
     }
     for (const std::string& warning : loader.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
     if (!arguments.picture.empty())
-        writePicture(scene.state, tracer, scene.camera, hasLight, lamp,
-                     first.seesOwnLight || (!hasCamera && first.light.empty()), arguments.picture);
-    if (!arguments.newConfig.empty()) writeConfig(arguments.newConfig, settings.source, first.camera, first.light);
+        writePicture(scene.state, tracer, scene.camera, added,
+                     first.seesOwnLight || (!hasCamera && first.light.yaml.empty()), arguments.picture);
+    if (!arguments.newConfig.empty()) writeConfig(arguments.newConfig, settings.source, first.camera, first.light.yaml);
 }
 
 }  // namespace

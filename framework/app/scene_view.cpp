@@ -62,29 +62,70 @@ std::string triple(const glm::vec3& v, float step) {
 
 constexpr float kPrecision = 1e-3f;  ///< Of coordinates, relative to the distance of the target.
 
-/// A lamp at the camera that results in a mean radiance of kPreviewRadiance, including indirect light.
-Light lampFor(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera,
-              const ViewStats& stats) {
-    Light lamp;
+/// Scales a light so that what the camera sees of surfaces has a mean radiance of kPreviewRadiance, including indirect
+/// light. @param state without lights
+void expose(SuggestedLight& light, const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera,
+            const ViewStats& stats) {
+    const PathTraceOptions options{.width = 32, .height = 18, .spp = 16, .bounces = 8};
+    const ImageF image = pathTrace(withLight(state, light), tracer, cameraOf(camera), options).total;
+    const double mean = std::accumulate(image.data.begin(), image.data.end(), 0.0) / double(image.data.size());
+    const double filled = double(stats.filled), ofSurfaces = mean - (1 - filled) * double(light.sky);
+    if (ofSurfaces <= 0 || filled <= 0) return;
+    const float scale = float(kPreviewRadiance * filled / ofSurfaces);
+    light.light->intensity *= scale;
+    light.sky *= scale;
+}
+
+/// A lamp at the camera.
+SuggestedLight lampFor(SceneState state, const EmbreeScene& tracer, const CameraSettings& camera,
+                       const ViewStats& stats) {
+    SuggestedLight light;
+    Light& lamp = light.light.emplace();
     lamp.type = LightType::Point;
     lamp.position = camera.position;
     const float distance = std::max(stats.distance, 1e-6f);
     lamp.intensity = glm::vec3(glm::pi<float>() * distance * distance);  // Irradiance of pi at that distance.
-    SceneState lit = state;
-    lit.lights = {lamp};
-    const PathTraceOptions options{.width = 32, .height = 18, .spp = 16, .bounces = 8};
-    const ImageF image = pathTrace(lit, tracer, cameraOf(camera), options).total;
-    const double mean = std::accumulate(image.data.begin(), image.data.end(), 0.0) / double(image.data.size());
-    if (mean > 0 && stats.filled > 0) lamp.intensity *= float(kPreviewRadiance * double(stats.filled) / mean);
-    return lamp;
+    state.lights.clear();
+    expose(light, state, tracer, camera, stats);
+    const float step = kPrecision * glm::length(camera.target - camera.position);
+    light.yaml =
+        fmt::format("lights: [{{point: {}, intensity: {:.3g}}}]", triple(camera.position, step), lamp.intensity.x);
+    return light;
+}
+
+constexpr float kSkyOfSun = 0.1f / glm::pi<float>();  ///< Radiance of the sky by irradiance of the sun, 1/sr.
+
+/// A sun from above and left of the camera, with a sky that lights what the sun does not reach.
+SuggestedLight daylightFor(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera,
+                           const ViewStats& stats) {
+    const glm::vec3 forward = glm::normalize(camera.target - camera.position);
+    const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up)), up = glm::cross(right, forward);
+    SuggestedLight light;
+    Light& sun = light.light.emplace();
+    sun.type = LightType::Directional;
+    sun.direction = glm::normalize(forward + 0.5f * right - 0.8f * up);
+    sun.intensity = glm::vec3(glm::pi<float>());  // A white surface that faces it has a radiance of 1
+    light.sky = kSkyOfSun * sun.intensity.x;
+    expose(light, state, tracer, camera, stats);
+    light.yaml = fmt::format("lights: [{{directional: {}, irradiance: {:.3g}}}]\n  environment: {:.2g}",
+                             triple(sun.direction, kPrecision), sun.intensity.x, light.sky);
+    return light;
+}
+
+/// Tells what a sky lights.
+SuggestedLight evenSky() {
+    return {{}, {}, 1.0f};
 }
 
 }  // namespace
 
-SceneState withEnvironment(SceneState state) {
-    auto lit = std::make_shared<Scene>(*state.scene);
-    lit->environment.radiance = glm::vec3(1.0f);
-    state.scene = lit;
+SceneState withLight(SceneState state, const SuggestedLight& light) {
+    if (light.light) state.lights.push_back(*light.light);
+    if (light.sky > 0) {
+        auto lit = std::make_shared<Scene>(*state.scene);
+        lit->environment.radiance = glm::vec3(light.sky);
+        state.scene = lit;
+    }
     return state;
 }
 
@@ -92,18 +133,13 @@ SuggestedView suggestView(const SceneState& state, const EmbreeScene& tracer) {
     constexpr float kLit = 0.1f;
     SuggestedView view;
     auto [camera, stats] = best(state, tracer);
-    if (stats.lit < kLit && !hasLight(state)) {
-        std::tie(camera, stats) = best(withEnvironment(state), tracer);
-        view.light = "environment: 1";
-    }
+    const bool needsSky = stats.lit < kLit && !hasLight(state);
+    if (needsSky) std::tie(camera, stats) = best(withLight(state, evenSky()), tracer);
     view.camera = camera;
-    if (stats.lit >= kLit) return view;
-
-    // A lamp at the camera lights all visible surfaces
-    const float step = kPrecision * glm::length(camera.target - camera.position);
-    view.lamp = lampFor(state, tracer, camera, stats);
-    view.light = fmt::format("lights: [{{point: {}, intensity: {:.3g}}}]", triple(camera.position, step),
-                             view.lamp->intensity.x);
+    if (stats.lit < kLit)
+        view.light = lampFor(state, tracer, camera, stats);  // It lights all visible surfaces
+    else if (needsSky)
+        view.light = daylightFor(state, tracer, camera, stats);
     return view;
 }
 
@@ -117,10 +153,10 @@ FirstView firstView(const SceneState& state, const EmbreeScene& tracer, const st
     if (view.seesOwnLight && !alwaysSearches) return view;
     view.searched = suggestView(state, tracer);
     if (view.seesOwnLight) return view;
-    view.light = view.searched->light;
-    const bool seesAddedLight =
-        own && !hasLight(state) && !view.light.empty() && seesLight(withEnvironment(state), tracer, view.camera);
-    if (!seesAddedLight) view.camera = view.searched->camera;
+    const bool seesSky = own && !hasLight(state) && seesLight(withLight(state, evenSky()), tracer, view.camera);
+    if (!seesSky) view.camera = view.searched->camera;
+    view.light = seesSky ? daylightFor(state, tracer, view.camera, measureGeometry(state, tracer, view.camera))
+                         : view.searched->light;
     return view;
 }
 

@@ -9,26 +9,32 @@
 
 namespace voxray {
 
+/// A light for a scene of which a camera sees no lit surface: a lamp, or a sun with a dimmer sky.
+struct SuggestedLight {
+    std::string yaml;            ///< Entries of `scene`; "": the lights of the scene suffice.
+    std::optional<Light> light;  ///< The lamp or the sun.
+    float sky = 0;               ///< Radiance of the environment; 0: none.
+};
+
 /// A camera, and a light if necessary, with which a scene is visible.
 struct SuggestedView {
     CameraSettings camera;
-    std::string light;          ///< YAML of an environment or lamp; "": the lights of the scene suffice.
-    std::optional<Light> lamp;  ///< The lamp of `light`, if any.
+    SuggestedLight light;
 };
 
-/// The scene with an environment of radiance 1.
-SceneState withEnvironment(SceneState state);
+/// The scene with a suggested light in addition to its own.
+SceneState withLight(SceneState state, const SuggestedLight& light);
 
 /// Searches a view that shows lit front sides of surfaces, from many positions outside and inside of the
 /// scene. The first good one is returned: one from inside if the center is enclosed by surfaces that face
 /// inwards, else one from outside. Deterministic.
 SuggestedView suggestView(const SceneState& state, const EmbreeScene& tracer);
 
-/// The view with which a config of a scene begins: its own camera if that sees light, or would see that of an
-/// environment, else one that is searched.
+/// The view with which a config of a scene begins: its own camera if that sees light, or would see that of a sky, else
+/// one that is searched.
 struct FirstView {
     CameraSettings camera;
-    std::string light;                      ///< As SuggestedView::light.
+    SuggestedLight light;                   ///< What the camera needs.
     std::optional<CameraSettings> own;      ///< The scene's own camera.
     bool seesOwnLight = false;              ///< Whether the own camera sees the scene's own light.
     std::optional<SuggestedView> searched;  ///< If a view was searched.

@@ -21,6 +21,7 @@ namespace {
 
 struct SessionArguments : ConfigArguments {
     std::filesystem::path file, images;
+    std::string format = "exr";
     bool usesStdio = false;  ///< Required, so that other channels can be added.
     RunOptions options;
 };
@@ -67,6 +68,10 @@ void addSessionCommand(CLI::App& app, int&) {
     command->add_option("--images", arguments->images, "Folder that gets the images of the last render.")
         ->type_name("DIR")
         ->required();
+    command->add_option("--format", arguments->format, "Of images: EXR files, or NumPy's, which are written faster.")
+        ->type_name("exr|npy")
+        ->check(CLI::IsMember({"exr", "npy"}))
+        ->capture_default_str();
     addConfigOptions(*command, *arguments);
     addDeviceOptions(*command, arguments->options);
     command->add_flag("--validate", arguments->options.validation,
@@ -77,7 +82,8 @@ void addSessionCommand(CLI::App& app, int&) {
         const RunOptions options = completed(arguments->options, *arguments);
         InteractiveSession session(openConfig(arguments->file, *arguments, options.tracer), registry, options);
         std::filesystem::create_directories(arguments->images);
-        RequestHandler handler(session.side(0), std::filesystem::absolute(arguments->images));
+        RequestHandler handler(session.side(0),
+                               {std::filesystem::absolute(arguments->images), arguments->format == "npy"});
         serve(handler, greetingOf(session));
     });
 }

@@ -5,6 +5,7 @@
 
 #include "app/text_values.h"
 #include "app/view_requests.h"
+#include "experiment/view_files.h"
 
 namespace voxray {
 namespace {
@@ -112,7 +113,7 @@ Value RequestHandler::answer(const Value& request) {
         answer = writeView(
             state_,
             viewChoice(textOf(request, "name"), request.find("parameters"), std::numeric_limits<uint64_t>::max()),
-            picture && picture->asBool("picture"), images_);
+            picture && picture->asBool("picture"), images_.folder);
     } else {
         throw UsageError(request.where,
                          "no command '{}'; there are config, reference, render, score, select, set, "
@@ -123,8 +124,11 @@ Value RequestHandler::answer(const Value& request) {
 }
 
 Value RequestHandler::write(const std::string& name, const ImageF& image) const {
-    const std::filesystem::path file = images_ / (name + ".exr");
-    writePlainExr(file, image);
+    const std::filesystem::path file = images_.folder / (name + (images_.isNpy ? ".npy" : ".exr"));
+    if (images_.isNpy)
+        writeNpy(file, viewOfImage({}, image, {}));
+    else
+        writePlainExr(file, image);
     return quotedText(file.string());
 }
 

@@ -28,10 +28,16 @@ Value scoresOf(const Scores& scores);
 /// The entry `key` of a request. @throws UsageError if it is missing or no text.
 std::string textOf(const Value& request, const std::string& key);
 
+/// Where `voxray session` leaves images, and how.
+struct ImageFolder {
+    std::filesystem::path folder;
+    bool isNpy = false;  ///< NumPy's format, else EXR.
+};
+
 /// Answers requests of `voxray session`.
 class RequestHandler {
  public:
-    RequestHandler(ShownState& state, std::filesystem::path images) : state_(state), images_(std::move(images)) {}
+    RequestHandler(ShownState& state, ImageFolder images) : state_(state), images_(std::move(images)) {}
 
     /// @throws UsageError, Error, Interrupted.
     Value answer(const Value& request);
@@ -40,11 +46,11 @@ class RequestHandler {
     void render(Value& answer);
     void reference(const Value& request, Value& answer);
     void score(Value& answer);
-    /// Writes an image to <name>.exr. @return the file.
+    /// Writes an image to a file of that name. @return the file.
     Value write(const std::string& name, const ImageF& image) const;
 
     ShownState& state_;
-    const std::filesystem::path images_;
+    const ImageFolder images_;
     std::optional<ShownState::Rendering> rendering_;  ///< The last one, if none failed since.
 };
 

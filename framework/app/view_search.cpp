@@ -21,8 +21,9 @@ namespace {
 constexpr uint32_t kWidth = 32, kHeight = 18;  ///< Resolution of views.
 constexpr int kRays = 200;                     ///< In all directions.
 constexpr float kEnclosed = 0.7f;              ///< Fraction of them that hits front sides in an enclosed point.
-constexpr size_t kMaxInstances = 6;            ///< Number of instances with cameras of their own.
-constexpr float kLeastDistance = 0.02f;        ///< Relative to the scene's diagonal.
+constexpr float kRoomy = 0.1f;       ///< Their median distance there, relative to the box's diagonal; less is a gap.
+constexpr size_t kMaxInstances = 6;  ///< Number of instances with cameras of their own.
+constexpr float kLeastDistance = 0.02f;  ///< Relative to the scene's diagonal.
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
@@ -33,14 +34,19 @@ glm::vec3 directionOf(int ray) {
     return {r * std::cos(angle), z, r * std::sin(angle)};
 }
 
-bool isEnclosed(glm::vec3 from, const SceneState& state, const EmbreeScene& tracer) {
-    int fronts = 0;
+/// Whether the center of a box is in a room.
+bool isEnclosed(const Box& box, const SceneState& state, const EmbreeScene& tracer) {
+    const glm::vec3 center = 0.5f * (box.min + box.max);
+    std::vector<float> distances;  // Of front sides
     for (int i = 0; i < kRays; ++i) {
         const glm::vec3 direction = directionOf(i);
-        const Hit hit = tracer.closestHit({from, 0, direction, kInfinity});
-        fronts += hit.triangle != Hit::kMiss && !isSingleSidedBack(state, hit.triangle, direction);
+        const Hit hit = tracer.closestHit({center, 0, direction, kInfinity});
+        if (hit.triangle != Hit::kMiss && !isSingleSidedBack(state, hit.triangle, direction))
+            distances.push_back(hit.t);
     }
-    return float(fronts) >= kEnclosed * kRays;
+    if (float(distances.size()) < kEnclosed * kRays) return false;
+    std::ranges::nth_element(distances, distances.begin() + distances.size() / 2);
+    return distances[distances.size() / 2] >= kRoomy * glm::length(box.max - box.min);
 }
 
 /// Bounding boxes of the scene, of the scene without outliers, and of its largest instances.
@@ -152,7 +158,7 @@ std::vector<CameraSettings> cameraCandidates(const SceneState& state, const Embr
     for (const Box& box : boxesOf(g)) {
         const glm::vec3 center = 0.5f * (box.min + box.max), half = 0.5f * (box.max - box.min);
         const glm::vec3 along = half.x > half.z ? glm::vec3(half.x, 0, 0) : glm::vec3(0, 0, half.z);
-        if (along != glm::vec3(0.0f) && isEnclosed(center, state, tracer))
+        if (along != glm::vec3(0.0f) && isEnclosed(box, state, tracer))
             cameras.push_back(lookingFrom(center + 0.8f * along, center));
         for (const float up : {0.4f, 1.5f, -0.4f})
             for (int i = 0; i < 8; ++i) {

@@ -1,28 +1,13 @@
 #include "experiment/aovs.h"
 
 #include <algorithm>
-#include <glm/gtc/packing.hpp>
 
 #include "experiment/pixel_masks.h"
+#include "experiment/readback.h"
 
 namespace voxray {
 
 namespace {
-
-/// Downloads all four components of an image of floats or half floats.
-std::vector<float> downloadTexels(Device& device, CommandStream& stream, const Image& image) {
-    const ImageDesc& desc = image.desc();
-    const uint64_t values = uint64_t(desc.extent.x) * desc.extent.y * 4;
-    const Buffer buffer(device, image.name() + " readback", values / 4 * texelBytes(desc.format), MemoryKind::Readback);
-    stream.copy(image, buffer);
-    if (desc.format == VK_FORMAT_R32G32B32A32_SFLOAT) return stream.readAs<float>(buffer, values);
-    if (desc.format != VK_FORMAT_R16G16B16A16_SFLOAT)
-        throw Error("image '{}' is neither RGBA32F nor RGBA16F and can't be an AOV", image.name());
-    std::vector<float> texels;
-    texels.reserve(values);
-    for (const uint16_t half : stream.readAs<uint16_t>(buffer, values)) texels.push_back(glm::unpackHalf1x16(half));
-    return texels;
-}
 
 /// Fills an image's channels one after another.
 class ChannelWriter {
@@ -82,7 +67,7 @@ std::vector<AovImage> downloadAovs(const Graph& graph, const Frame& frame, const
         ChannelWriter writer(image);
         const std::vector<PrimaryHit> hits = primaryHits(*frame.scene, frame.camera, extent.x, extent.y);
         for (const Aov& aov : aovs)
-            addChannels(writer, downloadTexels(device, stream, *aov.image), aov.channels, 0, hits, origin);
+            addChannels(writer, downloadFloats(device, stream, *aov.image), aov.channels, 0, hits, origin);
         for (const char* channel : kHitChannels) addHits(writer, channel, hits);
         images.push_back({pass, std::move(image), std::move(channels)});
     }
@@ -104,7 +89,7 @@ ImageF downloadAov(const Graph::View& view, const Frame& frame, const glm::vec3&
     std::vector<PrimaryHit> hits;
     if (std::ranges::any_of(view.channels, isPosition))
         hits = primaryHits(*frame.scene, frame.camera, extent.x, extent.y);
-    addChannels(writer, downloadTexels(device, stream, *view.image), view.channels, view.firstChannel, hits, origin);
+    addChannels(writer, downloadFloats(device, stream, *view.image), view.channels, view.firstChannel, hits, origin);
     return image;
 }
 

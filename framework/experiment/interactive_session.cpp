@@ -41,7 +41,7 @@ InteractiveSession::InteractiveSession(Experiment experiment, const Registry& re
     }
     for (const auto& [id, count] : cullCounts(all))
         if (runsSomewhere(all, id)) idlePasses_.push_back(id);
-    sides_[0].emplace(*this, variantConfigs_.front());
+    sides_[0].emplace(*this, variantConfigs_.front(), variants_.front().second);
 }
 
 const Value& InteractiveSession::configOf(const std::string& id) const {
@@ -57,7 +57,7 @@ const Value& InteractiveSession::configOf(const std::string& id) const {
 ShownState& InteractiveSession::side(size_t number) {
     std::optional<ShownState>& side = sides_.at(number);
     if (!side) {
-        side.emplace(*this, sides_[0]->config());
+        side.emplace(*this, sides_[0]->config(), sides_[0]->variantId());
         session_.keepScenes(kSides);
     }
     return *side;
@@ -122,9 +122,12 @@ Study InteractiveSession::checkedStudy(Value config) {
         session_.moveCamera(variant.setup);  // So that checks find the scene loaded
     }
     const std::string scene = session_.cameralessKey(study.variants.front().setup);
-    viewChecks_.setTracesNewViews(scene != checkedScene_);
+    const auto known = std::ranges::find(checkedScenes_, scene);
+    viewChecks_.setTracesNewViews(known == checkedScenes_.end());
     planVariants(study, session_.loader(), viewChecks_, session_.device().info());
-    checkedScene_ = scene;
+    if (known != checkedScenes_.end()) checkedScenes_.erase(known);
+    checkedScenes_.insert(checkedScenes_.begin(), scene);
+    if (checkedScenes_.size() > kSides) checkedScenes_.pop_back();
     return study;
 }
 

@@ -44,8 +44,8 @@ class InteractiveSession {
     // For the states
     /// Makes the study of a config without sweep. @throws UsageError
     Study studyOf(Value config) const;
-    /// The same, checked against scene and device. Where only the camera or the image differ from the study that was
-    /// checked before, a new view is not path traced for what may mislead.
+    /// The same, checked against scene and device. Where only the camera or the image differ from a study that was
+    /// checked just before, a new view is not path traced for what may mislead.
     Study checkedStudy(Value config);
     Session& resources() { return session_; }
     /// The reference of a side's study, which sides with the same one share.
@@ -60,8 +60,8 @@ class InteractiveSession {
     const Experiment opened_;
     Session session_;
     CameraViewChecks viewChecks_;
-    std::string checkedScene_;             ///< SceneOnDevice::cameraless of the last checked study.
-    std::vector<std::string> idlePasses_;  ///< Ids of passes that are culled in some variants and run in others.
+    std::vector<std::string> checkedScenes_;  ///< SceneOnDevice::cameraless of the last checked studies, a side each.
+    std::vector<std::string> idlePasses_;     ///< Ids of passes that are culled in some variants and run in others.
     std::vector<std::pair<std::string, std::string>> variants_;  ///< Name and id.
     std::vector<Value> variantConfigs_;
     std::array<std::optional<ShownState>, kSides> sides_;

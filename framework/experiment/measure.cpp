@@ -66,20 +66,6 @@ Percentiles percentiles(std::vector<double> values) {
     return {at(0.05), at(0.5), at(0.95)};
 }
 
-ImageF downloadImage(Device& device, CommandStream& stream, const Image& image) {
-    const ImageDesc& desc = image.desc();
-    if (desc.format != VK_FORMAT_R32G32B32A32_SFLOAT)
-        throw Error("image '{}' is not RGBA32F and can't be scored", image.name());
-    const uint64_t pixels = uint64_t(desc.extent.x) * desc.extent.y;
-    const Buffer buffer(device, image.name() + " readback", pixels * 16, MemoryKind::Readback);
-    stream.copy(image, buffer);
-    const std::vector<float> rgba = stream.readAs<float>(buffer, pixels * 4);
-    ImageF out(desc.extent.x, desc.extent.y, 3);
-    for (uint64_t i = 0; i < pixels; ++i)
-        for (uint64_t c = 0; c < 3; ++c) out.data[i * 3 + c] = rgba[i * 4 + c];
-    return out;
-}
-
 Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureSettings& settings,
                          const std::function<void(double)>& progress,
                          const std::function<void(const Frame&, uint32_t)>& afterFrame) {

@@ -83,7 +83,4 @@ Measurement measureGraph(Graph& graph, const GraphTarget& target, const MeasureS
                          const std::function<void(double)>& progress,
                          const std::function<void(const Frame&, uint32_t)>& afterFrame);
 
-/// Level 0 of an RGBA32F image; alpha is dropped.
-ImageF downloadImage(Device& device, CommandStream& stream, const Image& image);
-
 }  // namespace voxray

@@ -19,6 +19,13 @@ MeasureSettings oneFrame(MeasureSettings measure, const Graph& graph) {
     return measure;
 }
 
+/// A config without what a page keeps from variant to variant.
+Value withoutView(Value config) {
+    for (const char* path : {"image", "scene.camera", "measure.frames", "measure.compare_every"})
+        if (valueAt(config, path)) applyOverride(config, path, Value());
+    return config;
+}
+
 void refuseSweep(const Value& config, const TextLocation& where) {
     if (const Value* sweep = config.find("sweep"); sweep && !sweep->members.empty())
         throw UsageError(where, "sweep: a session shows one variant; select another by its id");
@@ -26,12 +33,20 @@ void refuseSweep(const Value& config, const TextLocation& where) {
 
 }  // namespace
 
-ShownState::ShownState(InteractiveSession& session, Value config)
-    : session_(session), resources_(session.resources()), study_(session.checkedStudy(std::move(config))) {}
+ShownState::ShownState(InteractiveSession& session, Value config, std::string variant)
+    : session_(session),
+      resources_(session.resources()),
+      study_(session.checkedStudy(std::move(config))),
+      variantId_(std::move(variant)) {}
 
 void ShownState::open(Value config) {
     refuseSweep(config, config.where);
     take(session_.checkedStudy(std::move(config)));
+    variantId_.clear();
+}
+
+bool ShownState::isChanged() const {
+    return variantId_.empty() || withoutView(config()) != withoutView(session_.configOf(variantId_));
 }
 
 void ShownState::take(Study study) {
@@ -42,6 +57,7 @@ void ShownState::take(Study study) {
 
 void ShownState::select(const std::string& id) {
     open(session_.configOf(id));
+    variantId_ = id;
 }
 
 void ShownState::apply(Value& config, const Change& change) {
@@ -52,7 +68,11 @@ void ShownState::apply(Value& config, const Change& change) {
 void ShownState::set(const std::string& path, const Value& value) {
     Value changed = config();
     apply(changed, {path, value});
-    take(session_.checkedStudy(std::move(changed)));
+    Study study = session_.checkedStudy(std::move(changed));
+    const std::string id = path.substr(0, path.find('.'));
+    if (std::ranges::count(study.variants.front().culledPasses, id) > 0)
+        study.warnings.push_back(fmt::format("{}: no effect on the image, which does not depend on '{}'", path, id));
+    take(std::move(study));
 }
 
 std::vector<std::string> ShownState::warnings() const {

@@ -30,8 +30,9 @@ struct ViewChoice {
 /// are those of `run` with the same values.
 class ShownState {
  public:
-    /// @param session must outlive the state. @throws UsageError as makeStudy() and planVariants().
-    ShownState(InteractiveSession& session, Value config);
+    /// @param session must outlive the state. @param variant the id of the variant whose values these are, or "".
+    /// @throws UsageError as makeStudy() and planVariants().
+    ShownState(InteractiveSession& session, Value config, std::string variant);
 
     /// Takes a config, without sweep, in place of all values. @throws UsageError; the state is then as it was.
     void open(Value config);
@@ -43,7 +44,11 @@ class ShownState {
 
     /// The config with all values that were set.
     const Value& config() const { return study_.experiment.config; }
-    /// Warnings of the current values and of scenes.
+    /// Id of the variant whose values were taken last; "" after open().
+    const std::string& variantId() const { return variantId_; }
+    /// Whether the values differ from those of variantId() in more than camera and image.
+    bool isChanged() const;
+    /// Warnings of the current values, of the last one that was set, and of scenes.
     std::vector<std::string> warnings() const;
 
     struct Rendering {
@@ -118,6 +123,7 @@ class ShownState {
     InteractiveSession& session_;
     Session& resources_;
     Study study_;  ///< Of one variant.
+    std::string variantId_;
 
     // Of the last rendering
     std::optional<Graph> graph_;

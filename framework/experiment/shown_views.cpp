@@ -34,8 +34,10 @@ ViewArray voxelsView(const Graph& graph, Session& resources, const ViewChoice& c
     info.name = info.pass = kShowVoxels;
     info.kind = ViewInfo::Kind::Voxels;
     const Value* show = choice.parameters.find("show");
-    const bool isLight = show && (show->scalar == "irradiance" || show->scalar == "radiance");
-    info.quantity = isLight ? Quantity::Radiance : Quantity::Fraction;
+    const std::string what = show ? show->scalar : "";
+    info.quantity = what == "irradiance" || what == "radiance" ? Quantity::Radiance : Quantity::Fraction;
+    if (what == "irradiance") info.note = "magenta: the injection gives no value there";
+    if (what == "lit_faces") info.note = "green: no lit face is seen, red: the most; magenta: no surfel faces that way";
     return viewOfImage(std::move(info), downloadFrame(graph, 0, resources).final, {"R", "G", "B"});
 }
 

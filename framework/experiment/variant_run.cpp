@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/byte_units.h"
+#include "experiment/readback.h"
 
 namespace voxray {
 

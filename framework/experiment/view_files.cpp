@@ -4,8 +4,11 @@
 #include <fmt/ranges.h>
 
 #include <bit>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 
-#include "base/files.h"
+#include "base/error.h"
 
 namespace voxray {
 namespace {
@@ -29,7 +32,8 @@ const char* codeOf(ViewInfo::Type type) {
     throw Error("no such type of values");
 }
 
-/// Source: numpy.lib.format, "Format Version 1.0".
+}  // namespace
+
 void writeNpy(const std::filesystem::path& path, const ViewArray& view) {
     constexpr size_t kAlignment = 64, kPrefixBytes = 10;
     std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({},), }}", codeOf(view.type),
@@ -40,11 +44,12 @@ void writeNpy(const std::filesystem::path& path, const ViewArray& view) {
     file += char(header.size() & 255);
     file += char(header.size() >> 8);
     file += header;
-    file.append(reinterpret_cast<const char*>(view.bytes.data()), view.bytes.size());
-    writeFileAtomically(path, file);
+    std::ofstream out(path, std::ios::binary | std::ios::trunc);
+    out.write(file.data(), std::streamsize(file.size()));
+    out.write(reinterpret_cast<const char*>(view.bytes.data()), std::streamsize(view.bytes.size()));
+    out.close();
+    if (!out) throw Error("{}: {}", path.string(), std::strerror(errno));
 }
-
-}  // namespace
 
 std::filesystem::path writeView(const std::filesystem::path& folder, const ViewArray& view) {
     if (view.channels.empty()) {

@@ -206,6 +206,7 @@ ViewPicture pictureOf(const ViewArray& view, const ImageSettings& settings) {
         whole = view.elements * valuesOf(view) / view.shape[0];
         values < whole)
         result.legend += fmt::format("; the first {} of {} values", values, whole);
+    if (!view.note.empty()) result.legend += "; " + view.note;
     if (bad > 0) result.legend += fmt::format("; magenta: NaN ({} values)", bad);
     return result;
 }

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "base/suggest.h"
-#include "experiment/measure.h"
+#include "experiment/readback.h"
 
 namespace voxray {
 namespace {
@@ -115,14 +115,6 @@ std::vector<Source> sourcesOf(const Graph& graph, Device& device) {
     return sources;
 }
 
-std::vector<std::byte> readImage(const RenderedFrame& rendered, const Image& image) {
-    const glm::uvec3 extent = image.desc().extent;
-    const uint64_t bytes = uint64_t(extent.x) * extent.y * extent.z * texelBytes(image.desc().format);
-    const Buffer buffer(rendered.device, image.name() + " readback", bytes, MemoryKind::Readback);
-    rendered.stream.copy(image, buffer);
-    return rendered.stream.read(buffer, bytes);
-}
-
 ViewArray readBuffer(const RenderedFrame& rendered, ViewInfo info, const Buffer& buffer, uint64_t maxValues) {
     const uint64_t values = info.shape.size() > 1 ? info.shape[1] : 1;
     const uint64_t elements = info.shape[0];
@@ -196,7 +188,7 @@ ViewArray readView(const RenderedFrame& rendered, const std::string& name, uint6
                            channels);
     if (!channels.empty())
         return viewOfImage(std::move(info), downloadImage(rendered.device, rendered.stream, *view.image), channels);
-    return {std::move(info), readImage(rendered, *view.image), 0};
+    return {std::move(info), downloadTexels(rendered.device, rendered.stream, *view.image), 0};
 }
 
 }  // namespace voxray

@@ -24,6 +24,7 @@ struct ViewInfo {
     std::vector<uint64_t> shape;
     std::vector<std::string> channels;  ///< Names of the last axis, or of the only channel; empty: unnamed.
     Quantity quantity = Quantity::Other;
+    std::string note{};  ///< What its colors mean besides.
 };
 
 template <>

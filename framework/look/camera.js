@@ -33,6 +33,7 @@ export class FlyCamera {
             this.keys.add(event.code);
         });
         document.addEventListener("keyup", (event) => {
+            if (this.keys.has(event.code)) this.advance(event.timeStamp);  // Frames may be rarer than keys
             this.isFast = event.shiftKey;
             this.keys.delete(event.code);
         });
@@ -85,23 +86,28 @@ export class FlyCamera {
 
     /** Moves until no key is held. */
     fly(time) {
-        let last = time;
+        this.last = time;
         const step = (now) => {
-            if (!this.keys.size || !this.position) return;
-            const seconds = Math.min(Math.max(now - last, 0) / 1000, 0.2);
-            last = now;
-            const right = unit(cross(this.forward, this.up));
-            for (const key of this.keys) {
-                const [x, y, z] = MOVES[key] ?? [0, 0, 0];
-                const way = seconds * this.speed * (this.isFast ? 4 : 1);
-                this.position = add(add(add(this.position, right, way * x), this.up, way * y), this.forward, way * z);
-                const [yaw, pitch] = TURNS[key] ?? [0, 0];
-                this.turn(KEY_TURN * seconds * yaw, KEY_TURN * seconds * pitch);
-            }
-            this.tell(now);
+            if (!this.keys.size) return;
+            this.advance(now);
             requestAnimationFrame(step);
         };
         requestAnimationFrame(step);
+    }
+
+    /** Moves by the time since the last move. */
+    advance(now) {
+        const seconds = Math.min(Math.max(now - this.last, 0) / 1000, 0.2);
+        this.last = now;
+        if (!this.position || !seconds) return;
+        const right = unit(cross(this.forward, this.up)), way = seconds * this.speed * (this.isFast ? 4 : 1);
+        for (const key of this.keys) {
+            const [x, y, z] = MOVES[key] ?? [0, 0, 0];
+            this.position = add(add(add(this.position, right, way * x), this.up, way * y), this.forward, way * z);
+            const [yaw, pitch] = TURNS[key] ?? [0, 0];
+            this.turn(KEY_TURN * seconds * yaw, KEY_TURN * seconds * pitch);
+        }
+        this.tell(now);
     }
 
     /** Takes poses until there are no more, or until it is flown. @param poseAt is called with the time in ms */

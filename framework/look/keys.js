@@ -12,6 +12,16 @@ export function isFree(event) {
     return !USED_BY.some(([controls, uses]) => event.target.closest(controls) && uses(event.code));
 }
 
+/** After a list was used by the mouse, keys are the page's again. @param place gets the focus */
+export function freeKeysAfterMouse(place) {
+    let isByMouse = false;
+    document.addEventListener("pointerdown", () => (isByMouse = true), true);
+    document.addEventListener("keydown", () => (isByMouse = false), true);
+    document.addEventListener("change", (event) => {
+        if (isByMouse && event.target.matches("select, input[type=checkbox]")) place().focus({ preventScroll: true });
+    });
+}
+
 /** Calls an action where its key is pressed and free. */
 export function onKey(code, action) {
     document.addEventListener("keydown", (event) => {

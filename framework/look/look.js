@@ -1,6 +1,7 @@
 // The page of `voxray look`: its parts, put together.
 
 import { FlyCamera } from "./camera.js";
+import { freeKeysAfterMouse } from "./keys.js";
 import { PassList, idOf } from "./passes.js";
 import { PathControls } from "./path.js";
 import { ReferenceBox } from "./reference.js";
@@ -19,6 +20,7 @@ const hooks = {
     isMoving: () => camera.isMoving,
     extras: () => views.fields,
     whole: (side, answer) => {
+        split.follow(side);
         if (side !== split.edited) return;
         showConfig(side);
         views.take(answer);
@@ -47,17 +49,22 @@ const camera = new FlyCamera(sides.map((side) => side.canvas), (value, time) => 
     changed("scene.camera", value, time);
 });
 const path = new PathControls(camera, (name, value) => changed(name, value, performance.now()), () => split.edited.config);
-const passes = new PassList(byId("passes"), start, (name, value) => {
+const edit = (name, value) => {
     split.edited.isChanged = true;
     split.arrange();
     changed(name, value, performance.now());
-});
+};
+const passes = new PassList(byId("passes"), start, edit);
+// Of scene and reference, what is no matter of a config's first lines
+const scene = new PassList(byId("scene"), start, edit);
+byId("scene").append(scene.parameter("scene", "materials", start.schema.properties.scene.properties),
+    scene.parameter("reference", "spp", passes.schemas.get("path_trace")));
 const views = new Views(document.querySelector("[name=show]"), byId("voxels"), start, (time) => split.shown.forEach((side) => side.ask(time)));
 const reference = new ReferenceBox(byId("reference"), document.querySelector("[name=show]"), start.metrics, page, () => split.shown, () => split.edited);
 // For tests and measurements
 export const state = {
     latencies: [],
-    get settled() { return split.shown.every((side) => side.isSettled); },
+    get settled() { return !camera.isMoving && split.shown.every((side) => side.isSettled); },
     get config() { return split.edited.config; },
     get configs() { return split.shown.map((side) => side.config); },
 };
@@ -88,6 +95,8 @@ function showConfig(side) {
     byId("passes-title").textContent = `Passes of ${split.titleOf(side)}`;
     byId("passes-title").hidden = !split.isOpen;
     byId("warnings").replaceChildren(...answer.warnings.map((text) => Object.assign(document.createElement("li"), { textContent: text })));
+    for (const show of scene.shows) show(new Map([["scene", config.scene], ["reference", config.reference ?? {}]]), (name) => side.pending.has(name));
+    byId("scene").lastElementChild.hidden = !config.reference;
     passes.show(config.graph, new Set((answer.passes ?? config.graph.map((entry) => ({ id: idOf(entry) }))).map((pass) => pass.id)),
         (name) => side.pending.has(name));
     if (side.drawn) byId("status").textContent = frameText(side.drawn);
@@ -127,5 +136,6 @@ byId("download").addEventListener("click", download);
 variant.append(changedVariant, ...start.variants.map(({ id, name }) => new Option(name, id)));
 byId("variants").hidden = start.variants.length < 2;
 variant.addEventListener("change", () => split.select(start.variants.find(({ id }) => id === variant.value)));
+freeKeysAfterMouse(() => split.edited.canvas);
 window.addEventListener("pagehide", () => split.isOpen && sides[1].close());
 sides[0].next();

@@ -2,6 +2,9 @@
 
 const WIDE = 1000;  // Ratio of a range whose slider is not linear
 const STEPS = 1000;  // Of a slider
+const TEXT_LINES = 6;
+// What passes cannot be planned without, to begin with
+const FIRST_VALUES = { glsl: { source: "vec3 shade(ivec2 pixel, ivec2 texel) {\n    return texelFetch(albedo, texel, 0).rgb;\n}\n" } };
 
 export const entryOf = (entry) => (typeof entry === "string" ? { pass: entry } : entry);
 export const idOf = (entry) => entryOf(entry).id ?? entryOf(entry).pass;
@@ -43,7 +46,7 @@ function showerOf(box, textOf) {
 }
 
 /** @return elements of a parameter's control, and a function that shows a value. */
-function controlOf(schema, changed) {
+function controlOf(name, schema, changed) {
     if (schema.enum) {
         const select = make("select", {}, ...schema.enum.map((value) => make("option", { value, textContent: value })));
         select.addEventListener("change", () => changed(schema.enum[select.selectedIndex]));
@@ -77,7 +80,8 @@ function controlOf(schema, changed) {
         }];
     }
     // Text, and what JSON can write: vectors
-    const isText = schema.type === "string", text = make("input", { type: "text" });
+    const isText = schema.type === "string";
+    const text = isText && name === "source" ? make("textarea", { rows: TEXT_LINES, spellcheck: false }) : make("input", { type: "text" });
     text.addEventListener("change", () => {
         try {
             changed(isText ? text.value : JSON.parse(text.value));
@@ -85,7 +89,12 @@ function controlOf(schema, changed) {
             changed(text.value);  // Which the config's check refuses in words
         }
     });
-    return [[text], showerOf(text, (value) => (isText ? value : JSON.stringify(value)))];
+    let known;  // A text that was refused stays, to be mended
+    const show = showerOf(text, (value) => (isText ? value : JSON.stringify(value)));
+    return [[text], (value) => {
+        if (value !== known || text.tagName !== "TEXTAREA") show(value);
+        known = value;
+    }];
 }
 
 export class PassList {
@@ -133,7 +142,7 @@ export class PassList {
 
     parameter(id, name, properties) {
         const schema = properties[name], path = `${id}.${name}`;
-        const [controls, show] = controlOf(schema, (value) => this.changed(path, value));
+        const [controls, show] = controlOf(name, schema, (value) => this.changed(path, value));
         const row = make("label", { className: "parameter", title: schema.description }, make("span", {}, ...name.split(/(?<=_)/).flatMap((part) => [part, make("wbr")])),
             make("span", {}, ...controls));
         for (const control of controls) control.name = path;
@@ -164,7 +173,7 @@ export class PassList {
         const readHere = written.filter((name) => read.has(name)), outputs = readHere.length ? readHere : written;
         return Object.keys(this.kinds).map((kind) => {
             if (kind === entry.pass) return { pass: kind };
-            const other = { pass: kind };
+            const other = { pass: kind, ...FIRST_VALUES[kind] };
             for (const name of outputs) {
                 const port = this.kinds[kind].outputs.find((port) => port.name === name);
                 if (!port) return null;
@@ -177,7 +186,7 @@ export class PassList {
         }).filter(Boolean);
     }
 
-    /** Options of a list of entries; those of which an input is missing say so. */
+    /** Options of a list of entries; those of which an input is missing say so, and can't be chosen. */
     options(others, entry, entries) {
         const written = new Set(entries.filter((other) => other !== entry)
             .flatMap((other) => this.kinds[other.pass].outputs.map((port) => port.name)));
@@ -185,7 +194,7 @@ export class PassList {
             const missing = this.kinds[other.pass].inputs.filter((port) => !port.optional && this.has(other, port) && !written.has(port.name))
                 .map((port) => port.name);
             const needs = missing.length && other.pass !== entry.pass ? ` (needs ${missing.join(", ")})` : "";
-            return make("option", { value: other.pass, textContent: other.pass + needs, title: this.schemas.get(other.pass).pass.description });
+            return make("option", { value: other.pass, disabled: Boolean(needs), textContent: other.pass + needs, title: this.schemas.get(other.pass).pass.description });
         });
     }
 }

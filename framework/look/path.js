@@ -4,6 +4,7 @@ import { onKey } from "./keys.js";
 
 const FRAMES_A_SECOND = 30;
 const HOLD_MS = 100;  // Without a sample, the camera rested until shortly before the next one
+const LEAST_COMPARED = 3;  // Frames of measure.compare_every
 const CLOSE = 0.002;  // Of the scene's size, or radians: how far the keys' straight lines may be from what was flown
 
 const mix = (a, b, t) => a.map((value, i) => value + t * (b[i] - value));
@@ -103,9 +104,11 @@ export class PathControls {
 
     /** Goes to the first frame of what was recorded: the config has the path from there. */
     take() {
-        if (this.framesBefore === undefined) this.framesBefore = this.config().measure?.frames ?? null;
+        const { frames, compare_every: every } = this.config().measure ?? {};
+        this.before ??= { frames: frames ?? null, every: every ?? null };
         this.isTaken = true;
         this.set("measure.frames", this.recorded.frames);  // First: without frames a path has no effect
+        if (this.recorded.frames >= LEAST_COMPARED) this.set("measure.compare_every", 1);  // Else the run would keep one image
         this.set("scene.camera", this.recorded.camera);
     }
 
@@ -124,7 +127,10 @@ export class PathControls {
     /** The camera was moved: by the next value it is elsewhere, and the config has no path. */
     fly(value, ms) {
         this.recorder.add(value, ms);
-        if (this.isTaken && this.recorded) this.set("measure.frames", this.framesBefore);
+        if (this.isTaken && this.recorded) {
+            this.set("measure.compare_every", this.before.every);  // First: it needs its frames
+            this.set("measure.frames", this.before.frames);
+        }
         this.isTaken = false;
         this.show();
     }

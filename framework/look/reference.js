@@ -10,7 +10,8 @@ const SCORING_SHARE = 4;  // Times that a score takes pass before the next one
 const MAGMA = ["#000004", "#1d1147", "#51127c", "#822681", "#b63679", "#e65164", "#fb8861", "#fec287", "#fcfdbf"]
     .map((color) => [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16)));
 // What may be shown in place of the image, by name, with the text of the list
-const SHOWN = new Map([["reference", "reference"], ["error", "error (HDR-FLIP)"]]);
+const SHOWN = new Map([["reference", "reference"], ["error", "error (HDR-FLIP)"],
+    ["indirect_error", "error of indirect light (HDR-FLIP)"]]);
 
 const figures = (value) => (Math.abs(value) >= 1000 || value === 0 ? value.toFixed(0) : value.toPrecision(3));
 
@@ -97,7 +98,7 @@ export class ReferenceBox {
         if (!isCurrent() || this.select.value !== show) return;
         const context = side.canvas.getContext("2d");
         context.drawImage(image, 0, 0, side.canvas.width, side.canvas.height);
-        if (show === "error") colorErrors(context);
+        if (show !== "reference") colorErrors(context);
     }
 
     /** Tells of the reference of the side that is edited, and scores of all sides: columns are metrics. */

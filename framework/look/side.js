@@ -111,6 +111,7 @@ export class Side {
             this.hooks.say(this, [...(answer.refused ?? []).map((refusal) => refusal.error), ...(answer.error ? [answer.error] : [])].join("\n"));
             this.config = answer.config;
             this.answer = answer;
+            if (answer.variant && this.isSettled) Object.assign(this, { variant: answer.variant, isChanged: answer.changed });
             this.hooks.whole(this, answer);
         }
         if (answer.error) return;

@@ -7,7 +7,8 @@ export const SIDE_NAMES = ["A", "B"];
 /** What a scene is made of. Cameras of two configs mean the same if that is. */
 const sourceOf = (scene) => scene.file ?? scene.builtin;
 const isOfImage = (path) => path === "image" || path.startsWith("image.");
-const isOfCamera = (path) => path === "scene.camera" || path === "measure.frames";  // Of a path
+const OF_PATH = ["frames", "compare_every"];  // What measure says of a path of the camera
+const isOfCamera = (path) => path === "scene.camera" || OF_PATH.some((key) => path === `measure.${key}`);
 
 export class Split {
     /**
@@ -76,7 +77,7 @@ export class Split {
     sharedBy(side, variant) {
         const { config } = side, isSameScene = variant.source === sourceOf(config.scene);
         return [["image", config.image ?? null],
-            ...(isSameScene && config.scene.camera?.path ? [["measure.frames", config.measure?.frames ?? null]] : []),
+            ...(isSameScene && config.scene.camera?.path ? OF_PATH.map((key) => [`measure.${key}`, config.measure?.[key] ?? null]) : []),
             ...(isSameScene ? [["scene.camera", config.scene.camera ?? null]] : []), ...[...side.pending].filter(([path]) => isOfImage(path) || (isOfCamera(path) && isSameScene))];
     }
 
@@ -86,6 +87,13 @@ export class Split {
 
     titleOf(side) {
         return `${this.isOpen ? `${SIDE_NAMES[side.number]}: ` : ""}${side.name}${side.isChanged ? ", changed" : ""}`;
+    }
+
+    /** The program has told what variant a side shows; another page may have chosen it, or this one before it was reloaded. */
+    follow(side) {
+        const variant = this.variants.find(({ id }) => id === side.variant);
+        if (variant && side.answer?.variant === variant.id) side.name = variant.name;
+        this.arrange();
     }
 
     edit(number) {

@@ -64,7 +64,7 @@ def chart(figure: Figure, compared, scene: Scene, cost: int) -> Figure:
         own, is_rival = styles[method], method == compared.rival
         color = style.VALUES[own.color]
         members = (scene.methods == method) & scene.usable[cost, error]
-        axes.plot(scene.costs[cost, members], scene.errors[error, 0, members], ".", color=color, markersize=2, alpha=0.4, markeredgewidth=0)
+        axes.plot(scene.costs[cost, members], scene.errors[error, 0, members], "o", color=color, markersize=1.8, alpha=0.55, markeredgewidth=0)
         x, (y, low, high) = scene.costs[cost, front], scene.errors[error][:, front]
         axes.vlines(x, np.maximum(low, 1e-3 * y), high, color=color, linewidth=0.4, alpha=0.6)
         axes.plot(x, y, own.marker, linestyle="-", color=color, linewidth=1.6 if is_rival else 0.8, markersize=3.5 if is_rival else 2.8,

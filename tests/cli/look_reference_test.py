@@ -132,6 +132,8 @@ class Shown(look_test.Browsed):
         self.wait_for(lambda: np.abs(self.shown()[..., 0].astype(int) - self.shown()[..., 1]).max() > 60)  # Magma
         self.wait_for(self.differs(image))
         errors = self.shown()
+        self.choose("show", "error of indirect light (HDR-FLIP)")
+        self.wait_for(self.differs(errors))
         self.choose("show", "reference")
         self.wait_for(self.differs(errors))
         self.wait_for(lambda: np.abs(self.shown().astype(int) - image).mean() < 20)

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import time
 import unittest
+from pathlib import Path
 
 import numpy as np
 from PIL import Image
@@ -60,6 +61,21 @@ class Look(CommandTest):
         self.assertEqual(status, 200, body)
         line, _, png = body.partition(b"\n")
         return json.loads(line), png
+
+
+def settle(page):
+    """Waits for the whole image of the newest state."""
+    page.driver.execute_async_script("""
+        const done = arguments[0];
+        const wait = () => (window.look?.settled && !document.querySelector('[aria-busy]') ? done() : setTimeout(wait, 20));
+        wait();""")
+
+
+def descendants(process):
+    """Ids of the processes that a process has started, and that they have."""
+    stats = [stat.read_text().rpartition(")") for stat in Path("/proc").glob("[0-9]*/stat")]
+    children = [int(name.split()[0]) for name, _, rest in stats if int(rest.split()[1]) == process]
+    return [one for child in children for one in (child, *descendants(child))]
 
 
 def pixels(png):
@@ -312,11 +328,7 @@ class Browsed(Look):
         self.settle()
 
     def settle(self):
-        """Waits for the whole image of the newest state."""
-        self.browser.driver.execute_async_script("""
-            const done = arguments[0];
-            const wait = () => (window.look?.settled && !document.querySelector('[aria-busy]') ? done() : setTimeout(wait, 20));
-            wait();""")
+        settle(self.browser)
 
     def config(self):
         return self.browser.run("return window.look.config")
@@ -354,7 +366,7 @@ class Browsed(Look):
         while not os.path.exists(self.path("tiny.yaml")):
             time.sleep(0.05)
         self.expect(0, "validate", "tiny.yaml")
-        self.expect(0, "run", "tiny.yaml", "--out", "run", "--no-report")
+        self.expect(0, "run", "tiny.yaml", "--out", "run", "--no-report", "--set", "reference=null")
         [variant] = [name for name in os.listdir(self.path("run", "images")) if name != "reference"]
         with Image.open(self.path("run", "images", variant, "final.png")) as image:
             return np.asarray(image.convert("RGB"))

@@ -52,10 +52,12 @@ class ProposedViews(CommandTest):
     def test_a_closed_room_without_light_gets_a_lamp(self):
         self.assertIn("lights", "".join(self.propose(self.room(), "dark.glb")))
 
-    def test_an_object_without_light_gets_a_sky(self):
+    def test_an_object_without_light_gets_a_sun_and_a_dimmer_sky(self):
         builder = scene_maker.Builder()
         builder.box(np.zeros(3), np.ones(3), builder.material(0.5))
-        self.assertIn("environment: 1", self.propose(builder, "object.glb"))
+        sun, sky = (float(re.search(f"{key}: ([0-9.e+-]+)", "".join(self.propose(builder, "object.glb"))).group(1))
+                    for key in ("irradiance", "environment"))
+        self.assertLess(sky, 0.5 * sun / np.pi)
 
     def test_a_room_in_a_room_and_a_stray_triangle(self):
         builder = self.room()

@@ -84,6 +84,27 @@ class Session(CommandTest):
         self.expect_images_of_run("--only", "voxelize.resolution=16", "--set", "seed=8", "--set",
                                   "scene.camera={position: [0, 1, 3], target: [0, 1, 0], fov_deg: 50}")
 
+    def test_images_in_numpys_format(self):
+        self.start(TINY)
+        shown = self.done("render")["images"]
+        with_numpy = self.start(TINY, "--format", "npy")
+        self.assertEqual(with_numpy["protocol"], 1)
+        for name, file in self.done("render")["images"].items():
+            array = np.load(file)
+            self.assertEqual(array.dtype, np.float32)
+            channels = exr_pixels.read(shown[name])
+            np.testing.assert_array_equal(array, np.stack([channels[channel] for channel in "RGB"], axis=-1), name)
+        self.done("reference")
+        self.done("score")
+        self.assertEqual(np.load(self.path("shown", "flip.npy")).shape, (24, 32))
+        self.assertIn("--format", self.expect(2, "session", "session.yaml", "--stdio", "--images", "shown", "--format", "png").stderr)
+
+    def test_a_pass_on_which_the_image_does_not_depend(self):
+        self.start(TINY)
+        self.done("set", path="gather_irradiance", value={"pass": "path_trace", "light": "indirect", "spp": 1})
+        self.assertIn("does not depend on 'inject'", "".join(self.done("set", path="inject.bounces", value=1)["warnings"]))
+        self.assertNotIn("does not depend", "".join(self.done("set", path="gather_irradiance.spp", value=2)["warnings"]))
+
     def view(self, name, **parameters):
         """@return channels by name, or the array of a .npy file"""
         answer = self.done("view", name=name, parameters=parameters)

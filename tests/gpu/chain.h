@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "experiment/measure.h"
+#include "experiment/readback.h"
 #include "graph/graph.h"
 #include "tests/support/all_passes.h"
 #include "tests/support/device.h"

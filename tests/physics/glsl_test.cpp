@@ -130,6 +130,8 @@ TEST(Glsl, TellsMistakesWithTheirLine) {
     EXPECT_CONTAINS(messageOf(gbuffer + "- {pass: glsl}\n"), "give either a 'source'");
     const std::string lacks = "'int one() { return 1; }'}\n";
     EXPECT_CONTAINS(messageOf(gbuffer + "- {pass: glsl, source: " + lacks), "defines no vec3 shade");
+    const std::string other = "'vec3 shade(vec2 at) { return vec3(at, 0); } // vec3 shade(ivec2 p, ivec2 t) {'}\n";
+    EXPECT_CONTAINS(messageOf(gbuffer + "- {pass: glsl, source: " + other), "defines 'vec3 shade(vec2 at)'");
     const std::string reads = "'vec3 shade(ivec2 pixel, ivec2 texel) { return texelOf(indirectImage, pixel).rgb; }'}\n";
     EXPECT_CONTAINS(messageOf(gbuffer + "- {pass: glsl, source: " + reads), "no pass before it writes 'indirect'");
     EXPECT_CONTAINS(messageOf(gbuffer + "- {pass: glsl, file: nowhere.glsl}\n"), "no file 'nowhere.glsl'");

@@ -2,7 +2,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <mutex>
 
+#include "base/parallel.h"
 #include "config/overrides.h"
 #include "experiment/checks/checks.h"
 
@@ -11,17 +13,25 @@ namespace {
 
 constexpr float kCentimetres = 100;  ///< In a metre.
 constexpr float kFlat = 1e-3f;       ///< Largest ratio of thickness to size of a flat scene.
+constexpr size_t kGrain = 1 << 14;   ///< Vertices that are worth a thread.
 
 /// Bounds, in the compared frame, of the instances of `count` meshes; without any min > max.
 Box boundsOf(const SceneState& state, size_t firstMesh, size_t count) {
     const Geometry& g = state.geometry;
     Box box{glm::vec3(std::numeric_limits<float>::infinity()), {}};
     box.max = -box.min;
+    const Box empty = box;
+    std::mutex mutex;
     for (size_t i = 0; i < g.instances.size(); ++i) {
         if (state.scene->instances[i].mesh - firstMesh >= count) continue;
         const InstanceRange& range = g.instances[i];
-        for (uint32_t v = range.firstVertex; v < range.firstVertex + range.vertexCount; ++v)
-            box = {glm::min(box.min, g.positions[v]), glm::max(box.max, g.positions[v])};
+        parallelRanges(range.vertexCount, kGrain, [&](size_t begin, size_t end) {
+            Box part = empty;
+            for (size_t v = range.firstVertex + begin; v < range.firstVertex + end; ++v)
+                part = {glm::min(part.min, g.positions[v]), glm::max(part.max, g.positions[v])};
+            const std::lock_guard lock(mutex);
+            box = {glm::min(box.min, part.min), glm::max(box.max, part.max)};
+        });
     }
     return box;
 }

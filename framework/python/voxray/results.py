@@ -58,12 +58,13 @@ class Results(results.Results):
 
         Rows are variants, columns those of the command's CSV: scene, method (variants with the same chain of passes), machine,
         variant, name, costs (times in ms, memory in bytes, rays, voxel steps), and each error with the ends of its 95 %
-        interval. `front`: whether no other variant has less of both the cost and the error. The chart, a figure of
+        interval, named as in `variants`: `nrmse` of all light, `indirect_nrmse` of the indirect light. `front`: whether no other variant has less of both the cost and the error. The chart, a figure of
         matplotlib.pyplot, shows the error against the cost, and the front of each method.
 
         @param scene its name; None where there is one alone
         @param cost "frame", "frame + light", "build + frame" or "memory"
-        @param error a metric of the run that is lower for better images
+        @param error a metric of the run that is lower for better images, without the light's prefix
+        @param light "total" or "indirect"; None: the indirect light where the run has it apart
         @param more other runs that are compared; variants with the same reference and machine are one scene
         @throws VoxrayError where there is no such scene, cost or error
         """
@@ -80,6 +81,8 @@ class Results(results.Results):
         chosen = compared.scenes[names.index(scene or names[0])]
         _draw(compared, chosen, cost)
         columns, *rows = pareto_page.csv_lines(compared)
+        first = columns.index([*pareto.COSTS][-1]) + 1
+        columns[first:] = [results.LIGHTS[self.light(light)] + column for column in columns[first:]]
         table = pd.DataFrame(rows, columns=columns)
         table = table.astype(dict.fromkeys(columns[columns.index("name") + 1:], float))
         table = table[table["scene"] == chosen.name].reset_index(drop=True)

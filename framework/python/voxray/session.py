@@ -9,6 +9,7 @@ import subprocess
 import tempfile
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,12 @@ from voxray.errors import VoxrayError
 
 PROGRAM = Path(os.environ.get("VOXRAY_PROGRAM", Path(__file__).resolve().parents[3] / "voxray"))
 PROTOCOL = 1
+SHARED_MEMORY = "/dev/shm"  # Linux; elsewhere images go through files
+
+
+def _images(answer: dict) -> dict[str, np.ndarray]:
+    """Images of an answer by name, shape (height, width, channels), float64."""
+    return {name: np.atleast_3d(np.load(file).astype(float)) for name, file in answer["images"].items()}
 
 
 @dataclass(frozen=True)
@@ -66,18 +73,27 @@ class Rendering:
     """One frame. Images are linear Rec. 709 radiance in W/(m² sr), shape (height, width, 3), float64. In Jupyter the last one
     of a session with a reference (Session.reference()) is shown with that, its error maps and its scores.
 
-    final: all light; indirect: light that surfaces reflect, None where no pass writes it. passes: a row for each pass in
-    execution order, with id, phase, ms, rays, memory_bytes and whether it was reused. values: what passes reported, with
-    pass, name, value. frame_ms: of all frame passes. memory_bytes: of all passes.
+    final: all light; indirect: light that surfaces reflect, None where no pass writes it. frame_ms: of all frame passes.
+    memory_bytes: of all passes.
     """
 
     final: np.ndarray
     indirect: np.ndarray | None
-    passes: pd.DataFrame
-    values: pd.DataFrame
     frame_ms: float
     memory_bytes: int
+    _passes: list[dict] = field(repr=False)
+    _values: list[dict] = field(repr=False)
     _compare: Callable[[], Comparison | None] = field(default=lambda: None, repr=False, compare=False)
+
+    @cached_property
+    def passes(self) -> pd.DataFrame:
+        """A row for each pass in execution order, with id, phase, ms, rays, memory_bytes and whether it was reused."""
+        return pd.DataFrame(self._passes)
+
+    @cached_property
+    def values(self) -> pd.DataFrame:
+        """What passes reported, with pass, name, value."""
+        return pd.DataFrame(self._values, columns=["pass", "name", "value"])
 
     def __repr__(self) -> str:
         return f"Rendering of {self.final.shape[1]} x {self.final.shape[0]} pixels"
@@ -102,12 +118,13 @@ class Session:
 
     def __init__(self, config: str | Path, options: Iterable[str] = (), program: str | Path = PROGRAM) -> None:
         """@throws VoxrayError where the config or an option is wrong."""
-        self._folder = tempfile.TemporaryDirectory(prefix="voxray-")
+        self._folder = tempfile.TemporaryDirectory(prefix="voxray-", dir=SHARED_MEMORY if os.access(SHARED_MEMORY, os.W_OK) else None)
         self._said = tempfile.TemporaryFile("w+")
         self._numbers = itertools.count()
         self._renderings = 0
         self._has_reference = False
-        self._process = subprocess.Popen([str(program), "session", str(config), "--stdio", "--images", self._folder.name, *options],
+        self._process = subprocess.Popen([str(program), "session", str(config), "--stdio", "--images", self._folder.name, "--format", "npy",
+                                          *options],
                                          stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._said, text=True)
         greeting = self._read()
         if greeting["protocol"] != PROTOCOL:
@@ -152,9 +169,8 @@ class Session:
         answer = self._ask("render")
         self._renderings += 1
         number = self._renderings
-        pixels = {name: exr_pixels.rgb(file) for name, file in answer["images"].items()}
-        return Rendering(pixels["final"], pixels.get("indirect"), pd.DataFrame(answer["passes"]),
-                         pd.DataFrame(answer["values"], columns=["pass", "name", "value"]), answer["frame_ms"], answer["memory_bytes"],
+        pixels = _images(answer)
+        return Rendering(pixels["final"], pixels.get("indirect"), answer["frame_ms"], answer["memory_bytes"], answer["passes"], answer["values"],
                          lambda: self._compared() if number == self._renderings else None)
 
     def reference(self, seconds: float | None = None) -> GrowingReference:
@@ -163,7 +179,7 @@ class Session:
         `reference` entry change. A cached one is whole at once. @throws VoxrayError where the config has none"""
         answer = self._ask("reference", **({} if seconds is None else {"ms": round(1000 * seconds)}))
         self._has_reference = bool(answer["images"])
-        pixels = {name: exr_pixels.rgb(file) for name, file in answer["images"].items()}
+        pixels = _images(answer)
         return GrowingReference(pixels.get("final"), pixels.get("indirect"), answer["samples"], answer["of"], answer["noise"])
 
     def score(self) -> dict[str, float]:
@@ -182,8 +198,7 @@ class Session:
         if not self._has_reference:
             return None
         answer = self._ask("score")
-        errors = {name: exr_pixels.read(file)["Y"] for name, file in answer["images"].items()}
-        return Comparison(reference, answer["scores"], errors)
+        return Comparison(reference, answer["scores"], {name: error[..., 0] for name, error in _images(answer).items()})
 
     @property
     def views(self) -> pd.DataFrame:

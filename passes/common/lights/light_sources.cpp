@@ -35,7 +35,9 @@ std::vector<LightSource> lightSources(const SceneState& state) {
         add(LightSource::Punctual, i, largest(light.intensity) * solidAngleOrArea);
     }
     float emitted = 0;
-    for (size_t t = 0; t < g.triangles.size(); ++t) {
+    const bool hasEmitters =
+        std::ranges::any_of(state.scene->materials, [](const Material& m) { return m.emission != glm::vec3(0.0f); });
+    for (size_t t = 0; hasEmitters && t < g.triangles.size(); ++t) {
         const float emission = largest(meanEmission(state, uint32_t(t)));
         const bool doubleSided = state.scene->materials[g.triangleMaterials[t]].doubleSided;
         if (emission > 0) emitted += emission * float(triangleArea(g, uint32_t(t))) * kPi * (doubleSided ? 2.0f : 1.0f);

@@ -2,6 +2,7 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
+#include <regex>
 #include <string>
 #include <string_view>
 
@@ -45,12 +46,14 @@ class Glsl final : public Pass {
         KernelLight light = KernelLight::Indirect;
         glm::vec3 values{0.0f};
         static constexpr auto schema() {
-            return std::tuple{field("source", &Params::source, "The GLSL text; or name a 'file' that holds it."),
-                              field("file", &Params::file, "File with the GLSL text, relative to the config."),
-                              field("writes", &Params::writes, "Image that the pass writes."),
-                              field("light", &Params::light, "Light that voxelIrradianceAt() looks up."),
-                              field("values", &Params::values, "Three numbers, 'kernel.values' in the text.",
-                                    glm::vec3(-1e9f), glm::vec3(1e9f))};
+            return std::tuple{
+                field("source", &Params::source, "The GLSL text; or name a 'file' that holds it."),
+                field("file", &Params::file,
+                      "File with the GLSL text, relative to the config; with --set, to the current folder."),
+                field("writes", &Params::writes, "Image that the pass writes."),
+                field("light", &Params::light, "Light that voxelIrradianceAt() looks up."),
+                field("values", &Params::values, "Three numbers, 'kernel.values' in the text.", glm::vec3(-1e9f),
+                      glm::vec3(1e9f))};
         }
         const std::string& text() const { return file.name.empty() ? source : file.text; }
         /// Whether the text has a word; true without a text, so that help lists all ports.
@@ -110,10 +113,45 @@ Defines Glsl::defines() const {
     return words;
 }
 
+namespace {
+
+std::string withoutComments(const std::string& text) {
+    std::string code;
+    for (size_t at = 0; at < text.size();) {
+        const std::string_view begin = std::string_view(text).substr(at, 2);
+        const bool isLine = begin == "//", isBlock = begin == "/*";
+        if (!isLine && !isBlock) {
+            code += text[at++];
+            continue;
+        }
+        const size_t end = isLine ? text.find('\n', at) : text.find("*/", at + 2);
+        at = end == std::string::npos ? text.size() : isLine ? end : end + 2;
+        code += ' ';
+    }
+    return code;
+}
+
+/// @throws Error unless a text defines the function that is called.
+void requireShade(const std::string& text) {
+    constexpr const char* kCalled = "vec3 shade(ivec2 pixel, ivec2 texel)";
+    const std::regex function(R"((\w+)\s+shade\s*\(([^)]*)\)\s*\{)");
+    const std::regex parameters(R"(\s*((const|in)\s+)*ivec2\s+\w+\s*,\s*((const|in)\s+)*ivec2\s+\w+\s*)");
+    const std::string code = withoutComments(text);
+    std::string other;
+    for (std::sregex_iterator found(code.begin(), code.end(), function), end; found != end; ++found) {
+        if ((*found)[1] == "vec3" && std::regex_match((*found)[2].str(), parameters)) return;
+        other = fmt::format("{} shade({})", (*found)[1].str(), (*found)[2].str());
+    }
+    if (other.empty()) throw Error("{}: the text defines no {}", Glsl::kName, kCalled);
+    throw Error("{}: the text defines '{}', which has to be '{}'", Glsl::kName, other, kCalled);
+}
+
+}  // namespace
+
 void Glsl::plan(PassPlan& plan) {
     if (params_.source.empty() == params_.file.name.empty())
         throw Error("{}: give either a 'source', the GLSL text, or a 'file' that holds it", kName);
-    if (!params_.names("shade")) throw Error("{}: the text defines no vec3 shade(ivec2 pixel, ivec2 texel)", kName);
+    requireShade(params_.text());
     const auto require = [&](const auto& port, const char* word, const char* written) {
         if (params_.names(word) && !plan[port])
             throw Error("{}: the text reads {}, but no pass before it writes '{}'", kName, word, written);
