@@ -41,8 +41,9 @@ void mergeInto(Value& target, const Value& value, Merge merge) {
 void setNested(Value& parent, const std::string& key, const Value& value, Merge merge) {
     if (value.isNull()) {
         if (const size_t colon = key.find(':'); colon != std::string::npos && !parent.find(key))
-            throw UsageError(value.where, "'{}': no key of that name; a space is missing after the colon, as in '{}: {}'",
-                             key, key.substr(0, colon), key.substr(colon + 1));
+            throw UsageError(value.where,
+                             "'{}': no key of that name; a space is missing after the colon, as in '{}: {}'", key,
+                             key.substr(0, colon), key.substr(colon + 1));
         parent.erase(key);
     } else if (Value* existing = parent.find(key)) {
         mergeInto(*existing, value, merge);
