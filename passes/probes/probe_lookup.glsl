@@ -9,7 +9,7 @@
 layout(scalar) readonly buffer ProbeStates { ProbeState data[]; } probeStates;
 // Octahedral maps with borders of one texel, a layer for each horizontal plane of probes.
 uniform sampler3D probeIrradiance;  // Encoded.
-uniform sampler3D probeDepth;       // Mean distance and mean squared distance of surfaces, in spacings.
+uniform sampler3D probeDepth;       // Mean distance and mean squared distance of surfaces, in smallest spacings.
 
 // Texture coordinates of a unit direction in a probe's map.
 vec3 probeCoordinates(ProbePlace place, vec3 direction, uint texels, vec3 imageSize) {
@@ -18,7 +18,7 @@ vec3 probeCoordinates(ProbePlace place, vec3 direction, uint texels, vec3 imageS
 }
 
 // Weight of a probe by its depth moments: Chebyshev's bound for the part of what it sees in a direction that lies
-// beyond a distance, in spacings; cubed against leaks.
+// beyond a distance, in smallest spacings; cubed against leaks.
 float probeVisibility(ProbePlace place, vec3 direction, float distance_) {
     const uint texels = probeGrids.settings.depthTexels;
     const vec2 moments =
@@ -33,7 +33,7 @@ float probeVisibility(ProbePlace place, vec3 direction, float distance_) {
 vec4 cascadeIrradiance(uint cascade, vec3 position, vec3 normal, vec3 toViewer) {
     const ProbeSettings settings = probeGrids.settings;
     const ProbeGrid g = probeGrids.data[cascade];
-    const vec3 biased = position + (settings.normalBias * normal + settings.viewBias * toViewer) * g.spacing;
+    const vec3 biased = position + (settings.normalBias * normal + settings.viewBias * toViewer) * g.minSpacing;
     const ivec3 last = g.first + ivec3(settings.counts) - 1;
     const vec3 onLattice = (position - g.origin) / g.spacing;
     const ivec3 base = clamp(ivec3(floor(clamp(onLattice, -1.0e6, 1.0e6))), g.first, last);
@@ -49,13 +49,13 @@ vec4 cascadeIrradiance(uint cascade, vec3 position, vec3 normal, vec3 toViewer) 
         const vec3 probe = probeLatticePosition(cascade, k) + state.offset;
 
         // Probes behind the surface
-        const float facing = dot(normalize(probe - position + 1e-6 * g.spacing * normal), normal);
+        const float facing = dot(normalize(probe - position + 1e-6 * g.minSpacing * normal), normal);
         const float wrapped = 0.5 * (facing + 1.0);
         float weight = settings.wrapsWeights != 0u ? wrapped * wrapped + 0.2 : max(facing, 0.0);
 
         // Probes that do not see it
         if (settings.testsVisibility != 0u) {
-            const vec3 fromProbe = (biased - probe) / g.spacing;
+            const vec3 fromProbe = (biased - probe) / g.minSpacing;
             const float distance_ = max(length(fromProbe), 1e-6);
             weight *= probeVisibility(place, fromProbe / distance_, distance_);
         }

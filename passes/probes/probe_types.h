@@ -14,21 +14,22 @@ struct ProbeSettings {
     uint depthTexels;
     uint testsVisibility;  // 1: Chebyshev's weights.
     uint wrapsWeights;     // 1: probes behind the surface have a weight, too.
-    float normalBias;      // Of the spacing.
-    float viewBias;        // Of the spacing.
+    float normalBias;      // Of the smallest spacing.
+    float viewBias;        // Of the smallest spacing.
     float crushThreshold;
     float encodingGamma;
     float blendGamma;
     float unit;  // Irradiance of the value 1, W/m².
 };
 
-// A cascade: probes on the lattice of points origin + k spacing. It holds the points k from `first` on, `counts` of
+// A cascade: probes on the lattice of points origin + spacing k. It holds the points k from `first` on, `counts` of
 // them along each axis, each at the place k modulo `counts` of the storage: where the cascade moves, probes that it
 // keeps stay where they are.
 struct ProbeGrid {
     vec3 origin;
-    float spacing;  // m
+    vec3 spacing;  // m
     ivec3 first;
+    float minSpacing;  // m: the smallest component of `spacing`, to which biases and distances are relative.
 };
 
 struct ProbeState {

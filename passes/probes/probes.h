@@ -14,7 +14,7 @@ struct Probes : Resource {
     Buffer grids;      ///< gpu::ProbeSettings, then a gpu::ProbeGrid for each cascade, the finest first.
     Buffer states;     ///< gpu::ProbeState each.
     Image irradiance;  ///< RGBA16F, 3D: encoded irradiance.
-    Image depth;       ///< RG16F, 3D: mean distance and mean squared distance, in spacings.
+    Image depth;       ///< RG16F, 3D: mean distance and mean squared distance, in smallest spacings.
     Sampler sampler;   ///< Linear.
 
     /// For shaders that include probe_grid.glsl or probe_lookup.glsl.

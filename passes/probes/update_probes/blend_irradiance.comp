@@ -43,5 +43,7 @@ void main() {
     const vec3 old = push.hysteresis == 0.0 ? encoded : irradianceHistory.data[t.stored];
     const vec3 blended = mix(encoded, old, hysteresisOf(old, encoded));
     irradianceHistory.data[t.stored] = blended;
-    STORE_PROBE_TEXEL(irradiance, t, n, vec4(blended, 1.0))
+    vec3 rounded;
+    for (uint c = 0u; c < 3u; ++c) rounded[c] = roundedToHalf(blended[c], hashCombine(t.stored, c));
+    STORE_PROBE_TEXEL(irradiance, t, n, vec4(rounded, 1.0))
 }

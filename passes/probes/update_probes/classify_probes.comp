@@ -17,8 +17,8 @@ layout(push_constant) uniform Push {
 } push;
 
 // Distance along a ray from `from` inside of the box from -reach to reach to its side.
-float exitDistance(vec3 from, vec3 direction, float reach) {
-    const vec3 t = (mix(vec3(-reach), vec3(reach), greaterThan(direction, vec3(0.0))) - from) /
+float exitDistance(vec3 from, vec3 direction, vec3 reach) {
+    const vec3 t = (mix(-reach, reach, greaterThan(direction, vec3(0.0))) - from) /
                    mix(direction, vec3(1.0e-20), equal(direction, vec3(0.0)));
     return min(abs(t.x), min(abs(t.y), abs(t.z)));
 }
@@ -27,7 +27,7 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const uint probe = list.data[push.first + i];
-    const float spacing = probeGrids.data[probePlace(probe).cascade].spacing;
+    const vec3 spacing = probeGrids.data[probePlace(probe).cascade].spacing;
     const vec3 offset = probeStates.data[probe].offset;
     uint hitsBehind = 0u;
     bool isNearSurface = false;

@@ -13,16 +13,27 @@ glm::ivec3 remainder(glm::ivec3 k, glm::ivec3 counts) {
 
 }  // namespace
 
-ProbeLattice makeProbeLattice(const Box& region, uint32_t probes, uint32_t cascades) {
+ProbeLattice makeProbeLattice(const Box& region, uint32_t probes, uint32_t cascades, float margin) {
     const glm::vec3 size = region.max - region.min;
-    const float spacing = std::max({size.x, size.y, size.z, 1e-6f}) / float(probes);
+    const float part = std::max({size.x, size.y, size.z, 1e-6f}) / float(probes);
     ProbeLattice lattice;
-    // The region's longest side is a whole number of spacings but for rounding
-    lattice.counts = glm::max(glm::uvec3(glm::ceil(size / spacing - 1e-3f)), glm::uvec3(1));
-    const glm::vec3 center = 0.5f * (region.min + region.max);
-    const glm::vec3 origin = center - 0.5f * spacing * (glm::vec3(lattice.counts) - 1.0f);
-    for (uint32_t c = 0; c < cascades; ++c)
-        lattice.grids.push_back({origin, std::ldexp(spacing, int(c + 1) - int(cascades)), glm::ivec3(0)});
+    gpu::ProbeGrid grid{};
+    for (int axis = 0; axis < 3; ++axis) {
+        // Along the longest side a whole number of parts but for rounding
+        const uint32_t count = std::max(uint32_t(std::ceil(size[axis] / part - 1e-3f)), 1u);
+        const float parts = float(count) - 1 + 2 * margin;
+        lattice.counts[axis] = count;
+        grid.spacing[axis] = count > 1 ? size[axis] / parts : part;
+        grid.origin[axis] =
+            count > 1 ? region.min[axis] + margin * grid.spacing[axis] : 0.5f * (region.min[axis] + region.max[axis]);
+    }
+    grid.minSpacing = std::min({grid.spacing.x, grid.spacing.y, grid.spacing.z});
+    for (uint32_t c = 0; c < cascades; ++c) {
+        lattice.grids.push_back(grid);
+        const float scale = std::ldexp(1.0f, int(c + 1) - int(cascades));
+        lattice.grids[c].spacing *= scale;
+        lattice.grids[c].minSpacing *= scale;
+    }
     return lattice;
 }
 

@@ -8,7 +8,7 @@
 namespace voxray {
 
 /// Where probes are: cascades of equally many, each with twice the spacing of the one before. The last covers
-/// the scene's region; the others are round the camera.
+/// the scene's region; the others are round the camera. Axes have spacings of their own.
 struct ProbeLattice {
     glm::uvec3 counts{1};
     std::vector<gpu::ProbeGrid> grids;  ///< From the finest to the coarsest.
@@ -17,8 +17,9 @@ struct ProbeLattice {
     uint32_t size() const { return cascadeSize() * uint32_t(grids.size()); }
 };
 
-/// @param probes along the region's longest side, in the middles of as many equal parts.
-ProbeLattice makeProbeLattice(const Box& region, uint32_t probes, uint32_t cascades);
+/// @param probes along the region's longest side. @param margin of the outermost probes from the region's sides, in
+/// spacings.
+ProbeLattice makeProbeLattice(const Box& region, uint32_t probes, uint32_t cascades, float margin);
 
 /// Moves all but the coarsest cascade by whole spacings, so that the camera is in their middle.
 void centerProbes(ProbeLattice& lattice, const glm::vec3& camera);

@@ -31,6 +31,12 @@ ProbeTexel probeTexel(uint i, uint first, uint texels) {
     return t;
 }
 
+// A value, not negative, with as many bits as half floats have, up or down at random, so that means are kept. Devices may
+// round to zero, which takes up to half a percent of light that is encoded by its fifth root.
+float roundedToHalf(float value, uint random) {
+    return uintBitsToFloat((floatBitsToUint(value) + (random & 0x1fffu)) & ~0x1fffu);
+}
+
 // Stores a texel of a map of n texels along an edge. Across an edge the map continues with that edge turned round.
 #define STORE_PROBE_TEXEL(image, t, n, value)                                                                        \
     {                                                                                                                \

@@ -14,7 +14,7 @@ layout(push_constant) uniform Push {
     uint count;
     uint raysPerProbe;
     float backfaceThreshold;
-    float minDistance;  // Of surfaces, in spacings.
+    float minDistance;  // Of surfaces, in smallest spacings.
     float reach;
 } push;
 
@@ -27,7 +27,8 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const uint probe = list.data[push.first + i];
-    const float spacing = probeGrids.data[probePlace(probe).cascade].spacing, minDistance = push.minDistance * spacing;
+    const ProbeGrid g = probeGrids.data[probePlace(probe).cascade];
+    const float minDistance = push.minDistance * g.minSpacing;
 
     // What the probe sees
     NearestHit front = NearestHit(1.0e30, 0u), behind = NearestHit(1.0e30, 0u);
@@ -62,5 +63,5 @@ void main() {
         const float distance_ = length(offset);
         offset -= offset * min(front.t - minDistance, distance_) / distance_;
     }
-    if (all(lessThanEqual(abs(offset), vec3(push.reach * spacing)))) probeStates.data[probe].offset = offset;
+    if (all(lessThanEqual(abs(offset), push.reach * g.spacing))) probeStates.data[probe].offset = offset;
 }

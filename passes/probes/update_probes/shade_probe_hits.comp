@@ -19,16 +19,13 @@ layout(local_size_x = 64) in;
 readonly buffer List { uint data[]; } list;
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
-// Radiance, W/(m² sr), and the distance of the surface in spacings, negative where it was hit from behind.
+// Radiance, W/(m² sr), and the distance of the surface in smallest spacings, negative where it was hit from behind.
 layout(scalar) writeonly buffer Light { vec4 data[]; } light;
 layout(push_constant) uniform Push {
     uint first;  // Of the batch, in the list.
     uint rayCount;
     uint raysPerProbe;
 } push;
-
-// Farther surfaces are beyond all that is lit from a probe: one and a half diagonals of a cell.
-const float kMaxDistance = 1.5 * 1.7320508;
 
 void main() {
     const uint i = linearIndex();
@@ -37,7 +34,9 @@ void main() {
     const Hit hit = hits.data[i];
     const Ray ray = rays.data[i];
     const bool isMiss = hit.triangle == NO_HIT;
-    const float distance_ = isMiss ? kMaxDistance : min(hit.t / probeGrids.data[probePlace(probe).cascade].spacing, kMaxDistance);
+    // Surfaces beyond one and a half diagonals of a cell are beyond all that is lit from a probe
+    const ProbeGrid g = probeGrids.data[probePlace(probe).cascade];
+    const float farthest = 1.5 * length(g.spacing), distance_ = (isMiss ? farthest : min(hit.t, farthest)) / g.minSpacing;
     const bool isBehind = !isMiss && hitsFromBehind(hit, ray.direction);
 
     Surfel s = Surfel(vec3(0.0), NO_VOXEL, vec3(0.0), i, vec3(0.0), i, 1.0);

@@ -77,7 +77,8 @@ uint32_t UpdateProbes::warmupFrames() const {
 }
 
 void UpdateProbes::plan(PassPlan& plan) {
-    lattice_ = makeProbeLattice(plan.frame.scene->geometry.region, params_.probes, params_.cascades);
+    lattice_ =
+        makeProbeLattice(plan.frame.scene->geometry.region, params_.probes, params_.cascades, params_.minDistance);
     settings_ = {.counts = lattice_.counts,
                  .cascades = params_.cascades,
                  .irradianceTexels = params_.irradianceTexels,

@@ -125,9 +125,10 @@ struct UpdateProbesParams {
             field("backface_threshold", &P::backfaceThreshold,
                   "Part of a probe's rays that hit surfaces from behind from which it is in a surface.", 0.0f, 1.0f)
                 .onlyWith(oneOf(&P::backfaces, {ProbeBackfaces::Dark})),
-            field("min_distance", &P::minDistance, "Of probes from surfaces, in spacings, where there is space.", 0.0f,
-                  0.45f)
-                .onlyWith(noneOf(&P::relocationSteps, {0u})),
+            field("min_distance", &P::minDistance,
+                  "Of probes from the sides of the scene's region, and where they are moved from other surfaces, too, "
+                  "in spacings.",
+                  0.01f, 0.45f),
             field("backfaces", &P::backfaces,
                   "What single-sided surfaces are from behind. dark: no source of light, and the sign of a probe "
                   "inside of something, as published; needs consistent windings. lit: they reflect as from the front, "
