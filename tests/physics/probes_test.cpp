@@ -37,7 +37,7 @@ double squaredError(const ImageF& a, const ImageF& b) {
 TEST(Probes, KeepTheEnergyOfAFurnace) {
     // Every surface emits 1 and reflects 0.6: three bounces add 0.36 + 0.216 + 0.1296 to what is direct.
     for (const std::string update : {", bounces: 3", ", bounces: 3, encoding_gamma: 1, blend_gamma: 1"}) {
-        Chain chain("furnace", "{albedo: 0.6, emission: 1}", probeGraph(update + ", light_samples: 4"));
+        Chain chain("furnace", "{albedo: 0.6, emission: 1}", probeGraph(update + ", probes: 4"));
         const double ratio = mean(chain.image("indirect")) / (0.36 + 0.216 + 0.1296);
         std::printf("%s: %.4f of the closed form\n", update.c_str(), ratio);
         EXPECT_NEAR(ratio, 1.0, 0.01) << update;
@@ -125,9 +125,9 @@ TEST(Probes, HoldTheIrradianceAboveALitFloor) {
 TEST(Probes, ConvergeToTheReferenceAsTheyBecomeMore) {
     const ImageF& truth = pathTraced("cornell", "{lights: point}", 4096, 8);
     double before = 1e9, ratio = 0;
-    for (const std::string probes : {"4", "8", "16"}) {
+    for (const std::string probes : {"3", "6", "12"}) {
         Chain chain("cornell", "{lights: point}",
-                    probeGraph(", rays_per_probe: 128, updates: 2, probes: " + probes + kLinear));
+                    probeGraph(", rays_per_probe: 128, updates: 8, probes: " + probes + kLinear));
         const ImageF image = chain.image("indirect");
         const double error = squaredError(image, truth);
         ratio = mean(image) / mean(truth);
@@ -172,10 +172,10 @@ TEST(Probes, OfFramesFindTheLightOfABuildAndFollowIt) {
     // In a room that reflects half, light of 16 bounces is all of it.
     const auto state = builtin("white_room", "{albedo: 0.5}");
     const std::string linear = kLinear + ", rays_per_probe: 128",
-                      frames = ", update: each_frame, hysteresis: 0.9" + linear;
+                      frames = ", update: each_frame, hysteresis: 0.8" + linear;
     Chain build(state, probeGraph(", bounces: 16, updates: 4" + linear), 32, 32);
     Chain each(state, probeGraph(frames), 32, 32);
-    each.runFrames(80);
+    each.runFrames(60);
     const double ratio = mean(each.image("indirect")) / mean(build.image("indirect"));
     std::printf("%.4f of the build\n", ratio);
     EXPECT_NEAR(ratio, 1.0, 0.01);
@@ -185,7 +185,7 @@ TEST(Probes, OfFramesFindTheLightOfABuildAndFollowIt) {
         s.lights.at(0).intensity *= 3.0f;
         return std::vector<Box>();
     });
-    each.runFrames(80);
+    each.runFrames(60);
     EXPECT_NEAR(mean(each.image("indirect")) / mean(build.image("indirect")), 3.0 * ratio, 0.03);
 }
 
