@@ -14,9 +14,9 @@ namespace voxray::test {
 namespace {
 
 /// Small for tests: 6³ probes, unless `probes` says otherwise (", probes: 8").
-std::string probeGraph(const std::string& probes = "") {
+std::string probeGraph(const std::string& probes = "", const std::string& gbuffer = "") {
     const bool isGiven = probes.find(", probes:") != std::string::npos;
-    return graphYaml({"gbuffer", "update_probes" + probes + (isGiven ? "" : ", probes: 6"), "gather_probes"});
+    return graphYaml({"gbuffer" + gbuffer, "update_probes" + probes + (isGiven ? "" : ", probes: 6"), "gather_probes"});
 }
 const std::string kLinear = ", encoding_gamma: 1, blend_gamma: 1";
 
@@ -127,7 +127,8 @@ TEST(Probes, ConvergeToTheReferenceAsTheyBecomeMore) {
     double before = 1e9, ratio = 0;
     for (const std::string probes : {"3", "6", "12"}) {
         Chain chain("cornell", "{lights: point}",
-                    probeGraph(", rays_per_probe: 128, updates: 8, probes: " + probes + kLinear));
+                    probeGraph(", rays_per_probe: 128, updates: 8, probes: " + probes + kLinear,
+                               ", samples_per_pixel_edge: 4"));
         const ImageF image = chain.image("indirect");
         const double error = squaredError(image, truth);
         ratio = mean(image) / mean(truth);
