@@ -25,6 +25,7 @@ inline constexpr std::array kFamilies{
     Family{"cones", "Prefiltered radiance voxels and cone tracing"},
     Family{"final_gather", "Rays from what the camera sees to stored light"},
     Family{"cache", "Hashed radiance cache"},
+    Family{"probes", "Irradiance probes"},
     Family{"vpls", "Virtual point lights"},
     Family{"hybrid_leaves", "Voxels with triangles as leaves; mirrors"},
     Family{"published", "As published, for comparison"},
