@@ -51,4 +51,10 @@ void RayPipelineTracer::launch(CommandStream& stream, bool occluded, uint32_t co
     });
 }
 
+void RayPipelineTracer::launchCounted(CommandStream& stream, bool occluded, const CountedRays& count,
+                                      const Bindings& call) {
+    // Invocations beyond the count return: indirect traces are an optional feature
+    launch(stream, occluded, count.most, call);
+}
+
 }  // namespace voxray

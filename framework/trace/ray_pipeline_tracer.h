@@ -19,6 +19,7 @@ class RayPipelineTracer final : public GpuTracer {
     };
     static Pipeline makePipeline(Device& device, std::span<const ShaderModule> modules, bool occluded);
     void launch(CommandStream& stream, bool occluded, uint32_t count, const Bindings& call) override;
+    void launchCounted(CommandStream& stream, bool occluded, const CountedRays& count, const Bindings& call) override;
 
     Pipeline closestHit_;
     Pipeline occluded_;
