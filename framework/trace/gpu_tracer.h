@@ -24,7 +24,7 @@ class GpuTracer : public RayTracer, public CountedRayTracer {
     /// Traces `count` rays of a stream. @param call bindings of shaders/trace/trace.glsl and the top-level
     /// structure.
     virtual void launch(CommandStream& stream, bool occluded, uint32_t count, const Bindings& call) = 0;
-    /// The same for rays that the device counts. Launching all that are possible is right, too.
+    /// The same for rays that the device counts.
     virtual void launchCounted(CommandStream& stream, bool occluded, const CountedRays& count,
                                const Bindings& call) = 0;
 

@@ -24,6 +24,7 @@ class RayPipelineTracer final : public GpuTracer {
     Pipeline closestHit_;
     Pipeline occluded_;
     PFN_vkCmdTraceRaysKHR traceRays_ = nullptr;
+    PFN_vkCmdTraceRaysIndirectKHR traceRaysIndirect_ = nullptr;
 };
 
 }  // namespace voxray

@@ -6,12 +6,14 @@
 
 VOXRAY_SHARED_BEGIN
 
-// The first three members are an indirect dispatch of groups of STREAM_GROUP invocations.
+// An indirect dispatch of groups of STREAM_GROUP invocations, and an indirect launch of ray pipelines.
 struct StreamCount {
-    uint groups;   // Of `count` invocations.
+    uint groups;  // Of `count` invocations.
     uint groupsY;  // 1
     uint groupsZ;  // 1
     uint count;
+    uint countY;  // 1
+    uint countZ;  // 1
 };
 
 VOXRAY_SHARED_END

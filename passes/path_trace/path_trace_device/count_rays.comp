@@ -18,5 +18,5 @@ void main() {
     if (push.isFirst == 0u && i % STREAMS != STREAM_HIT_LIGHTS && count > 0u)
         if (atomicAdd(traced.low, count) + count < count) atomicAdd(traced.high, 1u);
     const uint first = i == STREAM_RAYS ? push.paths : 0u;
-    counts.data[i] = StreamCount((first + STREAM_GROUP - 1u) / STREAM_GROUP, 1u, 1u, first);
+    counts.data[i] = StreamCount((first + STREAM_GROUP - 1u) / STREAM_GROUP, 1u, 1u, first, 1u, 1u);
 }
