@@ -24,6 +24,23 @@ vec3 mappedNormal(GpuMaterial m, SurfacePoint s) {
     return dot(n, n) > 1e-12 ? normalize(n) : s.normal;
 }
 
+// A point of a triangle whose vertices have nothing but positions that matter: most triangles of some scenes, and a
+// quarter of the memory to read.
+SurfacePoint simplePoint(uint triangle, vec2 barycentrics) {
+    const uvec3 v = triangleVertices(triangle);
+    const vec3 p0 = vertexPosition(v.x), p1 = vertexPosition(v.y), p2 = vertexPosition(v.z);
+    const vec3 n = cross(p1 - p0, p2 - p0);
+    SurfacePoint s;
+    s.position = interpolate(vec3(1.0 - barycentrics.x - barycentrics.y, barycentrics), p0, p1, p2);
+    s.normal = s.geometricNormal = dot(n, n) > 0.0 ? normalize(n) : vec3(0.0);
+    s.tangent = s.texCoords = vec4(0.0);
+    s.color = vec4(1.0);
+    s.uvDensity = vec2(0.0);
+    s.material = triangleMaterial(triangle);
+    s.offset = max(planeOffset(p0, p1, p2, s.geometricNormal), pointOffset(s.position));
+    return s;
+}
+
 // The surface at a ray's hit. `direction`: of the ray, unit length.
 PathSurface pathSurface(SurfacePoint s, GpuMaterial m, vec3 direction) {
     PathSurface p;

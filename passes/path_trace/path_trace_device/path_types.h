@@ -76,7 +76,11 @@ VOXRAY_SHARED_END
 
 #define PATH_TILE 4u
 #define DELTA_PDF -1.0f
-#define NO_PATCH 0xffffffffu
+// Of a triangle: its patch, NO_PATCH without one; and whether its material and vertices are constants: it is flat,
+// without textures and vertex colors.
+#define PATCH_BITS 0x7fffffffu
+#define NO_PATCH PATCH_BITS
+#define IS_SIMPLE 0x80000000u
 
 // Streams that a batch counts for each vertex.
 #define STREAM_RAYS 0u         // To the vertex.

@@ -23,11 +23,11 @@ layout(scalar) writeonly buffer HitLights { LightAlongRay data[]; } hitLights;
 #endif
 layout(scalar) buffer Sums { PathSums data[]; } sums;
 layout(scalar) buffer Counts { StreamCount data[]; } counts;
-layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Patches { uint data[]; };
+layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Facts { uint data[]; };
 layout(push_constant, scalar) uniform Push {
     PathBatch batch;
     PathLights lights;
-    uint64_t trianglePatches;  // uint a triangle: its patch, or NO_PATCH.
+    uint64_t triangleFacts;  // uint a triangle: its patch, IS_SIMPLE.
     uint vertex;               // 0: what the camera sees.
 } push;
 
@@ -109,9 +109,12 @@ void shade(Hit hit) {
         return;
     }
     if (push.vertex == 1u) sums.data[path.slot].distance_ = hit.t;
-    const uint patch_ = Patches(push.trianglePatches).data[hit.triangle];
+    const uint facts = Facts(push.triangleFacts).data[hit.triangle], patch_ = facts & PATCH_BITS;
     if (push.vertex > kBounces && patch_ == NO_PATCH) return;
-    const SurfacePoint s = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
+    const vec2 barycentrics = vec2(hit.u, hit.v);
+    SurfacePoint s;
+    if ((facts & IS_SIMPLE) != 0u) s = simplePoint(hit.triangle, barycentrics);
+    else s = surfacePoint(hit.triangle, barycentrics);
     const GpuMaterial m = sceneMaterials.data[s.material];
     const float cosine = -dot(s.geometricNormal, ray.direction);
     if (countsHitLight && patch_ != NO_PATCH && (m.doubleSided != 0u || cosine > 0.0))
