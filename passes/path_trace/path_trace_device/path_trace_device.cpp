@@ -15,7 +15,7 @@ constexpr uint32_t kPathsOfGpu = 1u << 20, kPathsOfCpu = 1u << 16;
 constexpr uint32_t kMaxSamples = 4096;
 constexpr uint32_t kTilePixels = PATH_TILE * PATH_TILE;
 static_assert(kMaxSamples * kTilePixels <= kPathsOfCpu);
-/// Batches that are submitted together where nobody watches the progress.
+/// Batches that are submitted together, before the host waits and tells the progress.
 constexpr uint32_t kBatchesPerSubmission = 8;
 
 /// Pixels of all tiles.
@@ -51,7 +51,7 @@ class PathTraceDevice final : public PathTracePorts {
     void addUp(PassContext& context, const gpu::PathBatch& batch, const Range& range);
     void writeImages(PassContext& context);
     void keepSums(PassContext& context);
-    /// Submits the batches so far, now and then or to tell the progress. @throws Error where it is stopped.
+    /// Submits the batches so far, now and then. @throws Error where the frame is stopped.
     void submit(PassContext& context, uint64_t paths);
     /// Samples of each half.
     glm::uvec2 halfSizes() const;
@@ -140,10 +140,10 @@ void PathTraceDevice::addUp(PassContext& context, const gpu::PathBatch& batch, c
 
 void PathTraceDevice::submit(PassContext& context, uint64_t paths) {
     done_ += paths;
-    const auto& progress = context.frame.progress;
-    if (!progress && ++batches_ < kBatchesPerSubmission) return;
+    if (++batches_ < kBatchesPerSubmission) return;
     batches_ = 0;
     context.stream.finish();
+    const auto& progress = context.frame.progress;
     const SamplePart& part = options_.samples;
     const double all = double(tiledPixels(options_)) * double(part.end(options_.spp) - part.first(options_.spp));
     if (progress && !progress(std::min(double(done_) / all, 1.0))) throw Error("path tracing was stopped");
