@@ -9,8 +9,8 @@
 namespace voxray {
 namespace {
 
-/// Paths of a batch: enough to fill a GPU, few enough for the caches of a CPU.
-constexpr uint32_t kPathsOfGpu = 1u << 20, kPathsOfCpu = 1u << 16;
+/// Paths of a batch: enough to fill a GPU; on a CPU enough that its waits for each stream cost little.
+constexpr uint32_t kPathsOfGpu = 1u << 20, kPathsOfCpu = 1u << 18;
 /// Of a pixel in a batch: its tile is in one batch.
 constexpr uint32_t kMaxSamples = 4096;
 constexpr uint32_t kTilePixels = PATH_TILE * PATH_TILE;
@@ -85,7 +85,7 @@ void PathTraceDevice::record(PassContext& context) {
     batches_ = 0;
     done_ = 0;
     streams_.begin(context);
-    const uint32_t samples = std::min(end - first, paths_ / kTilePixels);
+    const uint32_t samples = std::min({end - first, paths_ / kTilePixels, kMaxSamples});
     for (uint32_t s = first; s < end; s += samples)
         traceRange(context, {s, std::min(samples, end - s), s == first, end - s <= samples});
     writeImages(context);
