@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from bench import devices, parity, processes, runs, tables
+from bench import devices, parity, processes, rivals, runs, tables
 from bench.processes import Clock, Outcome
 from bench.runs import Program, Run
 
@@ -119,6 +119,7 @@ def compare_images(bench: Bench, clock: Clock) -> Ending:
         ending.add_run(run)
     bench.runs += done
     bench.data["parity"] = rows
+    bench.data["over_paths"] = rivals.rows(done[0])
     broken = sum("error" in row for row in rows)
     if broken and ending.status == processes.DONE:
         ending.status, ending.why = processes.FAILED, f"{broken} of {len(rows)} pairs of images could not be compared"

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "passes/path_trace/environment_light.h"
@@ -38,18 +39,22 @@ class LightTable {
     /// Samples a light by `uLight` in [0, 1) and a point on it by `u` in [0, 1)².
     LightSample sample(const glm::vec3& from, float uLight, glm::vec2 u) const;
 
-    /// Density of sample(), per steradian, for a light hit at `distance` along `direction`.
-    float hitPdf(const SurfaceTriangle& triangle, const glm::vec3& direction, float distance) const;
-    float environmentPdf(const glm::vec3& direction) const;
-
- private:
-    /// An emissive triangle, or two that form a parallelogram of constant emission.
+    /// An emissive triangle, or two that form a parallelogram of constant emission: this one and the next.
     struct Patch {
         uint32_t triangle = 0;
         bool isParallelogram = false;
         float pdf = 0.0f;  ///< Selection probability over area, 1/m².
     };
+    /// What sample() draws from: punctual lights, the environment, patches.
+    const AliasTable& distribution() const { return distribution_; }
+    uint32_t environmentIndex() const { return environmentIndex_; }
+    std::span<const Patch> patches() const { return patches_; }
 
+    /// Density of sample(), per steradian, for a light hit at `distance` along `direction`.
+    float hitPdf(const SurfaceTriangle& triangle, const glm::vec3& direction, float distance) const;
+    float environmentPdf(const glm::vec3& direction) const;
+
+ private:
     LightSample samplePatch(const Patch& patch, const glm::vec3& from, glm::vec2 u) const;
     LightSample samplePunctual(const Light& light, float probability, const glm::vec3& from) const;
 
