@@ -36,6 +36,7 @@ COLUMNS = (("looked up", "inject_radiosity", lambda name: False, LEFT_OUT),
            ("cache", "cached_rays", lambda name: False, LEFT_OUT),
            ("voxels, new light", "gather_rays", lambda name: name in LIGHT, LEFT_OUT),
            ("cache, new light", "cached_rays", lambda name: name in LIGHT, LEFT_OUT),
+           ("reservoirs, new light", "resampled_rays", lambda name: name in LIGHT, LEFT_OUT),
            ("voxels, new geometry", "gather_rays", lambda name: True, LEFT_OUT),
            ("virtual lights", "gather_vpls", lambda name: name in LIGHT, LEFT_OUT))
 
