@@ -6,6 +6,7 @@ layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Reservoirs { Reservoir data[]; } reservoirs;
 layout(scalar) readonly buffer Resampled { vec4 data[]; } resampled;
+layout(scalar) readonly buffer Occluded { uint data[]; } occluded;
 layout(scalar) writeonly buffer EffectiveRays { float data[]; } effectiveRays;
 layout(push_constant, scalar) uniform Push {
     uint firstRay;
@@ -17,15 +18,25 @@ layout(push_constant, scalar) uniform Push {
 void main() {
     const uint block = linearIndex();
     if (block >= push.blocks) return;
-    float count = 0.0, reciprocals = 0.0, candidates = 0.0;
+    float count = 0.0, reciprocals = 0.0, candidates = 0.0, lit = 0.0, visible = 0.0;
     for (uint j = 0u; j < push.raysPerBlock; ++j) {
         const uint local = block * push.raysPerBlock + j;
-        const float rays = resampled.data[local].w;
+        const vec4 value = resampled.data[local];
+        const float rays = value.w;
         if (rays < 0.0) continue;
+        if (value.rgb != vec3(0.0)) {
+            lit += 1.0;
+            visible += occluded.data[local] == 0u ? 1.0 : 0.0;
+        }
         count += 1.0;
         reciprocals += 1.0 / rays;
         candidates += reservoirs.data[push.firstRay + local].M;
     }
-    const float variance = count > 0.0 ? reciprocals / count + push.shared_ * count / candidates : 1.0;
+    if (count == 0.0 || visible == 0.0) {
+        effectiveRays.data[block] = 1.0;
+        return;
+    }
+    // Where only a part of the chosen hits are seen, as many values are left
+    const float variance = reciprocals / count * lit / visible + push.shared_ * count / candidates;
     effectiveRays.data[block] = max(1.0 / variance, 1.0);
 }

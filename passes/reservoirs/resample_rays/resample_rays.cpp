@@ -227,9 +227,9 @@ void ResampleRays::makeReservoirs(PassContext& context, const Batch& batch) {
 void ResampleRays::reuseHistory(PassContext& context, const Batch& batch) {
     const uint32_t before = 1 - current_;
     const Bindings common{{"receivers", receivers_[current_]},
-                          {"reservoirs", reservoirs_[current_]},
-                          {"previousReceivers", receivers_[before]},
-                          {"previousReservoirs", reservoirs_[before]},
+                          ifUsed({"reservoirs", reservoirs_[current_]}),
+                          ifUsed({"previousReceivers", receivers_[before]}),
+                          ifUsed({"previousReservoirs", reservoirs_[before]}),
                           {"neighbors", neighborOf_},
                           {"firstRay", batch.firstRay},
                           {"count", batch.rays}};
@@ -252,8 +252,8 @@ void ResampleRays::reuseHistory(PassContext& context, const Batch& batch) {
 
 void ResampleRays::reuseNeighbors(PassContext& context, const Batch& batch) {
     const auto samples = float(context[gbuffer_].samples);
-    const Bindings common{{"receivers", receivers_[current_]},  {"reservoirs", reservoirs_[current_]},
-                          {"neighbors", neighborOf_},           {"rays", rays_},
+    const Bindings common{{"receivers", receivers_[current_]},  ifUsed({"reservoirs", reservoirs_[current_]}),
+                          {"neighbors", neighborOf_},           ifUsed({"rays", rays_}),
                           {"firstRay", batch.firstRay},         {"count", batch.rays},
                           {"seed", context[hits_].layout.seed}, {"neighborCount", params_.neighbors}};
     context.dispatch(spatialRays_, batch.rays,
@@ -277,6 +277,7 @@ void ResampleRays::average(PassContext& context, const Batch& batch) {
     context.dispatch(effectiveRays_, batch.blocks,
                      {{"reservoirs", reservoirs_[current_]},
                       {"resampled", values_},
+                      {"occluded", occluded_},
                       {"effectiveRays", effective_},
                       {"firstRay", batch.firstRay},
                       {"blocks", batch.blocks},
