@@ -2,7 +2,7 @@
 """Prints the table of docs/reservoirs.md from results of configs/bench/reservoirs.yaml.
 
 reservoirs_table.py DIR: for each scene the mean of resampled rays' indirect light over the reference's, and the mean squared
-error of one path, and of one gather ray, a pixel over that of one resampled gather ray.
+error of one path, and of one gather ray, a pixel over that of one resampled gather ray; - where a variant is missing.
 """
 import os
 import sys
@@ -19,7 +19,7 @@ def table(folder):
     scenes, methods = {}, []
     for row in read_rows(folder, "results.csv"):
         if row["status"] != "ok":
-            raise SystemExit(f"{folder}: {row['variant']} failed")
+            continue
         scenes.setdefault(row["scene"], {})[row["indirect"]] = row
         if row["indirect"] not in (*RIVALS, *methods):
             methods.append(row["indirect"])
@@ -29,10 +29,11 @@ def table(folder):
 
 def cells(rows, method):
     """Mean ratio of a method, and squared errors of its rivals over its own."""
-    own = rows[method]
-    yield f"{float(own['indirect_mean_ratio']):.3f}"
+    own = rows.get(method)
+    yield f"{float(own['indirect_mean_ratio']):.3f}" if own else "-"
     for rival in RIVALS:
-        yield f"{(float(rows[rival]['indirect_nrmse']) / float(own['indirect_nrmse'])) ** 2:.2g}"
+        has_both = own and rival in rows
+        yield f"{(float(rows[rival]['indirect_nrmse']) / float(own['indirect_nrmse'])) ** 2:.2g}" if has_both else "-"
 
 
 def main():
