@@ -24,6 +24,7 @@ inline constexpr std::array kFamilies{
     Family{"clusters", "Clusters of voxels and visibility between them"},
     Family{"cones", "Prefiltered radiance voxels and cone tracing"},
     Family{"final_gather", "Rays from what the camera sees to stored light"},
+    Family{"reservoirs", "Reservoir resampling of gather rays"},
     Family{"cache", "Hashed radiance cache"},
     Family{"probes", "Irradiance probes"},
     Family{"vpls", "Virtual point lights"},

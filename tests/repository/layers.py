@@ -34,6 +34,7 @@ FAMILIES = {
     "final_gather": {"surfels", "cache"},
     "cache": {"surfels"},
     "probes": {"surfels"},
+    "reservoirs": set(),
     "vpls": {"surfels", "inject", "hybrid_leaves"},
     "hybrid_leaves": {"surfels", "cones"},
     "published": {"cones"},
