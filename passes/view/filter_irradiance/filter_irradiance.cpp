@@ -9,7 +9,13 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kMeanLevels = 3;  // Neighborhoods whose means are compared have hundreds of pixels.
+constexpr uint32_t kLeastMeanLevels = 3;  // Neighborhoods whose means are compared have hundreds of pixels.
+constexpr uint32_t kTile = 16;            // TILE of tiles.glsl.
+constexpr uint32_t kTileBytes = 6 * sizeof(float), kRaisedBytes = 3 * sizeof(float);
+
+glm::uvec2 tilesOf(glm::uvec2 pixels) {
+    return (pixels + kTile - 1u) / kTile;
+}
 
 }  // namespace
 
@@ -23,7 +29,7 @@ struct EnumNames<FilteredLight> {
 
 /// Denoises a gather's irradiance. Source: the edge-avoiding à-trous wavelet of Dammertz et al. 2010, with a
 /// weight that balances noise against bias: the gradient bound of Ward et al. 1988, geometry, and means of
-/// neighborhoods (wavelet.comp). Docs: docs/filtering.md.
+/// neighborhoods (wavelet.comp); linear regression on position (Moon et al. 2014). Docs: docs/filtering.md.
 class FilterIrradiance final : public Pass {
  public:
     static constexpr const char* kName = "filter_irradiance";
@@ -34,11 +40,12 @@ class FilterIrradiance final : public Pass {
         "and the environment (direct_shadow_rays). "
         "An edge-avoiding wavelet whose width follows from the number of rays and, where the gather writes moments, "
         "from their variance, the distances of their hits, and the differences of light between neighborhoods. "
+        "Outliers are bounded, and what they lose is given back around them. "
         "Biased by: edge_stopping_scale and levels, less the more rays. Lambert surfaces only. "
-        "Source: Dammertz et al. 2010; Ward et al. 1988; docs/filtering.md.";
+        "Source: Dammertz et al. 2010; Ward et al. 1988; Moon et al. 2014; docs/filtering.md.";
     struct Params {
         FilteredLight light = FilteredLight::Indirect;
-        uint32_t levels = 4;
+        uint32_t levels = 5;
         float edgeStoppingScale = 0.0f;
         static constexpr auto schema() {
             return std::tuple{field("light", &Params::light,
@@ -51,7 +58,7 @@ class FilterIrradiance final : public Pass {
                               field("edge_stopping_scale", &Params::edgeStoppingScale,
                                     "Factor of the bound of the difference of irradiance between two texels. "
                                     "1: the whole bound, sharp and noisy; less: smoother, and shadows blur. "
-                                    "0: 0.1 for indirect light, most of whose changes cancel; 1 for direct light, "
+                                    "0: 0.05 for indirect light, most of whose changes cancel; 1 for direct light, "
                                     "where the edge of a shadow is a single change.",
                                     0.0f, 100.0f)};
         }
@@ -62,15 +69,19 @@ class FilterIrradiance final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    /// Computes statistics of the rays of blocks, and bounds outliers by them.
+    void boundOutliers(PassContext& context) const;
     /// Computes the statistics of light around each element.
     void findLight(PassContext& context) const;
-    /// @return the mean irradiance of each element's neighborhood.
-    const Image& computeMeans(PassContext& context) const;
+    /// Computes the mean irradiance of neighborhoods that are twice as wide as the last ones. @param level from 0 on.
+    void widenMeans(PassContext& context, uint32_t level) const;
     uint64_t elements() const;
+    glm::uvec2 blocks(PassContext& context) const;
+    float blockPixels(PassContext& context) const;
 
     bool isDirect() const { return params_.light == FilteredLight::Direct; }
     float edgeStoppingScale() const {
-        return params_.edgeStoppingScale > 0 ? params_.edgeStoppingScale : isDirect() ? 1.0f : 0.1f;
+        return params_.edgeStoppingScale > 0 ? params_.edgeStoppingScale : isDirect() ? 1.0f : 0.05f;
     }
 
     const Params params_;
@@ -81,17 +92,24 @@ class FilterIrradiance final : public Pass {
     Out<FrameImage> result_{*this, isDirect() ? "direct" : "indirect", "radiance reflected of this light"};
     Kernel findSurfaces_{*this, "surfaces.comp"};
     Kernel statistics_{*this, "statistics.comp"};
+    Kernel bound_{*this, "bound.comp"};
+    Kernel giveBack_{*this, "give_back.comp"};
     Kernel mean_{*this, "mean.comp"};
     Kernel findLight_{*this, "light.comp"};
+    Kernel widerMeans_{*this, "wider_means.comp"};
     Kernel wavelet_{*this, "wavelet.comp"};
     Kernel resolve_{*this, "resolve.comp"};
-    Buffer second_;           ///< Number of pixels with a second surface, then their indices.
-    Buffer blockStatistics_;  ///< gpu::RayStatistics per block, from the gather's moments.
+    Buffer second_;  ///< Number of pixels with a second surface, then their indices.
+    // Where the gather writes moments.
+    Buffer blockStatistics_;  ///< gpu::RayStatistics per block.
+    Buffer blockMeans_;       ///< Luminance per block, W/m².
+    Buffer tiles_;            ///< TileLight per tile (tiles.glsl).
+    Buffer raised_;           ///< Factor of each tile's irradiance (give_back.comp).
     // Images of elements (elements.glsl).
     Image surfaces_;     ///< surface.glsl
     Image reflectance_;  ///< Albedo times the surface's fraction of the pixel.
-    Image means_[2];     ///< Means of neighborhoods (mean.comp), where the gather writes moments.
-    Image light_;        ///< surface_light.glsl
+    Image means_[2];  ///< Means of neighborhoods (mean.comp), read and written in turn; where rays' variance is known.
+    Image light_;     ///< surface_light.glsl
     Image filtered_[2];  ///< Irradiance, W/m², and number of rays; read and written in turn by levels.
 };
 
@@ -114,20 +132,26 @@ void FilterIrradiance::plan(PassPlan& plan) {
     plan.image(light_, "statistics of light", values);
     for (Image& level : filtered_) plan.image(level, "filtered irradiance", values);
     plan.buffer(second_, "second surfaces", (1 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
-    if (noisy.blockSize > 0) {
-        if (!noisy.hasStatistics)
-            plan.buffer(blockStatistics_, "statistics of rays",
-                        noisy.statisticsBytes(gbufferExtent(plan.frame, samples)));
-        for (Image& mean : means_) plan.image(mean, "mean irradiance of neighborhoods", values);
+    const bool hasMoments = noisy.blockSize > 0 && !noisy.hasStatistics;
+    if (hasMoments) {
+        const glm::uvec2 texels = gbufferExtent(plan.frame, samples), tiles = tilesOf(plan.frame.pixels());
+        plan.buffer(blockStatistics_, "statistics of rays", noisy.statisticsBytes(texels));
+        plan.buffer(blockMeans_, "mean light of rays", uint64_t(noisy.blocks(texels).x) * noisy.blocks(texels).y * 4);
+        plan.buffer(tiles_, "light of tiles", uint64_t(tiles.x) * tiles.y * kTileBytes);
+        plan.buffer(raised_, "light given back", uint64_t(tiles.x) * tiles.y * kRaisedBytes);
     }
+    if (noisy.blockSize > 0)
+        for (Image& mean : means_) plan.image(mean, "mean irradiance of neighborhoods", values);
 
     Defines defines{{"SAMPLES", std::to_string(samples)}};
     if (noisy.blockSize > 0) defines.emplace("STATISTICS", "1");
     if (noisy.hasStatistics) defines.emplace("BOUNDED_GRADIENT", "1");
-    for (Kernel* kernel : {&findSurfaces_, &statistics_, &mean_, &findLight_, &wavelet_, &resolve_})
+    if (hasMoments) defines.emplace("GIVE_BACK", "1");
+    for (Kernel* kernel :
+         {&findSurfaces_, &statistics_, &bound_, &giveBack_, &mean_, &findLight_, &widerMeans_, &wavelet_, &resolve_})
         kernel->define(defines);
-    statistics_.compileIf(noisy.blockSize > 0 && !noisy.hasStatistics);
-    mean_.compileIf(noisy.blockSize > 0);
+    for (Kernel* kernel : {&statistics_, &bound_, &giveBack_}) kernel->compileIf(hasMoments);
+    for (Kernel* kernel : {&mean_, &widerMeans_}) kernel->compileIf(noisy.blockSize > 0);
 }
 
 void FilterIrradiance::record(PassContext& context) {
@@ -144,9 +168,18 @@ void FilterIrradiance::record(PassContext& context) {
                       {"second", second_},
                       {"pixels", pixels}});
 
-    // Filter their irradiance
+    // Filter their irradiance; from the fourth level on compare means of neighborhoods as wide as its own reach
+    const bool hasMeans = context[noisy_].blockSize > 0;
+    if (hasMeans && !context[noisy_].hasStatistics) boundOutliers(context);
+    for (uint32_t level = 0; hasMeans && level < kLeastMeanLevels; ++level) widenMeans(context, level);
     findLight(context);
-    for (uint32_t level = 0; level < params_.levels; ++level)
+    for (uint32_t level = 0; level < params_.levels; ++level) {
+        if (hasMeans && level >= kLeastMeanLevels) {
+            widenMeans(context, level);
+            context.dispatch(
+                widerMeans_, elements(),
+                {{"second", second_}, {"surfaces", surfaces_}, {"mean", means_[level % 2]}, {"light", light_}});
+        }
         context.dispatch(wavelet_, elements(),
                          {{"second", second_},
                           {"surfaces", surfaces_},
@@ -155,55 +188,72 @@ void FilterIrradiance::record(PassContext& context) {
                           {"result", filtered_[(level + 1) % 2]},
                           {"level", level},
                           {"edgeStoppingScale", edgeStoppingScale()}});
+    }
 
     // Compute the radiance that they reflect
     context.dispatch(resolve_, pixels,
                      {{"irradiance", filtered_[params_.levels % 2]},
                       {"reflectance", reflectance_},
                       {"unfiltered", context.orBlack(unfiltered_)},
+                      ifUsed({"raised", raised_}),
                       {"result", context[result_].image}});
+}
+
+void FilterIrradiance::boundOutliers(PassContext& context) const {
+    const glm::uvec2 pixels = context.frame.pixels(), tiles = tilesOf(pixels);
+    context.dispatch(statistics_, blocks(context),
+                     {{"moments", context[noisy_].moments},
+                      {"statistics", blockStatistics_},
+                      {"blockMeans", blockMeans_},
+                      {"blocks", blocks(context)}});
+    context.dispatch(bound_, pixels,
+                     {{"surfaces", surfaces_},
+                      {"source", filtered_[0]},
+                      {"statistics", blockStatistics_},
+                      {"blockMeans", blockMeans_},
+                      {"tiles", tiles_},
+                      {"pixels", pixels},
+                      {"blocks", blocks(context)},
+                      {"blockSize", blockPixels(context)}});
+    context.dispatch(giveBack_, tiles, {{"tiles", tiles_}, {"raised", raised_}, {"tileCount", tiles}});
 }
 
 void FilterIrradiance::findLight(PassContext& context) const {
     const NoisyIrradiance& noisy = context[noisy_];
-    const uint32_t samples = context[gbuffer_].samples;
     const CameraRays camera = cameraRays(context.frame.camera, context.frame.width, context.frame.height);
-    glm::uvec2 blocks(0);
-    const Image* mean = &means_[0];
-    if (noisy.blockSize > 0) {
-        blocks = noisy.blocks(gbufferExtent(context.frame, samples));
-        if (!noisy.hasStatistics)
-            context.dispatch(statistics_, blocks,
-                             {{"moments", noisy.moments}, {"statistics", blockStatistics_}, {"blocks", blocks}});
-        mean = &computeMeans(context);
-    }
     context.dispatch(findLight_, elements(),
                      {{"second", second_},
                       {"surfaces", surfaces_},
                       {"light", light_},
-                      ifUsed({"mean", *mean}),
+                      ifUsed({"mean", means_[(kLeastMeanLevels - 1) % 2]}),
                       ifUsed({"statistics", noisy.hasStatistics ? noisy.statistics : blockStatistics_}),
-                      {"blocks", blocks},
-                      {"blockSize", float(noisy.blockSize) / float(samples)},
+                      {"blocks", blocks(context)},
+                      {"blockSize", blockPixels(context)},
                       {"pixelAngle", 2 * glm::length(camera.up) / float(context.frame.height)},
                       {"camera", camera.origin}});
 }
 
-const Image& FilterIrradiance::computeMeans(PassContext& context) const {
-    const Image* source = &filtered_[0];
-    for (uint32_t level = 0; level < kMeanLevels; ++level) {
-        const Image& result = means_[level % 2];
-        context.dispatch(
-            mean_, elements(),
-            {{"second", second_}, {"surfaces", surfaces_}, {"source", *source}, {"result", result}, {"level", level}});
-        source = &result;
-    }
-    return *source;
+void FilterIrradiance::widenMeans(PassContext& context, uint32_t level) const {
+    context.dispatch(mean_, elements(),
+                     {{"second", second_},
+                      {"surfaces", surfaces_},
+                      {"source", level == 0 ? filtered_[0] : means_[(level - 1) % 2]},
+                      {"result", means_[level % 2]},
+                      {"level", level}});
 }
 
 uint64_t FilterIrradiance::elements() const {
     const glm::uvec3 extent = surfaces_.desc().extent;
     return uint64_t(extent.x) * extent.y;
+}
+
+glm::uvec2 FilterIrradiance::blocks(PassContext& context) const {
+    const NoisyIrradiance& noisy = context[noisy_];
+    return noisy.blockSize > 0 ? noisy.blocks(gbufferExtent(context.frame, context[gbuffer_].samples)) : glm::uvec2(0);
+}
+
+float FilterIrradiance::blockPixels(PassContext& context) const {
+    return float(context[noisy_].blockSize) / float(context[gbuffer_].samples);
 }
 
 VOXRAY_REGISTER_PASS(FilterIrradiance);

@@ -1,5 +1,5 @@
-// Computes the filter's two statistics from moments of rays: the variance of a single ray, and a bound of the gradient
-// of irradiance along a surface. As blocks have few rays, each sums its 3 x 3 neighborhood, weighted 1 2 1 along rows
+// Computes the filter's statistics from moments of rays: their mean, the variance of a single one, and a bound of the
+// gradient of irradiance along a surface. As blocks have few rays, each sums its 3 x 3 neighborhood, weighted 1 2 1 along rows
 // and columns.
 //
 // The gradient bound. Irradiance E is the mean of the rays' light L, pi times their radiance. Uniform light M from all
@@ -17,6 +17,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(scalar) readonly buffer Moments { RayMoments data[]; } moments;
 layout(scalar) writeonly buffer Statistics { RayStatistics data[]; } statistics;
+layout(scalar) writeonly buffer BlockMeans { float data[]; } blockMeans;  // Luminance, W/m².
 layout(push_constant) uniform Push { uvec2 blocks; } push;
 
 void main() {
@@ -36,13 +37,15 @@ void main() {
             sum.squaredOverDistance += weight * m.squaredOverDistance;
         }
 
+    const uint i = uint(block.y) * push.blocks.x + uint(block.x);
+    const float mean = sum.rays > 0.0 ? sum.luminance / sum.rays : 0.0;
     RayStatistics found = RayStatistics(0.0, 0.0);
     if (sum.luminance > 0.0) {
-        const float mean = sum.luminance / sum.rays;
         const float deviation =
             sum.squaredOverDistance - 2.0 * mean * sum.luminanceOverDistance + mean * mean * sum.inverseDistance;
         found.gradient = sqrt(max(deviation, 0.0) * sum.inverseDistance) / sum.luminance;
         found.variance = max(sum.squared / (sum.luminance * mean) - 1.0, 0.0);
     }
-    statistics.data[block.y * int(push.blocks.x) + block.x] = found;
+    statistics.data[i] = found;
+    blockMeans.data[i] = mean;
 }

@@ -16,6 +16,7 @@
 //   - the measured difference of the neighborhoods' means (mean.comp), beyond the noise of these means.
 #include "passes/view/filter_irradiance/surface_light.glsl"
 #include "passes/view/filter_irradiance/elements.glsl"
+#include "passes/view/filter_irradiance/regression.glsl"
 
 uniform sampler2D light;
 uniform sampler2D source;  // Irradiance, W/m²; number of rays that it represents.
@@ -24,6 +25,11 @@ layout(push_constant) uniform Push {
     int level;
     float edgeStoppingScale;
 } push;
+
+// Gradient to expect over its bound, along one direction: the bound adds up what mostly cancels.
+#define EXPECTED_GRADIENT 0.1
+// Sum of the squared weights of the whole kernel, 36 / 256.
+#define KERNEL_SQUARES 0.14
 
 void main() {
     const ivec2 pixels = imageSize(result) / ivec2(1, LAYERS);
@@ -38,8 +44,8 @@ void main() {
     const Surface center = unpackSurface(bits);
     const SurfaceLight centerLight = unpackLight(texelFetch(light, element, 0));
     const float centerNoise = centerLight.rayVariance / max(texelFetch(source, element, 0).w, 1e-3);
-    vec3 sum = vec3(0.0);
-    float weights = 0.0, squaredWeights = 0.0;  // squaredWeights: over the taps' rays.
+    Regression sum = emptyRegression();
+    float squaredWeights = 0.0;  // Over the taps' rays.
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) {
             const ivec2 pixel = ivec2(element.x, element.y % pixels.y) + (ivec2(x, y) << push.level);
@@ -61,14 +67,23 @@ void main() {
                 const float noise = 0.5 * (centerNoise + neighborLight.rayVariance / value.w);
                 const float count = kernel(x, y) * (push.level == 0 ? value.w : area);
                 const float weight = count * (bias2 > 0.0 ? noise / (noise + bias2) : 1.0);
-                sum += weight * value.rgb;
-                weights += weight;
+                addTap(sum, weight, value.rgb, neighbor.position - center.position);
                 squaredWeights += weight * weight / value.w;
             }
         }
 
+    if (sum.weights == 0.0) {
+        imageStore(result, element, vec4(0.0));
+        return;
+    }
+
+    // From level 1 on remove the linear part of the bias, as far as noise allows
+    const float expected = EXPECTED_GRADIENT * centerLight.mean * centerLight.gradient;
+    const vec3 value = push.level > 0 && expected > 0.0
+                           ? valueAtCenter(sum, KERNEL_SQUARES * centerNoise / square(expected))
+                           : meanOf(sum);
+
     // A weighted mean of independent values of value.w rays each has sum(weight² / value.w) / sum(weight)² of one ray's
     // variance
-    const float rays = weights * weights / (overlap(push.level) * squaredWeights);
-    imageStore(result, element, weights > 0.0 ? vec4(sum / weights, rays) : vec4(0.0));
+    imageStore(result, element, vec4(value, square(sum.weights) / (overlap(push.level) * squaredWeights)));
 }
