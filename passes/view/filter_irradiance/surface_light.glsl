@@ -25,8 +25,8 @@ void setMean(inout SurfaceLight l, vec3 neighborhood) {
 
 // Mean squared difference of two independent values with a relative variance of 1, in units of their squared mean.
 #define UNRELATED 2.0
-// Means of surroundings that overlap differ by less than the light at their centers does.
-#define ATTENUATION 2.0
+// Means over surroundings as wide as their distance differ by half of a step between their centers: a fourth, squared.
+#define ATTENUATION 4.0
 
 // Expected mean squared difference of two elements' irradiance (wavelet.comp).
 float squaredBias(Surface a, SurfaceLight lightA, Surface b, SurfaceLight lightB, float edgeStoppingScale) {

@@ -27,7 +27,7 @@ layout(push_constant) uniform Push {
 } push;
 
 // Gradient to expect over its bound, along one direction: the bound adds up what mostly cancels.
-#define EXPECTED_GRADIENT 0.1
+#define EXPECTED_GRADIENT 0.2
 // Sum of the squared weights of the whole kernel, 36 / 256.
 #define KERNEL_SQUARES 0.14
 
