@@ -9,8 +9,8 @@ namespace voxray::test {
 namespace {
 
 ImageF indirect(const std::string& passes, uint32_t width = 24) {
-    return Chain("white_room", "{albedo: 0.5}", "[{pass: gbuffer, samples_per_pixel_edge: 2}, " + passes + "]", width,
-                 24)
+    return Chain("white_room", "{albedo: 0.5}",
+                 "[{pass: gbuffer, samples_per_pixel_edge: 2}, " + passes + ", {pass: composite}]", width, 24)
         .image("indirect");
 }
 

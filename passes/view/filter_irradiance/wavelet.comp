@@ -77,11 +77,14 @@ void main() {
         return;
     }
 
-    // From level 1 on remove the linear part of the bias, as far as noise allows
+    // From level 1 on remove the linear part of the bias, as far as noise allows; the edge of a shadow of a lamp or of
+    // the sun, whose gradient is known, is a step and no trend
+    vec3 value = meanOf(sum);
+#ifndef BOUNDED_GRADIENT
     const float expected = EXPECTED_GRADIENT * centerLight.mean * centerLight.gradient;
-    const vec3 value = push.level > 0 && expected > 0.0
-                           ? valueAtCenter(sum, KERNEL_SQUARES * centerNoise / square(expected))
-                           : meanOf(sum);
+    if (push.level > 0 && expected > 0.0)
+        value = valueAtCenter(sum, KERNEL_SQUARES * centerNoise / square(expected));
+#endif
 
     // A weighted mean of independent values of value.w rays each has sum(weight² / value.w) / sum(weight)² of one ray's
     // variance
