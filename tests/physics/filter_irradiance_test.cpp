@@ -1,6 +1,7 @@
 // The irradiance filter: what it must keep, how far it may be off, and every source that it can follow.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -185,6 +186,18 @@ TEST(FilterIrradiance, KeepsTheEnergyOfRareRays) {
     const ImageF raw = filterKnown(source, "levels: 1, edge_stopping_scale: 100", "white_room"),
                  filtered = filterKnown(source, "levels: 5", "white_room");
     EXPECT_NEAR(mean(filtered) / mean(raw), 1, 0.02);
+}
+
+TEST(FilterIrradiance, BoundsOutliersAndGivesBackWhatTheyLose) {
+    // One texel in 256 brings all light. The same energy stays, but no spot of it: without bounds (no moments tell
+    // them) a spot is as bright as its one texel over the kernel's pixels.
+    const std::string source = "one_in: 256, noise: 0";
+    const ImageF raw = filterKnown(source, "levels: 1, edge_stopping_scale: 100", "white_room"),
+                 unbounded = filterKnown(source, "levels: 3", "white_room"),
+                 bounded = filterKnown(source + ", moments: true", "levels: 3", "white_room");
+    EXPECT_NEAR(mean(bounded) / mean(raw), 1, 0.1);
+    EXPECT_LT(*std::max_element(bounded.data.begin(), bounded.data.end()),
+              0.7 * *std::max_element(unbounded.data.begin(), unbounded.data.end()));
 }
 
 TEST(FilterIrradiance, NamesGapsThatItCannotFill) {
