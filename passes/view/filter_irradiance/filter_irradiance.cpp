@@ -9,8 +9,8 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kLeastMeanLevels = 3;  // Neighborhoods whose means are compared have hundreds of pixels.
-constexpr uint32_t kTile = 16;            // TILE of tiles.glsl.
+constexpr uint32_t kMeanLevels = 3;  // Neighborhoods whose means are compared have hundreds of pixels.
+constexpr uint32_t kTile = 16;       // TILE of tiles.glsl.
 constexpr uint32_t kTileBytes = 6 * sizeof(float), kRaisedBytes = 3 * sizeof(float);
 
 glm::uvec2 tilesOf(glm::uvec2 pixels) {
@@ -27,9 +27,17 @@ struct EnumNames<FilteredLight> {
                                       std::pair{FilteredLight::Direct, "direct"}};
 };
 
+/// What an element's value is, of the weighted taps around it.
+enum class Estimator { Mean, Regression };
+template <>
+struct EnumNames<Estimator> {
+    static constexpr std::array names{std::pair{Estimator::Mean, "mean"},
+                                      std::pair{Estimator::Regression, "regression"}};
+};
+
 /// Denoises a gather's irradiance. Source: the edge-avoiding à-trous wavelet of Dammertz et al. 2010, with a
 /// weight that balances noise against bias: the gradient bound of Ward et al. 1988, geometry, and means of
-/// neighborhoods (wavelet.comp); linear regression on position (Moon et al. 2014). Docs: docs/filtering.md.
+/// neighborhoods (wavelet.comp); optionally linear regression on position (Moon et al. 2014). Docs: docs/filtering.md.
 class FilterIrradiance final : public Pass {
  public:
     static constexpr const char* kName = "filter_irradiance";
@@ -40,26 +48,30 @@ class FilterIrradiance final : public Pass {
         "and the environment (direct_shadow_rays). "
         "An edge-avoiding wavelet whose width follows from the number of rays and, where the gather writes moments, "
         "from their variance, the distances of their hits, and the differences of light between neighborhoods. "
-        "Outliers are bounded, and what they lose is given back around them. "
         "Biased by: edge_stopping_scale and levels, less the more rays. Lambert surfaces only. "
         "Source: Dammertz et al. 2010; Ward et al. 1988; Moon et al. 2014; docs/filtering.md.";
     struct Params {
         FilteredLight light = FilteredLight::Indirect;
-        uint32_t levels = 5;
+        Estimator estimator = Estimator::Mean;
+        uint32_t levels = 0;
         float edgeStoppingScale = 0.0f;
         static constexpr auto schema() {
             return std::tuple{field("light", &Params::light,
                                     "indirect: reads 'noisy_irradiance' and writes 'indirect'. "
                                     "direct: reads 'noisy_direct', adds 'unfiltered_direct' and writes 'direct'."),
+                              field("estimator", &Params::estimator,
+                                    "mean: the weighted mean of taps. regression: wider, with less error and 1.7 times "
+                                    "the time: linear regression on position, outliers bounded and what they lose "
+                                    "given back around them, means of wider neighborhoods, one more level."),
                               field("levels", &Params::levels,
                                     "Levels of the wavelet, each with twice the radius of the previous one: "
-                                    "n levels have a radius of 2^n - 1 pixels.",
-                                    1u, 6u),
+                                    "n levels have a radius of 2^n - 1 pixels. 0: 4, with regression 5.",
+                                    0u, 6u),
                               field("edge_stopping_scale", &Params::edgeStoppingScale,
                                     "Factor of the bound of the difference of irradiance between two texels. "
                                     "1: the whole bound, sharp and noisy; less: smoother, and shadows blur. "
-                                    "0: 0.05 for indirect light, most of whose changes cancel; 1 for direct light, "
-                                    "where the edge of a shadow is a single change.",
+                                    "0: 0.1 for indirect light, most of whose changes cancel, with regression 0.05; "
+                                    "1 for direct light, where the edge of a shadow is a single change.",
                                     0.0f, 100.0f)};
         }
     };
@@ -69,7 +81,7 @@ class FilterIrradiance final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Computes statistics of the rays of blocks, and bounds outliers by them.
+    /// Bounds outliers by the statistics of rays of blocks.
     void boundOutliers(PassContext& context) const;
     /// Computes the statistics of light around each element.
     void findLight(PassContext& context) const;
@@ -80,8 +92,11 @@ class FilterIrradiance final : public Pass {
     float blockPixels(PassContext& context) const;
 
     bool isDirect() const { return params_.light == FilteredLight::Direct; }
+    bool hasRegression() const { return params_.estimator == Estimator::Regression; }
+    uint32_t levels() const { return params_.levels > 0 ? params_.levels : hasRegression() ? 5 : 4; }
     float edgeStoppingScale() const {
-        return params_.edgeStoppingScale > 0 ? params_.edgeStoppingScale : isDirect() ? 1.0f : 0.05f;
+        if (params_.edgeStoppingScale > 0) return params_.edgeStoppingScale;
+        return isDirect() ? 1.0f : hasRegression() ? 0.05f : 0.1f;
     }
 
     const Params params_;
@@ -99,12 +114,12 @@ class FilterIrradiance final : public Pass {
     Kernel widerMeans_{*this, "wider_means.comp"};
     Kernel wavelet_{*this, "wavelet.comp"};
     Kernel resolve_{*this, "resolve.comp"};
-    Buffer second_;  ///< Number of pixels with a second surface, then their indices.
-    // Where the gather writes moments.
-    Buffer blockStatistics_;  ///< gpu::RayStatistics per block.
-    Buffer blockMeans_;       ///< Luminance per block, W/m².
-    Buffer tiles_;            ///< TileLight per tile (tiles.glsl).
-    Buffer raised_;           ///< Factor of each tile's irradiance (give_back.comp).
+    Buffer second_;           ///< Number of pixels with a second surface, then their indices.
+    Buffer blockStatistics_;  ///< gpu::RayStatistics per block, from the gather's moments.
+    // Regression, where the gather writes moments.
+    Buffer blockMeans_;  ///< Luminance per block, W/m².
+    Buffer tiles_;       ///< TileLight per tile (tiles.glsl).
+    Buffer raised_;      ///< Factor of each tile's irradiance (give_back.comp).
     // Images of elements (elements.glsl).
     Image surfaces_;     ///< surface.glsl
     Image reflectance_;  ///< Albedo times the surface's fraction of the pixel.
@@ -118,11 +133,11 @@ void FilterIrradiance::plan(PassPlan& plan) {
     const uint32_t samples = plan[gbuffer_].samples;
     uint32_t minLevels = 1;
     while ((samples << minLevels) < 2 * noisy.spacing) ++minLevels;
-    if (noisy.spacing > samples && params_.levels < minLevels)
+    if (noisy.spacing > samples && levels() < minLevels)
         throw Error(
             "filter_irradiance: the gather has rays for one texel in each {0}x{0}, which {1} levels leave with gaps; "
             "raise 'levels' to {2} or the gather's rays",
-            noisy.spacing, params_.levels, minLevels);
+            noisy.spacing, levels(), minLevels);
     plan[result_].lightBounces = noisy.lightBounces;
     plan.frameImage(result_);
     const glm::uvec3 extent{plan.frame.width, plan.frame.height * (samples > 1 ? 2 : 1), 1};
@@ -132,11 +147,12 @@ void FilterIrradiance::plan(PassPlan& plan) {
     plan.image(light_, "statistics of light", values);
     for (Image& level : filtered_) plan.image(level, "filtered irradiance", values);
     plan.buffer(second_, "second surfaces", (1 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
-    const bool hasMoments = noisy.blockSize > 0 && !noisy.hasStatistics;
-    if (hasMoments) {
-        const glm::uvec2 texels = gbufferExtent(plan.frame, samples), tiles = tilesOf(plan.frame.pixels());
-        plan.buffer(blockStatistics_, "statistics of rays", noisy.statisticsBytes(texels));
-        plan.buffer(blockMeans_, "mean light of rays", uint64_t(noisy.blocks(texels).x) * noisy.blocks(texels).y * 4);
+    const bool hasMoments = noisy.blockSize > 0 && !noisy.hasStatistics, givesBack = hasMoments && hasRegression();
+    const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
+    if (hasMoments) plan.buffer(blockStatistics_, "statistics of rays", noisy.statisticsBytes(texels));
+    if (givesBack) {
+        const glm::uvec2 blocks = noisy.blocks(texels), tiles = tilesOf(plan.frame.pixels());
+        plan.buffer(blockMeans_, "mean light of rays", uint64_t(blocks.x) * blocks.y * sizeof(float));
         plan.buffer(tiles_, "light of tiles", uint64_t(tiles.x) * tiles.y * kTileBytes);
         plan.buffer(raised_, "light given back", uint64_t(tiles.x) * tiles.y * kRaisedBytes);
     }
@@ -146,12 +162,15 @@ void FilterIrradiance::plan(PassPlan& plan) {
     Defines defines{{"SAMPLES", std::to_string(samples)}};
     if (noisy.blockSize > 0) defines.emplace("STATISTICS", "1");
     if (noisy.hasStatistics) defines.emplace("BOUNDED_GRADIENT", "1");
-    if (hasMoments) defines.emplace("GIVE_BACK", "1");
+    if (hasRegression()) defines.emplace("REGRESSION", "1");
+    if (givesBack) defines.emplace("GIVE_BACK", "1");
     for (Kernel* kernel :
          {&findSurfaces_, &statistics_, &bound_, &giveBack_, &mean_, &findLight_, &widerMeans_, &wavelet_, &resolve_})
         kernel->define(defines);
-    for (Kernel* kernel : {&statistics_, &bound_, &giveBack_}) kernel->compileIf(hasMoments);
-    for (Kernel* kernel : {&mean_, &widerMeans_}) kernel->compileIf(noisy.blockSize > 0);
+    statistics_.compileIf(hasMoments);
+    for (Kernel* kernel : {&bound_, &giveBack_}) kernel->compileIf(givesBack);
+    mean_.compileIf(noisy.blockSize > 0);
+    widerMeans_.compileIf(noisy.blockSize > 0 && hasRegression());
 }
 
 void FilterIrradiance::record(PassContext& context) {
@@ -168,13 +187,23 @@ void FilterIrradiance::record(PassContext& context) {
                       {"second", second_},
                       {"pixels", pixels}});
 
-    // Filter their irradiance; from the fourth level on compare means of neighborhoods as wide as its own reach
-    const bool hasMeans = context[noisy_].blockSize > 0;
-    if (hasMeans && !context[noisy_].hasStatistics) boundOutliers(context);
-    for (uint32_t level = 0; hasMeans && level < kLeastMeanLevels; ++level) widenMeans(context, level);
+    // Find the light around each
+    const NoisyIrradiance& noisy = context[noisy_];
+    const bool hasMeans = noisy.blockSize > 0, hasMoments = hasMeans && !noisy.hasStatistics;
+    if (hasMoments)
+        context.dispatch(statistics_, blocks(context),
+                         {{"moments", noisy.moments},
+                          {"statistics", blockStatistics_},
+                          ifUsed({"blockMeans", blockMeans_}),
+                          {"blocks", blocks(context)}});
+    if (hasMoments && hasRegression()) boundOutliers(context);
+    for (uint32_t level = 0; hasMeans && level < kMeanLevels; ++level) widenMeans(context, level);
     findLight(context);
-    for (uint32_t level = 0; level < params_.levels; ++level) {
-        if (hasMeans && level >= kLeastMeanLevels) {
+
+    // Filter their irradiance. With regression compare means of neighborhoods as wide as a level's reach from the
+    // fourth on
+    for (uint32_t level = 0; level < levels(); ++level) {
+        if (hasMeans && hasRegression() && level >= kMeanLevels) {
             widenMeans(context, level);
             context.dispatch(
                 widerMeans_, elements(),
@@ -192,7 +221,7 @@ void FilterIrradiance::record(PassContext& context) {
 
     // Compute the radiance that they reflect
     context.dispatch(resolve_, pixels,
-                     {{"irradiance", filtered_[params_.levels % 2]},
+                     {{"irradiance", filtered_[levels() % 2]},
                       {"reflectance", reflectance_},
                       {"unfiltered", context.orBlack(unfiltered_)},
                       ifUsed({"raised", raised_}),
@@ -201,11 +230,6 @@ void FilterIrradiance::record(PassContext& context) {
 
 void FilterIrradiance::boundOutliers(PassContext& context) const {
     const glm::uvec2 pixels = context.frame.pixels(), tiles = tilesOf(pixels);
-    context.dispatch(statistics_, blocks(context),
-                     {{"moments", context[noisy_].moments},
-                      {"statistics", blockStatistics_},
-                      {"blockMeans", blockMeans_},
-                      {"blocks", blocks(context)}});
     context.dispatch(bound_, pixels,
                      {{"surfaces", surfaces_},
                       {"source", filtered_[0]},
@@ -225,7 +249,7 @@ void FilterIrradiance::findLight(PassContext& context) const {
                      {{"second", second_},
                       {"surfaces", surfaces_},
                       {"light", light_},
-                      ifUsed({"mean", means_[(kLeastMeanLevels - 1) % 2]}),
+                      ifUsed({"mean", means_[(kMeanLevels - 1) % 2]}),
                       ifUsed({"statistics", noisy.hasStatistics ? noisy.statistics : blockStatistics_}),
                       {"blocks", blocks(context)},
                       {"blockSize", blockPixels(context)},

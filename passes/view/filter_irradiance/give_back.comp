@@ -22,5 +22,6 @@ void main() {
             kept += binomial(x) * binomial(y) * light.kept;
             excess += binomial(x) * binomial(y) * light.excess;
         }
-    raised.data[tile.y * count.x + tile.x] = 1.0 + mix(excess / max(kept, vec3(1e-30)), vec3(0.0), equal(kept, vec3(0.0)));
+    const vec3 fraction = mix(excess / max(kept, vec3(1e-30)), vec3(0.0), equal(kept, vec3(0.0)));
+    raised.data[tile.y * count.x + tile.x] = 1.0 + fraction;
 }

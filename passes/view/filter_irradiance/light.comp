@@ -1,6 +1,5 @@
 // Statistics of the light around each element: the mean irradiance of its neighborhood, and the statistics of rays,
 // interpolated between the centers of blocks.
-#include "passes/view/filter_irradiance/block_interpolation.glsl"
 #include "passes/view/filter_irradiance/elements.glsl"
 #include "passes/view/filter_irradiance/surface_light.glsl"
 #include "shaders/filter/ray_statistics.h"
@@ -23,15 +22,18 @@ layout(push_constant, scalar) uniform Push {
 #define MIN_PIXELS 4.0
 
 #ifdef STATISTICS
-RayStatistics interpolatedStatistics(ivec2 pixel) {
-    const BlockCorner corners[4] = blockCorners(pixel, push.blockSize, push.blocks);
-    RayStatistics found = RayStatistics(0.0, 0.0);
-    for (int i = 0; i < 4; ++i) {
-        const RayStatistics s = statistics.data[corners[i].block];
-        found.gradient += corners[i].weight * s.gradient;
-        found.variance += corners[i].weight * s.variance;
-    }
-    return found;
+vec2 statisticsOf(ivec2 block) {
+    const ivec2 inside = clamp(block, ivec2(0), ivec2(push.blocks) - 1);
+    const RayStatistics s = statistics.data[inside.y * int(push.blocks.x) + inside.x];
+    return vec2(s.gradient, s.variance);
+}
+
+// x: gradient, y: variance.
+vec2 interpolatedStatistics(ivec2 pixel) {
+    const vec2 inBlocks = (vec2(pixel) + 0.5) / push.blockSize - 0.5, weight = fract(inBlocks);
+    const ivec2 corner = ivec2(floor(inBlocks));
+    return mix(mix(statisticsOf(corner), statisticsOf(corner + ivec2(1, 0)), weight.x),
+               mix(statisticsOf(corner + ivec2(0, 1)), statisticsOf(corner + ivec2(1, 1)), weight.x), weight.y);
 }
 #endif
 
@@ -45,12 +47,12 @@ void main() {
     SurfaceLight found = SurfaceLight(1.0, 0.0, 1.0, 1.0e30);
     float relativeVariance = 1.0;
 #ifdef STATISTICS
-    const RayStatistics rays = interpolatedStatistics(ivec2(element.x, element.y % pixels.y));
-    relativeVariance = rays.variance;
-    found.gradient = rays.gradient;
+    const vec2 rays = interpolatedStatistics(ivec2(element.x, element.y % pixels.y));
     const vec3 neighborhood = texelFetch(mean, element, 0).xyz;
-    found.rayVariance = rays.variance * square(neighborhood.x);
+    relativeVariance = rays.y;
+    found.rayVariance = rays.y * neighborhood.x * neighborhood.x;
     setMean(found, neighborhood);
+    found.gradient = rays.x;
 #endif
 #ifndef BOUNDED_GRADIENT
     const float minDistance = MIN_PIXELS * push.pixelAngle * distance(unpackSurface(surface).position, push.camera);

@@ -25,8 +25,13 @@ void setMean(inout SurfaceLight l, vec3 neighborhood) {
 
 // Mean squared difference of two independent values with a relative variance of 1, in units of their squared mean.
 #define UNRELATED 2.0
-// Means over surroundings as wide as their distance differ by half of a step between their centers: a fourth, squared.
+// Weight of the measured difference of means. With regression: means over surroundings as wide as their distance differ
+// by half of a step between their centers, a fourth when squared.
+#ifdef REGRESSION
 #define ATTENUATION 4.0
+#else
+#define ATTENUATION 1.0
+#endif
 
 // Expected mean squared difference of two elements' irradiance (wavelet.comp).
 float squaredBias(Surface a, SurfaceLight lightA, Surface b, SurfaceLight lightB, float edgeStoppingScale) {

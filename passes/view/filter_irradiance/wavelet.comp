@@ -16,7 +16,11 @@
 //   - the measured difference of the neighborhoods' means (mean.comp), beyond the noise of these means.
 #include "passes/view/filter_irradiance/surface_light.glsl"
 #include "passes/view/filter_irradiance/elements.glsl"
+#ifdef REGRESSION
 #include "passes/view/filter_irradiance/regression.glsl"
+#else
+#include "passes/view/filter_irradiance/weighted_mean.glsl"
+#endif
 
 uniform sampler2D light;
 uniform sampler2D source;  // Irradiance, W/m²; number of rays that it represents.
@@ -26,10 +30,13 @@ layout(push_constant) uniform Push {
     float edgeStoppingScale;
 } push;
 
+#if defined(REGRESSION) && !defined(BOUNDED_GRADIENT)
+#define REMOVES_SLOPE
 // Gradient to expect over its bound, along one direction: the bound adds up what mostly cancels.
 #define EXPECTED_GRADIENT 0.2
 // Sum of the squared weights of the whole kernel, 36 / 256.
 #define KERNEL_SQUARES 0.14
+#endif
 
 void main() {
     const ivec2 pixels = imageSize(result) / ivec2(1, LAYERS);
@@ -44,7 +51,7 @@ void main() {
     const Surface center = unpackSurface(bits);
     const SurfaceLight centerLight = unpackLight(texelFetch(light, element, 0));
     const float centerNoise = centerLight.rayVariance / max(texelFetch(source, element, 0).w, 1e-3);
-    Regression sum = emptyRegression();
+    Estimate sum = emptyEstimate();
     float squaredWeights = 0.0;  // Over the taps' rays.
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) {
@@ -77,10 +84,10 @@ void main() {
         return;
     }
 
-    // From level 1 on remove the linear part of the bias, as far as noise allows; the edge of a shadow of a lamp or of
-    // the sun, whose gradient is known, is a step and no trend
     vec3 value = meanOf(sum);
-#ifndef BOUNDED_GRADIENT
+#ifdef REMOVES_SLOPE
+    // From level 1 on remove the linear part of the bias, as far as noise allows; not at the edge of a shadow of a lamp
+    // or of the sun, whose gradient is known: it is a step and no trend
     const float expected = EXPECTED_GRADIENT * centerLight.mean * centerLight.gradient;
     if (push.level > 0 && expected > 0.0)
         value = valueAtCenter(sum, KERNEL_SQUARES * centerNoise / square(expected));
