@@ -1,5 +1,5 @@
-// Irradiance between probes. Source: Majercik et al. 2019, section 5 and listing 1; Majercik et al. 2021, sections 3 and
-// 6 (bias, cascades). Host: passes/probes/probes.h.
+// Irradiance between probes. Source: Majercik et al. 2019, section 5 and its listing; Majercik et al. 2021, sections 4.1
+// (bias) and 7.4 (cascades). Host: passes/probes/probes.h.
 #ifndef VOXRAY_PROBE_LOOKUP_GLSL
 #define VOXRAY_PROBE_LOOKUP_GLSL
 
@@ -60,7 +60,8 @@ vec4 cascadeIrradiance(uint cascade, vec3 position, vec3 normal, vec3 toViewer) 
             weight *= probeVisibility(place, fromProbe / distance_, distance_);
         }
 
-        // Not 0, so that something is left where no probe sees the point
+        // Not 0, so that something is left where no probe sees the point. The authors' library has at least 0.05 of the
+        // visibility weight instead.
         weight = max(weight, 1e-6);
         if (weight < settings.crushThreshold)
             weight *= weight * weight / (settings.crushThreshold * settings.crushThreshold);

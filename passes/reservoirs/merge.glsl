@@ -1,4 +1,4 @@
-// Weighted reservoir sampling over the candidates of one receiver.
+// Weighted reservoir sampling over the candidates of one receiver. Source: Bitterli et al. 2020, section 3.
 #ifndef VOXRAY_RESERVOIR_MERGE_GLSL
 #define VOXRAY_RESERVOIR_MERGE_GLSL
 

@@ -8,8 +8,9 @@
 namespace voxray {
 
 /// Paths of a batch of samples, one stream of rays a vertex (a wavefront: Laine et al. 2013, "Megakernels
-/// Considered Harmful"): shading lists the rays of the paths that go on, packed, so that dead paths cost nothing.
-/// The device counts the rays; tracers that run there take the counts from it, without the host.
+/// Considered Harmful"; here one kernel shades all materials, and no new path takes the place of one that ended).
+/// Shading lists the rays of the paths that go on, packed, so that paths that ended cost nothing. The device counts
+/// the rays; tracers that run there take the counts from it, without the host.
 class PathStreams {
  public:
     explicit PathStreams(ProgramOwner& owner);

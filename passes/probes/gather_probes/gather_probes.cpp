@@ -5,7 +5,7 @@
 namespace voxray {
 
 /// Light of each pixel by a lookup between probes: albedo / pi times the irradiance there. Source: Majercik et
-/// al. 2019, section 5; Majercik et al. 2021, sections 3 and 6.
+/// al. 2019, section 5; Majercik et al. 2021, sections 4.1 (bias) and 7.4 (cascades).
 class GatherProbes final : public Pass {
  public:
     static constexpr const char* kName = "gather_probes";
@@ -13,7 +13,7 @@ class GatherProbes final : public Pass {
         "Looks indirect light up between irradiance probes at each pixel. "
         "Interpolates the eight probes around it, weighted by whether they see it and by the normal; "
         "update_probes has the parameters of the lookup, as its rays use it, too. No ray is traced. "
-        "Biased by: the distance of probes. Noisy by: rays_per_probe and updates of update_probes. "
+        "Biased by: the spacing of probes. Noisy by: rays_per_probe and updates of update_probes. "
         "Lambert surfaces only. Source: Majercik et al. 2019 and 2021. Reports where there is no probe: black.";
     void plan(PassPlan& plan) override {
         plan[indirect_].lightBounces = plan[probes_].lightBounces;

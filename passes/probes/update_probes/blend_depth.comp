@@ -1,6 +1,6 @@
 // Moments of the distance of surfaces in the direction of each texel of a batch of probes: means over the rays, weighted
-// by a power of their cosine, blended with those of earlier updates. Surfaces hit from behind count as closer by four
-// fifths, so that no light gets through them. Source: Majercik et al. 2019, section 4; Majercik et al. 2021, section 5.
+// by a power of their cosine, blended with those of earlier updates. Back faces count with a fifth of their distance, so
+// that hardly any light gets through them. Source: Majercik et al. 2019, section 4; Majercik et al. 2021, section 4.1.
 #include "passes/probes/update_probes/probe_texel.glsl"
 layout(local_size_x = 64) in;
 
@@ -18,7 +18,7 @@ void main() {
     const uint n = probeGrids.settings.depthTexels, i = linearIndex();
     if (i >= push.count * n * n) return;
     const ProbeTexel t = probeTexel(i, push.first, n);
-    const float minCosine = pow(1e-6, 1.0 / push.sharpness);  // Rays of less weight than a millionth are left out.
+    const float minCosine = pow(1e-6, 1.0 / push.sharpness);  // Weights below are left out; 2019 has 1e-3.
     vec2 sum = vec2(0.0);
     float weights = 0.0, nearest = -1.0, nearestDistance = 0.0;
     for (uint r = 0u; r < push.raysPerProbe; ++r) {

@@ -1,6 +1,6 @@
 // Irradiance of each texel of a batch of probes: pi times the mean radiance of the rays, weighted by their cosine, blended
-// with that of earlier updates. Source: Majercik et al. 2019, section 4; Majercik et al. 2021, section 4 (encoding and
-// thresholds).
+// with that of earlier updates. Source: Majercik et al. 2019, section 4; Majercik et al. 2021, sections 4.2 (encoding) and
+// 4.3 (thresholds).
 #include "passes/probes/update_probes/probe_texel.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 64) in;
@@ -18,7 +18,7 @@ layout(push_constant) uniform Push {
 
 float largest(vec3 v) { return max(v.x, max(v.y, v.z)); }
 
-// Hysteresis of a texel that changes.
+// Hysteresis of a texel, lower where it changes: by the change of encoded values over the larger of both.
 float hysteresisOf(vec3 old, vec3 encoded) {
     if (push.hysteresis == 0.0) return 0.0;
     const float change = largest(abs(encoded - old)) / max(max(largest(old), largest(encoded)), 1e-20);

@@ -1,5 +1,5 @@
-// Turns probes off that are inside of things, or have no surface in the cells around them. Source: Majercik et al. 2021,
-// section 5 (probe states).
+// Turns probes off that are inside objects, or have no surface in the cells around them. Source: Majercik et al. 2021,
+// section 6 (probe states).
 #include "shaders/compute/linear_index.glsl"
 #include "passes/probes/probe_grid.glsl"
 #include "passes/probes/update_probes/hits_from_behind.glsl"

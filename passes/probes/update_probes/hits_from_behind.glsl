@@ -1,5 +1,5 @@
-// Whether a probe ray hit a surface from behind, from where it gets no light: probes that see many such hits are inside
-// of things. A surface of two sides has no such side.
+// Whether a probe ray hit a back face. It gets no light, and probes that see many of them are inside objects. Surfaces of
+// double-sided materials have no back. Source: Majercik et al. 2021, section 4.1.
 #ifndef VOXRAY_HITS_FROM_BEHIND_GLSL
 #define VOXRAY_HITS_FROM_BEHIND_GLSL
 

@@ -3,7 +3,7 @@
 namespace voxray {
 namespace {
 
-/// Largest offset along an axis, of the spacing: probes stay in their cells.
+/// Largest offset along an axis, in spacings: probes stay in their cells. As in the authors' library.
 constexpr float kReach = 0.45f;
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 namespace voxray {
 
-/// Moves probes off surfaces and turns those off that light nothing. Source: Majercik et al. 2021, section 5.
+/// Moves probes off surfaces and turns those off that light nothing. Source: Majercik et al. 2021, sections 5 and 6.
 class ProbePlacement {
  public:
     struct Settings {

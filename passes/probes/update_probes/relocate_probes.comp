@@ -1,5 +1,5 @@
-// Moves probes out of surfaces, and off surfaces that are too close, by at most `reach` of a spacing along each axis.
-// Source: Majercik et al. 2021, section 5 (probe relocation).
+// Moves probes out of objects, and off surfaces that are too close, to at most `reach` of a spacing from their place along
+// each axis; a step beyond is not taken. Source: Majercik et al. 2021, section 5 (there half of the smallest spacing).
 #include "shaders/compute/linear_index.glsl"
 #include "passes/probes/probe_grid.glsl"
 #include "passes/probes/update_probes/hits_from_behind.glsl"

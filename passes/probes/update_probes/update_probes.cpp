@@ -25,7 +25,7 @@ class UpdateProbes final : public Pass {
         "Fills a grid of irradiance probes (DDGI) by rays from them. "
         "Each probe holds irradiance by normal and moments of the distance of surfaces by direction. "
         "Hits are lit by shadow rays and the probes' own light, or by voxels. "
-        "Biased by: the distance of probes (what is smaller is lost, light leaks round thin walls), "
+        "Biased by: the spacing of probes (what is smaller is lost, light leaks round thin walls), "
         "encoding_gamma, blend_gamma and wrap_weights; hysteresis, light that changed since. "
         "Noisy by: rays_per_probe, updates. Lambert surfaces only. "
         "Source: Majercik et al. 2019 and 2021; docs/probes.md.";

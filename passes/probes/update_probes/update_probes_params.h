@@ -22,8 +22,8 @@ struct EnumNames<ProbeBackfaces> {
     static constexpr std::array names{std::pair{ProbeBackfaces::Dark, "dark"}, std::pair{ProbeBackfaces::Lit, "lit"}};
 };
 
-/// Defaults are those of Majercik et al. 2019 and 2021, where they name them; docs/probes.md says which and what each
-/// costs.
+/// Defaults are those of Majercik et al. 2019 and 2021 where they name one, else mostly those of the authors' library;
+/// docs/probes.md says which and what each costs.
 struct UpdateProbesParams {
     ProbeUpdate update = ProbeUpdate::Once;
     ProbeSource source = ProbeSource::Probes;
@@ -84,12 +84,12 @@ struct UpdateProbesParams {
                   "Part of earlier frames in the light: more for less noise and more lag.", 0.0f, 0.999f)
                 .onlyWith(oneOf(&P::update, {ProbeUpdate::EachFrame})),
             field("change_threshold", &P::changeThreshold,
-                  "Relative change of a texel's encoded irradiance from which its hysteresis is lower by 0.15. 1: "
-                  "never. Favors light over dark where updates are noisy.",
+                  "Change of a texel's encoded irradiance, over the larger of the old and the new value, above which "
+                  "its hysteresis is lower by 0.15. 1: never. Takes noise above it for a change.",
                   0.0f, 1.0f)
                 .onlyWith(oneOf(&P::update, {ProbeUpdate::EachFrame})),
             field("reset_threshold", &P::resetThreshold,
-                  "Relative change from which a texel forgets earlier frames. 1: never.", 0.0f, 1.0f)
+                  "The same change above which a texel forgets earlier frames. 1: never.", 0.0f, 1.0f)
                 .onlyWith(oneOf(&P::update, {ProbeUpdate::EachFrame})),
             field("irradiance_texels", &P::irradianceTexels,
                   "Texels along an edge of a probe's irradiance map, without its border.", 2u, 32u),
@@ -99,19 +99,19 @@ struct UpdateProbesParams {
                   1.0f, 1000.0f),
             field("encoding_gamma", &P::encodingGamma,
                   "Irradiance is stored, blended over updates and interpolated in a probe's map as its root of this "
-                  "degree. Darkens what is noisy or varies; 1: unbiased, for light that is a sum of lights.",
+                  "degree. Darkens what is noisy or varies; 1: linear.",
                   1.0f, 8.0f),
             field("blend_gamma", &P::blendGamma,
                   "Degree of the root that is interpolated between probes. Darkens where probes differ; 1: linear.",
                   1.0f, 8.0f),
             field("visibility", &P::visibility,
                   "Whether probes that do not see a point count less, by Chebyshev's inequality on depth moments. "
-                  "Off: light leaks through walls, as in irradiance volumes before."),
+                  "Off: light leaks through walls."),
             field("wrap_weights", &P::wrapWeights,
-                  "Whether probes behind a surface count, too: the square of half the cosine plus half, plus 0.2. "
+                  "Whether probes behind a surface count, too: weight ((cosine + 1) / 2)^2 + 0.2. "
                   "Off: the cosine."),
             field("crush_threshold", &P::crushThreshold,
-                  "Weights below are lowered by the square of their part of it, against leaks.", 1e-6f, 1.0f),
+                  "A weight w below it becomes w^3 / crush_threshold^2, against leaks.", 1e-6f, 1.0f),
             field("normal_bias", &P::normalBias,
                   "How far a point is moved along its normal for the visibility test, in spacings. Too little: "
                   "surfaces shadow themselves; too much: leaks.",
@@ -120,19 +120,20 @@ struct UpdateProbesParams {
             field("relocation_steps", &P::relocationSteps,
                   "Steps in which probes are moved out of surfaces and off them. 0: none.", 0u, 32u),
             field("classification", &P::classification,
-                  "Whether probes are off that are in surfaces or have none near: they trace no rays and count "
-                  "nowhere."),
+                  "Whether probes inside objects, and those without a surface near, are inactive: they trace no rays "
+                  "and have no weight."),
             field("backface_threshold", &P::backfaceThreshold,
-                  "Part of a probe's rays that hit surfaces from behind from which it is in a surface.", 0.0f, 1.0f)
+                  "A probe is inside an object if more than this part of its rays hit back faces.", 0.0f, 1.0f)
                 .onlyWith(oneOf(&P::backfaces, {ProbeBackfaces::Dark})),
             field("min_distance", &P::minDistance,
-                  "Of probes from the sides of the scene's region, and where they are moved from other surfaces, too, "
-                  "in spacings.",
+                  "Distance of the outermost probes from the sides of the scene's region, and the least distance from "
+                  "surfaces that relocation keeps, in spacings.",
                   0.01f, 0.45f),
-            field("backfaces", &P::backfaces,
-                  "What single-sided surfaces are from behind. dark: no source of light, and the sign of a probe "
-                  "inside of something, as published; needs consistent windings. lit: they reflect as from the front, "
-                  "as everywhere in Voxray.")};
+            field(
+                "backfaces", &P::backfaces,
+                "What back faces of single-sided surfaces are. dark: black, and the sign of a probe inside an object, "
+                "as published; needs consistent windings. lit: they reflect as front faces do, "
+                "as everywhere in Voxray.")};
     }
 };
 

@@ -1,5 +1,5 @@
 // How many independent rays each block's resampled rays count as (docs/reservoirs.md). One number for a block: if it
-// followed a single ray, it would go with the ray's value, and a mean weighted by it would be biased.
+// depended on a single ray's value, a mean weighted by it would be biased.
 #include "passes/reservoirs/reservoir_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

@@ -38,8 +38,8 @@ namespace {
 
 constexpr float kMinRadius = 3;  ///< Pixels (Ouyang et al. 2021, section 5).
 
-/// Independent values of equal variance that filter_irradiance averages with 4 levels and even light: 256/36
-/// of a 3 x 3 kernel, over 1.7 from level 1 on (passes/view/filter_irradiance/elements.glsl).
+/// Number of independent values of equal variance that filter_irradiance averages with 4 levels and even light:
+/// 256/36 by a 3 x 3 kernel, over 1.7 from level 1 on (passes/view/filter_irradiance/elements.glsl).
 float filteredPixels() {
     constexpr float kKernel = 256.0f / 36, kOverlap = 1.7f;
     return kKernel * std::pow(kKernel / kOverlap, 3.0f);
@@ -55,7 +55,7 @@ class ResampleRays final : public Pass {
     static constexpr const char* kHelp =
         "Resamples gather rays: receivers reuse hits of their neighbors and of earlier frames. "
         "Stands after gather_rays; each ray's irradiance becomes that of one hit, chosen out of many by what it brings. "
-        "Unbiased with `bias_correction: pairwise` where light and surfaces stand still; lags where they move. "
+        "Adds no bias with `bias_correction: pairwise` where light and surfaces stand still; lags where they move. "
         "Noisy by: neighbors, m_max; noise is correlated within search_radius. Lambert surfaces only. "
         "Source: Ouyang et al. 2021 (ReSTIR GI); Bitterli 2021; Lin et al. 2022; docs/reservoirs.md.";
     struct Params {
@@ -73,10 +73,10 @@ class ResampleRays final : public Pass {
                       "where the receiver was seen then."),
                 field("bias_correction", &Params::biasCorrection,
                       "pairwise: multiple importance sampling, with rays that test which receivers see a hit; "
-                      "unbiased. none: weights by the number of candidates and one visibility ray, "
-                      "as in the paper's biased variant: faster, and dark where neighbors see less."),
+                      "unbiased. none: weights by the number of candidates, and one visibility ray for the chosen hit, "
+                      "like the paper's biased variant: faster, and dark where neighbors see less."),
                 field("neighbors", &Params::neighbors,
-                      "Candidates for spatial neighbors; those that are unlike the receiver are left out. "
+                      "Places where a neighbor is looked for; those that are unlike the receiver are left out. "
                       "The paper has 9 where reservoirs hold few candidates, else 3.",
                       1u, 32u)
                     .lessNoise(),
@@ -91,7 +91,9 @@ class ResampleRays final : public Pass {
                 field("normal_threshold", &Params::normalThreshold,
                       "Largest angle between the normals of receivers that share hits, degrees.", 0.0f, 180.0f),
                 field("depth_threshold", &Params::depthThreshold,
-                      "Largest difference of their distances to the camera, over that distance.", 0.0f, 1000.0f)};
+                      "Largest difference of their distances to the camera, relative to the receiver's own; between "
+                      "frames the largest distance of the two points.",
+                      0.0f, 1000.0f)};
         }
     };
 
