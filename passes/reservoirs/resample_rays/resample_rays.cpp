@@ -56,7 +56,7 @@ class ResampleRays final : public Pass {
         "Resamples gather rays: receivers reuse hits of their neighbors and of earlier frames. "
         "Stands after gather_rays; each ray's irradiance becomes that of one hit, chosen out of many by what it brings. "
         "Adds no bias with `bias_correction: pairwise` where light and surfaces stand still; lags where they move. "
-        "Noisy by: neighbors, m_max; noise is correlated within search_radius. Lambert surfaces only. "
+        "Noisy by: neighbors, m_max. Noise is correlated within search_radius. Lambert surfaces only. "
         "Source: Ouyang et al. 2021 (ReSTIR GI); Bitterli 2021; Lin et al. 2022; docs/reservoirs.md.";
     struct Params {
         Reuse reuse = Reuse::Spatial;
