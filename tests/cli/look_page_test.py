@@ -192,6 +192,16 @@ class Page(look_test.Browsed):
         self.assertGreater(self.browser.run("return window.look.latencies.length"), latencies)
         self.assertEqual(self.config()["scene"]["camera"]["path"], path)
         np.testing.assert_array_equal(self.shown(), image)
+        # A page that is loaded anew has it, too
+        self.browser.driver.refresh()
+        self.settle()
+        self.assertIn(f"{frames} frames", self.find("#path").text)
+        self.hold("s", 0.3)
+        self.settle()
+        self.assertNotIn("path", self.config()["scene"]["camera"])
+        self.find("#path button:last-child").click()
+        self.settle()
+        self.assertEqual(self.config()["scene"]["camera"]["path"], path)
         self.assertEqual(self.browser.console(), [])
 
     def test_the_keyboard_reaches_everything(self):
@@ -332,6 +342,12 @@ class Page(look_test.Browsed):
         self.assertEqual(self.variant(), "resolution 16, changed")
         self.type("inject.bounces", "2")
         self.assertEqual(self.variant(), "resolution 16")
+        # The next variant keeps camera and exposure
+        self.find("input[name=exposure]").send_keys(Keys.ARROW_RIGHT)
+        self.settle()
+        camera = self.config()["scene"]["camera"]
+        self.choose("variant", "resolution 8")
+        self.assertEqual((self.config()["scene"]["camera"], self.config()["image"]["exposure_stops"]), (camera, 0.5))
 
     def test_scene_and_reference(self):
         before = self.shown()
