@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 
 from bench.runs import Run, Variant
+from report.ranking import log_cost_at, pareto_front
 
 ERRORS = {"indirect_nrmse": "nRMSE", "indirect_relmse": "relMSE"}
 _PATHS = {"path_trace_device", "filter_irradiance"}
@@ -34,26 +34,12 @@ def _row(variant: Variant, is_rival: bool) -> dict:
 
 
 def _over(row: dict, rivals: list[dict], error: str) -> dict:
-    front = _front([(rival["frame_ms"], rival["errors"][error]) for rival in rivals if rival["errors"][error]])
+    points = [(rival["frame_ms"], rival["errors"][error]) for rival in rivals if rival["errors"][error]]
+    times, reached = zip(*(points[i] for i in pareto_front(points)))
     wanted = row["errors"][error]
-    time = _time_at(front, wanted)
-    at = "least" if wanted > front[0][1] else "most" if wanted < front[-1][1] else ""
+    at = "least" if wanted > reached[0] else "most" if wanted < reached[-1] else ""
+    if wanted <= reached[-1]:
+        time = times[-1]
+    else:
+        time = times[0] if wanted >= reached[0] else math.exp(log_cost_at(wanted, times, reached))
     return {"frame": row["frame_ms"] / time, "whole": row["whole_ms"] / time, "at": at}
-
-
-def _front(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """The (time, error) points that no other dominates, by rising time."""
-    ordered = sorted(points)
-    before = itertools.accumulate((error for _, error in ordered), min, initial=math.inf)
-    return [point for point, lowest in zip(ordered, before) if point[1] < lowest]
-
-
-def _time_at(front: list[tuple[float, float]], error: float) -> float:
-    """The time to an error, logarithm over logarithm; at the ends of the front the time there."""
-    if error >= front[0][1]:
-        return front[0][0]
-    for (fast, high), (slow, low) in itertools.pairwise(front):
-        if error >= low:
-            part = math.log(high / error) / math.log(high / low)
-            return fast * (slow / fast) ** part
-    return front[-1][0]

@@ -43,6 +43,10 @@ struct OpenImageDenoise::Api {
     void (*executeFilter)(OidnFilter) = nullptr;
     void (*releaseFilter)(OidnFilter) = nullptr;
 
+    // Made once, since the library builds its network for them.
+    OidnDevice device = nullptr;
+    OidnFilter filter = nullptr;
+
     explicit Api(const std::string& name) : library(dlopen(name.c_str(), RTLD_NOW | RTLD_LOCAL)) {
         if (!library) throw Error("denoise_oidn: Open Image Denoise can't be loaded: {}; {}", dlerror(), kHowToGet);
         find(newDevice, "oidnNewDevice", name);
@@ -57,51 +61,59 @@ struct OpenImageDenoise::Api {
         find(releaseFilter, "oidnReleaseFilter", name);
     }
 
+    ~Api() {
+        if (filter) releaseFilter(filter);
+        if (device) releaseDevice(device);
+    }
+    Api(const Api&) = delete;
+    Api& operator=(const Api&) = delete;
+
     template <typename Function>
     void find(Function& function, const char* symbol, const std::string& name) {
         function = reinterpret_cast<Function>(dlsym(library.get(), symbol));
         if (!function) throw Error("denoise_oidn: '{}' has no {}, so it is not version 2; {}", name, symbol, kHowToGet);
     }
 
-    /// @throws Error with the words of the device's first error since the last call.
-    void check(OidnDevice device) const {
+    /// @throws Error with the words of the device's first error since the last call; without a device, the thread's.
+    void check() const {
         const char* message = nullptr;
         if (getDeviceError(device, &message) != kNoError)
             throw Error("denoise_oidn: Open Image Denoise: {}", message ? message : "an error without a message");
+    }
+
+    void makeFilter() {
+        if (!device) {
+            device = newDevice(kDeviceCpu);
+            if (device) commitDevice(device);
+        }
+        check();
+        filter = newFilter(device, "RT");
+        check();
+        setFilterBool(filter, "hdr", true);
+        setFilterBool(filter, "cleanAux", true);  // The G-buffer has no noise
     }
 };
 
 OpenImageDenoise::OpenImageDenoise(const std::string& library) : api_(std::make_unique<Api>(library)) {}
 OpenImageDenoise::~OpenImageDenoise() = default;
 
-std::vector<float> OpenImageDenoise::denoise(const NoisyImage& image) const {
-    const Api& api = *api_;
-    const auto releaseDevice = [&](Api::OidnDevice device) { api.releaseDevice(device); };
-    const std::unique_ptr<Api::DeviceHandle, decltype(releaseDevice)> device(api.newDevice(kDeviceCpu), releaseDevice);
-    if (!device) api.check(nullptr);
-    api.commitDevice(device.get());
-    api.check(device.get());
-    const auto releaseFilter = [&](Api::OidnFilter filter) { api.releaseFilter(filter); };
-    const std::unique_ptr<Api::FilterHandle, decltype(releaseFilter)> filter(api.newFilter(device.get(), "RT"),
-                                                                             releaseFilter);
-    api.check(device.get());
-
+std::vector<float> OpenImageDenoise::denoise(const NoisyImage& image) {
+    Api& api = *api_;
+    if (!api.filter) api.makeFilter();
     std::vector<float> result(size_t(image.width) * image.height * 4, 1.0f);
     constexpr size_t kPixelBytes = NoisyImage::kFloats * sizeof(float);
     void* const input = const_cast<float*>(image.pixels.data());  // Inputs are not written
     size_t offset = 0;
     for (const char* name : {"color", "albedo", "normal"}) {
-        api.setSharedFilterImage(filter.get(), name, input, kFloat3, image.width, image.height, offset, kPixelBytes,
+        api.setSharedFilterImage(api.filter, name, input, kFloat3, image.width, image.height, offset, kPixelBytes,
                                  kPixelBytes * image.width);
         offset += 3 * sizeof(float);
     }
-    api.setSharedFilterImage(filter.get(), "output", result.data(), kFloat3, image.width, image.height, 0,
+    api.setSharedFilterImage(api.filter, "output", result.data(), kFloat3, image.width, image.height, 0,
                              4 * sizeof(float), 4 * sizeof(float) * image.width);
-    api.setFilterBool(filter.get(), "hdr", true);
-    api.setFilterBool(filter.get(), "cleanAux", true);  // The G-buffer has no noise
-    api.commitFilter(filter.get());
-    api.executeFilter(filter.get());
-    api.check(device.get());
+    api.commitFilter(api.filter);
+    api.executeFilter(api.filter);
+    api.check();
     return result;
 }
 

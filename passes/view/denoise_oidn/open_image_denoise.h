@@ -26,7 +26,7 @@ class OpenImageDenoise {
     OpenImageDenoise& operator=(const OpenImageDenoise&) = delete;
 
     /// @return RGBA, 4 floats a pixel; alpha is 1. @throws Error with the library's words.
-    std::vector<float> denoise(const NoisyImage& image) const;
+    std::vector<float> denoise(const NoisyImage& image);
 
  private:
     struct Api;
