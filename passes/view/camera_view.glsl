@@ -1,4 +1,4 @@
-// The camera and its samples: a ray through the center of each texel of the image. Host: passes/view/camera_view.h.
+// The camera and its rays through the image. Host: passes/view/camera_view.h.
 #ifndef VOXRAY_CAMERA_VIEW_GLSL
 #define VOXRAY_CAMERA_VIEW_GLSL
 
@@ -11,10 +11,14 @@ struct CameraView {
     vec3 up;     // and to its upper edge.
 };
 
-vec3 viewDirection(CameraView view, uvec2 texel) {
-    const vec2 ndc = 2.0 * (vec2(texel) + 0.5) / vec2(view.width, view.height) - 1.0;
+// position: in texels.
+vec3 viewDirectionAt(CameraView view, vec2 position) {
+    const vec2 ndc = 2.0 * position / vec2(view.width, view.height) - 1.0;
     return normalize(view.forward + ndc.x * view.right - ndc.y * view.up);
 }
+
+// Through a texel's center.
+vec3 viewDirection(CameraView view, uvec2 texel) { return viewDirectionAt(view, vec2(texel) + 0.5); }
 
 // Position in the image, in texels; outside of it for a point behind the camera.
 vec2 projectToImage(CameraView view, vec3 position) {

@@ -7,8 +7,8 @@
 namespace voxray {
 
 /// The surfaces that the camera sees, at `samples` x `samples` texels per pixel: texel (samples x + i,
-/// samples y + j) is the center of sub-pixel (i, j) of pixel (x, y). Passes that write frame images average
-/// the texels of each pixel. Texels without a surface have position.w = 0.
+/// samples y + j) is a point in sub-pixel (i, j) of pixel (x, y). Passes that write frame images average the
+/// texels of each pixel. Texels without a surface have position.w = 0.
 struct GBuffer : Resource {
     uint32_t samples = 1;   ///< Texels along an edge of a pixel; known from plan() on.
     Image position;         ///< RGBA32F: world position, m; offset of ray origins along the normal, m.

@@ -19,6 +19,14 @@ struct EnumNames<GBufferMethod> {
                                       std::pair{GBufferMethod::Raster, "raster"}};
 };
 
+enum class SamplePattern { Rotated, Regular };
+
+template <>
+struct EnumNames<SamplePattern> {
+    static constexpr std::array names{std::pair{SamplePattern::Rotated, "rotated"},
+                                      std::pair{SamplePattern::Regular, "regular"}};
+};
+
 enum class TextureLookup { Filtered, Sharp };
 
 template <>
@@ -73,6 +81,7 @@ class GBufferPass final : public Pass {
     struct Params {
         GBufferMethod method = GBufferMethod::Rays;
         uint32_t samplesPerPixelEdge = 1;
+        SamplePattern samplePattern = SamplePattern::Rotated;
         TextureLookup normalMaps = TextureLookup::Filtered;
         TextureLookup colors = TextureLookup::Filtered;
         static constexpr auto schema() {
@@ -82,9 +91,14 @@ class GBufferPass final : public Pass {
                       "on a CPU a tenth of raster's time in a large scene. "
                       "raster: for GPUs with slow or no ray tracing."),
                 field("samples_per_pixel_edge", &Params::samplesPerPixelEdge,
-                      "Samples along each edge of a pixel, on a regular grid: 2 for 4 samples a pixel. "
+                      "Samples along each edge of a pixel: 2 for 4 samples a pixel. "
                       "Later passes process every sample.",
                       1u, 8u),
+                field("sample_pattern", &Params::samplePattern,
+                      "Where samples are in their pixel. rotated: a rotated grid, in which no two are in a column or a "
+                      "row: edges along either are as smooth as others. regular: the centers of a regular grid, as "
+                      "with `method: raster`.")
+                    .onlyWith(oneOf(&Params::method, {GBufferMethod::Rays})),
                 field("normal_maps", &Params::normalMaps,
                       "filtered: the mean normal over a sample's footprint, biased as it flattens detail. "
                       "sharp: the normal at the sample's point: noise instead, which samples_per_pixel_edge lowers."),
@@ -161,8 +175,10 @@ void GBufferPass::plan(PassPlan& plan) {
     if (params_.normalMaps == TextureLookup::Sharp) defines.emplace("SHARP_NORMALS", "1");
     if (params_.colors == TextureLookup::Sharp) defines.emplace("SHARP_COLORS", "1");
     if (hasMotion(plan)) defines.emplace("MOTION", "1");
-    storeSurfaces_.define(defines);
     drawSurfaces_.define(defines);
+    if (params_.samplePattern == SamplePattern::Rotated) defines.emplace("ROTATED_GRID", "1");
+    generateRays_.define(defines);
+    storeSurfaces_.define(defines);
     RasterState state;
     for (const Target& t : kTargets) state.colorFormats.push_back(t.format);
     if (hasMotion(plan)) state.colorFormats.push_back(kWide);
@@ -216,8 +232,9 @@ void GBufferPass::trace(PassContext& context) {
     const uint32_t texels = view.width * view.height;
     for (uint32_t first = 0; first < texels; first += kMaxBatchRays) {
         const uint32_t batch = std::min(kMaxBatchRays, texels - first);
-        context.dispatch(generateRays_, batch,
-                         {{"rays", rays_}, {"view", view}, {"firstTexel", first}, {"batchRays", batch}});
+        context.dispatch(
+            generateRays_, batch,
+            {{"rays", rays_}, {"view", view}, {"samples", g.samples}, {"firstTexel", first}, {"batchRays", batch}});
         context.tracer.closestHit(context.stream, rays_, hits_, batch, Coherence::Coherent);
         context.dispatch(storeSurfaces_, batch,
                          {context.scene,

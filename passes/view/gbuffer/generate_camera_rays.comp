@@ -1,5 +1,5 @@
 // Generates the camera rays of a batch of texels.
-#include "passes/view/camera_view.glsl"
+#include "passes/view/gbuffer/sample_direction.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
@@ -7,6 +7,7 @@ layout(local_size_x = 64) in;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(push_constant, scalar) uniform Push {
     CameraView view;
+    uint samples;
     uint firstTexel;
     uint batchRays;
 } push;
@@ -16,5 +17,5 @@ void main() {
     if (i >= push.batchRays) return;
     const uint texel = push.firstTexel + i;
     const uvec2 position = uvec2(texel % push.view.width, texel / push.view.width);
-    rays.data[i] = Ray(push.view.origin, 0.0, viewDirection(push.view, position), 1.0e30);
+    rays.data[i] = Ray(push.view.origin, 0.0, sampleDirection(push.view, position, push.samples), 1.0e30);
 }

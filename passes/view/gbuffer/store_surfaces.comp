@@ -1,4 +1,5 @@
 // Writes the surfaces that a batch of camera rays hit to the G-buffer's images.
+#include "passes/view/gbuffer/sample_direction.glsl"
 #include "passes/view/gbuffer/visible_surface.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/inset_barycentrics.glsl"
@@ -21,6 +22,7 @@ layout(rgba32f) writeonly uniform image2D previous;
 #endif
 layout(push_constant, scalar) uniform Push {
     CameraView view;
+    uint samples;
     uint firstTexel;
     uint batchRays;
 } push;
@@ -36,7 +38,7 @@ void main() {
     VisibleSurface visible = VisibleSurface(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0),
                                             Specular(vec3(0.0), 0.0, 0.0, 0.0, 0.0));
     if (hit.triangle == NO_HIT) {
-        visible.emission = environmentRadiance(viewDirection(push.view, uvec2(texel)));
+        visible.emission = environmentRadiance(sampleDirection(push.view, uvec2(texel), push.samples));
     } else {
         const vec2 barycentrics = insetBarycentrics(hit.triangle, vec2(hit.u, hit.v));
         const SurfacePoint s = surfacePoint(hit.triangle, barycentrics);

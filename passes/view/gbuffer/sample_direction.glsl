@@ -1,0 +1,20 @@
+// The camera ray of each of a pixel's samples.
+#ifndef VOXRAY_GBUFFER_SAMPLE_DIRECTION_GLSL
+#define VOXRAY_GBUFFER_SAMPLE_DIRECTION_GLSL
+
+#include "passes/view/camera_view.glsl"
+
+// samples: texels along an edge of a pixel.
+vec3 sampleDirection(CameraView view, uvec2 texel, uint samples) {
+#ifdef ROTATED_GRID
+    // No two samples of a pixel in one column or row, so that edges along either cover as many steps as there are
+    // samples; the positions of multisampling with samples = 2
+    const uvec2 inPixel = texel % samples;
+    const vec2 inTexel = (vec2(samples - 1u - inPixel.y, inPixel.x) + 0.5) / float(samples);
+    return viewDirectionAt(view, vec2(texel) + inTexel);
+#else
+    return viewDirection(view, texel);
+#endif
+}
+
+#endif
