@@ -205,7 +205,8 @@ TEST(ResampleRays, NoiseFallsAsTheNumberOfRaysSays) {
 
 TEST(ResampleRays, NoiseFallsOverFramesAsTheNumberOfRaysSaysUnlessTheCameraMoves) {
     // While the camera moves the number is too large, a known limit: hits are looked up by receivers that lie elsewhere
-    // in the texel, which bring noise of their own. Every 60th frame is taken, by which earlier ones count for (30/31)⁶⁰.
+    // in the texel, which bring noise of their own. Every 60th frame is taken, by which earlier ones count for
+    // (30/31)⁶⁰.
     constexpr int kRuns = 24, kSpacing = 60;
     const std::string trace = "rays_per_block: 1";
     const Statistics plain = frames("", kFrames, trace);
@@ -227,8 +228,9 @@ TEST(ResampleRays, NoiseFallsOverFramesAsTheNumberOfRaysSaysUnlessTheCameraMoves
         const double fall = plain.variance() / resampled.variance();
         const double byTiles = plain.variance() / resampled.varianceByTiles();
         told /= surfaces;
-        std::printf("%s camera: variance falls to 1/%.2f, that of tiles to 1/%.2f of independent texels', told %.2f rays\n",
-                    isMoving ? "moving" : "still", fall, byTiles, told);
+        std::printf(
+            "%s camera: variance falls to 1/%.2f, that of tiles to 1/%.2f of independent texels', told %.2f rays\n",
+            isMoving ? "moving" : "still", fall, byTiles, told);
         EXPECT_GT(fall, isMoving ? 1 : 15);
         EXPECT_GT(byTiles, 0.7 * fall);
         EXPECT_GT(told, 0.35 * fall);

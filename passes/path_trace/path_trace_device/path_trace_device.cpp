@@ -187,8 +187,7 @@ void PathTraceDevice::keepSums(PassContext& context) {
                 const gpu::PixelSums& s = read[i];
                 const double value = double(s.total[half][c]) - double(s.excessTotal[half][c]);
                 final.data[3 * i + size_t(c)] = value;
-                indirect.data[3 * i + size_t(c)] =
-                    double(s.indirect[half][c]) - double(s.excessIndirect[half][c]);
+                indirect.data[3 * i + size_t(c)] = double(s.indirect[half][c]) - double(s.excessIndirect[half][c]);
                 if (!std::isfinite(value))
                     throw Error(
                         "{}: a sample of pixel ({}, {}) is not finite: is a light or an emission too bright for a "

@@ -126,8 +126,8 @@ struct UpdateProbesParams {
             field("backface_threshold", &P::backfaceThreshold,
                   "A probe is inside an object if more than this part of its rays hit back faces.", 0.0f, 1.0f)
                 .onlyWith(oneOf(&P::backfaces, {ProbeBackfaces::Dark})),
-            field("min_distance", &P::minDistance,
-                  "Least distance from surfaces that relocation keeps, in spacings.", 0.01f, 0.45f),
+            field("min_distance", &P::minDistance, "Least distance from surfaces that relocation keeps, in spacings.",
+                  0.01f, 0.45f),
             field("margin", &P::margin,
                   "Distance of the outermost probes from the sides of the scene's region, in spacings. "
                   "0: on its sides; 0.5: each probe in the middle of its cell.",
