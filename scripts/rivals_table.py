@@ -38,8 +38,8 @@ COLUMNS = (("looked up", "inject_radiosity", lambda name: False, LEFT_OUT),
            ("cache, new light", "cached_rays", lambda name: name in LIGHT, LEFT_OUT),
            ("reservoirs, new light", "resampled_rays", lambda name: name in LIGHT, LEFT_OUT),
            ("voxels, new geometry", "gather_rays", lambda name: True, LEFT_OUT),
-           ("probes", "gather_probes", lambda name: False, LEFT_OUT),
-           ("probes, new light", "gather_probes", lambda name: name in LIGHT, LEFT_OUT),
+           ("probes", "update_probes", lambda name: False, LEFT_OUT),
+           ("probes, new light", "update_probes", lambda name: name in LIGHT, LEFT_OUT),
            ("virtual lights", "gather_vpls", lambda name: name in LIGHT, LEFT_OUT))
 
 

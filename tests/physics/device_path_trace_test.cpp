@@ -219,6 +219,14 @@ TEST(PathTraceDevice, ManySamplesOfAPixelMakeSeveralBatches) {
     for (size_t i = 0; i < b.data.size(); ++i) EXPECT_NEAR(a.data[i], b.data[i], 1e-3f * b.data[i] + 1e-6f);
 }
 
+TEST(PathTraceDevice, SumsOfManyBatchesLoseNoLight) {
+    // Every sample is 0.1 in floats, whose multiples are not; a batch has at most 4096 samples of a pixel
+    constexpr uint32_t kSamples = 50000;
+    Chain chain("furnace", "{albedo: 0, emission: 0.1}", onDevice(fmt::format("spp: {}, bounces: 0", kSamples)), 4, 4);
+    for (const SampleSums& half : chain.get<ReferenceSums>("sums").final)
+        for (const double sum : half.data) EXPECT_NEAR(sum / (kSamples / 2 * double(0.1f)), 1, 1e-10);
+}
+
 TEST(PathTraceDevice, GivesTheFilterTheHostsIrradianceAndMoments) {
     const std::string gbuffer = "gbuffer, samples_per_pixel_edge: 2";
     const State state = turned(*litRoom(Lit::All));

@@ -1,7 +1,9 @@
 // Irradiance probes against closed forms, the path tracer and themselves.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
 #include <cmath>
+#include <cstring>
 #include <glm/gtc/packing.hpp>
 
 #include "image/metrics.h"
@@ -211,6 +213,33 @@ TEST(Probes, AreMovedOutOfSurfaces) {
     std::printf("%.2f %% in surfaces, after relocation %.2f %%\n", before, after);
     EXPECT_GT(before, 0.0);
     EXPECT_LT(after, before);
+}
+
+TEST(Probes, StandAtTheMarginWhateverTheirDistanceFromSurfaces) {
+    const auto state = builtin("cornell", "{lights: point}");
+    const Box region = state->geometry.region;
+    for (const float margin : {0.0f, 0.1f, 0.5f}) {
+        std::vector<double> moved;
+        for (const std::string distance : {"0.01", "0.45"}) {
+            Chain chain(state, probeGraph(fmt::format(", bounces: 1, updates: 1, margin: {}, min_distance: {}", margin,
+                                                      distance)));
+            const auto& probes = chain.get<Probes>("probes");
+            const auto bytes = chain.read<std::byte>(probes.grids);
+            gpu::ProbeSettings settings;
+            gpu::ProbeGrid grid;
+            std::memcpy(&settings, bytes.data(), sizeof(settings));
+            std::memcpy(&grid, bytes.data() + sizeof(settings), sizeof(grid));
+            const glm::vec3 last = grid.origin + grid.spacing * glm::vec3(settings.counts - 1u);
+            for (int axis = 0; axis < 3; ++axis) {
+                EXPECT_NEAR(grid.origin[axis] - region.min[axis], margin * grid.spacing[axis], 1e-5) << margin;
+                EXPECT_NEAR(region.max[axis] - last[axis], margin * grid.spacing[axis], 1e-5) << margin;
+            }
+            double sum = 0;
+            for (const gpu::ProbeState& probe : chain.read<gpu::ProbeState>(probes.states)) sum += length(probe.offset);
+            moved.push_back(sum);
+        }
+        EXPECT_GT(moved[1], moved[0]) << margin;
+    }
 }
 
 TEST(Probes, RootsDarkenNoisyLight) {

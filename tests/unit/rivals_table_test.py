@@ -53,6 +53,14 @@ class Table(unittest.TestCase):
         self.assertEqual([cell.strip() for cell in lines[0].split("|")[5:7]], ["voxels", "voxels, rays alone"])
         self.assertEqual([cell.strip() for cell in lines[2].split("|")[5:7]], [">1.5 / >1.5", ">4.5 / >4.5"])
 
+    def test_probes_are_found_by_what_fills_them(self):
+        # What looks them up has the id of the sweep's axis
+        write(self.folder, [("filtered paths, 4", 0.2, {"gbuffer": 10, "paths": 90, "indirect": 100}, {}),
+                            ("probes, 8", 0.2, {"gbuffer": 10, "indirect": 40}, {"update_probes": 50})])
+        lines = list(rivals_table.table(self.folder))
+        self.assertEqual([cell.strip() for cell in lines[0].split("|")[5:7]], ["probes", "probes, new light"])
+        self.assertEqual([cell.strip() for cell in lines[2].split("|")[5:7]], [">4.0 / >4.0", ">2.0 / >2.0"])
+
     def test_the_best_point_is_no_slower_than_path_tracing(self):
         self.assertEqual(list(rivals_table.best(self.folder))[2:],
                          ["| room | looked up | lookup, fine | 200 | 0.050 / 0.0500 / 1.000 |"])

@@ -184,8 +184,10 @@ void PathTraceDevice::keepSums(PassContext& context) {
         SampleSums& indirect = sums.indirect[size_t(half)] = SampleSums(options_.width, options_.height, sizes[half]);
         for (size_t i = 0; i < pixels; ++i)
             for (int c = 0; c < 3; ++c) {
-                const double value = final.data[3 * i + size_t(c)] = double(read[i].total[half][c]);
-                indirect.data[3 * i + size_t(c)] = double(read[i].indirect[half][c]);
+                const gpu::PixelSums& s = read[i];
+                const double value = double(s.total[half][c]) - double(s.excessTotal[half][c]);
+                final.data[3 * i + size_t(c)] = value;
+                indirect.data[3 * i + size_t(c)] = double(s.indirect[half][c]) - double(s.excessIndirect[half][c]);
                 if (!std::isfinite(value))
                     throw Error(
                         "{}: a sample of pixel ({}, {}) is not finite: is a light or an emission too bright for a "

@@ -44,10 +44,12 @@ struct PathSums {
     vec3 irradiance;     // Of indirect light at the first hit, W/m².
 };
 
-// Sums over a pixel's samples, by half.
+// Sums over a pixel's samples, by half, and by how much rounding has made each too large.
 struct PixelSums {
     vec3 total[2];
     vec3 indirect[2];
+    vec3 excessTotal[2];
+    vec3 excessIndirect[2];
 };
 
 // A bin of the alias table that draws lights: punctual ones, the environment, patches.

@@ -12,12 +12,12 @@ layout(push_constant, scalar) uniform Push {
 } push;
 
 // Adds with compensation (Kahan 1965).
-void add(inout vec3 sum, inout vec3 lost, vec3 value) {
-    precise const vec3 corrected = value - lost;
+void add(inout vec3 sum, inout vec3 excess, vec3 value) {
+    precise const vec3 corrected = value - excess;
     precise const vec3 next = sum + corrected;
     precise const vec3 error = (next - sum) - corrected;
     sum = next;
-    lost = error;
+    excess = error;
 }
 
 void main() {
@@ -27,14 +27,14 @@ void main() {
     if (!isInside(push.batch, pixel)) return;
     Pixels pixels = Pixels(push.pixelSums);
     const uint to = pixel.y * push.batch.width + pixel.x;
-    const vec3 black = vec3(0.0);
-    PixelSums all = PixelSums(vec3[](black, black), vec3[](black, black)), lost = all;
+    const vec3 none[2] = vec3[](vec3(0.0), vec3(0.0));
+    PixelSums all = PixelSums(none, none, none, none);
     if (push.isFirst == 0u) all = pixels.data[to];
     for (uint i = 0u; i < push.batch.samples; ++i) {
         const PathSums path = sums.data[index * push.batch.samples + i];
         const uint half_ = halfOf(push.batch, push.batch.firstSample + i);
-        add(all.total[half_], lost.total[half_], path.direct + path.indirect);
-        add(all.indirect[half_], lost.indirect[half_], path.indirect);
+        add(all.total[half_], all.excessTotal[half_], path.direct + path.indirect);
+        add(all.indirect[half_], all.excessIndirect[half_], path.indirect);
     }
     pixels.data[to] = all;
 }

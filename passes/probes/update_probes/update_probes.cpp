@@ -77,8 +77,7 @@ uint32_t UpdateProbes::warmupFrames() const {
 }
 
 void UpdateProbes::plan(PassPlan& plan) {
-    lattice_ =
-        makeProbeLattice(plan.frame.scene->geometry.region, params_.probes, params_.cascades, params_.minDistance);
+    lattice_ = makeProbeLattice(plan.frame.scene->geometry.region, params_.probes, params_.cascades, params_.margin);
     settings_ = {.counts = lattice_.counts,
                  .cascades = params_.cascades,
                  .irradianceTexels = params_.irradianceTexels,

@@ -50,6 +50,7 @@ struct UpdateProbesParams {
     bool classification = true;
     float backfaceThreshold = 0.25f;
     float minDistance = 0.1f;
+    float margin = 0.1f;
     ProbeBackfaces backfaces = ProbeBackfaces::Dark;
 
     static constexpr auto schema() {
@@ -125,10 +126,12 @@ struct UpdateProbesParams {
             field("backface_threshold", &P::backfaceThreshold,
                   "A probe is inside an object if more than this part of its rays hit back faces.", 0.0f, 1.0f)
                 .onlyWith(oneOf(&P::backfaces, {ProbeBackfaces::Dark})),
-            field("min_distance", &P::minDistance,
-                  "Distance of the outermost probes from the sides of the scene's region, and the least distance from "
-                  "surfaces that relocation keeps, in spacings.",
+            field("min_distance", &P::minDistance, "Least distance from surfaces that relocation keeps, in spacings.",
                   0.01f, 0.45f),
+            field("margin", &P::margin,
+                  "Distance of the outermost probes from the sides of the scene's region, in spacings. "
+                  "0: on its sides; 0.5: each probe in the middle of its cell.",
+                  0.0f, 0.5f),
             field(
                 "backfaces", &P::backfaces,
                 "What back faces of single-sided surfaces are. dark: black, and the sign of a probe inside an object, "

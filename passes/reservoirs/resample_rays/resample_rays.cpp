@@ -10,6 +10,7 @@
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/filter/irradiance_resolve.h"
 #include "passes/common/filter/noisy_irradiance.h"
+#include "passes/common/filter/wavelet_noise.h"
 #include "passes/common/view/gather_hits.h"
 #include "passes/common/view/gather_light.h"
 #include "passes/common/view/surface_motion.h"
@@ -38,11 +39,11 @@ namespace {
 
 constexpr float kMinRadius = 3;  ///< Pixels (Ouyang et al. 2021, section 5).
 
-/// Number of independent values of equal variance that filter_irradiance averages with 4 levels and even light:
-/// 256/36 by a 3 x 3 kernel, over 1.7 from level 1 on (passes/view/filter_irradiance/elements.glsl).
+/// Number of independent values of equal variance that filter_irradiance averages by default where light is even: a
+/// level's 3 x 3 kernel averages 256/36.
 float filteredPixels() {
-    constexpr float kKernel = 256.0f / 36, kOverlap = 1.7f;
-    return kKernel * std::pow(kKernel / kOverlap, 3.0f);
+    constexpr float kKernel = 256.0f / 36;
+    return kKernel * std::pow(kKernel / WAVELET_OVERLAP, float(WAVELET_LEVELS - 1));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #ifndef VOXRAY_FILTER_ELEMENTS_GLSL
 #define VOXRAY_FILTER_ELEMENTS_GLSL
 
+#include "passes/common/filter/wavelet_noise.h"
 #include "passes/view/filter_irradiance/surface.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
@@ -24,8 +25,7 @@ bool elementOfThread(ivec2 pixels, out ivec2 element) {
 // 3 x 3 kernel: 1 2 1 along rows and columns.
 float kernel(int x, int y) { return (x == 0 ? 2.0 : 1.0) * (y == 0 ? 2.0 : 1.0); }
 
-// Variance of a level's result over that of a mean of independent taps. From level 1 on the supports of taps overlap:
-// without edges variance falls by a factor of 4.2 per level, not of 7.1.
-float overlap(int level) { return level == 0 ? 1.0 : 1.7; }
+// Variance of a level's result over that of a mean of independent taps.
+float overlap(int level) { return level == 0 ? 1.0 : WAVELET_OVERLAP; }
 
 #endif

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "graph/registry.h"
 #include "passes/common/filter/noisy_irradiance.h"
+#include "passes/common/filter/wavelet_noise.h"
 #include "scene/camera_rays.h"
 
 namespace voxray {
@@ -93,7 +94,7 @@ class FilterIrradiance final : public Pass {
 
     bool isDirect() const { return params_.light == FilteredLight::Direct; }
     bool hasRegression() const { return params_.estimator == Estimator::Regression; }
-    uint32_t levels() const { return params_.levels > 0 ? params_.levels : hasRegression() ? 5 : 4; }
+    uint32_t levels() const { return params_.levels > 0 ? params_.levels : hasRegression() ? 5 : WAVELET_LEVELS; }
     float edgeStoppingScale() const {
         if (params_.edgeStoppingScale > 0) return params_.edgeStoppingScale;
         return isDirect() ? 1.0f : hasRegression() ? 0.02f : 0.1f;
