@@ -31,6 +31,7 @@ std::vector<ShownState::Change> changesIn(const Value& list) {
 Value mapIn(const std::string& body) {
     Value value = parseYaml(body, "request");
     if (!value.isMap()) throw UsageError("request: it is no map");
+    locate(value, {});  // The page's user sees no request: errors name paths
     return value;
 }
 

@@ -37,7 +37,7 @@ class Page(look_test.Browsed):
         Select(swap).select_by_value("path_trace")
         self.settle()
         self.assertEqual(self.error(), "")
-        self.assertEqual(self.entry("gather_irradiance")["pass"], "path_trace")
+        self.assertEqual((self.entry("gather_irradiance")["pass"], self.entry("gather_irradiance")["spp"]), ("path_trace", 1))
         np.testing.assert_array_equal(self.shown(), self.downloaded_runs())
         # It can be swapped back, and the changed variant chosen anew, which keeps the camera
         swap = self.browser.driver.find_element(By.CSS_SELECTOR, "[data-id=gather_irradiance] select")
