@@ -20,6 +20,7 @@ namespace voxray {
 namespace {
 
 constexpr size_t kMaxPathTraced = 32;  ///< Limit of candidates that are path traced.
+constexpr double kLeastStops = 2;      ///< Less is no matter of visibility.
 constexpr double kMaxStops = 30;       ///< That image.exposure_stops allows.
 
 bool hasLight(const SceneState& state) {
@@ -118,8 +119,8 @@ SuggestedLight evenSky() {
     return {{}, {}, 1.0f};
 }
 
-/// The stops by which half of what a camera sees is brighter than kPreviewRadiance in previews, whole ones: the median is
-/// that of the room where a small lamp is in view, too.
+/// The stops by which half of what a camera sees is brighter than kPreviewRadiance in previews, whole ones, at least
+/// kLeastStops or none: the median is that of the room where a small lamp is in view, too.
 int meteredStops(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera) {
     const PathTraceOptions options{.width = 32, .height = 18, .spp = 64, .bounces = 8};
     const ImageF image = pathTrace(state, tracer, cameraOf(camera), options).total;
@@ -130,7 +131,8 @@ int meteredStops(const SceneState& state, const EmbreeScene& tracer, const Camer
     if (lit.empty()) return 0;
     const auto median = lit.begin() + std::ptrdiff_t(lit.size() / 2);
     std::ranges::nth_element(lit, median);
-    return int(std::clamp(std::round(std::log2(kPreviewRadiance / double(*median))), -kMaxStops, kMaxStops));
+    const double stops = std::round(std::log2(kPreviewRadiance / double(*median)));
+    return std::abs(stops) < kLeastStops ? 0 : int(std::clamp(stops, -kMaxStops, kMaxStops));
 }
 
 FirstView viewOf(const SceneState& state, const EmbreeScene& tracer, const std::optional<Camera>& own,

@@ -83,12 +83,18 @@ def chosen(names, most):
     return [variant for variant in names if variant in ids], len(seen), len(every)
 
 
-def parts(program, config, words):
-    """The parts of an experiment (docs/parts.md). @throws VoxrayError where the config can't be run so"""
-    done = subprocess.run([program, "jobs", config, "--json", *words], capture_output=True, text=True, check=False)
+def said(program, *words):
+    """What the program prints. @throws VoxrayError"""
+    done = subprocess.run([program, *words], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise voxray.VoxrayError(done.stderr.strip())
-    return {job["id"]: job for job in json.loads(done.stdout)["jobs"]}
+    return done.stdout
+
+
+def parts(program, config, words):
+    """The parts of an experiment (docs/parts.md). @throws VoxrayError where the config can't be run so"""
+    said(program, "run", config, "--dry-run", "--quiet", *words)  # Checks all profiles
+    return {job["id"]: job for job in json.loads(said(program, "jobs", config, "--json", *words))["jobs"]}
 
 
 def least(program, configs, options):
@@ -171,12 +177,12 @@ def differences(program, config, most, is_whole):
         with voxray.Session(config, words, program) as session:
             variants, seen, every = chosen(session.variants, most)
             if len(variants) == len(session.variants):
-                said, failed = f"{len(variants)} variants", run_all(program, config, words, folder)
+                compared, failed = f"{len(variants)} variants", run_all(program, config, words, folder)
             else:
-                said = f"{len(variants)} of {len(session.variants)} variants with {seen} of {every} values"
+                compared = f"{len(variants)} of {len(session.variants)} variants with {seen} of {every} values"
                 failed = run_some(program, config, words, folder, known, variants)
             found = {variant: difference(session, variant, folder / "images" / variant, variant in failed) for variant in variants}
-        return said, len(variants), [f"{variant}: {line}" for variant, line in found.items() if line]
+        return compared, len(variants), [f"{variant}: {line}" for variant, line in found.items() if line]
 
 
 def main():
@@ -200,11 +206,11 @@ def main():
         if time.monotonic() > end:
             break
         try:
-            said, variants, lines = differences(options.program, config, options.most, options.whole)
+            compared, variants, lines = differences(options.program, config, options.most, options.whole)
         except voxray.VoxrayError as error:
-            said, variants, lines = "0 variants", 0, [f"can't be run: {error}"]
-        known[key] = {"config": key, "compared": said, "variants": variants, "differ": lines}
-        print(f"{key}: {said}, {len(lines)} differ", *lines, sep="\n  ", flush=True)
+            compared, variants, lines = "0 variants", 0, [f"can't be run: {error}"]
+        known[key] = {"config": key, "compared": compared, "variants": variants, "differ": lines}
+        print(f"{key}: {compared}, {len(lines)} differ", *lines, sep="\n  ", flush=True)
         if options.done:
             with options.done.open("a", encoding="utf-8") as file:
                 file.write(json.dumps(known[key]) + "\n")
