@@ -156,7 +156,8 @@ bool hasValue(const Value& config, const std::string& path, const Value& value) 
 }
 
 /// Warns of axes in the config's text whose only value equals that in the graph or the scene. Axes that are
-/// reduced to one value by a profile or --set are not reported, nor those in a pass or scene that another axis replaces.
+/// reduced to one value by a profile or --set are not reported, nor those in a pass or scene that another axis
+/// replaces.
 std::vector<std::string> axesWithoutEffect(const Value& root, const Experiment& experiment) {
     std::vector<std::string> warnings;
     const Value* sweep = root.find("sweep");
