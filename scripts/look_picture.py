@@ -2,7 +2,8 @@
 """Takes the picture of the page of `voxray look` that docs/look.md shows, in headless Chromium.
 
 look_picture.py [--program PROGRAM] [--out FILE.png] [--samples N]: two variants of Sponza over one another, when the reference
-has N samples a pixel. Cards of passes are closed but those of OPEN, so that "Scene and reference" is in the picture.
+has N samples a pixel. Cards of passes are closed but those of OPEN, so that "Scene and reference" is in the picture. It shows
+times: let nothing else run meanwhile.
 """
 import argparse
 import subprocess
@@ -18,7 +19,7 @@ from look_latency import settle  # noqa: E402
 from selenium.webdriver.support.ui import Select  # noqa: E402
 
 CONFIG, COMPARED = ROOT / "configs" / "sponza.yaml", "filtered rays: 4 a pixel"
-WORDS = ["--set", "image.width=640", "--set", "image.height=360"]
+WORDS = ["--set", "image.width=640", "--set", "image.height=360", "--set", "image.exposure_stops=1.5"]
 WIDTH = 1400
 OPEN = ("voxelize", "indirect")
 CLOSE = """for (const details of document.querySelectorAll("#passes details")) details.open = arguments[0].includes(details.dataset.id);
@@ -36,6 +37,7 @@ def take(address, samples, file):
         while shown.run(SAMPLES) < samples or shown.run("return document.querySelectorAll('#reference tbody tr').length") < 4:
             time.sleep(0.2)
         shown.resize(WIDTH, shown.run(CLOSE, OPEN))
+        shown.run("document.activeElement.blur()")
         shown.settle()
         shown.driver.save_screenshot(str(file))
     finally:
