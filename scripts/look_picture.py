@@ -48,7 +48,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--program", default=str(ROOT / "voxray"))
     parser.add_argument("--out", type=Path, default=ROOT / "docs" / "images" / "look.png")
-    parser.add_argument("--samples", type=int, default=32)
+    parser.add_argument("--samples", type=int, default=16)
     options = parser.parse_args()
     with subprocess.Popen([options.program, "look", CONFIG, *WORDS], stdout=subprocess.PIPE, text=True) as program:
         try:
