@@ -17,13 +17,19 @@ uint32_t wholeNumber(const Value& value, const std::string& key, int64_t low, in
     return uint32_t(number);
 }
 
+/// What a control of the page set: its user sees no request, and errors name paths.
+Value unlocated(Value value) {
+    locate(value, {});
+    return value;
+}
+
 std::vector<ShownState::Change> changesIn(const Value& list) {
     if (!list.isList()) throw UsageError("request: changes is no list");
     std::vector<ShownState::Change> changes;
     for (const Value& change : list.items) {
         if (!change.isMap() || change.members.size() != 2 || !change.find("value"))
             throw UsageError("request: a change is a map with path and value");
-        changes.push_back({textOf(change, "path"), *change.find("value")});
+        changes.push_back({textOf(change, "path"), unlocated(*change.find("value"))});
     }
     return changes;
 }
@@ -51,20 +57,21 @@ ImageRequest parseImageRequest(const std::string& body) {
     const Value value = mapIn(body);
     ImageRequest request;
     std::string shown = kShowImage;
-    const Value* parameters = nullptr;
+    std::optional<Value> parameters;
     for (const auto& [key, entry] : value.members) {
         if (takeSender(request, key, entry)) continue;
         if (key == "variant") {
             request.variant = entry.asString(key);
         } else if (key == "config") {
             if (!entry.isMap()) throw UsageError("request: config is no map");
-            request.config = entry;
+            request.config = unlocated(entry);
         } else if (key == "shrink") {
             request.shrink = wholeNumber(entry, key, 1, 64);
         } else if (key == "show") {
             shown = entry.asString(key);
         } else if (key == "parameters") {
-            parameters = &entry;
+            parameters = unlocated(entry);
+            parameters->where = entry.where;  // No control sets all of them
         } else if (key == "close") {
             request.closes = entry.asBool(key);
         } else if (key == "changes") {
@@ -73,7 +80,7 @@ ImageRequest parseImageRequest(const std::string& body) {
             throw UsageError("request: unknown key '{}'", key);
         }
     }
-    if (shown != kShowImage) request.view = viewChoice(shown, parameters, kMaxPictureValues);
+    if (shown != kShowImage) request.view = viewChoice(shown, parameters ? &*parameters : nullptr, kMaxPictureValues);
     if (request.closes && request.side == 0) throw UsageError("request: side 0 is always open");
     return request;
 }

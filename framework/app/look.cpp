@@ -49,6 +49,15 @@ Value sourceOf(const Value& config) {
     return {};
 }
 
+/// Names of results folders where a run would write, which another run of that name replaces.
+Value resultsHere() {
+    Value names = Value::list();
+    std::error_code code;
+    for (const auto& entry : std::filesystem::directory_iterator("results", code))
+        names.items.push_back(quotedText(entry.path().filename().string()));
+    return names;
+}
+
 /// A port of a pass, for the page.
 Value portValue(const PortDoc& port) {
     Value value = Value::map();
@@ -166,6 +175,7 @@ void look(const LookArguments& arguments) {
     start.set("schema", configJsonSchema(registry));
     start.set("passes", passesOf(registry));
     start.set("metrics", metricsValue());
+    start.set("results", resultsHere());
     ImageRequests requests;
     const LookServer server(
         {.sourceRoot = options.sourceRoot,

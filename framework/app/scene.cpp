@@ -150,11 +150,10 @@ void writePicture(const SceneState& scene, const EmbreeScene& tracer, const Came
 }
 
 /// Writes a config of the scene. @throws UsageError if the file exists.
-void writeConfig(const std::filesystem::path& file, const SceneSource& source, const CameraSettings& camera,
-                 const std::string& light) {
+void writeConfig(const std::filesystem::path& file, const SceneSource& source, const FirstView& view) {
     if (std::filesystem::exists(file))
         throw UsageError("{}: it is there already; give another name, or remove it", file.string());
-    writeFileAtomically(file, starterConfig(starterScene(file.stem().string(), source, camera, light)));
+    writeFileAtomically(file, starterConfig(starterScene(file.stem().string(), source, view)));
     fmt::print("{0}: a config of this scene; './voxray run {0}' renders it and makes a report\n", file.string());
 }
 
@@ -202,7 +201,7 @@ void describe(const SceneArguments& arguments) {
     if (!arguments.picture.empty())
         writePicture(scene.state, tracer, scene.camera, added,
                      first.seesOwnLight || (!hasCamera && first.light.yaml.empty()), arguments.picture);
-    if (!arguments.newConfig.empty()) writeConfig(arguments.newConfig, settings.source, first.camera, first.light.yaml);
+    if (!arguments.newConfig.empty()) writeConfig(arguments.newConfig, settings.source, first);
 }
 
 }  // namespace

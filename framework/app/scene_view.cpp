@@ -20,6 +20,8 @@ namespace voxray {
 namespace {
 
 constexpr size_t kMaxPathTraced = 32;  ///< Limit of candidates that are path traced.
+constexpr double kLeastStops = 2;      ///< Less is no matter of visibility.
+constexpr double kMaxStops = 30;       ///< That image.exposure_stops allows.
 
 bool hasLight(const SceneState& state) {
     const auto emits = [](const Material& m) { return m.emission != glm::vec3(0.0f); };
@@ -117,6 +119,39 @@ SuggestedLight evenSky() {
     return {{}, {}, 1.0f};
 }
 
+/// The stops by which half of what a camera sees is brighter than kPreviewRadiance in previews, whole ones, at least
+/// kLeastStops or none: the median is that of the room where a small lamp is in view, too.
+int meteredStops(const SceneState& state, const EmbreeScene& tracer, const CameraSettings& camera) {
+    const PathTraceOptions options{.width = 32, .height = 18, .spp = 64, .bounces = 8};
+    const ImageF image = pathTrace(state, tracer, cameraOf(camera), options).total;
+    std::vector<float> lit;
+    for (size_t i = 0; i + 2 < image.data.size(); i += 3)
+        if (const float mean = (image.data[i] + image.data[i + 1] + image.data[i + 2]) / 3; mean > 0)
+            lit.push_back(mean);
+    if (lit.empty()) return 0;
+    const auto median = lit.begin() + std::ptrdiff_t(lit.size() / 2);
+    std::ranges::nth_element(lit, median);
+    const double stops = std::round(std::log2(kPreviewRadiance / double(*median)));
+    return std::abs(stops) < kLeastStops ? 0 : int(std::clamp(stops, -kMaxStops, kMaxStops));
+}
+
+FirstView viewOf(const SceneState& state, const EmbreeScene& tracer, const std::optional<Camera>& own,
+                 bool alwaysSearches) {
+    FirstView view;
+    if (own) {
+        view.own = view.camera = settingsOf(*own, state.geometry, tracer);
+        view.seesOwnLight = seesLight(state, tracer, view.camera);
+    }
+    if (view.seesOwnLight && !alwaysSearches) return view;
+    view.searched = suggestView(state, tracer);
+    if (view.seesOwnLight) return view;
+    const bool seesSky = own && !hasLight(state) && seesLight(withLight(state, evenSky()), tracer, view.camera);
+    if (!seesSky) view.camera = view.searched->camera;
+    view.light = seesSky ? daylightFor(state, tracer, view.camera, measureGeometry(state, tracer, view.camera))
+                         : view.searched->light;
+    return view;
+}
+
 }  // namespace
 
 SceneState withLight(SceneState state, const SuggestedLight& light) {
@@ -145,18 +180,8 @@ SuggestedView suggestView(const SceneState& state, const EmbreeScene& tracer) {
 
 FirstView firstView(const SceneState& state, const EmbreeScene& tracer, const std::optional<Camera>& own,
                     bool alwaysSearches) {
-    FirstView view;
-    if (own) {
-        view.own = view.camera = settingsOf(*own, state.geometry, tracer);
-        view.seesOwnLight = seesLight(state, tracer, view.camera);
-    }
-    if (view.seesOwnLight && !alwaysSearches) return view;
-    view.searched = suggestView(state, tracer);
-    if (view.seesOwnLight) return view;
-    const bool seesSky = own && !hasLight(state) && seesLight(withLight(state, evenSky()), tracer, view.camera);
-    if (!seesSky) view.camera = view.searched->camera;
-    view.light = seesSky ? daylightFor(state, tracer, view.camera, measureGeometry(state, tracer, view.camera))
-                         : view.searched->light;
+    FirstView view = viewOf(state, tracer, own, alwaysSearches);
+    if (view.light.yaml.empty()) view.exposureStops = meteredStops(state, tracer, view.camera);
     return view;
 }
 

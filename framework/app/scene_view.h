@@ -38,6 +38,7 @@ struct FirstView {
     std::optional<CameraSettings> own;      ///< The scene's own camera.
     bool seesOwnLight = false;              ///< Whether the own camera sees the scene's own light.
     std::optional<SuggestedView> searched;  ///< If a view was searched.
+    int exposureStops = 0;                  ///< That show the scene's own lights at medium brightness.
 };
 /// @param own a camera of the scene, if it has one. @param alwaysSearches even if the own camera sees light.
 FirstView firstView(const SceneState& state, const EmbreeScene& tracer, const std::optional<Camera>& own,

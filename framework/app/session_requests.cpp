@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "app/text_values.h"
 #include "app/view_requests.h"
@@ -86,11 +87,16 @@ Value RequestHandler::answer(const Value& request) {
         allow(request, {"path", "value"});
         const Value* value = request.find("value");
         if (!value) throw UsageError(request.where, "set: it has no 'value'; null takes the config's entry out");
-        state_.set(textOf(request, "path"), *value);
+        const std::string path = textOf(request, "path");
+        state_.set(path, *value);
+        rendering_.reset();
+        if (std::ranges::count(set_, path) == 0) set_.push_back(path);
         answer.set("warnings", listOf(state_.warnings()));
     } else if (command == "select") {
         allow(request, {"variant"});
         state_.select(textOf(request, "variant"));
+        rendering_.reset();
+        answer.set("dropped", listOf(std::exchange(set_, {})));
         answer.set("warnings", listOf(state_.warnings()));
     } else if (command == "config") {
         allow(request, {});
@@ -106,10 +112,12 @@ Value RequestHandler::answer(const Value& request) {
         score(answer);
     } else if (command == "views") {
         allow(request, {});
+        renderChanges();
         answer.set("views", listViews(state_));
     } else if (command == "view") {
         allow(request, {"name", "parameters", "picture"});
         const Value* picture = request.find("picture");
+        renderChanges();
         answer = writeView(
             state_,
             viewChoice(textOf(request, "name"), request.find("parameters"), std::numeric_limits<uint64_t>::max()),
@@ -132,9 +140,13 @@ Value RequestHandler::write(const std::string& name, const ImageF& image) const 
     return quotedText(file.string());
 }
 
+void RequestHandler::renderChanges() {
+    if (!rendering_) rendering_ = state_.render([](double) {});
+}
+
 void RequestHandler::render(Value& answer) {
     rendering_.reset();
-    rendering_ = state_.render([](double) {});
+    renderChanges();
     Value files = Value::map();
     files.set(kComparedImage, write(kComparedImage, rendering_->images.final));
     if (rendering_->images.indirect) files.set(kIndirectImage, write(kIndirectImage, *rendering_->images.indirect));
@@ -161,7 +173,7 @@ void RequestHandler::reference(const Value& request, Value& answer) {
 }
 
 void RequestHandler::score(Value& answer) {
-    if (!rendering_) throw UsageError("score: nothing is rendered yet");
+    renderChanges();
     const ScoredFrame scored = state_.score(rendering_->images);
     Value files = Value::map();
     files.set(kComparedImage, write("flip", scored.flip));

@@ -44,6 +44,8 @@ class RequestHandler {
 
  private:
     void render(Value& answer);
+    /// Renders if anything was changed since the last rendering, so that scores and views are of the current values.
+    void renderChanges();
     void reference(const Value& request, Value& answer);
     void score(Value& answer);
     /// Writes an image to a file of that name. @return the file.
@@ -51,7 +53,8 @@ class RequestHandler {
 
     ShownState& state_;
     const ImageFolder images_;
-    std::optional<ShownState::Rendering> rendering_;  ///< The last one, if none failed since.
+    std::optional<ShownState::Rendering> rendering_;  ///< Of the current values.
+    std::vector<std::string> set_;                    ///< Paths that were set since a variant was selected.
 };
 
 }  // namespace voxray

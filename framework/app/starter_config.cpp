@@ -2,18 +2,17 @@
 
 #include <fmt/format.h>
 
-#include "app/scene_view.h"
 #include "base/value.h"
 
 namespace voxray {
 
-StarterScene starterScene(const std::string& name, const SceneSource& source, const CameraSettings& camera,
-                          const std::string& light) {
+StarterScene starterScene(const std::string& name, const SceneSource& source, const FirstView& view) {
     const auto quoted = [](const std::string& text) { return Value::fromScalar(text, true).json(-1); };
     return {.name = quoted(name),
             .source = source.builtin.empty() ? "file: " + quoted(source.file) : "builtin: " + source.builtin,
-            .camera = yamlOf(camera),
-            .light = light};
+            .camera = yamlOf(view.camera),
+            .light = view.light.yaml,
+            .exposureStops = view.exposureStops};
 }
 
 std::string starterConfig(const StarterScene& scene) {
@@ -23,7 +22,7 @@ scene:
   {}
   {}
   materials: lambert    # Lookups and gather rays take surfaces as diffuse; without this line the reference has the gloss, too
-image: {{width: 320, height: 180}}
+image: {{width: 320, height: 180{}}}
 graph:
   - {{pass: gbuffer, samples_per_pixel_edge: 2}}
   - {{pass: voxelize, resolution: 128}}
@@ -42,7 +41,8 @@ sweep:
 measure: {{frames: 3, warmup: 1, second_seed: true}}
 )",
                        scene.name, scene.source, scene.camera,
-                       scene.light.empty() ? "# Its own lights are seen" : scene.light);
+                       scene.light.empty() ? "# Its own lights are seen" : scene.light,
+                       scene.exposureStops == 0 ? "" : fmt::format(", exposure_stops: {}", scene.exposureStops));
 }
 
 }  // namespace voxray

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "app/scene_view.h"
 #include "config/settings.h"
 
 namespace voxray {
@@ -12,10 +13,9 @@ struct StarterScene {
     std::string source;  ///< "file: ..." or "builtin: ..."
     std::string camera;  ///< "camera: {...}"
     std::string light;   ///< "environment: 1" or "lights: [...]"; "": the scene's own lights are visible.
+    int exposureStops;
 };
-/// @param light as StarterScene::light.
-StarterScene starterScene(const std::string& name, const SceneSource& source, const CameraSettings& camera,
-                          const std::string& light);
+StarterScene starterScene(const std::string& name, const SceneSource& source, const FirstView& view);
 
 /// The config of docs/tutorial.md, which compares voxel lookups and gather rays with filtered path tracing.
 std::string starterConfig(const StarterScene& scene);

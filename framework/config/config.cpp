@@ -156,7 +156,8 @@ bool hasValue(const Value& config, const std::string& path, const Value& value) 
 }
 
 /// Warns of axes in the config's text whose only value equals that in the graph or the scene. Axes that are
-/// reduced to one value by a profile or --set are not reported.
+/// reduced to one value by a profile or --set are not reported, nor those in a pass or scene that another axis
+/// replaces.
 std::vector<std::string> axesWithoutEffect(const Value& root, const Experiment& experiment) {
     std::vector<std::string> warnings;
     const Value* sweep = root.find("sweep");
@@ -165,7 +166,9 @@ std::vector<std::string> axesWithoutEffect(const Value& root, const Experiment& 
         const size_t values = axis.items.size() + axis.members.size();
         if (values != 1 || !effective || effective->where.str() != axis.where.str()) continue;
         const Value& value = axis.isMap() ? axis.members[0].value : axis.items[0];
-        if (hasValue(experiment.config, path, value))
+        const size_t dot = path.find('.');
+        const bool isReplaced = dot != std::string::npos && experiment.sweep.find(path.substr(0, dot));
+        if (!isReplaced && hasValue(experiment.config, path, value))
             warnings.push_back(UsageError(axis.where,
                                           "sweep.{}: its one value, {}, is the one that is written anyway, "
                                           "so that it varies nothing: write more values, or leave it out",
@@ -187,7 +190,9 @@ Value readConfig(const std::filesystem::path& path) {
     return readYaml(path);
 }
 
-Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
+}  // namespace
+
+Experiment readExperiment(const Value& root, const ConfigOptions& options) {
     checkTopLevel(root);
 
     // All profiles must be valid, also those that are not used
@@ -206,8 +211,6 @@ Experiment readWithOptions(const Value& root, const ConfigOptions& options) {
     experiment.warnings = axesWithoutEffect(root, experiment);
     return experiment;
 }
-
-}  // namespace
 
 Setup readSetup(const Value& config) {
     Setup setup;
@@ -257,11 +260,11 @@ Experiment readExperiment(Value config) {
 }
 
 Experiment parseExperiment(const std::string& yaml, const std::string& fileName, const ConfigOptions& options) {
-    return readWithOptions(parseYaml(yaml, fileName), options);
+    return readExperiment(parseYaml(yaml, fileName), options);
 }
 
 Experiment loadExperiment(const std::filesystem::path& path, const ConfigOptions& options) {
-    Experiment experiment = readWithOptions(readConfig(path), options);
+    Experiment experiment = readExperiment(readConfig(path), options);
     experiment.file = path;
     return experiment;
 }

@@ -39,6 +39,8 @@ struct ConfigOptions {
 Experiment loadExperiment(const std::filesystem::path& path, const ConfigOptions& options = {});
 /// Reads a config from text; `fileName` is for messages.
 Experiment parseExperiment(const std::string& yaml, const std::string& fileName, const ConfigOptions& options = {});
+/// The same of a config that was parsed.
+Experiment readExperiment(const Value& root, const ConfigOptions& options);
 /// Reads a config with all overrides applied.
 Experiment readExperiment(Value config);
 

@@ -153,6 +153,29 @@ void changeAxis(Value* axis, const std::string& path, const Value& changes) {
     }
 }
 
+/// The axis that has the rest of a path as the name of a value; null if none has. @param name gets it
+Value* axisOfName(Value& sweep, const std::string& path, std::string& name) {
+    for (auto& [axis, values] : sweep.members) {
+        if (!values.isMap() || !path.starts_with(axis + ".")) continue;
+        name = path.substr(axis.size() + 1);
+        if (values.find(name)) return &values;
+    }
+    return nullptr;
+}
+
+/// @throws UsageError for an axis that is not there.
+void removeAxis(Value& sweep, const std::string& path, const Value& null) {
+    std::vector<std::string> known;
+    for (const auto& [axis, values] : sweep.members) {
+        known.push_back(axis);
+        for (const auto& named : values.members) known.push_back(axis + "." + named.key);
+    }
+    if (!sweep.erase(path))
+        throw UsageError(null.where,
+                         "sweep.{}: null takes an axis or a named value out, but the sweep has none of that name{}",
+                         path, didYouMean(path, known));
+}
+
 void overrideSweep(Value& config, const std::string& subpath, const Value& value) {
     if (subpath.empty()) {
         if (value.isNull())
@@ -170,8 +193,13 @@ void overrideSweep(Value& config, const std::string& subpath, const Value& value
     }
     const bool changesValues =
         std::ranges::any_of(value.members, [](const Value::Member& member) { return member.value.isNull(); });
+    std::string name;
     if (changesValues)
         changeAxis(sweep->find(subpath), subpath, value);
+    else if (Value* axis = sweep->find(subpath) ? nullptr : axisOfName(*sweep, subpath, name))
+        setNested(*axis, name, value, Merge::Replace);
+    else if (value.isNull())
+        removeAxis(*sweep, subpath, value);
     else
         setNested(*sweep, subpath, value, Merge::Replace);
 }
@@ -296,14 +324,7 @@ void applyAssignment(Value& config, const std::string& assignment) {
     if (equals == std::string::npos || equals == 0)
         throw UsageError("{}: expected path=value, as in image.width=320", label);
     Value value = parseYaml(assignment.substr(equals + 1), label);
-
-    // An assignment has no line numbers
-    const auto clearLines = [](auto&& self, Value& node) -> void {
-        node.where.line = 0;
-        for (Value& item : node.items) self(self, item);
-        for (auto& member : node.members) self(self, member.value);
-    };
-    clearLines(clearLines, value);
+    locate(value, {label});  // It has no line numbers
     applyOverride(config, assignment.substr(0, equals), value);
 }
 

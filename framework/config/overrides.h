@@ -12,6 +12,7 @@
 ///                          pass gets the id and may have no other
 ///   sweep.inject           an axis of the sweep (followed by the axis' path); a map in which a name has null
 ///                          changes its named values, others take its place
+///   sweep.inject.rays      the value of that name of an axis; null takes it out
 ///   scene.override."Wood.001".metallic    a name with dots, in quotes unless it exists already
 namespace voxray {
 

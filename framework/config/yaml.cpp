@@ -137,6 +137,12 @@ Value parseYaml(const std::string& text, const std::string& fileName) {
     }
 }
 
+void locate(Value& value, const TextLocation& where) {
+    value.where = where;
+    for (Value& item : value.items) locate(item, where);
+    for (auto& member : value.members) locate(member.value, where);
+}
+
 Value readYaml(const std::filesystem::path& path) {
     std::string text;
     try {

@@ -13,6 +13,9 @@ namespace voxray {
 /// document, text that is not UTF-8, over a limit.
 Value parseYaml(const std::string& text, const std::string& fileName);
 
+/// Gives a value and all in it one location, for a text that the user does not see as a file.
+void locate(Value& value, const TextLocation& where);
+
 /// Reads a YAML file. @throws UsageError if it can't be read.
 Value readYaml(const std::filesystem::path& path);
 

@@ -44,14 +44,24 @@ InteractiveSession::InteractiveSession(Experiment experiment, const Registry& re
     sides_[0].emplace(*this, variantConfigs_.front(), variants_.front().second);
 }
 
-const Value& InteractiveSession::configOf(const std::string& id) const {
-    const auto found = std::ranges::find(variants_, id, &std::pair<std::string, std::string>::second);
+size_t InteractiveSession::indexOf(const std::string& variant) const {
+    using Names = std::pair<std::string, std::string>;
+    auto found = std::ranges::find(variants_, variant, &Names::second);
+    if (found == variants_.end()) found = std::ranges::find(variants_, variant, &Names::first);
     if (found == variants_.end()) {
         std::vector<std::string> ids;
         for (const auto& [name, each] : variants_) ids.push_back(each);
-        throw UsageError("no variant '{}'; there are {}", id, fmt::join(ids, ", "));
+        throw UsageError("no variant '{}'; there are {}", variant, fmt::join(ids, ", "));
     }
-    return variantConfigs_[size_t(found - variants_.begin())];
+    return size_t(found - variants_.begin());
+}
+
+const std::string& InteractiveSession::idOf(const std::string& variant) const {
+    return variants_[indexOf(variant)].second;
+}
+
+const Value& InteractiveSession::configOf(const std::string& variant) const {
+    return variantConfigs_[indexOf(variant)];
 }
 
 ShownState& InteractiveSession::side(size_t number) {

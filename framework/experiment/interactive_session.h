@@ -27,8 +27,9 @@ class InteractiveSession {
 
     /// Names and ids of the experiment's variants as it was opened.
     const std::vector<std::pair<std::string, std::string>>& variants() const { return variants_; }
-    /// The config of a variant, by its id. @throws UsageError if there is no such variant.
-    const Value& configOf(const std::string& id) const;
+    /// The id and the config of a variant, by its id or its name. @throws UsageError if there is no such variant.
+    const std::string& idOf(const std::string& variant) const;
+    const Value& configOf(const std::string& variant) const;
 
     /// Side 0 or 1. Side 1 begins with the values that side 0 has when it is first asked for.
     ShownState& side(size_t number);
@@ -54,6 +55,7 @@ class InteractiveSession {
     void dropReferences();
 
  private:
+    size_t indexOf(const std::string& variant) const;
     bool isShown(const ProgressiveReference& reference) const;
 
     const Registry& registry_;

@@ -55,9 +55,9 @@ void ShownState::take(Study study) {
     if (!hasReference()) session_.dropReferences();
 }
 
-void ShownState::select(const std::string& id) {
-    open(session_.configOf(id));
-    variantId_ = id;
+void ShownState::select(const std::string& variant) {
+    open(session_.configOf(variant));
+    variantId_ = session_.idOf(variant);
 }
 
 void ShownState::apply(Value& config, const Change& change) {

@@ -36,8 +36,8 @@ class ShownState {
 
     /// Takes a config, without sweep, in place of all values. @throws UsageError; the state is then as it was.
     void open(Value config);
-    /// Takes the values of a variant, by its id. @throws UsageError, as open().
-    void select(const std::string& id);
+    /// Takes the values of a variant, by its id or its name. @throws UsageError, as open().
+    void select(const std::string& variant);
     /// Sets the value at a path of the config (config/overrides.h); null removes it.
     /// @throws UsageError as a run would; the state is then as it was.
     void set(const std::string& path, const Value& value);

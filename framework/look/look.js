@@ -15,6 +15,7 @@ const exposure = document.querySelector("[name=exposure]"), variant = document.q
 
 const changedVariant = Object.assign(new Option("", ""), { hidden: true });  // So that the variant can be chosen anew
 const start = await (await fetch("start.json")).json();
+const names = new Set([...start.results, ...JSON.parse(sessionStorage.getItem("names") ?? "[]")]);  // Taken ones, of results
 const page = crypto.randomUUID(), errors = new Map();  // By side
 const hooks = {
     isMoving: () => camera.isMoving,
@@ -117,12 +118,24 @@ function showErrors() {
     byId("error").hidden = !lines.length;
 }
 
+/** What the opened config's results are not called, nor those of an earlier run or download: NAME_edited, NAME_edited_2 ... */
+function newName(name) {
+    const base = name.replace(/_edited(_\d+)?$/, "");
+    for (let number = 1; ; ++number) {
+        const edited = `${base}_edited${number > 1 ? `_${number}` : ""}`;
+        if (edited !== name && !names.has(edited)) return edited;
+    }
+}
+
 async function download() {
     const side = split.edited;
     while (!side.isSettled && !side.hasEnded) await new Promise((done) => setTimeout(done, 50));
     const link = document.createElement("a");
-    link.href = URL.createObjectURL(new Blob([JSON.stringify(side.config, null, 2) + "\n"], { type: "application/yaml" }));
-    link.download = `${side.config.name}.yaml`;
+    const name = newName(side.config.name);
+    names.add(name);
+    sessionStorage.setItem("names", JSON.stringify([...names]));
+    link.href = URL.createObjectURL(new Blob([JSON.stringify({ ...side.config, name }, null, 2) + "\n"], { type: "application/yaml" }));
+    link.download = `${name}.yaml`;
     link.click();
     URL.revokeObjectURL(link.href);
 }

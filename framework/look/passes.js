@@ -3,8 +3,11 @@
 const WIDE = 1000;  // Ratio of a range whose slider is not linear
 const STEPS = 1000;  // Of a slider
 const TEXT_LINES = 6;
-// What passes cannot be planned without, to begin with
-const FIRST_VALUES = { glsl: { source: "vec3 shade(ivec2 pixel, ivec2 texel) {\n    return texelFetch(albedo, texel, 0).rgb;\n}\n" } };
+// What passes cannot be planned without, or would keep the page waiting for, to begin with
+const FIRST_VALUES = {
+    path_trace: { spp: 1 },
+    glsl: { source: "vec3 shade(ivec2 pixel, ivec2 texel) {\n    return texelFetch(albedo, texel, 0).rgb;\n}\n" },
+};
 
 export const entryOf = (entry) => (typeof entry === "string" ? { pass: entry } : entry);
 export const idOf = (entry) => entryOf(entry).id ?? entryOf(entry).pass;

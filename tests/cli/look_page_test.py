@@ -37,7 +37,7 @@ class Page(look_test.Browsed):
         Select(swap).select_by_value("path_trace")
         self.settle()
         self.assertEqual(self.error(), "")
-        self.assertEqual(self.entry("gather_irradiance")["pass"], "path_trace")
+        self.assertEqual((self.entry("gather_irradiance")["pass"], self.entry("gather_irradiance")["spp"]), ("path_trace", 1))
         np.testing.assert_array_equal(self.shown(), self.downloaded_runs())
         # It can be swapped back, and the changed variant chosen anew, which keeps the camera
         swap = self.browser.driver.find_element(By.CSS_SELECTOR, "[data-id=gather_irradiance] select")
@@ -47,6 +47,25 @@ class Page(look_test.Browsed):
         self.assertEqual(self.entry("gather_irradiance")["pass"], "gather_irradiance")
         self.assertEqual(self.config()["scene"]["camera"], camera)
         self.assertEqual(self.browser.console(), [])
+
+    def test_a_downloaded_config_has_a_name_of_its_own(self):
+        names = [self.download(), self.download()]
+        self.assertEqual(names, ["tiny_edited", "tiny_edited_2"])
+        self.assertEqual([self.json(f"{name}.yaml")["name"] for name in names], names)
+        self.browser.driver.refresh()
+        self.settle()
+        self.assertEqual(self.download(), "tiny_edited_3")
+        self.assertEqual(self.config()["name"], "tiny")
+
+    def test_results_that_are_there_keep_their_names(self):
+        os.makedirs(self.path("results", "tiny_edited"))
+        self.write("tiny_edited_2.yaml", look_test.CONFIG.replace("name: tiny", "name: tiny_edited_2"))
+        look = look_test.look_abuse.Look(look_test.PROGRAM, self.folder, scene="tiny_edited_2.yaml", cwd=self.folder)
+        for end in (look.process.stdout.close, look.process.stderr.close, look.process.wait, look.process.kill):
+            self.addCleanup(end)
+        self.browser.driver.get(look.address)
+        self.settle()
+        self.assertEqual(self.download(), "tiny_edited_3")
 
     def test_two_pages_and_the_programs_end(self):
         self.browser.driver.switch_to.new_window("tab")

@@ -14,7 +14,7 @@ class Passes(look_test.Browsed):
     def test_what_is_refused_is_said_and_not_shown(self):
         before = self.config()
         self.type("voxelize.resolution", "1e6")
-        self.assertIn("voxelize.resolution: 1000000", self.error())
+        self.assertRegex(self.error(), "^voxelize.resolution: 1000000")
         self.assertEqual(self.config(), before)
         self.assertEqual(self.find("input[type=number][name='voxelize.resolution']").get_attribute("value"), "8")
         # The next change takes the words away

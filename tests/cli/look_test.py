@@ -308,7 +308,10 @@ class SceneFile(CommandTest):
         [variant] = os.listdir(self.path("run", "images"))
         with Image.open(self.path("run", "images", variant, "final.png")) as image:
             np.testing.assert_array_equal(pixels(png), np.asarray(image.convert("RGB")))
-        self.assertIn("room2.glb", self.expect(2, "look", "room2.glb").stderr)
+        for name in ("room2.glb", "notes.txt"):
+            self.assertIn(f"no file '{name}'", self.expect(2, "look", name).stderr)
+        # Errors name the file that was opened, no line of a config that is in no file
+        self.assertRegex(self.expect(2, "look", "room.glb", "--set", "graph=null").stderr, "^voxray: error: room.glb: 'graph' is missing")
 
 
 @unittest.skipIf(browser.MISSING, browser.MISSING)
@@ -373,13 +376,19 @@ class Browsed(Look):
     def variant(self):
         return self.browser.run("return document.querySelector('select[name=variant]').selectedOptions[0].textContent")
 
+    def download(self):
+        """@return the name of the config that is downloaded"""
+        before = os.listdir(self.folder)
+        self.find("#download").click()
+        while not (new := [name for name in os.listdir(self.folder) if name.endswith(".yaml") and name not in before]):
+            time.sleep(0.05)
+        return Path(new[0]).stem
+
     def downloaded_runs(self):
         """Downloads the config, runs it, and returns the image of the run's only variant."""
-        self.find("#download").click()
-        while not os.path.exists(self.path("tiny.yaml")):
-            time.sleep(0.05)
-        self.expect(0, "validate", "tiny.yaml")
-        self.expect(0, "run", "tiny.yaml", "--out", "run", "--no-report", "--set", "reference=null")
+        name = self.download()
+        self.expect(0, "validate", f"{name}.yaml")
+        self.expect(0, "run", f"{name}.yaml", "--out", "run", "--no-report", "--set", "reference=null")
         [variant] = [name for name in os.listdir(self.path("run", "images")) if name != "reference"]
         with Image.open(self.path("run", "images", variant, "final.png")) as image:
             return np.asarray(image.convert("RGB"))

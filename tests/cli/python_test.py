@@ -5,6 +5,7 @@ import os
 import random
 import sys
 import tempfile
+import warnings
 from pathlib import Path
 
 import matplotlib
@@ -39,7 +40,7 @@ class Module(CommandTest):
             self.assertGreater(study.score()["nrmse"], 0)
             self.assertEqual(voxray.score(second, second.indirect)["value"]["nrmse"], 0)
             self.assertEqual(voxray.compare(second, first, first, light="total")["better"]["nrmse"], "b")
-            with self.assertRaisesRegex(voxray.VoxrayError, "voxelize.resolution"):
+            with self.assertRaisesRegex(voxray.VoxrayError, "^voxelize.resolution"):
                 study.set("voxelize.resolution", "many")
             views = study.views.set_index("name")
             self.assertEqual(study.view("gbuffer.N").shape, (24, 32, 3))
@@ -53,11 +54,26 @@ class Module(CommandTest):
             self.assertIn("number", picture.info["legend"])
             with self.assertRaisesRegex(voxray.VoxrayError, "no view 'gbuffer.M'"):
                 study.view("gbuffer.M")
-            study.select("resolution-8")
+            with self.assertWarnsRegex(UserWarning, "'resolution 8' takes the place of what was set: gather_irradiance$"):
+                study.select("resolution 8")
             self.assertEqual(study.config["name"], "tiny")
             np.testing.assert_array_equal(study.render().final, first.final)
         with self.assertRaisesRegex(voxray.VoxrayError, "closed"):
             study.render()
+
+    def test_what_was_set_is_kept_in_another_variant(self):
+        with voxray.Session(self.config, program=PROGRAM) as study, warnings.catch_warnings():
+            warnings.simplefilter("error")
+            study.set("inject.bounces", 1)
+            study.set("inject", {"pass": "inject_light_rays", "rays_per_light": 2048})
+            study.set("inject.bounces", 1)
+            study.select("resolution-16", keep=True)
+            self.assertEqual([entry.get("bounces") for entry in study.config["graph"] if entry.get("id") == "inject"], [1])
+            study.select("resolution-8", keep=False)
+            self.assertEqual([entry["bounces"] for entry in study.config["graph"] if entry.get("id") == "inject"], [2])
+            study.kernel("own", "vec3 shade(ivec2 pixel, ivec2 texel) { return kernel.values; }", values=[1, 2, 3])
+            with self.assertRaisesRegex(UserWarning, "what was set: graph$"):
+                study.select("resolution-16", keep=True)
 
     def test_a_reference(self):
         with voxray.Session(self.config, program=PROGRAM) as study:
@@ -71,6 +87,7 @@ class Module(CommandTest):
             self.assertLess(first.samples, second.samples)
             self.assertEqual((second.final.shape, second.is_whole), ((24, 32, 3), False))
             self.assertIn(f"{second.samples} of 256 samples", second._repr_html_())
+            self.assertRegex(repr(second), f"^Reference of {second.samples} of 256 samples a pixel, noise [0-9.]+% .nRMSE.$")
             shown = rendering._repr_html_()
             for words in ("HDR-FLIP, final", "reference, indirect", f"{second.samples} of 256 samples", "indirect_nrmse_low"):
                 self.assertIn(words, shown)
@@ -81,8 +98,13 @@ class Module(CommandTest):
             self.assertTrue(whole.is_whole)
             self.assertLess(whole.noise["indirect_nrmse"], second.noise["indirect_nrmse"])
             self.assertLess(study.score()["flip_noise"], early["flip_noise"])
-            study.render()
-            self.assertNotIn("FLIP", rendering._repr_html_())  # Another one was rendered since
+            self.assertIn("FLIP", rendering._repr_html_())
+            study.set("voxelize.resolution", 12)
+            self.assertNotIn("FLIP", rendering._repr_html_())  # The session is elsewhere
+            before = study.score()
+            self.assertNotIn("FLIP", rendering._repr_html_())
+            self.assertIn("FLIP", study.render()._repr_html_())
+            self.assertEqual(study.score(), before)
             study.set("reference", None)
             last = study.render()
             self.assertNotIn("FLIP", last._repr_html_())
@@ -98,6 +120,11 @@ class Module(CommandTest):
         results = voxray.run(self.config, set={"image.width": 16, "measure.frames": 1}, out=self.path("out"), program=PROGRAM)
         self.assertEqual(list(results.variants["variant"]), ["resolution-8", "resolution-16"])
         self.assertTrue((results.variants["nrmse"] > 0).all())
+        with self.assertWarnsRegex(UserWarning, "out: replaced 2 finished variants of an earlier run"):
+            voxray.run(self.config, set={"image.width": 16, "measure.frames": 1}, out=self.path("out"), program=PROGRAM)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            voxray.run(self.config, set={"image.width": 16, "measure.frames": 1}, out=self.path("out"), options=["--resume"], program=PROGRAM)
         with self.assertRaisesRegex(voxray.VoxrayError, "image.wide"):
             voxray.run(self.config, set={"image.wide": 16}, out=self.path("out"), program=PROGRAM)
 

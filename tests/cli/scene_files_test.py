@@ -46,6 +46,15 @@ class Tutorial(CommandTest):
         self.expect(0, "scene", "plane", "--write-config", "plane.yaml")
         self.expect(0, "validate", "plane.yaml")
 
+    def test_a_dark_room_gets_an_exposure(self):
+        self.write("dark.yaml", TINY.replace("{builtin: cornell}", "{builtin: cornell, override: {lamp: {emission: [0.02, 0.02, 0.02]}}}"))
+        self.expect(0, "export-scene", "dark.yaml", "dark.glb")
+        self.expect(0, "scene", "dark.glb", "--write-config", "found.yaml")
+        written = self.bytes("found.yaml").decode()
+        self.assertIn("# Its own lights are seen", written)
+        # The lamp has a thousandth of the 20 W/(m² sr) with which the room is bright enough
+        self.assertIn(int(written.split("exposure_stops: ")[1].split("}")[0]), (10, 11, 12))
+
     def test_objects_may_be_hidden(self):
         self.write("tiny.yaml", TINY.replace("{builtin: cornell}", "{builtin: cornell, hide: [tall box, red]}"))
         self.expect(0, "validate", "tiny.yaml")

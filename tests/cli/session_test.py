@@ -122,8 +122,6 @@ class Session(CommandTest):
 
     def test_views_are_what_a_run_writes(self):
         self.start(TINY)
-        self.assertIn("nothing is rendered", self.refusal("views"))
-        self.assertIn("nothing is rendered", self.refusal("view", name="gbuffer.N"))
         self.done("render")
         views = {one["name"]: one for one in self.done("views")["views"]}
         self.expect(0, "run", "session.yaml", "--only", "voxelize.resolution=8", "--out", "run", "--no-report", "--aovs")
@@ -175,11 +173,34 @@ class Session(CommandTest):
                                           ("show_voxels", {"show": "colors"}, "show_voxels.show"), ("show_voxels", {"size": 1}, "'size'")):
             self.assertIn(message, self.refusal("view", name=name, parameters=parameters), (name, parameters))
         self.assertIn("N.X", self.view("gbuffer.N"))
-        self.done("set", path="image.width", value=16)
-        self.assertEqual(self.view("gbuffer.Z")["Z"].shape, (24, 32))  # Of the last rendering
         self.refusal("set", path="image.width", value=0)
-        self.done("render")
+        self.assertEqual(self.view("gbuffer.Z")["Z"].shape, (24, 32))
+
+    def test_scores_and_views_are_of_the_current_values(self):
+        self.start(TINY)
+        first = self.done("score")["scores"]
+        self.done("set", path="image.width", value=16)
         self.assertEqual(self.view("gbuffer.Z")["Z"].shape, (24, 16))
+        self.done("set", path="image.width", value=32)
+        self.done("set", path="voxelize.resolution", value=16)
+        second = self.done("score")["scores"]
+        self.done("select", variant="resolution-16")
+        third = self.done("score")["scores"]
+        self.assertNotEqual(first["nrmse"], second["nrmse"])
+        self.assertEqual(second, third)
+        self.done("render")
+        self.assertEqual(self.done("score")["scores"], third)
+
+    def test_a_variant_by_its_name(self):
+        self.start(TINY)
+        self.done("set", path="voxelize.resolution", value=12)
+        self.refusal("set", path="image.width", value=0)
+        self.done("set", path="image.width", value=16)
+        self.done("set", path="voxelize.resolution", value=10)
+        self.assertEqual(self.done("select", variant="resolution 16")["dropped"], ["voxelize.resolution", "image.width"])
+        self.assertEqual(self.done("select", variant="resolution-8")["dropped"], [])
+        self.done("render")
+        self.expect_images_of_run("--only", "voxelize.resolution=8")
 
     def test_a_cache_that_is_filled_from_the_camera_is_filled_again(self):
         self.start("""
@@ -262,7 +283,6 @@ graph:
 
     def test_what_is_refused_changes_nothing(self):
         self.start(TINY)
-        self.assertIn("nothing is rendered", self.refusal("score"))
         before = self.done("config")["config"]
         for path, value, message in (("voxelize.resolution", "many", "voxelize.resolution"), ("voxelize.size", 4, "'size'"),
                                      ("gather_irradiance", "no_pass", "no_pass"), ("image.width", 0, "image.width"),

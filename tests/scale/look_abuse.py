@@ -36,12 +36,12 @@ GREW = 1.05
 class Look:
     """A program that serves a page."""
 
-    def __init__(self, program, folder, scene="", options=()):
-        """@param scene a file in the folder, in place of CONFIG"""
+    def __init__(self, program, folder, scene="", options=(), cwd=None):
+        """@param scene a file in the folder, in place of CONFIG @param cwd where the program is started"""
         file = Path(folder) / (scene or "abuse.json")
         if not scene:
             file.write_text(json.dumps(CONFIG), encoding="utf-8")
-        self.process = subprocess.Popen([program, "look", str(file), "--validate", *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.process = subprocess.Popen([program, "look", str(file), "--validate", *options], cwd=cwd, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.address = self.process.stdout.readline().strip()
         port, self.token = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/(\w+)/", self.address).groups()
         self.port = int(port)

@@ -1,17 +1,19 @@
 #!/usr/bin/python3
 """Compares images of `run` with those of a session and of the Python module, for all variants of many configs.
 
-session_bits.py PROGRAM [CONFIG...] [--done FILE] [--seconds N] [--whole]: renders the small profile of each config (all of
-configs/) at 48x27 pixels, without a reference where the config allows it, by `voxray run`, and in one session that selects the
-variants by turns. Voxels, light rays and the like are fewer (COSTLY), unless --whole is given, or the config refuses that:
-what is kept on the device from variant to variant is the same. Images have to be the same bits, and a variant that fails has to
-fail in both. FILE keeps what was compared, a line each; a later call goes on. After N seconds no other config is begun. Prints
-what differs; exit status 1 where something does.
+session_bits.py PROGRAM [CONFIG...] [--most N] [--done FILE] [--seconds N] [--whole]: renders the small profile of each config
+(all of configs/) at 48x27 pixels, without a reference where the config allows it, by `voxray run`, and in one session that
+selects the variants by turns. Voxels, light rays and the like are fewer (COSTLY), unless --whole is given, or the config refuses
+that: what is kept on the device from variant to variant is the same. Images have to be the same bits, and a variant that fails
+has to fail in both. Of a config with more than --most variants, so many are compared (chosen()), each run by a process of its
+own (`run --part`). FILE keeps what was compared, a line each; a later call goes on. After N seconds no other config is begun.
+Prints what differs; exit status 1 where something does.
 """
 import argparse
 import copy
 import json
 import re
+import subprocess
 import sys
 import tempfile
 import time
@@ -64,17 +66,74 @@ def cheaper(text):
     return yaml.serialize(root, Dumper=yaml.BaseDumper)
 
 
-def rendered(program, configs, profile, folder, options):
+def chosen(names, most):
+    """@param names of variants by id, which are the names of their values
+    @return ids of at most so many variants: the first one; those that have most values that no earlier one has; and, where all
+        values are there, evenly spread ones. How many values they have, and how many there are."""
+    values = {variant: set(name.split(", ")) for variant, name in names.items()}
+    every = set().union(*values.values())
+    ids = [*names][:1]
+    seen = set(values[ids[0]])
+    while len(ids) < min(most, len(names)) and seen != every:
+        ids.append(max(values, key=lambda variant: len(values[variant] - seen)))
+        seen |= values[ids[-1]]
+    rest = [variant for variant in names if variant not in ids]
+    more = min(most, len(names)) - len(ids)
+    ids += [rest[(2 * i + 1) * len(rest) // (2 * more)] for i in range(more)]
+    return [variant for variant in names if variant in ids], len(seen), len(every)
+
+
+def said(program, *words):
+    """What the program prints. @throws VoxrayError"""
+    done = subprocess.run([program, *words], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise voxray.VoxrayError(done.stderr.strip())
+    return done.stdout
+
+
+def parts(program, config, words):
+    """The parts of an experiment (docs/parts.md). @throws VoxrayError where the config can't be run so"""
+    said(program, "run", config, "--dry-run", "--quiet", *words)  # Checks all profiles
+    return {job["id"]: job for job in json.loads(said(program, "jobs", config, "--json", *words))["jobs"]}
+
+
+def least(program, configs, options):
     """@param configs files of the same config, the cheapest first
-    @return the file that was run, what was changed, and the results of the run. @throws VoxrayError"""
+    @return the file and the words for the cheapest experiment that it allows, and its parts. @throws VoxrayError"""
     for config in configs:
         for less in LESS:
+            words = [*voxray._words({**SMALL, **less}, None), *options]
             try:
-                changed = {**SMALL, **less}
-                return config, changed, voxray.run(config, set=changed, profile=profile, out=folder, options=["--no-report", *options], program=program)
+                return config, words, parts(program, config, words)
             except voxray.VoxrayError as error:
                 last = error
     raise last
+
+
+def run_all(program, config, words, folder):
+    """@return ids of the variants that failed"""
+    variants = voxray.run(config, out=folder, options=["--no-report", *words], program=program).variants
+    return set(variants["variant"][variants["status"] == "failed"])
+
+
+def run_some(program, config, words, folder, known, variants):
+    """Runs variants by a process each, and their references. @return ids of those that failed"""
+    failed = set()
+
+    def run(part):
+        return subprocess.run([program, "run", config, "--part", part, "--out", folder, "--quiet", "--no-report", *words], capture_output=True,
+                              text=True, check=False)
+
+    for part in sorted({before for variant in variants for before in known[f"variant.{variant}"]["after"]}):
+        if run(part).returncode != 0:
+            raise voxray.VoxrayError(f"{part} failed")
+    for variant in variants:
+        done = run(f"variant.{variant}")
+        if done.returncode == 1:
+            failed.add(variant)
+        elif done.returncode != 0:
+            raise voxray.VoxrayError(done.stderr.strip())
+    return failed
 
 
 def has_profile(config, name):
@@ -89,44 +148,48 @@ def same(a, b):
     return (a is None) == (b is None) and (a is None or np.array_equal(bits(a), bits(b)))
 
 
-def differences(program, config, is_whole):
-    """@return number of variants, and a line for each that differs"""
-    profile = "small" if has_profile(config, "small") else None
-    beside = ["--scenes", str(config.resolve().parent)]  # As if the cheaper config were there
-    with tempfile.TemporaryDirectory() as folder:
-        configs = [config]
+def difference(session, variant, files, has_failed):
+    """@return what differs of a variant, None where nothing does"""
+    try:
+        session.select(variant)
+        shown = session.render()
+    except voxray.VoxrayError as error:
+        return None if has_failed else f"the session fails: {error}"
+    if has_failed:
+        return "the run fails, the session does not"
+    indirect = files / "indirect.exr"
+    pairs = {"final": (shown.final, exr_pixels.rgb(files / "final.exr")),
+             "indirect": (shown.indirect, exr_pixels.rgb(indirect) if indirect.exists() else None)}
+    differing = [name for name, (of_session, of_run) in pairs.items() if not same(of_session, of_run)]
+    return f"{', '.join(differing)} differs" if differing else None
+
+
+def differences(program, config, most, is_whole):
+    """@return what was compared, in words and by number of variants, and a line for each variant that differs"""
+    profile = ["--profile", "small"] if has_profile(config, "small") else []
+    options = [*profile, "--scenes", str(config.resolve().parent)]  # As if the cheaper config were there
+    with tempfile.TemporaryDirectory() as temporary:
+        configs, folder = [config], Path(temporary) / "run"
         if not is_whole:
-            configs.insert(0, Path(folder) / config.name)
+            configs.insert(0, Path(temporary) / config.name)
             configs[0].write_text(cheaper(config.read_text(encoding="utf-8")), encoding="utf-8")
-        config, changed, results = rendered(program, configs, profile, Path(folder) / "run", beside)
-        status = dict(zip(results.variants["variant"], results.variants["status"], strict=True))
-        lines = []
-        options = [*voxray._words(changed, profile), *beside]
-        with voxray.Session(config, options, program) as session:
-            for variant, name in session.variants.items():
-                files = Path(folder) / "run" / "images" / variant
-                try:
-                    session.select(variant)
-                    shown = session.render()
-                except voxray.VoxrayError as error:
-                    if status.get(name) != "failed":
-                        lines.append(f"{variant}: the session fails: {error}")
-                    continue
-                if status.get(name) == "failed":
-                    lines.append(f"{variant}: the run fails, the session does not")
-                    continue
-                indirect = files / "indirect.exr"
-                for what, of_session, of_run in (("final", shown.final, exr_pixels.rgb(files / "final.exr")),
-                                                 ("indirect", shown.indirect, exr_pixels.rgb(indirect) if indirect.exists() else None)):
-                    if not same(of_session, of_run):
-                        lines.append(f"{variant}: {what} differs")
-            return len(session.variants), lines
+        config, words, known = least(program, configs, options)
+        with voxray.Session(config, words, program) as session:
+            variants, seen, every = chosen(session.variants, most)
+            if len(variants) == len(session.variants):
+                compared, failed = f"{len(variants)} variants", run_all(program, config, words, folder)
+            else:
+                compared = f"{len(variants)} of {len(session.variants)} variants with {seen} of {every} values"
+                failed = run_some(program, config, words, folder, known, variants)
+            found = {variant: difference(session, variant, folder / "images" / variant, variant in failed) for variant in variants}
+        return compared, len(variants), [f"{variant}: {line}" for variant, line in found.items() if line]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("program")
     parser.add_argument("configs", nargs="*", type=Path)
+    parser.add_argument("--most", type=int, default=sys.maxsize)
     parser.add_argument("--done", type=Path)
     parser.add_argument("--seconds", type=float, default=float("inf"))
     parser.add_argument("--whole", action="store_true")
@@ -143,11 +206,11 @@ def main():
         if time.monotonic() > end:
             break
         try:
-            variants, lines = differences(options.program, config, options.whole)
+            compared, variants, lines = differences(options.program, config, options.most, options.whole)
         except voxray.VoxrayError as error:
-            variants, lines = 0, [f"can't be run: {error}"]
-        known[key] = {"config": key, "variants": variants, "differ": lines}
-        print(f"{key}: {variants} variants, {len(lines)} differ", *lines, sep="\n  ", flush=True)
+            compared, variants, lines = "0 variants", 0, [f"can't be run: {error}"]
+        known[key] = {"config": key, "compared": compared, "variants": variants, "differ": lines}
+        print(f"{key}: {compared}, {len(lines)} differ", *lines, sep="\n  ", flush=True)
         if options.done:
             with options.done.open("a", encoding="utf-8") as file:
                 file.write(json.dumps(known[key]) + "\n")

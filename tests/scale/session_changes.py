@@ -94,7 +94,7 @@ def run(program, count, seed, folder, every=1):
     with voxray.Session(config, ["--validate"], program) as session:
         for number, (path, value) in enumerate((half * 2)[:count], 1):
             if number == len(half) + 1:
-                session.select("default")
+                session.select("default", keep=False)
             try:
                 session.set(path, value)
                 taken += 1

@@ -235,6 +235,13 @@ TEST(Config, NullTakesANamedValueOutOfAnAxis) {
     expectError(named, {"no 'lo'", "'low'"}, {"", {"sweep.voxelize.resolution={lo: null}"}});
     expectError(named, {"no 'low'"}, {"", {"sweep.seed={low: null}"}});
     expectError(kValid, {"no 'low'"}, {"", {"sweep.voxelize.resolution={low: null}"}});
+    // By a path
+    EXPECT_EQ(axis("sweep.voxelize.resolution.low=null"), "{a.b: c: 48, high: 64}");
+    EXPECT_EQ(axis("sweep.voxelize.resolution.a.b: c=null"), "{low: 32, high: 64}");
+    EXPECT_EQ(axis("sweep.voxelize.resolution.low=8"), "{low: 8, a.b: c: 48, high: 64}");
+    for (const char* change : {"sweep.voxelize.resolution.lo=null", "sweep.voxelize.resolution.loww=null"})
+        expectError(named, {"has none of that name", "'voxelize.resolution.low'"}, {"", {change}});
+    expectError(kValid, {"has none of that name"}, {"", {"sweep.inject.write=null"}});
     expectError(kValid, {"'width:96'", "'width: 96'"}, {"", {"image={width:96}"}});
 }
 
@@ -316,6 +323,8 @@ TEST(Config, AnAxisWhoseOneValueIsWrittenIsWarnedOf) {
     EXPECT_EQ(warnings("scene.camera.fov_deg: {as it is: 40}").size(), 1u);
     EXPECT_EQ(warnings("gbuffer: [gbuffer]").size(), 1u);
     EXPECT_EQ(warnings("gbuffer: [{pass: gbuffer}]").size(), 1u);
+    // A pass that another axis replaces does not have the value that is written in the graph
+    EXPECT_TRUE(warnings("voxelize: [voxelize, {pass: voxelize, method: msaa}]\n  voxelize.resolution: [64]").empty());
 
     // Another value, a pass without the written one's parameters, what a profile or --set makes of it
     for (const char* other : {"voxelize.resolution: [64, 128]", "voxelize.resolution: [65]", "voxelize.method: [exact]",

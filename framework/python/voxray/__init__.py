@@ -17,6 +17,7 @@ from __future__ import annotations
 import importlib.util
 import subprocess
 import sys
+import warnings
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
@@ -48,14 +49,20 @@ def open(config: str | Path, *, set: Mapping[str, Any] | None = None, profile: s
 def run(config: str | Path, *, set: Mapping[str, Any] | None = None, profile: str | None = None, out: str | Path | None = None,
         options: Iterable[str] = (), program: str | Path = PROGRAM) -> Results:
     """Runs a config as the command `run` does, and loads its results: `.variants`, `.passes` and `.values` are DataFrames. out: the
-    results folder, results/NAME where left out. Variants that failed are rows.
+    results folder, results/NAME where left out. Variants that failed are rows. A warning (UserWarning) says how many finished
+    variants of an earlier run in that folder are replaced; options=["--resume"] keeps them.
     @throws VoxrayError where the config is wrong or the run was interrupted"""
     folder = Path(out) if out is not None else Path("results") / Path(config).stem
+    options = list(options)
+    replaced = 0 if "--resume" in options else sum(1 for _ in (folder / "images").glob("*/result.json"))
     done = subprocess.run([str(program), "run", str(config), *_words(set, profile), "--out", str(folder), "--quiet", *options],
                           stderr=subprocess.PIPE, text=True, check=False)
     if done.returncode not in (0, 1) or not (folder / "results.csv").is_file():
         said = done.stderr.strip().splitlines()
         raise VoxrayError(said[-1].removeprefix("voxray: error: ") if said else f"the program ended with status {done.returncode}")
+    if replaced:
+        warnings.warn(f"{folder}: replaced {replaced} finished variant{'s' if replaced > 1 else ''} of an earlier run; options=[\"--resume\"] "
+                      f"keeps what has the same config, another `out` keeps all", stacklevel=2)
     return load(folder)
 
 

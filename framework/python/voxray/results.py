@@ -237,8 +237,10 @@ def load(directory: str | Path) -> Results:
 
 def _draw(compared: pareto_page.Comparison, scene: pareto.Scene, cost: str) -> None:
     from matplotlib import pyplot  # where there is a chart alone: it looks for a display
+    # Before rc_context(), which takes back what the first figure sets: Jupyter would not show the next one
+    figure = pyplot.figure(figsize=figures.CHART, dpi=_DPI)
     with matplotlib.rc_context(figures.STYLE):
-        figures.chart(pyplot.figure(figsize=figures.CHART, dpi=_DPI), compared, scene, pareto.CHARTED.index(cost))
+        figures.chart(figure, compared, scene, pareto.CHARTED.index(cost))
 
 
 def _formatters(table: pd.DataFrame) -> dict:

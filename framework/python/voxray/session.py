@@ -5,8 +5,10 @@ from __future__ import annotations
 import itertools
 import json
 import os
+import re
 import subprocess
 import tempfile
+import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -24,6 +26,7 @@ from voxray.errors import VoxrayError
 
 PROGRAM = Path(os.environ.get("VOXRAY_PROGRAM", Path(__file__).resolve().parents[3] / "voxray"))
 PROTOCOL = 1
+_PLACE = re.compile(r"^request \d+:\d+: ")  # In a text that the user does not see
 SHARED_MEMORY = "/dev/shm"  # Linux; elsewhere images go through files
 
 
@@ -52,11 +55,16 @@ class GrowingReference:
         """Whether it has all samples; then it is bit for bit that of a run."""
         return self.samples == self.of
 
+    def __repr__(self) -> str:
+        return f"Reference of {self.samples} of {self.of} samples a pixel{self._noise()}"
+
+    def _noise(self) -> str:
+        return f", noise {self.noise['nrmse']:.2%} (nRMSE)" if self.noise else ""
+
     def _repr_html_(self) -> str:
         shown = {} if self.final is None else {"reference": self.final, "reference, indirect": self.indirect}
-        noise = f", noise {self.noise['nrmse']:.2%} (nRMSE)" if self.noise else ""
         return (display.strip({name: display.picture(image) for name, image in shown.items()})
-                + f"<p>{self.samples} of {self.of} samples a pixel{noise}</p>")
+                + f"<p>{self.samples} of {self.of} samples a pixel{self._noise()}</p>")
 
 
 @dataclass(frozen=True)
@@ -121,7 +129,8 @@ class Session:
         self._folder = tempfile.TemporaryDirectory(prefix="voxray-", dir=SHARED_MEMORY if os.access(SHARED_MEMORY, os.W_OK) else None)
         self._said = tempfile.TemporaryFile("w+")
         self._numbers = itertools.count()
-        self._renderings = 0
+        self._changes = 0
+        self._set: dict[str, Any] = {}
         self._has_reference = False
         self._process = subprocess.Popen([str(program), "session", str(config), "--stdio", "--images", self._folder.name, "--format", "npy",
                                           *options],
@@ -136,10 +145,27 @@ class Session:
     def set(self, path: str, value: Any) -> None:
         """Sets a value of the config as `--set` does; None takes it out. @throws VoxrayError; nothing is changed then."""
         self.warnings = self._ask("set", path=path, value=value)["warnings"]
+        self._changes += 1
+        self._set.pop(path, None)  # The latest comes last
+        self._set[path] = value
 
-    def select(self, variant: str) -> None:
-        """Takes a variant's values, by its id, in place of all that were set. @throws VoxrayError"""
-        self.warnings = self._ask("select", variant=variant)["warnings"]
+    def select(self, variant: str, *, keep: bool | None = None) -> None:
+        """Takes a variant's values, by its id or its name, in place of all that were set.
+
+        @param keep True: what was set is set again, but `graph`, which would take the variant's place; False: it is dropped; None:
+            it is dropped, and a warning (UserWarning) names it
+        @throws VoxrayError for a name that no variant has; for what can't be set in the variant, which is then selected
+        """
+        answer = self._ask("select", variant=variant)
+        self._changes += 1
+        self.warnings = answer["warnings"]
+        before, self._set = self._set, {}
+        kept = {path: value for path, value in before.items() if keep and path != "graph"}
+        dropped = [path for path in before if path not in kept]
+        if dropped and keep is not False:
+            warnings.warn(f"select: '{variant}' takes the place of what was set: {', '.join(dropped)}", stacklevel=2)
+        for path, value in kept.items():
+            self.set(path, value)
 
     def kernel(self, id: str, source: str, *, after: str | None = None, **parameters: Any) -> None:
         """Puts the pass `glsl` with a GLSL text into the graph (docs/writing-a-pass.md); one with that id gives way to it.
@@ -167,11 +193,11 @@ class Session:
     def render(self) -> Rendering:
         """Renders the compared frame; only what changed is built again. @throws VoxrayError"""
         answer = self._ask("render")
-        self._renderings += 1
-        number = self._renderings
+        self._changes += 1
+        number = self._changes
         pixels = _images(answer)
         return Rendering(pixels["final"], pixels.get("indirect"), answer["frame_ms"], answer["memory_bytes"], answer["passes"], answer["values"],
-                         lambda: self._compared() if number == self._renderings else None)
+                         lambda: self._compared() if number == self._changes else None)
 
     def reference(self, seconds: float | None = None) -> GrowingReference:
         """Renders samples of the config's reference for about this time, at least one a pixel, and keeps them: another call goes
@@ -183,9 +209,9 @@ class Session:
         return GrowingReference(pixels.get("final"), pixels.get("indirect"), answer["samples"], answer["of"], answer["noise"])
 
     def score(self) -> dict[str, float]:
-        """Scores of the last rendering against the config's reference, by column of results.csv, with the ends of their 95 %
-        intervals (`nrmse_low`, `nrmse_high`) or what a perfect image would score (`flip_noise`). One that has no samples yet
-        is rendered first, to the end. @throws VoxrayError"""
+        """Scores against the config's reference, by column of results.csv, with the ends of their 95 % intervals (`nrmse_low`,
+        `nrmse_high`) or what a perfect image would score (`flip_noise`). The last rendering is scored; where values were set
+        since, they are rendered first. A reference that has no samples yet is rendered first, to the end. @throws VoxrayError"""
         return self._ask("score")["scores"]
 
     def _compared(self) -> Comparison | None:
@@ -202,15 +228,16 @@ class Session:
 
     @property
     def views(self) -> pd.DataFrame:
-        """What can be looked at of the last rendering besides its image: a row for each view, by pass in execution order.
+        """What can be looked at of a rendering besides its image: a row for each view, by pass in execution order. It is that of
+        the last rendering; where values were set since, they are rendered first.
 
         name: for view(), "PASS.WHAT". kind: aov, image, buffer, voxels. type, shape: of the array; None for voxels. channels:
         names of its last axis, or of its only channel; empty where it has none. quantity: radiance (or irradiance), fraction,
-        direction, number, other, as in docs/look.md. @throws VoxrayError before the first render()"""
+        direction, number, other, as in docs/look.md. @throws VoxrayError"""
         return pd.DataFrame(self._ask("views")["views"], columns=["name", "pass", "kind", "type", "shape", "channels", "quantity"])
 
     def view(self, name: str, **parameters: Any) -> np.ndarray:
-        """A view of the last rendering, by its name in `views`. Nothing is rendered again, but for voxels.
+        """A view of the rendering that `views` tells of, by its name there. Nothing else is rendered again, but for voxels.
 
         AOVs are float32, shape (height, width) or (height, width, channels), as `run --aovs` writes them (units:
         docs/writing-a-config.md); radiance of passes is float32, shape (height, width, 3), W/(m² sr). Other images have the
@@ -261,7 +288,7 @@ class Session:
             pass  # _read() says why it ended
         answer = self._read()
         if not answer["ok"]:
-            raise VoxrayError(answer["error"])
+            raise VoxrayError(_PLACE.sub("", answer["error"]))
         return answer
 
     def _read(self) -> dict:
