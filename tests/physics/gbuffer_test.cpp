@@ -78,6 +78,36 @@ TEST(GBuffer, RaysAndRasterSeeTheSame) {
     expectSameView("mirror_room", "{}", 4.0f);
 }
 
+// An edge along columns that crosses pixels at any place: a rotated grid of n² samples covers in steps of 1/n², a
+// regular one in steps of 1/n.
+TEST(GBuffer, SamplesOfARotatedGridCoverStraightEdgesInFineSteps) {
+    const auto largestError = [](const std::string& pattern, bool isRow) {
+        float largest = 0;
+        for (int step = 0; step < 16; ++step) {
+            // At z = 0 the view is 2 m wide: a pixel of four covers 0.5 m
+            const float covered = (float(step) + 0.5f) / 16, edge = 0.5f * covered;
+            SceneBuilder builder("edge");
+            const glm::vec3 size = isRow ? glm::vec3(2, 1 + edge, 0) : glm::vec3(1 + edge, 2, 0);
+            builder.quad("sheet", {-1, -1, 0}, {size.x, 0, 0}, {0, size.y, 0}, builder.lambert("white", glm::vec3(1)));
+            builder.camera({0, 0, 1}, {0, 0, 0}, 90);
+            Chain chain(evaluated(builder),
+                        graphYaml({"gbuffer, samples_per_pixel_edge: 4, sample_pattern: " + pattern}), 4, 4);
+            const auto albedo = texels(chain, gbuffer(chain).albedo);
+            float sum = 0;  // Of the pixel that the edge crosses.
+            for (size_t i = 0; i < 16; ++i) {
+                const size_t x = (isRow ? 4u : 8u) + i % 4, y = (isRow ? 4u : 8u) + i / 4;
+                sum += albedo[y * 16 + x].w;
+            }
+            largest = std::max(largest, std::abs(sum / 16 - covered));
+        }
+        return largest;
+    };
+    for (const bool isRow : {false, true}) {
+        EXPECT_LT(largestError("rotated", isRow), 0.5f / 16 + 1e-3f);
+        EXPECT_GT(largestError("regular", isRow), 0.09f);
+    }
+}
+
 TEST(GBuffer, SpecularReflectanceFollowsTheMaterial) {
     // A tinted dielectric: F0 = colour * specular * ((n - 1) / (n + 1))², at most specular.
     SceneBuilder builder("pane");
