@@ -12,15 +12,23 @@
 #if WRITE == WRITE_AVERAGE
 #define WEIGHT_UNITS 16777216.0
 #define LARGEST_SAMPLE 1099511627776.0  // 2^40 units: 2^16 times the typical irradiance.
-layout(scalar) buffer VoxelSums { uint64_t data[]; } voxelSums;        // 3 per face
-layout(scalar) buffer VoxelWeights { uint64_t data[]; } voxelWeights;  // 1 per face
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer VoxelSums { uint64_t data[]; };     // 3 per face
+layout(buffer_reference, scalar, buffer_reference_align = 8) buffer VoxelWeights { uint64_t data[]; };  // 1 per face
 #elif WRITE == WRITE_MAX
-layout(scalar) buffer VoxelSums { uint data[]; } voxelSums;        // 3 per face, bits of floats
-layout(scalar) buffer VoxelWeights { uint data[]; } voxelWeights;  // 1 for faces with samples
+// 3 per face, bits of floats
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelSums { uint data[]; };
+// 1 for faces with samples
+layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelWeights { uint data[]; };
 #elif WRITE == WRITE_MOVING_AVERAGE
-layout(scalar) coherent buffer VoxelSums { uint data[]; } voxelSums;  // RGBA8, count in A
+// RGBA8, count in A
+layout(buffer_reference, scalar, buffer_reference_align = 4) coherent buffer VoxelSums { uint data[]; };
 #else
-layout(scalar) buffer VoxelSums { vec4 data[]; } voxelSums;  // By face; w: 1 for faces with samples
+// By face; w: 1 for faces with samples
+layout(buffer_reference, scalar, buffer_reference_align = 16) buffer VoxelSums { vec4 data[]; };
+#endif
+layout(scalar) readonly buffer VoxelSumsRef { VoxelSums voxelSums; };
+#if WRITE == WRITE_AVERAGE || WRITE == WRITE_MAX
+layout(scalar) readonly buffer VoxelWeightsRef { VoxelWeights voxelWeights; };
 #endif
 
 // Modes without weights ignore samples of lower weights.

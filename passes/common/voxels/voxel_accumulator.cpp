@@ -43,7 +43,7 @@ Defines VoxelAccumulator::defines(Write write) {
 void VoxelAccumulator::begin(Device& device, CommandStream& stream, const VoxelLevels& voxels,
                              float typicalIrradiance) {
     const BytesPerVoxel bytes = bytesPerVoxel(params_.write);
-    const auto clear = [&](Buffer& buffer, const char* name, uint64_t size) {
+    const auto clear = [&](LargeBuffer& buffer, const char* name, uint64_t size) {
         ensureSize(buffer, device, name, size);
         stream.fill(buffer, 0);
     };
@@ -55,8 +55,8 @@ void VoxelAccumulator::begin(Device& device, CommandStream& stream, const VoxelL
 }
 
 std::vector<Binding> VoxelAccumulator::bindings() const {
-    std::vector<Binding> list{{"voxelSums", sums_}};
-    if (weights_) list.push_back({"voxelWeights", weights_});
+    std::vector<Binding> list{{"VoxelSumsRef", sums_.ref()}};
+    if (weights_) list.push_back({"VoxelWeightsRef", weights_.ref()});
     return list;
 }
 

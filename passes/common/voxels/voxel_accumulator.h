@@ -74,7 +74,7 @@ class VoxelAccumulator {
     const WriteParams params_;
     float scale_ = 1;
     Kernel resolve_;
-    Buffer sums_, weights_;
+    LargeBuffer sums_, weights_;
 };
 
 }  // namespace voxray
