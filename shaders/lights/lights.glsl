@@ -5,6 +5,7 @@
 #include "shaders/lights/environment_map.glsl"
 #include "shaders/lights/light_sampling_types.h"
 #include "shaders/lights/spherical_triangle.glsl"
+#include "shaders/scene/light_tree.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
 #include "shaders/scene/specular.glsl"
@@ -13,10 +14,11 @@
 #define SOURCE_PUNCTUAL 0u
 #define SOURCE_EMITTERS 1u
 #define SOURCE_ENVIRONMENT 2u
+#define SOURCE_TREE 3u  // Emissive surfaces, point and spot lights together.
 
 struct LightSample {
-    vec3 direction;   // Towards the light, unit length.
-    float distance_;  // m
+    vec3 direction;    // Towards the light, unit length.
+    float distance_;   // m
     float reach;       // Length of the shadow ray, m: it ends in front of the light's surface.
     vec3 irradiance;   // At normal incidence, over the sample's probability density, W/m².
     float solidAngle;  // One over that density, sr; 0 for a punctual light.
@@ -48,8 +50,10 @@ uint pickEmitter(uint emitterCount, float u) {
     uint low = 0u, high = emitterCount - 1u;
     while (low < high) {
         const uint center = (low + high) / 2u;
-        if (sceneEmitters.data[center].cumulativePower > u) high = center;
-        else low = center + 1u;
+        if (sceneEmitters.data[center].cumulativePower > u)
+            high = center;
+        else
+            low = center + 1u;
     }
     return low;
 }
@@ -102,23 +106,35 @@ struct SourceSampling {
     uint samples;     // Of the source, for each point.
     uint candidates;  // For each sample; at most MAX_LIGHT_CANDIDATES.
     uint emitterCount;
+    uint emitterRoot;  // Of the light tree.
 };
 
 // Candidates for a sample. If there are no more emitters than that, each is one candidate. A constant environment has
 // only one, which is distributed by cosine.
 uint candidateCount(uint kind, SourceSampling sampling) {
     if (kind == SOURCE_EMITTERS) return min(sampling.candidates, sampling.emitterCount);
-    return hasEnvironmentMap() ? sampling.candidates : 1u;
+    return kind == SOURCE_TREE || hasEnvironmentMap() ? sampling.candidates : 1u;
 }
 
-// Emitter candidate k of `count`: emitter k if there are so many, else stratified by power. All take the same point u
-// of their triangles, so that samples are as even over each lamp as the sequence of u.
-LightSample emitterCandidate(uint k, uint count, uint emitterCount, vec3 position, float pick, vec2 u) {
-    const bool isEach = count == emitterCount;
-    const uint index = isEach ? k : pickEmitter(emitterCount, (float(k) + pick) / float(count));
-    const GpuEmitter emitter = sceneEmitters.data[index];
-    LightSample s = sampleEmitter(emitter, position, u);
-    const float weight = isEach ? 1.0 : 1.0 / (emitter.probability * float(count));
+// A point on light `picked` of the light tree (pickLight()).
+LightSample samplePicked(uint picked, vec3 position, vec2 u) {
+    if ((picked & LIGHT_TREE_PUNCTUAL) != 0u)
+        return samplePunctual(sceneLights.data[picked & LIGHT_TREE_INDEX], position);
+    return sampleEmitter(sceneEmitters.data[picked], position, u);
+}
+
+// Candidate k of `count` from emitters, or from the whole light tree: emitter k if there are so many candidates, else
+// picked by the light tree, stratified. All take the same point u of their triangles, so that samples are as even over
+// each lamp as the sequence of u.
+LightSample treeCandidate(uint kind, uint k, uint count, SourceSampling sampling, Receiver r, float pick, vec2 u) {
+    if (kind == SOURCE_EMITTERS && count == sampling.emitterCount)
+        return sampleEmitter(sceneEmitters.data[k], r.position, u);
+    float probability;
+    const uint picked = pickLight(kind == SOURCE_EMITTERS ? sampling.emitterRoot : 0u, r.position, r.faceNormal,
+                                  (float(k) + pick) / float(count), probability);
+    if (probability == 0.0) return LightSample(r.normal, 1.0e30, 1.0e30, vec3(0.0), 0.0, 1.0e30);
+    LightSample s = samplePicked(picked, r.position, u);
+    const float weight = 1.0 / (probability * float(count));
     s.solidAngle *= weight;
     s.irradiance *= weight;
     return s;
@@ -145,8 +161,8 @@ LightSample environmentCandidate(uint k, uint count, vec3 normal, uint point, ui
 
 LightSample candidate(uint kind, uint k, uint count, SourceSampling sampling, Receiver r, uint point, uint seed) {
     if (kind == SOURCE_ENVIRONMENT) return environmentCandidate(k, count, r.normal, point, seed);
-    return emitterCandidate(k, count, sampling.emitterCount, r.position, sobol2(point, hashCombine(seed, 1u)).x,
-                            sobol2(point, hashCombine(seed, 0u)));
+    return treeCandidate(kind, k, count, sampling, r, sobol2(point, hashCombine(seed, 1u)).x,
+                         sobol2(point, hashCombine(seed, 0u)));
 }
 
 // What the receiver reflects of an unoccluded sample: luminance of the light times that of the reflectance, so that it
@@ -159,7 +175,7 @@ float reflectedLuminance(Receiver r, LightSample s) {
 }
 
 // A sample of a light source for a surface point: of punctual light `light`, or sample `light` of `sampling.samples`
-// of the emissive surfaces or of the environment. One of its candidates is selected in proportion to
+// of the emissive surfaces, the light tree or the environment. One of its candidates is selected in proportion to
 // reflectedLuminance(): resampled importance sampling (Talbot et al. 2005). `index` of the point selects its range of
 // the Sobol sequence of `seed`. The irradiance is divided by the number of samples, and is without the cosine.
 LightSample sampleSource(uint kind, uint light, SourceSampling sampling, Receiver r, uint index, uint seed) {
