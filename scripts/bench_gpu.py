@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Measures one device: parity of its images, every pass, the papers' tables, throughput. `./voxray bench gpu` builds and calls it.
 
-Needs the built program, Python with Jinja2 and NumPy, and nothing else: no network, no compiler. Writes into DIR gpu.html, one self-contained
+Needs the built program, Python with Jinja2, NumPy and pandas, and nothing else: no network, no compiler. Writes into DIR gpu.html, one self-contained
 page with the device's name, gpu.md, gpu.json with all that was measured, and runs/, the result files of the runs. They are written
 after each part, so that what was measured stays whatever comes after. A part that fails, or has no time left, stops no other one.
 

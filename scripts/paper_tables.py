@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Writes tables of docs/papers from results that are kept beside them, and measures those results.
 
-paper_tables.py [--measure RUN...] [--take RUN=DIR...] [--out DIR] [--program PROGRAM] [--root ROOT]
+paper_tables.py [--measure RUN...] [--take RUN=DIR... --commit COMMIT] [--out DIR] [--program PROGRAM] [--root ROOT]
 
 Writes each table into the page that has a line "<!-- table: NAME -->", in place of the table below that line. With --measure the
 runs named are made first, by the build in build/release; with --take their results are read from a folder DIR, to which another
@@ -152,10 +152,10 @@ def measure(root, name, run, program, kept_in=None):
         keep(root, name, run, device, found)
 
 
-def keep(root, name, run, device, found):
+def keep(root, name, run, device, found, commit=None):
     """Writes the CSV of a run. `found`: see values_of()."""
     with open(csv_path(root, name), "w", newline="", encoding="utf-8") as file:
-        file.write(f"# {commit_of(root)}; {device}; {run['command']}\n")
+        file.write(f"# {commit or commit_of(root)}; {device}; {run['command']}\n")
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["variant", *run["values"]])
         for variant, values in found.items():
@@ -244,18 +244,21 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--measure", nargs="+", default=[], metavar="RUN", help="runs to make first")
     parser.add_argument("--take", nargs="+", default=[], metavar="RUN=DIR", help="runs whose results lie in a folder")
+    parser.add_argument("--commit", help="of the build that made what --take reads")
     parser.add_argument("--out", type=Path, metavar="DIR", help="folder that keeps results of runs; one that was interrupted goes on")
     parser.add_argument("--program", default=str(ROOT / "build/release/bin/voxray"))
     parser.add_argument("--root", type=Path, default=ROOT)
     options = parser.parse_args()
     try:
         runs, _ = definitions(options.root)
+        if options.take and not options.commit:
+            parser.error("--take needs --commit")
         taken = dict(entry.partition("=")[::2] for entry in options.take)
         for name in [*options.measure, *taken]:
             if name not in runs:
                 parser.error(f"no run {name}; there are {', '.join(runs) or 'none'}")
             if name in taken:
-                keep(options.root, name, runs[name], *results_of(options.root, runs[name], taken[name]))
+                keep(options.root, name, runs[name], *results_of(options.root, runs[name], taken[name]), options.commit)
             else:
                 measure(options.root, name, runs[name], options.program, options.out)
         for path, text, right in pages(options.root):

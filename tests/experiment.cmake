@@ -1,6 +1,6 @@
 # Tests of experiment.
 voxray_tests(config
-  SOURCES unit/config_scene_test.cpp unit/config_sweep_test.cpp unit/config_test.cpp
+  SOURCES unit/config_scene_test.cpp unit/config_sweep_test.cpp unit/config_test.cpp unit/yaml_test.cpp
   DEPENDS voxray_config)
 
 voxray_tests(experiment

@@ -16,3 +16,10 @@ list(REMOVE_ITEM CHAIN_TESTS ${REGION_TESTS} ${PATH_TRACE_TESTS})
 voxray_tests(chain SHARDS 6
   SOURCES ${CHAIN_TESTS} support/brick_octree_count.cpp support/watched_device.cpp
   DEPENDS voxray_experiment voxray_passes)
+
+# The library that denoise_oidn loads, as far as its tests need one.
+add_library(oidn_stand_in MODULE support/oidn_stand_in.cpp)
+target_link_libraries(oidn_stand_in PRIVATE voxray_options)
+add_dependencies(tests_chain oidn_stand_in)
+set_source_files_properties(physics/denoise_oidn_test.cpp PROPERTIES
+  COMPILE_DEFINITIONS VOXRAY_OIDN_STAND_IN="$<TARGET_FILE:oidn_stand_in>")

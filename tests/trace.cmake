@@ -1,6 +1,6 @@
 # Tests of trace.
 voxray_tests(trace
-  SOURCES gpu/trace_backends.cpp gpu/trace_update.cpp support/watched_device.cpp unit/tracing_order_test.cpp
+  SOURCES gpu/trace_backends.cpp gpu/trace_counted.cpp gpu/trace_update.cpp support/watched_device.cpp unit/tracing_order_test.cpp
   DEPENDS voxray_trace)
 target_include_directories(tests_trace PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
 

@@ -156,8 +156,13 @@ void look(const LookArguments& arguments) {
     const InterruptScope interruptScope;
     InteractiveSession session(openConfig(arguments.file, arguments, options.tracer), registry, options);
     Value start = greetingOf(session);
-    for (Value& variant : start.find("variants")->items)
-        variant.set("source", sourceOf(session.configOf(textOf(variant, "id"))));
+    for (Value& variant : start.find("variants")->items) {
+        const Value config = session.configOf(textOf(variant, "id"));
+        variant.set("source", sourceOf(config));
+        if (const Value* camera = config.find("scene")->find("camera")) variant.set("camera", *camera);
+        const Value* image = config.find("image");
+        if (const Value* stops = image ? image->find("exposure_stops") : nullptr) variant.set("exposure_stops", *stops);
+    }
     start.set("schema", configJsonSchema(registry));
     start.set("passes", passesOf(registry));
     start.set("metrics", metricsValue());

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from bench import processes
+from bench import processes, rivals
 from report import pages, text
 from report.rows import markdown_table
 from report.table import Cell, Table
@@ -97,6 +97,27 @@ def _difference(row: dict | None) -> Cell:
                 "worse" if far else "")
 
 
+def rivals_table(data: dict) -> Table:
+    rows = data.get("over_paths", [])
+    table = Table("Methods over path tracing on this device", [
+        "method", "ms a frame", "ms with all that is built", *rivals.ERRORS.values(),
+        *(f"over paths of equal {name}: frame, with builds" for name in rivals.ERRORS.values())],
+        note="Cornell, indirect light. Paths on the device (path_trace_device) have the same filter, lights and bounces as all others; the time "
+             "to an error lies between that of their numbers of samples, logarithm over logarithm. Below 1 the method is faster. >: at least so "
+             "much, because the fewest samples have less error; <: at most so much, because the most samples have more.", words=(0,))
+    for row in rows:
+        over = [_over(row["over"].get(error)) for error in rivals.ERRORS]
+        table.add(row["variant"], number(row["frame_ms"]), number(row["whole_ms"]), *(number(row["errors"][e]) for e in rivals.ERRORS), *over)
+    return table
+
+
+def _over(found: dict | None) -> str:
+    if found is None:
+        return ""
+    sign = {"least": ">", "most": "<"}.get(found["at"], "")
+    return ", ".join(f"{sign}{number(found[part], 2)}" for part in ("frame", "whole"))
+
+
 def passes_table(rows: list[dict]) -> Table:
     note = "Of all variants the one in which the pass took longest, Embree's only where no other tracer ran it; gpu.json has all. " \
            "Memory: of the pass's outputs, and scratch. Dispatches, and waits and copies of the host: in one run of the pass."
@@ -165,7 +186,7 @@ def papers_tables(data: dict) -> list[Table]:
 
 def tables_of(data: dict, slowest: list[dict], rays: list[dict]) -> list[Table]:
     """All tables that have rows."""
-    found = [parts_table(data), runs_table(data), parity_table(data), passes_table(slowest), absent_table(data), rays_table(rays), writes_table(data),
+    found = [parts_table(data), runs_table(data), parity_table(data), rivals_table(data), passes_table(slowest), absent_table(data), rays_table(rays), writes_table(data),
              benchmarks_table(data), *papers_tables(data)]
     return [table for table in found if table.rows]
 

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from bench import devices, parity, processes, runs, tables
+from bench import devices, parity, processes, rivals, runs, tables
 from bench.processes import Clock, Outcome
 from bench.runs import Program, Run
 
@@ -19,7 +19,7 @@ PAPERS = ("magalhaes2020/base", "arneback2017/dynamic_light", "sun2015/table1", 
 
 
 @dataclass(frozen=True)
-class Headline:
+class PaperRun:
     """A config of a paper, and how it is run."""
 
     config: str
@@ -31,14 +31,14 @@ _FULL_HD = ("image.width=1920", "image.height=1080")
 _STILL = ("measure.build_repeats=10", "reference=null")
 # Clusters take long to build, and their lists do not depend on the light, whose repetitions warm the clock
 _CLUSTERS = ("measure.build_repeats=4", "reference=null", *_FULL_HD)
-HEADLINES = (Headline("arneback2017/fly_through", assignments=(*_STILL, "image.width=1497", "image.height=1014")),
-             Headline("arneback2017/dynamic_light", "thesis", _STILL),
-             Headline("arneback2017/dynamic_geometry", "thesis", ("reference=null",)),
-             Headline("sun2015/table1", assignments=_STILL), Headline("sun2015/table1_sponza", assignments=_STILL),
-             Headline("magalhaes2020/base", assignments=(*_STILL, *_FULL_HD)),
-             Headline("magalhaes2020/secondary", "tables", _STILL),
-             Headline("seok2021/like_for_like", "times", (*_STILL, *_FULL_HD)),
-             Headline("cosin2022/rivals_vct", assignments=_CLUSTERS), Headline("cosin2022/table1", assignments=_CLUSTERS))
+HEADLINES = (PaperRun("arneback2017/fly_through", assignments=(*_STILL, "image.width=1497", "image.height=1014")),
+             PaperRun("arneback2017/dynamic_light", "thesis", _STILL),
+             PaperRun("arneback2017/dynamic_geometry", "thesis", ("reference=null",)),
+             PaperRun("sun2015/table1", assignments=_STILL), PaperRun("sun2015/table1_sponza", assignments=_STILL),
+             PaperRun("magalhaes2020/base", assignments=(*_STILL, *_FULL_HD)),
+             PaperRun("magalhaes2020/secondary", "tables", _STILL),
+             PaperRun("seok2021/like_for_like", "times", (*_STILL, *_FULL_HD)),
+             PaperRun("cosin2022/rivals_vct", assignments=_CLUSTERS), PaperRun("cosin2022/table1", assignments=_CLUSTERS))
 _PASSES = "bench/gpu_passes.yaml"
 _WRITES = "papers/magalhaes2020/published_write_strategies.yaml"
 _LISTING = 30  # seconds for `voxray devices`
@@ -119,6 +119,7 @@ def compare_images(bench: Bench, clock: Clock) -> Ending:
         ending.add_run(run)
     bench.runs += done
     bench.data["parity"] = rows
+    bench.data["over_paths"] = rivals.rows(done[0])
     broken = sum("error" in row for row in rows)
     if broken and ending.status == processes.DONE:
         ending.status, ending.why = processes.FAILED, f"{broken} of {len(rows)} pairs of images could not be compared"
@@ -147,7 +148,7 @@ def time_writes(bench: Bench, clock: Clock) -> Ending:
 
 
 def run_papers(bench: Bench, clock: Clock) -> Ending:
-    return _run_papers(bench, clock, "papers", [Headline(paper, "", bench.warming) for paper in PAPERS])
+    return _run_papers(bench, clock, "papers", [PaperRun(paper, "", bench.warming) for paper in PAPERS])
 
 
 def run_headlines(bench: Bench, clock: Clock) -> Ending:
@@ -155,18 +156,18 @@ def run_headlines(bench: Bench, clock: Clock) -> Ending:
     return _run_papers(bench, clock, "headlines", HEADLINES)
 
 
-def _run_papers(bench: Bench, clock: Clock, part: str, headlines: Iterable[Headline]) -> Ending:
+def _run_papers(bench: Bench, clock: Clock, part: str, paper_runs: Iterable[PaperRun]) -> Ending:
     ending = Ending()
     bench.data[part] = []
-    for line in headlines:
-        run = runs.run_config(bench.program, f"papers/{line.config}.yaml", f"{part}.{line.config.replace('/', '.')}", bench.out,
-                              clock.part(clock.left / 2), tracer=next(iter(bench.tracers), "embree"), profile=line.profile,
-                              assignments=line.assignments)
+    for paper in paper_runs:
+        run = runs.run_config(bench.program, f"papers/{paper.config}.yaml", f"{part}.{paper.config.replace('/', '.')}", bench.out,
+                              clock.part(clock.left / 2), tracer=next(iter(bench.tracers), "embree"), profile=paper.profile,
+                              assignments=paper.assignments)
         ending.add_run(run)
         bench.runs.append(run)
         if run.variants:
-            bench.data[part].append({"config": f"configs/{run.config}", "profile": line.profile, "set": list(line.assignments),
-                                     "page": f"docs/papers/{line.config.split('/')[0]}.md", "variants": tables.variant_rows(run)})
+            bench.data[part].append({"config": f"configs/{run.config}", "profile": paper.profile, "set": list(paper.assignments),
+                                     "page": f"docs/papers/{paper.config.split('/')[0]}.md", "variants": tables.variant_rows(run)})
     return ending
 
 
@@ -203,5 +204,5 @@ PARTS = (Part("devices", 0.1, "devices, their drivers and features", list_device
          Part("passes", 0.35, "the time of every pass", time_passes),
          Part("writes", 0.25, "what merging light near a floor costs, by way of writing", time_writes),
          Part("papers", 0.4, "the configs whose tables stand in docs/papers", run_papers),
-         Part("headlines", 0.6, "times of papers' titles at their own resolutions", run_headlines),
+         Part("headlines", 0.6, "what papers' abstracts and main tables give in ms, at their own resolutions", run_headlines),
          Part("throughput", 0.35, "rays, steps, scans and sorts a second", measure_throughput))

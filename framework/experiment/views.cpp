@@ -38,6 +38,8 @@ Format formatOf(VkFormat format) {
         case VK_FORMAT_R32_SFLOAT:
         case VK_FORMAT_D32_SFLOAT:
             return {Type::Float32, 1};
+        case VK_FORMAT_R16G16_SFLOAT:
+            return {Type::Float16, 2};
         case VK_FORMAT_R16G16B16A16_SFLOAT:
             return {Type::Float16, 4};
         case VK_FORMAT_R32G32B32A32_SFLOAT:

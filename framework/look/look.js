@@ -72,7 +72,6 @@ window.look = state;
 
 function changed(name, value, time) {
     for (const side of split.sidesOf(name)) {
-        side.isFlown ||= name === "scene.camera";
         side.change(name, name === "scene.camera" ? cameraFor(side, value) : value, time);
     }
 }

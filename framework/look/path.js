@@ -135,9 +135,14 @@ export class PathControls {
         this.show();
     }
 
-    /** The program has a config. */
+    /** The program has a config; its path may be of the file, or of before the page was loaded. */
     showConfig(config) {
-        this.isTaken = Boolean(config.scene.camera?.path);
+        const { camera } = config.scene;
+        this.isTaken = Boolean(camera?.path);
+        if (this.isTaken && !this.recorded) {
+            this.recorded = { frames: config.measure.frames, camera };
+            this.before = { frames: null, every: null };
+        }
         this.show();
     }
 

@@ -96,9 +96,10 @@ export class ReferenceBox {
         if (!png.length) return;
         const image = await createImageBitmap(new Blob([png], { type: "image/png" }));
         if (!isCurrent() || this.select.value !== show) return;
-        const context = side.canvas.getContext("2d");
-        context.drawImage(image, 0, 0, side.canvas.width, side.canvas.height);
+        const picture = new OffscreenCanvas(image.width, image.height), context = picture.getContext("2d", { willReadFrequently: true });
+        context.drawImage(image, 0, 0);
         if (show !== "reference") colorErrors(context);
+        side.canvas.getContext("2d").drawImage(picture, 0, 0, side.canvas.width, side.canvas.height);
     }
 
     /** Tells of the reference of the side that is edited, and scores of all sides: columns are metrics. */

@@ -47,12 +47,13 @@ export class Split {
     }
 
     /**
-     * Takes the values of a variant for the side that is edited. Beside another side, image and camera are as there; alone, they
-     * stay if the camera was flown.
+     * Takes the values of a variant for the side that is edited. Beside another side, image and camera are as there; alone, camera
+     * and exposure stay if they are not those of the variant that is shown.
      */
     select(variant) {
-        const source = this.isOpen ? this.sides[1 - this.edited.number] : this.edited, keeps = this.isOpen || this.edited.isFlown;
-        const kept = keeps && source.config ? this.sharedBy(source, variant) : [];
+        const source = this.isOpen ? this.sides[1 - this.edited.number] : this.edited;
+        const shared = source.config ? this.sharedBy(source, variant) : [];
+        const kept = this.isOpen ? shared : this.changesOfView(source, shared);
         this.nameBy(this.edited, variant);
         this.edited.open({ variant: variant.id }, kept, performance.now());
         this.arrange();
@@ -79,6 +80,16 @@ export class Split {
         return [["image", config.image ?? null],
             ...(isSameScene && config.scene.camera?.path ? OF_PATH.map((key) => [`measure.${key}`, config.measure?.[key] ?? null]) : []),
             ...(isSameScene ? [["scene.camera", config.scene.camera ?? null]] : []), ...[...side.pending].filter(([path]) => isOfImage(path) || (isOfCamera(path) && isSameScene))];
+    }
+
+    /** Of changes that sharedBy() told, those that the view of a side needs, which may be another one than its variant's. */
+    changesOfView({ variant, config, pending }, shared) {
+        const own = this.variants.find(({ id }) => id === variant), stops = "image.exposure_stops";
+        const differs = (value, original) => JSON.stringify(value ?? null) !== JSON.stringify(original ?? null);
+        const isFlown = pending.has("scene.camera") || !own || differs(config?.scene.camera, own.camera);
+        const exposed = pending.get(stops) ?? config?.image?.exposure_stops;
+        return [...(isFlown ? shared.filter(([path]) => !isOfImage(path)) : []),
+            ...(own && differs(exposed ?? 0, own.exposure_stops ?? 0) ? [[stops, exposed ?? null]] : [])];
     }
 
     nameBy(side, variant) {

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from report.ranking import is_numeric
 from report.results import Results
 
-TRACED, FILTER = "path_trace", "filter_irradiance"
-_RIVAL = (TRACED, FILTER)  # what a user would pick instead of any method of voxels
+TRACED, FILTER = ("path_trace", "path_trace_device"), "filter_irradiance"
+_RIVALS = tuple((traced, FILTER) for traced in TRACED)  # what a user would pick instead of any method of voxels
 _OTHER_METHODS = ("inject_", "gather_", "sample_")  # what their passes begin with
 _EVERYWHERE = {"gbuffer", "voxelize", "composite"}  # passes that tell nothing of a method
 _LAYOUT = "layout"  # the parameter that makes two methods of the same passes
@@ -26,12 +26,12 @@ class Method:
 
     @property
     def traces_paths(self) -> bool:
-        return TRACED in self.chain
+        return any(traced in self.chain for traced in TRACED)
 
     @property
     def is_rival(self) -> bool:
         """Whether it is filtered path tracing and nothing else."""
-        return self.chain == _RIVAL
+        return self.chain in _RIVALS
 
 
 def methods_of(runs: list[Results]) -> tuple[list[Method], list[dict[str, int]]]:
@@ -66,8 +66,9 @@ def _method_names(run: Results) -> Iterator[tuple[str, str]]:
 def _chain(run: Results, variant: str) -> tuple[str, ...]:
     graph = run.graph_of(variant)
     kinds = [str(entry.get("pass")) for entry in graph]
-    if set(kinds) >= set(_RIVAL) and not any(kind.startswith(_OTHER_METHODS) for kind in kinds):
-        return _RIVAL
+    for rival in _RIVALS:
+        if set(kinds) >= set(rival) and not any(kind.startswith(_OTHER_METHODS) for kind in kinds):
+            return rival
     names = (f"{kind} ({entry[_LAYOUT]})" if _LAYOUT in entry else kind for kind, entry in zip(kinds, graph))
     return tuple(name for name in dict.fromkeys(names) if name not in _EVERYWHERE) or ("all",)
 
@@ -86,7 +87,7 @@ def _give_names(methods: list[Method]) -> None:
 
 
 def _by_gather(method: Method, _: list[Method]) -> str:
-    gather = next((kind for kind in reversed(method.chain) if kind.startswith(("gather_", TRACED))), method.chain[-1])
+    gather = next((kind for kind in reversed(method.chain) if kind.startswith(("gather_", *TRACED))), method.chain[-1])
     return gather.replace("_", " ") + (", filtered" if FILTER in method.chain else "")
 
 

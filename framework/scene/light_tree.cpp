@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "base/error.h"
 #include "scene/luminance.h"
 
 namespace voxray {
@@ -80,7 +81,16 @@ struct Item {
     uint32_t light;
 };
 
-/// Builds nodes depth first.
+/// `emission` of a node.
+uint32_t packedEmission(const Cluster& all) {
+    // The cone may grow by rounding, never shrink
+    const auto cosO = uint32_t(std::floor(0.5 * (all.cone.cosine + 1) * double(LIGHT_TREE_COS_ORIENTATION_STEPS)));
+    const auto cosEmission =
+        uint32_t(std::floor(std::max(std::cos(all.emission), 0.0) * double(LIGHT_TREE_COS_EMISSION_STEPS)));
+    return cosO | cosEmission << LIGHT_TREE_COS_EMISSION_SHIFT | (all.doubleSided ? LIGHT_TREE_DOUBLE_SIDED : 0u);
+}
+
+/// Builds a binary tree from the top, of which several levels become one.
 class Builder {
  public:
     Builder(std::span<const BoundedLight> lights, double intensity, std::vector<gpu::LightTreeNode>& nodes,
@@ -90,37 +100,74 @@ class Builder {
             items_.push_back({Cluster::of(lights[i]), 0.5f * (lights[i].bounds.min + lights[i].bounds.max), i});
     }
 
-    /// Builds the tree of items [first, last). @param split of the root; 0: where it costs least.
-    void build(size_t first, size_t last, uint32_t parent, size_t split) {
-        const auto index = uint32_t(nodes_.size());
-        nodes_.push_back(node(first, last, parent));
-        if (last - first == 1) {
-            const uint32_t light = items_[first].light;
-            leaves_[light] = index;
-            nodes_[index].link = LIGHT_TREE_LEAF | lights_[light].id;
-            return;
-        }
-        const size_t middle = split > 0 ? split : partition(first, last);
-        build(first, middle, index, 0);
-        nodes_[index].link = uint32_t(nodes_.size());
-        build(middle, last, index, 0);
+    /// @param split First light of the root's second child; 0: where it costs least.
+    void build(size_t split) {
+        const Range all{0, items_.size()};
+        nodes_.push_back(node(all, 0));
+        if (split > 0)
+            addChildren(0, {{all.first, split}, {split, all.last}});
+        else
+            fill(0, all);
     }
 
  private:
     static constexpr size_t kBuckets = 12;
 
-    gpu::LightTreeNode node(size_t first, size_t last, uint32_t parent) const {
+    struct Range {
+        size_t first, last;  ///< Of items; [first, last).
+        size_t count() const { return last - first; }
+    };
+
+    Cluster cluster(const Range& range) const {
         Cluster all;
-        for (size_t i = first; i < last; ++i) all.add(items_[i].cluster);
-        return {all.bounds.min,
+        for (size_t i = range.first; i < range.last; ++i) all.add(items_[i].cluster);
+        return all;
+    }
+
+    gpu::LightTreeNode node(const Range& range, uint32_t parent) const {
+        const Cluster all = cluster(range);
+        return {0.5f * (all.bounds.min + all.bounds.max),
                 float(all.intensity / intensity_),
-                all.bounds.max,
-                float(all.cone.cosine),
+                0.5f * (all.bounds.max - all.bounds.min),
+                packedEmission(all),
                 glm::vec3(all.cone.axis),
-                float(std::cos(all.emission)),
                 0,
-                parent,
-                all.doubleSided ? 1u : 0u};
+                parent};
+    }
+
+    /// Gives node `index` its light or its children.
+    void fill(uint32_t index, const Range& range) {
+        if (range.count() == 1) {
+            const uint32_t light = items_[range.first].light;
+            leaves_[light] = index;
+            nodes_[index].link = LIGHT_TREE_LEAF | lights_[light].id;
+            return;
+        }
+        const size_t most = range.count() <= LIGHT_TREE_MAX_CHILDREN ? range.count() : LIGHT_TREE_ARITY;
+        std::vector<Range> parts{range};
+        std::vector<double> costs{0};
+        while (parts.size() < most) {
+            // Split where the most is to gain
+            size_t worst = parts.size();
+            for (size_t i = 0; i < parts.size(); ++i)
+                if (parts[i].count() > 1 && (worst == parts.size() || costs[i] > costs[worst])) worst = i;
+            const size_t middle = partition(parts[worst].first, parts[worst].last);
+            const Range second{middle, parts[worst].last};
+            parts[worst].last = middle;
+            costs[worst] = cluster(parts[worst]).cost();
+            parts.insert(parts.begin() + ptrdiff_t(worst) + 1, second);
+            costs.insert(costs.begin() + ptrdiff_t(worst) + 1, cluster(second).cost());
+        }
+        addChildren(index, parts);
+    }
+
+    void addChildren(uint32_t index, const std::vector<Range>& parts) {
+        const auto first = uint32_t(nodes_.size());
+        if (first + parts.size() > LIGHT_TREE_FIRST_CHILD)
+            throw Error("light tree: {} lights are too many; leave out some emissive triangles", lights_.size());
+        nodes_[index].link = uint32_t(parts.size()) << LIGHT_TREE_COUNT_SHIFT | first;
+        for (const Range& part : parts) nodes_.push_back(node(part, index));
+        for (size_t i = 0; i < parts.size(); ++i) fill(first + uint32_t(i), parts[i]);
     }
 
     /// Sorts items into two halves of least cost. @return the first of the second half.
@@ -188,7 +235,9 @@ std::optional<BoundedLight> boundedLight(const Light& light, uint32_t id) {
         bounded.axis = light.direction;
         bounded.cosEmission = std::max(std::cos(light.outerConeAngle), 0.0f);
     } else {
+        // As lights that face all directions
         bounded.cosOrientation = -1;
+        bounded.intensity /= double(LIGHT_TREE_MEAN_COSINE);
     }
     return bounded;
 }
@@ -203,53 +252,71 @@ BoundedLight boundedLight(std::span<const glm::vec3> corners, const glm::vec3& n
 LightTree::LightTree(std::span<const BoundedLight> lights, size_t firstGroup) : leaves_(lights.size()) {
     if (lights.empty()) return;
     for (const BoundedLight& light : lights) intensity_ += light.intensity;
-    nodes_.reserve(2 * lights.size() - 1);
-    Builder(lights, intensity_, nodes_, leaves_)
-        .build(0, lights.size(), 0, firstGroup < lights.size() ? firstGroup : 0);
+    Builder(lights, intensity_, nodes_, leaves_).build(firstGroup < lights.size() ? firstGroup : 0);
 }
 
-float LightTree::importance(uint32_t node, const glm::vec3& position, const glm::vec3& normal) const {
-    const uint32_t second = nodes_[node].link;
-    if ((second & LIGHT_TREE_LEAF) != 0) return gpu::lightTreeImportance(nodes_[node], position, normal);
-    return gpu::lightTreeImportance(nodes_[node + 1], position, normal) +
-           gpu::lightTreeImportance(nodes_[second], position, normal);
+std::span<const gpu::LightTreeNode> LightTree::children(uint32_t node) const {
+    if (isLeaf(node)) return std::span(nodes_).subspan(node, 1);
+    const uint32_t link = nodes_[node].link;
+    return std::span(nodes_).subspan(link & LIGHT_TREE_FIRST_CHILD, link >> LIGHT_TREE_COUNT_SHIFT);
+}
+
+float LightTree::childrenImportance(uint32_t node, const Receiver& to) const {
+    float sum = 0.0f;
+    for (const gpu::LightTreeNode& child : children(node)) sum += lightTreeImportance(child, to.position, to.normal);
+    return sum;
 }
 
 float LightTree::irradiance(const glm::vec3& position, const glm::vec3& normal) const {
-    return empty() ? 0.0f : float(intensity_ * double(importance(0, position, normal)));
+    return empty() ? 0.0f : float(intensity_) * childrenImportance(0, {position, normal});
 }
 
-LightTree::Pick LightTree::pick(const glm::vec3& position, const glm::vec3& normal, float u) const {
-    float probability = 1.0f;
+LightTree::Pick LightTree::pick(const Receiver& to, float u) const {
+    if (empty()) return {kBeside, to.beside > 0.0f ? 1.0f : 0.0f, u};
+    float probability = 1.0f, ofBeside = beside(to);
     uint32_t node = 0;
-    while ((nodes_[node].link & LIGHT_TREE_LEAF) == 0) {
-        const uint32_t second = nodes_[node].link;
-        const float a = importance(node + 1, position, normal), b = importance(second, position, normal);
-        if (!(a + b > 0.0f)) return {};
-        const float first = a / (a + b);
-        if (u < first) {
-            u /= first;
-            probability *= first;
-            ++node;
-        } else {
-            u = (u - first) / (1.0f - first);
-            probability *= b / (a + b);
-            node = second;
+    if (isLeaf(node) && !(ofBeside > 0.0f)) return {nodes_[node].link & ~LIGHT_TREE_LEAF, 1.0f, u};
+    do {
+        const auto all = children(node);
+        std::array<float, LIGHT_TREE_MAX_CHILDREN> importance;
+        float total = ofBeside;
+        for (size_t k = 0; k < all.size(); ++k)
+            total += importance[k] = lightTreeImportance(all[k], to.position, to.normal);
+        if (!(total > 0.0f)) return {};
+        float rest = u * total, ofPicked = ofBeside;
+        size_t picked = all.size();
+        for (size_t k = 0; k < all.size() && rest >= ofPicked; ++k) {
+            if (!(importance[k] > 0.0f)) continue;
+            rest -= ofPicked;
+            ofPicked = importance[k];
+            picked = k;
         }
-        u = std::min(u, kBelowOne);
-    }
-    return {nodes_[node].link & ~LIGHT_TREE_LEAF, probability};
+        u = std::min(rest / ofPicked, kBelowOne);
+        probability *= ofPicked / total;
+        if (picked == all.size()) return {kBeside, probability, u};
+        ofBeside = 0.0f;
+        node = uint32_t(&all[picked] - nodes_.data());
+    } while (!isLeaf(node));
+    return {nodes_[node].link & ~LIGHT_TREE_LEAF, probability, u};
 }
 
-float LightTree::probability(uint32_t leaf, const glm::vec3& position, const glm::vec3& normal) const {
+float LightTree::probability(uint32_t leaf, const Receiver& to) const {
+    if (leaf == 0 && !(to.beside > 0.0f)) return 1.0f;
     float probability = 1.0f;
-    for (uint32_t node = leaf; node != 0; node = nodes_[node].parent) {
-        const uint32_t first = nodes_[node].parent + 1, second = nodes_[nodes_[node].parent].link;
-        const float a = importance(first, position, normal), b = importance(second, position, normal);
-        if (!(a + b > 0.0f)) return 0.0f;
-        probability *= (node == first ? a : b) / (a + b);
-    }
+    uint32_t node = leaf;
+    do {
+        const uint32_t parent = nodes_[node].parent;  // The root's is the root
+        const float total = childrenImportance(parent, to) + (parent == 0 ? beside(to) : 0.0f);
+        if (!(total > 0.0f)) return 0.0f;
+        probability *= lightTreeImportance(nodes_[node], to.position, to.normal) / total;
+        node = parent;
+    } while (node != 0);
     return probability;
+}
+
+float LightTree::besideProbability(const Receiver& to) const {
+    if (!(to.beside > 0.0f)) return 0.0f;
+    return empty() ? 1.0f : beside(to) / (beside(to) + childrenImportance(0, to));
 }
 
 }  // namespace voxray

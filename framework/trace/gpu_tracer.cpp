@@ -1,12 +1,15 @@
 #include "trace/gpu_tracer.h"
 
 #include <algorithm>
+#include <cstddef>
+
+#include "shaders/trace/stream_count.h"
 
 namespace voxray {
 namespace {
 
 /// Rays of one launch: a row of work groups of 64.
-constexpr uint32_t kRaysPerLaunch = 32768u * 64u;
+constexpr uint32_t kRaysPerLaunch = CountedRays::kMost;
 
 }  // namespace
 
@@ -28,25 +31,45 @@ void GpuTracer::updateStructure(CommandStream& stream) {
     stream.finish();
 }
 
+Bindings GpuTracer::call(const Buffer& rays, const Buffer& results, uint32_t first, uint32_t end,
+                         uint64_t counted) const {
+    return {{"structure", structure_.top.handle()},
+            {"rays", rays.address()},
+            {"results", results.address()},
+            {"chunkFirst", structure_.chunkFirst.address()},
+            {"triangleIds", structure_.triangleIds.address()},
+            {"corners", structure_.corners.address()},
+            {"positions", structure_.positions.address()},
+            {"maskedTriangles", mask_.triangles.address()},
+            {"alphaMaterials", mask_.materials.address()},
+            {"alphaTexels", mask_.texels.address()},
+            {"counted", counted},
+            {"firstRay", first},
+            {"endRay", end},
+            {"opaqueCount", structure_.opaqueCount}};
+}
+
 void GpuTracer::trace(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results, uint32_t count,
                       Coherence) {
     for (uint32_t first = 0; first < count; first += kRaysPerLaunch) {
         const uint32_t launched = std::min(kRaysPerLaunch, count - first);
-        launch(stream, query == Query::Occluded, launched,
-               {{"structure", structure_.top.handle()},
-                {"rays", rays.address()},
-                {"results", results.address()},
-                {"chunkFirst", structure_.chunkFirst.address()},
-                {"triangleIds", structure_.triangleIds.address()},
-                {"corners", structure_.corners.address()},
-                {"positions", structure_.positions.address()},
-                {"maskedTriangles", mask_.triangles.address()},
-                {"alphaMaterials", mask_.materials.address()},
-                {"alphaTexels", mask_.texels.address()},
-                {"firstRay", first},
-                {"endRay", first + launched},
-                {"opaqueCount", structure_.opaqueCount}});
+        launch(stream, query == Query::Occluded, launched, call(rays, results, first, first + launched, 0));
     }
+}
+
+void GpuTracer::closestHit(CommandStream& stream, const Buffer& rays, const Buffer& hits, const CountedRays& count) {
+    traceCounted(stream, Query::ClosestHit, rays, hits, count);
+}
+
+void GpuTracer::occluded(CommandStream& stream, const Buffer& rays, const Buffer& results, const CountedRays& count) {
+    traceCounted(stream, Query::Occluded, rays, results, count);
+}
+
+void GpuTracer::traceCounted(CommandStream& stream, Query query, const Buffer& rays, const Buffer& results,
+                             const CountedRays& count) {
+    const uint64_t counted =
+        count.counts.address() + count.index * sizeof(gpu::StreamCount) + offsetof(gpu::StreamCount, count);
+    launchCounted(stream, query == Query::Occluded, count, call(rays, results, 0, count.most, counted));
 }
 
 }  // namespace voxray

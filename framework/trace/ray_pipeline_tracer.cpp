@@ -1,6 +1,9 @@
 #include "trace/ray_pipeline_tracer.h"
 
+#include <cstddef>
 #include <cstring>
+
+#include "shaders/trace/stream_count.h"
 
 namespace voxray {
 
@@ -13,6 +16,7 @@ RayPipelineTracer::RayPipelineTracer(Device& device, ShaderCompiler& compiler, c
     closestHit_ = makePipeline(device, modules, false);
     occluded_ = makePipeline(device, modules, true);
     traceRays_ = device.function<PFN_vkCmdTraceRaysKHR>("vkCmdTraceRaysKHR");
+    traceRaysIndirect_ = device.function<PFN_vkCmdTraceRaysIndirectKHR>("vkCmdTraceRaysIndirectKHR");
 }
 
 RayPipelineTracer::Pipeline RayPipelineTracer::makePipeline(Device& device, std::span<const ShaderModule> modules,
@@ -48,6 +52,17 @@ void RayPipelineTracer::launch(CommandStream& stream, bool occluded, uint32_t co
     stream.record(pipeline.program, call, [&](VkCommandBuffer commands) {
         const VkStridedDeviceAddressRegionKHR callable{};
         traceRays_(commands, &pipeline.rayGeneration, &pipeline.miss, &pipeline.hit, &callable, count, 1, 1);
+    });
+}
+
+void RayPipelineTracer::launchCounted(CommandStream& stream, bool occluded, const CountedRays& count,
+                                      const Bindings& call) {
+    const Pipeline& pipeline = occluded ? occluded_ : closestHit_;
+    const uint64_t command =
+        count.counts.address() + count.index * sizeof(gpu::StreamCount) + offsetof(gpu::StreamCount, count);
+    stream.record(pipeline.program, call, [&](VkCommandBuffer commands) {
+        const VkStridedDeviceAddressRegionKHR callable{};
+        traceRaysIndirect_(commands, &pipeline.rayGeneration, &pipeline.miss, &pipeline.hit, &callable, command);
     });
 }
 

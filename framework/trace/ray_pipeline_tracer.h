@@ -19,10 +19,12 @@ class RayPipelineTracer final : public GpuTracer {
     };
     static Pipeline makePipeline(Device& device, std::span<const ShaderModule> modules, bool occluded);
     void launch(CommandStream& stream, bool occluded, uint32_t count, const Bindings& call) override;
+    void launchCounted(CommandStream& stream, bool occluded, const CountedRays& count, const Bindings& call) override;
 
     Pipeline closestHit_;
     Pipeline occluded_;
     PFN_vkCmdTraceRaysKHR traceRays_ = nullptr;
+    PFN_vkCmdTraceRaysIndirectKHR traceRaysIndirect_ = nullptr;
 };
 
 }  // namespace voxray

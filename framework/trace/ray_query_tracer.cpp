@@ -1,5 +1,8 @@
 #include "trace/ray_query_tracer.h"
 
+#include "shaders/trace/stream_count.h"
+#include "vulkan/indirect.h"
+
 namespace voxray {
 
 RayQueryTracer::RayQueryTracer(Device& device, ShaderCompiler& compiler, const SceneState& state,
@@ -12,6 +15,12 @@ RayQueryTracer::RayQueryTracer(Device& device, ShaderCompiler& compiler, const S
 
 void RayQueryTracer::launch(CommandStream& stream, bool occluded, uint32_t count, const Bindings& call) {
     stream.dispatch(occluded ? occluded_ : closestHit_, count, call);
+}
+
+void RayQueryTracer::launchCounted(CommandStream& stream, bool occluded, const CountedRays& count,
+                                   const Bindings& call) {
+    dispatchIndirect(stream, occluded ? occluded_ : closestHit_, count.counts, count.index * sizeof(gpu::StreamCount),
+                     call);
 }
 
 }  // namespace voxray

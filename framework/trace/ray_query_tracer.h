@@ -12,6 +12,7 @@ class RayQueryTracer final : public GpuTracer {
 
  private:
     void launch(CommandStream& stream, bool occluded, uint32_t count, const Bindings& call) override;
+    void launchCounted(CommandStream& stream, bool occluded, const CountedRays& count, const Bindings& call) override;
 
     Program closestHit_;
     Program occluded_;

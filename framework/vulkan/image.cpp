@@ -15,6 +15,7 @@ uint32_t texelBytes(VkFormat format) {
             return 1;
         case VK_FORMAT_R8G8B8A8_UNORM:
         case VK_FORMAT_R8G8B8A8_SRGB:
+        case VK_FORMAT_R16G16_SFLOAT:
         case VK_FORMAT_R32_UINT:
         case VK_FORMAT_R32_SFLOAT:
         case VK_FORMAT_D32_SFLOAT:

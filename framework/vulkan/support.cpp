@@ -44,6 +44,7 @@ const std::array kFeatures{
     VOXRAY_FEATURE(accelerationStructure, accelerationStructure, false),
     VOXRAY_FEATURE(rayQuery, rayQuery, false),
     VOXRAY_FEATURE(rayPipeline, rayTracingPipeline, false),
+    VOXRAY_FEATURE(rayPipeline, rayTracingPipelineTraceRaysIndirect, false),  // Vulkan has it with the one above.
 };
 
 #undef VOXRAY_FEATURE

@@ -97,8 +97,12 @@ std::vector<BoundedLight> LightTable::addPatches() {
     return bounded;
 }
 
+float LightTable::environmentIrradiance() const {
+    return kPi * environment_.meanLuminance();
+}
+
 float LightTable::irradiance(uint32_t infinite, const Receiver& to) const {
-    if (infinite == kEnvironment) return kPi * environment_.meanLuminance();
+    if (infinite == kEnvironment) return environmentIrradiance();
     const Light& light = state_->lights[infinite];
     return luminance(light.intensity) * std::max(-glm::dot(light.direction, to.faceNormal), 0.0f);
 }
@@ -110,34 +114,29 @@ float LightTable::infiniteIrradiance(const Receiver& to) const {
 }
 
 LightSample LightTable::sample(const Receiver& to, float uLight, glm::vec2 u) const {
-    // The tree or one of the others
-    float treeProbability = 1.0f;
-    if (!infinite_.empty()) {
-        const float ofTree = tree_.irradiance(to.position, to.faceNormal), total = ofTree + infiniteIrradiance(to);
-        if (!(total > 0.0f)) return {};
-        float below = ofTree / total;
-        if (uLight >= below) {
-            uint32_t chosen = infinite_.back();
-            for (const uint32_t infinite : infinite_) {
-                below += irradiance(infinite, to) / total;
-                if (uLight >= below) continue;
-                chosen = infinite;
-                break;
-            }
-            const float probability = irradiance(chosen, to) / total;
-            if (!(probability > 0.0f)) return {};
-            return chosen == kEnvironment ? sampleEnvironment(probability, u)
-                                          : samplePunctual(state_->lights[chosen], probability, to.position);
-        }
-        treeProbability = below;
-        uLight = std::min(uLight / below, 0x1.fffffep-1f);
-    }
-    const LightTree::Pick pick = tree_.pick(to.position, to.faceNormal, uLight);
-    const float probability = pick.probability * treeProbability;
-    if (!(probability > 0.0f)) return {};
+    const LightTree::Pick pick = tree_.pick(treeReceiver(to), uLight);
+    if (!(pick.probability > 0.0f)) return {};
     const size_t lights = state_->lights.size();
-    return pick.id < lights ? samplePunctual(state_->lights[pick.id], probability, to.position)
-                            : samplePatch(patches_[pick.id - lights], probability, to.position, u);
+    if (pick.id == LightTree::kBeside) return sampleInfinite(to, pick, u);
+    return pick.id < lights ? samplePunctual(state_->lights[pick.id], pick.probability, to.position)
+                            : samplePatch(patches_[pick.id - lights], pick.probability, to.position, u);
+}
+
+LightSample LightTable::sampleInfinite(const Receiver& to, const LightTree::Pick& pick, glm::vec2 u) const {
+    const float total = infiniteIrradiance(to);
+    float rest = pick.u * total, ofChosen = 0.0f;
+    uint32_t chosen = kEnvironment;
+    for (const uint32_t infinite : infinite_) {
+        if (rest < ofChosen) break;
+        const float next = irradiance(infinite, to);
+        if (!(next > 0.0f)) continue;
+        rest -= ofChosen;
+        ofChosen = next;
+        chosen = infinite;
+    }
+    const float probability = pick.probability * ofChosen / total;
+    return chosen == kEnvironment ? sampleEnvironment(probability, u)
+                                  : samplePunctual(state_->lights[chosen], probability, to.position);
 }
 
 LightSample LightTable::sampleEnvironment(float probability, glm::vec2 u) const {
@@ -192,18 +191,14 @@ float LightTable::hitPdf(const Receiver& to, const SurfaceTriangle& triangle, co
     const Patch& patch = patches_[triangle.light];
     const float cosine = std::fabs(glm::dot(triangle.normal, direction));
     if (!(cosine > 0.0f) || patch.leaf == kNoLeaf) return 0.0f;
-    float probability = tree_.probability(patch.leaf, to.position, to.faceNormal);
-    if (!infinite_.empty()) {
-        const float ofTree = tree_.irradiance(to.position, to.faceNormal);
-        probability *= ofTree / (ofTree + infiniteIrradiance(to));
-    }
+    const float probability = tree_.probability(patch.leaf, treeReceiver(to));
     return patch.inverseArea * probability * distance * distance / cosine;
 }
 
 float LightTable::environmentPdf(const Receiver& to, const glm::vec3& direction) const {
     if (!environment_.hasMap()) return 0.0f;
-    const float total = tree_.irradiance(to.position, to.faceNormal) + infiniteIrradiance(to);
-    return environment_.pdf(direction) * (irradiance(kEnvironment, to) / total);
+    const float choice = tree_.besideProbability(treeReceiver(to)) * environmentIrradiance() / infiniteIrradiance(to);
+    return environment_.pdf(direction) * choice;
 }
 
 }  // namespace voxray::path_trace

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 #include "passes/path_trace/environment_light.h"
@@ -22,8 +23,8 @@ struct LightSample {
     float pdf = 0.0f;          ///< Per steradian, or the choice's probability alone for a delta; 0: no light.
 };
 
-/// All lights of a scene, sampled in proportion to their estimated irradiance at a point: a light tree, and beside it
-/// directional lights and the environment's map.
+/// All lights of a scene, sampled in proportion to their estimated irradiance at a point: a light tree, beside
+/// whose root are directional lights and the environment's map.
 class LightTable {
  public:
     /// Marks emissive triangles in `surfaces`. Both arguments must outlive this object.
@@ -50,18 +51,25 @@ class LightTable {
     float hitPdf(const Receiver& to, const SurfaceTriangle& triangle, const glm::vec3& direction, float distance) const;
     float environmentPdf(const Receiver& to, const glm::vec3& direction) const;
 
- private:
-    static constexpr uint32_t kEnvironment = 0xffffffffu;
-    static constexpr uint32_t kNoLeaf = 0xffffffffu;
-
-    /// An emissive triangle, or two that form a parallelogram of constant emission.
+    /// An emissive triangle, or two that form a parallelogram of constant emission: this one and the next.
     struct Patch {
         uint32_t triangle = 0;
         bool isParallelogram = false;
         float inverseArea = 0.0f;  ///< 1/m²
         uint32_t leaf = kNoLeaf;   ///< Of the tree.
     };
+    static constexpr uint32_t kNoLeaf = 0xffffffffu;
+    static constexpr uint32_t kEnvironment = 0xffffffffu;
 
+    /// What sample() draws from: the tree of point and spot lights by index, then patches (pick, less the number of
+    /// lights); and beside it directional lights by index, and kEnvironment.
+    const LightTree& tree() const { return tree_; }
+    std::span<const Patch> patches() const { return patches_; }
+    std::span<const uint32_t> infinite() const { return infinite_; }
+    /// Estimated irradiance of the environment's map, as a choice weighs it.
+    float environmentIrradiance() const;
+
+ private:
     /// Number of a patch in the tree; a smaller one is that of a punctual light.
     uint32_t idOf(size_t patch) const { return uint32_t(state_->lights.size() + patch); }
     /// Finds emissive triangles. @return those for the tree.
@@ -69,12 +77,16 @@ class LightTable {
 
     LightSample samplePatch(const Patch& patch, float probability, const glm::vec3& from, glm::vec2 u) const;
     LightSample samplePunctual(const Light& light, float probability, const glm::vec3& from) const;
+    LightSample sampleInfinite(const Receiver& to, const LightTree::Pick& pick, glm::vec2 u) const;
     LightSample sampleEnvironment(float probability, glm::vec2 u) const;
 
     /// Estimated irradiance of an infinite light.
     float irradiance(uint32_t infinite, const Receiver& to) const;
     /// The same of all infinite lights.
     float infiniteIrradiance(const Receiver& to) const;
+    LightTree::Receiver treeReceiver(const Receiver& to) const {
+        return {to.position, to.faceNormal, infiniteIrradiance(to)};
+    }
 
     const SceneState* state_;
     SurfaceTable* surfaces_;

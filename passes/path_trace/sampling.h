@@ -93,7 +93,15 @@ class AliasTable {
     /// @param weights finite, not negative; the table is empty where all are 0.
     explicit AliasTable(std::span<const double> weights);
 
+    /// A draw of this entry below the threshold, of the alias above it.
+    struct Bin {
+        float threshold;
+        uint32_t alias;
+        float probability;
+    };
+
     bool empty() const { return bins_.empty(); }
+    std::span<const Bin> bins() const { return bins_; }
     float probability(uint32_t i) const { return bins_[i].probability; }
 
     uint32_t draw(float u) const {
@@ -103,11 +111,6 @@ class AliasTable {
     }
 
  private:
-    struct Bin {
-        float threshold;
-        uint32_t alias;
-        float probability;
-    };
     std::vector<Bin> bins_;
 };
 

@@ -116,27 +116,31 @@ uint candidateCount(uint kind, SourceSampling sampling) {
     return kind == SOURCE_TREE || hasEnvironmentMap() ? sampling.candidates : 1u;
 }
 
-// A point on light `picked` of the light tree (pickLight()).
-LightSample samplePicked(uint picked, vec3 position, vec2 u) {
-    if ((picked & LIGHT_TREE_PUNCTUAL) != 0u)
-        return samplePunctual(sceneLights.data[picked & LIGHT_TREE_INDEX], position);
-    return sampleEmitter(sceneEmitters.data[picked], position, u);
-}
+// A light among candidates, in the numbers of pickLight().
+struct PickedLight {
+    uint light;
+    float count;  // How many candidates are expected to be this one; 0: none.
+};
 
 // Candidate k of `count` from emitters, or from the whole light tree: emitter k if there are so many candidates, else
-// picked by the light tree, stratified. All take the same point u of their triangles, so that samples are as even over
-// each lamp as the sequence of u.
-LightSample treeCandidate(uint kind, uint k, uint count, SourceSampling sampling, Receiver r, float pick, vec2 u) {
-    if (kind == SOURCE_EMITTERS && count == sampling.emitterCount)
-        return sampleEmitter(sceneEmitters.data[k], r.position, u);
-    float probability;
-    const uint picked = pickLight(kind == SOURCE_EMITTERS ? sampling.emitterRoot : 0u, r.position, r.faceNormal,
-                                  (float(k) + pick) / float(count), probability);
-    if (probability == 0.0) return LightSample(r.normal, 1.0e30, 1.0e30, vec3(0.0), 0.0, 1.0e30);
-    LightSample s = samplePicked(picked, r.position, u);
-    const float weight = 1.0 / (probability * float(count));
-    s.solidAngle *= weight;
-    s.irradiance *= weight;
+// picked by the light tree, stratified.
+PickedLight pickCandidate(uint kind, uint k, uint count, SourceSampling sampling, Receiver r, float u) {
+    if (kind == SOURCE_EMITTERS && count == sampling.emitterCount) return PickedLight(k, 1.0);
+    float probability, stratum = (float(k) + u) / float(count);
+    const uint light = pickLight(kind == SOURCE_EMITTERS ? sampling.emitterRoot : 0u, r.position, r.faceNormal, 0.0,
+                                 stratum, probability);
+    return PickedLight(light, probability * float(count));
+}
+
+LightSample samplePicked(PickedLight picked, vec3 position, vec2 u) {
+    if (picked.count == 0.0) return LightSample(vec3(0.0, 0.0, 1.0), 1.0e30, 1.0e30, vec3(0.0), 0.0, 1.0e30);
+    LightSample s;
+    if ((picked.light & LIGHT_TREE_PUNCTUAL) != 0u)
+        s = samplePunctual(sceneLights.data[picked.light & LIGHT_TREE_INDEX], position);
+    else
+        s = sampleEmitter(sceneEmitters.data[picked.light], position, u);
+    s.solidAngle /= picked.count;
+    s.irradiance /= picked.count;
     return s;
 }
 
@@ -159,10 +163,11 @@ LightSample environmentCandidate(uint k, uint count, vec3 normal, uint point, ui
     return s;
 }
 
-LightSample candidate(uint kind, uint k, uint count, SourceSampling sampling, Receiver r, uint point, uint seed) {
+// All candidates of lights take the same point of their triangles, so that samples are as even over each lamp as the
+// Sobol sequence.
+LightSample candidate(uint kind, uint k, uint count, PickedLight picked, Receiver r, uint point, uint seed) {
     if (kind == SOURCE_ENVIRONMENT) return environmentCandidate(k, count, r.normal, point, seed);
-    return treeCandidate(kind, k, count, sampling, r, sobol2(point, hashCombine(seed, 1u)).x,
-                         sobol2(point, hashCombine(seed, 0u)));
+    return samplePicked(picked, r.position, sobol2(point, hashCombine(seed, 0u)));
 }
 
 // What the receiver reflects of an unoccluded sample: luminance of the light times that of the reflectance, so that it
@@ -181,21 +186,25 @@ float reflectedLuminance(Receiver r, LightSample s) {
 LightSample sampleSource(uint kind, uint light, SourceSampling sampling, Receiver r, uint index, uint seed) {
     if (kind == SOURCE_PUNCTUAL) return samplePunctual(sceneLights.data[light], r.position);
     const uint point = index * sampling.samples + light, count = candidateCount(kind, sampling);
+    const vec2 choice = sobol2(point, hashCombine(seed, 1u));
+    PickedLight picked[MAX_LIGHT_CANDIDATES];
+    if (kind != SOURCE_ENVIRONMENT)
+        for (uint k = 0u; k < count; ++k) picked[k] = pickCandidate(kind, k, count, sampling, r, choice.x);
     uint selected = 0u;
     float weight = 1.0;
     if (count > 1u) {
         float reflected[MAX_LIGHT_CANDIDATES];
         float total = 0.0;
         for (uint k = 0u; k < count; ++k)
-            total += reflected[k] = reflectedLuminance(r, candidate(kind, k, count, sampling, r, point, seed));
-        float rest = sobol2(point, hashCombine(seed, 1u)).y * total;
+            total += reflected[k] = reflectedLuminance(r, candidate(kind, k, count, picked[k], r, point, seed));
+        float rest = choice.y * total;
         for (uint k = 0u; k < count && rest >= 0.0; ++k) {
             if (reflected[k] > 0.0) selected = k;
             rest -= reflected[k];
         }
         weight = total > 0.0 ? total / reflected[selected] : 0.0;
     }
-    LightSample s = candidate(kind, selected, count, sampling, r, point, seed);
+    LightSample s = candidate(kind, selected, count, picked[selected], r, point, seed);
     s.solidAngle *= weight;
     s.irradiance *= weight / float(sampling.samples);
     return s;

@@ -1,63 +1,84 @@
 // Picks lights from the tree over emissive triangles, point and spot lights by one random number. As LightTree of
-// scene/light_tree.h.
+// scene/light_tree.h. LIGHT_TREE is the buffer of its nodes: the scene's, unless a shader names its own.
 #ifndef VOXRAY_LIGHT_TREE_GLSL
 #define VOXRAY_LIGHT_TREE_GLSL
 
 #include "shaders/scene/light_tree_types.h"
 
+#ifndef LIGHT_TREE
 layout(scalar) readonly buffer SceneLightTree {
     LightTreeNode data[];
 }
 sceneLightTree;
+#define LIGHT_TREE sceneLightTree
+#endif
 
-// Importance of a node's children, which tell more of its lights than its own bounds; of a leaf its own.
-float nodeImportance(uint node, vec3 position, vec3 normal) {
-    const uint second = sceneLightTree.data[node].link;
-    if ((second & LIGHT_TREE_LEAF) != 0u) return lightTreeImportance(sceneLightTree.data[node], position, normal);
-    return lightTreeImportance(sceneLightTree.data[node + 1u], position, normal) +
-           lightTreeImportance(sceneLightTree.data[second], position, normal);
+// First and number of a node's children; of a leaf the leaf itself.
+uvec2 childrenOf(uint node) {
+    const uint link = LIGHT_TREE.data[node].link;
+    if ((link & LIGHT_TREE_LEAF) != 0u) return uvec2(node, 1u);
+    return uvec2(link & LIGHT_TREE_FIRST_CHILD, link >> LIGHT_TREE_COUNT_SHIFT);
 }
 
-// Picks a light of the subtree of `root` (0: all lights, or GpuScene::emitterRoot) by u in [0, 1). Returns an emitter's
-// number, or LIGHT_TREE_PUNCTUAL and a light's. `probability`: 0 where no light reaches a surface with this normal.
-uint pickLight(uint root, vec3 position, vec3 normal, float u, out float probability) {
+bool isLeaf(uint node) { return (LIGHT_TREE.data[node].link & LIGHT_TREE_LEAF) != 0u; }
+
+// Importance of all children of a node.
+float childrenImportance(uint node, vec3 position, vec3 normal) {
+    const uvec2 children = childrenOf(node);
+    float total = 0.0;
+    for (uint k = 0u; k < children.y; ++k)
+        total += lightTreeImportance(LIGHT_TREE.data[children.x + k], position, normal);
+    return total;
+}
+
+// Picks a light of the subtree of `root` (0: all lights, or GpuScene::emitterRoot) by u in [0, 1), which is rescaled.
+// Returns an emitter's number, or LIGHT_TREE_PUNCTUAL and a light's, or LIGHT_TREE_BESIDE for lights of importance
+// `beside` that are not in the tree. `probability`: 0 where no light reaches a surface with this normal.
+uint pickLight(uint root, vec3 position, vec3 normal, float beside, inout float u, out float probability) {
     probability = 1.0;
     uint node = root;
-    while ((sceneLightTree.data[node].link & LIGHT_TREE_LEAF) == 0u) {
-        const uint second = sceneLightTree.data[node].link;
-        const float a = nodeImportance(node + 1u, position, normal);
-        const float b = nodeImportance(second, position, normal);
-        if (!(a + b > 0.0)) {
+    bool isDone = beside <= 0.0 && isLeaf(root);
+    while (!isDone) {
+        const uvec2 children = childrenOf(node);
+        float importance[LIGHT_TREE_MAX_CHILDREN];
+        float total = beside;
+        for (uint k = 0u; k < children.y; ++k)
+            total += importance[k] = lightTreeImportance(LIGHT_TREE.data[children.x + k], position, normal);
+        if (!(total > 0.0)) {
             probability = 0.0;
             return 0u;
         }
-        const float first = a / (a + b);
-        if (u < first) {
-            u /= first;
-            probability *= first;
-            node += 1u;
-        } else {
-            u = (u - first) / (1.0 - first);
-            probability *= b / (a + b);
-            node = second;
+        float rest = u * total, ofPicked = beside;
+        uint picked = LIGHT_TREE_BESIDE;
+        for (uint k = 0u; k < children.y && rest >= ofPicked; ++k) {
+            if (!(importance[k] > 0.0)) continue;
+            rest -= ofPicked;
+            ofPicked = importance[k];
+            picked = k;
         }
-        u = min(u, 0.99999994);
+        u = min(rest / ofPicked, 0.99999994);
+        probability *= ofPicked / total;
+        if (picked == LIGHT_TREE_BESIDE) return picked;
+        beside = 0.0;
+        node = children.x + picked;
+        isDone = isLeaf(node);
     }
-    return sceneLightTree.data[node].link & ~LIGHT_TREE_LEAF;
+    return LIGHT_TREE.data[node].link & ~LIGHT_TREE_LEAF;
 }
 
 // Probability that pickLight() finds a leaf (GpuEmitter::leaf).
-float lightProbability(uint root, uint leaf, vec3 position, vec3 normal) {
+float lightProbability(uint root, uint leaf, vec3 position, vec3 normal, float beside) {
+    if (leaf == root && beside <= 0.0) return 1.0;
     float probability = 1.0;
     uint node = leaf;
-    while (node != root) {
-        const uint parent = sceneLightTree.data[node].parent;
-        const float a = nodeImportance(parent + 1u, position, normal);
-        const float b = nodeImportance(sceneLightTree.data[parent].link, position, normal);
-        if (!(a + b > 0.0)) return 0.0;
-        probability *= (node == parent + 1u ? a : b) / (a + b);
+    do {
+        const uint parent = node == root ? root : LIGHT_TREE.data[node].parent;
+        const float total =
+            childrenImportance(parent, position, normal) + (parent == root ? max(beside, 0.0) : 0.0);
+        if (!(total > 0.0)) return 0.0;
+        probability *= lightTreeImportance(LIGHT_TREE.data[node], position, normal) / total;
         node = parent;
-    }
+    } while (node != root);
     return probability;
 }
 

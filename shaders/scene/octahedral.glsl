@@ -4,10 +4,13 @@
 
 vec2 signs(vec2 v) { return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0); }
 
-uint toOctahedral(vec3 n) {
+// Coordinates on the octahedron, from -1 to 1.
+vec2 octahedralPoint(vec3 n) {
     const vec3 on = n / max(abs(n.x) + abs(n.y) + abs(n.z), 1e-20);
-    return packSnorm2x16(on.z >= 0.0 ? on.xy : (1.0 - abs(on.yx)) * signs(on.xy));
+    return on.z >= 0.0 ? on.xy : (1.0 - abs(on.yx)) * signs(on.xy);
 }
+
+uint toOctahedral(vec3 n) { return packSnorm2x16(octahedralPoint(n)); }
 
 // @param on coordinates on the octahedron, from -1 to 1.
 vec3 octahedralDirection(vec2 on) {

@@ -1,7 +1,7 @@
 // Traces a stream with ray queries, one invocation per ray.
 #include "shaders/trace/trace.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 64) in;  // STREAM_GROUP
 uniform accelerationStructureEXT structure;
 
 Hit trace(Ray ray) {
@@ -27,6 +27,6 @@ Hit trace(Ray ray) {
 
 void main() {
     const uint i = call.firstRay + gl_GlobalInvocationID.x;
-    if (i >= call.endRay) return;
+    if (i >= streamEnd()) return;
     storeResult(call.results, i, trace(RayStream(call.rays).data[i]));
 }

@@ -23,10 +23,14 @@ layout(push_constant, scalar) uniform Push {
     uint64_t maskedTriangles;  // MaskedTriangle each.
     uint64_t alphaMaterials;   // AlphaMaterial each.
     uint64_t alphaTexels;      // 8-bit alphas, four per uint.
+    uint64_t counted;          // uint: the number of rays; 0: endRay.
     uint firstRay;
     uint endRay;
     uint opaqueCount;  // Triangles before the masked ones.
 } call;
+
+// Index after the last ray.
+uint streamEnd() { return call.counted == 0ul ? call.endRay : Words(call.counted).data[0]; }
 
 // Index in tracing order of an instance's triangle.
 uint tracingIndex(uint instance, uint primitive) {

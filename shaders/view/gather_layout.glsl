@@ -50,6 +50,14 @@ uint firstRay(GatherLayout g, uint t) {
 // The ray that represents texel t, where a block has fewer rays than texels.
 uint nearestRay(GatherLayout g, uint t) { return ((t + 1u) * g.raysPerBlock - 1u) / (g.blockSize * g.blockSize); }
 
+// The rays of texel t, the first and the one after the last: a run of the block's rays, or at most one where texels
+// outnumber rays.
+uvec2 texelRays(GatherLayout g, uvec2 block, uint t) {
+    if (g.raysPerBlock >= g.blockSize * g.blockSize) return uvec2(firstRay(g, t), firstRay(g, t + 1u));
+    const uint nearest = nearestRay(g, t);
+    return uvec2(nearest, nearest + (rayTexel(g, block, nearest) == t ? 1u : 0u));
+}
+
 uvec2 texelOf(GatherLayout g, uvec2 block, uint t) { return block * g.blockSize + mortonInverse(t); }
 
 // Sample of ray j in the unit square, to be mapped to the hemisphere.

@@ -45,9 +45,9 @@ class BenchGpu(CommandTest):
         self.assertTrue(f"<title>Voxray on {data['device']}</title>" in page)
         self.assertEqual(re.findall(r'(?:src|href)="(?!data:image/png)[^"]*', page), [])
 
-        # Two methods by two tracers, and the first tracer twice
+        # Two methods and paths by two tracers, and the first tracer twice
         pairs = {(row["pair"], row["method"]): row for row in data["parity"]}
-        self.assertEqual(len(pairs), 4)
+        self.assertEqual(len(pairs), 8)
         for (pair, _), row in pairs.items():
             self.assertNotIn("error", row)
             self.assertEqual(len(row["errors"]), 2)
@@ -56,6 +56,12 @@ class BenchGpu(CommandTest):
                 self.assertEqual(row["pixels_apart"], 0)
             self.assertLess(row["nrmse"], min(row["errors"]))
         self.assertTrue('src="data:image/png;base64,' in page)
+
+        # Each method's time over that of paths on the device
+        over = data["over_paths"]
+        self.assertEqual([row["is_rival"] for row in over], [True, True, False, False])
+        self.assertTrue(all(row["over"]["indirect_nrmse"]["frame"] > 0 for row in over))
+        self.assertTrue("Methods over path tracing on this device" in page)
         self.assertEqual([name for name in self.files("out") if name.endswith(".exr")], [])
 
         # Each pass that ran has its times; the others are named

@@ -26,6 +26,7 @@ from report import exr_pixels  # noqa: E402
 if not browser.MISSING:
     from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.common.by import By
+    from selenium.webdriver.common.keys import Keys
     from selenium.webdriver.support.ui import Select
 
 CONFIG = TINY.replace("width: 32, height: 24", "width: 64, height: 48")
@@ -359,6 +360,18 @@ class Browsed(Look):
     def choose(self, name, text):
         Select(self.find(f"select[name={name}]")).select_by_visible_text(text)
         self.settle()
+
+    def type(self, name, text):
+        box = self.find(f"input[type=number][name='{name}']")
+        box.send_keys(Keys.CONTROL + "a")
+        box.send_keys(text + Keys.ENTER)
+        self.settle()
+
+    def swap_of(self, name):
+        return Select(self.find(f"[data-id={name}] select"))
+
+    def variant(self):
+        return self.browser.run("return document.querySelector('select[name=variant]').selectedOptions[0].textContent")
 
     def downloaded_runs(self):
         """Downloads the config, runs it, and returns the image of the run's only variant."""

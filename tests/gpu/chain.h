@@ -57,10 +57,10 @@ class Chain {
           uint64_t seed = 1)
         : Chain(std::make_shared<SceneState>(state), graphYaml, width, height, seed) {}
 
-    /// Another frame, seen from elsewhere.
-    void runFrameFrom(const glm::vec3& cameraPosition) {
+    /// Another frame, seen from elsewhere; `index` as in runFrame().
+    void runFrameFrom(const glm::vec3& cameraPosition, uint32_t index = 0) {
         frame_.camera.position = cameraPosition;
-        frameSamples = run(Phase::Frame);
+        frameSamples = run(Phase::Frame, index);
     }
 
     /// Frames 1 to `count`, which draw other random numbers than frame 0.

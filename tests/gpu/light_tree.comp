@@ -24,7 +24,8 @@ void main() {
     if (i >= push.count) return;
     const LightTreeQuery q = queries.data[i];
     LightTreeAnswer a;
-    a.light = pickLight(push.root, q.position, q.normal, q.u, a.probability);
-    a.ofEmitter = lightProbability(push.root, sceneEmitters.data[q.emitter].leaf, q.position, q.normal);
+    float u = q.u;
+    a.light = pickLight(push.root, q.position, q.normal, 0.0, u, a.probability);
+    a.ofEmitter = lightProbability(push.root, sceneEmitters.data[q.emitter].leaf, q.position, q.normal, 0.0);
     answers.data[i] = a;
 }

@@ -59,10 +59,10 @@ TEST(LightTreeGlsl, PicksAsTheHostDoes) {
         size_t others = 0;
         for (size_t i = 0; i < queries.size(); ++i) {
             const gpu::LightTreeQuery& q = queries[i];
-            const float expected = tree.probability(tree.leaf(q.emitter), q.position, q.normal);
+            const float expected = tree.probability(tree.leaf(q.emitter), {q.position, q.normal});
             ASSERT_NEAR(answers[i].ofEmitter, expected, 1e-2f * expected + 1e-7f);
             // Roundings may cross the border between two lights
-            const LightTree::Pick pick = tree.pick(q.position, q.normal, q.u);
+            const LightTree::Pick pick = tree.pick({q.position, q.normal}, q.u);
             if (pick.probability > 0 && pick.id != answers[i].light)
                 ++others;
             else

@@ -24,6 +24,7 @@ class KnownIrradiance final : public Pass {
         float slope = 0.0f;
         float step = 1.0f;
         uint32_t oneIn = 1;
+        float firefly = 1.0f;
         bool moments = false;
         static constexpr auto schema() {
             return std::tuple{field("noise", &Params::noise, "Largest deviation over the mean.", 0.0f, 1.0f),
@@ -33,6 +34,7 @@ class KnownIrradiance final : public Pass {
                               field("slope", &Params::slope, "Relative change over the image's width.", 0.0f, 1.0f),
                               field("step", &Params::step, "Factor of the right half.", 0.0f, 1e9f),
                               field("one_in", &Params::oneIn, "So many rays share what one brings.", 1u, 1000u),
+                              field("firefly", &Params::firefly, "Factor of the texel in the middle.", 0.0f, 1e9f),
                               field("moments", &Params::moments, "Whether the filter is told the moments of rays.")};
         }
     };
@@ -62,6 +64,7 @@ class KnownIrradiance final : public Pass {
                 float light = 2.0f * params_.scale * (1.0f + params_.noise * even(random)) *
                               (1.0f + params_.slope * (at - 0.5f)) * (at < 0.5f ? 1.0f : params_.step);
                 if (params_.oneIn > 1) light *= random() % params_.oneIn == 0 ? float(params_.oneIn) : 0.0f;
+                if (x == texels.x / 2 && y == texels.y / 2) light *= params_.firefly;
                 values[size_t(y) * texels.x + x] = glm::vec4(glm::vec3(light), params_.rays);
                 if (params_.moments) add(moments[size_t(y / 4) * noisy.blocks(texels).x + x / 4], light, params_.rays);
             }
@@ -94,14 +97,23 @@ ImageF filterKnown(const std::string& source, const std::string& filter, const s
     return chain.image("indirect");
 }
 
-TEST(FilterIrradiance, KeepsConstantIrradianceExactly) {
+/// What every value of `estimator` must keep.
+class FilterEstimator : public ::testing::TestWithParam<std::string> {
+ protected:
+    /// @return a filter's parameters, with the estimator.
+    static std::string with(const std::string& parameters) { return "estimator: " + GetParam() + ", " + parameters; }
+};
+INSTANTIATE_TEST_SUITE_P(FilterIrradiance, FilterEstimator, ::testing::Values("mean", "regression"),
+                         [](const auto& info) { return info.param; });
+
+TEST_P(FilterEstimator, KeepsConstantIrradianceExactly) {
     // Cornell's edges, walls of different albedo, background and sub-pixels; a mean of equal values is that
     // value, however taps are weighted and wherever rays are missing.
-    const ImageF one = filterKnown("rays: 1", "levels: 1", "cornell", "2");
+    const ImageF one = filterKnown("rays: 1", with("levels: 1"), "cornell", "2");
     EXPECT_GT(mean(one), 0.0);
-    EXPECT_EQ(filterKnown("rays: 1", "levels: 5", "cornell", "2").data, one.data);
-    EXPECT_EQ(filterKnown("rays: 1, spacing: 4", "levels: 5", "cornell", "2").data, one.data);
-    EXPECT_EQ(filterKnown("rays: 16", "levels: 3, edge_stopping_scale: 10", "cornell", "2").data, one.data);
+    EXPECT_EQ(filterKnown("rays: 1", with("levels: 5"), "cornell", "2").data, one.data);
+    EXPECT_EQ(filterKnown("rays: 1, spacing: 4", with("levels: 5"), "cornell", "2").data, one.data);
+    EXPECT_EQ(filterKnown("rays: 16", with("levels: 3, edge_stopping_scale: 10"), "cornell", "2").data, one.data);
 }
 
 TEST(FilterIrradiance, MultipliesByAlbedoOverPi) {
@@ -111,12 +123,12 @@ TEST(FilterIrradiance, MultipliesByAlbedoOverPi) {
         EXPECT_NEAR(value, expected, expected * 0x1p-10);
 }
 
-TEST(FilterIrradiance, KeepsTheMeanOfNoise) {
+TEST_P(FilterEstimator, KeepsTheMeanOfNoise) {
     // Weights depend on geometry and on the number of rays alone, so the filter has no bias: the mean over N
     // texels is off by their noise, sigma, times the root of the sum of their squared weights in that mean.
     // Where the image's edge cuts the kernel off, weights at most double along each axis: 4 / N at most, so
     // the root is 2 / sqrt(N) at most. Even noise of +-1 has sigma 1 / sqrt(3).
-    const ImageF noisy = filterKnown("noise: 1", "levels: 4", "white_room");
+    const ImageF noisy = filterKnown("noise: 1", with("levels: 4"), "white_room");
     const double sigma = 1 / std::sqrt(3.0), texels = 48 * 48;
     EXPECT_NEAR(mean(noisy) / (0.5 * 2 / kPi), 1, 4 * sigma * 2 / std::sqrt(texels));
 
@@ -126,19 +138,19 @@ TEST(FilterIrradiance, KeepsTheMeanOfNoise) {
     EXPECT_LT(std::sqrt(squares / double(noisy.data.size())), 0.2 * sigma);
 }
 
-TEST(FilterIrradiance, LeavesWellKnownIrradianceAlone) {
-    const ImageF noisy = filterKnown("noise: 1, rays: 1e9", "levels: 1, edge_stopping_scale: 100", "white_room");
-    const ImageF filtered = filterKnown("noise: 1, rays: 1e9", "levels: 4", "white_room");
+TEST_P(FilterEstimator, LeavesWellKnownIrradianceAlone) {
+    const ImageF noisy = filterKnown("noise: 1, rays: 1e9", with("levels: 1, edge_stopping_scale: 100"), "white_room");
+    const ImageF filtered = filterKnown("noise: 1, rays: 1e9", with("levels: 4"), "white_room");
     EXPECT_LT(meanDifference(filtered, noisy), 1e-3);
 }
 
-TEST(FilterIrradiance, LeavesEverySurfaceOfAPixelItsOwn) {
+TEST_P(FilterEstimator, LeavesEverySurfaceOfAPixelItsOwn) {
     // Also where the second surface is a 9th or a 16th of the pixel
     for (const std::string samples : {"2", "3", "4"}) {
         SCOPED_TRACE(samples);
         const std::string source = "step: 100, noise: 1, rays: 1e9", filter = ", edge_stopping_scale: 100";
-        const ImageF one = filterKnown(source, "levels: 1" + filter, "cornell", samples);
-        const ImageF four = filterKnown(source, "levels: 4" + filter, "cornell", samples);
+        const ImageF one = filterKnown(source, with("levels: 1") + filter, "cornell", samples);
+        const ImageF four = filterKnown(source, with("levels: 4") + filter, "cornell", samples);
         double largest = 0;
         for (size_t i = 0; i < one.data.size(); ++i)
             if (one.data[i] > 0) largest = std::max(largest, std::abs(four.data[i] / double(one.data[i]) - 1));
@@ -146,29 +158,29 @@ TEST(FilterIrradiance, LeavesEverySurfaceOfAPixelItsOwn) {
     }
 }
 
-TEST(FilterIrradiance, KeepsALinearGradientOnAWall) {
+TEST_P(FilterEstimator, KeepsALinearGradientOnAWall) {
     // A mean over a symmetric kernel keeps what is linear. The reach of 7 texels stays on the wall.
-    const ImageF filtered = filterKnown("slope: 0.5", "levels: 3", "white_room");
+    const ImageF filtered = filterKnown("slope: 0.5", with("levels: 3"), "white_room");
     for (uint32_t x = 16; x < 32; ++x) {
         const double at = (x + 0.5) / 48 - 0.5;
         EXPECT_NEAR(filtered.pixel(x, 24)[1] / (0.5 * 2 / kPi), 1 + 0.5 * at, 2e-3) << x;
     }
 }
 
-TEST(FilterIrradiance, IsLinearInLight) {
+TEST_P(FilterEstimator, IsLinearInLight) {
     const std::string source = "noise: 1, step: 4, moments: true";
-    const ImageF one = filterKnown(source, "levels: 4", "cornell"),
-                 scaled = filterKnown(source + ", scale: 1024", "levels: 4", "cornell");
+    const ImageF one = filterKnown(source, with("levels: 4"), "cornell"),
+                 scaled = filterKnown(source + ", scale: 1024", with("levels: 4"), "cornell");
     for (size_t i = 0; i < one.data.size(); ++i)
         EXPECT_NEAR(scaled.data[i], 1024 * one.data[i], 1e-3 * 1024 * one.data[i]);
 }
 
-TEST(FilterIrradiance, SeesAnEdgeOfLightThatGeometryDoesNotTell) {
+TEST_P(FilterEstimator, SeesAnEdgeOfLightThatGeometryDoesNotTell) {
     // Half of the wall has 16 times the light of the other. The means of surroundings tell the two apart, so
     // that the dark half stays dark up to the reach of these means.
     const std::string source = "noise: 1, step: 16";
-    const ImageF blind = filterKnown(source, "levels: 5", "white_room"),
-                 seeing = filterKnown(source + ", moments: true", "levels: 5", "white_room");
+    const ImageF blind = filterKnown(source, with("levels: 5"), "white_room"),
+                 seeing = filterKnown(source + ", moments: true", with("levels: 5"), "white_room");
     const auto dark = [](const ImageF& image) {
         double sum = 0;
         for (uint32_t y = 16; y < 32; ++y)
@@ -179,12 +191,29 @@ TEST(FilterIrradiance, SeesAnEdgeOfLightThatGeometryDoesNotTell) {
     EXPECT_NEAR(dark(seeing), 1, 0.3);
 }
 
-TEST(FilterIrradiance, KeepsTheEnergyOfRareRays) {
+TEST_P(FilterEstimator, KeepsTheEnergyOfRareRays) {
     // One ray in 16 brings all light. Weights are symmetric, so no light is lost on average.
     const std::string source = "one_in: 16, noise: 0, moments: true";
-    const ImageF raw = filterKnown(source, "levels: 1, edge_stopping_scale: 100", "white_room"),
-                 filtered = filterKnown(source, "levels: 5", "white_room");
+    const ImageF raw = filterKnown(source, with("levels: 1, edge_stopping_scale: 100"), "white_room"),
+                 filtered = filterKnown(source, with("levels: 5"), "white_room");
     EXPECT_NEAR(mean(filtered) / mean(raw), 1, 0.02);
+}
+
+TEST(FilterIrradiance, RegressionBoundsOutliersAndGivesBackWhatTheyLose) {
+    // One texel of the wall has a thousand times the light. Of that, the bound by its surroundings leaves a
+    // quarter there, and brings the rest back all over the wall.
+    const std::string source = "noise: 1, firefly: 1000",
+                      filter = "estimator: regression, levels: 1, edge_stopping_scale: 100";
+    const ImageF raw = filterKnown(source, filter, "white_room"),
+                 bounded = filterKnown(source + ", moments: true", filter, "white_room");
+    const auto corner = [](const ImageF& image) {
+        double sum = 0;
+        for (uint32_t y = 0; y < 12; ++y)
+            for (uint32_t x = 0; x < 12; ++x) sum += image.pixel(x, y)[1];
+        return sum;
+    };
+    EXPECT_NEAR(mean(bounded) / mean(raw), 1, 0.05);
+    EXPECT_GT(corner(bounded), 1.1 * corner(raw));
 }
 
 TEST(FilterIrradiance, NamesGapsThatItCannotFill) {
@@ -192,7 +221,10 @@ TEST(FilterIrradiance, NamesGapsThatItCannotFill) {
 }
 
 const std::string kPaths = "{pass: path_trace, light: indirect, ";
-const std::string kFilter = ", {pass: filter_irradiance}, {pass: composite}]";
+/// @return the end of a graph: the filter by an estimator, and the image.
+std::string filterBy(const std::string& estimator) {
+    return ", {pass: filter_irradiance, estimator: " + estimator + "}, {pass: composite}]";
+}
 
 TEST(FilterIrradiance, PathsIrradianceTimesAlbedoIsTheirRadiance) {
     // One albedo everywhere: a pixel's indirect light is albedo / pi times the mean irradiance of its texels,
@@ -238,14 +270,14 @@ TEST(FilterIrradiance, PathsWithoutDirectLightAreTheSamePaths) {
     EXPECT_THROW(Chain("cornell", "{}", "[{pass: path_trace, light: indirect}]"), Error);
 }
 
-TEST(FilterIrradiance, KeepsTheEnergyOfAPathTracedFurnace) {
+TEST_P(FilterEstimator, KeepsTheEnergyOfAPathTracedFurnace) {
     // Every surface emits 1 and reflects 0.6. Two bounces after direct light: 0.36 + 0.216. The raw image's
     // own variance bounds the error, as in KeepsTheMeanOfNoise.
     for (const std::string samples : {"1", "2"}) {
-        Chain chain(
-            "furnace", "{shape: box, albedo: 0.6, emission: 1}",
-            "[{pass: gbuffer, samples_per_pixel_edge: " + samples + "}, " + kPaths + "spp: 4, bounces: 2}" + kFilter,
-            48, 48);
+        Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
+                    "[{pass: gbuffer, samples_per_pixel_edge: " + samples + "}, " + kPaths + "spp: 4, bounces: 2}" +
+                        filterBy(GetParam()),
+                    48, 48);
         const ImageF a = chain.image("indirect_a"), b = chain.image("indirect_b");
         double squares = 0;
         for (size_t i = 0; i < a.data.size(); ++i) squares += std::pow(0.5 * (a.data[i] - b.data[i]), 2);
@@ -256,7 +288,7 @@ TEST(FilterIrradiance, KeepsTheEnergyOfAPathTracedFurnace) {
     }
 }
 
-TEST(FilterIrradiance, FollowsAnySource) {
+TEST_P(FilterEstimator, FollowsAnySource) {
     // The same scene by gather rays and by paths: the same light, and less noise than without the filter.
     const ImageF& expected = pathTraced("cornell", "{lights: point}", 256, 4, 64, 64);
     const auto image = [](const std::string& source, const std::string& end) {
@@ -269,7 +301,7 @@ TEST(FilterIrradiance, FollowsAnySource) {
             .image("indirect");
     };
     for (const std::string& source : {std::string("{pass: gather_rays}"), kPaths + "spp: 4, bounces: 4}"}) {
-        const ImageF raw = image(source, ", {pass: composite}]"), filtered = image(source, kFilter);
+        const ImageF raw = image(source, ", {pass: composite}]"), filtered = image(source, filterBy(GetParam()));
         EXPECT_NEAR(mean(filtered) / mean(expected), 1, 0.03) << source;
         EXPECT_LT(meanDifference(filtered, expected), 0.5 * meanDifference(raw, expected)) << source;
     }

@@ -33,6 +33,8 @@ FAMILIES = {
     "cones": {"surfels"},
     "final_gather": {"surfels", "cache"},
     "cache": {"surfels"},
+    "probes": {"surfels"},
+    "reservoirs": set(),
     "vpls": {"surfels", "inject", "hybrid_leaves"},
     "hybrid_leaves": {"surfels", "cones"},
     "published": {"cones"},

@@ -22,13 +22,10 @@ void main() {
     const uvec2 texel = texelOf(g, block, t);
     if (any(greaterThanEqual(texel, g.texels))) return;
 
-    // The texel's rays: a run of the block's rays, or at most one where texels outnumber rays
-    const bool fewer = g.raysPerBlock < count;
-    const uint first = fewer ? nearestRay(g, t) : firstRay(g, t);
-    const uint last = fewer ? first + (rayTexel(g, block, first) == t ? 1u : 0u) : firstRay(g, t + 1u);
+    const uvec2 own = texelRays(g, block, t);
     vec3 sum = vec3(0.0);
     float rays = 0.0;
-    for (uint j = first; j < last; ++j) {
+    for (uint j = own.x; j < own.y; ++j) {
         const vec4 light_ = light.data[blockInBatch * g.raysPerBlock + j];
         if (light_.w < 0.0) continue;
         sum += light_.rgb;

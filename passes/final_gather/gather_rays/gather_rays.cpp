@@ -8,6 +8,7 @@
 #include "passes/common/filter/irradiance_resolve.h"
 #include "passes/common/filter/noisy_irradiance.h"
 #include "passes/common/view/gather_hits.h"
+#include "passes/common/view/gather_light.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/final_gather/gather_rays/continued_paths.h"
 #include "passes/final_gather/gather_rays/stored_light.h"
@@ -83,6 +84,7 @@ class GatherRays final : public Pass {
     bool readsCache() const { return params_.source == GatherSource::RadianceCache; }
     /// Shades a batch of hits and sums over the rays of each texel and of each block.
     ContinuedPaths::Counts gather(PassContext& context, const std::vector<Binding>& stored, uint32_t batch);
+    void planLight(PassPlan& plan, uint32_t raysPerBatch);
 
     const Params params_;
     StoredLight stored_{*this, params_.source, params_.directAtHits == DirectAtHits::Voxels, params_.minSamples};
@@ -90,12 +92,13 @@ class GatherRays final : public Pass {
     In<GatherHits> hits_{*this, "gather_hits", "where the gather rays hit"};
     Out<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "irradiance from few rays a texel"};
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light, unfiltered"};
+    Out<GatherLight> rayLight_{*this, "gather_light", "what each gather ray brings"};
     Kernel shadeHits_{*this, "shade_hits.comp", stored_.defines()};
     Kernel averageTexels_{*this, "average_texels.comp"};
     Kernel sumMoments_{*this, "sum_moments.comp"};
     ContinuedPaths paths_{*this, stored_.defines()};
     std::optional<IrradianceResolve> resolve_;  ///< Where `indirect` is read.
-    Buffer light_;                              ///< Radiance times pi and hit distance of a batch's rays.
+    Buffer light_;                              ///< As GatherLight::light, of a batch; where that is not read.
 };
 
 void GatherRays::plan(PassPlan& plan) {
@@ -121,14 +124,33 @@ void GatherRays::plan(PassPlan& plan) {
     }
 
     const uint32_t rays = hits.blocksPerBatch * hits.layout.raysPerBlock;
-    plan.buffer(light_, "light of gather rays", rays * sizeof(glm::vec4));
+    planLight(plan, rays);
     paths_.plan(plan,
                 {.measureDirect = !stored_.holdsDirect(plan),
                  .lightSamples = params_.lightSamples,
                  .nearField = params_.nearFieldCells,
                  .maxSteps = readsCache() ? kMaxCacheSteps : kMaxSteps},
                 rays);
-    shadeHits_.define(paths_.defines());
+    Defines defines = paths_.defines();
+    if (plan[rayLight_].isRead) defines.emplace("NEAR_DISTANCES", "1");
+    shadeHits_.define(defines);
+}
+
+void GatherRays::planLight(PassPlan& plan, uint32_t raysPerBatch) {
+    GatherLight& result = plan[rayLight_];
+    result.lightBounces = plan[noisy_].lightBounces;
+    if (!result.isRead) {
+        plan.buffer(light_, "light of gather rays", raysPerBatch * sizeof(glm::vec4));
+        return;
+    }
+    const GatherHits& hits = plan[hits_];
+    result.light = std::vector<Buffer>(hits.batches.size());
+    result.nearDistances = std::vector<Buffer>(hits.batches.size());
+    for (uint32_t b = 0; b < hits.batches.size(); ++b) {
+        const uint64_t rays = uint64_t(hits.batchBlocks(b)) * hits.layout.raysPerBlock;
+        plan.buffer(result.light[b], "light of gather rays", rays * sizeof(glm::vec4));
+        plan.buffer(result.nearDistances[b], "near distances of gather rays", rays * sizeof(float));
+    }
 }
 
 void GatherRays::record(PassContext& context) {
@@ -151,6 +173,10 @@ ContinuedPaths::Counts GatherRays::gather(PassContext& context, const std::vecto
     const uint32_t rays = blocks * hits.layout.raysPerBlock;
     const uint32_t texelsPerBlock = hits.layout.blockSize * hits.layout.blockSize;
 
+    const GatherLight& kept = context[rayLight_];
+    const Buffer& light = kept.isRead ? kept.light[batch] : light_;
+    const Buffer& nearDistances = kept.isRead ? kept.nearDistances[batch] : light_;
+
     // Shade the hits by stored light, and trace paths where it does not suffice
     const std::vector<Binding> hitList = paths_.clearHits(context.stream);
     context.dispatch(shadeHits_, rays,
@@ -159,24 +185,25 @@ ContinuedPaths::Counts GatherRays::gather(PassContext& context, const std::vecto
                       hitList,
                       context[gbuffer_],
                       {"hits", hits.batches[batch]},
-                      {"light", light_},
+                      {"light", light},
+                      ifUsed({"nearDistances", nearDistances}),
                       {"layout", hits.layout},
                       {"firstBlock", firstBlock},
                       {"rays", rays},
                       {"nearField", params_.nearFieldCells}});
-    const ContinuedPaths::Counts counts = paths_.trace(context, stored, light_);
+    const ContinuedPaths::Counts counts = paths_.trace(context, stored, light);
 
     // Sum over the rays of each texel and of each block
     const NoisyIrradiance& noisy = context[noisy_];
     context.dispatch(averageTexels_, uint64_t(blocks) * texelsPerBlock,
-                     {{"light", light_},
+                     {{"light", light},
                       {"gathered", noisy.irradiance},
                       {"layout", hits.layout},
                       {"firstBlock", firstBlock},
                       {"batchBlocks", blocks}});
     if (noisy.isRead)
         context.dispatch(sumMoments_, blocks,
-                         {{"light", light_},
+                         {{"light", light},
                           {"moments", noisy.moments},
                           {"firstBlock", firstBlock},
                           {"batchBlocks", blocks},

@@ -18,28 +18,30 @@ buffer Counts {
 
 // Adds `throughput` times the light reflected at a ray's hit to gather ray i. Stored light has the resolution of its
 // cells: a ray from `origin` that is shorter than `nearField` cells does not read it but continues as a path does, and
-// so does a ray that hits where no light is stored. With a `nearField` of 0 every ray ends at its hit.
+// so does a ray that hits where no light is stored. With a `nearField` of 0 every ray ends at its hit. Returns the
+// distance within which rays to this point continue, m.
 //
 //      ┌───────┬───────┐
 //      │   o───┼───┼─> ·   ·: a hit beyond the near field reads the cell.
 //      │    \  │       │   x: at a hit in the near field a shadow ray measures direct light, and the path continues.
 //     ─┼─────x─┼───────┼─
 //      └───────┴───────┘
-void shadeHit(uint i, Hit hit, vec3 origin, vec3 throughput, uint id, float nearField) {
+float shadeHit(uint i, Hit hit, vec3 origin, vec3 throughput, uint id, float nearField) {
     Surfel surfel;
     vec3 faceNormal;
     float offset;
-    if (!surfelAtHit(hit, origin, surfel, faceNormal, offset)) return;
+    if (!surfelAtHit(hit, origin, surfel, faceNormal, offset)) return 0.0;
 
     // Read the light stored for the side that the ray hit
     surfel.reflectance *= throughput;
     const StoredLight stored = storedLight(surfel.position, faceNormal);
-    const bool isNear = hit.t < nearField * stored.cellSize;
+    const float nearDistance = nearField * stored.cellSize;
+    const bool isNear = hit.t < nearDistance;
     if (!isNear && !stored.known) atomicAdd(counts.unlit, 1u);
     const bool isContinued = isNear || (nearField > 0.0 && !stored.known);
     if (!isContinued) light.data[i].rgb += surfel.reflectance * stored.irradiance;
 #ifndef SHADOW_RAYS
-    if (!isContinued) return;
+    if (!isContinued) return nearDistance;
 #endif
 
     // List the hit for shadow rays
@@ -49,6 +51,7 @@ void shadeHit(uint i, Hit hit, vec3 origin, vec3 throughput, uint id, float near
     const uint index = atomicAdd(counts.surfels, 1u);
     surfels.data[index] = surfel;
     continuations.data[index] = uvec2(isContinued ? 1u : 0u, toOctahedral(faceNormal));
+    return nearDistance;
 }
 
 #endif

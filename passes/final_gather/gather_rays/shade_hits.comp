@@ -6,6 +6,9 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
+#ifdef NEAR_DISTANCES
+layout(scalar) writeonly buffer NearDistances { float data[]; } nearDistances;
+#endif
 uniform sampler2D position;
 layout(push_constant, scalar) uniform Push {
     GatherLayout layout_;
@@ -29,5 +32,9 @@ void main() {
     const Hit hit = hits.data[i];
     light.data[i] = vec4(vec3(0.0), hit.triangle != NO_HIT ? hit.t : from.w > 0.0 ? MISS_DISTANCE : -1.0);
     const uint id = push.firstBlock * g.raysPerBlock + i;
-    if (hit.triangle != NO_HIT) shadeHit(i, hit, from.xyz, vec3(1.0), id, push.nearField);
+    float nearDistance = 0.0;
+    if (hit.triangle != NO_HIT) nearDistance = shadeHit(i, hit, from.xyz, vec3(1.0), id, push.nearField);
+#ifdef NEAR_DISTANCES
+    nearDistances.data[i] = nearDistance;
+#endif
 }

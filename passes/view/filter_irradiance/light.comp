@@ -50,10 +50,8 @@ void main() {
     const vec2 rays = interpolatedStatistics(ivec2(element.x, element.y % pixels.y));
     const vec3 neighborhood = texelFetch(mean, element, 0).xyz;
     relativeVariance = rays.y;
-    found.mean = neighborhood.x;
     found.rayVariance = rays.y * neighborhood.x * neighborhood.x;
-    found.meanVariance =
-        neighborhood.y > 0.0 ? found.rayVariance * neighborhood.z / (neighborhood.y * neighborhood.y) : 0.0;
+    setMean(found, neighborhood);
     found.gradient = rays.x;
 #endif
 #ifndef BOUNDED_GRADIENT

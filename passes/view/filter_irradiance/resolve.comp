@@ -1,10 +1,22 @@
 // Radiance that each pixel reflects of the filtered irradiance, by Lambert's law, and of light that is not filtered.
+#include "passes/view/filter_irradiance/block_interpolation.glsl"
+#include "passes/view/filter_irradiance/tiles.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D irradiance;   // Of elements (elements.glsl), W/m².
 uniform sampler2D reflectance;  // Albedo times the surface's fraction of the pixel.
 uniform sampler2D unfiltered;   // W/(m² sr); one black texel where there is none.
 layout(rgba32f) writeonly uniform image2D result;
+#ifdef GIVE_BACK
+layout(scalar) readonly buffer Raised { vec3 data[]; } raised;  // Factor of each tile's irradiance (give_back.comp).
+
+vec3 raisedAt(ivec2 pixel, uvec2 pixels) {
+    const BlockCorner corners[4] = blockCorners(pixel, float(TILE), tilesOf(pixels));
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 4; ++i) sum += corners[i].weight * raised.data[corners[i].block];
+    return sum;
+}
+#endif
 
 void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(result);
@@ -14,6 +26,9 @@ void main() {
     const ivec2 second = pixel + ivec2(0, size.y);
     const vec3 secondReflectance = texelFetch(reflectance, second, 0).rgb;
     if (secondReflectance != vec3(0.0)) sum += secondReflectance * texelFetch(irradiance, second, 0).rgb;
+#endif
+#ifdef GIVE_BACK
+    sum *= raisedAt(pixel, uvec2(size));
 #endif
     const vec3 added = texelFetch(unfiltered, min(pixel, textureSize(unfiltered, 0) - 1), 0).rgb;
     imageStore(result, pixel, vec4(sum / 3.14159265358979 + added, 1.0));

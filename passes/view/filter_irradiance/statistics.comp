@@ -1,6 +1,6 @@
-// Computes the filter's two statistics from moments of rays: the variance of a single ray, and a bound of the gradient
-// of irradiance along a surface. As blocks have few rays, each sums its 3 x 3 neighborhood, weighted 1 2 1 along rows
-// and columns.
+// Computes the filter's statistics from moments of rays: the variance of a single ray, a bound of the gradient of
+// irradiance along a surface, and, to bound outliers, the mean. As blocks have few rays, each sums its 3 x 3
+// neighborhood, weighted 1 2 1 along rows and columns.
 //
 // The gradient bound. Irradiance E is the mean of the rays' light L, pi times their radiance. Uniform light M from all
 // directions gives the same E everywhere, so only deviations L - M change E along a surface. A light at distance r
@@ -17,6 +17,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(scalar) readonly buffer Moments { RayMoments data[]; } moments;
 layout(scalar) writeonly buffer Statistics { RayStatistics data[]; } statistics;
+#ifdef GIVE_BACK
+layout(scalar) writeonly buffer BlockMeans { float data[]; } blockMeans;  // Luminance, W/m².
+#endif
 layout(push_constant) uniform Push { uvec2 blocks; } push;
 
 void main() {
@@ -44,5 +47,9 @@ void main() {
         found.gradient = sqrt(max(deviation, 0.0) * sum.inverseDistance) / sum.luminance;
         found.variance = max(sum.squared / (sum.luminance * mean) - 1.0, 0.0);
     }
-    statistics.data[block.y * int(push.blocks.x) + block.x] = found;
+    const int i = block.y * int(push.blocks.x) + block.x;
+    statistics.data[i] = found;
+#ifdef GIVE_BACK
+    blockMeans.data[i] = sum.rays > 0.0 ? sum.luminance / sum.rays : 0.0;
+#endif
 }

@@ -14,10 +14,24 @@ struct SurfaceLight {
 vec4 packLight(SurfaceLight l) { return vec4(l.mean, l.meanVariance, l.rayVariance, l.gradient); }
 SurfaceLight unpackLight(vec4 texel) { return SurfaceLight(texel.x, texel.y, texel.z, texel.w); }
 
+float square(float x) { return x * x; }
+
+// neighborhood: a texel of mean.comp.
+void setMean(inout SurfaceLight l, vec3 neighborhood) {
+    l.mean = neighborhood.x;
+    l.meanVariance =
+        neighborhood.y > 0.0 ? l.rayVariance * neighborhood.z / (neighborhood.y * neighborhood.y) : 0.0;
+}
+
 // Mean squared difference of two independent values with a relative variance of 1, in units of their squared mean.
 #define UNRELATED 2.0
-
-float square(float x) { return x * x; }
+// Weight of the measured difference of means. With regression: means over surroundings as wide as their distance differ
+// by half of a step between their centers, a fourth when squared.
+#ifdef REGRESSION
+#define ATTENUATION 4.0
+#else
+#define ATTENUATION 1.0
+#endif
 
 // Expected mean squared difference of two elements' irradiance (wavelet.comp).
 float squaredBias(Surface a, SurfaceLight lightA, Surface b, SurfaceLight lightB, float edgeStoppingScale) {
@@ -27,7 +41,7 @@ float squaredBias(Surface a, SurfaceLight lightA, Surface b, SurfaceLight lightB
     const float overNormals = sqrt(variance * (1.0 - cosine) / cosine);
     const float measured = max(square(lightA.mean - lightB.mean) - lightA.meanVariance - lightB.meanVariance, 0.0);
     const float unrelated = UNRELATED * square(mean_) * offPlane(a, b);
-    return square(edgeStoppingScale * (alongSurface + overNormals)) + unrelated + measured;
+    return square(edgeStoppingScale * (alongSurface + overNormals)) + unrelated + ATTENUATION * measured;
 }
 
 #endif

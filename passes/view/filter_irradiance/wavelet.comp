@@ -16,6 +16,11 @@
 //   - the measured difference of the neighborhoods' means (mean.comp), beyond the noise of these means.
 #include "passes/view/filter_irradiance/surface_light.glsl"
 #include "passes/view/filter_irradiance/elements.glsl"
+#ifdef REGRESSION
+#include "passes/view/filter_irradiance/regression.glsl"
+#else
+#include "passes/view/filter_irradiance/weighted_mean.glsl"
+#endif
 
 uniform sampler2D light;
 uniform sampler2D source;  // Irradiance, W/m²; number of rays that it represents.
@@ -24,6 +29,14 @@ layout(push_constant) uniform Push {
     int level;
     float edgeStoppingScale;
 } push;
+
+#if defined(REGRESSION) && !defined(BOUNDED_GRADIENT)
+#define REMOVES_SLOPE
+// Gradient to expect over its bound, along one direction: the bound adds up what mostly cancels.
+#define EXPECTED_GRADIENT 0.2
+// Sum of the squared weights of the whole kernel, 36 / 256.
+#define KERNEL_SQUARES 0.14
+#endif
 
 void main() {
     const ivec2 pixels = imageSize(result) / ivec2(1, LAYERS);
@@ -38,8 +51,8 @@ void main() {
     const Surface center = unpackSurface(bits);
     const SurfaceLight centerLight = unpackLight(texelFetch(light, element, 0));
     const float centerNoise = centerLight.rayVariance / max(texelFetch(source, element, 0).w, 1e-3);
-    vec3 sum = vec3(0.0);
-    float weights = 0.0, squaredWeights = 0.0;  // squaredWeights: over the taps' rays.
+    Estimate sum = emptyEstimate();
+    float squaredWeights = 0.0;  // Over the taps' rays.
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) {
             const ivec2 pixel = ivec2(element.x, element.y % pixels.y) + (ivec2(x, y) << push.level);
@@ -61,14 +74,26 @@ void main() {
                 const float noise = 0.5 * (centerNoise + neighborLight.rayVariance / value.w);
                 const float count = kernel(x, y) * (push.level == 0 ? value.w : area);
                 const float weight = count * (bias2 > 0.0 ? noise / (noise + bias2) : 1.0);
-                sum += weight * value.rgb;
-                weights += weight;
+                addTap(sum, weight, value.rgb, neighbor.position - center.position);
                 squaredWeights += weight * weight / value.w;
             }
         }
 
+    if (sum.weights == 0.0) {
+        imageStore(result, element, vec4(0.0));
+        return;
+    }
+
+    vec3 value = meanOf(sum);
+#ifdef REMOVES_SLOPE
+    // From level 1 on remove the linear part of the bias, as far as noise allows; not at the edge of a shadow of a lamp
+    // or of the sun, whose gradient is known: it is a step and no trend
+    const float expected = EXPECTED_GRADIENT * centerLight.mean * centerLight.gradient;
+    if (push.level > 0 && expected > 0.0)
+        value = valueAtCenter(sum, KERNEL_SQUARES * centerNoise / square(expected));
+#endif
+
     // A weighted mean of independent values of value.w rays each has sum(weight² / value.w) / sum(weight)² of one ray's
     // variance
-    const float rays = weights * weights / (overlap(push.level) * squaredWeights);
-    imageStore(result, element, weights > 0.0 ? vec4(sum / weights, rays) : vec4(0.0));
+    imageStore(result, element, vec4(value, square(sum.weights) / (overlap(push.level) * squaredWeights)));
 }

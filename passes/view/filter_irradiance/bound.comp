@@ -1,0 +1,70 @@
+// Bounds each element's irradiance by what the rays around it explain, and sums what exceeds the bound over tiles
+// (tiles.glsl), one work group each. A rare bright ray would otherwise be a spot as wide as the filter.
+//
+//     bound = mean · (1 + 3 σ max(1/√rays, 1/2))
+//
+// mean: of the rays of the surrounding blocks; σ: a ray's standard deviation over this mean (statistics.comp). With
+// many rays an element's deviation is a difference of light rather than noise, hence the 1/2.
+#include "passes/view/filter_irradiance/block_interpolation.glsl"
+#include "passes/view/filter_irradiance/surface.glsl"
+#include "passes/view/filter_irradiance/tiles.glsl"
+#include "shaders/filter/ray_statistics.h"
+#include "shaders/scene/sampling.glsl"
+layout(local_size_x = TILE, local_size_y = TILE) in;
+
+#define LAYERS (SAMPLES > 1 ? 2 : 1)
+#define DEVIATIONS 3.0
+#define LEAST_DEVIATION 0.5  // Of an element, over that of a ray.
+
+uniform usampler2D surfaces;
+layout(rgba32f) uniform image2D source;  // Irradiance, W/m²; number of rays.
+layout(scalar) readonly buffer Statistics { RayStatistics data[]; } statistics;
+layout(scalar) readonly buffer BlockMeans { float data[]; } blockMeans;
+layout(scalar) writeonly buffer Tiles { TileLight data[]; } tiles;
+layout(push_constant, scalar) uniform Push {
+    uvec2 pixels;
+    uvec2 blocks;
+    float blockSize;
+} push;
+
+shared vec3 kept[TILE * TILE];
+shared vec3 excess[TILE * TILE];
+
+float boundOf(ivec2 pixel, float rays) {
+    const BlockCorner corners[4] = blockCorners(pixel, push.blockSize, push.blocks);
+    float mean_ = 0.0, variance = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        mean_ += corners[i].weight * blockMeans.data[corners[i].block];
+        variance += corners[i].weight * statistics.data[corners[i].block].variance;
+    }
+    return mean_ * (1.0 + DEVIATIONS * sqrt(variance) * max(inversesqrt(max(rays, 1.0)), LEAST_DEVIATION));
+}
+
+void main() {
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    const uint thread = gl_LocalInvocationIndex;
+    kept[thread] = excess[thread] = vec3(0.0);
+    if (all(lessThan(uvec2(pixel), push.pixels)))
+        for (int layer = 0; layer < LAYERS; ++layer) {
+            const ivec2 element = pixel + ivec2(0, layer * int(push.pixels.y));
+            const float area = areaOf(texelFetch(surfaces, element, 0));
+            const vec4 value = imageLoad(source, element);
+            const float light = luminance(value.rgb);
+            if (area == 0.0 || light <= 0.0) continue;
+            const float fraction = min(boundOf(pixel, value.a) / light, 1.0);
+            kept[thread] += area * fraction * value.rgb;
+            excess[thread] += area * (1.0 - fraction) * value.rgb;
+            if (fraction < 1.0) imageStore(source, element, vec4(fraction * value.rgb, value.a));
+        }
+
+    // Sum over the tile
+    for (uint half_ = uint(TILE * TILE) / 2u; half_ > 0u; half_ /= 2u) {
+        barrier();
+        if (thread < half_) {
+            kept[thread] += kept[thread + half_];
+            excess[thread] += excess[thread + half_];
+        }
+    }
+    if (thread == 0u)
+        tiles.data[gl_WorkGroupID.y * tilesOf(push.pixels).x + gl_WorkGroupID.x] = TileLight(kept[0], excess[0]);
+}

@@ -1,0 +1,15 @@
+// Tiles of the frame in which light that outliers lost is given back (bound.comp, give_back.comp).
+#ifndef VOXRAY_FILTER_TILES_GLSL
+#define VOXRAY_FILTER_TILES_GLSL
+
+#define TILE 16  // Pixels along an edge.
+
+// Sums over a tile's elements, by their area, W/m² times pixels.
+struct TileLight {
+    vec3 kept;
+    vec3 excess;
+};
+
+uvec2 tilesOf(uvec2 pixels) { return (pixels + uint(TILE - 1)) / uint(TILE); }
+
+#endif
