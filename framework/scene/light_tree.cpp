@@ -81,21 +81,48 @@ struct Item {
     uint32_t light;
 };
 
-/// `emission` of a node.
-uint32_t packedEmission(const Cluster& all) {
-    // The cone may grow by rounding, never shrink
-    const auto cosO = uint32_t(std::floor(0.5 * (all.cone.cosine + 1) * double(LIGHT_TREE_COS_ORIENTATION_STEPS)));
+/// A corner of bounds in steps of its parent's size, in the direction of `towards`: -1 down, 1 up.
+uint32_t packedCorner(const glm::vec3& corner, const glm::vec3& low, const glm::vec3& size, int towards) {
+    uint32_t packed = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto steps = int(LIGHT_TREE_BOUNDS_STEPS);
+        int step = size[axis] > 0 ? int(std::lround((corner[axis] - low[axis]) / size[axis] * float(steps))) : 0;
+        step = std::clamp(step, 0, steps);
+        const auto isOutside = [&] {
+            const uint32_t at = uint32_t(step) << (10 * axis);
+            const float decoded = gpu::lightTreeCorner(at, low, size)[axis];
+            return towards < 0 ? decoded <= corner[axis] : decoded >= corner[axis];
+        };
+        while (!isOutside() && step + towards >= 0 && step + towards <= steps) step += towards;
+        packed |= uint32_t(step) << (10 * axis);
+    }
+    return packed;
+}
+
+uint32_t packedAxis(const glm::dvec3& axis) {
+    const double sum = std::abs(axis.x) + std::abs(axis.y) + std::abs(axis.z);
+    glm::dvec2 p = glm::dvec2(axis) / sum;
+    if (axis.z < 0) p = {(1 - std::abs(p.y)) * (p.x >= 0 ? 1 : -1), (1 - std::abs(p.x)) * (p.y >= 0 ? 1 : -1)};
+    const auto packed = [](double v) { return uint32_t(std::lround((v + 1) * double(LIGHT_TREE_AXIS_STEPS))); };
+    return packed(p.x) | packed(p.y) << 16;
+}
+
+/// `emission` of a node. The cone may grow by rounding, never shrink, and intensity is never 0.
+uint32_t packedEmission(const Cluster& all, double ofParent) {
+    const auto cosO = uint32_t(0.5 * (all.cone.cosine + 1) * double(LIGHT_TREE_COS_ORIENTATION_STEPS) + 1e-6);
     const auto cosEmission =
-        uint32_t(std::floor(std::max(std::cos(all.emission), 0.0) * double(LIGHT_TREE_COS_EMISSION_STEPS)));
-    return cosO | cosEmission << LIGHT_TREE_COS_EMISSION_SHIFT | (all.doubleSided ? LIGHT_TREE_DOUBLE_SIDED : 0u);
+        uint32_t(std::max(std::cos(all.emission), 0.0) * double(LIGHT_TREE_COS_EMISSION_STEPS) + 1e-6);
+    const double steps = all.intensity / ofParent * double(LIGHT_TREE_INTENSITY_STEPS);
+    const auto intensity = uint32_t(std::clamp(std::round(steps), 1.0, double(LIGHT_TREE_INTENSITY_STEPS)));
+    return intensity | cosO << LIGHT_TREE_COS_ORIENTATION_SHIFT | cosEmission << LIGHT_TREE_COS_EMISSION_SHIFT |
+           (all.doubleSided ? LIGHT_TREE_DOUBLE_SIDED : 0u);
 }
 
 /// Builds a binary tree from the top, of which several levels become one.
 class Builder {
  public:
-    Builder(std::span<const BoundedLight> lights, double intensity, std::vector<gpu::LightTreeNode>& nodes,
-            std::vector<uint32_t>& leaves)
-        : lights_(lights), intensity_(intensity), nodes_(nodes), leaves_(leaves) {
+    Builder(std::span<const BoundedLight> lights, std::vector<gpu::LightTreeNode>& nodes, std::vector<uint32_t>& leaves)
+        : lights_(lights), nodes_(nodes), leaves_(leaves) {
         for (uint32_t i = 0; i < lights.size(); ++i)
             items_.push_back({Cluster::of(lights[i]), 0.5f * (lights[i].bounds.min + lights[i].bounds.max), i});
     }
@@ -103,7 +130,8 @@ class Builder {
     /// @param split First light of the root's second child; 0: where it costs least.
     void build(size_t split) {
         const Range all{0, items_.size()};
-        nodes_.push_back(node(all, 0));
+        const Cluster ofAll = cluster(all);
+        nodes_.push_back(node(ofAll, ofAll, 0));
         if (split > 0)
             addChildren(0, {{all.first, split}, {split, all.last}});
         else
@@ -124,15 +152,14 @@ class Builder {
         return all;
     }
 
-    gpu::LightTreeNode node(const Range& range, uint32_t parent) const {
-        const Cluster all = cluster(range);
-        return {0.5f * (all.bounds.min + all.bounds.max),
-                float(all.intensity / intensity_),
-                0.5f * (all.bounds.max - all.bounds.min),
-                packedEmission(all),
-                glm::vec3(all.cone.axis),
+    static gpu::LightTreeNode node(const Cluster& all, const Cluster& above, uint32_t parent) {
+        const glm::vec3 low = above.bounds.min, size = above.bounds.max - above.bounds.min;
+        return {{packedCorner(all.bounds.min, low, size, -1), packedCorner(all.bounds.max, low, size, 1),
+                 packedAxis(all.cone.axis), packedEmission(all, above.intensity)},
                 0,
-                parent};
+                parent,
+                all.bounds.min,
+                all.bounds.max - all.bounds.min};
     }
 
     /// Gives node `index` its light or its children.
@@ -166,7 +193,8 @@ class Builder {
         if (first + parts.size() > LIGHT_TREE_FIRST_CHILD)
             throw Error("light tree: {} lights are too many; leave out some emissive triangles", lights_.size());
         nodes_[index].link = uint32_t(parts.size()) << LIGHT_TREE_COUNT_SHIFT | first;
-        for (const Range& part : parts) nodes_.push_back(node(part, index));
+        const Cluster all = cluster({parts.front().first, parts.back().last});
+        for (const Range& part : parts) nodes_.push_back(node(cluster(part), all, index));
         for (size_t i = 0; i < parts.size(); ++i) fill(first + uint32_t(i), parts[i]);
     }
 
@@ -219,7 +247,6 @@ class Builder {
     }
 
     std::span<const BoundedLight> lights_;
-    double intensity_;
     std::vector<Item> items_;
     std::vector<gpu::LightTreeNode>& nodes_;
     std::vector<uint32_t>& leaves_;
@@ -252,18 +279,23 @@ BoundedLight boundedLight(std::span<const glm::vec3> corners, const glm::vec3& n
 LightTree::LightTree(std::span<const BoundedLight> lights, size_t firstGroup) : leaves_(lights.size()) {
     if (lights.empty()) return;
     for (const BoundedLight& light : lights) intensity_ += light.intensity;
-    Builder(lights, intensity_, nodes_, leaves_).build(firstGroup < lights.size() ? firstGroup : 0);
+    Builder(lights, nodes_, leaves_).build(firstGroup < lights.size() ? firstGroup : 0);
+    for (const gpu::LightTreeNode& node : nodes_) {
+        const gpu::LightTreeNode& parent = nodes_[node.parent];
+        bounds_.push_back(gpu::lightTreeBounds(node.summary, parent.low, parent.size));
+    }
 }
 
-std::span<const gpu::LightTreeNode> LightTree::children(uint32_t node) const {
-    if (isLeaf(node)) return std::span(nodes_).subspan(node, 1);
+LightTree::Children LightTree::children(uint32_t node) const {
     const uint32_t link = nodes_[node].link;
-    return std::span(nodes_).subspan(link & LIGHT_TREE_FIRST_CHILD, link >> LIGHT_TREE_COUNT_SHIFT);
+    if (isLeaf(node)) return {node, 1};
+    return {link & LIGHT_TREE_FIRST_CHILD, link >> LIGHT_TREE_COUNT_SHIFT};
 }
 
 float LightTree::childrenImportance(uint32_t node, const Receiver& to) const {
+    const Children all = children(node);
     float sum = 0.0f;
-    for (const gpu::LightTreeNode& child : children(node)) sum += lightTreeImportance(child, to.position, to.normal);
+    for (uint32_t k = 0; k < all.count; ++k) sum += importance(all.first + k, to);
     return sum;
 }
 
@@ -277,25 +309,24 @@ LightTree::Pick LightTree::pick(const Receiver& to, float u) const {
     uint32_t node = 0;
     if (isLeaf(node) && !(ofBeside > 0.0f)) return {nodes_[node].link & ~LIGHT_TREE_LEAF, 1.0f, u};
     do {
-        const auto all = children(node);
-        std::array<float, LIGHT_TREE_MAX_CHILDREN> importance;
+        const Children all = children(node);
+        std::array<float, LIGHT_TREE_MAX_CHILDREN> weights;
         float total = ofBeside;
-        for (size_t k = 0; k < all.size(); ++k)
-            total += importance[k] = lightTreeImportance(all[k], to.position, to.normal);
+        for (uint32_t k = 0; k < all.count; ++k) total += weights[k] = importance(all.first + k, to);
         if (!(total > 0.0f)) return {};
         float rest = u * total, ofPicked = ofBeside;
-        size_t picked = all.size();
-        for (size_t k = 0; k < all.size() && rest >= ofPicked; ++k) {
-            if (!(importance[k] > 0.0f)) continue;
+        uint32_t picked = all.count;
+        for (uint32_t k = 0; k < all.count && rest >= ofPicked; ++k) {
+            if (!(weights[k] > 0.0f)) continue;
             rest -= ofPicked;
-            ofPicked = importance[k];
+            ofPicked = weights[k];
             picked = k;
         }
         u = std::min(rest / ofPicked, kBelowOne);
         probability *= ofPicked / total;
-        if (picked == all.size()) return {kBeside, probability, u};
+        if (picked == all.count) return {kBeside, probability, u};
         ofBeside = 0.0f;
-        node = uint32_t(&all[picked] - nodes_.data());
+        node = all.first + picked;
     } while (!isLeaf(node));
     return {nodes_[node].link & ~LIGHT_TREE_LEAF, probability, u};
 }
@@ -305,10 +336,16 @@ float LightTree::probability(uint32_t leaf, const Receiver& to) const {
     float probability = 1.0f;
     uint32_t node = leaf;
     do {
-        const uint32_t parent = nodes_[node].parent;  // The root's is the root
-        const float total = childrenImportance(parent, to) + (parent == 0 ? beside(to) : 0.0f);
+        const uint32_t parent = nodes_[node].parent;
+        const Children all = children(parent);
+        float total = parent == 0 ? beside(to) : 0.0f, ofNode = 0.0f;
+        for (uint32_t k = 0; k < all.count; ++k) {
+            const float weight = importance(all.first + k, to);
+            total += weight;
+            if (all.first + k == node) ofNode = weight;
+        }
         if (!(total > 0.0f)) return 0.0f;
-        probability *= lightTreeImportance(nodes_[node], to.position, to.normal) / total;
+        probability *= ofNode / total;
         node = parent;
     } while (node != 0);
     return probability;

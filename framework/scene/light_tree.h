@@ -69,8 +69,14 @@ class LightTree {
     float besideProbability(const Receiver& to) const;
 
  private:
-    /// A node's children; of a leaf the leaf itself.
-    std::span<const gpu::LightTreeNode> children(uint32_t node) const;
+    /// First and number of a node's children; of a leaf the leaf itself.
+    struct Children {
+        uint32_t first, count;
+    };
+    Children children(uint32_t node) const;
+    float importance(uint32_t node, const Receiver& to) const {
+        return lightTreeImportance(bounds_[node], to.position, to.normal);
+    }
     bool isLeaf(uint32_t node) const { return (nodes_[node].link & LIGHT_TREE_LEAF) != 0; }
     float childrenImportance(uint32_t node, const Receiver& to) const;
     /// Receiver::beside as an importance.
@@ -78,6 +84,7 @@ class LightTree {
 
     double intensity_ = 0;
     std::vector<gpu::LightTreeNode> nodes_;
+    std::vector<gpu::LightTreeBounds> bounds_;  ///< What their summaries say.
     std::vector<uint32_t> leaves_;
 };
 

@@ -109,38 +109,34 @@ struct SourceSampling {
     uint emitterRoot;  // Of the light tree.
 };
 
-// Candidates for a sample. If there are no more emitters than that, each is one candidate. A constant environment has
-// only one, which is distributed by cosine.
-uint candidateCount(uint kind, SourceSampling sampling) {
-    if (kind == SOURCE_EMITTERS) return min(sampling.candidates, sampling.emitterCount);
-    return kind == SOURCE_TREE || hasEnvironmentMap() ? sampling.candidates : 1u;
+// Whether the light tree picks the light of a sample. If there are no more emitters than candidates, each is one.
+bool isPickedByTree(uint kind, SourceSampling sampling) {
+    return kind == SOURCE_TREE || (kind == SOURCE_EMITTERS && sampling.emitterCount > sampling.candidates);
 }
 
-// A light among candidates, in the numbers of pickLight().
+// Candidates for a sample. What the tree picks is the only one: other descents cost more than they gain. So it is with a
+// constant environment, which is distributed by cosine.
+uint candidateCount(uint kind, SourceSampling sampling) {
+    if (isPickedByTree(kind, sampling)) return 1u;
+    if (kind == SOURCE_EMITTERS) return sampling.emitterCount;
+    return hasEnvironmentMap() ? sampling.candidates : 1u;
+}
+
+// A light in the numbers of pickLight(), and its probability; 0: none.
 struct PickedLight {
     uint light;
-    float count;  // How many candidates are expected to be this one; 0: none.
+    float probability;
 };
 
-// Candidate k of `count` from emitters, or from the whole light tree: emitter k if there are so many candidates, else
-// picked by the light tree, stratified.
-PickedLight pickCandidate(uint kind, uint k, uint count, SourceSampling sampling, Receiver r, float u) {
-    if (kind == SOURCE_EMITTERS && count == sampling.emitterCount) return PickedLight(k, 1.0);
-    float probability, stratum = (float(k) + u) / float(count);
-    const uint light = pickLight(kind == SOURCE_EMITTERS ? sampling.emitterRoot : 0u, r.position, r.faceNormal, 0.0,
-                                 stratum, probability);
-    return PickedLight(light, probability * float(count));
-}
-
 LightSample samplePicked(PickedLight picked, vec3 position, vec2 u) {
-    if (picked.count == 0.0) return LightSample(vec3(0.0, 0.0, 1.0), 1.0e30, 1.0e30, vec3(0.0), 0.0, 1.0e30);
+    if (picked.probability == 0.0) return LightSample(vec3(0.0, 0.0, 1.0), 1.0e30, 1.0e30, vec3(0.0), 0.0, 1.0e30);
     LightSample s;
     if ((picked.light & LIGHT_TREE_PUNCTUAL) != 0u)
         s = samplePunctual(sceneLights.data[picked.light & LIGHT_TREE_INDEX], position);
     else
         s = sampleEmitter(sceneEmitters.data[picked.light], position, u);
-    s.solidAngle /= picked.count;
-    s.irradiance /= picked.count;
+    s.solidAngle /= picked.probability;
+    s.irradiance /= picked.probability;
     return s;
 }
 
@@ -187,16 +183,21 @@ LightSample sampleSource(uint kind, uint light, SourceSampling sampling, Receive
     if (kind == SOURCE_PUNCTUAL) return samplePunctual(sceneLights.data[light], r.position);
     const uint point = index * sampling.samples + light, count = candidateCount(kind, sampling);
     const vec2 choice = sobol2(point, hashCombine(seed, 1u));
-    PickedLight picked[MAX_LIGHT_CANDIDATES];
-    if (kind != SOURCE_ENVIRONMENT)
-        for (uint k = 0u; k < count; ++k) picked[k] = pickCandidate(kind, k, count, sampling, r, choice.x);
+    PickedLight picked = PickedLight(0u, 1.0);
+    const bool isPicked = isPickedByTree(kind, sampling);
+    if (isPicked) {
+        float u = choice.x;
+        picked.light = pickLight(kind == SOURCE_EMITTERS ? sampling.emitterRoot : 0u, r.position, r.faceNormal, 0.0, u,
+                                 picked.probability);
+    }
     uint selected = 0u;
     float weight = 1.0;
     if (count > 1u) {
         float reflected[MAX_LIGHT_CANDIDATES];
         float total = 0.0;
         for (uint k = 0u; k < count; ++k)
-            total += reflected[k] = reflectedLuminance(r, candidate(kind, k, count, picked[k], r, point, seed));
+            total += reflected[k] =
+                reflectedLuminance(r, candidate(kind, k, count, PickedLight(k, 1.0), r, point, seed));
         float rest = choice.y * total;
         for (uint k = 0u; k < count && rest >= 0.0; ++k) {
             if (reflected[k] > 0.0) selected = k;
@@ -204,7 +205,8 @@ LightSample sampleSource(uint kind, uint light, SourceSampling sampling, Receive
         }
         weight = total > 0.0 ? total / reflected[selected] : 0.0;
     }
-    LightSample s = candidate(kind, selected, count, picked[selected], r, point, seed);
+    if (!isPicked) picked.light = selected;
+    LightSample s = candidate(kind, selected, count, picked, r, point, seed);
     s.solidAngle *= weight;
     s.irradiance *= weight / float(sampling.samples);
     return s;

@@ -13,21 +13,33 @@ sceneLightTree;
 #define LIGHT_TREE sceneLightTree
 #endif
 
-// First and number of a node's children; of a leaf the leaf itself.
-uvec2 childrenOf(uint node) {
-    const uint link = LIGHT_TREE.data[node].link;
-    if ((link & LIGHT_TREE_LEAF) != 0u) return uvec2(node, 1u);
-    return uvec2(link & LIGHT_TREE_FIRST_CHILD, link >> LIGHT_TREE_COUNT_SHIFT);
-}
+// What weighs a node's children; of a leaf the leaf itself.
+struct LightTreeChildren {
+    uint first;
+    uint count;
+    vec3 low;  // Bounds of their parent, m.
+    vec3 size;
+};
 
 bool isLeaf(uint node) { return (LIGHT_TREE.data[node].link & LIGHT_TREE_LEAF) != 0u; }
 
+LightTreeChildren childrenOf(uint node) {
+    const uint link = LIGHT_TREE.data[node].link;
+    const bool leaf = (link & LIGHT_TREE_LEAF) != 0u;
+    return LightTreeChildren(leaf ? node : link & LIGHT_TREE_FIRST_CHILD, leaf ? 1u : link >> LIGHT_TREE_COUNT_SHIFT,
+                             LIGHT_TREE.data[node].low, LIGHT_TREE.data[node].size);
+}
+
+float childImportance(LightTreeChildren children, uint k, vec3 position, vec3 normal) {
+    return lightTreeImportance(
+        lightTreeBounds(LIGHT_TREE.data[children.first + k].summary, children.low, children.size), position, normal);
+}
+
 // Importance of all children of a node.
 float childrenImportance(uint node, vec3 position, vec3 normal) {
-    const uvec2 children = childrenOf(node);
+    const LightTreeChildren children = childrenOf(node);
     float total = 0.0;
-    for (uint k = 0u; k < children.y; ++k)
-        total += lightTreeImportance(LIGHT_TREE.data[children.x + k], position, normal);
+    for (uint k = 0u; k < children.count; ++k) total += childImportance(children, k, position, normal);
     return total;
 }
 
@@ -39,18 +51,18 @@ uint pickLight(uint root, vec3 position, vec3 normal, float beside, inout float 
     uint node = root;
     bool isDone = beside <= 0.0 && isLeaf(root);
     while (!isDone) {
-        const uvec2 children = childrenOf(node);
+        const LightTreeChildren children = childrenOf(node);
         float importance[LIGHT_TREE_MAX_CHILDREN];
         float total = beside;
-        for (uint k = 0u; k < children.y; ++k)
-            total += importance[k] = lightTreeImportance(LIGHT_TREE.data[children.x + k], position, normal);
+        for (uint k = 0u; k < children.count; ++k)
+            total += importance[k] = childImportance(children, k, position, normal);
         if (!(total > 0.0)) {
             probability = 0.0;
             return 0u;
         }
         float rest = u * total, ofPicked = beside;
         uint picked = LIGHT_TREE_BESIDE;
-        for (uint k = 0u; k < children.y && rest >= ofPicked; ++k) {
+        for (uint k = 0u; k < children.count && rest >= ofPicked; ++k) {
             if (!(importance[k] > 0.0)) continue;
             rest -= ofPicked;
             ofPicked = importance[k];
@@ -60,7 +72,7 @@ uint pickLight(uint root, vec3 position, vec3 normal, float beside, inout float 
         probability *= ofPicked / total;
         if (picked == LIGHT_TREE_BESIDE) return picked;
         beside = 0.0;
-        node = children.x + picked;
+        node = children.first + picked;
         isDone = isLeaf(node);
     }
     return LIGHT_TREE.data[node].link & ~LIGHT_TREE_LEAF;
@@ -73,10 +85,15 @@ float lightProbability(uint root, uint leaf, vec3 position, vec3 normal, float b
     uint node = leaf;
     do {
         const uint parent = node == root ? root : LIGHT_TREE.data[node].parent;
-        const float total =
-            childrenImportance(parent, position, normal) + (parent == root ? max(beside, 0.0) : 0.0);
+        const LightTreeChildren children = childrenOf(parent);
+        float total = parent == root ? max(beside, 0.0) : 0.0, ofNode = 0.0;
+        for (uint k = 0u; k < children.count; ++k) {
+            const float importance = childImportance(children, k, position, normal);
+            total += importance;
+            if (children.first + k == node) ofNode = importance;
+        }
         if (!(total > 0.0)) return 0.0;
-        probability *= lightTreeImportance(LIGHT_TREE.data[node], position, normal) / total;
+        probability *= ofNode / total;
         node = parent;
     } while (node != root);
     return probability;

@@ -59,7 +59,8 @@ class DirectShadowRays final : public Pass {
                       1u, 4096u)
                     .lessNoise(),
                 field("candidates", &Params::candidates,
-                      "Candidates from which a shadow ray is selected: lights by the light tree, "
+                      "Candidates from which a shadow ray is selected: emissive triangles, if there are no more "
+                      "(otherwise the light tree picks one), "
                       "directions by the environment map's radiance and by cosine. "
                       "1: no selection, and the environment by cosine alone.",
                       1u, uint32_t(MAX_LIGHT_CANDIDATES)),
