@@ -292,6 +292,17 @@ LightTree::Children LightTree::children(uint32_t node) const {
     return {link & LIGHT_TREE_FIRST_CHILD, link >> LIGHT_TREE_COUNT_SHIFT};
 }
 
+float LightTree::importance(uint32_t node, const Receiver& to) const {
+    const gpu::LightTreeBounds& bounds = bounds_[node];
+    if (!lightTreeIsNear(bounds, to.position) || isLeaf(node))
+        return lightTreeImportance(bounds, to.position, to.normal);
+    const Children below = children(node);
+    float sum = 0.0f;
+    for (uint32_t k = 0; k < below.count; ++k)
+        sum += lightTreeImportance(bounds_[below.first + k], to.position, to.normal);
+    return bounds.intensity * sum;
+}
+
 float LightTree::childrenImportance(uint32_t node, const Receiver& to) const {
     const Children all = children(node);
     float sum = 0.0f;

@@ -74,9 +74,8 @@ class LightTree {
         uint32_t first, count;
     };
     Children children(uint32_t node) const;
-    float importance(uint32_t node, const Receiver& to) const {
-        return lightTreeImportance(bounds_[node], to.position, to.normal);
-    }
+    /// Over the intensity of the node's parent; of a node near the point that of its children.
+    float importance(uint32_t node, const Receiver& to) const;
     bool isLeaf(uint32_t node) const { return (nodes_[node].link & LIGHT_TREE_LEAF) != 0; }
     float childrenImportance(uint32_t node, const Receiver& to) const;
     /// Receiver::beside as an importance.

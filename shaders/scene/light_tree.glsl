@@ -30,9 +30,18 @@ LightTreeChildren childrenOf(uint node) {
                              LIGHT_TREE.data[node].low, LIGHT_TREE.data[node].size);
 }
 
+LightTreeBounds childBounds(LightTreeChildren children, uint k) {
+    return lightTreeBounds(LIGHT_TREE.data[children.first + k].summary, children.low, children.size);
+}
+
+// Importance of child k; of a node near the point that of its children.
 float childImportance(LightTreeChildren children, uint k, vec3 position, vec3 normal) {
-    return lightTreeImportance(
-        lightTreeBounds(LIGHT_TREE.data[children.first + k].summary, children.low, children.size), position, normal);
+    const LightTreeBounds b = childBounds(children, k);
+    if (!lightTreeIsNear(b, position) || isLeaf(children.first + k)) return lightTreeImportance(b, position, normal);
+    const LightTreeChildren below = childrenOf(children.first + k);
+    float total = 0.0;
+    for (uint i = 0u; i < below.count; ++i) total += lightTreeImportance(childBounds(below, i), position, normal);
+    return b.intensity * total;
 }
 
 // Importance of all children of a node.

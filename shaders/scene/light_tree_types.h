@@ -72,10 +72,13 @@ VOXRAY_SHARED_END
 // Of a decoded axis: the largest error, radians.
 #define LIGHT_TREE_AXIS_ERROR 1e-4f
 
+// Where the squared distance to a node's center is less than this times the squared radius of its bounds, its children
+// are weighed in its place: the lights next to a point are then not lost among others.
+#define LIGHT_TREE_NEAR 4.0f
 // m. Distances to a light are at least this.
 #define LIGHT_TREE_MIN_DISTANCE 1e-10f
-// Mean of the positive part of the cosine to an axis of any direction: what one of lights that face all directions emits
-// of its intensity.
+// Mean of the positive part of the cosine to an axis of any direction: what one of lights that face all directions
+// emits of its intensity.
 #define LIGHT_TREE_MEAN_COSINE 0.25f
 // Squared distance of points in a box to its center over that of its corners: one third is the mean. The mean of one
 // over it is larger.
@@ -121,9 +124,9 @@ VOXRAY_LIGHT_TREE_FUNCTION LightTreeBounds lightTreeBounds(LightTreeSummary node
     b.center = 0.5f * (first + last);
     b.halfSize = 0.5f * (last - first);
     b.intensity = float(node.emission & 0xffffu) * (1.0f / LIGHT_TREE_INTENSITY_STEPS);
-    b.cosOrientation = float((node.emission >> LIGHT_TREE_COS_ORIENTATION_SHIFT) & 0xffu) *
-                           (2.0f / LIGHT_TREE_COS_ORIENTATION_STEPS) -
-                       1.0f;
+    b.cosOrientation =
+        float((node.emission >> LIGHT_TREE_COS_ORIENTATION_SHIFT) & 0xffu) * (2.0f / LIGHT_TREE_COS_ORIENTATION_STEPS) -
+        1.0f;
     b.sinOrientation = sqrt(max(1.0f - b.cosOrientation * b.cosOrientation, 0.0f));
     b.cosEmission =
         float((node.emission >> LIGHT_TREE_COS_EMISSION_SHIFT) & 0x7fu) * (1.0f / LIGHT_TREE_COS_EMISSION_STEPS);
@@ -133,8 +136,9 @@ VOXRAY_LIGHT_TREE_FUNCTION LightTreeBounds lightTreeBounds(LightTreeSummary node
 }
 
 // Estimate of what a node's lights emit towards a point, over their intensity: of the cosine to their axes; where the
-// node has spots alone, of one that falls from 1 along the axis to 0 at their edge. Bounds of all axes and of all places
-// of lights give the range of the cosine times distance. `radius` of the bounds; `typical`: distance to the lights.
+// node has spots alone, of one that falls from 1 along the axis to 0 at their edge. Bounds of all axes and of all
+// places of lights give the range of the cosine times distance. `radius` of the bounds; `typical`: distance to the
+// lights.
 VOXRAY_LIGHT_TREE_FUNCTION float lightTreeEmission(LightTreeBounds b, vec3 toCenter, float distance_, float radius,
                                                    float typical) {
     if (b.cosOrientation <= -1.0f) return LIGHT_TREE_MEAN_COSINE;
@@ -164,6 +168,11 @@ VOXRAY_LIGHT_TREE_FUNCTION float lightTreeImportance(LightTreeBounds b, vec3 pos
     const float emitted = lightTreeEmission(b, toCenter, sqrt(distance2), sqrt(radius2), typical);
     return b.intensity * emitted * arriving /
            max(max(distance2, LIGHT_TREE_LEAST_DISTANCE2 * radius2), LIGHT_TREE_MIN_DISTANCE * LIGHT_TREE_MIN_DISTANCE);
+}
+
+VOXRAY_LIGHT_TREE_FUNCTION bool lightTreeIsNear(LightTreeBounds b, vec3 position) {
+    const vec3 toCenter = b.center - position;
+    return dot(toCenter, toCenter) < LIGHT_TREE_NEAR * dot(b.halfSize, b.halfSize);
 }
 
 VOXRAY_SHARED_END
