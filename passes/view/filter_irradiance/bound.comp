@@ -1,7 +1,7 @@
 // Bounds each element's irradiance by what the rays around it explain, and sums what exceeds the bound over tiles
 // (tiles.glsl), one work group each. A rare bright ray would otherwise be a spot as wide as the filter.
 //
-//     bound = mean · (1 + 2 σ max(1/√rays, 1/2))
+//     bound = mean · (1 + 3 σ max(1/√rays, 1/2))
 //
 // mean: of the rays of the surrounding blocks; σ: a ray's standard deviation over this mean (statistics.comp). With
 // many rays an element's deviation is a difference of light rather than noise, hence the 1/2.
@@ -13,7 +13,7 @@
 layout(local_size_x = TILE, local_size_y = TILE) in;
 
 #define LAYERS (SAMPLES > 1 ? 2 : 1)
-#define DEVIATIONS 2.0
+#define DEVIATIONS 3.0
 #define LEAST_DEVIATION 0.5  // Of an element, over that of a ray.
 
 uniform usampler2D surfaces;

@@ -71,7 +71,7 @@ class FilterIrradiance final : public Pass {
                               field("edge_stopping_scale", &Params::edgeStoppingScale,
                                     "Factor of the bound of the difference of irradiance between two texels. "
                                     "1: the whole bound, sharp and noisy; less: smoother, and shadows blur. "
-                                    "0: 0.1 for indirect light, most of whose changes cancel, with regression 0.02; "
+                                    "0: 0.1 for indirect light, most of whose changes cancel, with regression 0.05; "
                                     "1 for direct light, where the edge of a shadow is a single change.",
                                     0.0f, 100.0f)};
         }
@@ -97,7 +97,7 @@ class FilterIrradiance final : public Pass {
     uint32_t levels() const { return params_.levels > 0 ? params_.levels : hasRegression() ? 5 : WAVELET_LEVELS; }
     float edgeStoppingScale() const {
         if (params_.edgeStoppingScale > 0) return params_.edgeStoppingScale;
-        return isDirect() ? 1.0f : hasRegression() ? 0.02f : 0.1f;
+        return isDirect() ? 1.0f : hasRegression() ? 0.05f : 0.1f;
     }
 
     const Params params_;

@@ -22,21 +22,6 @@ layout(scalar) writeonly buffer BlockMeans { float data[]; } blockMeans;  // Lum
 #endif
 layout(push_constant) uniform Push { uvec2 blocks; } push;
 
-#ifdef REGRESSION
-// Part of the net change to expect, over edge_stopping_scale's of the bound, 0.5 / 0.02.
-#define NET_SCALE 25.0
-
-// What is left of the bound when changes cancel, as far as it exceeds its noise: |sum((L - M) / r)| / sum(L). By the
-// Cauchy-Schwarz inequality its variance is at least the square of sum((L - M)² / r) over sum((L - M)²), times 36 / 16
-// for the weights 1 2 1. deviation: the former sum.
-float netGradient(RayMoments sum, float mean, float deviation) {
-    const float net = sum.luminanceOverDistance - mean * sum.inverseDistance;
-    const float squares = max(sum.squared - mean * sum.luminance, 1e-30);
-    const float noise = 36.0 / 16.0 * deviation * deviation / squares;
-    return sqrt(max(net * net - noise, 0.0)) / sum.luminance;
-}
-#endif
-
 void main() {
     const ivec2 block = ivec2(gl_GlobalInvocationID.xy), last = ivec2(push.blocks) - 1;
     if (any(greaterThan(block, last))) return;
@@ -60,9 +45,6 @@ void main() {
         const float deviation =
             sum.squaredOverDistance - 2.0 * mean * sum.luminanceOverDistance + mean * mean * sum.inverseDistance;
         found.gradient = sqrt(max(deviation, 0.0) * sum.inverseDistance) / sum.luminance;
-#ifdef REGRESSION
-        found.gradient += NET_SCALE * netGradient(sum, mean, deviation);
-#endif
         found.variance = max(sum.squared / (sum.luminance * mean) - 1.0, 0.0);
     }
     const int i = block.y * int(push.blocks.x) + block.x;

@@ -32,8 +32,10 @@ layout(push_constant) uniform Push {
 
 #if defined(REGRESSION) && !defined(BOUNDED_GRADIENT)
 #define REMOVES_SLOPE
-// Part of the gradient in `light` that a slope is expected to have.
-#define EXPECTED_GRADIENT 0.4
+// Gradient to expect over its bound, along one direction: the bound adds up what mostly cancels.
+#define EXPECTED_GRADIENT 0.2
+// Sum of the squared weights of the whole kernel, 36 / 256.
+#define KERNEL_SQUARES 0.14
 #endif
 
 void main() {
@@ -50,6 +52,7 @@ void main() {
     const SurfaceLight centerLight = unpackLight(texelFetch(light, element, 0));
     const float centerNoise = centerLight.rayVariance / max(texelFetch(source, element, 0).w, 1e-3);
     Estimate sum = emptyEstimate();
+    float squaredWeights = 0.0;  // Over the taps' rays.
     for (int y = -1; y <= 1; ++y)
         for (int x = -1; x <= 1; ++x) {
             const ivec2 pixel = ivec2(element.x, element.y % pixels.y) + (ivec2(x, y) << push.level);
@@ -71,22 +74,26 @@ void main() {
                 const float noise = 0.5 * (centerNoise + neighborLight.rayVariance / value.w);
                 const float count = kernel(x, y) * (push.level == 0 ? value.w : area);
                 const float weight = count * (bias2 > 0.0 ? noise / (noise + bias2) : 1.0);
-                addTap(sum, weight, value, vec2(x, y), neighbor.position - center.position);
+                addTap(sum, weight, value.rgb, neighbor.position - center.position);
+                squaredWeights += weight * weight / value.w;
             }
         }
 
-    if (isEmpty(sum)) {
+    if (sum.weights == 0.0) {
         imageStore(result, element, vec4(0.0));
         return;
     }
 
-    vec4 value = meanOf(sum, overlap(push.level));
+    vec3 value = meanOf(sum);
 #ifdef REMOVES_SLOPE
     // From level 1 on remove the linear part of the bias, as far as noise allows; not at the edge of a shadow of a lamp
     // or of the sun, whose gradient is known: it is a step and no trend
-    if (push.level > 0)
-        value = valueAtCenter(sum, value, centerLight.rayVariance,
-                              EXPECTED_GRADIENT * centerLight.mean * centerLight.gradient);
+    const float expected = EXPECTED_GRADIENT * centerLight.mean * centerLight.gradient;
+    if (push.level > 0 && expected > 0.0)
+        value = valueAtCenter(sum, KERNEL_SQUARES * centerNoise / square(expected));
 #endif
-    imageStore(result, element, value);
+
+    // A weighted mean of independent values of value.w rays each has sum(weight² / value.w) / sum(weight)² of one ray's
+    // variance
+    imageStore(result, element, vec4(value, square(sum.weights) / (overlap(push.level) * squaredWeights)));
 }
