@@ -40,6 +40,7 @@ COLUMNS = (("looked up", "inject_radiosity", lambda name: False, LEFT_OUT),
            ("voxels, new geometry", "gather_rays", lambda name: True, LEFT_OUT),
            ("probes", "gather_probes", lambda name: False, LEFT_OUT),
            ("probes, new light", "gather_probes", lambda name: name in LIGHT, LEFT_OUT),
+           ("screen probes, new light", "screen_probes", lambda name: name in LIGHT, LEFT_OUT),
            ("virtual lights", "gather_vpls", lambda name: name in LIGHT, LEFT_OUT))
 
 

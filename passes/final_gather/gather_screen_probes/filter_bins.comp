@@ -21,7 +21,7 @@ void main() {
     if (i >= push.count * binCount) return;
     const ScreenProbe probe = probes.data[i / binCount];
     const vec3 n = fromOctahedral(probe.faceNormal);
-    const ivec2 texel = probeTexel(probe);
+    const ivec2 texel = unpackTexel(probe.texel);
     const float binWidth = sqrt(4.0 * PI / float(binCount));
     const vec4 own = bins.data[i];
     ivec2 first, last;
@@ -32,12 +32,13 @@ void main() {
         for (int x = first.x; x <= last.x; ++x) {
             const uint tile = uint(y) * push.tiles.tiles.x + uint(x);
             for (uint k = firstProbes.data[tile]; k < firstProbes.data[tile + 1u]; ++k) {
-                const ScreenProbe other = probes.data[k];
-                float weight = screenWeight(vec2(probeTexel(other) - texel), 2.0 * float(push.tiles.edge));
-                if (weight > 0.0) weight *= surfaceWeight(probe.position, n, other);
-                if (weight == 0.0) continue;
+                const vec2 away = vec2(unpackTexel(probes.data[k].texel) - texel);
+                float weight = screenWeight(away, 2.0 * float(push.tiles.edge));
+                if (weight <= 0.0) continue;
+                weight *= surfaceWeight(probe.position, n, probes.data[k]);
+                if (weight <= 0.0) continue;
                 const vec4 bin = bins.data[k * binCount + i % binCount];
-                const float parallax = distance(probe.position, other.position) * max(own.w, bin.w);
+                const float parallax = distance(probe.position, probes.data[k].position) * max(own.w, bin.w);
                 weight *= max(1.0 - parallax / binWidth, 0.0);
                 sum += weight * bin.rgb;
                 total += weight;

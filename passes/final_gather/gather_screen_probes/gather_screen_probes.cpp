@@ -72,6 +72,8 @@ class GatherScreenProbes final : public Pass {
     Defines historyDefine() const { return isGuided() ? Defines{{"HAS_HISTORY", "1"}} : Defines{}; }
     uint32_t batchProbes() const;
     void planBuffers(PassPlan& plan);
+    /// Makes the buffers whose size follows from the number of probes.
+    void makeRoom(Device& device);
     /// Traces and shades the rays of probes [first, first + count) and sums them by direction.
     ContinuedPaths::Counts gather(PassContext& context, const std::vector<Binding>& stored, uint32_t first,
                                   uint32_t count);
@@ -95,8 +97,12 @@ class GatherScreenProbes final : public Pass {
     ContinuedPaths paths_{*this, stored_.defines()};
     std::optional<IrradianceResolve> resolve_;  ///< Where `indirect` is read.
     Buffer rays_, hits_, weights_, light_;      ///< Of a batch.
-    std::array<Buffer, 2> bins_;                ///< Read and written in turn by the filter.
-    Buffer irradiance_, distribution_, importance_, counts_;
+    Buffer counts_;
+    // Of all probes, while the pass records
+    std::array<Buffer, 2> bins_;  ///< Read and written in turn by the filter.
+    Buffer irradiance_, distribution_;
+    // Of all probes
+    std::array<Buffer, 2> importance_;  ///< Of this frame, and of the previous one.
 };
 
 uint32_t GatherScreenProbes::batchProbes() const {
@@ -130,26 +136,34 @@ void GatherScreenProbes::planBuffers(PassPlan& plan) {
     plan.scratchBuffer(light_, "light of probe rays", uint64_t(rays) * sizeof(glm::vec4));
     paths_.plan(plan, params_, !stored_.holdsDirect(plan), rays);
 
-    const uint64_t allBins = uint64_t(probes_.capacity()) * bins();
-    plan.scratchBuffer(bins_[0], "light of probes by direction", allBins * sizeof(glm::vec4));
-    if (params_.filterPasses > 0) plan.scratchBuffer(bins_[1], "filtered light of probes", allBins * sizeof(glm::vec4));
-    plan.scratchBuffer(irradiance_, "irradiance of probes",
-                       uint64_t(probes_.capacity()) * sizeof(gpu::ProbeIrradiance));
     plan.scratchBuffer(counts_, "counts of texels", 2 * sizeof(uint32_t));
+    // What goes with the number of probes is made once that is known; about one probe a tile
+    const uint64_t binBytes =
+        (params_.filterPasses > 0 ? 2 : 1) * sizeof(glm::vec4) + (isGuided() ? 3 : 0) * sizeof(float);
+    plan.estimate(double(probes_.tileCount()) * double(bins() * binBytes + sizeof(gpu::ProbeIrradiance)));
+}
+
+void GatherScreenProbes::makeRoom(Device& device) {
+    const uint64_t probes = probes_.reservedCount(), allBins = probes * bins();
+    bins_[0] = Buffer(device, "light of probes by direction", allBins * sizeof(glm::vec4));
+    if (params_.filterPasses > 0) bins_[1] = Buffer(device, "filtered light of probes", allBins * sizeof(glm::vec4));
+    irradiance_ = Buffer(device, "irradiance of probes", probes * sizeof(gpu::ProbeIrradiance));
     if (!isGuided()) return;
-    plan.scratchBuffer(distribution_, "distributions of probe rays", allBins * sizeof(float));
-    plan.buffer(importance_, "importance of directions", allBins * sizeof(float));
+    distribution_ = Buffer(device, "distributions of probe rays", allBins * sizeof(float));
+    std::swap(importance_[0], importance_[1]);
+    growTo(device, importance_[0], "importance of directions", allBins * sizeof(float));
 }
 
 void GatherScreenProbes::record(PassContext& context) {
     const SurfaceMotion* motion = isGuided() ? &context[motion_] : nullptr;
     probes_.place(context, context[gbuffer_], motion);
+    makeRoom(context.device);
     if (motion)
         context.dispatch(guide_, probes_.count(),
                          {probes_,
                           {"motion", motion->motion},
                           {"previous", motion->previous},
-                          {"oldImportance", importance_},
+                          {"oldImportance", importance_[probes_.hasLast() ? 1 : 0]},
                           {"distribution", distribution_},
                           {"count", probes_.count()},
                           {"hasHistory", probes_.hasLast()}});
@@ -215,7 +229,7 @@ void GatherScreenProbes::filter(PassContext& context) {
                      {probes_,
                       {"bins", bins_[params_.filterPasses % 2]},
                       {"irradiance", irradiance_},
-                      ifUsed({"importance", importance_}),
+                      ifUsed({"importance", importance_[0]}),
                       {"count", probes_.count()}});
 }
 
@@ -231,6 +245,9 @@ void GatherScreenProbes::interpolate(PassContext& context) {
                       {"raysPerProbe", params_.raysPerProbe}});
     const std::vector<uint32_t> counts = context.stream.readAs<uint32_t>(counts_, 2);
     context.report("texels without a probe of their surface, %", counts[0] > 0 ? 100.0 * counts[1] / counts[0] : 0);
+    bins_ = {};
+    irradiance_ = {};
+    distribution_ = {};
     if (resolve_) resolve_->record(context, context[gbuffer_], noisy.irradiance, context[indirect_].image);
 }
 

@@ -61,7 +61,7 @@ void main() {
     const uint probeIndex = push.firstProbe + i / push.raysPerProbe, j = i % push.raysPerProbe;
     const ScreenProbe probe = probes.data[probeIndex];
     const vec3 n = fromOctahedral(probe.normal), faceNormal = fromOctahedral(probe.faceNormal);
-    const uvec2 tile = uvec2(probeTexel(probe)) / push.tiles.edge;
+    const uvec2 tile = uvec2(unpackTexel(probe.texel)) / push.tiles.edge;
     const uint seed = hashCombine(push.seed, probeIndex - firstProbes.data[tile.y * push.tiles.tiles.x + tile.x]);
 
     // Probes in Morton order take consecutive points of a sequence, as blocks of gather rays do

@@ -23,7 +23,7 @@ layout(push_constant, scalar) uniform Push {
 
 // The nearest probe on the surface that the texel showed.
 uint oldProbeOf(ScreenProbe probe) {
-    const ivec2 texel = probeTexel(probe);
+    const ivec2 texel = unpackTexel(probe.texel);
     const vec3 point = texelFetch(previous, texel, 0).xyz, n = fromOctahedral(probe.faceNormal);
     const vec2 place = vec2(texel) + texelFetch(motion, texel, 0).xy;
     if (any(lessThan(place, vec2(-0.5))) || any(greaterThanEqual(place, vec2(push.tiles.texels) - 0.5))) return NO_PROBE;
@@ -37,7 +37,7 @@ uint oldProbeOf(ScreenProbe probe) {
             for (uint k = oldFirstProbes.data[tile]; k < oldFirstProbes.data[tile + 1u]; ++k) {
                 const ScreenProbe old = oldProbes.data[k];
                 if (old.instance != probe.instance) continue;
-                const float weight = screenWeight(vec2(probeTexel(old)) - place, float(push.tiles.edge)) *
+                const float weight = screenWeight(vec2(unpackTexel(old.texel)) - place, float(push.tiles.edge)) *
                                      surfaceWeight(point, n, old);
                 if (weight > most) {
                     most = weight;

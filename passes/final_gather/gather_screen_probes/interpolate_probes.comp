@@ -18,9 +18,30 @@ layout(push_constant, scalar) uniform Push {
     uint raysPerProbe;
 } push;
 
-vec3 irradianceFor(vec3 m, ProbeIrradiance light, vec3 n) {
-    const vec3 tangential = vec3(dot(m, light.tangentialRed), dot(m, light.tangentialGreen), dot(m, light.tangentialBlue));
-    return max(dot(m, n) * light.irradiance + tangential, 0.0);
+// Irradiance for normal m by probe k.
+vec3 irradianceFor(vec3 m, uint k) {
+    const ProbeIrradiance light = irradiance.data[k];
+    const vec3 tangential =
+        vec3(dot(m, light.tangentialRed), dot(m, light.tangentialGreen), dot(m, light.tangentialBlue));
+    return max(dot(m, fromOctahedral(probes.data[k].normal)) * light.irradiance + tangential, 0.0);
+}
+
+// Of the probes of the tile and around it the one nearest in space, where those with another normal count as farther.
+uint nearestProbe(ivec2 first, ivec2 last, vec3 point, vec3 m) {
+    float least = 1.0e30;
+    uint nearest = 0u;
+    for (int y = first.y; y <= last.y; ++y)
+        for (int x = first.x; x <= last.x; ++x) {
+            const uint tile = uint(y) * push.tiles.tiles.x + uint(x);
+            for (uint k = firstProbes.data[tile]; k < firstProbes.data[tile + 1u]; ++k) {
+                const float off = distance(point, probes.data[k].position) *
+                                  (2.0 - dot(m, fromOctahedral(probes.data[k].normal)));
+                if (off >= least) continue;
+                least = off;
+                nearest = k;
+            }
+        }
+    return nearest;
 }
 
 void main() {
@@ -29,37 +50,31 @@ void main() {
     const vec4 p = texelFetch(position, texel, 0);
     imageStore(result, texel, vec4(0.0));
     if (p.w == 0.0) return;
-    const vec3 m = normalize(texelFetch(normal, texel, 0).xyz), n = normalize(texelFetch(geometricNormal, texel, 0).xyz);
+    const vec3 m = normalize(texelFetch(normal, texel, 0).xyz);
+    const vec3 faceNormal = normalize(texelFetch(geometricNormal, texel, 0).xyz);
 
     ivec2 first, last;
     tilesAround(push.tiles, texel / int(push.tiles.edge), first, last);
     vec3 sum = vec3(0.0);
-    float total = 0.0, squares = 0.0, leastOff = 1.0e30;
-    uint fallback = 0u;
+    float total = 0.0, squares = 0.0;
     for (int y = first.y; y <= last.y; ++y)
         for (int x = first.x; x <= last.x; ++x) {
             const uint tile = uint(y) * push.tiles.tiles.x + uint(x);
             for (uint k = firstProbes.data[tile]; k < firstProbes.data[tile + 1u]; ++k) {
-                const ScreenProbe probe = probes.data[k];
-                float weight = screenWeight(vec2(probeTexel(probe) - texel), float(push.tiles.edge));
-                if (weight > 0.0) weight *= surfaceWeight(p.xyz, n, probe);
-                if (weight > 0.0) {
-                    sum += weight * irradianceFor(m, irradiance.data[k], fromOctahedral(probe.normal));
-                    total += weight;
-                    squares += weight * weight;
-                }
-                // Without a probe on its surface a texel takes the one nearest in space among those with a like normal
-                const float off = distance(p.xyz, probe.position) * (2.0 - dot(m, fromOctahedral(probe.normal)));
-                if (off < leastOff) {
-                    leastOff = off;
-                    fallback = k;
-                }
+                float weight = screenWeight(vec2(unpackTexel(probes.data[k].texel) - texel), float(push.tiles.edge));
+                if (weight <= 0.0) continue;
+                weight *= surfaceWeight(p.xyz, faceNormal, probes.data[k]);
+                if (weight <= 0.0) continue;
+                sum += weight * irradianceFor(m, k);
+                total += weight;
+                squares += weight * weight;
             }
         }
+
     atomicAdd(counts.surfaces, 1u);
     if (total == 0.0) {
         atomicAdd(counts.uncovered, 1u);
-        sum = irradianceFor(m, irradiance.data[fallback], fromOctahedral(probes.data[fallback].normal));
+        sum = irradianceFor(m, nearestProbe(first, last, p.xyz, m));
         total = squares = 1.0;
     }
     // A mean with weights w of equal variance has the variance of (sum w)² / sum w² of them

@@ -66,7 +66,7 @@ bool isCovered(ivec2 texel, uvec2 tile, uint ownCount) {
             const uint count = isOwn ? ownCount : counts.data[other];
             for (uint k = 0u; k < count; ++k) {
                 const ScreenProbe probe = slots.data[other * push.slotsPerTile + k];
-                if (screenWeight(vec2(probeTexel(probe) - texel), float(push.tiles.edge)) > 0.0 &&
+                if (screenWeight(vec2(unpackTexel(probe.texel) - texel), float(push.tiles.edge)) > 0.0 &&
                     surfaceWeight(point, n, probe) > 0.0)
                     return true;
             }

@@ -1,5 +1,6 @@
 #include "passes/final_gather/gather_screen_probes/screen_probes.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "passes/common/compute/random_seed.h"
@@ -24,7 +25,6 @@ void ScreenProbes::plan(PassPlan& plan, uint32_t samples) {
     plan.scratchBuffer(counts_, "probes of tiles", starts);
     plan.scratchBuffer(extraCounts_, "probes of tiles with those added", starts);
     for (uint32_t frame = 0; frame < (settings_.keepsLast ? 2 : 1); ++frame) {
-        plan.buffer(probes_[frame], "screen probes", uint64_t(capacity()) * sizeof(gpu::ScreenProbe));
         plan.buffer(firstProbes_[frame], "first probes of tiles", starts);
     }
 }
@@ -53,6 +53,7 @@ void ScreenProbes::place(PassContext& context, const GBuffer& gbuffer, const Sur
     context.dispatch(place_, tileCount(), common);
     if (addsExtra) context.dispatch(placeExtra_, tileCount(), {common.all(), {"extraCounts", extraCounts_}});
     count_ = sum_.run(stream, counts, firstProbes_[current_], tileCount() + 1);
+    growTo(context.device, probes_[current_], "screen probes", uint64_t(reservedCount()) * sizeof(gpu::ScreenProbe));
     context.dispatch(list_, tileCount(),
                      {{"slots", slots_},
                       {"firstProbes", firstProbes_[current_]},
@@ -61,11 +62,16 @@ void ScreenProbes::place(PassContext& context, const GBuffer& gbuffer, const Sur
                       {"slotsPerTile", slotsPerTile()}});
 }
 
+uint32_t ScreenProbes::reservedCount() const {
+    const uint32_t step = std::max(tileCount() / 4, 1u);
+    return std::max((count_ + step - 1) / step, 1u) * step;
+}
+
 std::vector<Binding> ScreenProbes::bindings() const {
     std::vector<Binding> all{ifUsed({"probes", probes_[current_]}), ifUsed({"firstProbes", firstProbes_[current_]}),
                              ifUsed({"tiles", tiles_})};
     if (!settings_.keepsLast) return all;
-    all.push_back(ifUsed({"oldProbes", probes_[1 - current_]}));
+    all.push_back(ifUsed({"oldProbes", hasLast_ ? probes_[1 - current_] : probes_[current_]}));
     all.push_back(ifUsed({"oldFirstProbes", firstProbes_[1 - current_]}));
     return all;
 }

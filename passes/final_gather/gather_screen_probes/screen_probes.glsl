@@ -10,7 +10,7 @@
 #define MAX_PLANE_DISTANCE 0.25  // Widths of a tile.
 #define MIN_COSINE 0.9
 
-ivec2 probeTexel(ScreenProbe probe) { return ivec2(probe.texel & 0xffffu, probe.texel >> 16); }
+ivec2 unpackTexel(uint texel) { return ivec2(texel & 0xffffu, texel >> 16); }
 
 // 1 for a point on the probe's plane with its normal, 0 for one on another surface.
 float surfaceWeight(vec3 point, vec3 faceNormal, ScreenProbe probe) {

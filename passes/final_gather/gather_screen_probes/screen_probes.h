@@ -8,6 +8,11 @@
 
 namespace voxray {
 
+/// Makes a buffer anew where it is too small; its contents are lost. The device must not be using it.
+inline void growTo(Device& device, Buffer& buffer, const char* name, uint64_t bytes) {
+    if (buffer.bytes() < bytes) buffer = Buffer(device, name, bytes);
+}
+
 /// The probes of a frame and, where rays are guided, those of the frame before: places on what the camera sees, one
 /// in each tile of the G-buffer and some more where a tile shows several surfaces.
 class ScreenProbes {
@@ -27,6 +32,9 @@ class ScreenProbes {
     uint32_t tileCount() const { return tiles_.tiles.x * tiles_.tiles.y; }
     uint32_t capacity() const { return tileCount() * slotsPerTile(); }
     uint32_t count() const { return count_; }
+    /// Probes for which buffers that last are made: `count()` rounded up to quarters of the tiles, so that they seldom
+    /// have to grow.
+    uint32_t reservedCount() const;
     /// Whether there are probes of a previous frame.
     bool hasLast() const { return hasLast_; }
     /// `probes`, `firstProbes` and `tiles`, and of the previous frame `oldProbes` and `oldFirstProbes`.
