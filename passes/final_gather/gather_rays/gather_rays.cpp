@@ -8,8 +8,8 @@
 #include "passes/common/view/gather_hits.h"
 #include "passes/common/view/gather_light.h"
 #include "passes/common/view/gbuffer.h"
-#include "passes/final_gather/gather_rays/continued_paths.h"
-#include "passes/final_gather/gather_rays/stored_light.h"
+#include "passes/final_gather/stored_light/continued_paths.h"
+#include "passes/final_gather/stored_light/stored_light.h"
 
 namespace voxray {
 

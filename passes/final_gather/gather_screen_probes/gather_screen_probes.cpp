@@ -8,9 +8,9 @@
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/filter/irradiance_resolve.h"
 #include "passes/common/filter/noisy_irradiance.h"
-#include "passes/final_gather/gather_rays/continued_paths.h"
-#include "passes/final_gather/gather_rays/stored_light.h"
 #include "passes/final_gather/gather_screen_probes/screen_probes.h"
+#include "passes/final_gather/stored_light/continued_paths.h"
+#include "passes/final_gather/stored_light/stored_light.h"
 
 namespace voxray {
 namespace {

@@ -1,4 +1,4 @@
-#include "passes/final_gather/gather_rays/continued_paths.h"
+#include "passes/final_gather/stored_light/continued_paths.h"
 
 #include "passes/common/compute/random_seed.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "passes/final_gather/gather_rays/stored_light_params.h"
+#include "passes/final_gather/stored_light/stored_light_params.h"
 #include "passes/surfels/surfel_direct_light.h"
 
 namespace voxray {

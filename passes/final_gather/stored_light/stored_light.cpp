@@ -1,4 +1,4 @@
-#include "passes/final_gather/gather_rays/stored_light.h"
+#include "passes/final_gather/stored_light/stored_light.h"
 
 namespace voxray {
 

@@ -5,8 +5,8 @@
 
 #include "passes/cache/radiance_cache.h"
 #include "passes/common/voxels/face_irradiance.h"
-#include "passes/final_gather/gather_rays/stored_light_params.h"
 #include "passes/final_gather/merged_voxels/irradiance_tree.h"
+#include "passes/final_gather/stored_light/stored_light_params.h"
 
 namespace voxray {
 
