@@ -63,11 +63,12 @@ const ImageF& gathered(const std::string& scene, const std::string& parameters) 
 
 TEST(ScreenProbes, KeepTheEnergyOfAFurnace) {
     // After two bounces of stored light and that of the gather: 0.36 + 0.216 + 0.1296
-    for (const std::string probes : {", importance: 0, filter_passes: 0, extra_probes: 0", "", ", importance: 0.9"})
+    for (const std::string probes :
+         {", importance: 0, filter_passes: 0, extra_probes: 0", ", importance: 0", "", ", importance: 0.9"})
         for (const std::string shape : {"box", "sphere"}) {
             Chain chain("furnace", "{shape: " + shape + ", albedo: 0.6, emission: 1}", probeGraph(probes), kSize,
                         kSize);
-            const double ratio = mean(meanOfFrames(chain, 4)) / 0.7056;
+            const double ratio = mean(meanOfFrames(chain, 24)) / 0.7056;
             std::printf("%s, %s: %.4f of the closed form\n", probes.c_str(), shape.c_str(), ratio);
             EXPECT_NEAR(ratio, 1, 0.01) << probes << ", " << shape;
         }
@@ -91,38 +92,43 @@ TEST(ScreenProbes, ConvergeToGatherRaysAsTheyBecomeMore) {
         before = error;
     }
     EXPECT_NEAR(ratio, 1, 0.01);
-    EXPECT_LT(before, 0.001);
+    EXPECT_LT(before, 0.0015);
 }
 
 TEST(ScreenProbes, TheFilterLowersNoiseAndKeepsTheMean) {
     const ImageF& truth = gathered("cornell", "{lights: area}");
     double before = 1e9;
     for (const std::string passes : {"0", "1", "3"}) {
-        Chain chain("cornell", "{lights: area}", probeGraph(", spacing: 2, filter_passes: " + passes), kSize, kSize);
-        double error = 0;
-        for (uint32_t frame = 1; frame <= 4; ++frame) {
+        Chain chain("cornell", "{lights: area}",
+                    probeGraph(", spacing: 1, rays_per_probe: 16, filter_passes: " + passes, "2"), kSize, kSize);
+        double error = 0, ratio = 0;
+        for (uint32_t frame = 1; frame <= 8; ++frame) {
             chain.runFrame(frame);
-            error += squaredError(chain.image("indirect"), truth) / 4;
+            error += squaredError(chain.image("indirect"), truth) / 8;
+            ratio += mean(chain.image("indirect")) / mean(truth) / 8;
         }
-        const double ratio = mean(chain.image("indirect")) / mean(truth);
         std::printf("%s passes: squared nRMSE %.5f, mean ratio %.4f\n", passes.c_str(), error, ratio);
         EXPECT_LT(error, before);
-        EXPECT_NEAR(ratio, 1, 0.02);
+        EXPECT_NEAR(ratio, 1, 0.01);
         before = error;
     }
 }
 
 TEST(ScreenProbes, ImportanceLeavesTheMeanAndLowersNoise) {
-    // A lamp shines into a cone: most light comes from one place
+    // A lamp shines into a narrow cone, and light is reflected once: all comes from one place. A tile is a pixel, so
+    // that probes stand still.
     const auto run = [](const std::string& importance) {
-        Chain chain(roomWithSpot(20),
-                    probeGraph(", filter_passes: 0, spacing: 4, rays_per_probe: 32, importance: " + importance), kSize,
-                    kSize);
-        chain.runFrames(4);
+        Chain chain(roomWithSpot(10),
+                    graphYaml({"gbuffer, samples_per_pixel_edge: 1", "voxelize", "inject_light_rays, bounces: 0",
+                               "gather_screen_probes, near_field_cells: 0, filter_passes: 1, spacing: 1, "
+                               "rays_per_probe: 32, importance: " +
+                                   importance}),
+                    kSize, kSize);
+        chain.runFrames(8);
         std::vector<double> sums(kSize * kSize), squares(kSize * kSize);
         const uint32_t frames = 48;
         double total = 0;
-        for (uint32_t frame = 5; frame < 5 + frames; ++frame) {
+        for (uint32_t frame = 9; frame < 9 + frames; ++frame) {
             chain.runFrame(frame);
             const ImageF image = chain.image("indirect");
             for (size_t i = 0; i < sums.size(); ++i) {
@@ -167,7 +173,7 @@ TEST(ScreenProbes, AMovingCameraLeavesTheMeanAsItIs) {
         Chain chain("cornell", "{lights: area}", probeGraph(", importance: " + importance), kSize, kSize);
         const glm::vec3 start = chain.state().cameras.at(0).position;
         double sum = 0;
-        for (uint32_t frame = 1; frame <= 60; ++frame) {
+        for (uint32_t frame = 1; frame <= 240; ++frame) {
             chain.runFrameFrom(start + step * float((frame + 5) % 6), frame);
             if (frame % 6 == 0) sum += mean(chain.image("indirect"));
         }
@@ -192,10 +198,10 @@ TEST(ScreenProbes, AreLinearInLightAndDeterministic) {
 TEST(ScreenProbes, ReadARadianceCache) {
     // 1 W/sr in the center of a sphere of 1 m give 1 W/m², and each bounce reflects 0.6 of that to everywhere
     Chain chain(litSphere(),
-                graphYaml({"gbuffer", "update_radiance_cache, rays_per_image: 16384, bounces: 3",
-                           "gather_screen_probes, source: radiance_cache, near_field_cells: 0"}),
+                graphYaml({"gbuffer", "update_radiance_cache, rays_per_image: 65536, bounces: 3",
+                           "gather_screen_probes, source: radiance_cache"}),
                 kSize, kSize);
-    const double ratio = mean(meanOfFrames(chain, 2)) / (0.6 / kPi * (0.6 + 0.36 + 0.216 + 0.1296));
+    const double ratio = mean(meanOfFrames(chain, 16)) / (0.6 / kPi * (0.6 + 0.36 + 0.216 + 0.1296));
     std::printf("%.4f of the closed form\n", ratio);
     EXPECT_NEAR(ratio, 1, 0.01);
 }

@@ -91,6 +91,7 @@ class GatherScreenProbes final : public Pass {
     Kernel generateRays_{*this, "generate_probe_rays.comp", historyDefine()};
     Kernel shade_{*this, "shade_probe_rays.comp", stored_.defines()};
     Kernel binRays_{*this, "bin_rays.comp"};
+    Kernel sumNeighbors_{*this, "sum_neighbors.comp"};
     Kernel filterBins_{*this, "filter_bins.comp"};
     Kernel sumBins_{*this, "sum_bins.comp", historyDefine()};
     Kernel interpolate_{*this, "interpolate_probes.comp"};
@@ -100,7 +101,7 @@ class GatherScreenProbes final : public Pass {
     Buffer counts_;
     // Of all probes, while the pass records
     std::array<Buffer, 2> bins_;  ///< Read and written in turn by the filter.
-    Buffer irradiance_, distribution_;
+    Buffer weightSums_, irradiance_, distribution_;
     // Of all probes
     std::array<Buffer, 2> importance_;  ///< Of this frame, and of the previous one.
 };
@@ -123,6 +124,7 @@ void GatherScreenProbes::plan(PassPlan& plan) {
 
     guide_.compileIf(isGuided());
     filterBins_.compileIf(params_.filterPasses > 0);
+    sumNeighbors_.compileIf(params_.filterPasses > 0);
     for (Kernel* kernel : {&guide_, &generateRays_, &binRays_, &filterBins_, &sumBins_})
         kernel->specialize({{"kBinEdge", params_.directions}});
     shade_.define(paths_.defines());
@@ -146,12 +148,16 @@ void GatherScreenProbes::planBuffers(PassPlan& plan) {
 void GatherScreenProbes::makeRoom(Device& device) {
     const uint64_t probes = probes_.reservedCount(), allBins = probes * bins();
     bins_[0] = Buffer(device, "light of probes by direction", allBins * sizeof(glm::vec4));
-    if (params_.filterPasses > 0) bins_[1] = Buffer(device, "filtered light of probes", allBins * sizeof(glm::vec4));
+    if (params_.filterPasses > 0) {
+        bins_[1] = Buffer(device, "filtered light of probes", allBins * sizeof(glm::vec4));
+        weightSums_ = Buffer(device, "sums of filter weights", probes * sizeof(float));
+    }
     irradiance_ = Buffer(device, "irradiance of probes", probes * sizeof(gpu::ProbeIrradiance));
     if (!isGuided()) return;
-    distribution_ = Buffer(device, "distributions of probe rays", allBins * sizeof(float));
+    const uint64_t importanceBytes = probes * (bins() + 1) * sizeof(float);
+    distribution_ = Buffer(device, "distributions of probe rays", importanceBytes);
     std::swap(importance_[0], importance_[1]);
-    growTo(device, importance_[0], "importance of directions", allBins * sizeof(float));
+    growTo(device, importance_[0], "importance of directions", importanceBytes);
 }
 
 void GatherScreenProbes::record(PassContext& context) {
@@ -221,14 +227,21 @@ ContinuedPaths::Counts GatherScreenProbes::gather(PassContext& context, const st
 }
 
 void GatherScreenProbes::filter(PassContext& context) {
+    if (params_.filterPasses > 0)
+        context.dispatch(sumNeighbors_, probes_.count(),
+                         {probes_, {"weightSums", weightSums_}, {"count", probes_.count()}});
     for (uint32_t pass = 0; pass < params_.filterPasses; ++pass)
-        context.dispatch(
-            filterBins_, uint64_t(probes_.count()) * bins(),
-            {probes_, {"bins", bins_[pass % 2]}, {"filtered", bins_[1 - pass % 2]}, {"count", probes_.count()}});
+        context.dispatch(filterBins_, uint64_t(probes_.count()) * bins(),
+                         {probes_,
+                          {"weightSums", weightSums_},
+                          {"bins", bins_[pass % 2]},
+                          {"filtered", bins_[1 - pass % 2]},
+                          {"count", probes_.count()}});
     context.dispatch(sumBins_, probes_.count(),
                      {probes_,
                       {"bins", bins_[params_.filterPasses % 2]},
                       {"irradiance", irradiance_},
+                      ifUsed({"distribution", distribution_}),
                       ifUsed({"importance", importance_[0]}),
                       {"count", probes_.count()}});
 }
@@ -246,6 +259,7 @@ void GatherScreenProbes::interpolate(PassContext& context) {
     const std::vector<uint32_t> counts = context.stream.readAs<uint32_t>(counts_, 2);
     context.report("texels without a probe of their surface, %", counts[0] > 0 ? 100.0 * counts[1] / counts[0] : 0);
     bins_ = {};
+    weightSums_ = {};
     irradiance_ = {};
     distribution_ = {};
     if (resolve_) resolve_->record(context, context[gbuffer_], noisy.irradiance, context[indirect_].image);

@@ -67,7 +67,7 @@ void main() {
     // Probes in Morton order take consecutive points of a sequence, as blocks of gather rays do
     uint guided = 0u;
 #ifdef HAS_HISTORY
-    const uint firstBin = probeIndex * kBinEdge * kBinEdge;
+    const uint firstBin = probeIndex * (kBinEdge * kBinEdge + 1u);
     if (distribution.data[firstBin + kBinEdge * kBinEdge - 1u] > 0.0) guided = push.guidedRays;
 #endif
     const uint byCosine = push.raysPerProbe - guided;

@@ -1,5 +1,5 @@
 // For each probe the cumulative distribution of the bins in which the previous frame's probe of the same surface point
-// received light, after the filter: by luminance of irradiance. All 0 where there was no such probe, or no light.
+// received light, and over how many frames. All 0 where there was no such probe, or no light.
 #include "passes/final_gather/gather_screen_probes/screen_probes.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
@@ -11,6 +11,7 @@ uniform sampler2D previous;
 layout(scalar) readonly buffer Probes { ScreenProbe data[]; } probes;
 layout(scalar) readonly buffer OldProbes { ScreenProbe data[]; } oldProbes;
 readonly buffer OldFirstProbes { uint data[]; } oldFirstProbes;
+// For each probe its bins, and then the number of frames.
 layout(scalar) readonly buffer OldImportance { float data[]; } oldImportance;
 layout(scalar) writeonly buffer Distribution { float data[]; } distribution;
 layout(push_constant, scalar) uniform Push {
@@ -38,7 +39,7 @@ uint oldProbeOf(ScreenProbe probe) {
                 const ScreenProbe old = oldProbes.data[k];
                 if (old.instance != probe.instance) continue;
                 const float weight = screenWeight(vec2(unpackTexel(old.texel)) - place, float(push.tiles.edge)) *
-                                     surfaceWeight(point, n, old);
+                                     surfaceWeight(point, n, old, old.width);
                 if (weight > most) {
                     most = weight;
                     best = k;
@@ -52,12 +53,14 @@ void main() {
     const uint i = linearIndex(), bins = kBinEdge * kBinEdge;
     if (i >= push.count) return;
     const uint old = push.hasHistory != 0u ? oldProbeOf(probes.data[i]) : NO_PROBE;
+    const uint from = old * (bins + 1u), to = i * (bins + 1u);
     float total = 0.0;
     if (old != NO_PROBE)
-        for (uint b = 0u; b < bins; ++b) total += oldImportance.data[old * bins + b];
+        for (uint b = 0u; b < bins; ++b) total += oldImportance.data[from + b];
     float sum = 0.0;
     for (uint b = 0u; b < bins; ++b) {
-        if (total > 0.0) sum += oldImportance.data[old * bins + b];
-        distribution.data[i * bins + b] = total > 0.0 ? (b + 1u == bins ? 1.0 : min(sum / total, 1.0)) : 0.0;
+        if (total > 0.0) sum += oldImportance.data[from + b];
+        distribution.data[to + b] = total > 0.0 ? (b + 1u == bins ? 1.0 : min(sum / total, 1.0)) : 0.0;
     }
+    distribution.data[to + bins] = total > 0.0 ? oldImportance.data[from + bins] : 0.0;
 }

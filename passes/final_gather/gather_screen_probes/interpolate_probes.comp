@@ -23,7 +23,7 @@ vec3 irradianceFor(vec3 m, uint k) {
     const ProbeIrradiance light = irradiance.data[k];
     const vec3 tangential =
         vec3(dot(m, light.tangentialRed), dot(m, light.tangentialGreen), dot(m, light.tangentialBlue));
-    return max(dot(m, fromOctahedral(probes.data[k].normal)) * light.irradiance + tangential, 0.0);
+    return max(light.irradiance + tangential, 0.0);
 }
 
 // Of the probes of the tile and around it the one nearest in space, where those with another normal count as farther.
@@ -63,7 +63,7 @@ void main() {
             for (uint k = firstProbes.data[tile]; k < firstProbes.data[tile + 1u]; ++k) {
                 float weight = screenWeight(vec2(unpackTexel(probes.data[k].texel) - texel), float(push.tiles.edge));
                 if (weight <= 0.0) continue;
-                weight *= surfaceWeight(p.xyz, faceNormal, probes.data[k]);
+                weight *= surfaceWeight(p.xyz, faceNormal, probes.data[k], probes.data[k].width);
                 if (weight <= 0.0) continue;
                 sum += weight * irradianceFor(m, k);
                 total += weight;

@@ -67,7 +67,7 @@ bool isCovered(ivec2 texel, uvec2 tile, uint ownCount) {
             for (uint k = 0u; k < count; ++k) {
                 const ScreenProbe probe = slots.data[other * push.slotsPerTile + k];
                 if (screenWeight(vec2(unpackTexel(probe.texel) - texel), float(push.tiles.edge)) > 0.0 &&
-                    surfaceWeight(point, n, probe) > 0.0)
+                    surfaceWeight(point, n, probe, probe.width) > 0.0)
                     return true;
             }
         }

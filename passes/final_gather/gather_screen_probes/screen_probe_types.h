@@ -24,8 +24,7 @@ struct ProbeTiles {
     uint edge;     // Texels along a tile's edge.
 };
 
-// What a probe receives, for surfaces with about its normal n: irradiance (n·m) irradiance + m·tangential for the
-// normal m, by channel, W/m².
+// What a probe receives, W/m². For a normal m that is about its own irradiance + m·tangential, by channel.
 struct ProbeIrradiance {
     vec3 irradiance;
     vec3 tangentialRed;

@@ -12,18 +12,28 @@
 
 ivec2 unpackTexel(uint texel) { return ivec2(texel & 0xffffu, texel >> 16); }
 
-// 1 for a point on the probe's plane with its normal, 0 for one on another surface.
-float surfaceWeight(vec3 point, vec3 faceNormal, ScreenProbe probe) {
+// 1 for a point on the probe's plane with its normal, 0 for one on another surface. `width`: of a tile, m.
+float surfaceWeight(vec3 point, vec3 faceNormal, ScreenProbe probe, float width) {
     const vec3 segment = probe.position - point, other = fromOctahedral(probe.faceNormal);
-    const float off = max(abs(dot(segment, faceNormal)), abs(dot(segment, other))) / (MAX_PLANE_DISTANCE * probe.width);
+    const float off = max(abs(dot(segment, faceNormal)), abs(dot(segment, other))) / (MAX_PLANE_DISTANCE * width);
     const float plane = max(1.0 - off * off, 0.0);
     return plane * clamp((dot(faceNormal, other) - MIN_COSINE) / (1.0 - MIN_COSINE), 0.0, 1.0);
+}
+
+// The same of two probes, which of them is first does not matter.
+float sharedSurface(ScreenProbe a, ScreenProbe b) {
+    return surfaceWeight(a.position, fromOctahedral(a.faceNormal), b, min(a.width, b.width));
 }
 
 // A tent of one tile's width to each side: between probes on a regular grid it interpolates bilinearly.
 float screenWeight(vec2 offsetTexels, float edge) {
     const vec2 tent = max(1.0 - abs(offsetTexels) / edge, 0.0);
     return tent.x * tent.y;
+}
+
+// The tent of the filter over probes, of twice that width.
+float neighborWeight(ScreenProbe probe, uint otherTexel, uint edge) {
+    return screenWeight(vec2(unpackTexel(otherTexel) - unpackTexel(probe.texel)), 2.0 * float(edge));
 }
 
 // The 3 x 3 tiles around one, clipped at the image's border.
