@@ -178,6 +178,17 @@ TEST(ScreenProbes, ExtraProbesStandWhereDepthBreaks) {
     EXPECT_LT(errorWith, 0.8 * errorWithout);
 }
 
+TEST(ScreenProbes, LeaveASealedRoomBlack) {
+    // Its floor and ceiling run on outside into the sun
+    for (const auto& [light, source] : {std::pair("voxelize", "voxels"), std::pair("", "radiance_cache")}) {
+        Chain chain("shell_room", "{}",
+                    graphYaml({"gbuffer", light, *light ? "inject_light_rays" : "update_radiance_cache",
+                               std::string("gather_screen_probes, spacing: 4, source: ") + source}),
+                    kSize, kSize);
+        EXPECT_EQ(mean(meanOfFrames(chain, 3)), 0.0) << source;
+    }
+}
+
 TEST(ScreenProbes, AMovingCameraLeavesTheMeanAsItIs) {
     const glm::vec3 step(0.05f, 0.03f, -0.04f);
     const auto run = [&](const std::string& importance) {
