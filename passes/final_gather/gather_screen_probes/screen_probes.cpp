@@ -35,8 +35,8 @@ void ScreenProbes::place(PassContext& context, const GBuffer& gbuffer, const Sur
     CommandStream& stream = context.stream;
     const Frame& frame = context.frame;
     const float pixel = 2 * std::tan(0.5f * frame.camera.verticalFovRadians) / float(frame.height);
-    std::vector<Binding> history;
-    if (motion) history.push_back({"previous", motion->previous});
+    const std::vector<Binding> history =
+        motion ? std::vector<Binding>{{"previous", motion->previous}} : std::vector<Binding>{};
     const Bindings common{gbuffer,
                           history,
                           {"slots", slots_},
