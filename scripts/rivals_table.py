@@ -25,7 +25,7 @@ from report.rows import markdown_table, read_rows  # noqa: E402
 
 LEFT_OUT = {"direct", "composite"}
 SHARED = {"gbuffer", "indirect"}  # In variants with gather rays and with paths 'indirect' is the filter.
-LIGHT = {"inject", "few_rays", "inject_radiosity", "smooth_surfels", "update_radiance_cache", "update_probes", "sample_vpls", "select_vpls"}
+LIGHT = {"inject", "few_rays", "inject_radiosity", "smooth_surfels", "update_radiance_cache", "update_probes", "screen_probe_light", "sample_vpls", "select_vpls"}
 ERRORS = ("indirect_nrmse", "indirect_relmse")
 
 # Of each column: its title, the id of a pass that its methods have, whether a build pass counts, and what does not count.
@@ -40,6 +40,7 @@ COLUMNS = (("looked up", "inject_radiosity", lambda name: False, LEFT_OUT),
            ("voxels, new geometry", "gather_rays", lambda name: True, LEFT_OUT),
            ("probes", "update_probes", lambda name: False, LEFT_OUT),
            ("probes, new light", "update_probes", lambda name: name in LIGHT, LEFT_OUT),
+           ("screen probes, new light", "screen_probe_light", lambda name: name in LIGHT, LEFT_OUT),
            ("virtual lights", "gather_vpls", lambda name: name in LIGHT, LEFT_OUT))
 
 

@@ -1,6 +1,4 @@
-#include <array>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -10,18 +8,10 @@
 #include "passes/common/view/gather_hits.h"
 #include "passes/common/view/gather_light.h"
 #include "passes/common/view/gbuffer.h"
-#include "passes/final_gather/gather_rays/continued_paths.h"
-#include "passes/final_gather/gather_rays/stored_light.h"
+#include "passes/final_gather/stored_light/continued_paths.h"
+#include "passes/final_gather/stored_light/stored_light.h"
 
 namespace voxray {
-
-enum class DirectAtHits { Voxels, ShadowRays };
-
-template <>
-struct EnumNames<DirectAtHits> {
-    static constexpr std::array names{std::pair{DirectAtHits::Voxels, "voxels"},
-                                      std::pair{DirectAtHits::ShadowRays, "shadow_rays"}};
-};
 
 /// Indirect light by a final gather: the hits of gather rays are shaded by stored light. Source: Magalhães
 /// 2020 (hybrid of rays and voxels); NVIDIA's SHaRC (lookups in the cache). filter_irradiance lowers its
@@ -38,56 +28,19 @@ class GatherRays final : public Pass {
         "with `direct_at_hits: shadow_rays` of indirect light only) and merge_voxels' tolerance. "
         "Noisy by: rays_per_block, which filter_irradiance lowers; few samples in a cell of the cache. "
         "Lambert surfaces only. Reports how many hits find no light.";
-    struct Params {
-        GatherSource source = GatherSource::Voxels;
-        DirectAtHits directAtHits = DirectAtHits::Voxels;
-        uint32_t lightSamples = 1;
-        float nearFieldCells = 2;
-        uint32_t minSamples = 1;
-        static constexpr auto schema() {
-            return std::tuple{
-                field("source", &Params::source,
-                      "Storage of light. voxels: faces of surface voxels, filled by any injection. merged_voxels: "
-                      "the trees of merge_voxels. radiance_cache: the hashed cells of update_radiance_cache."),
-                field("direct_at_hits", &Params::directAtHits,
-                      "Direct light at the hits. voxels: from voxels, as coarse as they are. shadow_rays: "
-                      "exact, by a shadow ray from each hit to each light; only indirect light is read from voxels.")
-                    .onlyWith(oneOf(&Params::source, {GatherSource::Voxels})),
-                field("light_samples", &Params::lightSamples,
-                      "Shadow rays to the emissive surfaces, and to the environment, "
-                      "from each hit where direct light is measured.",
-                      1u, 256u)
-                    .onlyWith(oneOf(&Params::directAtHits, {DirectAtHits::ShadowRays}),
-                              noneOf(&Params::nearFieldCells, {0.0f}),
-                              oneOf(&Params::source, {GatherSource::MergedVoxels})),
-                field("near_field_cells", &Params::nearFieldCells,
-                      "Paths continue from hits closer than this, in voxels or cells of the cache, "
-                      "and from hits where no light is stored: up to three times, with a radiance cache up to seven. "
-                      "0: every hit reads stored light, and is black where there is none.",
-                      0.0f, 64.0f),
-                field("min_samples", &Params::minSamples,
-                      "Samples that a cell needs for paths to end there; "
-                      "with a near_field_cells of 0 cells with fewer are read, too.",
-                      1u, 65536u)
-                    .onlyWith(oneOf(&Params::source, {GatherSource::RadianceCache}))};
-        }
-    };
+    using Params = StoredLightParams;
 
     explicit GatherRays(const Params& params) : params_(params) {}
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
 
  private:
-    /// Continuation rays of a path. Where the cache has no cells paths have eight bounces.
-    static constexpr uint32_t kMaxSteps = 3, kMaxCacheSteps = 7;
-
-    bool readsCache() const { return params_.source == GatherSource::RadianceCache; }
     /// Shades a batch of hits and sums over the rays of each texel and of each block.
     ContinuedPaths::Counts gather(PassContext& context, const std::vector<Binding>& stored, uint32_t batch);
     void planLight(PassPlan& plan, uint32_t raysPerBatch);
 
     const Params params_;
-    StoredLight stored_{*this, params_.source, params_.directAtHits == DirectAtHits::Voxels, params_.minSamples};
+    StoredLight stored_{*this, params_};
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     In<GatherHits> hits_{*this, "gather_hits", "where the gather rays hit"};
     Out<NoisyIrradiance> noisy_{*this, "noisy_irradiance", "irradiance from few rays a texel"};
@@ -125,12 +78,7 @@ void GatherRays::plan(PassPlan& plan) {
 
     const uint32_t rays = hits.blocksPerBatch * hits.layout.raysPerBlock;
     planLight(plan, rays);
-    paths_.plan(plan,
-                {.measureDirect = !stored_.holdsDirect(plan),
-                 .lightSamples = params_.lightSamples,
-                 .nearField = params_.nearFieldCells,
-                 .maxSteps = readsCache() ? kMaxCacheSteps : kMaxSteps},
-                rays);
+    paths_.plan(plan, params_, !stored_.holdsDirect(plan), rays);
     Defines defines = paths_.defines();
     if (plan[rayLight_].isRead) defines.emplace("NEAR_DISTANCES", "1");
     shadeHits_.define(defines);
@@ -162,8 +110,7 @@ void GatherRays::record(PassContext& context) {
         traced += double(counts.rays);
         unlit += double(counts.unlit);
     }
-    context.report(readsCache() ? "hits without a cell, % of rays" : "hits on unlit faces, % of rays",
-                   traced > 0 ? 100 * unlit / traced : 0);
+    context.report(stored_.unlitName(), traced > 0 ? 100 * unlit / traced : 0);
     if (resolve_) resolve_->record(context, context[gbuffer_], context[noisy_].irradiance, context[indirect_].image);
 }
 

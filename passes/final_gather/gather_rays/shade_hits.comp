@@ -1,6 +1,6 @@
 // Shades the hit of each gather ray with stored light: radiance times pi. Rays that miss get none, as the environment
 // is direct light. With SHADOW_RAYS only indirect light is stored, and shadow rays measure direct light at each hit.
-#include "passes/final_gather/gather_rays/shade_hit.glsl"
+#include "passes/final_gather/stored_light/shade_hit.glsl"
 #include "shaders/view/gather_layout.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;

@@ -1,4 +1,4 @@
-#include "passes/final_gather/gather_rays/continued_paths.h"
+#include "passes/final_gather/stored_light/continued_paths.h"
 
 #include "passes/common/compute/random_seed.h"
 
@@ -17,8 +17,9 @@ ContinuedPaths::ContinuedPaths(ProgramOwner& owner, const Defines& stored)
       reflect_(owner, "passes/surfels/reflect_at_hits.comp"),
       continue_(owner, "continue_paths.comp", stored) {}
 
-void ContinuedPaths::plan(PassPlan& plan, const Settings& settings, uint32_t rays) {
-    settings_ = settings;
+void ContinuedPaths::plan(PassPlan& plan, const StoredLightParams& params, bool measureDirect, uint32_t rays) {
+    params_ = params;
+    measureDirect_ = measureDirect;
     continue_.define(defines());
     reflect_.compileIf(isUsed());
     continue_.compileIf(isUsed());
@@ -35,7 +36,7 @@ void ContinuedPaths::plan(PassPlan& plan, const Settings& settings, uint32_t ray
 }
 
 Defines ContinuedPaths::defines() const {
-    return settings_.measureDirect ? Defines{{"SHADOW_RAYS", "1"}} : Defines{};
+    return measureDirect_ ? Defines{{"SHADOW_RAYS", "1"}} : Defines{};
 }
 
 std::vector<Binding> ContinuedPaths::clearHits(CommandStream& stream) const {
@@ -47,7 +48,7 @@ ContinuedPaths::Counts ContinuedPaths::trace(PassContext& context, const std::ve
                                              const Buffer& light) const {
     CommandStream& stream = context.stream;
     Counts total;
-    for (uint32_t step = 0; step <= settings_.maxSteps; ++step) {
+    for (uint32_t step = 0; step <= maxSteps(); ++step) {
         const HitCounts hits = stream.readAs<HitCounts>(counts_, 1)[0];
         total.unlit += hits.unlit;
         if (hits.surfels == 0) break;
@@ -55,7 +56,7 @@ ContinuedPaths::Counts ContinuedPaths::trace(PassContext& context, const std::ve
         // Measure direct light at the surfels, and generate continuation rays
         const Buffer &from = surfels_[step % 2], &to = surfels_[(step + 1) % 2];
         const uint32_t seed = randomSeed(context.frame, context.frameIndex) + 0x51u + step * 0x9e3779b9u;
-        hitLight_->measure(context, sources_, from, hits.surfels, settings_.lightSamples, seed, direct_);
+        hitLight_->measure(context, sources_, from, hits.surfels, params_.lightSamples, seed, direct_);
         context.dispatch(reflect_, hits.surfels,
                          {context.scene,
                           {"surfels", from},
@@ -65,13 +66,13 @@ ContinuedPaths::Counts ContinuedPaths::trace(PassContext& context, const std::ve
                           {"rays", rays_},
                           {"count", hits.surfels},
                           {"seed", seed + 0xa3u}});
-        if (settings_.nearField == 0 || step == settings_.maxSteps) break;
+        if (params_.nearFieldCells == 0 || step == maxSteps()) break;
 
         // Trace these rays and shade their hits
         context.tracer.closestHit(stream, rays_, hits_, hits.surfels);
         total.rays += hits.surfels;
         stream.fill(counts_, 0);
-        const bool isLast = step + 1 == settings_.maxSteps;
+        const bool isLast = step + 1 == maxSteps();
         context.dispatch(continue_, hits.surfels,
                          {context.scene,
                           stored,
@@ -83,7 +84,7 @@ ContinuedPaths::Counts ContinuedPaths::trace(PassContext& context, const std::ve
                           {"continuations", continuations_},
                           {"counts", counts_},
                           {"rays", hits.surfels},
-                          {"nearField", isLast ? 0.0f : settings_.nearField}});
+                          {"nearField", isLast ? 0.0f : params_.nearFieldCells}});
     }
     return total;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "passes/final_gather/stored_light/stored_light_params.h"
 #include "passes/surfels/surfel_direct_light.h"
 
 namespace voxray {
@@ -13,12 +14,6 @@ namespace voxray {
 /// indirect light, whose hit is shaded in the same way.
 class ContinuedPaths {
  public:
-    struct Settings {
-        bool measureDirect = false;  ///< At every hit, as stored light is only indirect.
-        uint32_t lightSamples = 1;   ///< Shadow rays to emissive surfaces, and to the environment.
-        float nearField = 0;         ///< Cells: paths continue from hits closer than this; 0: none does.
-        uint32_t maxSteps = 3;       ///< Maximum continuation rays of a path.
-    };
     struct Counts {
         uint64_t rays = 0;   ///< Continuation rays.
         uint64_t unlit = 0;  ///< Hits beyond the near field where no light is stored.
@@ -27,8 +22,9 @@ class ContinuedPaths {
     /// @param stored definitions of stored light.
     ContinuedPaths(ProgramOwner& owner, const Defines& stored);
 
-    /// @param rays maximum number of gather rays in a batch.
-    void plan(PassPlan& plan, const Settings& settings, uint32_t rays);
+    /// @param measureDirect at every hit, as stored light is only indirect. @param rays maximum number of gather
+    /// rays in a batch.
+    void plan(PassPlan& plan, const StoredLightParams& params, bool measureDirect, uint32_t rays);
     /// Further definitions of shaders that include shade_hit.glsl.
     Defines defines() const;
     /// Empties the list of hits. @return bindings of shaders that append to it.
@@ -38,10 +34,13 @@ class ContinuedPaths {
     Counts trace(PassContext& context, const std::vector<Binding>& stored, const Buffer& light) const;
 
  private:
-    bool isUsed() const { return settings_.measureDirect || settings_.nearField > 0; }
+    bool isUsed() const { return measureDirect_ || params_.nearFieldCells > 0; }
+    /// Maximum continuation rays of a path. Where the cache has no cells paths have eight bounces.
+    uint32_t maxSteps() const { return params_.source == GatherSource::RadianceCache ? 7 : 3; }
 
     ProgramOwner& owner_;
-    Settings settings_;
+    StoredLightParams params_;
+    bool measureDirect_ = false;
     Kernel reflect_, continue_;
     std::vector<LightSource> sources_;
     std::optional<SurfelDirectLight> hitLight_;

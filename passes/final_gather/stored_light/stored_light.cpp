@@ -1,17 +1,17 @@
-#include "passes/final_gather/gather_rays/stored_light.h"
+#include "passes/final_gather/stored_light/stored_light.h"
 
 namespace voxray {
 
-StoredLight::StoredLight(Pass& pass, GatherSource source, bool readsVoxelDirect, uint32_t minSamples)
-    : source_(source),
-      readsVoxelDirect_(readsVoxelDirect),
-      minSamples_(minSamples),
-      voxels_(pass, "voxels", "surface voxels", source == GatherSource::Voxels),
-      irradiance_(pass, "irradiance", "light that arrives at the voxels' surfaces", source == GatherSource::Voxels),
-      tree_(pass, "irradiance_tree", "light of merged voxels", source == GatherSource::MergedVoxels),
+StoredLight::StoredLight(Pass& pass, const StoredLightParams& params)
+    : source_(params.source),
+      readsVoxelDirect_(params.directAtHits == DirectAtHits::Voxels),
+      minSamples_(params.minSamples),
+      voxels_(pass, "voxels", "surface voxels", source_ == GatherSource::Voxels),
+      irradiance_(pass, "irradiance", "light that arrives at the voxels' surfaces", source_ == GatherSource::Voxels),
+      tree_(pass, "irradiance_tree", "light of merged voxels", source_ == GatherSource::MergedVoxels),
       cache_(pass, "radiance_cache", "light that arrives at surfaces, by hashed cells",
-             source == GatherSource::RadianceCache) {
-    if (source == GatherSource::Voxels) faces_.emplace(pass);
+             source_ == GatherSource::RadianceCache) {
+    if (source_ == GatherSource::Voxels) faces_.emplace(pass);
 }
 
 bool StoredLight::holdsDirect(const PassPlan& plan) const {
@@ -30,6 +30,10 @@ Defines StoredLight::defines() const {
     if (source_ == GatherSource::RadianceCache)
         return {{"STORED_IN_RADIANCE_CACHE", "1"}, {"MIN_SAMPLES", std::to_string(minSamples_)}};
     return {{"STORED_IN_VOXELS", "1"}};
+}
+
+const char* StoredLight::unlitName() const {
+    return source_ == GatherSource::RadianceCache ? "hits without a cell, % of rays" : "hits on unlit faces, % of rays";
 }
 
 std::vector<Binding> StoredLight::update(PassContext& context) {

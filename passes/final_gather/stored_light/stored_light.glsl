@@ -1,4 +1,4 @@
-// Lookups of stored irradiance, in one of three storages. Host: passes/final_gather/gather_rays/stored_light.h.
+// Lookups of stored irradiance, in one of three storages. Host: passes/final_gather/stored_light/stored_light.h.
 #ifndef VOXRAY_STORED_LIGHT_GLSL
 #define VOXRAY_STORED_LIGHT_GLSL
 

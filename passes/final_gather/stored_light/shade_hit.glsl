@@ -2,7 +2,7 @@
 #ifndef VOXRAY_SHADE_HIT_GLSL
 #define VOXRAY_SHADE_HIT_GLSL
 
-#include "passes/final_gather/gather_rays/stored_light.glsl"
+#include "passes/final_gather/stored_light/stored_light.glsl"
 #include "passes/surfels/surfel_at_hit.glsl"
 #include "shaders/scene/octahedral.glsl"
 

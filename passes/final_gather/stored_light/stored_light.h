@@ -1,31 +1,19 @@
 #pragma once
 
-#include <array>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "passes/cache/radiance_cache.h"
 #include "passes/common/voxels/face_irradiance.h"
 #include "passes/final_gather/merged_voxels/irradiance_tree.h"
+#include "passes/final_gather/stored_light/stored_light_params.h"
 
 namespace voxray {
-
-/// Storage from which a final gather reads light.
-enum class GatherSource { Voxels, MergedVoxels, RadianceCache };
-template <>
-struct EnumNames<GatherSource> {
-    static constexpr std::array names{std::pair{GatherSource::Voxels, "voxels"},
-                                      std::pair{GatherSource::MergedVoxels, "merged_voxels"},
-                                      std::pair{GatherSource::RadianceCache, "radiance_cache"}};
-};
 
 /// Stored light at the hits of gather rays: its ports, and the definitions and bindings of its shaders.
 class StoredLight {
  public:
-    /// @param readsVoxelDirect whether direct light is read from voxels, too. @param minSamples samples that
-    /// a cell of the cache needs.
-    StoredLight(Pass& pass, GatherSource source, bool readsVoxelDirect, uint32_t minSamples);
+    StoredLight(Pass& pass, const StoredLightParams& params);
 
     /// Whether direct light is stored, too.
     bool holdsDirect(const PassPlan& plan) const;
@@ -33,12 +21,14 @@ class StoredLight {
     std::optional<uint32_t> bounces(const PassPlan& plan) const;
     /// Of shaders that include stored_light.glsl.
     Defines defines() const;
+    /// What a report calls the hits beyond the near field where no light is stored.
+    const char* unlitName() const;
     /// Brings the light up to date. @return its bindings.
     std::vector<Binding> update(PassContext& context);
 
  private:
     const GatherSource source_;
-    const bool readsVoxelDirect_;
+    const bool readsVoxelDirect_;  ///< Whether direct light is read from voxels, too.
     const uint32_t minSamples_;
     In<VoxelLevels> voxels_;
     In<VoxelIrradiance> irradiance_;

@@ -1,5 +1,5 @@
 // Shades the hits of continuation rays.
-#include "passes/final_gather/gather_rays/shade_hit.glsl"
+#include "passes/final_gather/stored_light/shade_hit.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
