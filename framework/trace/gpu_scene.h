@@ -37,7 +37,7 @@ struct GpuScene {
 
     std::unique_ptr<GpuScene> panes;  ///< SceneState::panes if they dim light, else nullptr.
 
-    std::vector<gpu::GpuLight> uploadedLights;
+    std::vector<gpu::GpuLight> uploadedLights;  ///< What `lights` holds.
 
     std::vector<Image> images;
     std::vector<Sampler> samplers;

@@ -5,18 +5,9 @@
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer Surfels {
-    Surfel data[];
-}
-surfels;
-layout(scalar) writeonly buffer Rays {
-    Ray data[];
-}
-rays;
-layout(scalar) writeonly buffer Contributions {
-    vec4 data[];
-}
-contributions;  // W/m²
+layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(scalar) writeonly buffer Contributions { vec4 data[]; } contributions;  // W/m²
 layout(push_constant, scalar) uniform Push {
     uint count;
     uint kind;
@@ -26,8 +17,7 @@ layout(push_constant, scalar) uniform Push {
     uint emitterCount;
     uint emitterRoot;
     uint seed;
-}
-push;
+} push;
 
 void main() {
     const uint i = linearIndex();

@@ -52,7 +52,7 @@ class GatherScreenProbes final : public Pass {
                           "Averages over the probes around, by direction: each reaches a tile farther. 0: no filter.",
                           0u, 8u),
                     field("importance", &Params::importance,
-                          "Part of a probe's rays that go where light came from in the previous frame; "
+                          "Part of a probe's rays that go where light came from in the frames before; "
                           "the others are distributed by cosine.",
                           0.0f, 0.9f),
                     field("directions", &Params::directions,

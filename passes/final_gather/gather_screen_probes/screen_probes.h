@@ -24,6 +24,7 @@ class ScreenProbes {
     };
     ScreenProbes(ProgramOwner& owner, const Settings& settings);
 
+    /// @param samples GBuffer::samples.
     void plan(PassPlan& plan, uint32_t samples);
     /// Places and lists the probes of a frame. Waits for the device. @param motion null where no history is kept.
     void place(PassContext& context, const GBuffer& gbuffer, const SurfaceMotion* motion);

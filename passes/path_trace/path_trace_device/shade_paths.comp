@@ -136,7 +136,8 @@ void shade(Hit hit) {
     const uvec2 pixel = pixelOf(push.batch, path.slot / push.batch.samples);
     const SobolSampler random = samplerOf(push.batch, pixel, path.slot % push.batch.samples);
     if (push.vertex == 0u && largestComponent(p.bsdf.diffuse) > 0.0) sums.data[path.slot].hasIrradiance = 1u;
-    if (push.lights.treeNodes + push.lights.infiniteLights > 0u && (push.vertex > 0u || kHasDirectLight)) sampleDirectLight(p, random);
+    if (push.lights.treeNodes + push.lights.infiniteLights > 0u && (push.vertex > 0u || kHasDirectLight))
+        sampleDirectLight(p, random);
     scatter(p, random);
 }
 

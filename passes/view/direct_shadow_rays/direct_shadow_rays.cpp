@@ -97,10 +97,9 @@ class DirectShadowRays final : public Pass {
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     In<SurfaceVoxels> voxels_{*this, "voxels", "geometry for shadow rays", tracesVoxels()};
     Out<FrameImage> direct_{*this, "direct", "radiance reflected of direct light"};
-    Out<NoisyIrradiance> noisy_{*this, "noisy_direct",
-                                "irradiance of emissive surfaces and the environment, for filter_irradiance"};
+    Out<NoisyIrradiance> noisy_{*this, "noisy_direct", "irradiance of lights that are sampled, for filter_irradiance"};
     Out<FrameImage> unfiltered_{*this, "unfiltered_direct",
-                                "the part of 'direct' that 'noisy_direct' lacks: punctual lights, specular lobes"};
+                                "the part of 'direct' that 'noisy_direct' lacks: lights with own rays, specular lobes"};
     Kernel generateRays_{*this, "generate_shadow_rays.comp"};
     Kernel reflect_{*this, "reflect_unoccluded.comp"};
     Kernel reflectSampled_{*this, "reflect_unoccluded.comp", {{"SPLIT", "1"}, {"HITS", "1"}}};

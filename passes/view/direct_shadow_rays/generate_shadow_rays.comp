@@ -19,14 +19,8 @@ uniform sampler2D geometricNormal;
 uniform sampler2D albedo;
 uniform sampler2D specular;
 uniform sampler2D fresnel;
-layout(scalar) writeonly buffer Rays {
-    Ray data[];
-}
-rays;
-layout(scalar) writeonly buffer RayLight {
-    ShadowRayLight data[];
-}
-rayLight;
+layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(scalar) writeonly buffer RayLight { ShadowRayLight data[]; } rayLight;
 layout(push_constant, scalar) uniform Push {
     uint kind;  // Of each texel's first ray; a second one goes to the environment.
     uint raysPerTexel;
@@ -42,8 +36,7 @@ layout(push_constant, scalar) uniform Push {
     uint emitterRoot;
     vec3 camera;
     VoxelGrid grid;  // With kTraceVoxels.
-}
-push;
+} push;
 
 void main() {
     const uint i = linearIndex();
