@@ -68,6 +68,11 @@ class GatherScreenProbes final : public Pass {
 
  private:
     bool isGuided() const { return params_.importance > 0; }
+    /// Of a probe's rays. At least one is by cosine, as guided rays alone would never find light where none was.
+    uint32_t guidedRays() const {
+        const auto rounded = uint32_t(std::lround(params_.importance * float(params_.raysPerProbe)));
+        return std::min(rounded, params_.raysPerProbe - 1);
+    }
     uint32_t bins() const { return params_.directions * params_.directions; }
     Defines historyDefine() const { return isGuided() ? Defines{{"HAS_HISTORY", "1"}} : Defines{}; }
     uint32_t batchProbes() const;
@@ -199,7 +204,7 @@ ContinuedPaths::Counts GatherScreenProbes::gather(PassContext& context, const st
                       {"weights", weights_},
                       {"firstProbe", first},
                       {"raysPerProbe", params_.raysPerProbe},
-                      {"guidedRays", uint32_t(std::lround(params_.importance * float(params_.raysPerProbe)))},
+                      {"guidedRays", guidedRays()},
                       {"seed", randomSeed(context.frame, context.frameIndex)}});
     context.tracer.closestHit(context.stream, rays_, hits_, rays);
 
