@@ -149,6 +149,8 @@ void changeAxis(Value* axis, const std::string& path, const Value& changes) {
         if (value.isNull() && std::ranges::count(names, name) == 0)
             throw UsageError(value.where, "sweep.{}: null takes a named value out, but there is no '{}'{}", path, name,
                              names.empty() ? "" : didYouMean(name, names));
+        if (!axis)
+            throw UsageError(value.where, "sweep.{}: null takes a named value out, but there is no such axis", path);
         setNested(*axis, name, value, Merge::Replace);
     }
 }

@@ -234,6 +234,7 @@ TEST(Config, NullTakesANamedValueOutOfAnAxis) {
               2u);
     expectError(named, {"no 'lo'", "'low'"}, {"", {"sweep.voxelize.resolution={lo: null}"}});
     expectError(named, {"no 'low'"}, {"", {"sweep.seed={low: null}"}});
+    expectError(named, {"no such axis"}, {"", {"sweep.seed={high: 64, low: null}"}});
     expectError(kValid, {"no 'low'"}, {"", {"sweep.voxelize.resolution={low: null}"}});
     // By a path
     EXPECT_EQ(axis("sweep.voxelize.resolution.low=null"), "{a.b: c: 48, high: 64}");
