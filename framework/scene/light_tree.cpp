@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 
 #include "base/error.h"
 #include "scene/luminance.h"
@@ -12,13 +13,12 @@
 namespace voxray {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr float kBelowOne = 0x1.fffffep-1f;
 
 /// Directions within an angle of an axis.
 struct Cone {
     glm::dvec3 axis{0, 0, 1};
-    double angle = kPi, cosine = -1, sine = 0;  ///< All directions.
+    double angle = std::numbers::pi, cosine = -1, sine = 0;  ///< All directions.
 
     Cone() = default;
     Cone(const glm::dvec3& of, double half) : axis(of), angle(half), cosine(std::cos(half)), sine(std::sin(half)) {}
@@ -28,12 +28,12 @@ struct Cone {
 Cone unite(const Cone& one, const Cone& other) {
     const Cone &a = one.angle < other.angle ? other : one, &b = one.angle < other.angle ? one : other;
     const double alike = glm::dot(a.axis, b.axis);
-    if (a.angle >= kPi || alike >= a.cosine * b.cosine + a.sine * b.sine) return a;
+    if (a.angle >= std::numbers::pi || alike >= a.cosine * b.cosine + a.sine * b.sine) return a;
     const glm::dvec3 across = glm::cross(a.axis, b.axis);
     const double sine = glm::length(across), between = std::atan2(sine, alike);
     if (between + b.angle <= a.angle) return a;
     const double angle = 0.5 * (a.angle + between + b.angle);
-    if (angle >= kPi || !(sine > 0)) return {};
+    if (angle >= std::numbers::pi || !(sine > 0)) return {};
     // Rodrigues' formula; `across` is perpendicular to the axis
     const double turn = angle - a.angle;
     return {std::cos(turn) * a.axis + std::sin(turn) * glm::cross(across / sine, a.axis), angle};
@@ -66,10 +66,10 @@ struct Cluster {
     /// the importance depends on the radius of the bounds. Lights on a line then have a cost, too.
     double cost() const {
         if (empty()) return 0;
-        const double o = cone.angle, w = std::min(o + emission, kPi);
+        const double o = cone.angle, w = std::min(o + emission, std::numbers::pi);
         const double directions =
-            2 * kPi * (1 - cone.cosine) +
-            0.5 * kPi * (2 * w * cone.sine - std::cos(o - 2 * w) - 2 * o * cone.sine + cone.cosine);
+            2 * std::numbers::pi * (1 - cone.cosine) +
+            0.5 * std::numbers::pi * (2 * w * cone.sine - std::cos(o - 2 * w) - 2 * o * cone.sine + cone.cosine);
         const glm::dvec3 diagonal = bounds.max - bounds.min;
         return intensity * directions * glm::dot(diagonal, diagonal);
     }
