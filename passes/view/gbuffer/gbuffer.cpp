@@ -19,12 +19,12 @@ struct EnumNames<GBufferMethod> {
                                       std::pair{GBufferMethod::Raster, "raster"}};
 };
 
-enum class SamplePattern { Rotated, Regular };
+enum class SamplePattern { Regular, Rotated };
 
 template <>
 struct EnumNames<SamplePattern> {
-    static constexpr std::array names{std::pair{SamplePattern::Rotated, "rotated"},
-                                      std::pair{SamplePattern::Regular, "regular"}};
+    static constexpr std::array names{std::pair{SamplePattern::Regular, "regular"},
+                                      std::pair{SamplePattern::Rotated, "rotated"}};
 };
 
 enum class TextureLookup { Filtered, Sharp };
@@ -81,7 +81,7 @@ class GBufferPass final : public Pass {
     struct Params {
         GBufferMethod method = GBufferMethod::Rays;
         uint32_t samplesPerPixelEdge = 1;
-        SamplePattern samplePattern = SamplePattern::Rotated;
+        SamplePattern samplePattern = SamplePattern::Regular;
         TextureLookup normalMaps = TextureLookup::Filtered;
         TextureLookup colors = TextureLookup::Filtered;
         static constexpr auto schema() {
@@ -94,10 +94,10 @@ class GBufferPass final : public Pass {
                       "Samples along each edge of a pixel: 2 for 4 samples a pixel. "
                       "Later passes process every sample.",
                       1u, 8u),
-                field("sample_pattern", &Params::samplePattern,
-                      "Where samples are in their pixel. rotated: a rotated grid, in which no two are in a column or a "
-                      "row: edges along either are as smooth as others. regular: the centers of a regular grid, as "
-                      "with `method: raster`.")
+                field(
+                    "sample_pattern", &Params::samplePattern,
+                    "Where samples are in their pixel. regular: the centers of a regular grid. rotated: a rotated grid, in "
+                    "which no two are in a column or a row: edges along either are as smooth as others.")
                     .onlyWith(oneOf(&Params::method, {GBufferMethod::Rays})),
                 field("normal_maps", &Params::normalMaps,
                       "filtered: the mean normal over a sample's footprint, biased as it flattens detail. "
