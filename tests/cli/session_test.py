@@ -323,6 +323,6 @@ graph:
         self.expect(2, "session", "wrong.yaml", "--images", "shown")
 
     def test_random_changes_give_the_images_of_fresh_sessions(self):
-        differ, (taken, refused, renders), _ = session_changes.run(PROGRAM, 24, 3, self.folder)
+        differ, (taken, refused, renders), _ = session_changes.run(PROGRAM, 40, 3, self.folder)
         self.assertEqual(differ, [])
         self.assertGreater(min(taken, refused, renders), 3)
