@@ -71,7 +71,7 @@ ImageRequest parseImageRequest(const std::string& body) {
             shown = entry.asString(key);
         } else if (key == "parameters") {
             parameters = unlocated(entry);
-            parameters->where = entry.where;  // No control sets all of them
+            parameters->where = entry.where;  // What is wrong with the map itself no control did
         } else if (key == "close") {
             request.closes = entry.asBool(key);
         } else if (key == "changes") {

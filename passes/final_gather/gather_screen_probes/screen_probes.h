@@ -8,9 +8,12 @@
 
 namespace voxray {
 
-/// Makes a buffer anew where it is too small; its contents are lost. The device must not be using it.
+/// Makes a buffer anew where it is too small, and frees the old one first; its contents are lost. The device must
+/// not be using it.
 inline void growTo(Device& device, Buffer& buffer, const char* name, uint64_t bytes) {
-    if (buffer.bytes() < bytes) buffer = Buffer(device, name, bytes);
+    if (buffer.bytes() >= bytes) return;
+    buffer = {};
+    buffer = Buffer(device, name, bytes);
 }
 
 /// The probes of a frame and, where rays are guided, those of the frame before: places on what the camera sees, one

@@ -7,8 +7,8 @@
 // samples: texels along an edge of a pixel.
 vec3 sampleDirection(CameraView view, uvec2 texel, uint samples) {
 #ifdef ROTATED_GRID
-    // No two samples of a pixel in one column or row, so that edges along either cover as many steps as there are
-    // samples; the positions of multisampling with samples = 2
+    // No two samples of a pixel in one column or row, so that an edge along either covers it in steps of one sample;
+    // with samples = 2 the standard positions of multisampling with four
     const uvec2 inPixel = texel % samples;
     const vec2 inTexel = (vec2(samples - 1u - inPixel.y, inPixel.x) + 0.5) / float(samples);
     return viewDirectionAt(view, vec2(texel) + inTexel);
