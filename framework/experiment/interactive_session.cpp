@@ -41,6 +41,8 @@ InteractiveSession::InteractiveSession(Experiment experiment, const Registry& re
     }
     for (const auto& [id, count] : cullCounts(all))
         if (runsSomewhere(all, id)) idlePasses_.push_back(id);
+    sweepsScene_ = std::ranges::any_of(sweepKeys(opened_), [](const auto& key) { return key.starts_with("scene."); });
+    leaveOutIdleTime(variantConfigs_.front());
     sides_[0].emplace(*this, variantConfigs_.front(), variants_.front().second);
 }
 
@@ -62,6 +64,24 @@ const std::string& InteractiveSession::idOf(const std::string& variant) const {
 
 const Value& InteractiveSession::configOf(const std::string& variant) const {
     return variantConfigs_[indexOf(variant)];
+}
+
+Study InteractiveSession::checkedVariant(const std::string& variant) {
+    Value& config = variantConfigs_[indexOf(variant)];
+    leaveOutIdleTime(config);
+    return checkedStudy(config);
+}
+
+void InteractiveSession::leaveOutIdleTime(Value& config) {
+    if (!sweepsScene_) return;
+    const Setup setup = studyOf(config).variants.front().setup;
+    const SceneOptions& options = setup.scene.options;
+    if (options.time == 0 && options.timeStep == 0) return;
+    session_.moveCamera(setup);  // So that the scene is found loaded
+    const PreparedScene& scene = session_.loader().prepareCached(setup.scene, session_.loader().key(setup.scene));
+    if (!scene.state.scene->animation.empty()) return;
+    for (const char* path : {"scene.time", "scene.time_step"})
+        if (valueAt(config, path)) applyOverride(config, path, Value());
 }
 
 ShownState& InteractiveSession::side(size_t number) {

@@ -49,6 +49,8 @@ class InteractiveSession {
     /// checked just before, a new view is not path traced for what may mislead.
     Study checkedStudy(Value config);
     Session& resources() { return session_; }
+    /// The checked study of a variant, by its id or its name. @throws UsageError
+    Study checkedVariant(const std::string& variant);
     /// The reference of a side's study, which sides with the same one share.
     ProgressiveReference& reference(const Study& study);
     /// Frees references of which no side has the study any more.
@@ -56,6 +58,8 @@ class InteractiveSession {
 
  private:
     size_t indexOf(const std::string& variant) const;
+    /// Takes time out of a variant's config where only scenes of other variants are animated.
+    void leaveOutIdleTime(Value& config);
     bool isShown(const ProgressiveReference& reference) const;
 
     const Registry& registry_;
@@ -66,6 +70,7 @@ class InteractiveSession {
     std::vector<std::string> idlePasses_;     ///< Ids of passes that are culled in some variants and run in others.
     std::vector<std::pair<std::string, std::string>> variants_;  ///< Name and id.
     std::vector<Value> variantConfigs_;
+    bool sweepsScene_ = false;
     std::array<std::optional<ShownState>, kSides> sides_;
     std::array<std::optional<ProgressiveReference>, kSides> references_;
 };

@@ -56,7 +56,7 @@ void ShownState::take(Study study) {
 }
 
 void ShownState::select(const std::string& variant) {
-    open(session_.configOf(variant));
+    take(session_.checkedVariant(variant));
     variantId_ = session_.idOf(variant);
 }
 

@@ -316,6 +316,12 @@ graph:
         self.assertNotIn("never run", str(self.done("select", variant="path_trace")["warnings"]))
         graph = [*self.done("config")["config"]["graph"], {"pass": "voxelize", "id": "idle"}]
         self.assertIn("'idle' is never run", str(self.done("set", path="graph", value=graph)["warnings"]))
+        greeting = self.start(TINY.replace("{builtin: cornell}", "{builtin: cornell, time_step: 0.1, moving_spheres: {count: 2}}").replace(
+            "voxelize.resolution: [8, 16]", "scene.moving_spheres.count: [0, 2]"))
+        for variant, has_time in zip(greeting["variants"], (False, True), strict=True):
+            self.done("select", variant=variant["id"])
+            self.assertEqual("time_step" in self.done("config")["config"]["scene"], has_time)
+            self.done("render")
 
     def test_it_needs_a_config_that_is_right(self):
         self.write("wrong.yaml", TINY.replace("resolution: 16", "resolution: x"))

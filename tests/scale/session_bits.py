@@ -6,8 +6,9 @@ session_bits.py PROGRAM [CONFIG...] [--most N] [--done FILE] [--seconds N] [--wh
 selects the variants by turns. Voxels, light rays and the like are fewer (COSTLY), unless --whole is given, or the config refuses
 that: what is kept on the device from variant to variant is the same. Images have to be the same bits, and a variant that fails
 has to fail in both. Of a config with more than --most variants, so many are compared (chosen()), each run by a process of its
-own (`run --part`). FILE keeps what was compared, a line each; a later call goes on. After N seconds no other config is begun.
-Prints what differs; exit status 1 where something does.
+own (`run --part`). A variant that differs is run twice more: where these two differ as well, as with writes that depend on the
+order of threads, it is told and left out. FILE keeps what was compared, a line each; a later call goes on. After N seconds no
+other config is begun. Prints what differs; exit status 1 where something does.
 """
 import argparse
 import copy
@@ -148,6 +149,11 @@ def same(a, b):
     return (a is None) == (b is None) and (a is None or np.array_equal(bits(a), bits(b)))
 
 
+def images(files):
+    """@return images of a variant's folder, None for one that isn't there"""
+    return {name: exr_pixels.rgb(files / f"{name}.exr") if (files / f"{name}.exr").exists() else None for name in ("final", "indirect")}
+
+
 def difference(session, variant, files, has_failed):
     """@return what differs of a variant, None where nothing does"""
     try:
@@ -157,15 +163,22 @@ def difference(session, variant, files, has_failed):
         return None if has_failed else f"the session fails: {error}"
     if has_failed:
         return "the run fails, the session does not"
-    indirect = files / "indirect.exr"
-    pairs = {"final": (shown.final, exr_pixels.rgb(files / "final.exr")),
-             "indirect": (shown.indirect, exr_pixels.rgb(indirect) if indirect.exists() else None)}
-    differing = [name for name, (of_session, of_run) in pairs.items() if not same(of_session, of_run)]
+    differing = [name for name, of_run in images(files).items() if not same(getattr(shown, name), of_run)]
     return f"{', '.join(differing)} differs" if differing else None
 
 
+def runs_differ(program, config, words, known, variant):
+    """Whether two runs of a variant give different images."""
+    with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as other:
+        for folder in (one, other):
+            if run_some(program, config, words, folder, known, [variant]):
+                return False
+        first, second = (images(Path(folder) / "images" / variant) for folder in (one, other))
+        return any(not same(first[name], second[name]) for name in first)
+
+
 def differences(program, config, most, is_whole):
-    """@return what was compared, in words and by number of variants, and a line for each variant that differs"""
+    """@return what was compared, in words and by number of variants, a line for each variant that differs, and for those left out"""
     profile = ["--profile", "small"] if has_profile(config, "small") else []
     options = [*profile, "--scenes", str(config.resolve().parent)]  # As if the cheaper config were there
     with tempfile.TemporaryDirectory() as temporary:
@@ -182,7 +195,10 @@ def differences(program, config, most, is_whole):
                 compared = f"{len(variants)} of {len(session.variants)} variants with {seen} of {every} values"
                 failed = run_some(program, config, words, folder, known, variants)
             found = {variant: difference(session, variant, folder / "images" / variant, variant in failed) for variant in variants}
-        return compared, len(variants), [f"{variant}: {line}" for variant, line in found.items() if line]
+        found = {variant: line for variant, line in found.items() if line}
+        left_out = [variant for variant in found if variant not in failed and runs_differ(program, config, words, known, variant)]
+        return (compared, len(variants) - len(left_out), [f"{variant}: {line}" for variant, line in found.items() if variant not in left_out],
+                [f"{variant}: left out, two runs differ" for variant in left_out])
 
 
 def main():
@@ -206,16 +222,16 @@ def main():
         if time.monotonic() > end:
             break
         try:
-            compared, variants, lines = differences(options.program, config, options.most, options.whole)
+            compared, variants, lines, left_out = differences(options.program, config, options.most, options.whole)
         except voxray.VoxrayError as error:
-            compared, variants, lines = "0 variants", 0, [f"can't be run: {error}"]
-        known[key] = {"config": key, "compared": compared, "variants": variants, "differ": lines}
-        print(f"{key}: {compared}, {len(lines)} differ", *lines, sep="\n  ", flush=True)
+            compared, variants, lines, left_out = "0 variants", 0, [f"can't be run: {error}"], []
+        known[key] = {"config": key, "compared": compared, "variants": variants, "differ": lines, "left_out": left_out}
+        print(f"{key}: {compared}, {len(lines)} differ", *lines, *left_out, sep="\n  ", flush=True)
         if options.done:
             with options.done.open("a", encoding="utf-8") as file:
                 file.write(json.dumps(known[key]) + "\n")
     print(f"{len(known)} of {len(configs)} configs, {sum(one['variants'] for one in known.values())} variants, "
-          f"{sum(len(one['differ']) for one in known.values())} differ")
+          f"{sum(len(one['differ']) for one in known.values())} differ, {sum(len(one.get('left_out', ())) for one in known.values())} left out")
     return 1 if any(one["differ"] for one in known.values()) else 0
 
 
