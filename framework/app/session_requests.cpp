@@ -84,20 +84,9 @@ Value RequestHandler::answer(const Value& request) {
     const std::string command = textOf(request, "command");
     Value answer = Value::map();
     if (command == "set") {
-        allow(request, {"path", "value"});
-        const Value* value = request.find("value");
-        if (!value) throw UsageError(request.where, "set: it has no 'value'; null takes the config's entry out");
-        const std::string path = textOf(request, "path");
-        state_.set(path, *value);
-        rendering_.reset();
-        if (std::ranges::count(set_, path) == 0) set_.push_back(path);
-        answer.set("warnings", listOf(state_.warnings()));
+        set(request, answer);
     } else if (command == "select") {
-        allow(request, {"variant"});
-        state_.select(textOf(request, "variant"));
-        rendering_.reset();
-        answer.set("dropped", listOf(std::exchange(set_, {})));
-        answer.set("warnings", listOf(state_.warnings()));
+        select(request, answer);
     } else if (command == "config") {
         allow(request, {});
         answer.set("config", state_.config());
@@ -129,6 +118,38 @@ Value RequestHandler::answer(const Value& request) {
                          command);
     }
     return answer;
+}
+
+void RequestHandler::set(const Value& request, Value& answer) {
+    allow(request, {"path", "value"});
+    const Value* value = request.find("value");
+    if (!value) throw UsageError(request.where, "set: it has no 'value'; null takes the config's entry out");
+    const std::string path = textOf(request, "path");
+    state_.set(path, *value);
+    rendering_.reset();
+    std::erase_if(set_, [&](const ShownState::Change& change) { return change.path == path; });
+    set_.push_back({path, *value});
+    answer.set("warnings", listOf(state_.warnings()));
+}
+
+void RequestHandler::select(const Value& request, Value& answer) {
+    allow(request, {"variant", "keep"});
+    const Value* keep = request.find("keep");
+    const bool keeps = keep && keep->asBool("keep");
+    // A whole graph would take the variant's place
+    const auto isKept = [&](const ShownState::Change& change) { return keeps && change.path != "graph"; };
+    std::vector<ShownState::Change> kept;
+    std::vector<std::string> dropped;
+    for (const ShownState::Change& change : set_)
+        if (isKept(change))
+            kept.push_back(change);
+        else
+            dropped.push_back(change.path);
+    state_.select(textOf(request, "variant"), kept);
+    set_ = std::move(kept);
+    rendering_.reset();
+    answer.set("dropped", listOf(dropped));
+    answer.set("warnings", listOf(state_.warnings()));
 }
 
 Value RequestHandler::write(const std::string& name, const ImageF& image) const {

@@ -43,6 +43,8 @@ class RequestHandler {
     Value answer(const Value& request);
 
  private:
+    void set(const Value& request, Value& answer);
+    void select(const Value& request, Value& answer);
     void render(Value& answer);
     /// Renders if anything was changed since the last rendering, so that scores and views are of the current values.
     void renderChanges();
@@ -54,7 +56,7 @@ class RequestHandler {
     ShownState& state_;
     const ImageFolder images_;
     std::optional<ShownState::Rendering> rendering_;  ///< Of the current values.
-    std::vector<std::string> set_;                    ///< Paths that were set since a variant was selected.
+    std::vector<ShownState::Change> set_;             ///< What was set since a variant was selected, the latest last.
 };
 
 }  // namespace voxray

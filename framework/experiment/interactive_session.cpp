@@ -66,10 +66,10 @@ const Value& InteractiveSession::configOf(const std::string& variant) const {
     return variantConfigs_[indexOf(variant)];
 }
 
-Study InteractiveSession::checkedVariant(const std::string& variant) {
+const Value& InteractiveSession::configAlone(const std::string& variant) {
     Value& config = variantConfigs_[indexOf(variant)];
     leaveOutIdleTime(config);
-    return checkedStudy(config);
+    return config;
 }
 
 void InteractiveSession::leaveOutIdleTime(Value& config) {

@@ -49,8 +49,8 @@ class InteractiveSession {
     /// checked just before, a new view is not path traced for what may mislead.
     Study checkedStudy(Value config);
     Session& resources() { return session_; }
-    /// The checked study of a variant, by its id or its name. @throws UsageError
-    Study checkedVariant(const std::string& variant);
+    /// As configOf(), without time where only scenes of other variants are animated. Loads the scene to know.
+    const Value& configAlone(const std::string& variant);
     /// The reference of a side's study, which sides with the same one share.
     ProgressiveReference& reference(const Study& study);
     /// Frees references of which no side has the study any more.
@@ -58,7 +58,6 @@ class InteractiveSession {
 
  private:
     size_t indexOf(const std::string& variant) const;
-    /// Takes time out of a variant's config where only scenes of other variants are animated.
     void leaveOutIdleTime(Value& config);
     bool isShown(const ProgressiveReference& reference) const;
 

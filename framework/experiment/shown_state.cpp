@@ -55,8 +55,10 @@ void ShownState::take(Study study) {
     if (!hasReference()) session_.dropReferences();
 }
 
-void ShownState::select(const std::string& variant) {
-    take(session_.checkedVariant(variant));
+void ShownState::select(const std::string& variant, const std::vector<Change>& changes) {
+    Value config = session_.configAlone(variant);
+    for (const Change& change : changes) apply(config, change);
+    take(session_.checkedStudy(std::move(config)));
     variantId_ = session_.idOf(variant);
 }
 

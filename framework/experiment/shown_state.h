@@ -36,8 +36,12 @@ class ShownState {
 
     /// Takes a config, without sweep, in place of all values. @throws UsageError; the state is then as it was.
     void open(Value config);
-    /// Takes the values of a variant, by its id or its name. @throws UsageError, as open().
-    void select(const std::string& variant);
+    struct Change {
+        std::string path;
+        Value value;
+    };
+    /// Takes the values of a variant, by its id or its name, with changes to them. @throws UsageError, as open().
+    void select(const std::string& variant, const std::vector<Change>& changes = {});
     /// Sets the value at a path of the config (config/overrides.h); null removes it.
     /// @throws UsageError as a run would; the state is then as it was.
     void set(const std::string& path, const Value& value);
@@ -66,10 +70,6 @@ class ShownState {
     /// Interrupted.
     Rendering render(const std::function<void(double)>& progress, const ViewChoice* shown = nullptr);
 
-    struct Change {
-        std::string path;
-        Value value;
-    };
     /// Renders the config with changes that are not kept, as a first look: without warm-up frames and without the
     /// checks of scene and view. @param shrink width and height are divided by it.
     /// @throws UsageError for what is wrong by itself, Error, Interrupted.

@@ -197,10 +197,24 @@ class Session(CommandTest):
         self.refusal("set", path="image.width", value=0)
         self.done("set", path="image.width", value=16)
         self.done("set", path="voxelize.resolution", value=10)
-        self.assertEqual(self.done("select", variant="resolution 16")["dropped"], ["voxelize.resolution", "image.width"])
+        self.assertEqual(self.done("select", variant="resolution 16")["dropped"], ["image.width", "voxelize.resolution"])
         self.assertEqual(self.done("select", variant="resolution-8")["dropped"], [])
         self.done("render")
         self.expect_images_of_run("--only", "voxelize.resolution=8")
+
+    def test_what_was_set_in_another_variant(self):
+        greeting = self.start(TINY.replace("voxelize.resolution: [8, 16]", "gather_irradiance: [gather_irradiance, {pass: path_trace, light: indirect}]"))
+        first, second = (variant["id"] for variant in greeting["variants"])
+        self.done("set", path="image.width", value=16)
+        self.done("set", path="gather_irradiance.radius", value=2)
+        before = self.done("config")["config"]
+        self.assertIn("radius", self.refusal("select", variant=second, keep=True))
+        self.assertEqual(self.done("config")["config"], before)
+        self.done("set", path="gather_irradiance.radius", value=None)
+        self.assertEqual(self.done("select", variant=second, keep=True)["dropped"], [])
+        self.done("set", path="graph", value=self.done("config")["config"]["graph"])
+        self.assertEqual(self.done("select", variant=first, keep=True)["dropped"], ["graph"])
+        self.assertEqual(self.done("config")["config"]["image"]["width"], 16)
 
     def test_a_cache_that_is_filled_from_the_camera_is_filled_again(self):
         self.start("""

@@ -130,7 +130,6 @@ class Session:
         self._said = tempfile.TemporaryFile("w+")
         self._numbers = itertools.count()
         self._changes = 0
-        self._set: dict[str, Any] = {}
         self._has_reference = False
         self._process = subprocess.Popen([str(program), "session", str(config), "--stdio", "--images", self._folder.name, "--format", "npy",
                                           *options],
@@ -146,26 +145,19 @@ class Session:
         """Sets a value of the config as `--set` does; None takes it out. @throws VoxrayError; nothing is changed then."""
         self.warnings = self._ask("set", path=path, value=value)["warnings"]
         self._changes += 1
-        self._set.pop(path, None)  # The latest comes last
-        self._set[path] = value
 
     def select(self, variant: str, *, keep: bool | None = None) -> None:
         """Takes a variant's values, by its id or its name, in place of all that were set.
 
-        @param keep True: what was set is set again, but `graph`, which would take the variant's place; False: it is dropped; None:
-            it is dropped, and a warning (UserWarning) names it
-        @throws VoxrayError for a name that no variant has; for what can't be set in the variant, which is then selected
+        @param keep True: what was set is set in the variant, too, but `graph`, which would take the variant's place; False: it is
+            dropped; None: it is dropped, and a warning (UserWarning) names it
+        @throws VoxrayError for a name that no variant has; for what can't be set in the variant; nothing is changed then
         """
-        answer = self._ask("select", variant=variant)
+        answer = self._ask("select", variant=variant, keep=bool(keep))
         self._changes += 1
         self.warnings = answer["warnings"]
-        before, self._set = self._set, {}
-        kept = {path: value for path, value in before.items() if keep and path != "graph"}
-        dropped = [path for path in before if path not in kept]
-        if dropped and keep is not False:
-            warnings.warn(f"select: '{variant}' takes the place of what was set: {', '.join(dropped)}", stacklevel=2)
-        for path, value in kept.items():
-            self.set(path, value)
+        if answer["dropped"] and keep is not False:
+            warnings.warn(f"select: '{variant}' takes the place of what was set: {', '.join(answer['dropped'])}", stacklevel=2)
 
     def kernel(self, id: str, source: str, *, after: str | None = None, **parameters: Any) -> None:
         """Puts the pass `glsl` with a GLSL text into the graph (docs/writing-a-pass.md); one with that id gives way to it.
