@@ -149,6 +149,7 @@ std::string answerTo(ShownState& state, const ImageRequest& request, ShownImage&
         answer.set("error", quotedText(error.what()));
     }
     answer.set("config", state.config());
+    answer.set("left_out", listOf(state.culledPasses()));
     if (!request.isDraft()) {
         answer.set("variant", quotedText(state.variantId()));
         answer.set("changed", flag(state.isChanged()));

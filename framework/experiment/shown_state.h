@@ -48,6 +48,8 @@ class ShownState {
 
     /// The config with all values that were set.
     const Value& config() const { return study_.experiment.config; }
+    /// Ids of passes on which the image does not depend.
+    const std::vector<std::string>& culledPasses() const { return variant().culledPasses; }
     /// Id of the variant whose values were taken last; "" after open().
     const std::string& variantId() const { return variantId_; }
     /// Whether the values differ from those of variantId() in more than camera and image.

@@ -134,7 +134,10 @@ async function download() {
     const name = newName(side.config.name);
     names.add(name);
     sessionStorage.setItem("names", JSON.stringify([...names]));
-    link.href = URL.createObjectURL(new Blob([JSON.stringify({ ...side.config, name }, null, 2) + "\n"], { type: "application/yaml" }));
+    // A run warns of passes on which the image does not depend
+    const graph = side.config.graph.filter((entry) => !side.answer.left_out.includes(idOf(entry)));
+    const config = { ...side.config, name, graph };
+    link.href = URL.createObjectURL(new Blob([JSON.stringify(config, null, 2) + "\n"], { type: "application/yaml" }));
     link.download = `${name}.yaml`;
     link.click();
     URL.revokeObjectURL(link.href);
