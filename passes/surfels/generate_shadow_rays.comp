@@ -22,6 +22,11 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
+    if (s.id == VOXRAY_NO_SURFEL) {
+        rays.data[i] = kNoRay;
+        contributions.data[i] = vec4(0.0);
+        return;
+    }
     const SourceSampling sampling = SourceSampling(push.samples, push.candidates, push.emitterCount);
     const LightSample l =
         sampleSource(push.kind, push.light, sampling, whiteReceiver(s.position, s.normal), s.id, push.seed);

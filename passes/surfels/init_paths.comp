@@ -18,5 +18,5 @@ void main() {
     s.reflectance = vec3(1.0);
     s.parent = i;
     vertices.data[i] = s;
-    rays.data[i] = pathRay(s, s.normal, push.seed);
+    rays.data[i] = s.id == VOXRAY_NO_SURFEL ? kNoRay : pathRay(s, s.normal, push.seed);
 }

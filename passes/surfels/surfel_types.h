@@ -6,6 +6,9 @@
 
 VOXRAY_SHARED_BEGIN
 
+// Surfel::id of a surfel that does not exist: it has no voxel, and stands for no area.
+#define VOXRAY_NO_SURFEL 0xffffffffu
+
 // A point on one side of a surface.
 struct Surfel {
     vec3 position;     // m; off the surface, where rays may begin (SurfacePoint::offset).

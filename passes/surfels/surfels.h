@@ -25,6 +25,10 @@ struct Surfels : Resource {
     uint64_t pointCount = 0;          ///< Of points; each has at most one surfel on either side.
     double estimatedCount = 0;        ///< Of surfels, for estimates of memory. Set in plan().
     bool hasOccludedSurfels = false;  ///< Set in plan().
+    /// Set in plan(): surfaces move, and a surfel's index is its id in each frame. What does not exist takes a place
+    /// (VOXRAY_NO_SURFEL).
+    bool areIndexedById = false;
+    bool keepPoints = false;  ///< Whether all points lie on the same triangles as in the frame before.
 };
 
 }  // namespace voxray

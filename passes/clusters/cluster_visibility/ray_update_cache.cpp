@@ -1,7 +1,6 @@
 #include "passes/clusters/cluster_visibility/ray_update_cache.h"
 
-#include <glm/common.hpp>
-
+#include "passes/common/compute/changed_boxes.h"
 #include "passes/common/compute/uint_bytes.h"
 #include "passes/common/voxel_builder/changed_voxels.h"
 
@@ -11,18 +10,6 @@ namespace {
 /// Distance in voxels up to which a change may affect a hit: the group of a hit lies in the voxel of the hit
 /// or an adjacent one, and the choice of the group depends on the voxels adjacent to that.
 constexpr uint32_t kHitReach = 2;
-
-/// The common bounding box of `changed` (m), followed by these boxes, all enlarged by a margin.
-std::vector<Box> boxesWithBounds(const std::vector<Box>& changed, float voxelSize) {
-    const glm::vec3 margin(voxelSize / 64);  // For rounding errors.
-    std::vector<Box> boxes(1, changed.at(0));
-    for (const Box& box : changed) {
-        boxes[0] = {glm::min(boxes[0].min, box.min), glm::max(boxes[0].max, box.max)};
-        boxes.push_back(box);
-    }
-    for (Box& box : boxes) box = {box.min - margin, box.max + margin};
-    return boxes;
-}
 
 }  // namespace
 
@@ -58,9 +45,7 @@ void RayUpdateCache::startUpdate(CommandStream& stream, const SurfaceVoxels& vox
     if (addresses.empty()) addresses.resize(1);
     previousHitAddresses_ = Buffer(device, "addresses of previous hits", addresses.size() * sizeof(uint64_t));
     stream.upload(previousHitAddresses_, addresses);
-    const std::vector<Box> boxes = boxesWithBounds(changed, voxels.grid.voxelSize);
-    boxes_ = Buffer(device, "changed boxes", boxes.size() * sizeof(Box));
-    stream.upload(boxes_, boxes);
+    boxes_ = changedBoxes(stream, changed, voxels.grid.voxelSize);
     stream.finish();
     isActive_ = true;
 }

@@ -1,14 +1,10 @@
 // Copies hits of the previous build that are still valid. Flags the other rays, which are traced again: those that
 // start in a changed voxel, that hit a surface close to one, or that intersect a changed box before their hit.
 #include "passes/clusters/cluster_visibility/patch_ray.glsl"
+#include "passes/common/compute/changed_boxes.glsl"
 #include "shaders/compute/large_buffer.glsl"
 layout(local_size_x = 64) in;
 
-struct Box {
-    vec3 low;
-    vec3 high;
-};
-layout(scalar) readonly buffer Boxes { Box data[]; } boxes;  // The first one contains all others.
 // Packed hits of each chunk, with previous indices of groups.
 layout(scalar) readonly buffer PreviousHits { LargeUints data[]; } previousHits;
 readonly buffer NewGroupIndex { uint data[]; } newGroupIndex;
@@ -30,31 +26,21 @@ uint previousHit(uint ray) {
     return newGroup == NO_GROUP ? HIT_UNKNOWN : withGroup(packedHit, newGroup);
 }
 
-bool intersects(Ray ray, Box box) {
-    const vec3 direction = mix(ray.direction, vec3(1.0e-9), lessThan(abs(ray.direction), vec3(1.0e-9)));
-    const vec3 a = (box.low - ray.origin) / direction, b = (box.high - ray.origin) / direction;
-    const vec3 near = min(a, b), far = max(a, b);
-    return max(max(near.x, near.y), max(near.z, 0.0)) <= min(min(far.x, far.y), min(far.z, ray.tMax));
-}
-
 // Whether a ray intersects a changed box before its hit, which is within two voxels of the hit group's surfels.
-bool intersectsChangedBox(uint ray, uint packedHit) {
+bool changes(uint ray, uint packedHit) {
     Ray r = patchRay(ray);
     if (hitsGroup(packedHit)) {
         const vec3 toGroup = patchSurfels.data[groups.data[hitGroup(packedHit)].firstSurfel].position - r.origin;
         r.tMax = min(r.tMax, length(toGroup) + 3.5 * push.grid.voxelSize);
     }
-    if (!intersects(r, boxes.data[0])) return false;
-    for (uint i = 1u; i < boxes.data.length(); ++i)
-        if (intersects(r, boxes.data[i])) return true;
-    return false;
+    return intersectsChangedBox(r);
 }
 
 void main() {
     const uint ray = linearIndex();
     if (ray >= push.rayCount) return;
     uint packedHit = previousHit(ray);
-    if (packedHit != HIT_UNKNOWN && intersectsChangedBox(ray, packedHit)) packedHit = HIT_UNKNOWN;
+    if (packedHit != HIT_UNKNOWN && changes(ray, packedHit)) packedHit = HIT_UNKNOWN;
     packedHits.data[ray] = packedHit;
     if (packedHit == HIT_UNKNOWN) atomicOr(flags.words[ray / 32u], 1u << (ray % 32u));
 }

@@ -17,6 +17,10 @@ void main() {
     if (i >= push.rayCount) return;
     const Surfel s = surfels.data[push.firstSurfel + i / push.raysPerSurfel];
     // One Sobol sequence per surfel: its rays are well distributed over the hemisphere
+    if (s.id == VOXRAY_NO_SURFEL) {
+        rays.data[i] = kNoRay;
+        return;
+    }
     const vec3 direction = cosineDirection(sobol2(i % push.raysPerSurfel, hashCombine(push.seed, s.id)), s.normal);
     rays.data[i] = Ray(s.position, 0.0, direction, 1.0e30);
 }

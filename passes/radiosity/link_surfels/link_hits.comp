@@ -1,4 +1,5 @@
-// Links each ray to the surfel that best stands for its hit.
+// Links each ray to the surfel that best stands for its hit. KEEPS_HITS: stores how far the hits are, for updates, which
+// trace listed rays alone.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"
 #include "passes/surfels/sorted_surfels.glsl"
@@ -14,12 +15,19 @@ layout(scalar) readonly buffer SortedRef { SortedSurfelWords sorted; };
 readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;
 layout(scalar) readonly buffer LinksRef { LargeUints links; };
 buffer UnlinkedHits { uint value; } unlinkedHits;
+#ifdef KEEPS_HITS
+layout(scalar) readonly buffer HitDistancesRef { LargeFloats hitDistances; };  // m
+readonly buffer ListedRays { uint data[]; } listedRays;
+#endif
 layout(push_constant, scalar) uniform Push {
     VoxelGrid grid;
     uint firstSurfel;  // Of the batch.
     uint rayCount;
     uint raysPerSurfel;
     uint surfelCount;
+#ifdef KEEPS_HITS
+    uint isListed;  // 0 or 1.
+#endif
 } push;
 
 const uint NO_SURFEL = 0xffffffffu;
@@ -74,5 +82,14 @@ void main() {
         surfel = nearestSurfel(p.position, n, occlusion);
         if (surfel == NO_SURFEL) atomicAdd(unlinkedHits.value, 1u);
     }
-    links.data[(i % push.raysPerSurfel) * push.surfelCount + push.firstSurfel + i / push.raysPerSurfel] = surfel;
+#ifdef KEEPS_HITS
+    const uint ray = push.isListed != 0u ? listedRays.data[i] : i;
+#else
+    const uint ray = i;
+#endif
+    const uint link = (ray % push.raysPerSurfel) * push.surfelCount + push.firstSurfel + ray / push.raysPerSurfel;
+    links.data[link] = surfel;
+#ifdef KEEPS_HITS
+    hitDistances.data[link] = hits.data[i].triangle != NO_HIT ? hits.data[i].t : 1.0e30;
+#endif
 }

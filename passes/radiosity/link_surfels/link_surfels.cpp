@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "graph/registry.h"
+#include "passes/common/compute/changed_boxes.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/voxels/voxels.h"
 #include "passes/radiosity/link_surfels/neighbor_search.h"
@@ -15,6 +16,10 @@ namespace {
 constexpr uint32_t kBatchRays = 1u << 20;
 constexpr uint64_t kPackedSurfelBytes = 2 * sizeof(uint32_t);
 
+/// Distance in voxels up to which a change may affect the surfel of a hit: that lies in the voxel of the hit or an
+/// adjacent one, and whether it exists depends on surfaces less than a voxel before it.
+constexpr float kHitReach = 3.1f;
+
 }  // namespace
 
 /// Links surfels by rays, for inject_radiosity. Source: Goral et al. 1984 (radiosity); Lehtinen et al. 2008
@@ -26,6 +31,7 @@ class LinkSurfels final : public Pass {
     static constexpr const char* kHelp =
         "Links the surfels that see each other, for radiosity. "
         "Rays find the links once for a geometry; light then travels along them (inject_radiosity). "
+        "Where surfaces move, rays that pass or end near them are traced again. "
         "Biased by: the distance of surfels (a hit takes the light of the nearest surfel in its voxel). "
         "Noisy by: rays_per_surfel. Source: Goral et al. 1984; Lehtinen et al. 2008.";
     struct Params {
@@ -42,11 +48,25 @@ class LinkSurfels final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    /// Surfels [first, first + count) of a chunk, whose rays are traced together.
+    struct Batch {
+        const Surfels::Chunk& chunk;
+        uint32_t first = 0, count = 0;
+        uint32_t firstIndex() const { return chunk.firstIndex + first; }
+    };
+
+    /// Whether links of the frame before are kept, but for those that a change may affect.
+    bool canUpdate(PassContext& context) const;
     void packSurfels(PassContext& context) const;
-    /// Traces the rays of a chunk and links their hits. @param inverseDistances by sorted surfel, means over
-    /// its rays, 1/voxel.
-    void linkHits(PassContext& context, const Surfels::Chunk& chunk, SurfelLinks& links,
-                  const LargeBuffer& inverseDistances) const;
+    /// Traces rays of a batch and links their hits. @return the number of rays.
+    uint32_t link(PassContext& context, const Batch& batch, bool isUpdate);
+    /// Generates all rays of a batch. @return their number.
+    uint32_t generateRays(PassContext& context, const Batch& batch) const;
+    /// Generates the rays of a batch that a change may affect, and lists them. @return their number.
+    uint32_t listChangedRays(PassContext& context, const Batch& batch);
+    void traceOcclusion(PassContext& context, uint32_t rays);
+    /// @param inverseDistances by sorted surfel, means over its rays, 1/voxel.
+    void measureMeanDistances(PassContext& context, const Batch& batch, const LargeBuffer& inverseDistances) const;
     void packMeanDistances(PassContext& context, const LargeBuffer& inverseDistances) const;
 
     const Params params_;
@@ -63,19 +83,36 @@ class LinkSurfels final : public Pass {
     Kernel linkHits_{*this, "link_hits.comp"};
     Kernel meanInverseDistance_{*this, "mean_inverse_distance.comp"};
     Kernel packMeanDistances_{*this, "pack_mean_distances.comp"};
+    Kernel listChangedLinks_{*this, "list_changed_links.comp"};
+    bool keepsHits_ = false;                                        ///< Surfaces move.
+    LargeBuffer hitDistances_;                                      ///< By link, m, if hits are kept.
+    Buffer boxes_;                                                  ///< Of changes, during an update.
     Buffer rays_, hits_, occlusionRays_, occluded_, unlinkedHits_;  ///< Scratch, of a batch of rays.
+    Buffer listedRays_, listedCount_;                               ///< Likewise, if hits are kept.
 };
 
 void LinkSurfels::plan(PassPlan& plan) {
+    const Surfels& surfels = plan[surfels_];
+    keepsHits_ = surfels.areIndexedById;
     plan[links_].raysPerSurfel = params_.raysPerSurfel;
-    plan.estimate(plan[surfels_].estimatedCount *
-                  (params_.raysPerSurfel * sizeof(uint32_t) + sizeof(gpu::SortedSurfel)));
+    const double linkBytes = keepsHits_ ? sizeof(uint32_t) + sizeof(float) : sizeof(uint32_t);
+    plan.estimate(surfels.estimatedCount * (params_.raysPerSurfel * linkBytes + sizeof(gpu::SortedSurfel)));
     plan.scratchBuffer(rays_, "link rays", uint64_t(kBatchRays) * sizeof(Ray));
     plan.scratchBuffer(hits_, "link hits", uint64_t(kBatchRays) * sizeof(Hit));
     plan.scratchBuffer(occlusionRays_, "occlusion rays of link hits", uint64_t(kBatchRays) * sizeof(Ray));
     plan.scratchBuffer(occluded_, "occluded link hits", uint64_t(kBatchRays) * sizeof(uint32_t));
     plan.scratchBuffer(unlinkedHits_, "number of hits without surfel", sizeof(uint32_t));
-    plan[byVoxel_].hasOccludedSurfels = plan[surfels_].hasOccludedSurfels;
+    plan[byVoxel_].hasOccludedSurfels = surfels.hasOccludedSurfels;
+    listChangedLinks_.compileIf(keepsHits_);
+    if (!keepsHits_) return;
+    for (Kernel* kernel : {&linkHits_, &meanInverseDistance_}) kernel->define({{"KEEPS_HITS", "1"}});
+    plan.scratchBuffer(listedRays_, "listed link rays", uint64_t(kBatchRays) * sizeof(uint32_t));
+    plan.scratchBuffer(listedCount_, "number of listed link rays", sizeof(uint32_t));
+}
+
+bool LinkSurfels::canUpdate(PassContext& context) const {
+    const std::optional<std::vector<Box>>& changed = context.frame.changedRegions;
+    return keepsHits_ && !context.isFirstRun() && changed && !changed->empty() && context[surfels_].keepPoints;
 }
 
 void LinkSurfels::record(PassContext& context) {
@@ -90,21 +127,40 @@ void LinkSurfels::record(PassContext& context) {
             kName, count, params_.raysPerSurfel);
     links.surfelCount = uint32_t(count);
     ensureSize(links.links, context.device, "surfel links", count * params_.raysPerSurfel * sizeof(uint32_t));
+    if (keepsHits_)
+        ensureSize(hitDistances_, context.device, "distances of link hits",
+                   count * params_.raysPerSurfel * sizeof(float));
 
     sort_.run(context.stream, surfels, context[voxels_].voxelCount, context[byVoxel_]);
     packSurfels(context);
+    const bool isUpdate = canUpdate(context);
+    if (isUpdate) boxes_ = changedBoxes(context.stream, *context.frame.changedRegions, context[voxels_].grid.voxelSize);
     const LargeBuffer inverseDistances(context.device, "inverse distances of surfels",
                                        std::max(context[byVoxel_].sortedCount, 1u) * sizeof(float));
     context.stream.fill(unlinkedHits_, 0);
-    for (const Surfels::Chunk& chunk : surfels.chunks) linkHits(context, chunk, links, inverseDistances);
+    if (!context[surfels_].hasOccludedSurfels) context.stream.fill(occluded_, 0);
+    const uint32_t perBatch = kBatchRays / params_.raysPerSurfel;
+    uint64_t rays = 0;
+    for (const Surfels::Chunk& chunk : surfels.chunks) {
+        for (uint32_t first = 0; first < chunk.count; first += perBatch) {
+            const Batch batch{chunk, first, std::min(perBatch, chunk.count - first)};
+            rays += link(context, batch, isUpdate);
+            measureMeanDistances(context, batch, inverseDistances);
+        }
+        context.stream.finish();
+    }
+    boxes_ = {};
     packMeanDistances(context, inverseDistances);
     if (context[neighbors_].isRead)
         context.report("radius of neighbors, voxels",
                        neighborSearch_.run(context.stream, context[voxels_], surfels.pointCount, context[byVoxel_],
                                            context[neighbors_]));
     const uint32_t unlinkedHits = context.stream.readAs<uint32_t>(unlinkedHits_, 1)[0];
-    context.report("links", double(count) * params_.raysPerSurfel);
-    context.report("hits without surfel, % of rays", 100.0 * unlinkedHits / (double(count) * params_.raysPerSurfel));
+    const double linkCount = double(context[byVoxel_].sortedCount) * params_.raysPerSurfel;
+    context.report("links", linkCount);
+    context.report("hits without surfel, % of rays", rays > 0 ? 100.0 * unlinkedHits / double(rays) : 0);
+    if (keepsHits_)
+        context.report("rays traced, % of all", 100.0 * double(rays) / (double(count) * params_.raysPerSurfel));
 }
 
 void LinkSurfels::packSurfels(PassContext& context) const {
@@ -120,57 +176,89 @@ void LinkSurfels::packSurfels(PassContext& context) const {
                       {"voxels", voxels.voxelCount}});
 }
 
-void LinkSurfels::linkHits(PassContext& context, const Surfels::Chunk& chunk, SurfelLinks& links,
-                           const LargeBuffer& inverseDistances) const {
-    const SurfaceVoxels& voxels = context[voxels_];
+uint32_t LinkSurfels::generateRays(PassContext& context, const Batch& batch) const {
+    const uint32_t rays = batch.count * params_.raysPerSurfel;
+    context.dispatch(generateRays_, rays,
+                     {{"surfels", batch.chunk.surfels},
+                      {"rays", rays_},
+                      {"firstSurfel", batch.first},
+                      {"rayCount", rays},
+                      {"raysPerSurfel", params_.raysPerSurfel},
+                      {"seed", randomSeed(context.frame)}});
+    return rays;
+}
+
+uint32_t LinkSurfels::listChangedRays(PassContext& context, const Batch& batch) {
+    const SurfelLinks& links = context[links_];
+    context.stream.fill(listedCount_, 0);
+    context.dispatch(listChangedLinks_, batch.count,
+                     {{"boxes", boxes_},
+                      {"surfels", batch.chunk.surfels},
+                      {"LinksRef", links.links.ref()},
+                      {"HitDistancesRef", hitDistances_.ref()},
+                      {"rays", rays_},
+                      {"listedRays", listedRays_},
+                      {"listedCount", listedCount_},
+                      {"firstInChunk", batch.first},
+                      {"firstSurfel", batch.firstIndex()},
+                      {"batchSurfels", batch.count},
+                      {"raysPerSurfel", params_.raysPerSurfel},
+                      {"surfelCount", links.surfelCount},
+                      {"seed", randomSeed(context.frame)},
+                      {"reach", kHitReach * context[voxels_].grid.voxelSize}});
+    return context.stream.readAs<uint32_t>(listedCount_, 1)[0];
+}
+
+void LinkSurfels::traceOcclusion(PassContext& context, uint32_t rays) {
+    context.dispatch(generateOcclusionRays_, rays,
+                     {context.scene,
+                      {"rays", rays_},
+                      {"hits", hits_},
+                      {"occlusionRays", occlusionRays_},
+                      {"rayCount", rays},
+                      {"voxelSize", context[voxels_].grid.voxelSize}});
+    context.tracer.occluded(context.stream, occlusionRays_, occluded_, rays);
+}
+
+uint32_t LinkSurfels::link(PassContext& context, const Batch& batch, bool isUpdate) {
+    const SurfelLinks& links = context[links_];
     const SurfelsByVoxel& byVoxel = context[byVoxel_];
-    const bool testsOcclusion = context[surfels_].hasOccludedSurfels;
-    if (!testsOcclusion) context.stream.fill(occluded_, 0);
-    const uint32_t raysPerSurfel = params_.raysPerSurfel, surfelsPerBatch = kBatchRays / raysPerSurfel;
-    for (uint32_t firstInChunk = 0; firstInChunk < chunk.count; firstInChunk += surfelsPerBatch) {
-        const uint32_t surfels = std::min(surfelsPerBatch, chunk.count - firstInChunk), rays = surfels * raysPerSurfel;
-        context.dispatch(generateRays_, rays,
-                         {{"surfels", chunk.surfels},
-                          {"rays", rays_},
-                          {"firstSurfel", firstInChunk},
-                          {"rayCount", rays},
-                          {"raysPerSurfel", raysPerSurfel},
-                          {"seed", randomSeed(context.frame)}});
-        context.tracer.closestHit(context.stream, rays_, hits_, rays);
-        if (testsOcclusion) {
-            context.dispatch(generateOcclusionRays_, rays,
-                             {context.scene,
-                              {"rays", rays_},
-                              {"hits", hits_},
-                              {"occlusionRays", occlusionRays_},
-                              {"rayCount", rays},
-                              {"voxelSize", voxels.grid.voxelSize}});
-            context.tracer.occluded(context.stream, occlusionRays_, occluded_, rays);
-        }
-        context.dispatch(linkHits_, rays,
-                         {context.scene,
-                          voxels,
-                          {"rays", rays_},
-                          {"hits", hits_},
-                          {"occluded", occluded_},
-                          {"SortedRef", byVoxel.sorted.ref()},
-                          {"surfelRanges", byVoxel.ranges},
-                          {"LinksRef", links.links.ref()},
-                          {"unlinkedHits", unlinkedHits_},
-                          {"firstSurfel", chunk.firstIndex + firstInChunk},
-                          {"rayCount", rays},
-                          {"raysPerSurfel", raysPerSurfel},
-                          {"surfelCount", links.surfelCount}});
-        context.dispatch(meanInverseDistance_, surfels,
-                         {{"hits", hits_},
-                          {"SortedIndicesRef", byVoxel.sortedIndices.ref()},
-                          {"InverseDistancesRef", inverseDistances.ref()},
-                          {"firstSurfel", chunk.firstIndex + firstInChunk},
-                          {"surfelCount", surfels},
-                          {"raysPerSurfel", raysPerSurfel},
-                          {"voxelSize", voxels.grid.voxelSize}});
-    }
-    context.stream.finish();
+    const uint32_t rays = isUpdate ? listChangedRays(context, batch) : generateRays(context, batch);
+    if (rays == 0) return 0;
+    context.tracer.closestHit(context.stream, rays_, hits_, rays);
+    if (context[surfels_].hasOccludedSurfels) traceOcclusion(context, rays);
+    context.dispatch(linkHits_, rays,
+                     {context.scene,
+                      context[voxels_],
+                      {"rays", rays_},
+                      {"hits", hits_},
+                      {"occluded", occluded_},
+                      {"SortedRef", byVoxel.sorted.ref()},
+                      {"surfelRanges", byVoxel.ranges},
+                      {"LinksRef", links.links.ref()},
+                      {"unlinkedHits", unlinkedHits_},
+                      {"firstSurfel", batch.firstIndex()},
+                      {"rayCount", rays},
+                      {"raysPerSurfel", params_.raysPerSurfel},
+                      {"surfelCount", links.surfelCount},
+                      ifUsed({"HitDistancesRef", hitDistances_.ref()}),
+                      ifUsed({"listedRays", listedRays_}),
+                      ifUsed({"isListed", isUpdate})});
+    return rays;
+}
+
+void LinkSurfels::measureMeanDistances(PassContext& context, const Batch& batch,
+                                       const LargeBuffer& inverseDistances) const {
+    context.dispatch(meanInverseDistance_, batch.count,
+                     {ifUsed({"hits", hits_}),
+                      ifUsed({"HitDistancesRef", hitDistances_.ref()}),
+                      {"SortedIndicesRef", context[byVoxel_].sortedIndices.ref()},
+                      {"InverseDistancesRef", inverseDistances.ref()},
+                      {"firstSurfel", batch.firstIndex()},
+                      {"batchSurfels", batch.count},
+                      {"raysPerSurfel", params_.raysPerSurfel},
+                      ifUsed({"surfelCount", context[links_].surfelCount}),
+                      {"voxelSize", context[voxels_].grid.voxelSize}});
 }
 
 void LinkSurfels::packMeanDistances(PassContext& context, const LargeBuffer& inverseDistances) const {

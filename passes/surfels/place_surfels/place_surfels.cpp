@@ -72,7 +72,7 @@ class PlaceSurfels final : public Pass {
     PointDensity density(const Geometry& geometry, const SurfaceVoxels& voxels);
     /// Stores which surfels of a batch of points exist and which of them are occluded, and counts them.
     void storeSides(PassContext& context, uint32_t firstPoint, uint32_t batch) const;
-    /// Stores the surfels of the batch. @return their number.
+    /// Stores the surfels of the batch. @return the number of those that exist.
     uint32_t storeSurfels(PassContext& context, uint32_t batch) const;
 
     const Params params_;
@@ -83,6 +83,7 @@ class PlaceSurfels final : public Pass {
     Kernel storeSides_{*this, "store_sides.comp"};
     Kernel compact_{*this, "compact_surfels.comp"};
     std::optional<uint32_t> staticVoxels_;                     ///< Voxels with static surfaces, where others move.
+    std::vector<uint32_t> triangles_;                          ///< Of all points in the last frame, where some move.
     Buffer rays_, occluded_, candidates_, compacted_, count_;  ///< Scratch, of a batch of points.
     Buffer existing_;                                          ///< Scratch: number of surfels whose sides are stored.
 };
@@ -116,6 +117,8 @@ void PlaceSurfels::plan(PassPlan& plan) {
     storeSides_.compileIf(points.isRead);
     if (points.isRead) plan.scratchBuffer(existing_, "number of surfels that exist", sizeof(uint32_t));
     compact_.compileIf(surfels.isRead);
+    surfels.areIndexedById = !movingInstanceRanges(plan.frame.scene->geometry).empty();
+    if (surfels.areIndexedById) compact_.define({{"ALL", "1"}});
     if (surfels.isRead) place_.define({{"SURFELS", "1"}});
     if (surfels.isRead) plan.estimate(surfels.estimatedCount * sizeof(gpu::Surfel));
     if (points.isRead) plan.estimate(surfels.estimatedCount / 2 * (sizeof(uint32_t) + 0.5));
@@ -142,11 +145,13 @@ void PlaceSurfels::record(PassContext& context) {
     surfels.count = 0;
     points.triangles = {}, points.sides = {};
     const Geometry& geometry = context.frame.scene->geometry;
-    const std::vector<uint32_t> triangles = distributePoints(geometry, density(geometry, voxels));
+    std::vector<uint32_t> triangles = distributePoints(geometry, density(geometry, voxels));
     points.count = uint32_t(surfels.pointCount = triangles.size());
     points.seed = randomSeed(context.frame);
     points.triangles = LargeBuffer(context.device, "triangles of points", uintBytes(points.count));
     if (points.count > 0) stream.upload(points.triangles, triangles);
+    surfels.keepPoints = triangles == triangles_;
+    if (surfels.areIndexedById) triangles_ = std::move(triangles);
     if (points.isRead)
         points.sides =
             LargeBuffer(context.device, "sides of points", uintBytes(bitWords(2 * kSideBits * uint64_t(points.count))));
@@ -205,13 +210,14 @@ uint32_t PlaceSurfels::storeSurfels(PassContext& context, uint32_t batch) const 
                       {"count", count_},
                       {"candidateCount", 2 * batch},
                       {"includeOccluded", params_.sides == SurfelSides::All}});
-    const uint32_t count = stream.readAs<uint32_t>(count_, 1)[0];
+    const uint32_t existing = stream.readAs<uint32_t>(count_, 1)[0];
+    const uint32_t count = surfels.areIndexedById ? 2 * batch : existing;
     if (count == 0) return 0;
     surfels.chunks.push_back(
         {Buffer(context.device, "surfels", count * sizeof(gpu::Surfel)), count, uint32_t(surfels.count)});
     stream.copy(compacted_, surfels.chunks.back().surfels, count * sizeof(gpu::Surfel));
     surfels.count += count;
-    return count;
+    return existing;
 }
 
 VOXRAY_REGISTER_PASS(PlaceSurfels);

@@ -1,0 +1,53 @@
+// Surfels and their links where surfaces move: what a frame leaves is, bit by bit, what a chain that was made there
+// has, and links are traced again only where something has changed.
+#include <gtest/gtest.h>
+
+#include "passes/surfels/surfel_links.h"
+#include "tests/gpu/chain.h"
+
+namespace voxray::test {
+namespace {
+
+/// Cornell with a ball that swings between the walls, once in four seconds.
+std::shared_ptr<const Scene> swingingBall() {
+    return cornellWithBall({.radius = 0.12f, .center = {0, 1.3f, 0.2f}, .swing = {0.85f, 0, 0}, .period = 4});
+}
+
+constexpr size_t kLinks = 2;  ///< link_surfels, among the passes of the build.
+
+void expectAsMadeThere(const std::string& sides) {
+    const std::string graph = graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels, sides: " + sides,
+                                         "link_surfels, rays_per_surfel: 16", "inject_radiosity, bounces: 2",
+                                         "smooth_surfels", "gather_surfels"});
+    const auto traced = [](const std::vector<PassSample>& samples) {
+        return reported(samples.at(kLinks), "rays traced, % of all");
+    };
+    // A little on; to where nothing was; to a wall, within a voxel of it; back to where it began.
+    const auto scene = swingingBall();
+    const auto moved = chainAt(scene, 0, graph);
+    EXPECT_EQ(traced(moved->buildSamples), 100);
+    for (const double second : {0.02, 0.5, 1.0, 3.1, 4.0}) {
+        SCOPED_TRACE(second);
+        moved->goTo(second);
+        const auto made = chainAt(scene, second, graph);
+        const auto &links = moved->get<SurfelLinks>("links"), &madeLinks = made->get<SurfelLinks>("links");
+        EXPECT_TRUE(sameBits(moved->read<uint32_t>(links.links), made->read<uint32_t>(madeLinks.links)));
+        const ImageF image = moved->image("indirect");
+        EXPECT_TRUE(sameBits(image.data, made->image("indirect").data));
+        EXPECT_GT(mean(image), 0);
+        std::printf("at %.2f s: %.1f %% of rays traced\n", second, traced(moved->updateSamples));
+        EXPECT_GT(traced(moved->updateSamples), 0.5);
+        EXPECT_LT(traced(moved->updateSamples), 40);
+    }
+}
+
+TEST(MovingSurfels, AreAsMadeThere) {
+    expectAsMadeThere("open");
+}
+
+TEST(MovingSurfels, AreAsMadeThereOnAllSides) {
+    expectAsMadeThere("all");
+}
+
+}  // namespace
+}  // namespace voxray::test
