@@ -12,10 +12,18 @@
 namespace voxray::test {
 namespace {
 
-std::string hitFaceGraph(const std::string& light, const std::string& rays = "64",
-                         const std::string& resolution = "16") {
-    return graphYaml({"gbuffer", "voxelize, resolution: " + resolution, "trace_gather_rays, rays_per_block: " + rays,
-                      "light_hit_faces" + light, "gather_rays, source: hit_faces"});
+std::string hitFaceGraph(const std::string& light, const std::string& rays = "64", const std::string& resolution = "16",
+                         const std::string& samples = "1", const std::string& nearField = "2") {
+    return graphYaml({"gbuffer, samples_per_pixel_edge: " + samples, "voxelize, resolution: " + resolution,
+                      "trace_gather_rays, rays_per_block: " + rays, "light_hit_faces" + light,
+                      "gather_rays, source: hit_faces, near_field_cells: " + nearField});
+}
+
+double reportedBy(const Chain& chain, const std::string& name) {
+    for (const PassSample& sample : chain.frameSamples)
+        for (const PassContext::Value& value : sample.reported)
+            if (value.name == name) return value.value;
+    throw Error("no value '{}' was reported", name);
 }
 
 TEST(HitFaces, KeepTheEnergyOfAFurnace) {
@@ -31,10 +39,11 @@ TEST(HitFaces, KeepTheEnergyOfAFurnace) {
 }
 
 TEST(HitFaces, EveryBounceOfALitSphereIsThere) {
-    // 1 W/sr in the center of a sphere of 1 m gives 1 W/m² everywhere; each bounce reflects 0.6 of it to everywhere
+    // 1 W/sr in the center of a sphere of 1 m gives 1 W/m² everywhere; each bounce reflects 0.6 of it to everywhere.
+    // Without a near field, whose paths add a bounce.
     double expected = 0.6 / kPi * 0.6;
     for (int bounces = 0; bounces <= 5; ++bounces) {
-        Chain chain(litSphere(), hitFaceGraph(", bounces: " + std::to_string(bounces)), 32, 32);
+        Chain chain(litSphere(), hitFaceGraph(", bounces: " + std::to_string(bounces), "64", "16", "1", "0"), 32, 32);
         const double ratio = mean(chain.image("indirect")) / expected;
         std::printf("%d bounces: %.4f of the closed form\n", bounces, ratio);
         EXPECT_NEAR(ratio, 1, 0.005) << bounces;
@@ -77,14 +86,15 @@ TEST(HitFaces, HaveTheReferencesMean) {
 TEST(HitFaces, ConvergeToTheReferenceAsRaysAndVoxelsBecomeMore) {
     const ImageF& reference = pathTraced("cornell", "{lights: point}", 1024, 6);
     double before = 1e9;
-    for (const auto& [rays, resolution] : {std::pair{"4", "32"}, std::pair{"32", "64"}, std::pair{"256", "128"}}) {
+    for (const auto& [rays, resolution] : {std::pair{"1", "32"}, std::pair{"8", "64"}, std::pair{"64", "128"}}) {
         const double error = meanDifference(
-            indirectLight("cornell", "{lights: point}", hitFaceGraph(", bounces: 5", rays, resolution)), reference);
+            indirectLight("cornell", "{lights: point}", hitFaceGraph(", bounces: 5", rays, resolution, "3")),
+            reference);
         std::printf("%s rays, %s voxels: mean difference %.4f\n", rays, resolution, error);
-        EXPECT_LT(error, 0.6 * before);
+        EXPECT_LT(error, 0.45 * before);  // Noise alone: 8^-0.5 = 0.35.
         before = error;
     }
-    EXPECT_LT(before, 0.06);
+    EXPECT_LT(before, 0.08);
 }
 
 TEST(HitFaces, CostFollowsTheRays) {
