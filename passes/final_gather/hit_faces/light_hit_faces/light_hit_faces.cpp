@@ -17,6 +17,10 @@ namespace {
 
 constexpr uint32_t kMaxBatchPoints = 1u << 18;  // Bounds the memory of a batch of points to 38 MiB.
 
+/// Factor of the probability that a link to a face without light is kept, from the second round on: what such faces add
+/// is a small part of the light, and each round takes time whatever its size.
+constexpr float kSurvival = 0.5f;
+
 /// Makes a buffer of at least `bytes` that keeps its first `kept` bytes. Waits for the device.
 void grow(Buffer& buffer, PassContext& context, const char* name, uint64_t bytes, uint64_t kept) {
     if (buffer && buffer.bytes() >= bytes) return;
@@ -224,7 +228,8 @@ void LightHitFaces::lightPoints(PassContext& context, const Round& round, uint32
                           {"first", first},
                           {"count", count},
                           {"firstPoint", round.firstPoint},
-                          {"seed", seed + 0xa3u}});
+                          {"seed", seed + 0xa3u},
+                          {"survival", round.firstPoint == 0 ? 1.0f : kSurvival}});
     }
 }
 

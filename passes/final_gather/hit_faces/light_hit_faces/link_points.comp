@@ -1,5 +1,5 @@
 // Links each point to the face that its ray hits. A face that is not lit yet is marked for the next round, if Russian
-// roulette by albedo spares the link.
+// roulette by albedo and by `survival` spares the link.
 #include "passes/final_gather/hit_faces/light_hit_faces/face_point_types.h"
 #include "passes/final_gather/hit_faces/light_hit_faces/mark_face.glsl"
 #include "passes/surfels/surfel_at_hit.glsl"
@@ -18,6 +18,7 @@ layout(push_constant) uniform Push {
     uint count;
     uint firstPoint;  // Of the round.
     uint seed;
+    float survival;
 } push;
 
 void main() {
@@ -33,7 +34,7 @@ void main() {
         if (link.face == NO_FACE) {
             atomicAdd(lost.value, 1u);
         } else if (faceNumber(link.face) == NO_FACE) {
-            const float survival = survivalProbability(s.reflectance);
+            const float survival = push.survival * survivalProbability(s.reflectance);
             if (sobol2(point, push.seed).x < survival) {
                 link.reflectance /= survival;
                 markFace(link.face);

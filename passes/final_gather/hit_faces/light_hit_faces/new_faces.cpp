@@ -61,6 +61,7 @@ uint32_t NewFaces::choose(PassContext& context, const HitFaceLight& light, const
                               {"firstFace", firstFace},
                               {"slotsPerFace", slotsPerFace},
                               {"seed", seed}});
+    if (slotsPerFace == 1) return faces;  // Each has a hit.
     return compaction_.run(stream, takenSlots_, pointSlots_, uint32_t(words));
 }
 

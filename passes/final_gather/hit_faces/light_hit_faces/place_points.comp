@@ -6,7 +6,7 @@
 #include "shaders/scene/scene.glsl"
 layout(local_size_x = 64) in;
 
-readonly buffer PointSlots { uint data[]; } pointSlots;  // Slots that have a hit, ascending.
+readonly buffer PointSlots { uint data[]; } pointSlots;  // Slots that have a hit, ascending; not with one slot a face.
 layout(scalar) readonly buffer SlotHits { FaceHit data[]; } slotHits;
 layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
@@ -23,8 +23,9 @@ layout(push_constant) uniform Push {
 void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
-    const uint k = push.first + i, slot = pointSlots.data[k], face = slot / push.slotsPerFace;
-    if (k == 0u || pointSlots.data[k - 1u] / push.slotsPerFace != face)
+    const uint k = push.first + i, slot = push.slotsPerFace == 1u ? k : pointSlots.data[k];
+    const uint face = slot / push.slotsPerFace;
+    if (push.slotsPerFace == 1u || k == 0u || pointSlots.data[k - 1u] / push.slotsPerFace != face)
         firstPoints.data[push.firstFace + face] = push.firstPoint + k;
 
     const FaceHit hit = slotHits.data[slot];
