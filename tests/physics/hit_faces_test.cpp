@@ -97,6 +97,20 @@ TEST(HitFaces, ConvergeToTheReferenceAsRaysAndVoxelsBecomeMore) {
     EXPECT_LT(before, 0.08);
 }
 
+TEST(HitFaces, LieInWindowsRoundTheCameraToo) {
+    const auto image = [](const std::vector<std::string>& voxels) {
+        std::vector<std::string> passes{"gbuffer"};
+        passes.insert(passes.end(), voxels.begin(), voxels.end());
+        for (const char* pass : {"trace_gather_rays, rays_per_block: 256", "light_hit_faces, bounces: 3",
+                                 "gather_rays, source: hit_faces"})
+            passes.push_back(pass);
+        return meanIndirect("white_room", "{albedo: 0.5}", graphYaml(passes));
+    };
+    const double grid = image({"voxelize, resolution: 48"});
+    const double windows = image({"voxelize_clipmap, resolution: 48, clipmap_resolution: 16", "join_clipmap_levels"});
+    EXPECT_NEAR(windows / grid, 1, 0.01);
+}
+
 TEST(HitFaces, CostFollowsTheRays) {
     const auto points = [](const std::string& rays) {
         return reportedBy(Chain("cornell", "{lights: point}", hitFaceGraph(", points_per_face: 1", rays, "128")),
