@@ -15,7 +15,7 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kMaxBatchPoints = 1u << 18;  // Bounds the memory of a batch of points to 38 MiB.
+constexpr uint32_t kMaxBatchPoints = 1u << 18;  // Bounds the memory of a batch of points to 42 MiB.
 
 /// Factor of the probability that a link to a face without light is kept, from the second round on: what such faces add
 /// is a small part of the light, and each round takes time whatever its size.
@@ -34,9 +34,9 @@ void grow(Buffer& buffer, PassContext& context, const char* name, uint64_t bytes
 
 }  // namespace
 
-/// Light of the voxel faces that gather rays hit, new in each frame. Source: final gathering over faces that are lit on
-/// demand: Magalhães 2020, section 6.1; points that read each other's light by stored rays: Keller 1997 (instant
-/// radiosity) has the idea, Jensen 2001, section 8.2 the final gather.
+/// Light of the voxel faces that gather rays hit, new in each frame: rounds of rays find the faces that light comes
+/// from, then it is passed along these rays (docs/hit-faces.md). Source: Magalhães 2020, section 6.1 (light on demand);
+/// Keller et al. 2014 (path space filtering); Neumann 1995 (Monte Carlo radiosity).
 class LightHitFaces final : public Pass {
  public:
     static constexpr const char* kName = "light_hit_faces";
@@ -47,7 +47,7 @@ class LightHitFaces final : public Pass {
         "likewise, and so on, so that no bounce is lost; then light is passed along the links, a bounce at a time. "
         "gather_rays reads it with `source: hit_faces`. Cost follows the rays, not the scene. "
         "Biased by: voxel size (a face has one value). Noisy by: points_per_face, light_samples. "
-        "Leaves unlit: all that no ray hits. Source: Magalhães 2020, section 6.1 (light on demand).";
+        "Leaves unlit: all that no ray hits. Source: Magalhães 2020, section 6.1 (light on demand); Keller et al. 2014 (path space filtering).";
     struct Params {
         uint32_t pointsPerFace = 4;
         uint32_t bounces = 8;
