@@ -6,8 +6,9 @@ rivals_table.py DIR [--best]: for each scene and number of samples a pixel, the 
 and its errors of indirect light; then that time over the time in which voxels that are looked up, gather rays into voxels,
 or gather rays into a radiance cache reach as small an nRMSE / relMSE: with light and geometry that stand still (frames
 alone), with light that is new in each frame (what brings light counts, too), and with geometry that is new, too (all that
-is built counts). "voxels, rays alone" takes the G-buffer and the filter, which both sides share, off both sides: what the
-column before would come to if these cost nothing. For virtual lights what samples and selects them counts. Of a method's
+is built counts). Faces that gather rays hit are lit in each frame (configs/bench/hit_faces.yaml).
+"rays alone" takes the G-buffer and the filter, which both sides share, off both sides: what the column before would come to
+if these cost nothing. For virtual lights what samples and selects them counts. Of a method's
 variants those count that no other one beats in time and error; between them the time is interpolated, logarithm over
 logarithm.
 `>` where the fastest of them already has less error, `-` where none has as little. Direct light is in neither.
@@ -36,6 +37,8 @@ COLUMNS = (("looked up", "inject_radiosity", lambda name: False, LEFT_OUT),
            ("cache", "cached_rays", lambda name: False, LEFT_OUT),
            ("voxels, new light", "gather_rays", lambda name: name in LIGHT, LEFT_OUT),
            ("cache, new light", "cached_rays", lambda name: name in LIGHT, LEFT_OUT),
+           ("hit faces", "hit_face_rays", lambda name: False, LEFT_OUT),
+           ("hit faces, rays alone", "hit_face_rays", lambda name: False, LEFT_OUT | SHARED),
            ("reservoirs, new light", "resampled_rays", lambda name: name in LIGHT, LEFT_OUT),
            ("voxels, new geometry", "gather_rays", lambda name: True, LEFT_OUT),
            ("probes", "update_probes", lambda name: False, LEFT_OUT),

@@ -151,6 +151,7 @@ class Validate(CommandTest):
                    "more cones": "[{pass: inject_light_rays, bounces: 1}, {pass: filter_voxels, bounces: 1}, gather_cones]",
                    "merged": "[merge_voxels, trace_gather_rays, {pass: gather_rays, source: merged_voxels}]",
                    "cache": "[{pass: update_radiance_cache, bounces: 2}, trace_gather_rays, {pass: gather_rays, source: radiance_cache}]",
+                   "hit faces": "[trace_gather_rays, {pass: light_hit_faces, bounces: 2}, {pass: gather_rays, source: hit_faces}]",
                    "vpls": "[{pass: sample_vpls, bounces: 3}, gather_vpls]",
                    "mirrors": "[{pass: inject_light_rays, bounces: 2}, {pass: gather_irradiance, id: below}, gather_mirror]",
                    "paths": "[{pass: path_trace, bounces: 3, light: indirect}, filter_irradiance]"}

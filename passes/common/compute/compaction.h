@@ -16,10 +16,10 @@ class Compaction {
     /// @param words of `flags`. @return the number of flagged items; waits for the device.
     uint32_t run(CommandStream& stream, const Buffer& flags, const Buffer& indices, uint32_t words) const {
         const Buffer before(stream.device(), "flagged items before", uint64_t(words) * sizeof(uint32_t));
-        const uint32_t count = prefixSum_.run(stream, flags, before, words);
+        const Buffer sums(stream.device(), "prefix sum blocks", PrefixSum::scratchBytes(words));
+        prefixSum_.record(stream, flags, before, sums, words);
         stream.dispatch(list_, words, {{"flags", flags}, {"before", before}, {"indices", indices}, {"words", words}});
-        stream.finish();
-        return count;
+        return PrefixSum::sum(stream, sums);
     }
 
  private:

@@ -43,8 +43,12 @@ void PrefixSum::record(CommandStream& stream, const Buffer& source, const Buffer
 uint32_t PrefixSum::run(CommandStream& stream, const Buffer& source, const Buffer& before, uint32_t count) const {
     const Buffer sums(stream.device(), "prefix sum blocks", scratchBytes(count));
     record(stream, source, before, sums, count);
+    return sum(stream, sums);
+}
+
+uint32_t PrefixSum::sum(CommandStream& stream, const Buffer& blockSums) {
     uint32_t sum = 0;
-    const std::vector<std::byte> last = stream.read(sums, sizeof sum, scratchBytes(count) - sizeof sum);
+    const std::vector<std::byte> last = stream.read(blockSums, sizeof sum, blockSums.bytes() - sizeof sum);
     std::memcpy(&sum, last.data(), sizeof sum);
     return sum;
 }

@@ -21,6 +21,8 @@ class PrefixSum {
     void record(CommandStream& stream, const Buffer& source, const Buffer& before, const Buffer& blockSums,
                 uint32_t count) const;
     static uint64_t scratchBytes(uint32_t count);
+    /// The sum of all, from the scratch of record(); waits for the device.
+    static uint32_t sum(CommandStream& stream, const Buffer& blockSums);
 
  private:
     Kernel sumBlocks_, scanBlocks_, scanValues_;

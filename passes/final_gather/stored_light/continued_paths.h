@@ -35,8 +35,10 @@ class ContinuedPaths {
 
  private:
     bool isUsed() const { return measureDirect_ || params_.nearFieldCells > 0; }
-    /// Maximum continuation rays of a path. Where the cache has no cells paths have eight bounces.
-    uint32_t maxSteps() const { return params_.source == GatherSource::RadianceCache ? 7 : 3; }
+    /// Maximum continuation rays of a path. Where light is stored for some places only paths have eight bounces.
+    uint32_t maxSteps() const {
+        return params_.source == GatherSource::RadianceCache || params_.source == GatherSource::HitFaces ? 7 : 3;
+    }
 
     ProgramOwner& owner_;
     StoredLightParams params_;

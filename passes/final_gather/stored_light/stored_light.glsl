@@ -1,4 +1,4 @@
-// Lookups of stored irradiance, in one of three storages. Host: passes/final_gather/stored_light/stored_light.h.
+// Lookups of stored irradiance, in one of four storages. Host: passes/final_gather/stored_light/stored_light.h.
 #ifndef VOXRAY_STORED_LIGHT_GLSL
 #define VOXRAY_STORED_LIGHT_GLSL
 
@@ -9,6 +9,8 @@
 #include "passes/final_gather/merged_voxels/irradiance_tree.glsl"
 #elif defined(STORED_IN_RADIANCE_CACHE)
 #include "passes/cache/radiance_cache.glsl"
+#elif defined(STORED_IN_HIT_FACES)
+#include "passes/final_gather/hit_faces/hit_face_light.glsl"
 #endif
 
 struct StoredLight {
@@ -35,6 +37,9 @@ StoredLight storedLight(vec3 position, vec3 normal) {
     const vec4 mean = meanRadianceCell(g, slot);
     stored.irradiance = mean.rgb;
     stored.known = mean.w >= float(MIN_SAMPLES);
+#elif defined(STORED_IN_HIT_FACES)
+    stored.irradiance = hitFaceIrradianceAt(position, normal, stored.known);
+    stored.cellSize = gridAt(position).voxelSize;
 #endif
     return stored;
 }

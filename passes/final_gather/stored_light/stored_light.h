@@ -5,6 +5,7 @@
 
 #include "passes/cache/radiance_cache.h"
 #include "passes/common/voxels/face_irradiance.h"
+#include "passes/final_gather/hit_faces/hit_face_light.h"
 #include "passes/final_gather/merged_voxels/irradiance_tree.h"
 #include "passes/final_gather/stored_light/stored_light_params.h"
 
@@ -34,6 +35,7 @@ class StoredLight {
     In<VoxelIrradiance> irradiance_;
     In<IrradianceTree> tree_;
     In<RadianceCache> cache_;
+    In<HitFaceLight> hitFaces_;
     std::optional<FaceIrradiance> faces_;  ///< Of voxels.
 };
 

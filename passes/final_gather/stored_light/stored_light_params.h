@@ -9,12 +9,12 @@
 namespace voxray {
 
 /// Storage from which a final gather reads light.
-enum class GatherSource { Voxels, MergedVoxels, RadianceCache };
+enum class GatherSource { Voxels, MergedVoxels, RadianceCache, HitFaces };
 template <>
 struct EnumNames<GatherSource> {
-    static constexpr std::array names{std::pair{GatherSource::Voxels, "voxels"},
-                                      std::pair{GatherSource::MergedVoxels, "merged_voxels"},
-                                      std::pair{GatherSource::RadianceCache, "radiance_cache"}};
+    static constexpr std::array names{
+        std::pair{GatherSource::Voxels, "voxels"}, std::pair{GatherSource::MergedVoxels, "merged_voxels"},
+        std::pair{GatherSource::RadianceCache, "radiance_cache"}, std::pair{GatherSource::HitFaces, "hit_faces"}};
 };
 
 enum class DirectAtHits { Voxels, ShadowRays };
@@ -36,7 +36,8 @@ struct StoredLightParams {
         return std::tuple{
             field("source", &P::source,
                   "Storage of light. voxels: faces of surface voxels, filled by any injection. merged_voxels: "
-                  "the trees of merge_voxels. radiance_cache: the hashed cells of update_radiance_cache."),
+                  "the trees of merge_voxels. radiance_cache: the hashed cells of update_radiance_cache. "
+                  "hit_faces: the voxel faces of light_hit_faces."),
             field("direct_at_hits", &P::directAtHits,
                   "Direct light at the hits. voxels: from voxels, as coarse as they are. shadow_rays: "
                   "exact, by a shadow ray from each hit to each light; only indirect light is read from voxels.")
@@ -49,7 +50,8 @@ struct StoredLightParams {
                           oneOf(&P::source, {GatherSource::MergedVoxels})),
             field("near_field_cells", &P::nearFieldCells,
                   "Paths continue from hits closer than this, in voxels or cells of the cache, "
-                  "and from hits where no light is stored: up to three times, with a radiance cache up to seven. "
+                  "and from hits where no light is stored: up to three times, with a radiance cache or hit faces "
+                  "up to seven. "
                   "0: every hit reads stored light, and is black where there is none.",
                   0.0f, 64.0f),
             field("min_samples", &P::minSamples,

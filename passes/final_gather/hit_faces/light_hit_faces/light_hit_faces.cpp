@@ -1,0 +1,265 @@
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "graph/registry.h"
+#include "passes/common/compute/random_seed.h"
+#include "passes/common/view/gather_hits.h"
+#include "passes/common/view/gbuffer.h"
+#include "passes/common/voxels/voxels.h"
+#include "passes/final_gather/hit_faces/hit_face_light.h"
+#include "passes/final_gather/hit_faces/light_hit_faces/face_point_types.h"
+#include "passes/final_gather/hit_faces/light_hit_faces/new_faces.h"
+#include "passes/surfels/surfel_direct_light.h"
+
+namespace voxray {
+namespace {
+
+constexpr uint32_t kMaxBatchPoints = 1u << 18;  // Bounds the memory of a batch of points to 42 MiB.
+
+/// Factor of the probability that a link to a face without light is kept, from the second round on: what such faces add
+/// is a small part of the light, and each round takes time whatever its size.
+constexpr float kSurvival = 0.5f;
+
+/// Makes a buffer of at least `bytes` that keeps its first `kept` bytes. Waits for the device.
+void grow(Buffer& buffer, PassContext& context, const char* name, uint64_t bytes, uint64_t kept) {
+    if (buffer && buffer.bytes() >= bytes) return;
+    context.stream.finish();
+    if (kept == 0) buffer = {};
+    Buffer larger(context.device, name, kept > 0 ? bytes + bytes / 2 : bytes);
+    if (kept > 0) context.stream.copy(buffer, larger, kept);
+    context.stream.finish();
+    buffer = std::move(larger);
+}
+
+}  // namespace
+
+/// Light of the voxel faces that gather rays hit, new in each frame: rounds of rays find the faces that light comes
+/// from, then it is passed along these rays (docs/hit-faces.md). Source: Magalhães 2020, section 6.1 (light on demand);
+/// Keller et al. 2014 (path space filtering); Neumann 1995 (Monte Carlo radiosity).
+class LightHitFaces final : public Pass {
+ public:
+    static constexpr const char* kName = "light_hit_faces";
+    static constexpr const char* kHelp =
+        "Lights the voxel faces that gather rays hit, anew in each frame. "
+        "Each face has up to points_per_face of the rays' hits as its points. Shadow rays measure their direct light, "
+        "and a ray from each links it to another face, whose light it reflects. Faces that only these rays hit are lit "
+        "likewise, and so on, so that no bounce is lost; then light is passed along the links, a bounce at a time. "
+        "gather_rays reads it with `source: hit_faces`. Cost follows the rays, not the scene. "
+        "Biased by: voxel size (a face has one value). Noisy by: points_per_face, light_samples. "
+        "Leaves unlit: all that no ray hits. Source: Magalhães 2020, section 6.1 (light on demand); Keller et al. 2014 (path space filtering).";
+    struct Params {
+        uint32_t pointsPerFace = 4;
+        uint32_t bounces = 8;
+        uint32_t lightSamples = 1;
+        static constexpr auto schema() {
+            return std::tuple{
+                field("points_per_face", &Params::pointsPerFace,
+                      "Points of a face that gather rays hit, of as many hits; one of other faces.", 1u, 64u)
+                    .lessNoise(),
+                field("bounces", &Params::bounces, "Bounces of light.", 0u, 32u),
+                field("light_samples", &Params::lightSamples,
+                      "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u, 256u)
+                    .lessNoise()};
+        }
+    };
+
+    explicit LightHitFaces(const Params& params) : params_(params) {}
+    void plan(PassPlan& plan) override;
+    void record(PassContext& context) override;
+
+ private:
+    /// What a round of rays hit first: faces [firstFace, firstFace + faces), with their points.
+    struct Round {
+        uint32_t firstFace = 0, faces = 0, firstPoint = 0, points = 0, slotsPerFace = 1;
+        bool hasLinks = false;
+    };
+    /// Marks the faces that gather rays hit. @return the hits.
+    std::vector<FaceHits> markGatherHits(PassContext& context);
+    /// Measures direct light at the points of a round, and links them to others.
+    void lightPoints(PassContext& context, const Round& round, uint32_t seed);
+    /// Passes light along the links of the first `linked` of all points.
+    void passLight(PassContext& context, uint32_t faces, uint32_t points, uint32_t linked);
+
+    const Params params_;
+    In<VoxelLevels> voxels_{*this, "voxels", "surface voxels whose faces are lit"};
+    In<GBuffer> gbuffer_{*this, "gbuffer", "where the gather rays start"};
+    In<GatherHits> hits_{*this, "gather_hits", "where the gather rays hit"};
+    Out<HitFaceLight> light_{*this, "hit_face_light", "light that arrives at the faces that rays hit"};
+    Kernel mark_{*this, "mark_gather_hits.comp"};
+    Kernel placePoints_{*this, "place_points.comp"};
+    Kernel linkPoints_{*this, "link_points.comp"};
+    Kernel numberLinks_{*this, "number_links.comp"};
+    Kernel averageDirect_{*this, "gather_links.comp", {{"DIRECT", "1"}}};
+    Kernel gatherLinks_{*this, "gather_links.comp"};
+    NewFaces newFaces_{*this};
+    SurfelDirectLight directLight_{*this};
+    std::vector<LightSource> sources_;
+    uint32_t batchPoints_ = 0;
+    std::vector<Buffer> gatherFaces_;                ///< Faces of the gather rays, by batch.
+    Buffer surfels_, rays_, rayHits_, batchDirect_;  ///< Of a batch of points.
+    Buffer lost_;                                    ///< Rays that hit where no voxel is.
+    Buffer roundHits_, roundFaces_;                  ///< Of the rays of a round's points.
+    Buffer pointDirect_, links_, firstPoints_;       ///< Of all points; of all faces.
+    Buffer faceDirect_, faceIrradiance_;             ///< Of all faces; the second after every other bounce.
+};
+
+void LightHitFaces::plan(PassPlan& plan) {
+    sources_ = requireLightSources(*plan.frame.scene, kName);
+    plan[light_].lightBounces = params_.bounces;
+    const GatherHits& hits = plan[hits_];
+    gatherFaces_ = std::vector<Buffer>(hits.batches.size());
+    uint64_t gatherRays = 0;
+    for (uint32_t b = 0; b < hits.batches.size(); ++b) {
+        const uint64_t rays = uint64_t(hits.batchBlocks(b)) * hits.layout.raysPerBlock;
+        plan.buffer(gatherFaces_[b], "faces that gather rays hit", rays * sizeof(uint32_t));
+        gatherRays += rays;
+    }
+    // Points are different hits, so that no round has more of them than there are gather rays
+    batchPoints_ = uint32_t(std::min<uint64_t>(gatherRays, kMaxBatchPoints));
+    plan.buffer(surfels_, "points of faces", batchPoints_ * sizeof(gpu::Surfel));
+    plan.buffer(rays_, "rays of points", batchPoints_ * sizeof(Ray));
+    plan.buffer(rayHits_, "hits of points' rays", batchPoints_ * sizeof(Hit));
+    plan.buffer(batchDirect_, "direct irradiance of a batch of points", batchPoints_ * sizeof(glm::vec4));
+    plan.buffer(lost_, "number of lost rays", sizeof(uint32_t));
+    directLight_.plan(plan, batchPoints_);
+    const double faces = std::min(double(gatherRays), 2 * plan[voxels_].estimatedCount);
+    const double points = std::min(double(gatherRays), params_.pointsPerFace * faces);
+    plan.estimate(plan[voxels_].estimatedCount * kFaces * sizeof(uint32_t) +
+                  points * (sizeof(glm::vec4) + sizeof(gpu::FaceLink) + sizeof(Hit)) + faces * 3 * sizeof(glm::vec4));
+}
+
+void LightHitFaces::record(PassContext& context) {
+    CommandStream& stream = context.stream;
+    HitFaceLight& light = context[light_];
+    const uint32_t seed = randomSeed(context.frame, context.frameIndex);
+    const uint64_t allFaces = std::max<uint64_t>(uint64_t(context[voxels_].voxelCount) * kFaces, 1);
+    ensureSize(light.numbers, context.device, "numbers of lit faces", allFaces * sizeof(uint32_t));
+    stream.fill(light.numbers, 0xffffffffu);
+    stream.fill(lost_, 0);
+    newFaces_.begin(context, context[voxels_].voxelCount);
+
+    // Each round lights the faces that no round before it has hit
+    std::vector<FaceHits> hits = markGatherHits(context);
+    uint32_t faces = 0, points = 0, linked = 0;
+    for (uint32_t bounce = 0; bounce <= params_.bounces; ++bounce) {
+        Round round{.firstFace = faces, .firstPoint = points};
+        round.faces = newFaces_.number(context, light, faces, hits.back().first + hits.back().count);
+        if (round.faces == 0) break;
+        round.slotsPerFace = bounce == 0 ? params_.pointsPerFace : 1;
+        round.hasLinks = bounce < params_.bounces;
+        const uint32_t roundSeed = seed + bounce * 0x9e3779b9u;
+        round.points = newFaces_.choose(context, light, hits, faces, round.faces, round.slotsPerFace, roundSeed);
+        faces += round.faces;
+        points += round.points;
+        lightPoints(context, round, roundSeed);
+        if (!round.hasLinks) break;
+        linked = points;
+        hits = {{&roundHits_, &roundFaces_, 0, round.points}};
+    }
+    passLight(context, faces, points, linked);
+    context.report("lit faces", faces);
+    context.report("points", points);
+    context.report("rays that hit no voxel", stream.readAs<uint32_t>(lost_, 1)[0]);
+}
+
+std::vector<FaceHits> LightHitFaces::markGatherHits(PassContext& context) {
+    const GatherHits& hits = context[hits_];
+    std::vector<FaceHits> all;
+    uint32_t first = 0;
+    for (uint32_t b = 0; b < hits.batches.size(); ++b) {
+        const uint32_t rays = hits.batchBlocks(b) * hits.layout.raysPerBlock;
+        context.dispatch(mark_, rays,
+                         {context.scene,
+                          context[voxels_],
+                          context[gbuffer_],
+                          newFaces_.marks(),
+                          {"hits", hits.batches[b]},
+                          {"hitFaces", gatherFaces_[b]},
+                          {"layout", hits.layout},
+                          {"firstBlock", b * hits.blocksPerBatch},
+                          {"rays", rays}});
+        all.push_back({&hits.batches[b], &gatherFaces_[b], first, rays});
+        first += rays;
+    }
+    return all;
+}
+
+void LightHitFaces::lightPoints(PassContext& context, const Round& round, uint32_t seed) {
+    CommandStream& stream = context.stream;
+    const uint64_t points = uint64_t(round.firstPoint) + round.points, faces = uint64_t(round.firstFace) + round.faces;
+    grow(pointDirect_, context, "direct irradiance of points", points * sizeof(glm::vec4),
+         round.firstPoint * sizeof(glm::vec4));
+    grow(links_, context, "links of points", points * sizeof(gpu::FaceLink), round.firstPoint * sizeof(gpu::FaceLink));
+    grow(firstPoints_, context, "first points of faces", (faces + 1) * sizeof(uint32_t),
+         round.firstFace * sizeof(uint32_t));
+    grow(roundHits_, context, "hits of a round", round.points * sizeof(Hit), 0);
+    grow(roundFaces_, context, "faces of a round", round.points * sizeof(uint32_t), 0);
+    for (uint32_t first = 0; first < round.points; first += batchPoints_) {
+        const uint32_t count = std::min(batchPoints_, round.points - first);
+        context.dispatch(placePoints_, count,
+                         {context.scene,
+                          newFaces_.points(),
+                          {"surfels", surfels_},
+                          {"rays", rays_},
+                          {"firstPoints", firstPoints_},
+                          {"first", first},
+                          {"count", count},
+                          {"firstPoint", round.firstPoint},
+                          {"firstFace", round.firstFace},
+                          {"slotsPerFace", round.slotsPerFace},
+                          {"seed", seed + 0x51u}});
+        directLight_.measure(context, sources_, surfels_, count, params_.lightSamples, seed, batchDirect_);
+        stream.copy(batchDirect_, pointDirect_, count * sizeof(glm::vec4), 0,
+                    (uint64_t(round.firstPoint) + first) * sizeof(glm::vec4));
+        if (!round.hasLinks) continue;
+        context.tracer.closestHit(stream, rays_, rayHits_, count);
+        context.dispatch(linkPoints_, count,
+                         {context.scene,
+                          context[voxels_],
+                          context[light_],
+                          newFaces_.marks(),
+                          {"rays", rays_},
+                          {"hits", rayHits_},
+                          {"roundHits", roundHits_},
+                          {"hitFaces", roundFaces_},
+                          {"links", links_},
+                          {"lost", lost_},
+                          {"first", first},
+                          {"count", count},
+                          {"firstPoint", round.firstPoint},
+                          {"seed", seed + 0xa3u},
+                          {"survival", round.firstPoint == 0 ? 1.0f : kSurvival}});
+    }
+}
+
+void LightHitFaces::passLight(PassContext& context, uint32_t faces, uint32_t points, uint32_t linked) {
+    HitFaceLight& light = context[light_];
+    const uint64_t bytes = std::max<uint64_t>(faces, 1) * sizeof(glm::vec4);
+    for (Buffer* buffer : {&faceDirect_, &faceIrradiance_, &light.irradiance})
+        grow(*buffer, context, "irradiance of lit faces", bytes, 0);
+    if (faces == 0) return;
+    context.stream.upload(firstPoints_, std::as_bytes(std::span(&points, 1)), uint64_t(faces) * sizeof(uint32_t));
+    context.dispatch(numberLinks_, linked, {light, {"links", links_}, {"count", linked}});
+    context.dispatch(
+        averageDirect_, faces,
+        {{"firstPoints", firstPoints_}, {"pointDirect", pointDirect_}, {"irradiance", faceDirect_}, {"faces", faces}});
+    const Buffer* previous = &faceDirect_;
+    for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {
+        const Buffer& next = (params_.bounces - bounce) % 2 == 1 ? light.irradiance : faceIrradiance_;
+        context.dispatch(gatherLinks_, faces,
+                         {{"firstPoints", firstPoints_},
+                          {"links", links_},
+                          {"direct", faceDirect_},
+                          {"previous", *previous},
+                          {"irradiance", next},
+                          {"faces", faces},
+                          {"linked", linked}});
+        previous = &next;
+    }
+    if (params_.bounces == 0) context.stream.copy(faceDirect_, light.irradiance, bytes);
+}
+
+VOXRAY_REGISTER_PASS(LightHitFaces);
+
+}  // namespace voxray
