@@ -32,6 +32,14 @@ void setMean(inout SurfaceLight l, vec3 neighborhood) {
 #else
 #define ATTENUATION 1.0
 #endif
+// Variances of noise that a squared difference of means must exceed. With regression noise exceeds it one time in
+// twelve: what noise adds to the differences of all pairs of taps narrows the filter everywhere. Not for direct light,
+// whose edges are sharp.
+#if defined(REGRESSION) && !defined(BOUNDED_GRADIENT)
+#define SIGNIFICANT 3.0
+#else
+#define SIGNIFICANT 1.0
+#endif
 
 // Expected mean squared difference of two elements' irradiance (wavelet.comp).
 float squaredBias(Surface a, SurfaceLight lightA, Surface b, SurfaceLight lightB, float edgeStoppingScale) {
@@ -39,7 +47,8 @@ float squaredBias(Surface a, SurfaceLight lightA, Surface b, SurfaceLight lightB
     const float cosine = clamp(dot(a.normal, b.normal), 1e-6, 1.0);
     const float alongSurface = mean_ * max(lightA.gradient, lightB.gradient) * distance(a.position, b.position);
     const float overNormals = sqrt(variance * (1.0 - cosine) / cosine);
-    const float measured = max(square(lightA.mean - lightB.mean) - lightA.meanVariance - lightB.meanVariance, 0.0);
+    const float noise = SIGNIFICANT * (lightA.meanVariance + lightB.meanVariance);
+    const float measured = max(square(lightA.mean - lightB.mean) - noise, 0.0);
     const float unrelated = UNRELATED * square(mean_) * offPlane(a, b);
     return square(edgeStoppingScale * (alongSurface + overNormals)) + unrelated + ATTENUATION * measured;
 }
