@@ -269,11 +269,9 @@ void FilterIrradiance::measureNoise(PassContext& context, uint32_t level) const 
                       {"noise", noiseSums_},
                       {"pixels", pixels},
                       {"level", level}});
-    context.dispatch(findNoiseRatio_, uint64_t(1),
-                     {{"noise", noiseSums_},
-                      {"noiseRatio", noiseRatio_},
-                      {"tiles", tiles.x * tiles.y},
-                      {"level", level}});
+    context.dispatch(
+        findNoiseRatio_, uint64_t(1),
+        {{"noise", noiseSums_}, {"noiseRatio", noiseRatio_}, {"tiles", tiles.x * tiles.y}, {"level", level}});
 }
 
 void FilterIrradiance::findLight(PassContext& context) const {

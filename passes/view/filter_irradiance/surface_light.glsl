@@ -25,20 +25,19 @@ void setMean(inout SurfaceLight l, vec3 neighborhood) {
 
 // Mean squared difference of two independent values with a relative variance of 1, in units of their squared mean.
 #define UNRELATED 2.0
-// Weight of the measured difference of means. With regression: means over surroundings as wide as their distance differ
-// by half of a step between their centers, a fourth when squared.
-#ifdef REGRESSION
-#define ATTENUATION 4.0
-#else
+// The measured difference of means: its weight, and the variances of noise that its square must exceed. With regression:
+// means over surroundings as wide as their distance differ by half of a step between their centers, a fourth when
+// squared, which makes the weight 4 at least; and noise that exceeded its variance in every third pair of taps would
+// narrow the filter everywhere, three times the variance it exceeds in one of twelve.
+#ifndef REGRESSION
 #define ATTENUATION 1.0
-#endif
-// Variances of noise that a squared difference of means must exceed. With regression noise exceeds it one time in
-// twelve: what noise adds to the differences of all pairs of taps narrows the filter everywhere. Not for direct light,
-// whose edges are sharp.
-#if defined(REGRESSION) && !defined(BOUNDED_GRADIENT)
-#define SIGNIFICANT 3.0
-#else
 #define SIGNIFICANT 1.0
+#elif defined(BOUNDED_GRADIENT)
+#define ATTENUATION 4.0
+#define SIGNIFICANT 1.0
+#else
+#define ATTENUATION 8.0
+#define SIGNIFICANT 3.0
 #endif
 
 // Expected mean squared difference of two elements' irradiance (wavelet.comp).
