@@ -63,7 +63,7 @@ class FilterIrradiance final : public Pass {
                                     "indirect: reads 'noisy_irradiance' and writes 'indirect'. "
                                     "direct: reads 'noisy_direct', adds 'unfiltered_direct' and writes 'direct'."),
                               field("estimator", &Params::estimator,
-                                    "mean: the weighted mean of taps. regression: wider, with less error and 1.7 times "
+                                    "mean: the weighted mean of taps. regression: wider, with less error and 2.3 times "
                                     "the time: linear regression on position, noise measured, outliers bounded and "
                                     "what they lose given back around them, means of wider neighborhoods, one more "
                                     "level."),
