@@ -1,10 +1,10 @@
 // Bounds each element's irradiance by what the rays around it explain, and sums what exceeds the bound over tiles
 // (tiles.glsl), one work group each. A rare bright ray would otherwise be a spot as wide as the filter.
 //
-//     bound = mean · (1 + 3 σ max(1/√rays, 1/2))
+//     bound = mean · (1 + σ max(2.5/√rays, 1.5))
 //
 // mean: of the rays of the surrounding blocks; σ: a ray's standard deviation over this mean (statistics.comp). With
-// many rays an element's deviation is a difference of light rather than noise, hence the 1/2.
+// many rays an element's deviation is a difference of light rather than noise, hence the 1.5.
 #include "passes/view/filter_irradiance/block_interpolation.glsl"
 #include "passes/view/filter_irradiance/surface.glsl"
 #include "passes/view/filter_irradiance/tiles.glsl"
@@ -13,8 +13,8 @@
 layout(local_size_x = TILE, local_size_y = TILE) in;
 
 #define LAYERS (SAMPLES > 1 ? 2 : 1)
-#define DEVIATIONS 3.0
-#define LEAST_DEVIATION 0.5  // Of an element, over that of a ray.
+#define DEVIATIONS 2.5            // Of an element.
+#define LEAST_RAY_DEVIATIONS 1.5  // Of a ray.
 
 uniform usampler2D surfaces;
 layout(rgba32f) uniform image2D source;  // Irradiance, W/m²; number of rays.
@@ -37,7 +37,7 @@ float boundOf(ivec2 pixel, float rays) {
         mean_ += corners[i].weight * blockMeans.data[corners[i].block];
         variance += corners[i].weight * statistics.data[corners[i].block].variance;
     }
-    return mean_ * (1.0 + DEVIATIONS * sqrt(variance) * max(inversesqrt(max(rays, 1.0)), LEAST_DEVIATION));
+    return mean_ * (1.0 + sqrt(variance) * max(DEVIATIONS * inversesqrt(max(rays, 1.0)), LEAST_RAY_DEVIATIONS));
 }
 
 void main() {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <string>
 
@@ -12,7 +13,8 @@ namespace {
 
 constexpr uint32_t kMeanLevels = 3;  // Neighborhoods whose means are compared have hundreds of pixels.
 constexpr uint32_t kTile = 16;       // TILE of tiles.glsl.
-constexpr uint32_t kTileBytes = 6 * sizeof(float), kRaisedBytes = 3 * sizeof(float);
+constexpr uint32_t kTileBytes = 6 * sizeof(float), kRaisedBytes = 3 * sizeof(float), kNoiseBytes = 2 * sizeof(float);
+constexpr uint32_t kMeasuredLevels = 3;  // MEASURED_LEVELS of noise_ratio.glsl.
 
 glm::uvec2 tilesOf(glm::uvec2 pixels) {
     return (pixels + kTile - 1u) / kTile;
@@ -61,9 +63,10 @@ class FilterIrradiance final : public Pass {
                                     "indirect: reads 'noisy_irradiance' and writes 'indirect'. "
                                     "direct: reads 'noisy_direct', adds 'unfiltered_direct' and writes 'direct'."),
                               field("estimator", &Params::estimator,
-                                    "mean: the weighted mean of taps. regression: wider, with less error and 1.7 times "
-                                    "the time: linear regression on position, outliers bounded and what they lose "
-                                    "given back around them, means of wider neighborhoods, one more level."),
+                                    "mean: the weighted mean of taps. regression: wider, with less error and 2.3 times "
+                                    "the time: linear regression on position, noise measured, outliers bounded and "
+                                    "what they lose given back around them, means of wider neighborhoods, one more "
+                                    "level."),
                               field("levels", &Params::levels,
                                     "Levels of the wavelet, each with twice the radius of the previous one: "
                                     "n levels have a radius of 2^n - 1 pixels. 0: 4, with regression 5.",
@@ -71,7 +74,7 @@ class FilterIrradiance final : public Pass {
                               field("edge_stopping_scale", &Params::edgeStoppingScale,
                                     "Factor of the bound of the difference of irradiance between two texels. "
                                     "1: the whole bound, sharp and noisy; less: smoother, and shadows blur. "
-                                    "0: 0.1 for indirect light, most of whose changes cancel, with regression 0.05; "
+                                    "0: 0.1 for indirect light, most of whose changes cancel, with regression 0.02; "
                                     "1 for direct light, where the edge of a shadow is a single change.",
                                     0.0f, 100.0f)};
         }
@@ -84,6 +87,8 @@ class FilterIrradiance final : public Pass {
  private:
     /// Bounds outliers by the statistics of rays of blocks.
     void boundOutliers(PassContext& context) const;
+    /// Measures the noise of a level's input over that of independent rays.
+    void measureNoise(PassContext& context, uint32_t level) const;
     /// Computes the statistics of light around each element.
     void findLight(PassContext& context) const;
     /// Computes the mean irradiance of neighborhoods that are twice as wide as the last ones. @param level from 0 on.
@@ -97,7 +102,7 @@ class FilterIrradiance final : public Pass {
     uint32_t levels() const { return params_.levels > 0 ? params_.levels : hasRegression() ? 5 : WAVELET_LEVELS; }
     float edgeStoppingScale() const {
         if (params_.edgeStoppingScale > 0) return params_.edgeStoppingScale;
-        return isDirect() ? 1.0f : hasRegression() ? 0.05f : 0.1f;
+        return isDirect() ? 1.0f : hasRegression() ? 0.02f : 0.1f;
     }
 
     const Params params_;
@@ -110,6 +115,8 @@ class FilterIrradiance final : public Pass {
     Kernel statistics_{*this, "statistics.comp"};
     Kernel bound_{*this, "bound.comp"};
     Kernel giveBack_{*this, "give_back.comp"};
+    Kernel noise_{*this, "noise.comp"};
+    Kernel findNoiseRatio_{*this, "noise_ratio.comp"};
     Kernel mean_{*this, "mean.comp"};
     Kernel findLight_{*this, "light.comp"};
     Kernel widerMeans_{*this, "wider_means.comp"};
@@ -121,6 +128,8 @@ class FilterIrradiance final : public Pass {
     Buffer blockMeans_;  ///< Luminance per block, W/m².
     Buffer tiles_;       ///< TileLight per tile (tiles.glsl).
     Buffer raised_;      ///< Factor of each tile's irradiance (give_back.comp).
+    Buffer noiseSums_;   ///< NoiseSums per tile (noise_ratio.glsl).
+    Buffer noiseRatio_;  ///< By level (noise_ratio.comp).
     // Images of elements (elements.glsl).
     Image surfaces_;     ///< surface.glsl
     Image reflectance_;  ///< Albedo times the surface's fraction of the pixel.
@@ -156,6 +165,8 @@ void FilterIrradiance::plan(PassPlan& plan) {
         plan.buffer(blockMeans_, "mean light of rays", uint64_t(blocks.x) * blocks.y * sizeof(float));
         plan.buffer(tiles_, "light of tiles", uint64_t(tiles.x) * tiles.y * kTileBytes);
         plan.buffer(raised_, "light given back", uint64_t(tiles.x) * tiles.y * kRaisedBytes);
+        plan.buffer(noiseSums_, "noise of tiles", uint64_t(tiles.x) * tiles.y * kNoiseBytes);
+        plan.buffer(noiseRatio_, "noise ratio", kMeasuredLevels * sizeof(float));
     }
     if (noisy.blockSize > 0)
         for (Image& mean : means_) plan.image(mean, "mean irradiance of neighborhoods", values);
@@ -164,12 +175,15 @@ void FilterIrradiance::plan(PassPlan& plan) {
     if (noisy.blockSize > 0) defines.emplace("STATISTICS", "1");
     if (noisy.hasStatistics) defines.emplace("BOUNDED_GRADIENT", "1");
     if (hasRegression()) defines.emplace("REGRESSION", "1");
-    if (givesBack) defines.emplace("GIVE_BACK", "1");
-    for (Kernel* kernel :
-         {&findSurfaces_, &statistics_, &bound_, &giveBack_, &mean_, &findLight_, &widerMeans_, &wavelet_, &resolve_})
+    if (givesBack) {
+        defines.emplace("GIVE_BACK", "1");
+        defines.emplace("NOISE_RATIO", "1");
+    }
+    for (Kernel* kernel : {&findSurfaces_, &statistics_, &bound_, &giveBack_, &noise_, &findNoiseRatio_, &mean_,
+                           &findLight_, &widerMeans_, &wavelet_, &resolve_})
         kernel->define(defines);
     statistics_.compileIf(hasMoments);
-    for (Kernel* kernel : {&bound_, &giveBack_}) kernel->compileIf(givesBack);
+    for (Kernel* kernel : {&bound_, &giveBack_, &noise_, &findNoiseRatio_}) kernel->compileIf(givesBack);
     mean_.compileIf(noisy.blockSize > 0);
     widerMeans_.compileIf(noisy.blockSize > 0 && hasRegression());
 }
@@ -210,14 +224,17 @@ void FilterIrradiance::record(PassContext& context) {
                 widerMeans_, elements(),
                 {{"second", second_}, {"surfaces", surfaces_}, {"mean", means_[level % 2]}, {"light", light_}});
         }
+        if (hasMoments && hasRegression() && level < kMeasuredLevels) measureNoise(context, level);
         context.dispatch(wavelet_, elements(),
                          {{"second", second_},
                           {"surfaces", surfaces_},
                           {"light", light_},
                           {"source", filtered_[level % 2]},
                           {"result", filtered_[(level + 1) % 2]},
+                          ifUsed({"noiseRatio", noiseRatio_}),
                           {"level", level},
-                          {"edgeStoppingScale", edgeStoppingScale()}});
+                          {"edgeStoppingScale", edgeStoppingScale()},
+                          ifUsed({"ratioLevel", std::min(level, kMeasuredLevels - 1)})});
     }
 
     // Compute the radiance that they reflect
@@ -241,6 +258,20 @@ void FilterIrradiance::boundOutliers(PassContext& context) const {
                       {"blocks", blocks(context)},
                       {"blockSize", blockPixels(context)}});
     context.dispatch(giveBack_, tiles, {{"tiles", tiles_}, {"raised", raised_}, {"tileCount", tiles}});
+}
+
+void FilterIrradiance::measureNoise(PassContext& context, uint32_t level) const {
+    const glm::uvec2 pixels = context.frame.pixels(), tiles = tilesOf(pixels);
+    context.dispatch(noise_, pixels,
+                     {{"surfaces", surfaces_},
+                      {"light", light_},
+                      {"source", filtered_[level % 2]},
+                      {"noise", noiseSums_},
+                      {"pixels", pixels},
+                      {"level", level}});
+    context.dispatch(
+        findNoiseRatio_, uint64_t(1),
+        {{"noise", noiseSums_}, {"noiseRatio", noiseRatio_}, {"tiles", tiles.x * tiles.y}, {"level", level}});
 }
 
 void FilterIrradiance::findLight(PassContext& context) const {

@@ -10,7 +10,8 @@
 //     |grad E| / E  <=  sum(|L - M| / r) / sum(L)  <=  sqrt(sum((L - M)^2 / r) * sum(1/r)) / sum(L)
 //
 // The second step is the Cauchy-Schwarz inequality. Its sums expand to sums of L/r and L^2/r, so that M is not needed
-// while rays are summed.
+// while rays are summed. Changes of opposite signs cancel. With regression, the part of the net change that exceeds its
+// noise is added (netGradient).
 #include "shaders/filter/ray_moments.h"
 #include "shaders/filter/ray_statistics.h"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -21,6 +22,22 @@ layout(scalar) writeonly buffer Statistics { RayStatistics data[]; } statistics;
 layout(scalar) writeonly buffer BlockMeans { float data[]; } blockMeans;  // Luminance, W/m².
 #endif
 layout(push_constant) uniform Push { uvec2 blocks; } push;
+
+#ifdef REGRESSION
+// Weight of the net change over that of the bound.
+#define NET_WEIGHT 15.0
+// Variance of a sum over rays of 3 x 3 blocks, weighted 1 2 1 along rows and columns, over the weighted sum of their
+// variances: the sum of squared weights over that of weights.
+#define BLOCK_SQUARES (36.0 / 16.0)
+
+// |sum((L - M) / r)| / sum(L), as far as it exceeds its noise. Without a net change the variance of the sum is that of
+// the rays' (L - M) / r, by the Cauchy-Schwarz inequality at least the square of sum((L - M)^2 / r) over sum((L - M)^2).
+float netGradient(RayMoments sum, float mean, float deviation) {
+    const float net = sum.luminanceOverDistance - mean * sum.inverseDistance;
+    const float squares = max(sum.squared - mean * sum.luminance, 1e-30);
+    return sqrt(max(net * net - BLOCK_SQUARES * deviation * deviation / squares, 0.0)) / sum.luminance;
+}
+#endif
 
 void main() {
     const ivec2 block = ivec2(gl_GlobalInvocationID.xy), last = ivec2(push.blocks) - 1;
@@ -45,6 +62,9 @@ void main() {
         const float deviation =
             sum.squaredOverDistance - 2.0 * mean * sum.luminanceOverDistance + mean * mean * sum.inverseDistance;
         found.gradient = sqrt(max(deviation, 0.0) * sum.inverseDistance) / sum.luminance;
+#ifdef REGRESSION
+        found.gradient += NET_WEIGHT * netGradient(sum, mean, deviation);
+#endif
         found.variance = max(sum.squared / (sum.luminance * mean) - 1.0, 0.0);
     }
     const int i = block.y * int(push.blocks.x) + block.x;

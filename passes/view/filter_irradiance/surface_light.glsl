@@ -25,12 +25,19 @@ void setMean(inout SurfaceLight l, vec3 neighborhood) {
 
 // Mean squared difference of two independent values with a relative variance of 1, in units of their squared mean.
 #define UNRELATED 2.0
-// Weight of the measured difference of means. With regression: means over surroundings as wide as their distance differ
-// by half of a step between their centers, a fourth when squared.
-#ifdef REGRESSION
-#define ATTENUATION 4.0
-#else
+// The measured difference of means: its weight, and the variances of noise that its square must exceed. With regression:
+// means over surroundings as wide as their distance differ by half of a step between their centers, a fourth when
+// squared, which makes the weight 4 at least; and noise that exceeded its variance in every third pair of taps would
+// narrow the filter everywhere, three times the variance it exceeds in one of twelve.
+#ifndef REGRESSION
 #define ATTENUATION 1.0
+#define SIGNIFICANT 1.0
+#elif defined(BOUNDED_GRADIENT)
+#define ATTENUATION 4.0
+#define SIGNIFICANT 1.0
+#else
+#define ATTENUATION 8.0
+#define SIGNIFICANT 3.0
 #endif
 
 // Expected mean squared difference of two elements' irradiance (wavelet.comp).
@@ -39,7 +46,8 @@ float squaredBias(Surface a, SurfaceLight lightA, Surface b, SurfaceLight lightB
     const float cosine = clamp(dot(a.normal, b.normal), 1e-6, 1.0);
     const float alongSurface = mean_ * max(lightA.gradient, lightB.gradient) * distance(a.position, b.position);
     const float overNormals = sqrt(variance * (1.0 - cosine) / cosine);
-    const float measured = max(square(lightA.mean - lightB.mean) - lightA.meanVariance - lightB.meanVariance, 0.0);
+    const float noise = SIGNIFICANT * (lightA.meanVariance + lightB.meanVariance);
+    const float measured = max(square(lightA.mean - lightB.mean) - noise, 0.0);
     const float unrelated = UNRELATED * square(mean_) * offPlane(a, b);
     return square(edgeStoppingScale * (alongSurface + overNormals)) + unrelated + ATTENUATION * measured;
 }

@@ -7,7 +7,8 @@
 // noise: mean variance of the two elements' values. The weight is symmetric; one that depended on a single element's
 //   variance would move energy to where light is even. The variance is that of one ray (statistics.comp) over the
 //   number of rays that the value represents, which grows from level to level: with few rays the filter is wide, with
-//   many it is narrow, in the limit the identity.
+//   many it is narrow, in the limit the identity. With regression it is multiplied by the measured noise ratio
+//   (noise_ratio.comp), as rays that are stratified over pixels have less noise than independent ones.
 // bias²: expected mean squared difference of the elements' irradiance, the sum of
 //   - a geometric bound: along the surface the distance times the gradient bound (statistics.comp), and for different
 //     normals one ray's standard deviation times sqrt((1 - cos) / cos), which for small angles is the bound of Ward et
@@ -25,18 +26,31 @@
 uniform sampler2D light;
 uniform sampler2D source;  // Irradiance, W/m²; number of rays that it represents.
 layout(rgba32f) writeonly uniform image2D result;
+#ifdef NOISE_RATIO
+layout(scalar) readonly buffer NoiseRatio { float data[]; } noiseRatio;  // noise_ratio.comp
+#endif
 layout(push_constant) uniform Push {
     int level;
     float edgeStoppingScale;
+#ifdef NOISE_RATIO
+    uint ratioLevel;  // Of the noise ratio.
+#endif
 } push;
 
 #if defined(REGRESSION) && !defined(BOUNDED_GRADIENT)
 #define REMOVES_SLOPE
 // Gradient to expect over its bound, along one direction: the bound adds up what mostly cancels.
-#define EXPECTED_GRADIENT 0.2
+#define EXPECTED_GRADIENT 0.15
 // Sum of the squared weights of the whole kernel, 36 / 256.
 #define KERNEL_SQUARES 0.14
 #endif
+
+// ratio: of the variance of means over that of as many independent rays.
+SurfaceLight lightOf(ivec2 element, float ratio) {
+    SurfaceLight found = unpackLight(texelFetch(light, element, 0));
+    found.meanVariance *= ratio;
+    return found;
+}
 
 void main() {
     const ivec2 pixels = imageSize(result) / ivec2(1, LAYERS);
@@ -49,8 +63,13 @@ void main() {
     }
 
     const Surface center = unpackSurface(bits);
-    const SurfaceLight centerLight = unpackLight(texelFetch(light, element, 0));
-    const float centerNoise = centerLight.rayVariance / max(texelFetch(source, element, 0).w, 1e-3);
+#ifdef NOISE_RATIO
+    const float ratio = noiseRatio.data[push.ratioLevel];
+#else
+    const float ratio = 1.0;
+#endif
+    const SurfaceLight centerLight = lightOf(element, ratio);
+    const float centerNoise = ratio * centerLight.rayVariance / max(texelFetch(source, element, 0).w, 1e-3);
     Estimate sum = emptyEstimate();
     float squaredWeights = 0.0;  // Over the taps' rays.
     for (int y = -1; y <= 1; ++y)
@@ -66,12 +85,12 @@ void main() {
                 const vec4 value = texelFetch(source, tap, 0);
                 if (value.w == 0.0) continue;
                 const Surface neighbor = unpackSurface(neighborBits);
-                const SurfaceLight neighborLight = unpackLight(texelFetch(light, tap, 0));
+                const SurfaceLight neighborLight = lightOf(tap, ratio);
                 const float bias2 = squaredBias(center, centerLight, neighbor, neighborLight, push.edgeStoppingScale);
 
                 // Elements are weighted by area: at level 0 by their rays, whose number is proportional to it; later
                 // the number of rays depends on how even the light is and must not weight the value
-                const float noise = 0.5 * (centerNoise + neighborLight.rayVariance / value.w);
+                const float noise = 0.5 * (centerNoise + ratio * neighborLight.rayVariance / value.w);
                 const float count = kernel(x, y) * (push.level == 0 ? value.w : area);
                 const float weight = count * (bias2 > 0.0 ? noise / (noise + bias2) : 1.0);
                 addTap(sum, weight, value.rgb, neighbor.position - center.position);
