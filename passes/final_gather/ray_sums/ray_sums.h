@@ -1,0 +1,30 @@
+#pragma once
+
+#include "passes/common/filter/noisy_irradiance.h"
+#include "passes/common/view/gather_hits.h"
+
+namespace voxray {
+
+/// Irradiance of texels, and moments of blocks, of what gather rays bring.
+class RaySums {
+ public:
+    explicit RaySums(ProgramOwner& owner)
+        : averageTexels_(owner, "average_texels.comp"), sumMoments_(owner, "sum_moments.comp") {}
+
+    /// Describes the irradiance of gather rays, and where it is read, their moments.
+    void plan(PassPlan& plan, const GatherHits& hits, uint32_t samples, NoisyIrradiance& noisy);
+    /// Means over the rays of a batch's texels. @param light of the batch, as GatherLight::light.
+    void average(PassContext& context, const GatherHits& hits, uint32_t batch, const Buffer& light,
+                 const Image& irradiance) const;
+    /// The same, and moments over the rays of its blocks where they are read.
+    void add(PassContext& context, const GatherHits& hits, uint32_t batch, const Buffer& light,
+             const NoisyIrradiance& noisy) const;
+
+    /// @throws Error where texels have no ray, for a pass that writes an image without a filter.
+    static void requireRays(const GatherHits& hits, const char* pass);
+
+ private:
+    Kernel averageTexels_, sumMoments_;
+};
+
+}  // namespace voxray
