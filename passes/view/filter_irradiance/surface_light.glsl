@@ -8,7 +8,7 @@ struct SurfaceLight {
     float mean;          // Mean luminance of the irradiance around the element, W/m².
     float meanVariance;  // Variance of this mean.
     float rayVariance;   // Variance of a single ray.
-    float gradient;      // Bound of the relative change of irradiance along the surface, 1/m; SIGNED: of the change, W/m³.
+    float gradient;      // Bound of the relative change of irradiance along the surface, 1/m.
 };
 
 vec4 packLight(SurfaceLight l) { return vec4(l.mean, l.meanVariance, l.rayVariance, l.gradient); }
@@ -32,23 +32,27 @@ void setMean(inout SurfaceLight l, vec3 neighborhood) {
 #else
 #define ATTENUATION 1.0
 #endif
+// Squared deviations that a difference of means of light that may be negative must have: noise of paths is large.
+#define SIGNIFICANT 4.0
 
 // Expected mean squared difference of two elements' irradiance (wavelet.comp).
 float squaredBias(Surface a, SurfaceLight lightA, Surface b, SurfaceLight lightB, float edgeStoppingScale) {
-#ifdef SIGNED
-    // What surfaces differ by that have nothing to do with each other follows from the size of both, beyond their noise
-    const float size2 = 0.5 * (square(lightA.mean) + square(lightB.mean) - lightA.meanVariance - lightB.meanVariance);
-    const float scale = 1.0, squaredMean = max(size2, 0.0);
-#else
-    const float scale = 0.5 * (lightA.mean + lightB.mean), squaredMean = square(scale);
-#endif
-    const float variance = 0.5 * (lightA.rayVariance + lightB.rayVariance);
     const float cosine = clamp(dot(a.normal, b.normal), 1e-6, 1.0);
-    const float alongSurface = scale * max(lightA.gradient, lightB.gradient) * distance(a.position, b.position);
+    const float noise = lightA.meanVariance + lightB.meanVariance, difference = square(lightA.mean - lightB.mean);
+#ifdef SIGNED
+    // Bounds from rays' deviations would be those of paths' noise: only what means differ by beyond doubt counts, and
+    // for surfaces with other planes or normals the size of both
+    const float size2 = 0.5 * (square(lightA.mean) + square(lightB.mean) - SIGNIFICANT * noise);
+    const float unlike = max(offPlane(a, b), 1.0 - square(cosine));
+    return UNRELATED * max(size2, 0.0) * unlike + ATTENUATION * max(difference - SIGNIFICANT * noise, 0.0);
+#else
+    const float mean_ = 0.5 * (lightA.mean + lightB.mean), variance = 0.5 * (lightA.rayVariance + lightB.rayVariance);
+    const float alongSurface = mean_ * max(lightA.gradient, lightB.gradient) * distance(a.position, b.position);
     const float overNormals = sqrt(variance * (1.0 - cosine) / cosine);
-    const float measured = max(square(lightA.mean - lightB.mean) - lightA.meanVariance - lightB.meanVariance, 0.0);
-    const float unrelated = UNRELATED * squaredMean * offPlane(a, b);
+    const float measured = max(difference - noise, 0.0);
+    const float unrelated = UNRELATED * square(mean_) * offPlane(a, b);
     return square(edgeStoppingScale * (alongSurface + overNormals)) + unrelated + ATTENUATION * measured;
+#endif
 }
 
 #endif
