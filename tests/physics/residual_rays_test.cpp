@@ -109,34 +109,45 @@ TEST(ResidualRays, MeanIsTheReferencesWhateverIsStored) {
     for (const Case& c : {Case{"cornell", "{lights: area}"}, Case{"window_room", "{slats: 0}"}}) {
         SCOPED_TRACE(c.name);
         const State state = builtin(c.name, c.parameters);
-        const Estimate reference = meanOfFrames(state, graphYaml({"path_trace, spp: 256, bounces: 4"}), 8);
-        for (const float factor : {0.0f, 1.0f, 2.0f})
-            for (const std::string p : {"0.2", "1"}) {
-                const Estimate found = meanOfFrames(state, graphOf("bounces: 4, probability: " + p, factor), 32);
-                std::printf("%s, stored light times %.0f, probability %s: ratio %.4f +- %.4f, z %.1f\n", c.name,
-                            double(factor), p.c_str(), found.mean / reference.mean,
-                            std::sqrt(found.variance + reference.variance) / reference.mean, found.zTo(reference));
-                EXPECT_NEAR(found.mean / reference.mean, 1, 0.005);
-                EXPECT_LT(std::abs(found.zTo(reference)), 4);
-            }
+        const Estimate reference = meanOfFrames(state, graphYaml({"path_trace, spp: 512, bounces: 4"}), 16);
+        const auto compare = [&](const std::string& parameters, float factor) {
+            const Estimate found =
+                meanOfFrames(state, graphOf("bounces: 4, " + parameters, factor, "rays_per_block: 4"), 24);
+            const double ratio = found.mean / reference.mean,
+                         error = std::sqrt(found.variance + reference.variance) / reference.mean;
+            std::printf("%s, %s, stored light times %.0f: ratio %.4f +- %.4f, z %.1f\n", c.name, parameters.c_str(),
+                        double(factor), ratio, error, found.zTo(reference));
+            EXPECT_NEAR(ratio, 1, 0.005 + 2 * error);
+            EXPECT_LT(std::abs(found.zTo(reference)), 4);
+        };
+        for (const float factor : {0.0f, 2.0f}) compare("probability: 0.3", factor);
+        compare("probability: 0.3, choice: even", 1);
+        compare("probability: 1", 1);
+
         // The same comparison finds that stored light alone lacks bounces
-        const Estimate stored = meanOfFrames(
-            state,
-            graphYaml({"gbuffer, samples_per_pixel_edge: 4", "voxelize, resolution: 16",
-                       "inject_light_rays, rays_per_light: 65536, bounces: 2", "trace_gather_rays, rays_per_block: 1",
-                       "gather_rays"}),
-            4);
+        const Estimate stored =
+            meanOfFrames(state,
+                         graphYaml({"gbuffer, samples_per_pixel_edge: 4", "voxelize, resolution: 16",
+                                    "inject_light_rays, rays_per_light: 65536, bounces: 2",
+                                    "trace_gather_rays, rays_per_block: 1", "gather_rays"}),
+                         4);
         EXPECT_GT(std::abs(stored.mean / reference.mean - 1), 0.02);
     }
 }
 
 TEST(ResidualRays, GoOnWithTheirProbability) {
     const State state = builtin("cornell", "{lights: area}");
-    for (const std::string p : {"0.1", "0.5", "1"}) {
-        Chain chain(state, graphOf("probability: " + p), 32, 32, 1, addScale);
-        const double paths = reported(chain.frameSamples.back(), "paths, % of gather rays");
-        EXPECT_NEAR(paths / std::stod(p), 97, 4) << p;
-    }
+    const auto paths = [&](const std::string& parameters) {
+        Chain chain(state, graphOf(parameters), 32, 32, 1, addScale);
+        return reported(chain.frameSamples.back(), "paths, % of gather rays") / 100;
+    };
+    const double hits = paths("probability: 1");
+    EXPECT_GT(hits, 0.5);
+    for (const std::string p : {"0.1", "0.5"})
+        for (const std::string choice : {"even", "measured"})
+            EXPECT_NEAR(paths("probability: " + p + ", choice: " + choice) / hits, std::stod(p),
+                        0.03 + 0.1 * std::stod(p))
+                << choice;
 }
 
 TEST(ResidualRays, AreDeterministic) {

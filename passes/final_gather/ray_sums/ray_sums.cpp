@@ -20,11 +20,12 @@ void RaySums::requireRays(const GatherHits& hits, const char* pass) {
             layout.blockSize, layout.raysPerBlock, texelsPerBlock(hits), pass);
 }
 
-void RaySums::plan(PassPlan& plan, const GatherHits& hits, uint32_t samples, NoisyIrradiance& noisy) {
+void RaySums::plan(PassPlan& plan, const GatherHits& hits, uint32_t samples, NoisyIrradiance& noisy,
+                   bool needsMoments) {
     noisy.spacing = hits.layout.raysPerBlock < texelsPerBlock(hits) ? hits.layout.blockSize : 1;
     plan.image(noisy.irradiance, "noisy irradiance", NoisyIrradiance::desc(plan.frame, samples));
-    sumMoments_.compileIf(noisy.isRead);
-    if (!noisy.isRead) return;
+    sumMoments_.compileIf(noisy.isRead || needsMoments);
+    if (!noisy.isRead && !needsMoments) return;
     noisy.blockSize = hits.layout.blockSize;
     plan.buffer(noisy.moments, "moments of rays", noisy.momentsBytes(hits.layout.texels));
 }
@@ -40,17 +41,21 @@ void RaySums::average(PassContext& context, const GatherHits& hits, uint32_t bat
                       {"batchBlocks", blocks}});
 }
 
+void RaySums::addMoments(PassContext& context, const GatherHits& hits, uint32_t batch, const Buffer& light,
+                         const Buffer& moments) const {
+    const uint32_t blocks = hits.batchBlocks(batch);
+    context.dispatch(sumMoments_, blocks,
+                     {{"light", light},
+                      {"moments", moments},
+                      {"firstBlock", batch * hits.blocksPerBatch},
+                      {"batchBlocks", blocks},
+                      {"raysPerBlock", hits.layout.raysPerBlock}});
+}
+
 void RaySums::add(PassContext& context, const GatherHits& hits, uint32_t batch, const Buffer& light,
                   const NoisyIrradiance& noisy) const {
     average(context, hits, batch, light, noisy.irradiance);
-    const uint32_t blocks = hits.batchBlocks(batch);
-    if (noisy.isRead)
-        context.dispatch(sumMoments_, blocks,
-                         {{"light", light},
-                          {"moments", noisy.moments},
-                          {"firstBlock", batch * hits.blocksPerBatch},
-                          {"batchBlocks", blocks},
-                          {"raysPerBlock", hits.layout.raysPerBlock}});
+    if (noisy.isRead) addMoments(context, hits, batch, light, noisy.moments);
 }
 
 }  // namespace voxray

@@ -11,12 +11,16 @@ class RaySums {
     explicit RaySums(ProgramOwner& owner)
         : averageTexels_(owner, "average_texels.comp"), sumMoments_(owner, "sum_moments.comp") {}
 
-    /// Describes the irradiance of gather rays, and where it is read, their moments.
-    void plan(PassPlan& plan, const GatherHits& hits, uint32_t samples, NoisyIrradiance& noisy);
+    /// Describes the irradiance of gather rays, and their moments where `noisy` is read or the pass needs them itself.
+    void plan(PassPlan& plan, const GatherHits& hits, uint32_t samples, NoisyIrradiance& noisy,
+              bool needsMoments = false);
     /// Means over the rays of a batch's texels. @param light of the batch, as GatherLight::light.
     void average(PassContext& context, const GatherHits& hits, uint32_t batch, const Buffer& light,
                  const Image& irradiance) const;
-    /// The same, and moments over the rays of its blocks where they are read.
+    /// Moments over the rays of a batch's blocks.
+    void addMoments(PassContext& context, const GatherHits& hits, uint32_t batch, const Buffer& light,
+                    const Buffer& moments) const;
+    /// Both; moments where `noisy` is read.
     void add(PassContext& context, const GatherHits& hits, uint32_t batch, const Buffer& light,
              const NoisyIrradiance& noisy) const;
 

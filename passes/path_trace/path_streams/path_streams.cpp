@@ -86,8 +86,11 @@ void PathStreams::startBatch(PassContext& context, uint32_t paths) {
 
 std::vector<Binding> PathStreams::open(PassContext& context) {
     startBatch(context, 0);
-    return {{"pathRays", rays_[1]}, {"pathHits", hits_}, {"vertices", pathVertices_[1]},
-            {"sums", sums_},        {"counts", counts_}};
+    return {{"pathRays", rays_[1]},
+            {"pathHits", hits_},
+            {"vertices", pathVertices_[1]},
+            {"sums", sums_},
+            {"counts", counts_}};
 }
 
 void PathStreams::trace(PassContext& context, const gpu::PathBatch& batch) {

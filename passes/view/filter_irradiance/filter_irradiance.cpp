@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kMeanLevels = 3;  // Neighborhoods whose means are compared have hundreds of pixels.
 constexpr uint32_t kResidualLevels = 6;
-constexpr uint32_t kTile = 16;       // TILE of tiles.glsl.
+constexpr uint32_t kTile = 16;  // TILE of tiles.glsl.
 constexpr uint32_t kTileBytes = 6 * sizeof(float), kRaisedBytes = 3 * sizeof(float);
 
 glm::uvec2 tilesOf(glm::uvec2 pixels) {
@@ -59,26 +59,27 @@ class FilterIrradiance final : public Pass {
         uint32_t levels = 0;
         float edgeStoppingScale = 0.0f;
         static constexpr auto schema() {
-            return std::tuple{field("light", &Params::light,
-                                    "indirect: reads 'noisy_irradiance' and writes 'indirect'. "
-                                    "direct: reads 'noisy_direct', adds 'unfiltered_direct' and writes 'direct'. "
-                                    "residual: reads 'noisy_residual', which may be negative, adds 'indirect' and "
-                                    "writes 'indirect'."),
-                              field("estimator", &Params::estimator,
-                                    "mean: the weighted mean of taps. regression: wider, with less error and 1.7 times "
-                                    "the time: linear regression on position, outliers bounded and what they lose "
-                                    "given back around them, means of wider neighborhoods, one more level.")
-                                  .onlyWith(oneOf(&Params::light, {FilteredLight::Indirect, FilteredLight::Direct})),
-                              field("levels", &Params::levels,
-                                    "Levels of the wavelet, each with twice the radius of the previous one: "
-                                    "n levels have a radius of 2^n - 1 pixels. 0: 4, with regression 5, of residuals 6.",
-                                    0u, 6u),
-                              field("edge_stopping_scale", &Params::edgeStoppingScale,
-                                    "Factor of the bound of the difference of irradiance between two texels. "
-                                    "1: the whole bound, sharp and noisy; less: smoother, and shadows blur. "
-                                    "0: 0.1 for indirect light, most of whose changes cancel, with regression 0.05; "
-                                    "1 for direct light, where the edge of a shadow is a single change.",
-                                    0.0f, 100.0f)};
+            return std::tuple{
+                field("light", &Params::light,
+                      "indirect: reads 'noisy_irradiance' and writes 'indirect'. "
+                      "direct: reads 'noisy_direct', adds 'unfiltered_direct' and writes 'direct'. "
+                      "residual: reads 'noisy_residual', which may be negative, adds 'indirect' and "
+                      "writes 'indirect'."),
+                field("estimator", &Params::estimator,
+                      "mean: the weighted mean of taps. regression: wider, with less error and 1.7 times "
+                      "the time: linear regression on position, outliers bounded and what they lose "
+                      "given back around them, means of wider neighborhoods, one more level.")
+                    .onlyWith(oneOf(&Params::light, {FilteredLight::Indirect, FilteredLight::Direct})),
+                field("levels", &Params::levels,
+                      "Levels of the wavelet, each with twice the radius of the previous one: "
+                      "n levels have a radius of 2^n - 1 pixels. 0: 4, with regression 5, of residuals 6.",
+                      0u, 6u),
+                field("edge_stopping_scale", &Params::edgeStoppingScale,
+                      "Factor of the bound of the difference of irradiance between two texels. "
+                      "1: the whole bound, sharp and noisy; less: smoother, and shadows blur. "
+                      "0: 0.1 for indirect light, most of whose changes cancel, with regression 0.05; "
+                      "1 for direct light, where the edge of a shadow is a single change.",
+                      0.0f, 100.0f)};
         }
     };
 

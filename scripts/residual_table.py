@@ -1,0 +1,85 @@
+#!/usr/bin/python3
+"""Prints the tables of docs/residual-rays.md from results of configs/bench/residual_rays.yaml.
+
+residual_table.py DIR: for each scene and variant the time of a frame's indirect light with light that is new in it (G-buffer, light,
+rays, paths, filter; not voxels), its nRMSE / relMSE and its mean ratio, and its time over that in which filtered paths, and gather
+rays without a residual, have no more error: below 1 where it is faster; - where the others have no variant with as
+little error, > where their fastest already has.
+residual_table.py DIR --means: of the profile `means`: for each scene and variant the ratio of its indirect light's mean to the
+reference's, over seeds, with its standard error, that of the reference's mean included.
+"""
+import math
+import os
+import sys
+
+import numpy
+
+sys.dont_write_bytecode = True
+sys.path.append(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "framework"))
+from report import exr_pixels  # noqa: E402
+from report.rows import markdown_table, read_rows  # noqa: E402
+from rivals_table import ERRORS, LEFT_OUT, LIGHT, front, speed_up, time_of, variants  # noqa: E402
+
+
+def means(folder):
+    """Headings, and rows of cells."""
+    scenes, methods = {}, []
+    for row in read_rows(folder, "results.csv"):
+        if row["status"] == "ok":
+            scenes.setdefault(row["scene"], {}).setdefault(row["indirect"], []).append(row)
+            if row["indirect"] not in methods:
+                methods.append(row["indirect"])
+    lines = []
+    for scene, found in scenes.items():
+        noise = reference_noise(folder, scene)
+        lines.append([f"`{scene}`", *(ratio(found.get(method, []), noise) for method in methods)])
+    return ["scene", *methods], lines
+
+
+def reference_noise(folder, scene):
+    """Standard error of the mean of the reference's indirect light, over that mean: half the difference of its halves."""
+    by_scene = os.path.join(folder, "images", f"reference-{scene}")
+    images = by_scene if os.path.isdir(by_scene) else os.path.join(folder, "images", "reference")
+    a, b = (exr_pixels.rgb(os.path.join(images, f"indirect_{half}.exr")).mean(dtype=float) for half in "ab")
+    return abs(a - b) / (a + b)
+
+
+def ratio(rows, noise):
+    values = numpy.array([float(row["indirect_mean_ratio"]) for row in rows])
+    if len(values) < 2:
+        return "-"
+    error = math.hypot(values.std(ddof=1) / math.sqrt(len(values)), noise)
+    return f"{values.mean():.4f} ± {error:.4f}"
+
+
+def times(folder):
+    """Headings, and rows of cells."""
+    lines = []
+    for scene, found in variants(folder).items():
+        timed = [(new_light_time(passes), row) for passes, row in found]
+        fronts = {start: {name: front([(ms, float(row[name])) for ms, row in timed if is_plain(row, start)]) for name in ERRORS}
+                  for start in ("filtered paths, ", "rays, ")}
+        for ms, row in timed:
+            errors = {name: float(row[name]) for name in ERRORS}
+            lines.append([f"`{scene}`", row["indirect"], f"{ms:.0f}", " / ".join(f"{error:.3f}" for error in errors.values()),
+                          f"{float(row['indirect_mean_ratio']):.3f}",
+                          *(" / ".join(speed_up(ms, error, rivals[name]) for name, error in errors.items()) for rivals in fronts.values())])
+    return ["scene", "method", "ms", "nRMSE / relMSE", "mean ratio", "time over paths'", "time over rays'"], lines
+
+
+def new_light_time(passes):
+    return time_of(passes, lambda name: name in LIGHT, LEFT_OUT)
+
+
+def is_plain(row, start):
+    return row["indirect"].startswith(start) and "residual" not in row["indirect"]
+
+
+def main():
+    if len(sys.argv) < 2 or sys.argv[2:] not in ([], ["--means"]):
+        raise SystemExit(__doc__)
+    print("\n".join(markdown_table(*(means if sys.argv[2:] else times)(sys.argv[1]))))
+
+
+if __name__ == "__main__":
+    main()
