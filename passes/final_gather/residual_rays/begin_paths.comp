@@ -9,17 +9,16 @@ layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(scalar) buffer Chosen { uint count; } chosen;
 layout(push_constant, scalar) uniform Push {
     GatherLayout layout_;
-    ResidualChoice choice;
     uint firstBlock;
     uint rays;
+    float probability;
 } push;
 
 void main() {
     const uint i = linearIndex();
     if (i >= push.rays || hits.data[i].triangle == NO_HIT) return;
     const uint blockIndex = push.firstBlock + i / push.layout_.raysPerBlock, j = i % push.layout_.raysPerBlock;
-    float probability;
-    if (!isChosen(push.layout_, push.choice, blockIndex, j, probability)) return;
+    if (choiceOf(push.layout_, blockIndex, j).x >= push.probability) return;
     atomicAdd(chosen.count, 1u);
     beginPath(i, gatherRay(push.layout_, blockIndex, j), hits.data[i]);
 }

@@ -6,15 +6,12 @@
 #include "passes/common/filter/irradiance_resolve.h"
 #include "passes/common/view/gather_light.h"
 #include "passes/final_gather/ray_sums/ray_sums.h"
-#include "passes/final_gather/residual_rays/residual_types.h"
 #include "passes/path_trace/path_streams/path_streams.h"
 #include "passes/path_trace/sobol.h"
 
 namespace voxray {
 namespace {
 
-constexpr float kPilots = 0.25f;                 ///< Of the paths, where pilots measure residuals.
-constexpr uint32_t kTileTexels = 32;             ///< Along a tile's edge, at least: some hundreds of rays.
 constexpr uint32_t kPathSequence = 0x52657369u;  ///< Of the paths' random numbers.
 
 /// Sum over blocks of the variance of a ray within its block times the block's rays.
@@ -26,14 +23,6 @@ double variance(const std::vector<gpu::RayMoments>& blocks) {
 }
 
 }  // namespace
-
-/// Which of the rays go on.
-enum class ResidualChoices { Even, Measured };
-template <>
-struct EnumNames<ResidualChoices> {
-    static constexpr std::array names{std::pair{ResidualChoices::Even, "even"},
-                                      std::pair{ResidualChoices::Measured, "measured"}};
-};
 
 /// Stored light as a control variate of paths. Source: Dereviannykh et al. 2025 (Neural Incident Radiance Cache:
 /// two-level Monte Carlo), Giles 2008 (multilevel Monte Carlo). Docs: docs/residual-rays.md.
@@ -50,7 +39,6 @@ class ResidualRays final : public Pass {
     struct Params {
         float probability = 0.25f;
         uint32_t bounces = 8;
-        ResidualChoices choice = ResidualChoices::Measured;
         static constexpr auto schema() {
             return std::tuple{
                 field("probability", &Params::probability, "Part of the gather rays that go on as paths.", 1e-3f, 1.0f)
@@ -58,10 +46,7 @@ class ResidualRays final : public Pass {
                 field("bounces", &Params::bounces,
                       "Scattering events of paths after direct light at what the camera sees, as path_trace counts "
                       "them: the image has as many, whatever is stored.",
-                      1u, 1024u),
-                field("choice", &Params::choice,
-                      "even: all rays go on with one probability. measured: a quarter of the paths are pilots, which "
-                      "tell the size of residuals in tiles; there the others have a probability in proportion.")};
+                      1u, 1024u)};
         }
     };
 
@@ -70,14 +55,9 @@ class ResidualRays final : public Pass {
     void record(PassContext& context) override;
 
  private:
-    /// Traces the paths of a round, and weighs them.
-    void trace(PassContext& context, uint32_t batch, uint32_t round);
-    void spreadProbability(PassContext& context);
-    /// Sums what a batch's rays bring over texels and blocks.
-    void sum(PassContext& context, uint32_t batch);
+    /// Traces the paths of a batch, weighs them, and sums what its rays bring over texels and blocks.
+    void measure(PassContext& context, uint32_t batch);
     void reportPaths(PassContext& context);
-    bool isMeasured() const { return params_.choice == ResidualChoices::Measured && params_.probability < 1; }
-    float pilots() const { return isMeasured() ? kPilots * params_.probability : 0.0f; }
 
     const Params params_;
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
@@ -87,15 +67,12 @@ class ResidualRays final : public Pass {
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of stored light and residual, unfiltered"};
     PathStreams streams_{*this};
     Kernel beginPaths_{*this, "begin_paths.comp"}, weigh_{*this, "weigh_residuals.comp"};
-    Kernel sumTiles_{*this, "sum_tiles.comp"}, spread_{*this, "spread_probability.comp"};
     RaySums sums_{*this};
     std::optional<IrradianceResolve> resolve_;  ///< Where `indirect` is read.
     Image irradiance_;                          ///< Of stored light and residual; there.
-    std::vector<Buffer> residuals_, totals_;    ///< Of each batch, as GatherLight::light.
+    Buffer residuals_, totals_;                 ///< Of a batch, as GatherLight::light.
     Buffer storedMoments_;                      ///< Of stored light, as NoisyIrradiance::moments.
-    Buffer tiles_;                              ///< gpu::ResidualTile, row by row.
     Buffer chosen_;                             ///< Number of paths.
-    gpu::ResidualChoice choice_{};
 };
 
 void ResidualRays::plan(PassPlan& plan) {
@@ -112,50 +89,32 @@ void ResidualRays::plan(PassPlan& plan) {
         resolve_.emplace(*this);
     }
 
-    const uint32_t tileBlocks = std::max(kTileTexels / hits.layout.blockSize, 1u);
-    choice_ = {params_.probability, pilots(), ROUND_OTHERS, tileBlocks,
-               (hits.layout.blocks + tileBlocks - 1u) / tileBlocks};
-    plan.buffer(tiles_, "residuals of tiles", uint64_t(choice_.tiles.x) * choice_.tiles.y * sizeof(gpu::ResidualTile));
-    if (isMeasured())
-        for (Kernel* kernel : {&beginPaths_, &weigh_}) kernel->define({{"TILES", "1"}});
-    for (Kernel* kernel : {&sumTiles_, &spread_}) kernel->compileIf(isMeasured());
-
     const uint32_t batchRays = hits.blocksPerBatch * hits.layout.raysPerBlock;
     streams_.plan(plan, {.bounces = params_.bounces, .light = PathLight::Indirect, .irradianceTexels = samples},
                   batchRays);
-    residuals_ = std::vector<Buffer>(hits.batches.size());
-    totals_ = std::vector<Buffer>(hits.batches.size());
-    for (uint32_t b = 0; b < hits.batches.size(); ++b)
-        for (Buffer* buffer : {&residuals_[b], &totals_[b]})
-            plan.scratchBuffer(*buffer, "light of residual rays",
-                               uint64_t(hits.batchBlocks(b)) * hits.layout.raysPerBlock * sizeof(glm::vec4));
+    plan.scratchBuffer(residuals_, "residuals", batchRays * sizeof(glm::vec4));
+    plan.scratchBuffer(totals_, "light with residuals", batchRays * sizeof(glm::vec4));
     plan.buffer(chosen_, "number of paths", sizeof(uint32_t));
 }
 
 void ResidualRays::record(PassContext& context) {
-    const auto batches = uint32_t(context[hits_].batches.size());
     streams_.begin(context);
     context.stream.fill(chosen_, 0);
-    if (isMeasured()) {
-        for (uint32_t b = 0; b < batches; ++b) trace(context, b, ROUND_PILOTS);
-        spreadProbability(context);
-    }
-    for (uint32_t b = 0; b < batches; ++b) {
-        trace(context, b, ROUND_OTHERS);
-        sum(context, b);
-    }
+    for (uint32_t b = 0; b < context[hits_].batches.size(); ++b) measure(context, b);
     if (resolve_) resolve_->record(context, context[gbuffer_], irradiance_, context[indirect_].image);
     reportPaths(context);
 }
 
-void ResidualRays::trace(PassContext& context, uint32_t batch, uint32_t round) {
+void ResidualRays::measure(PassContext& context, uint32_t batch) {
     const GatherHits& hits = context[hits_];
     const gpu::GatherLayout& layout = hits.layout;
     const uint32_t firstBlock = batch * hits.blocksPerBatch, blocks = hits.batchBlocks(batch);
     const uint32_t rays = blocks * layout.raysPerBlock;
-    choice_.round_ = round;
-    const Bindings common{{"hits", hits.batches[batch]}, {"layout", layout}, {"choice", choice_},
-                          {"firstBlock", firstBlock},    {"rays", rays},     ifUsed({"tiles", tiles_})};
+    const Bindings common{{"hits", hits.batches[batch]},
+                          {"layout", layout},
+                          {"firstBlock", firstBlock},
+                          {"rays", rays},
+                          {"probability", params_.probability}};
     context.dispatch(beginPaths_, rays, {common.all(), context[gbuffer_], streams_.open(context), {"chosen", chosen_}});
 
     // A block's rays have one sequence of random numbers
@@ -167,35 +126,16 @@ void ResidualRays::trace(PassContext& context, uint32_t batch, uint32_t round) {
                               .height = layout.blocks.y * PATH_TILE,
                               .halves = 1,
                               .seed = path_trace::hashOf(layout.seed, kPathSequence)});
-    context.dispatch(weigh_, rays,
-                     {common.all(),
-                      {"light", context[light_].light[batch]},
-                      {"sums", streams_.sums()},
-                      {"residuals", residuals_[batch]},
-                      {"totals", totals_[batch]}});
-    if (round == ROUND_PILOTS) sums_.addMoments(context, hits, batch, residuals_[batch], context[noisy_].moments);
-}
+    const Buffer& light = context[light_].light[batch];
+    context.dispatch(
+        weigh_, rays,
+        {common.all(), {"light", light}, {"sums", streams_.sums()}, {"residuals", residuals_}, {"totals", totals_}});
 
-void ResidualRays::spreadProbability(PassContext& context) {
-    context.dispatch(sumTiles_, choice_.tiles,
-                     {{"moments", context[noisy_].moments},
-                      {"tiles", tiles_},
-                      {"blocks", context[hits_].layout.blocks},
-                      {"tileCount", choice_.tiles},
-                      {"tileBlocks", choice_.tileBlocks}});
-    context.dispatch(spread_, 1,
-                     {{"tiles", tiles_},
-                      {"tileCount", choice_.tiles},
-                      {"probability", (params_.probability - pilots()) / (1 - pilots())}});
-}
-
-void ResidualRays::sum(PassContext& context, uint32_t batch) {
-    const GatherHits& hits = context[hits_];
     const NoisyIrradiance& noisy = context[noisy_];
-    sums_.average(context, hits, batch, residuals_[batch], noisy.irradiance);
-    sums_.addMoments(context, hits, batch, residuals_[batch], noisy.moments);
-    sums_.addMoments(context, hits, batch, context[light_].light[batch], storedMoments_);
-    if (resolve_) sums_.average(context, hits, batch, totals_[batch], irradiance_);
+    sums_.average(context, hits, batch, residuals_, noisy.irradiance);
+    sums_.addMoments(context, hits, batch, residuals_, noisy.moments);
+    sums_.addMoments(context, hits, batch, light, storedMoments_);
+    if (resolve_) sums_.average(context, hits, batch, totals_, irradiance_);
 }
 
 void ResidualRays::reportPaths(PassContext& context) {

@@ -9,13 +9,13 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(scalar) readonly buffer Light { vec4 data[]; } light;  // GatherLight::light.
 layout(scalar) readonly buffer Sums { PathSums data[]; } sums;
-layout(scalar) buffer Residuals { vec4 data[]; } residuals;      // As GatherLight::light; rgb may be negative.
-layout(scalar) writeonly buffer Totals { vec4 data[]; } totals;  // Light and residual.
+layout(scalar) writeonly buffer Residuals { vec4 data[]; } residuals;  // As GatherLight::light; rgb may be negative.
+layout(scalar) writeonly buffer Totals { vec4 data[]; } totals;        // Light and residual.
 layout(push_constant, scalar) uniform Push {
     GatherLayout layout_;
-    ResidualChoice choice;
     uint firstBlock;
     uint rays;
+    float probability;
 } push;
 
 void main() {
@@ -23,11 +23,9 @@ void main() {
     if (i >= push.rays) return;
     const vec4 stored = light.data[i];
     const uint blockIndex = push.firstBlock + i / push.layout_.raysPerBlock, j = i % push.layout_.raysPerBlock;
-    const bool isFirstRound = push.choice.round_ == ROUND_PILOTS || push.choice.pilots == 0.0;
-    vec3 residual = isFirstRound ? vec3(0.0) : residuals.data[i].rgb;
-    float probability;
-    if (hits.data[i].triangle != NO_HIT && isChosen(push.layout_, push.choice, blockIndex, j, probability))
-        residual = (sums.data[i].irradiance - stored.rgb) / probability;
+    vec3 residual = vec3(0.0);
+    if (hits.data[i].triangle != NO_HIT && choiceOf(push.layout_, blockIndex, j).x < push.probability)
+        residual = (sums.data[i].irradiance - stored.rgb) / push.probability;
     residuals.data[i] = vec4(residual, stored.w);
     totals.data[i] = vec4(stored.rgb + residual, stored.w);
 }
