@@ -134,6 +134,25 @@ TEST(ResidualRays, MeanIsTheReferencesWhateverIsStored) {
     }
 }
 
+TEST(ResidualRays, MeanIsTheReferencesOverACache) {
+    const State state = builtin("cornell", "{lights: area}");
+    const Estimate reference = meanOfFrames(state, graphYaml({"path_trace, spp: 512, bounces: 4"}), 8);
+    const auto gathered = [&](const std::string& residual) {
+        return meanOfFrames(
+            state,
+            graphYaml({"gbuffer, samples_per_pixel_edge: 8", "update_radiance_cache, rays_per_image: 4096, bounces: 1",
+                       "trace_gather_rays, rays_per_block: 1",
+                       "gather_rays, source: radiance_cache, near_field_cells: 0", residual}),
+            16);
+    };
+    const Estimate stored = gathered(""), found = gathered("residual_rays, probability: 0.3, bounces: 4");
+    std::printf("cache alone %.4f, with residuals %.4f, z %.1f\n", stored.mean / reference.mean,
+                found.mean / reference.mean, found.zTo(reference));
+    EXPECT_GT(std::abs(stored.mean / reference.mean - 1), 0.02);
+    EXPECT_NEAR(found.mean / reference.mean, 1, 0.01);
+    EXPECT_LT(std::abs(found.zTo(reference)), 4);
+}
+
 TEST(ResidualRays, GoOnWithTheirProbability) {
     const State state = builtin("cornell", "{lights: area}");
     const auto paths = [&](const std::string& parameters) {
