@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """Prints the tables of docs/residual-rays.md from results of configs/bench/residual_rays.yaml.
 
-residual_table.py DIR: for each scene and variant the time of a frame's indirect light with light that is new in it (G-buffer, light,
-rays, paths, filter; not voxels), its nRMSE / relMSE and its mean ratio, and its time over that in which filtered paths, and gather
-rays without a residual, have no more error: below 1 where it is faster; - where the others have no variant with as
+residual_table.py DIR: for each scene and variant the time of a frame's indirect light (G-buffer, rays, paths, filters; not what
+stores light, which all variants but paths share), its nRMSE / relMSE and mean ratio, and its time over that in which filtered paths,
+and gather rays without a residual, have no more error: below 1 where it is faster; - where the others have no variant with as
 little error, > where their fastest already has.
 residual_table.py DIR --means: of the profile `means`: for each scene and variant the ratio of its indirect light's mean to the
 reference's, over seeds, with its standard error, that of the reference's mean included.
@@ -18,7 +18,7 @@ sys.dont_write_bytecode = True
 sys.path.append(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "framework"))
 from report import exr_pixels  # noqa: E402
 from report.rows import markdown_table, read_rows  # noqa: E402
-from rivals_table import ERRORS, LEFT_OUT, LIGHT, front, speed_up, time_of, variants  # noqa: E402
+from rivals_table import ERRORS, frame_time, front, speed_up, variants  # noqa: E402
 
 
 def means(folder):
@@ -56,7 +56,7 @@ def times(folder):
     """Headings, and rows of cells."""
     lines = []
     for scene, found in variants(folder).items():
-        timed = [(new_light_time(passes), row) for passes, row in found]
+        timed = [(frame_time(passes), row) for passes, row in found]
         fronts = {start: {name: front([(ms, float(row[name])) for ms, row in timed if is_plain(row, start)]) for name in ERRORS}
                   for start in ("filtered paths, ", "rays, ")}
         for ms, row in timed:
@@ -65,10 +65,6 @@ def times(folder):
                           f"{float(row['indirect_mean_ratio']):.3f}",
                           *(" / ".join(speed_up(ms, error, rivals[name]) for name, error in errors.items()) for rivals in fronts.values())])
     return ["scene", "method", "ms", "nRMSE / relMSE", "mean ratio", "time over paths'", "time over rays'"], lines
-
-
-def new_light_time(passes):
-    return time_of(passes, lambda name: name in LIGHT, LEFT_OUT)
 
 
 def is_plain(row, start):
