@@ -6,7 +6,7 @@ stores light, which all variants but paths share), its nRMSE / relMSE and mean r
 and gather rays without a residual, have no more error: below 1 where it is faster; - where the others have no variant with as
 little error, > where their fastest already has.
 residual_table.py DIR --means: of the profile `means`: for each scene and variant the ratio of its indirect light's mean to the
-reference's, over seeds, with its standard error, that of the reference's mean included.
+reference's, over seeds, each with a reference of its own, with its standard error.
 """
 import math
 import os
@@ -16,7 +16,6 @@ import numpy
 
 sys.dont_write_bytecode = True
 sys.path.append(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "framework"))
-from report import exr_pixels  # noqa: E402
 from report.rows import markdown_table, read_rows  # noqa: E402
 from rivals_table import ERRORS, frame_time, front, speed_up, variants  # noqa: E402
 
@@ -31,25 +30,15 @@ def means(folder):
                 methods.append(row["indirect"])
     lines = []
     for scene, found in scenes.items():
-        noise = reference_noise(folder, scene)
-        lines.append([f"`{scene}`", *(ratio(found.get(method, []), noise) for method in methods)])
+        lines.append([f"`{scene}`", *(ratio(found.get(method, [])) for method in methods)])
     return ["scene", *methods], lines
 
 
-def reference_noise(folder, scene):
-    """Standard error of the mean of the reference's indirect light, over that mean: half the difference of its halves."""
-    by_scene = os.path.join(folder, "images", f"reference-{scene}")
-    images = by_scene if os.path.isdir(by_scene) else os.path.join(folder, "images", "reference")
-    a, b = (exr_pixels.rgb(os.path.join(images, f"indirect_{half}.exr")).mean(dtype=float) for half in "ab")
-    return abs(a - b) / (a + b)
-
-
-def ratio(rows, noise):
+def ratio(rows):
     values = numpy.array([float(row["indirect_mean_ratio"]) for row in rows])
     if len(values) < 2:
         return "-"
-    error = math.hypot(values.std(ddof=1) / math.sqrt(len(values)), noise)
-    return f"{values.mean():.4f} ± {error:.4f}"
+    return f"{values.mean():.4f} ± {values.std(ddof=1) / math.sqrt(len(values)):.4f}"
 
 
 def times(folder):
