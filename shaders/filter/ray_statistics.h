@@ -6,6 +6,7 @@
 
 VOXRAY_SHARED_BEGIN
 
+// Of light that may be negative neither is relative: the change of irradiance, W/m³, and a ray's variance.
 struct RayStatistics {
     float gradient;  // Bound of the relative change of irradiance along a surface, 1/m.
     float variance;  // Variance of a single ray over its squared mean.

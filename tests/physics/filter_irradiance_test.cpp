@@ -25,6 +25,7 @@ class KnownIrradiance final : public Pass {
         float step = 1.0f;
         uint32_t oneIn = 1;
         float firefly = 1.0f;
+        float offset = 0.0f;
         bool moments = false;
         bool stratified = false;
         static constexpr auto schema() {
@@ -36,6 +37,7 @@ class KnownIrradiance final : public Pass {
                               field("step", &Params::step, "Factor of the right half.", 0.0f, 1e9f),
                               field("one_in", &Params::oneIn, "So many rays share what one brings.", 1u, 1000u),
                               field("firefly", &Params::firefly, "Factor of the texel in the middle.", 0.0f, 1e9f),
+                              field("offset", &Params::offset, "Added to all light, W/m².", -1e9f, 1e9f),
                               field("moments", &Params::moments, "Whether the filter is told the moments of rays."),
                               field("stratified", &Params::stratified, "Whether rays are noisy, but not their mean.")};
         }
@@ -68,8 +70,9 @@ class KnownIrradiance final : public Pass {
                 float light = mean * (1.0f + params_.noise * even(random));
                 if (params_.oneIn > 1) light *= random() % params_.oneIn == 0 ? float(params_.oneIn) : 0.0f;
                 if (x == texels.x / 2 && y == texels.y / 2) light *= params_.firefly;
-                values[size_t(y) * texels.x + x] =
-                    glm::vec4(glm::vec3(params_.stratified ? mean : light), params_.rays);
+                light += params_.offset;
+                const float texel = params_.stratified ? mean + params_.offset : light;
+                values[size_t(y) * texels.x + x] = glm::vec4(glm::vec3(texel), params_.rays);
                 if (params_.moments) add(moments[size_t(y / 4) * noisy.blocks(texels).x + x / 4], light, params_.rays);
             }
         context.stream.upload(image, std::as_bytes(std::span(values)));
@@ -97,6 +100,19 @@ ImageF filterKnown(const std::string& source, const std::string& filter, const s
     Chain chain(scene, scene == "white_room" ? "{albedo: 0.5}" : "{}",
                 "[{pass: gbuffer, samples_per_pixel_edge: " + samples + "}, {pass: known_irradiance, " + source +
                     "}, {pass: filter_irradiance, " + filter + "}]",
+                48, 48, 1, [](Registry& registry) { registry.add<KnownIrradiance>(); });
+    return chain.image("indirect");
+}
+
+/// A residual that is filtered and added to 2 W/m² of stored light, which has no noise.
+ImageF filterResidual(const std::string& residual, const std::string& filter = "levels: 6") {
+    Chain chain("white_room", "{albedo: 0.5}",
+                "[{pass: gbuffer}, {pass: known_irradiance}, {pass: filter_irradiance}, "
+                "{pass: known_irradiance, id: residual, " +
+                    residual +
+                    "}, {pass: filter_irradiance, id: sum, light: residual, "
+                    "inputs: {noisy_residual: residual.noisy_irradiance}, " +
+                    filter + "}]",
                 48, 48, 1, [](Registry& registry) { registry.add<KnownIrradiance>(); });
     return chain.image("indirect");
 }
@@ -339,6 +355,43 @@ TEST_P(FilterEstimator, FollowsAnySource) {
         EXPECT_NEAR(mean(filtered) / mean(expected), 1, 0.03) << source;
         EXPECT_LT(meanDifference(filtered, expected), 0.5 * meanDifference(raw, expected)) << source;
     }
+}
+
+TEST(FilterIrradiance, ResidualsMayBeNegative) {
+    for (const float value : filterResidual("offset: -3, moments: true").data)
+        EXPECT_NEAR(value, 0.5 * (2 - 1) / kPi, 1e-3 * 0.5 / kPi);
+}
+
+TEST(FilterIrradiance, ResidualsOfNoMeanVanish) {
+    // Noise of ±2 around 0, of which nothing may be left but little, dark or bright: sigma is 2 / sqrt(3)
+    const ImageF image = filterResidual("noise: 1, offset: -2, moments: true");
+    const double stored = 0.5 * 2 / kPi, sigma = stored / std::sqrt(3.0);
+    EXPECT_NEAR(mean(image), stored, 4 * 2 * sigma / 48);
+    double squares = 0;
+    for (const float value : image.data) squares += std::pow(value - stored, 2);
+    EXPECT_LT(std::sqrt(squares / double(image.data.size())), 0.08 * sigma);
+}
+
+TEST(FilterIrradiance, ResidualsKeepWhatIsBeyondDoubt) {
+    // -1 on the left and 1 on the right, with noise that is a twentieth of it
+    const ImageF image = filterResidual("noise: 0.2, rays: 16, step: 2, offset: -3, moments: true");
+    const auto column = [&](uint32_t x) {
+        double sum = 0;
+        for (uint32_t y = 0; y < image.height; ++y) sum += image.data[3 * (size_t(y) * image.width + x)];
+        return sum / image.height / (0.5 / kPi) - 2;
+    };
+    EXPECT_NEAR(column(19), -1, 0.2);
+    EXPECT_NEAR(column(28), 1, 0.2);
+}
+
+TEST(FilterIrradiance, ResidualsNeedStoredLight) {
+    EXPECT_CONTAINS(errorOf([] {
+                        Chain("white_room", "{}",
+                              "[{pass: gbuffer}, {pass: known_irradiance, id: residual}, {pass: filter_irradiance, "
+                              "light: residual, inputs: {noisy_residual: residual.noisy_irradiance}}]",
+                              16, 16, 1, [](Registry& registry) { registry.add<KnownIrradiance>(); });
+                    }),
+                    "put a filter_irradiance of stored light there");
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ FAMILIES = {
     "radiosity": {"surfels"},
     "clusters": {"surfels"},
     "cones": {"surfels"},
-    "final_gather": {"surfels", "cache"},
+    "final_gather": {"surfels", "cache", "path_trace"},
     "cache": {"surfels"},
     "probes": {"surfels"},
     "reservoirs": set(),

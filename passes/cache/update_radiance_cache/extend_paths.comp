@@ -17,7 +17,7 @@ readonly buffer Origins { uint data[]; } origins;  // Vertex that a ray starts f
 layout(scalar) writeonly buffer NextRays { Ray data[]; } nextRays;
 writeonly buffer NextOrigins { uint data[]; } nextOrigins;
 layout(scalar) buffer Surfels { Surfel data[]; } surfels;
-layout(scalar) buffer Vertices { PathVertex data[]; } vertices;
+layout(scalar) buffer Vertices { CachePathVertex data[]; } vertices;
 buffer VertexCount { uint value; } vertexCount;
 layout(push_constant, scalar) uniform Push {
     uint rayCount;
@@ -64,7 +64,7 @@ void main() {
     if (!fromCamera) vertices.data[s.parent].next = v;
 
     // Paths never end at their first vertex, so that second vertices are distributed as hits of gather rays are
-    PathVertex vertex;
+    CachePathVertex vertex;
     vertex.key = unpackUint2x32(key);
     vertex.next = NO_VERTEX;
     vertex.fromCache = vec3(0.0);

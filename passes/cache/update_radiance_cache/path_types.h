@@ -7,7 +7,7 @@
 VOXRAY_SHARED_BEGIN
 
 // A path vertex; its position and reflectance are in the surfel of the same index.
-struct PathVertex {
+struct CachePathVertex {
     uvec2 key;       // Key of its cell.
     uint next;       // Next vertex of the path, or NO_VERTEX.
     float survival;  // Probability that the path continues (Russian roulette).

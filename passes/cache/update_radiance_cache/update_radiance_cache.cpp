@@ -147,7 +147,7 @@ void UpdateRadianceCache::plan(PassPlan& plan) {
     for (Buffer& origins : origins_) plan.buffer(origins, "origins of path rays", paths * sizeof(uint32_t));
     plan.buffer(hits_, "path hits", paths * sizeof(Hit));
     plan.buffer(surfels_, "surfels of paths", vertices * sizeof(gpu::Surfel));
-    plan.buffer(vertices_, "vertices of paths", vertices * sizeof(gpu::PathVertex));
+    plan.buffer(vertices_, "vertices of paths", vertices * sizeof(gpu::CachePathVertex));
     plan.buffer(direct_, "direct light at vertices", vertices * 4 * sizeof(float));
     plan.buffer(vertexCount_, "number of vertices", sizeof(uint32_t));
     plan.buffer(cellCounts_, "counts of cells", sizeof(CellCounts));

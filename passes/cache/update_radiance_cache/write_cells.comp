@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
-layout(scalar) readonly buffer Vertices { PathVertex data[]; } vertices;
+layout(scalar) readonly buffer Vertices { CachePathVertex data[]; } vertices;
 layout(scalar) readonly buffer Direct { vec4 data[]; } direct;
 buffer CellCounts {
     uint cells;

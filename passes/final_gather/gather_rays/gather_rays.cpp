@@ -1,13 +1,13 @@
 #include <optional>
 #include <vector>
 
-#include "base/error.h"
 #include "graph/registry.h"
 #include "passes/common/filter/irradiance_resolve.h"
 #include "passes/common/filter/noisy_irradiance.h"
 #include "passes/common/view/gather_hits.h"
 #include "passes/common/view/gather_light.h"
 #include "passes/common/view/gbuffer.h"
+#include "passes/final_gather/ray_sums/ray_sums.h"
 #include "passes/final_gather/stored_light/continued_paths.h"
 #include "passes/final_gather/stored_light/stored_light.h"
 
@@ -47,8 +47,7 @@ class GatherRays final : public Pass {
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of indirect light, unfiltered"};
     Out<GatherLight> rayLight_{*this, "gather_light", "what each gather ray brings"};
     Kernel shadeHits_{*this, "shade_hits.comp", stored_.defines()};
-    Kernel averageTexels_{*this, "average_texels.comp"};
-    Kernel sumMoments_{*this, "sum_moments.comp"};
+    RaySums sums_{*this};
     ContinuedPaths paths_{*this, stored_.defines()};
     std::optional<IrradianceResolve> resolve_;  ///< Where `indirect` is read.
     Buffer light_;                              ///< As GatherLight::light, of a batch; where that is not read.
@@ -56,21 +55,10 @@ class GatherRays final : public Pass {
 
 void GatherRays::plan(PassPlan& plan) {
     const GatherHits& hits = plan[hits_];
-    const uint32_t texelsPerBlock = hits.layout.blockSize * hits.layout.blockSize;
     NoisyIrradiance& noisy = plan[noisy_];
     noisy.lightBounces = plan[indirect_].lightBounces = oneMoreBounce(stored_.bounces(plan));
-    noisy.spacing = hits.layout.raysPerBlock < texelsPerBlock ? hits.layout.blockSize : 1;
-    if (plan[indirect_].isRead && noisy.spacing > 1)
-        throw Error(
-            "{3}: blocks of {0}x{0} texels have {1} rays, which leaves texels without any; "
-            "let filter_irradiance follow, or raise 'rays_per_block' of trace_gather_rays to {2}",
-            hits.layout.blockSize, hits.layout.raysPerBlock, texelsPerBlock, kName);
-    plan.image(noisy.irradiance, "noisy irradiance", NoisyIrradiance::desc(plan.frame, plan[gbuffer_].samples));
-    sumMoments_.compileIf(noisy.isRead);
-    if (noisy.isRead) {
-        noisy.blockSize = hits.layout.blockSize;
-        plan.buffer(noisy.moments, "moments of rays", noisy.momentsBytes(hits.layout.texels));
-    }
+    if (plan[indirect_].isRead) RaySums::requireRays(hits, kName);
+    sums_.plan(plan, hits, plan[gbuffer_].samples, noisy);
     if (plan[indirect_].isRead) {
         plan.frameImage(indirect_);
         resolve_.emplace(*this);
@@ -116,10 +104,8 @@ void GatherRays::record(PassContext& context) {
 
 ContinuedPaths::Counts GatherRays::gather(PassContext& context, const std::vector<Binding>& stored, uint32_t batch) {
     const GatherHits& hits = context[hits_];
-    const uint32_t firstBlock = batch * hits.blocksPerBatch, blocks = hits.batchBlocks(batch);
-    const uint32_t rays = blocks * hits.layout.raysPerBlock;
-    const uint32_t texelsPerBlock = hits.layout.blockSize * hits.layout.blockSize;
-
+    const uint32_t firstBlock = batch * hits.blocksPerBatch;
+    const uint32_t rays = hits.batchBlocks(batch) * hits.layout.raysPerBlock;
     const GatherLight& kept = context[rayLight_];
     const Buffer& light = kept.isRead ? kept.light[batch] : light_;
     const Buffer& nearDistances = kept.isRead ? kept.nearDistances[batch] : light_;
@@ -140,21 +126,7 @@ ContinuedPaths::Counts GatherRays::gather(PassContext& context, const std::vecto
                       {"nearField", params_.nearFieldCells}});
     const ContinuedPaths::Counts counts = paths_.trace(context, stored, light);
 
-    // Sum over the rays of each texel and of each block
-    const NoisyIrradiance& noisy = context[noisy_];
-    context.dispatch(averageTexels_, uint64_t(blocks) * texelsPerBlock,
-                     {{"light", light},
-                      {"gathered", noisy.irradiance},
-                      {"layout", hits.layout},
-                      {"firstBlock", firstBlock},
-                      {"batchBlocks", blocks}});
-    if (noisy.isRead)
-        context.dispatch(sumMoments_, blocks,
-                         {{"light", light},
-                          {"moments", noisy.moments},
-                          {"firstBlock", firstBlock},
-                          {"batchBlocks", blocks},
-                          {"raysPerBlock", hits.layout.raysPerBlock}});
+    sums_.add(context, hits, batch, light, context[noisy_]);
     return counts;
 }
 

@@ -2,7 +2,7 @@
 #include <span>
 
 #include "base/error.h"
-#include "passes/path_trace/path_trace_device/path_streams.h"
+#include "passes/path_trace/path_streams/path_streams.h"
 #include "passes/path_trace/path_trace_ports.h"
 #include "passes/path_trace/sobol.h"
 

@@ -1,5 +1,5 @@
 // Irradiance of indirect light at the G-buffer's texels: the mean over the paths of a batch that start in each.
-#include "path_batch.glsl"
+#include "passes/path_trace/path_streams/path_batch.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

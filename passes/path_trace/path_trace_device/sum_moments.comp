@@ -1,5 +1,5 @@
 // Moments of a batch's paths for each block of pixels of the image, for the irradiance filter.
-#include "path_batch.glsl"
+#include "passes/path_trace/path_streams/path_batch.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/filter/ray_moments.h"
 #include "shaders/scene/sampling.glsl"

@@ -1,5 +1,5 @@
 // Adds a batch's paths to the sums of their pixels, in the order of samples.
-#include "path_batch.glsl"
+#include "passes/path_trace/path_streams/path_batch.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

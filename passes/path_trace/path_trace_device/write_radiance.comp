@@ -1,5 +1,5 @@
 // Writes an image of the pixels' sums.
-#include "path_types.h"
+#include "passes/path_trace/path_streams/path_types.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Pixels { PixelSums data[]; };

@@ -12,7 +12,8 @@ namespace voxray {
 namespace {
 
 constexpr uint32_t kMeanLevels = 3;  // Neighborhoods whose means are compared have hundreds of pixels.
-constexpr uint32_t kTile = 16;       // TILE of tiles.glsl.
+constexpr uint32_t kResidualLevels = 6;
+constexpr uint32_t kTile = 16;  // TILE of tiles.glsl.
 constexpr uint32_t kTileBytes = 6 * sizeof(float), kRaisedBytes = 3 * sizeof(float), kNoiseBytes = 2 * sizeof(float);
 constexpr uint32_t kMeasuredLevels = 3;  // MEASURED_LEVELS of noise_ratio.glsl.
 
@@ -23,11 +24,12 @@ glm::uvec2 tilesOf(glm::uvec2 pixels) {
 }  // namespace
 
 /// Light that is denoised.
-enum class FilteredLight { Indirect, Direct };
+enum class FilteredLight { Indirect, Direct, Residual };
 template <>
 struct EnumNames<FilteredLight> {
     static constexpr std::array names{std::pair{FilteredLight::Indirect, "indirect"},
-                                      std::pair{FilteredLight::Direct, "direct"}};
+                                      std::pair{FilteredLight::Direct, "direct"},
+                                      std::pair{FilteredLight::Residual, "residual"}};
 };
 
 /// What an element's value is, of the weighted taps around it.
@@ -48,7 +50,7 @@ class FilterIrradiance final : public Pass {
     static constexpr const char* kHelp =
         "Denoises a gather's irradiance along surfaces and multiplies by albedo. "
         "The noisy irradiance is that of a gather (gather_rays, path_trace), or with `light: direct` that of lamps "
-        "and the environment (direct_shadow_rays). "
+        "and the environment (direct_shadow_rays), or with `light: residual` what stored light lacks (residual_rays). "
         "An edge-avoiding wavelet whose width follows from the number of rays and, where the gather writes moments, "
         "from their variance, the distances of their hits, and the differences of light between neighborhoods. "
         "Biased by: edge_stopping_scale and levels, less the more rays. Lambert surfaces only. "
@@ -59,24 +61,27 @@ class FilterIrradiance final : public Pass {
         uint32_t levels = 0;
         float edgeStoppingScale = 0.0f;
         static constexpr auto schema() {
-            return std::tuple{field("light", &Params::light,
-                                    "indirect: reads 'noisy_irradiance' and writes 'indirect'. "
-                                    "direct: reads 'noisy_direct', adds 'unfiltered_direct' and writes 'direct'."),
-                              field("estimator", &Params::estimator,
-                                    "mean: the weighted mean of taps. regression: wider, with less error and 2.3 times "
-                                    "the time: linear regression on position, noise measured, outliers bounded and "
-                                    "what they lose given back around them, means of wider neighborhoods, one more "
-                                    "level."),
-                              field("levels", &Params::levels,
-                                    "Levels of the wavelet, each with twice the radius of the previous one: "
-                                    "n levels have a radius of 2^n - 1 pixels. 0: 4, with regression 5.",
-                                    0u, 6u),
-                              field("edge_stopping_scale", &Params::edgeStoppingScale,
-                                    "Factor of the bound of the difference of irradiance between two texels. "
-                                    "1: the whole bound, sharp and noisy; less: smoother, and shadows blur. "
-                                    "0: 0.1 for indirect light, most of whose changes cancel, with regression 0.02; "
-                                    "1 for direct light, where the edge of a shadow is a single change.",
-                                    0.0f, 100.0f)};
+            return std::tuple{
+                field("light", &Params::light,
+                      "indirect: reads 'noisy_irradiance' and writes 'indirect'. "
+                      "direct: reads 'noisy_direct', adds 'unfiltered_direct' and writes 'direct'. "
+                      "residual: reads 'noisy_residual', which may be negative, adds 'indirect' and "
+                      "writes 'indirect'."),
+                field("estimator", &Params::estimator,
+                      "mean: the weighted mean of taps. regression: wider, with less error and 2.3 times "
+                      "the time: linear regression on position, noise measured, outliers bounded and what "
+                      "they lose given back around them, means of wider neighborhoods, one more level.")
+                    .onlyWith(oneOf(&Params::light, {FilteredLight::Indirect, FilteredLight::Direct})),
+                field("levels", &Params::levels,
+                      "Levels of the wavelet, each with twice the radius of the previous one: "
+                      "n levels have a radius of 2^n - 1 pixels. 0: 4, with regression 5, of residuals 6.",
+                      0u, 6u),
+                field("edge_stopping_scale", &Params::edgeStoppingScale,
+                      "Factor of the bound of the difference of irradiance between two texels. "
+                      "1: the whole bound, sharp and noisy; less: smoother, and shadows blur. "
+                      "0: 0.1 for indirect light, most of whose changes cancel, with regression 0.02; "
+                      "1 for direct light, where the edge of a shadow is a single change.",
+                      0.0f, 100.0f)};
         }
     };
 
@@ -98,8 +103,15 @@ class FilterIrradiance final : public Pass {
     float blockPixels(PassContext& context) const;
 
     bool isDirect() const { return params_.light == FilteredLight::Direct; }
-    bool hasRegression() const { return params_.estimator == Estimator::Regression; }
-    uint32_t levels() const { return params_.levels > 0 ? params_.levels : hasRegression() ? 5 : WAVELET_LEVELS; }
+    bool isResidual() const { return params_.light == FilteredLight::Residual; }
+    bool hasRegression() const { return params_.estimator == Estimator::Regression && !isResidual(); }
+    uint32_t levels() const {
+        if (params_.levels > 0) return params_.levels;
+        return isResidual() ? kResidualLevels : hasRegression() ? 5 : WAVELET_LEVELS;
+    }
+    const char* noisyName() const {
+        return isDirect() ? "noisy_direct" : isResidual() ? "noisy_residual" : "noisy_irradiance";
+    }
     float edgeStoppingScale() const {
         if (params_.edgeStoppingScale > 0) return params_.edgeStoppingScale;
         return isDirect() ? 1.0f : hasRegression() ? 0.02f : 0.1f;
@@ -107,9 +119,9 @@ class FilterIrradiance final : public Pass {
 
     const Params params_;
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
-    In<NoisyIrradiance> noisy_{*this, isDirect() ? "noisy_direct" : "noisy_irradiance",
-                               "irradiance from few rays a texel"};
-    InOptional<FrameImage> unfiltered_{*this, "unfiltered_direct", "added to the result", isDirect()};
+    In<NoisyIrradiance> noisy_{*this, noisyName(), "irradiance from few rays a texel"};
+    InOptional<FrameImage> unfiltered_{*this, isResidual() ? "indirect" : "unfiltered_direct", "added to the result",
+                                       isDirect() || isResidual()};
     Out<FrameImage> result_{*this, isDirect() ? "direct" : "indirect", "radiance reflected of this light"};
     Kernel findSurfaces_{*this, "surfaces.comp"};
     Kernel statistics_{*this, "statistics.comp"};
@@ -148,6 +160,10 @@ void FilterIrradiance::plan(PassPlan& plan) {
             "filter_irradiance: the gather has rays for one texel in each {0}x{0}, which {1} levels leave with gaps; "
             "raise 'levels' to {2} or the gather's rays",
             noisy.spacing, levels(), minLevels);
+    if (isResidual() && !plan[unfiltered_])
+        throw Error(
+            "filter_irradiance: with 'light: residual' it adds to 'indirect', which no pass before it writes; "
+            "put a filter_irradiance of stored light there");
     plan[result_].lightBounces = noisy.lightBounces;
     plan.frameImage(result_);
     const glm::uvec3 extent{plan.frame.width, plan.frame.height * (samples > 1 ? 2 : 1), 1};
@@ -174,6 +190,7 @@ void FilterIrradiance::plan(PassPlan& plan) {
     Defines defines{{"SAMPLES", std::to_string(samples)}};
     if (noisy.blockSize > 0) defines.emplace("STATISTICS", "1");
     if (noisy.hasStatistics) defines.emplace("BOUNDED_GRADIENT", "1");
+    if (isResidual()) defines.emplace("SIGNED", "1");
     if (hasRegression()) defines.emplace("REGRESSION", "1");
     if (givesBack) {
         defines.emplace("GIVE_BACK", "1");

@@ -45,18 +45,22 @@ void main() {
 
     // Without statistics assume a mean of 1 everywhere, the maximum gradient, and a ray's variance of its squared mean
     SurfaceLight found = SurfaceLight(1.0, 0.0, 1.0, 1.0e30);
-    float relativeVariance = 1.0;
+    float variance = 1.0;  // Over the squared mean, or SIGNED.
 #ifdef STATISTICS
     const vec2 rays = interpolatedStatistics(ivec2(element.x, element.y % pixels.y));
     const vec3 neighborhood = texelFetch(mean, element, 0).xyz;
-    relativeVariance = rays.y;
-    found.rayVariance = rays.y * neighborhood.x * neighborhood.x;
+    variance = rays.y;
+#ifdef SIGNED
+    found.rayVariance = variance;
+#else
+    found.rayVariance = variance * square(neighborhood.x);
+#endif
     setMean(found, neighborhood);
     found.gradient = rays.x;
 #endif
 #ifndef BOUNDED_GRADIENT
     const float minDistance = MIN_PIXELS * push.pixelAngle * distance(unpackSurface(surface).position, push.camera);
-    found.gradient = min(found.gradient, sqrt(relativeVariance) / minDistance);
+    found.gradient = min(found.gradient, sqrt(variance) / minDistance);
 #endif
     imageStore(light, element, areaOf(surface) > 0.0 ? packLight(found) : vec4(0.0));
 }

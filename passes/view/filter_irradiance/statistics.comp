@@ -12,6 +12,9 @@
 // The second step is the Cauchy-Schwarz inequality. Its sums expand to sums of L/r and L^2/r, so that M is not needed
 // while rays are summed. Changes of opposite signs cancel. With regression, the part of the net change that exceeds its
 // noise is added (netGradient).
+//
+// With SIGNED the mean may be near 0, so that nothing is relative to it: the bound is that of |grad E|, the variance
+// that of a ray.
 #include "shaders/filter/ray_moments.h"
 #include "shaders/filter/ray_statistics.h"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -57,19 +60,27 @@ void main() {
         }
 
     RayStatistics found = RayStatistics(0.0, 0.0);
+    const float mean = sum.rays > 0.0 ? sum.luminance / sum.rays : 0.0;
+    const float deviation =
+        sum.squaredOverDistance - 2.0 * mean * sum.luminanceOverDistance + mean * mean * sum.inverseDistance;
+    const float change = sqrt(max(deviation, 0.0) * sum.inverseDistance);
+#ifdef SIGNED
+    if (sum.rays > 0.0) {
+        found.gradient = change / sum.rays;
+        found.variance = max(sum.squared / sum.rays - mean * mean, 0.0);
+    }
+#else
     if (sum.luminance > 0.0) {
-        const float mean = sum.luminance / sum.rays;
-        const float deviation =
-            sum.squaredOverDistance - 2.0 * mean * sum.luminanceOverDistance + mean * mean * sum.inverseDistance;
-        found.gradient = sqrt(max(deviation, 0.0) * sum.inverseDistance) / sum.luminance;
+        found.gradient = change / sum.luminance;
 #ifdef REGRESSION
         found.gradient += NET_WEIGHT * netGradient(sum, mean, deviation);
 #endif
         found.variance = max(sum.squared / (sum.luminance * mean) - 1.0, 0.0);
     }
+#endif
     const int i = block.y * int(push.blocks.x) + block.x;
     statistics.data[i] = found;
 #ifdef GIVE_BACK
-    blockMeans.data[i] = sum.rays > 0.0 ? sum.luminance / sum.rays : 0.0;
+    blockMeans.data[i] = mean;
 #endif
 }

@@ -28,8 +28,12 @@ void setMean(inout SurfaceLight l, vec3 neighborhood) {
 // The measured difference of means: its weight, and the variances of noise that its square must exceed. With regression:
 // means over surroundings as wide as their distance differ by half of a step between their centers, a fourth when
 // squared, which makes the weight 4 at least; and noise that exceeded its variance in every third pair of taps would
-// narrow the filter everywhere, three times the variance it exceeds in one of twelve.
-#ifndef REGRESSION
+// narrow the filter everywhere, three times the variance it exceeds in one of twelve. With SIGNED more, as noise of paths
+// is large.
+#if defined(SIGNED)
+#define ATTENUATION 1.0
+#define SIGNIFICANT 4.0
+#elif !defined(REGRESSION)
 #define ATTENUATION 1.0
 #define SIGNIFICANT 1.0
 #elif defined(BOUNDED_GRADIENT)
@@ -42,14 +46,22 @@ void setMean(inout SurfaceLight l, vec3 neighborhood) {
 
 // Expected mean squared difference of two elements' irradiance (wavelet.comp).
 float squaredBias(Surface a, SurfaceLight lightA, Surface b, SurfaceLight lightB, float edgeStoppingScale) {
-    const float mean_ = 0.5 * (lightA.mean + lightB.mean), variance = 0.5 * (lightA.rayVariance + lightB.rayVariance);
     const float cosine = clamp(dot(a.normal, b.normal), 1e-6, 1.0);
+    const float noise = lightA.meanVariance + lightB.meanVariance, difference = square(lightA.mean - lightB.mean);
+#ifdef SIGNED
+    // Bounds from rays' deviations would be those of paths' noise: only what means differ by beyond doubt counts, and
+    // for surfaces with other planes or normals the size of both
+    const float size2 = 0.5 * (square(lightA.mean) + square(lightB.mean) - SIGNIFICANT * noise);
+    const float unlike = max(offPlane(a, b), 1.0 - square(cosine));
+    return UNRELATED * max(size2, 0.0) * unlike + ATTENUATION * max(difference - SIGNIFICANT * noise, 0.0);
+#else
+    const float mean_ = 0.5 * (lightA.mean + lightB.mean), variance = 0.5 * (lightA.rayVariance + lightB.rayVariance);
     const float alongSurface = mean_ * max(lightA.gradient, lightB.gradient) * distance(a.position, b.position);
     const float overNormals = sqrt(variance * (1.0 - cosine) / cosine);
-    const float noise = SIGNIFICANT * (lightA.meanVariance + lightB.meanVariance);
-    const float measured = max(square(lightA.mean - lightB.mean) - noise, 0.0);
+    const float measured = max(difference - SIGNIFICANT * noise, 0.0);
     const float unrelated = UNRELATED * square(mean_) * offPlane(a, b);
     return square(edgeStoppingScale * (alongSurface + overNormals)) + unrelated + ATTENUATION * measured;
+#endif
 }
 
 #endif

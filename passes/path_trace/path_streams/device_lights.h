@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "graph/pass.h"
-#include "passes/path_trace/path_trace_device/path_types.h"
+#include "passes/path_trace/path_streams/path_types.h"
 
 namespace voxray {
 

@@ -1,4 +1,4 @@
-#include "passes/path_trace/path_trace_device/device_lights.h"
+#include "passes/path_trace/path_streams/device_lights.h"
 
 #include <algorithm>
 #include <glm/common.hpp>

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "passes/common/lights/pane_transmittance.h"
-#include "passes/path_trace/path_trace_device/device_lights.h"
-#include "passes/path_trace/path_trace_device/path_types.h"
+#include "passes/path_trace/path_streams/device_lights.h"
+#include "passes/path_trace/path_streams/path_types.h"
 #include "passes/path_trace/path_tracer.h"
 
 namespace voxray {
@@ -21,7 +21,12 @@ class PathStreams {
     void begin(PassContext& context);
     /// Traces a batch of paths from the frame's camera.
     void trace(PassContext& context, const gpu::PathBatch& batch);
-    /// Rays of all batches since begin(); waits for the device.
+    /// Empties the lists for a batch of paths that begin at their second vertex, the hits of rays that leave what the
+    /// camera sees. @return bindings of the caller's shader that lists them (begin_path.glsl), for follow().
+    std::vector<Binding> open(PassContext& context);
+    /// Traces the listed paths on. Neither emission at their first hits nor what is before these counts.
+    void follow(PassContext& context, const gpu::PathBatch& batch) { traceFrom(context, batch, 1); }
+    /// Rays of all batches since begin(), with those to the first hits of listed paths; waits for the device.
     uint64_t rays(PassContext& context);
 
     /// gpu::PathSums of each path of the last batch.
@@ -34,7 +39,11 @@ class PathStreams {
         void plan(PassPlan& plan, const char* name, uint32_t paths);
     };
 
+    /// Adds the last batch's rays to those of the frame, and clears the lists for one of so many camera paths.
+    void startBatch(PassContext& context, uint32_t paths);
     void count(PassContext& context, uint32_t paths, bool isFirst);
+    /// Shades vertices, the first of which the paths' rays have hit, and traces the rays between them.
+    void traceFrom(PassContext& context, const gpu::PathBatch& batch, uint32_t firstVertex);
     void shade(PassContext& context, const gpu::PathBatch& batch, uint32_t vertex);
     void addShadowed(PassContext& context, uint32_t vertex);
     void addSeenThroughPanes(PassContext& context, uint32_t vertex);

@@ -1,4 +1,4 @@
-#include "passes/path_trace/path_trace_device/path_streams.h"
+#include "passes/path_trace/path_streams/path_streams.h"
 
 #include "scene/camera_rays.h"
 #include "scene/panes.h"
@@ -79,10 +79,23 @@ void PathStreams::count(PassContext& context, uint32_t paths, bool isFirst) {
                       {"isFirst", isFirst ? 1u : 0u}});
 }
 
-void PathStreams::trace(PassContext& context, const gpu::PathBatch& batch) {
-    const uint32_t paths = batch.pixels * batch.samples;
+void PathStreams::startBatch(PassContext& context, uint32_t paths) {
     count(context, paths, clearsCounts_);
     clearsCounts_ = false;
+}
+
+std::vector<Binding> PathStreams::open(PassContext& context) {
+    startBatch(context, 0);
+    return {{"pathRays", rays_[1]},
+            {"pathHits", hits_},
+            {"vertices", pathVertices_[1]},
+            {"sums", sums_},
+            {"counts", counts_}};
+}
+
+void PathStreams::trace(PassContext& context, const gpu::PathBatch& batch) {
+    const uint32_t paths = batch.pixels * batch.samples;
+    startBatch(context, paths);
     const CameraRays camera = cameraRays(context.frame.camera, batch.width, batch.height);
     context.dispatch(generate_, paths,
                      {{"rays", rays_[0]},
@@ -96,8 +109,12 @@ void PathStreams::trace(PassContext& context, const gpu::PathBatch& batch) {
 
     // First hits of adjacent pixels are coherent, and so are their shadow rays to one light
     context.tracer.closestHit(context.stream, rays_[0], hits_, paths, Coherence::Coherent);
-    for (uint32_t vertex = 0; vertex < vertices_; ++vertex) {
-        if (vertex > 0) {
+    traceFrom(context, batch, 0);
+}
+
+void PathStreams::traceFrom(PassContext& context, const gpu::PathBatch& batch, uint32_t firstVertex) {
+    for (uint32_t vertex = firstVertex; vertex < vertices_; ++vertex) {
+        if (vertex > firstVertex) {
             if (isOver(context, vertex)) break;
             closestHit(context.tracer, context.stream, rays_[vertex % 2], hits_,
                        {counts_, countIndex(vertex, STREAM_RAYS), paths_});
