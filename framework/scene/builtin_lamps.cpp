@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 #include "scene/builtin.h"
 #include "scene/shapes.h"
@@ -16,8 +17,6 @@ struct EnumNames<LampKind> {
 };
 
 namespace {
-
-constexpr float kPi = 3.14159265358979f;
 
 struct Lamps {
     static constexpr const char* name = "lamps";
@@ -62,7 +61,8 @@ std::shared_ptr<const Scene> make(const Lamps& params) {
     std::array<Mesh, colors.size()> surfaces;
     for (size_t c = 0; c < colors.size(); ++c) {
         surfaces[c].name = "lamps";
-        surfaces[c].material = b.lambert("lamp", glm::vec3(0.7f), colors[c] * (watts / (kPi * kEdge * kEdge)));
+        surfaces[c].material =
+            b.lambert("lamp", glm::vec3(0.7f), colors[c] * (watts / (std::numbers::pi_v<float> * kEdge * kEdge)));
     }
     UniformRandom uniform(params.seed);
     for (uint32_t i = 0; i < params.count; ++i) {
@@ -75,11 +75,12 @@ std::shared_ptr<const Scene> make(const Lamps& params) {
         const size_t color = uniform.below(uint32_t(colors.size()));
         const LampKind kind = params.kind == LampKind::Mixed ? LampKind(1 + i % 3) : params.kind;
         if (kind == LampKind::Point) {
-            b.pointLight(position, colors[color] * (watts / (4 * kPi)));
+            b.pointLight(position, colors[color] * (watts / (4 * std::numbers::pi_v<float>)));
         } else if (kind == LampKind::Spot) {
             // Full intensity within half of the angle; outside it falls with the square of the cosine
-            const float inner = std::cos(0.5f * kOuterDegrees * kPi / 180), outer = std::cos(kOuterDegrees * kPi / 180);
-            const float solidAngle = 2 * kPi * (1 - inner + (inner - outer) / 3);
+            const float inner = std::cos(0.5f * kOuterDegrees * std::numbers::pi_v<float> / 180),
+                        outer = std::cos(kOuterDegrees * std::numbers::pi_v<float> / 180);
+            const float solidAngle = 2 * std::numbers::pi_v<float> * (1 - inner + (inner - outer) / 3);
             b.spotLight(position, direction, 0.5f * kOuterDegrees, kOuterDegrees, colors[color] * (watts / solidAngle));
         } else {
             const glm::vec3 side = std::abs(direction.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
@@ -121,7 +122,7 @@ std::shared_ptr<const Scene> make(const Candles& params) {
 
     const float radius = 0.5f * params.flame;
     constexpr float kIntensity = 0.4f;  // W/sr
-    const glm::vec3 radiance = glm::vec3(1.5f, 1, 0.4f) * (kIntensity / (kPi * radius * radius));
+    const glm::vec3 radiance = glm::vec3(1.5f, 1, 0.4f) * (kIntensity / (std::numbers::pi_v<float> * radius * radius));
     const uint32_t flame =
         b.mesh(sphereMesh("flame", glm::vec3(0), radius, 1, b.lambert("flame", glm::vec3(0), radiance), false, false));
     UniformRandom uniform(1);

@@ -29,6 +29,11 @@ std::optional<BoundedLight> boundedLight(const Light& light, uint32_t id);
 BoundedLight boundedLight(std::span<const glm::vec3> corners, const glm::vec3& normal, double area, double radiance,
                           bool doubleSided, uint32_t id);
 
+/// The most nodes that a tree over so many lights has: each inner one has two children or more. At least 1.
+constexpr uint64_t lightTreeNodes(uint64_t lights) {
+    return lights > 0 ? 2 * lights - 1 : 1;
+}
+
 /// A tree over lights (shaders/scene/light_tree_types.h): picks one for a point at a cost that grows with its depth.
 /// Conty Estevez and Kulla 2018; pbrt-v4, section 12.6.3. Equal for equal lights.
 class LightTree {

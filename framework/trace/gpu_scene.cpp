@@ -116,16 +116,31 @@ void uploadLightTree(CommandStream& stream, const SceneState& state, GpuScene& s
         if (const auto light = boundedLight(state.lights[i], LIGHT_TREE_PUNCTUAL | i)) bounded.push_back(*light);
     const LightTree tree(bounded, emitterCount);
     for (size_t i = 0; i < emitterCount; ++i) emitters.all[i].leaf = tree.leaf(i);
-    stream.upload(scene.emitters, emitters.all);
-    stream.upload(scene.lightTree, tree.nodes());
+    const auto upload = [&]<typename T>(const Buffer& to, std::vector<T> elements) {
+        elements.resize(to.bytes() / sizeof(T));  // Nothing is left of a larger tree that was there
+        stream.upload(to, elements);
+    };
+    upload(scene.emitters, emitters.all);
+    upload(scene.lightTree, tree.nodes());
     scene.emitterCount = uint32_t(emitterCount);
     scene.emitterRoot = emitterCount > 0 && emitterCount < bounded.size() ? 1 : 0;
 }
 
-size_t emissiveTriangles(const SceneState& state) {
-    size_t count = 0;
+uint64_t emissiveTriangles(const SceneState& state) {
+    uint64_t count = 0;
     for (uint32_t t = 0; t < state.geometry.triangles.size(); ++t) count += canEmit(state, t);
     return count;
+}
+
+struct LightBytes {
+    uint64_t lights, emitters, tree;
+    uint64_t all() const { return lights + emitters + tree; }
+};
+LightBytes lightBytes(const SceneState& state) {
+    const uint64_t lights = state.lights.size(), emitters = emissiveTriangles(state);
+    return {std::max<uint64_t>(lights, 1) * sizeof(gpu::GpuLight),
+            std::max<uint64_t>(emitters, 1) * sizeof(gpu::GpuEmitter),
+            lightTreeNodes(lights + emitters) * sizeof(gpu::LightTreeNode)};
 }
 
 bool emittersMove(const SceneState& state) {
@@ -184,8 +199,7 @@ uint64_t gpuSceneBytes(const SceneState& state) {
     const Geometry& g = state.geometry;
     const uint64_t bytes = g.positions.size() * (sizeof(glm::vec3) + sizeof(VertexAttributes)) +
                            g.triangles.size() * (sizeof(glm::uvec3) + sizeof(uint32_t)) +
-                           state.scene->materials.size() * sizeof(gpu::GpuMaterial) +
-                           emissiveTriangles(state) * (sizeof(gpu::GpuEmitter) + 2 * sizeof(gpu::LightTreeNode));
+                           state.scene->materials.size() * sizeof(gpu::GpuMaterial) + lightBytes(state).all();
     return bytes + gpuTextureBytes(*state.scene) + (dimsLight(state) ? gpuSceneBytes(*state.panes) : 0);
 }
 
@@ -236,11 +250,10 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
     for (const Material& material : state.scene->materials) materials.push_back(toGpu(*state.scene, material));
     scene.materials = uploaded(device, stream, "scene materials", materials);
     scene.lightCount = uint32_t(state.lights.size());
-    scene.lights = Buffer(device, "scene lights", std::max(1u, scene.lightCount) * sizeof(gpu::GpuLight));
-    const auto emissive = uint32_t(emissiveTriangles(state));
-    scene.emitters = Buffer(device, "scene emitters", std::max(1u, emissive) * sizeof(gpu::GpuEmitter));
-    scene.lightTree =
-        Buffer(device, "light tree", (2 * std::max(1u, emissive + scene.lightCount) - 1) * sizeof(gpu::LightTreeNode));
+    const LightBytes bytes = lightBytes(state);
+    scene.lights = Buffer(device, "scene lights", bytes.lights);
+    scene.emitters = Buffer(device, "scene emitters", bytes.emitters);
+    scene.lightTree = Buffer(device, "light tree", bytes.tree);
     uploadLights(stream, state, scene);
     uploadLightTree(stream, state, scene);
 

@@ -74,7 +74,7 @@ VOXRAY_SHARED_END
 
 // Where the squared distance to a node's center is less than this times the squared radius of its bounds, its children
 // are weighed in its place: the lights next to a point are then not lost among others.
-#define LIGHT_TREE_NEAR 4.0f
+#define LIGHT_TREE_NEAR 2.0f
 // m. Distances to a light are at least this.
 #define LIGHT_TREE_MIN_DISTANCE 1e-10f
 // Mean of the positive part of the cosine to an axis of any direction: what one of lights that face all directions
@@ -150,7 +150,12 @@ VOXRAY_LIGHT_TREE_FUNCTION float lightTreeEmission(LightTreeBounds b, vec3 toCen
     const float least = along <= -cosO * distance_ ? -distance_ : cosO * along - sinO * across;
     const float spread = LIGHT_TREE_AXIS_ERROR * typical +
                          (cosO > 0.0f ? min(radius, cosO * dot(b.halfSize, abs(b.axis)) + sinO * radius) : radius);
-    const float high = min(most + spread, typical) - b.cosEmission * max(distance_ - radius, 0.0f);
+    const float edge = b.cosEmission * max(distance_ - radius, 0.0f);
+    float high = min(most + spread, typical) - edge;
+    if (high <= 0.0f) return 0.0f;
+    // Next to a lamp its nearest part emits along its axis, also where the rest is seen from the side
+    const float size = min(radius / typical, 1.0f), nearness = size * size;
+    high += nearness * nearness * (typical - edge - high);
     const float low = max(least - spread, -typical) - b.cosEmission * typical;
     return lightTreeMeanPositive(low, high) /
            (typical * max(1.0f - b.cosEmission, 1.0f / LIGHT_TREE_COS_EMISSION_STEPS));

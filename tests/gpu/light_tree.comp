@@ -1,4 +1,4 @@
-// Picks a light for each of some surfaces, and tells the probability of an emitter.
+// Picks a light for each of some surfaces, and tells the probability of a leaf.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/light_tree.glsl"
 #include "shaders/scene/scene.glsl"
@@ -26,6 +26,6 @@ void main() {
     LightTreeAnswer a;
     float u = q.u;
     a.light = pickLight(push.root, q.position, q.normal, 0.0, u, a.probability);
-    a.ofEmitter = lightProbability(push.root, sceneEmitters.data[q.emitter].leaf, q.position, q.normal, 0.0);
+    a.ofLeaf = lightProbability(push.root, q.leaf, q.position, q.normal, 0.0);
     answers.data[i] = a;
 }

@@ -10,13 +10,13 @@ struct LightTreeQuery {
     vec3 position;
     float u;
     vec3 normal;
-    uint emitter;
+    uint leaf;
 };
 
 struct LightTreeAnswer {
     uint light;
     float probability;
-    float ofEmitter;  // Probability of `emitter`.
+    float ofLeaf;  // Probability of `leaf`.
 };
 
 VOXRAY_SHARED_END

@@ -1,6 +1,7 @@
 // Direct light of skies and lamps: what importance sampling and the filter must keep, and what they gain.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
@@ -152,6 +153,19 @@ TEST(DirectLight, DoesNotDependOnCandidates) {
     for (const std::string shape : {"sphere", "box"})
         EXPECT_NEAR(mean(directLight(builtin("furnace", "{albedo: 0.5, shape: " + shape + "}"), "light_samples: 16")),
                     0.5, 1e-3);
+}
+
+TEST(DirectLight, OfAFurnaceHasNoFirefliesInItsEdges) {
+    // Texels up to the walls' edges, where the other wall brings half of the light
+    for (const int seed : {1, 2, 3}) {
+        const ImageF image = Chain(builtin("furnace", "{albedo: 0.5, shape: box}"),
+                                   graphYaml({"gbuffer, samples_per_pixel_edge: 2, sample_pattern: rotated",
+                                              "direct_shadow_rays, light_samples: 64"}),
+                                   48, 27, uint64_t(seed))
+                                 .image("direct");
+        EXPECT_NEAR(mean(image), 0.5, 2e-3);
+        EXPECT_LT(*std::ranges::max_element(image.data), 0.6f);
+    }
 }
 
 TEST(DirectLight, IsLessNoisyWithCandidatesAndAgainWithTheFilter) {

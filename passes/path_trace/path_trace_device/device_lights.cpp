@@ -29,8 +29,8 @@ uint32_t factsOf(const path_trace::SurfaceTable& surfaces, uint32_t triangle) {
 void DeviceLights::plan(PassPlan& plan) {
     const SceneState& state = *plan.frame.scene;
     const uint64_t patches = emissiveTriangles(state);
-    const uint64_t leaves = std::max<uint64_t>(state.lights.size() + patches, 1);
-    plan.buffer(tree_, "light tree of paths", (2 * leaves - 1) * sizeof(gpu::LightTreeNode));
+    plan.buffer(tree_, "light tree of paths",
+                lightTreeNodes(state.lights.size() + patches) * sizeof(gpu::LightTreeNode));
     plan.buffer(infinite_, "infinite lights", (state.lights.size() + 1) * sizeof(uint32_t));
     plan.buffer(patches_, "emissive patches", std::max<uint64_t>(patches, 1) * sizeof(gpu::LightPatch));
     plan.buffer(triangleFacts_, "facts of triangles",
