@@ -131,6 +131,28 @@ TEST(SampledLights, IsLinearAndTheSameInEachRun) {
     for (size_t i = 0; i < once.data.size(); ++i) ASSERT_NEAR(bright.data[i], 16 * once.data[i], 1e-3 * bright.data[i]);
 }
 
+TEST(SampledLights, FilterTakesNoiseOffManyPoints) {
+    // Shadows of points have no penumbra: what is blurred is the noise of the choice
+    const State state = lamps("point", 200);
+    const auto light = [&](const std::string& parameters, const std::string& filter = "") {
+        return Chain(state,
+                     graphYaml({"gbuffer, samples_per_pixel_edge: 2", "direct_shadow_rays, " + parameters, filter}), 48,
+                     27)
+            .image("direct");
+    };
+    const ImageF truth = light("exact_lights: 200");
+    const auto error = [&](const ImageF& image) {
+        double sum = 0;
+        for (size_t i = 0; i < image.data.size(); ++i)
+            sum += std::pow(double(image.data[i]) - double(truth.data[i]), 2);
+        return sum;
+    };
+    const std::string one = "exact_lights: 0, light_samples: 1";
+    const ImageF filtered = light(one, "filter_irradiance, light: direct");
+    EXPECT_LT(error(filtered), error(light(one)) / 1.5);
+    EXPECT_NEAR(mean(filtered) / mean(truth), 1, 0.03);
+}
+
 TEST(SampledLights, LessNoiseThanChoiceByPowerAlone) {
     // 10,000 lamps: a choice by power has the variance of lights all over the hall
     const State state = lamps("mixed", 10000);
