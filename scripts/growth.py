@@ -24,16 +24,18 @@ sys.path.append(str(ROOT / "framework"))
 from report.rows import markdown_table, read_rows  # noqa: E402
 
 TARGETS = {("triangles", "gather_irradiance ms"): 0.05, ("triangles", "gather_cones ms"): 0.05, ("triangles", "build ms"): 1.05,
-           ("voxels", "voxelize bytes"): 1.05, ("pixels", "frame ms"): 1.02}
+           ("voxels", "voxelize bytes"): 1.05, ("pixels", "frame ms"): 1.02,
+           ("lights", "direct light, equal nRMSE ms"): 0.15, ("lights", "path_trace, equal nRMSE ms"): 0.15}
 SIZES = {  # quick, usual
     "triangles": ([10_000, 100_000], [10_000, 100_000, 300_000, 1_000_000]),
     "voxels": ([32, 64, 128], [64, 128, 256]),
     "pixels": ([(160, 90), (320, 180), (640, 360)], [(160, 90), (320, 180), (640, 360), (1280, 720), (1920, 1080)]),
-    "lights": ([1, 10, 100], [1, 10, 100, 1000]),
+    "lights": ([10, 100], [10, 100, 1000, 10_000]),
     "rays": ([10_000, 100_000, 1_000_000], [10_000, 100_000, 1_000_000, 10_000_000]),
     "variants": ([10, 100], [10, 100, 1000]),
 }
 SPHERES = 8
+EQUAL_NRMSE = 0.1  # Costs of lights are times at this error: an error of twice that takes four times as many samples.
 
 
 def exponent(points):
@@ -103,10 +105,15 @@ def config(axis, size, out):
                          "camera": {"position": [-8, 2, 0], "target": [0, 2, 0], "fov_deg": 60}}, size
     elif axis == "pixels":
         image, size = size, size[0] * size[1]
-    elif axis == "lights":
-        scene = {"builtin": "white_room", "lights": [{"point": [-0.8 + 1.6 * (i * 0.618 % 1), 0.3, 0.2], "intensity": 1 / size}
-                                                     for i in range(size)]}
-        rays = max(1, 65536 // size)
+    elif axis == "lights":  # A hall of lamps of the same power, whatever their number; all are sampled. Points: no image of lamps.
+        return {"name": f"lights_{size}", "scene": {"builtin": "lamps", "kind": "point", "count": size}, "image": {"width": 160, "height": 90}, "seed": 7,
+                "reference": {"pass": "path_trace", "spp": 1024, "bounces": 0},
+                "graph": [{"pass": "path_trace", "id": "chain", "bounces": 0}],
+                "sweep": {"chain": {
+                    "path_trace": {"pass": "path_trace", "spp": 16, "bounces": 0},
+                    "direct light": [{"pass": "gbuffer", "samples_per_pixel_edge": 4},
+                                     {"pass": "direct_shadow_rays", "light_samples": 1, "exact_lights": 0}, "composite"]}},
+                "measure": {"frames": 3, "warmup": 1}}, size
     elif axis == "rays":
         rays = size
     elif axis == "variants":
@@ -134,6 +141,8 @@ def measures(axis, size, folder):
     results, passes = read_rows(folder, "results.csv"), read_rows(folder, "passes.csv")
     for failed in (row for row in results if row["status"] != "ok"):
         raise RuntimeError(failed["error"])
+    if axis == "lights":
+        return light_costs(size, results, passes)
     result = results[0]
     if axis == "voxels":
         size = next(int(float(row["value"])) for row in read_rows(folder, "values.csv") if row["name"] == "voxels")
@@ -148,6 +157,17 @@ def measures(axis, size, folder):
     # What a surface voxel takes; images and light rays don't grow with them.
     rows += [(axis, size, "voxelize bytes", float(timed["voxelize"]["memory_bytes"]))]
     return rows + [(axis, size, f"{row['pass']} ms", float(row["ms_median"])) for row in timed.values()]
+
+
+def light_costs(size, results, passes):
+    """Rows of each method: time of a frame without the G-buffer, error, and time at EQUAL_NRMSE."""
+    rows = []
+    for result in results:
+        gbuffer = sum(float(row["ms_median"]) for row in passes if row["variant"] == result["variant"] and row["pass"] == "gbuffer")
+        name, nrmse, ms = result["chain"], float(result["nrmse"]), float(result["frame_ms_median"]) - gbuffer
+        rows += [("lights", size, f"{name} ms", ms), ("lights", size, f"{name} nRMSE", nrmse),
+                 ("lights", size, f"{name}, equal nRMSE ms", ms * (nrmse / EQUAL_NRMSE) ** 2)]
+    return rows
 
 
 def measure(axis, size, options):

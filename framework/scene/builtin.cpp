@@ -9,7 +9,7 @@ namespace {
 
 std::vector<BuiltinScene> allScenes() {
     std::vector<BuiltinScene> scenes = roomScenes();
-    for (const auto& more : {daylightScenes(), clutterScenes(), closedFormScenes(), movingScenes()})
+    for (const auto& more : {daylightScenes(), clutterScenes(), closedFormScenes(), lampScenes(), movingScenes()})
         scenes.insert(scenes.end(), more.begin(), more.end());
     return scenes;
 }

@@ -20,12 +20,12 @@ void appendCorners(Mesh& mesh, const SceneBuilder::Corners& corners, const glm::
     mesh.triangles.push_back({first, first + 2, first + 3});
 }
 
+}  // namespace
+
 void appendQuad(Mesh& mesh, const glm::vec3& corner, const glm::vec3& edgeU, const glm::vec3& edgeV) {
     appendCorners(mesh, {corner, corner + edgeU, corner + edgeU + edgeV, corner + edgeV},
                   glm::normalize(glm::cross(edgeU, edgeV)));
 }
-
-}  // namespace
 
 SceneBuilder::SceneBuilder(std::string name) : scene_(std::make_shared<Scene>()) {
     scene_->name = std::move(name);

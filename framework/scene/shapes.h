@@ -47,6 +47,9 @@ class SceneBuilder {
     std::shared_ptr<Scene> scene_;
 };
 
+/// Appends a parallelogram with its front towards cross(edgeU, edgeV).
+void appendQuad(Mesh& mesh, const glm::vec3& corner, const glm::vec3& edgeU, const glm::vec3& edgeV);
+
 /// A subdivided icosahedron of 20 * 4^subdivisions triangles with its vertices on the sphere.
 /// @param inwards fronts and normals towards the center
 /// @param smooth normals of the sphere at shared vertices; otherwise flat normals

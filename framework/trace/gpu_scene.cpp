@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "scene/light_tree.h"
 #include "scene/luminance.h"
 #include "scene/panes.h"
 #include "shaders/scene/scene_types.h"
@@ -61,43 +62,92 @@ gpu::GpuLight toGpu(const Light& light) {
             light.direction, std::cos(light.outerConeAngle)};
 }
 
-// Emissive triangles with their sampling probabilities, proportional to power.
-std::vector<gpu::GpuEmitter> findEmitters(const SceneState& state) {
+// Emissive triangles with their sampling probabilities, proportional to power, and as lights of a tree.
+struct Emitters {
+    std::vector<gpu::GpuEmitter> all;
+    std::vector<BoundedLight> bounded;
+};
+Emitters findEmitters(const SceneState& state) {
     const Geometry& g = state.geometry;
-    std::vector<gpu::GpuEmitter> emitters;
+    Emitters emitters;
     std::vector<double> powers;
     double total = 0;
     for (uint32_t t = 0; t < g.triangles.size(); ++t) {
         const float radiance = luminance(meanEmission(state, t));
         if (!(radiance > 0)) continue;
         const glm::uvec3 v = g.triangles[t];
-        const float area =
-            0.5f * glm::length(glm::cross(g.positions[v.y] - g.positions[v.x], g.positions[v.z] - g.positions[v.x]));
+        const glm::vec3 corners[] = {g.positions[v.x], g.positions[v.y], g.positions[v.z]};
+        const glm::vec3 across = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+        const float area = 0.5f * glm::length(across);
         if (!(area > 0)) continue;
         const bool doubleSided = state.scene->materials[g.triangleMaterials[t]].doubleSided;
-        emitters.push_back({t, area, 0, 0});
+        emitters.bounded.push_back(boundedLight(corners, glm::normalize(across), double(area), double(radiance),
+                                                doubleSided, uint32_t(emitters.all.size())));
+        emitters.all.push_back({t, area, 0, 0, 0});
         powers.push_back(double(radiance) * area * 3.14159265358979 * (doubleSided ? 2 : 1));
         total += powers.back();
     }
     double running = 0;
-    for (size_t i = 0; i < emitters.size(); ++i) {
+    for (size_t i = 0; i < emitters.all.size(); ++i) {
         running += powers[i];
-        emitters[i].probability = float(powers[i] / total);
-        emitters[i].cumulativePower = i + 1 == emitters.size() ? 1.0f : float(running / total);
+        emitters.all[i].probability = float(powers[i] / total);
+        emitters.all[i].cumulativePower = i + 1 == emitters.all.size() ? 1.0f : float(running / total);
     }
     return emitters;
 }
 
-void uploadLights(CommandStream& stream, const SceneState& state, const GpuScene& scene) {
+// Returns whether lights differ from those that were uploaded before.
+bool uploadLights(CommandStream& stream, const SceneState& state, GpuScene& scene) {
     std::vector<gpu::GpuLight> lights;
     for (const Light& light : state.lights) lights.push_back(toGpu(light));
+    const auto bytes = std::as_bytes(std::span(lights)), before = std::as_bytes(std::span(scene.uploadedLights));
+    if (std::ranges::equal(bytes, before)) return false;
     stream.upload(scene.lights, lights);
+    scene.uploadedLights = std::move(lights);
+    return true;
 }
 
-void uploadEmitters(CommandStream& stream, const SceneState& state, GpuScene& scene) {
-    const std::vector<gpu::GpuEmitter> emitters = findEmitters(state);
-    stream.upload(scene.emitters, emitters);
-    scene.emitterCount = uint32_t(emitters.size());
+// Emitters, and the tree over these and punctual lights.
+void uploadLightTree(CommandStream& stream, const SceneState& state, GpuScene& scene) {
+    Emitters emitters = findEmitters(state);
+    std::vector<BoundedLight>& bounded = emitters.bounded;
+    const size_t emitterCount = bounded.size();
+    for (uint32_t i = 0; i < state.lights.size(); ++i)
+        if (const auto light = boundedLight(state.lights[i], LIGHT_TREE_PUNCTUAL | i)) bounded.push_back(*light);
+    const LightTree tree(bounded, emitterCount);
+    for (size_t i = 0; i < emitterCount; ++i) emitters.all[i].leaf = tree.leaf(i);
+    const auto upload = [&]<typename T>(const Buffer& to, std::vector<T> elements) {
+        elements.resize(to.bytes() / sizeof(T));  // Nothing is left of a larger tree that was there
+        stream.upload(to, elements);
+    };
+    upload(scene.emitters, emitters.all);
+    upload(scene.lightTree, tree.nodes());
+    scene.emitterCount = uint32_t(emitterCount);
+    scene.emitterRoot = emitterCount > 0 && emitterCount < bounded.size() ? 1 : 0;
+}
+
+uint64_t emissiveTriangles(const SceneState& state) {
+    uint64_t count = 0;
+    for (uint32_t t = 0; t < state.geometry.triangles.size(); ++t) count += canEmit(state, t);
+    return count;
+}
+
+struct LightBytes {
+    uint64_t lights, emitters, tree;
+    uint64_t all() const { return lights + emitters + tree; }
+};
+LightBytes lightBytes(const SceneState& state) {
+    const uint64_t lights = state.lights.size(), emitters = emissiveTriangles(state);
+    return {std::max<uint64_t>(lights, 1) * sizeof(gpu::GpuLight),
+            std::max<uint64_t>(emitters, 1) * sizeof(gpu::GpuEmitter),
+            lightTreeNodes(lights + emitters) * sizeof(gpu::LightTreeNode)};
+}
+
+bool emittersMove(const SceneState& state) {
+    for (const InstanceRange& run : movingInstanceRanges(state.geometry))
+        for (uint32_t t = run.firstTriangle; t < run.firstTriangle + run.triangleCount; ++t)
+            if (canEmit(state, t)) return true;
+    return false;
 }
 
 VkSamplerAddressMode toVulkan(Wrap wrap) {
@@ -149,7 +199,7 @@ uint64_t gpuSceneBytes(const SceneState& state) {
     const Geometry& g = state.geometry;
     const uint64_t bytes = g.positions.size() * (sizeof(glm::vec3) + sizeof(VertexAttributes)) +
                            g.triangles.size() * (sizeof(glm::uvec3) + sizeof(uint32_t)) +
-                           state.scene->materials.size() * sizeof(gpu::GpuMaterial);
+                           state.scene->materials.size() * sizeof(gpu::GpuMaterial) + lightBytes(state).all();
     return bytes + gpuTextureBytes(*state.scene) + (dimsLight(state) ? gpuSceneBytes(*state.panes) : 0);
 }
 
@@ -172,6 +222,7 @@ std::vector<Binding> GpuScene::bindings() const {
             ifUsed({"sceneMaterials", materials}),
             ifUsed({"sceneLights", lights}),
             ifUsed({"sceneEmitters", emitters}),
+            ifUsed({"sceneLightTree", lightTree}),
             ifUsed({"sceneTextures", textures}),
             ifUsed({"sceneEnvironment", environment, environmentSampler}),
             ifUsed({"sceneEnvironmentRows", environmentRows}),
@@ -199,12 +250,12 @@ GpuScene makeGpuScene(Device& device, CommandStream& stream, const SceneState& s
     for (const Material& material : state.scene->materials) materials.push_back(toGpu(*state.scene, material));
     scene.materials = uploaded(device, stream, "scene materials", materials);
     scene.lightCount = uint32_t(state.lights.size());
-    scene.lights = Buffer(device, "scene lights", std::max(1u, scene.lightCount) * sizeof(gpu::GpuLight));
-    uint32_t emissive = 0;
-    for (uint32_t t = 0; t < scene.triangleCount; ++t) emissive += canEmit(state, t);
-    scene.emitters = Buffer(device, "scene emitters", std::max(1u, emissive) * sizeof(gpu::GpuEmitter));
+    const LightBytes bytes = lightBytes(state);
+    scene.lights = Buffer(device, "scene lights", bytes.lights);
+    scene.emitters = Buffer(device, "scene emitters", bytes.emitters);
+    scene.lightTree = Buffer(device, "light tree", bytes.tree);
     uploadLights(stream, state, scene);
-    uploadEmitters(stream, state, scene);
+    uploadLightTree(stream, state, scene);
 
     // The environment.
     const ImageF environment = environmentImage(state.scene->environment);
@@ -247,12 +298,8 @@ void updateGpuScene(CommandStream& stream, const SceneState& state, GpuScene& sc
         upload(scene.attributes, g.attributes, run.firstVertex, run.vertexCount);
         upload(scene.triangles, g.triangles, run.firstTriangle, run.triangleCount);
     }
-    uploadLights(stream, state, scene);
-    bool emitterMoved = false;
-    for (const InstanceRange& run : movingInstanceRanges(g))
-        for (uint32_t t = run.firstTriangle; t < run.firstTriangle + run.triangleCount; ++t)
-            emitterMoved = emitterMoved || canEmit(state, t);
-    if (emitterMoved) uploadEmitters(stream, state, scene);
+    const bool lightsChanged = uploadLights(stream, state, scene);
+    if (lightsChanged || emittersMove(state)) uploadLightTree(stream, state, scene);
     if (scene.panes) updateGpuScene(stream, *state.panes, *scene.panes);
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scene/geometry.h"
+#include "shaders/scene/scene_types.h"
 #include "vulkan/commands.h"
 #include "vulkan/memory.h"
 
@@ -20,6 +21,7 @@ struct GpuScene {
     Buffer materials;          ///< GpuMaterial.
     Buffer lights;             ///< GpuLight; at least one element.
     Buffer emitters;           ///< GpuEmitter: emissive triangles; at least one element.
+    Buffer lightTree;          ///< LightTreeNode: over emitters, and point and spot lights; at least one element.
     TextureArray textures;     ///< All with full mip chains.
     Image environment;         ///< Equirectangular radiance, 1x1 for a constant one; black without one.
     Sampler environmentSampler;
@@ -29,9 +31,13 @@ struct GpuScene {
     uint32_t triangleCount = 0;
     uint32_t lightCount = 0;
     uint32_t emitterCount = 0;
+    /// Subtree of the emitters: the root, or its first child where there are punctual lights, too.
+    uint32_t emitterRoot = 0;
     bool hasEnvironment = false;
 
     std::unique_ptr<GpuScene> panes;  ///< SceneState::panes if they dim light, else nullptr.
+
+    std::vector<gpu::GpuLight> uploadedLights;  ///< What `lights` holds.
 
     std::vector<Image> images;
     std::vector<Sampler> samplers;

@@ -102,6 +102,8 @@ class Integrator::Path {
         add(vertex_ <= 1, isSeenDirectly ? light : light * integrator_.transmittance(segment), weight);
     }
     void sampleLight();
+    /// The last vertex, for which lights are sampled.
+    LightTable::Receiver receiver() const { return {point_.rayOrigin(), point_.faceNormal}; }
 
     const Integrator& integrator_;
     const SobolSampler& sampler_;
@@ -127,8 +129,9 @@ bool Integrator::Path::shadeHit(const Hit& hit) {
         const EnvironmentLight& environment = integrator_.lights_.environment();
         if (countsHitLight && !environment.isBlack()) {
             const float weight =
-                isSpecularBounce_ ? 1.0f
-                                  : integrator_.hitWeight(bsdfPdf_, integrator_.lights_.environmentPdf(ray_.direction));
+                isSpecularBounce_
+                    ? 1.0f
+                    : integrator_.hitWeight(bsdfPdf_, integrator_.lights_.environmentPdf(receiver(), ray_.direction));
             addHitLight(environment.radiance(ray_.direction), weight, hit.t);
         }
         return false;
@@ -136,9 +139,9 @@ bool Integrator::Path::shadeHit(const Hit& hit) {
     const SurfaceTriangle triangle = integrator_.surfaces_.triangle(hit.triangle);
     if (countsHitLight && triangle.light != kNoLight && integrator_.surfaces_.emitsTowards(triangle, -ray_.direction)) {
         const float weight =
-            isSpecularBounce_
-                ? 1.0f
-                : integrator_.hitWeight(bsdfPdf_, integrator_.lights_.hitPdf(triangle, ray_.direction, hit.t));
+            isSpecularBounce_ ? 1.0f
+                              : integrator_.hitWeight(
+                                    bsdfPdf_, integrator_.lights_.hitPdf(receiver(), triangle, ray_.direction, hit.t));
         addHitLight(integrator_.surfaces_.emission(hit.triangle, hit.u, hit.v), weight, hit.t);
     }
     if (vertex_ > integrator_.bounces_) return false;
@@ -152,9 +155,10 @@ bool Integrator::Path::shadeHit(const Hit& hit) {
 
 void Integrator::Path::sampleLight() {
     const VertexSampler sampler{sampler_, vertex_};
-    const glm::vec3 origin = point_.rayOrigin();
+    const LightTable::Receiver to = receiver();
+    const glm::vec3& origin = to.position;
     const float uLight = integrator_.lights_.isSingle() ? 0.0f : sampler.get1D(kLightChoice);
-    const LightSample light = integrator_.lights_.sample(origin, uLight, u_[0]);
+    const LightSample light = integrator_.lights_.sample(to, uLight, u_[0]);
     if (!(light.pdf > 0.0f) || !(glm::dot(light.direction, point_.faceNormal) > 0.0f)) return;
     const BsdfValue bsdfValue = point_.bsdf.evaluate(-ray_.direction, light.direction, point_.shadingNormal);
     light_ = bsdfValue.fCos * light.radiance / light.pdf;

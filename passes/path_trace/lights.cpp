@@ -4,8 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-
-#include "scene/outliers.h"
+#include <span>
 
 namespace voxray::path_trace {
 
@@ -50,74 +49,106 @@ double meanEmission(const SurfaceTable& surfaces, uint32_t triangle) {
 
 LightTable::LightTable(const SceneState& state, SurfaceTable& surfaces)
     : state_(&state), surfaces_(&surfaces), environment_(state.scene->environment) {
-    // Power of punctual lights; a directional one lights the bounding sphere of most of the scene
-    std::vector<double> power;
-    const auto [low, high] = boundsWithoutOutliers(state.geometry);
-    const double radius = 0.5 * double(glm::length(high - low));
-    for (const Light& light : state.lights) {
-        const double strength = luminance(light.intensity);
-        switch (light.type) {
-            case LightType::Point:
-                power.push_back(strength * 4.0 * kPi);
-                break;
-            case LightType::Spot:
-                power.push_back(strength * 2.0 * kPi * (1.0 - std::cos(light.outerConeAngle)));
-                break;
-            case LightType::Directional:
-                power.push_back(strength * kPi * radius * radius);
-                break;
-        }
+    std::vector<BoundedLight> bounded;
+    for (uint32_t i = 0; i < state.lights.size(); ++i) {
+        if (const auto light = boundedLight(state.lights[i], i)) bounded.push_back(*light);
+        if (state.lights[i].type == LightType::Directional && luminance(state.lights[i].intensity) > 0.0f)
+            infinite_.push_back(i);
     }
-
     // Environment maps are sampled; a constant environment is found by reflection sampling
-    environmentIndex_ = uint32_t(power.size());
-    power.push_back(environment_.hasMap() && !environment_.isBlack()
-                        ? environment_.meanLuminance() * 4.0 * kPi * kPi * radius * radius
-                        : 0.0);
+    if (environment_.hasMap() && !environment_.isBlack()) infinite_.push_back(kEnvironment);
 
-    // Emissive triangles; halves of a quad form one patch
-    const size_t firstPatch = power.size();
-    for (uint32_t i = 0; i < surfaces.triangleCount(); ++i) {
-        const Material& m = state.scene->materials[state.geometry.triangleMaterials[i]];
-        if (!(maxComponent(m.emission) > 0.0f)) continue;
-        const SurfaceTriangle t = surfaces.triangle(i);
-        double area = triangleArea(t);
-        if (!(area > 0.0)) continue;
-        const double emission = meanEmission(surfaces, i) * (m.doubleSided ? 2.0 : 1.0);
-        if (!(emission > 0.0) && !surfaces.emissionVaries(t)) continue;
-        Patch patch{i, false, 0.0f};
-        const auto light = uint32_t(patches_.size());
-        surfaces.setLight(i, light);
-        if (!surfaces.emissionVaries(t) && i + 1 < surfaces.triangleCount() &&
-            completesParallelogram(t, surfaces.triangle(i + 1))) {
-            patch.isParallelogram = true;
-            area *= 2.0;
-            surfaces.setLight(++i, light);
-        }
-        patch.pdf = float(1.0 / area);
-        patches_.push_back(patch);
-        power.push_back(emission * area * kPi);
-    }
-
-    distribution_ = AliasTable(power);
-    isSingle_ = std::count_if(power.begin(), power.end(), [](double p) { return p > 0.0; }) == 1;
-    for (size_t i = 0; i < patches_.size(); ++i)
-        patches_[i].pdf *= distribution_.empty() ? 0.0f : distribution_.probability(uint32_t(firstPatch + i));
+    const size_t firstPatch = bounded.size();
+    const std::vector<BoundedLight> patches = addPatches();
+    bounded.insert(bounded.end(), patches.begin(), patches.end());
+    tree_ = LightTree(bounded);
+    for (size_t i = 0; i < patches.size(); ++i) patches_[patches[i].id - idOf(0)].leaf = tree_.leaf(firstPatch + i);
 }
 
-LightSample LightTable::sample(const glm::vec3& from, float uLight, glm::vec2 u) const {
-    const uint32_t i = distribution_.draw(uLight);
-    if (i > environmentIndex_) return samplePatch(patches_[i - environmentIndex_ - 1], from, u);
-    if (i < environmentIndex_) return samplePunctual(state_->lights[i], distribution_.probability(i), from);
+std::vector<BoundedLight> LightTable::addPatches() {
+    std::vector<BoundedLight> bounded;
+    const SurfaceTable& surfaces = *surfaces_;
+    const Geometry& geometry = state_->geometry;
+    for (uint32_t i = 0; i < surfaces.triangleCount(); ++i) {
+        const Material& m = state_->scene->materials[geometry.triangleMaterials[i]];
+        if (!(maxComponent(m.emission) > 0.0f)) continue;
+        const SurfaceTriangle t = surfaces.triangle(i);
+        const double area = triangleArea(t);
+        if (!(area > 0.0)) continue;
+        const bool varies = surfaces.emissionVaries(t);
+        const double radiance = meanEmission(surfaces, i);
+        if (!(radiance > 0.0) && !varies) continue;
+        // Halves of a quad form one patch
+        const bool isParallelogram =
+            !varies && i + 1 < surfaces.triangleCount() && completesParallelogram(t, surfaces.triangle(i + 1));
+        const auto patch = uint32_t(patches_.size());
+        const double patchArea = isParallelogram ? 2.0 * area : area;
+        patches_.push_back({i, isParallelogram, float(1.0 / patchArea), kNoLeaf});
+        surfaces_->setLight(i, patch);
+        // Where samples miss all light, only reflection sampling finds it
+        if (radiance > 0.0) {
+            const glm::vec3 corners[] = {t.corner, t.corner + t.edge1, t.corner + t.edge2,
+                                         t.corner + t.edge2 - t.edge1};
+            bounded.push_back(boundedLight(std::span(corners).first(isParallelogram ? 4 : 3), t.normal, patchArea,
+                                           radiance, m.doubleSided, idOf(patch)));
+        }
+        if (isParallelogram) surfaces_->setLight(++i, patch);
+    }
+    return bounded;
+}
+
+float LightTable::environmentIrradiance() const {
+    return kPi * environment_.meanLuminance();
+}
+
+float LightTable::irradiance(uint32_t infinite, const Receiver& to) const {
+    if (infinite == kEnvironment) return environmentIrradiance();
+    const Light& light = state_->lights[infinite];
+    return luminance(light.intensity) * std::max(-glm::dot(light.direction, to.faceNormal), 0.0f);
+}
+
+float LightTable::infiniteIrradiance(const Receiver& to) const {
+    float sum = 0.0f;
+    for (const uint32_t infinite : infinite_) sum += irradiance(infinite, to);
+    return sum;
+}
+
+LightSample LightTable::sample(const Receiver& to, float uLight, glm::vec2 u) const {
+    const LightTree::Pick pick = tree_.pick(treeReceiver(to), uLight);
+    if (!(pick.probability > 0.0f)) return {};
+    const size_t lights = state_->lights.size();
+    if (pick.id == LightTree::kBeside) return sampleInfinite(to, pick, u);
+    return pick.id < lights ? samplePunctual(state_->lights[pick.id], pick.probability, to.position)
+                            : samplePatch(patches_[pick.id - lights], pick.probability, to.position, u);
+}
+
+LightSample LightTable::sampleInfinite(const Receiver& to, const LightTree::Pick& pick, glm::vec2 u) const {
+    const float total = infiniteIrradiance(to);
+    float rest = pick.u * total, ofChosen = 0.0f;
+    uint32_t chosen = kEnvironment;
+    for (const uint32_t infinite : infinite_) {
+        if (rest < ofChosen) break;
+        const float next = irradiance(infinite, to);
+        if (!(next > 0.0f)) continue;
+        rest -= ofChosen;
+        ofChosen = next;
+        chosen = infinite;
+    }
+    const float probability = pick.probability * ofChosen / total;
+    return chosen == kEnvironment ? sampleEnvironment(probability, u)
+                                  : samplePunctual(state_->lights[chosen], probability, to.position);
+}
+
+LightSample LightTable::sampleEnvironment(float probability, glm::vec2 u) const {
     LightSample sample;
     sample.isInfinite = true;
     sample.direction = environment_.sample(u.x, u.y, sample.pdf);
-    sample.pdf *= distribution_.probability(i);
+    sample.pdf *= probability;
     sample.radiance = environment_.radiance(sample.direction);
     return sample;
 }
 
-LightSample LightTable::samplePatch(const Patch& patch, const glm::vec3& from, glm::vec2 u) const {
+LightSample LightTable::samplePatch(const Patch& patch, float probability, const glm::vec3& from, glm::vec2 u) const {
     const SurfaceTriangle t = surfaces_->triangle(patch.triangle);
     const glm::vec2 barycentrics = patch.isParallelogram ? u : uniformTriangle(u.x, u.y);
     const glm::vec3 secondEdge = patch.isParallelogram ? t.edge2 - t.edge1 : t.edge2;
@@ -129,7 +160,7 @@ LightSample LightTable::samplePatch(const Patch& patch, const glm::vec3& from, g
     sample.direction = toLight / std::sqrt(distance2);
     const float cosine = -glm::dot(t.normal, sample.direction);
     if (!surfaces_->emitsTowards(t, -sample.direction) || cosine == 0.0f) return sample;
-    sample.pdf = patch.pdf * distance2 / std::fabs(cosine);
+    sample.pdf = patch.inverseArea * probability * distance2 / std::fabs(cosine);
     sample.radiance = surfaces_->emission(patch.triangle, barycentrics.x, barycentrics.y);
     sample.target = point + t.normal * std::copysign(t.offsetAt(point), cosine);
     return sample;
@@ -155,14 +186,19 @@ LightSample LightTable::samplePunctual(const Light& light, float probability, co
     return sample;
 }
 
-float LightTable::hitPdf(const SurfaceTriangle& triangle, const glm::vec3& direction, float distance) const {
+float LightTable::hitPdf(const Receiver& to, const SurfaceTriangle& triangle, const glm::vec3& direction,
+                         float distance) const {
+    const Patch& patch = patches_[triangle.light];
     const float cosine = std::fabs(glm::dot(triangle.normal, direction));
-    return cosine > 0.0f ? patches_[triangle.light].pdf * distance * distance / cosine : 0.0f;
+    if (!(cosine > 0.0f) || patch.leaf == kNoLeaf) return 0.0f;
+    const float probability = tree_.probability(patch.leaf, treeReceiver(to));
+    return patch.inverseArea * probability * distance * distance / cosine;
 }
 
-float LightTable::environmentPdf(const glm::vec3& direction) const {
+float LightTable::environmentPdf(const Receiver& to, const glm::vec3& direction) const {
     if (!environment_.hasMap()) return 0.0f;
-    return environment_.pdf(direction) * distribution_.probability(environmentIndex_);
+    const float choice = tree_.besideProbability(treeReceiver(to)) * environmentIrradiance() / infiniteIrradiance(to);
+    return environment_.pdf(direction) * choice;
 }
 
 }  // namespace voxray::path_trace

@@ -24,7 +24,7 @@ void SurfelDirectLight::measure(PassContext& context, const std::vector<LightSou
                                 uint32_t count, uint32_t samples, uint32_t seed, const Buffer& direct) const {
     CommandStream& stream = context.stream;
     stream.fill(direct, 0);
-    for (const LightSource& source : sources) {
+    for (const LightSource& source : shadowRaySources(sources, *context.frame.scene)) {
         const bool punctual = source.kind == LightSource::Punctual;
         for (uint32_t s = 0; s < (punctual ? 1 : samples); ++s) {
             context.dispatch(generateRays_, count,
@@ -38,6 +38,7 @@ void SurfelDirectLight::measure(PassContext& context, const std::vector<LightSou
                               {"samples", samples},
                               {"candidates", source.kind == LightSource::Environment ? kEnvironmentCandidates : 1},
                               {"emitterCount", context.scene.emitterCount},
+                              {"emitterRoot", context.scene.emitterRoot},
                               {"seed", seed + source.kind}});
             context.tracer.occluded(stream, rays_, occluded_, count);
             paneTransmittance_.apply(context, rays_, contributions_, 4, count);

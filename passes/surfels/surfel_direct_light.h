@@ -8,7 +8,8 @@
 namespace voxray {
 
 /// Direct irradiance of surfels by shadow rays: one to each punctual light, `samples` to the emissive
-/// surfaces and as many to the environment.
+/// surfaces and as many to the environment. More than kExactLights point and spot lights are sampled with the emissive
+/// surfaces.
 class SurfelDirectLight {
  public:
     explicit SurfelDirectLight(ProgramOwner& owner);

@@ -5,6 +5,7 @@
 #include "shaders/lights/environment_map.glsl"
 #include "shaders/lights/light_sampling_types.h"
 #include "shaders/lights/spherical_triangle.glsl"
+#include "shaders/scene/light_tree.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
 #include "shaders/scene/specular.glsl"
@@ -13,10 +14,11 @@
 #define SOURCE_PUNCTUAL 0u
 #define SOURCE_EMITTERS 1u
 #define SOURCE_ENVIRONMENT 2u
+#define SOURCE_TREE 3u  // Emissive surfaces, point and spot lights together.
 
 struct LightSample {
-    vec3 direction;   // Towards the light, unit length.
-    float distance_;  // m
+    vec3 direction;    // Towards the light, unit length.
+    float distance_;   // m
     float reach;       // Length of the shadow ray, m: it ends in front of the light's surface.
     vec3 irradiance;   // At normal incidence, over the sample's probability density, W/m².
     float solidAngle;  // One over that density, sr; 0 for a punctual light.
@@ -48,8 +50,10 @@ uint pickEmitter(uint emitterCount, float u) {
     uint low = 0u, high = emitterCount - 1u;
     while (low < high) {
         const uint center = (low + high) / 2u;
-        if (sceneEmitters.data[center].cumulativePower > u) high = center;
-        else low = center + 1u;
+        if (sceneEmitters.data[center].cumulativePower > u)
+            high = center;
+        else
+            low = center + 1u;
     }
     return low;
 }
@@ -102,25 +106,37 @@ struct SourceSampling {
     uint samples;     // Of the source, for each point.
     uint candidates;  // For each sample; at most MAX_LIGHT_CANDIDATES.
     uint emitterCount;
+    uint emitterRoot;  // Of the light tree.
 };
 
-// Candidates for a sample. If there are no more emitters than that, each is one candidate. A constant environment has
-// only one, which is distributed by cosine.
+// Whether the light tree picks the light of a sample. If there are no more emitters than candidates, each is one.
+bool isPickedByTree(uint kind, SourceSampling sampling) {
+    return kind == SOURCE_TREE || (kind == SOURCE_EMITTERS && sampling.emitterCount > sampling.candidates);
+}
+
+// Candidates for a sample. What the tree picks is the only one: other descents cost more than they gain. So it is with a
+// constant environment, which is distributed by cosine.
 uint candidateCount(uint kind, SourceSampling sampling) {
-    if (kind == SOURCE_EMITTERS) return min(sampling.candidates, sampling.emitterCount);
+    if (isPickedByTree(kind, sampling)) return 1u;
+    if (kind == SOURCE_EMITTERS) return sampling.emitterCount;
     return hasEnvironmentMap() ? sampling.candidates : 1u;
 }
 
-// Emitter candidate k of `count`: emitter k if there are so many, else stratified by power. All take the same point u
-// of their triangles, so that samples are as even over each lamp as the sequence of u.
-LightSample emitterCandidate(uint k, uint count, uint emitterCount, vec3 position, float pick, vec2 u) {
-    const bool isEach = count == emitterCount;
-    const uint index = isEach ? k : pickEmitter(emitterCount, (float(k) + pick) / float(count));
-    const GpuEmitter emitter = sceneEmitters.data[index];
-    LightSample s = sampleEmitter(emitter, position, u);
-    const float weight = isEach ? 1.0 : 1.0 / (emitter.probability * float(count));
-    s.solidAngle *= weight;
-    s.irradiance *= weight;
+// A light in the numbers of pickLight(), and its probability; 0: none.
+struct PickedLight {
+    uint light;
+    float probability;
+};
+
+LightSample samplePicked(PickedLight picked, vec3 position, vec2 u) {
+    if (picked.probability == 0.0) return LightSample(vec3(0.0, 0.0, 1.0), 1.0e30, 1.0e30, vec3(0.0), 0.0, 1.0e30);
+    LightSample s;
+    if ((picked.light & LIGHT_TREE_PUNCTUAL) != 0u)
+        s = samplePunctual(sceneLights.data[picked.light & LIGHT_TREE_INDEX], position);
+    else
+        s = sampleEmitter(sceneEmitters.data[picked.light], position, u);
+    s.solidAngle /= picked.probability;
+    s.irradiance /= picked.probability;
     return s;
 }
 
@@ -143,10 +159,11 @@ LightSample environmentCandidate(uint k, uint count, vec3 normal, uint point, ui
     return s;
 }
 
-LightSample candidate(uint kind, uint k, uint count, SourceSampling sampling, Receiver r, uint point, uint seed) {
+// All candidates of lights take the same point of their triangles, so that samples are as even over each lamp as the
+// Sobol sequence.
+LightSample candidate(uint kind, uint k, uint count, PickedLight picked, Receiver r, uint point, uint seed) {
     if (kind == SOURCE_ENVIRONMENT) return environmentCandidate(k, count, r.normal, point, seed);
-    return emitterCandidate(k, count, sampling.emitterCount, r.position, sobol2(point, hashCombine(seed, 1u)).x,
-                            sobol2(point, hashCombine(seed, 0u)));
+    return samplePicked(picked, r.position, sobol2(point, hashCombine(seed, 0u)));
 }
 
 // What the receiver reflects of an unoccluded sample: luminance of the light times that of the reflectance, so that it
@@ -159,27 +176,37 @@ float reflectedLuminance(Receiver r, LightSample s) {
 }
 
 // A sample of a light source for a surface point: of punctual light `light`, or sample `light` of `sampling.samples`
-// of the emissive surfaces or of the environment. One of its candidates is selected in proportion to
+// of the emissive surfaces, the light tree or the environment. One of its candidates is selected in proportion to
 // reflectedLuminance(): resampled importance sampling (Talbot et al. 2005). `index` of the point selects its range of
 // the Sobol sequence of `seed`. The irradiance is divided by the number of samples, and is without the cosine.
 LightSample sampleSource(uint kind, uint light, SourceSampling sampling, Receiver r, uint index, uint seed) {
     if (kind == SOURCE_PUNCTUAL) return samplePunctual(sceneLights.data[light], r.position);
     const uint point = index * sampling.samples + light, count = candidateCount(kind, sampling);
+    const vec2 choice = sobol2(point, hashCombine(seed, 1u));
+    PickedLight picked = PickedLight(0u, 1.0);
+    const bool isPicked = isPickedByTree(kind, sampling);
+    if (isPicked) {
+        float u = choice.x;
+        picked.light = pickLight(kind == SOURCE_EMITTERS ? sampling.emitterRoot : 0u, r.position, r.faceNormal, 0.0, u,
+                                 picked.probability);
+    }
     uint selected = 0u;
     float weight = 1.0;
     if (count > 1u) {
         float reflected[MAX_LIGHT_CANDIDATES];
         float total = 0.0;
         for (uint k = 0u; k < count; ++k)
-            total += reflected[k] = reflectedLuminance(r, candidate(kind, k, count, sampling, r, point, seed));
-        float rest = sobol2(point, hashCombine(seed, 1u)).y * total;
+            total += reflected[k] =
+                reflectedLuminance(r, candidate(kind, k, count, PickedLight(k, 1.0), r, point, seed));
+        float rest = choice.y * total;
         for (uint k = 0u; k < count && rest >= 0.0; ++k) {
             if (reflected[k] > 0.0) selected = k;
             rest -= reflected[k];
         }
         weight = total > 0.0 ? total / reflected[selected] : 0.0;
     }
-    LightSample s = candidate(kind, selected, count, sampling, r, point, seed);
+    if (!isPicked) picked.light = selected;
+    LightSample s = candidate(kind, selected, count, picked, r, point, seed);
     s.solidAngle *= weight;
     s.irradiance *= weight / float(sampling.samples);
     return s;

@@ -51,6 +51,7 @@ struct GpuEmitter {
     float area;             // m²
     float probability;      // Of being picked.
     float cumulativePower;  // Of this and all previous emitters, over the power of all.
+    uint leaf;              // Of the light tree.
 };
 
 struct GpuVertexAttributes {

@@ -173,7 +173,7 @@ TEST_F(TraceUpdate, SceneOnTheDeviceIsAsOneMadeAtThatTime) {
             EXPECT_EQ(stream.read(a, a.bytes()), stream.read(b, b.bytes())) << a.name() << " at " << time;
         };
         for (const auto buffer : {&GpuScene::positions, &GpuScene::attributes, &GpuScene::triangles, &GpuScene::lights,
-                                  &GpuScene::emitters})
+                                  &GpuScene::emitters, &GpuScene::lightTree})
             expectSame(buffer);
     }
 }

@@ -23,8 +23,8 @@ std::string onHost(const std::string& parameters) {
 }
 
 /// A room with a glossy floor, a rough metal cube, a mirror and what lights it.
-enum class Lit { Lamp, Point, Spot, Sun, Sky, SkyMap, All };
-constexpr Lit kLights[] = {Lit::Lamp, Lit::Point, Lit::Spot, Lit::Sun, Lit::Sky, Lit::SkyMap, Lit::All};
+enum class Lit { Lamp, Point, Spot, Sun, Sky, SkyMap, Many, All };
+constexpr Lit kLights[] = {Lit::Lamp, Lit::Point, Lit::Spot, Lit::Sun, Lit::Sky, Lit::SkyMap, Lit::Many, Lit::All};
 
 std::shared_ptr<SceneState> litRoom(Lit lit, float scale = 1) {
     SceneBuilder b("lit room");
@@ -38,7 +38,7 @@ std::shared_ptr<SceneState> litRoom(Lit lit, float scale = 1) {
     metal.metallic = mirror.metallic = 1;
     metal.roughness = 0.6f;
     mirror.roughness = 0;
-    const bool isOpen = lit == Lit::Sun || lit == Lit::Sky || lit == Lit::SkyMap || lit == Lit::All;
+    const bool isOpen = lit == Lit::Sun || lit == Lit::Sky || lit == Lit::SkyMap || lit == Lit::Many || lit == Lit::All;
     b.room(glm::vec3(-1), glm::vec3(1),
            {wall, wall, b.material(glossy), isOpen ? SceneBuilder::none : wall, wall, wall});
     b.quad("metal", {-0.5f, -0.7f, -0.4f}, {0.6f, 0, 0}, {0, 0.5f, -0.2f}, b.material(metal));
@@ -47,8 +47,13 @@ std::shared_ptr<SceneState> litRoom(Lit lit, float scale = 1) {
         b.quad("lamp", {-0.3f, 0.9f, -0.3f}, {0.6f, 0, 0}, {0, 0, 0.6f},
                b.lambert("lamp", {}, scale * glm::vec3(4, 3, 2)));
     if (lit == Lit::Sun || lit == Lit::All) b.directionalLight({0.3f, -1, 0.1f}, scale * glm::vec3(3, 2, 1));
+    if (lit == Lit::Many)
+        for (uint32_t i = 0; i < 40; ++i)
+            b.quad("small lamp", {-0.9f + 0.2f * float(i % 10), 0.7f, -0.8f + 0.4f * float(i / 10)},
+                   {0.05f, 0.02f * float(i % 3), 0}, {0, 0.01f * float(i % 4), 0.05f},
+                   b.lambert("small lamp", {}, scale * (1 + float(i % 5)) * glm::vec3(12, 9, 7)));
     if (lit == Lit::Sky || lit == Lit::SkyMap) b.scene().environment.radiance = glm::vec3(scale);
-    if (lit == Lit::SkyMap || lit == Lit::All) {
+    if (lit == Lit::SkyMap || lit == Lit::Many || lit == Lit::All) {
         auto map = std::make_shared<ImageF>(32, 16, 3);
         for (uint32_t y = 0; y < 16; ++y)
             for (uint32_t x = 0; x < 32; ++x)
@@ -63,6 +68,16 @@ std::shared_ptr<SceneState> litRoom(Lit lit, float scale = 1) {
         light.intensity = scale * glm::vec3(2, 3, 4);
         light.position = {0.3f, 0.6f, 0.2f};
         light.direction = glm::normalize(glm::vec3(-0.2f, -1, -0.3f));
+        light.innerConeAngle = 0.3f;
+        light.outerConeAngle = 0.8f;
+        state->lights.push_back(light);
+    }
+    for (uint32_t i = 0; lit == Lit::Many && i < 20; ++i) {
+        Light light;
+        light.type = i % 2 == 0 ? LightType::Spot : LightType::Point;
+        light.intensity = scale * glm::vec3(0.1f, 0.2f, 0.3f);
+        light.position = {-0.8f + 0.17f * float(i % 10), 0.3f * float(i % 3), -0.7f + 0.6f * float(i / 10)};
+        light.direction = glm::normalize(glm::vec3(-0.2f, 0.3f * float(i % 5) - 1, -0.3f));
         light.innerConeAngle = 0.3f;
         light.outerConeAngle = 0.8f;
         state->lights.push_back(light);

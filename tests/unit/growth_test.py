@@ -32,6 +32,17 @@ class Table(unittest.TestCase):
         self.assertIn("| rays | build ms | 5 at 10 | 5 at 10 |  |  |", text)
 
 
+class Lights(unittest.TestCase):
+    def test_cost_is_time_at_equal_error(self):
+        results = [{"variant": "0", "chain": "a", "nrmse": "0.2", "frame_ms_median": "3"},
+                   {"variant": "1", "chain": "b", "nrmse": "0.05", "frame_ms_median": "17"}]
+        passes = [{"variant": "1", "pass": "gbuffer", "ms_median": "9"}, {"variant": "1", "pass": "direct_shadow_rays", "ms_median": "8"}]
+        found = {measure: value for _, _, measure, value in growth.light_costs(10, results, passes)}
+        self.assertAlmostEqual(found["a, equal nRMSE ms"], 12)
+        self.assertAlmostEqual(found["b, equal nRMSE ms"], 2)
+        self.assertEqual(found["b ms"], 8)
+
+
 class Inputs(unittest.TestCase):
     def test_a_sphere_is_closed_and_faces_outwards(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -50,7 +61,7 @@ class Inputs(unittest.TestCase):
 
     def test_each_axis_varies_what_it_names(self):
         self.assertEqual(growth.config("pixels", (320, 180), Path("."))[1], 57600)
-        self.assertEqual(len(growth.config("lights", 10, Path("."))[0]["scene"]["lights"]), 10)
+        self.assertEqual(growth.config("lights", 10, Path("."))[0]["scene"]["count"], 10)
         self.assertEqual(len(growth.config("variants", 100, Path("."))[0]["sweep"]["inject.rays_per_light"]), 100)
 
 

@@ -59,6 +59,22 @@ std::vector<LightSource> requireLightSources(const SceneState& state, const std:
     return all;
 }
 
+std::vector<LightSource> shadowRaySources(const std::vector<LightSource>& sources, const SceneState& state,
+                                          uint32_t exactLights) {
+    const auto isLocal = [&](const LightSource& source) {
+        return source.kind == LightSource::Punctual && state.lights[source.light].type != LightType::Directional;
+    };
+    if (std::ranges::count_if(sources, isLocal) <= ptrdiff_t(exactLights)) return sources;
+    std::vector<LightSource> joined{{LightSource::Tree, 0, 0}};
+    for (const LightSource& source : sources) {
+        if (isLocal(source) || source.kind == LightSource::Emitters)
+            joined[0].power += source.power;
+        else
+            joined.push_back(source);
+    }
+    return joined;
+}
+
 double totalPower(const std::vector<LightSource>& sources) {
     double watts = 0;
     for (const LightSource& source : sources) watts += source.power;

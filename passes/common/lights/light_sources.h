@@ -7,9 +7,15 @@
 
 namespace voxray {
 
-/// A light source: one punctual light, all emissive triangles together, or the environment.
+/// A light source: one punctual light, all emissive triangles together, the environment, or the light tree: emissive
+/// triangles, point and spot lights together.
 struct LightSource {
-    enum Kind : uint32_t { Punctual = 0, Emitters = 1, Environment = 2 };  // As in shaders/lights/lights.glsl.
+    enum Kind : uint32_t {
+        Punctual = 0,
+        Emitters = 1,
+        Environment = 2,
+        Tree = 3
+    };  // As in shaders/lights/lights.glsl.
     Kind kind;
     uint32_t light;  ///< Index of a punctual light.
     float power;     ///< Estimate for the brightest channel, W; an upper bound for untextured emitters.
@@ -21,6 +27,14 @@ std::vector<LightSource> lightSources(const SceneState& state);
 
 /// The same. @throws Error naming the pass if there is none.
 std::vector<LightSource> requireLightSources(const SceneState& state, const std::string& pass);
+
+/// Up to so many point and spot lights shadow rays go to each of them; more are sampled (docs/light-sampling.md).
+constexpr uint32_t kExactLights = 64;
+
+/// What shadow rays sample: `sources`, but more than `exactLights` point and spot lights are one source together with
+/// the emissive triangles.
+std::vector<LightSource> shadowRaySources(const std::vector<LightSource>& sources, const SceneState& state,
+                                          uint32_t exactLights = kExactLights);
 
 /// Sum of LightSource::power, W.
 double totalPower(const std::vector<LightSource>& sources);

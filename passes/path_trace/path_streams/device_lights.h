@@ -7,8 +7,8 @@
 
 namespace voxray {
 
-/// The host's LightTable on the device, for path_lights.glsl: which light is drawn how often, where emissive
-/// patches are, and which triangles are simple (path_types.h).
+/// The host's LightTable on the device, for path_lights.glsl: the light tree, where emissive patches
+/// are, and which triangles are simple (path_types.h).
 class DeviceLights {
  public:
     void plan(PassPlan& plan);
@@ -17,7 +17,8 @@ class DeviceLights {
 
     /// For shaders that include path_lights.glsl; `triangleFacts` is the address of a uint a triangle.
     std::vector<Binding> bindings() const {
-        return {{"lightBins", bins_},
+        return {{"pathLightTree", tree_},
+                {"infiniteLights", infinite_},
                 {"lightPatches", patches_},
                 {"lights", lights_},
                 {"triangleFacts", uint64_t(triangleFacts_.address())}};
@@ -25,7 +26,7 @@ class DeviceLights {
 
  private:
     gpu::PathLights lights_{};
-    Buffer bins_, patches_, triangleFacts_;
+    Buffer tree_, infinite_, patches_, triangleFacts_;
     std::optional<uint64_t> sceneVersion_;  ///< Of the uploaded lights.
 };
 

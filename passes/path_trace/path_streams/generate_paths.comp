@@ -27,6 +27,6 @@ void main() {
         ray = Ray(push.origin, 0.0, normalize(push.forward + p.x * push.right - p.y * push.up), 1.0e30);
     }
     rays.data[slot] = ray;
-    vertices.data[slot] = PathVertex(vec3(1.0), DELTA_PDF, vec3(0.0), slot);
+    vertices.data[slot] = PathVertex(vec3(1.0), DELTA_PDF, vec3(0.0), slot, vec3(0.0));
     sums.data[slot] = PathSums(vec3(0.0), 1.0e30, vec3(0.0), 0u, vec3(0.0));
 }

@@ -4,9 +4,14 @@
 
 #include "path_types.h"
 #include "shaders/lights/environment_map.glsl"
+#include "shaders/scene/light_tree_types.h"
 #include "shaders/scene/scene.glsl"
 
-layout(scalar) readonly buffer LightBins { LightBin data[]; } lightBins;
+layout(scalar) readonly buffer PathLightTree { LightTreeNode data[]; } pathLightTree;
+#define LIGHT_TREE pathLightTree
+#include "shaders/scene/light_tree.glsl"
+
+layout(scalar) readonly buffer InfiniteLights { uint data[]; } infiniteLights;
 layout(scalar) readonly buffer LightPatches { LightPatch data[]; } lightPatches;
 
 // Unoccluded light at a point.
@@ -19,12 +24,11 @@ struct LightSample {
     float pdf;       // 1/sr, or the choice's probability alone for a delta; 0: no light.
 };
 
-// Draws a light in proportion to its power.
-uint drawLight(PathLights lights, float u) {
-    const float scaled = u * float(lights.count);
-    const uint i = min(uint(scaled), lights.count - 1u);
-    return scaled - float(i) < lightBins.data[i].threshold ? i : lightBins.data[i].alias;
-}
+// A surface that lights are sampled for.
+struct LightReceiver {
+    vec3 position;  // Of the origin of its rays.
+    vec3 faceNormal;
+};
 
 LightSample samplePunctualLight(GpuLight light, float probability, vec3 position) {
     LightSample s = LightSample(-light.direction, -light.direction, true, true, light.intensity, probability);
@@ -40,7 +44,7 @@ LightSample samplePunctualLight(GpuLight light, float probability, vec3 position
 }
 
 // A uniform point of a patch.
-LightSample samplePatch(LightPatch patch_, vec3 position, vec2 u) {
+LightSample samplePatch(LightPatch patch_, float probability, vec3 position, vec2 u) {
     const uvec3 corners = triangleVertices(patch_.triangle);
     const vec3 p0 = vertexPosition(corners.x), p1 = vertexPosition(corners.y), p2 = vertexPosition(corners.z);
     const bool isParallelogram = patch_.isParallelogram != 0u;
@@ -54,7 +58,7 @@ LightSample samplePatch(LightPatch patch_, vec3 position, vec2 u) {
     const float cosine = -dot(n, s.direction);
     const GpuMaterial m = sceneMaterials.data[triangleMaterial(patch_.triangle)];
     if (cosine == 0.0 || (cosine < 0.0 && m.doubleSided == 0u)) return s;
-    s.pdf = patch_.pdf * distance2 / abs(cosine);
+    s.pdf = patch_.inverseArea * probability * distance2 / abs(cosine);
     const bool isEven = m.emissiveTexture.texture == NO_TEXTURE && m.alphaMode != ALPHA_MASK;
     s.radiance = isEven ? m.emission : emittedRadiance(m, surfacePoint(patch_.triangle, w));
     const float offset = max(planeOffset(p0, p1, p2, n), pointOffset(point));
@@ -62,13 +66,35 @@ LightSample samplePatch(LightPatch patch_, vec3 position, vec2 u) {
     return s;
 }
 
-// Samples a light by `uLight`, and by `u` a point on it, for a surface at `position`. A map of the environment is
-// sampled; a constant environment is left to reflection sampling, which finds it everywhere.
-LightSample sampleLight(PathLights lights, float uLight, vec2 u, vec3 position) {
-    const uint i = drawLight(lights, uLight);
-    if (i > lights.environment) return samplePatch(lightPatches.data[i - lights.environment - 1u], position, u);
-    const float probability = lightBins.data[i].probability;
-    if (i < lights.environment) return samplePunctualLight(sceneLights.data[i], probability, position);
+// Estimated irradiance of an infinite light.
+float infiniteIrradiance(PathLights lights, uint infinite, vec3 faceNormal) {
+    if (infinite == ENVIRONMENT_LIGHT) return lights.environmentIrradiance;
+    const GpuLight light = sceneLights.data[infinite];
+    return luminance(light.intensity) * max(-dot(light.direction, faceNormal), 0.0);
+}
+
+// The same of all infinite lights.
+float infiniteIrradiance(PathLights lights, vec3 faceNormal) {
+    float sum = 0.0;
+    for (uint i = 0u; i < lights.infiniteLights; ++i)
+        sum += infiniteIrradiance(lights, infiniteLights.data[i], faceNormal);
+    return sum;
+}
+
+// Samples an infinite light by `uLight`, which the choice of infinite lights left over, and by `u` a direction.
+LightSample sampleInfinite(PathLights lights, float probability, float uLight, vec2 u, LightReceiver to) {
+    const float total = infiniteIrradiance(lights, to.faceNormal);
+    float rest = uLight * total, ofChosen = 0.0;
+    uint chosen = ENVIRONMENT_LIGHT;
+    for (uint i = 0u; i < lights.infiniteLights && rest >= ofChosen; ++i) {
+        const float next = infiniteIrradiance(lights, infiniteLights.data[i], to.faceNormal);
+        if (!(next > 0.0)) continue;
+        rest -= ofChosen;
+        ofChosen = next;
+        chosen = infiniteLights.data[i];
+    }
+    probability *= ofChosen / total;
+    if (chosen != ENVIRONMENT_LIGHT) return samplePunctualLight(sceneLights.data[chosen], probability, to.position);
     LightSample s = LightSample(vec3(0.0), vec3(0.0), true, false, vec3(0.0), 0.0);
     s.toLight = s.direction = sampleEnvironmentMap(u, s.pdf);
     s.pdf *= probability;
@@ -76,15 +102,37 @@ LightSample sampleLight(PathLights lights, float uLight, vec2 u, vec3 position) 
     return s;
 }
 
+// Samples a light by `uLight`, and by `u` a point on it. A map of the environment is sampled; a constant environment is
+// left to reflection sampling, which finds it everywhere.
+LightSample sampleLight(PathLights lights, float uLight, vec2 u, LightReceiver to) {
+    const float beside = infiniteIrradiance(lights, to.faceNormal);
+    uint picked = LIGHT_TREE_BESIDE;
+    float probability = beside > 0.0 ? 1.0 : 0.0;
+    if (lights.treeNodes > 0u)
+        picked = pickLight(0u, to.position, to.faceNormal, beside / lights.treeIntensity, uLight, probability);
+    if (!(probability > 0.0)) return LightSample(vec3(0.0), vec3(0.0), false, false, vec3(0.0), 0.0);
+    if (picked == LIGHT_TREE_BESIDE) return sampleInfinite(lights, probability, uLight, u, to);
+    if (picked >= lights.punctualLights)
+        return samplePatch(lightPatches.data[picked - lights.punctualLights], probability, to.position, u);
+    return samplePunctualLight(sceneLights.data[picked], probability, to.position);
+}
+
 // Density of sampleLight(), 1/sr, for a patch that a ray hits at `distance_`. `cosine`: of direction and the normal.
-float patchPdf(uint patch_, float cosine, float distance_) {
-    return cosine != 0.0 ? lightPatches.data[patch_].pdf * distance_ * distance_ / abs(cosine) : 0.0;
+float patchPdf(PathLights lights, uint patch_, float cosine, float distance_, LightReceiver to) {
+    const LightPatch p = lightPatches.data[patch_];
+    if (cosine == 0.0 || p.leaf == NO_LEAF) return 0.0;
+    const float beside = infiniteIrradiance(lights, to.faceNormal) / lights.treeIntensity;
+    const float probability = lightProbability(0u, p.leaf, to.position, to.faceNormal, beside);
+    return p.inverseArea * probability * distance_ * distance_ / abs(cosine);
 }
 
 // The same for the environment.
-float environmentPdf(PathLights lights, vec3 direction) {
-    if (!hasEnvironmentMap() || lights.count == 0u) return 0.0;
-    return environmentMapDensity(direction) * lightBins.data[lights.environment].probability;
+float environmentPdf(PathLights lights, vec3 direction, LightReceiver to) {
+    if (!hasEnvironmentMap() || !(lights.environmentIrradiance > 0.0)) return 0.0;
+    float total = infiniteIrradiance(lights, to.faceNormal);
+    if (lights.treeNodes > 0u)
+        total += lights.treeIntensity * childrenImportance(0u, to.position, to.faceNormal);
+    return environmentMapDensity(direction) * lights.environmentIrradiance / total;
 }
 
 // Weight of a sample with density `pdf` where another technique has `otherPdf`: power heuristic with exponent 2 (Veach

@@ -25,6 +25,7 @@ struct PathVertex {
     float bsdfPdf;              // Of the ray's direction, 1/sr; DELTA_PDF where light sampling can't find what it hits.
     vec3 irradianceThroughput;  // Throughput without the first hit's BSDF.
     uint slot;
+    vec3 faceNormal;  // Where the ray leaves, on its side; lights are picked by it.
 };
 
 // Light that arrives along a ray if nothing occludes it.
@@ -52,32 +53,32 @@ struct PixelSums {
     vec3 excessIndirect[2];
 };
 
-// A bin of the alias table that draws lights: punctual ones, the environment, patches.
-struct LightBin {
-    float threshold;    // Draws below it are this bin's light.
-    uint alias;         // The light of the others.
-    float probability;  // Of this bin's light.
-};
-
 // An emissive triangle, or two that form a parallelogram of constant emission.
 struct LightPatch {
     uint triangle;
     uint isParallelogram;
-    float pdf;  // Selection probability over area, 1/m².
+    float inverseArea;  // 1/m²
+    uint leaf;          // Of the light tree; NO_LEAF where samples miss its light.
 };
 
 // What shaders need to know of all lights.
 struct PathLights {
-    uint count;        // Bins; 0: no light can be sampled.
-    uint environment;  // Bin of the environment, after those of punctual lights.
-    uint isSingle;     // 1: there is one light to draw.
-    uint canBeHit;     // 1: paths can hit emissive surfaces or the environment.
+    uint treeNodes;               // 0: no light in the tree.
+    uint punctualLights;          // Numbers of the tree below are theirs, others those of patches.
+    uint infiniteLights;          // Beside the tree.
+    float treeIntensity;          // Importance times this is W/m² of luminance.
+    float environmentIrradiance;  // As a choice weighs it, W/m² of luminance.
+    uint isSingle;                // 1: there is one light to draw.
+    uint canBeHit;                // 1: paths can hit emissive surfaces or the environment.
 };
 
 VOXRAY_SHARED_END
 
 #define PATH_TILE 4u
 #define DELTA_PDF -1.0f
+#define NO_LEAF 0xffffffffu
+// Among infinite lights.
+#define ENVIRONMENT_LIGHT 0xffffffffu
 // Of a triangle: its patch, NO_PATCH without one; and whether its material and vertices are constants: it is flat,
 // without textures and vertex colors.
 #define PATCH_BITS 0x7fffffffu

@@ -52,8 +52,18 @@ float hitDistance;
 uint pairOf(uint pair) { return push.vertex * PAIRS + pair; }
 bool isSeenDirectly() { return path.bsdfPdf < 0.0; }
 
-// Weight of a light that the ray hits and that light sampling draws with `lightPdf`.
-float hitWeight(float lightPdf) { return isSeenDirectly() ? 1.0 : misWeight(path.bsdfPdf, lightPdf); }
+// What lights were sampled for where the ray left.
+LightReceiver receiver() { return LightReceiver(ray.origin, path.faceNormal); }
+
+// Weight of a patch that the ray hits; `cosine`: of its direction and the normal.
+float patchWeight(uint patch_, float cosine) {
+    if (isSeenDirectly()) return 1.0;
+    return misWeight(path.bsdfPdf, patchPdf(push.lights, patch_, cosine, hitDistance, receiver()));
+}
+
+float environmentWeight() {
+    return isSeenDirectly() ? 1.0 : misWeight(path.bsdfPdf, environmentPdf(push.lights, ray.direction, receiver()));
+}
 
 void addHitLight() {
     if (push.vertex <= 1u) {
@@ -66,7 +76,8 @@ void addHitLight() {
 
 void sampleDirectLight(PathSurface p, SobolSampler s) {
     const float uLight = push.lights.isSingle != 0u ? 0.0 : sobol1D(s, pairOf(PAIR_LIGHT_CHOICE));
-    const LightSample sampled = sampleLight(push.lights, uLight, sobol2D(s, pairOf(PAIR_LIGHT_POINT)), p.origin);
+    const LightSample sampled =
+        sampleLight(push.lights, uLight, sobol2D(s, pairOf(PAIR_LIGHT_POINT)), LightReceiver(p.origin, p.faceNormal));
     if (!(sampled.pdf > 0.0) || !(dot(sampled.direction, p.faceNormal) > 0.0)) return;
     const BsdfValue value = bsdfValue(p.bsdf, -ray.direction, sampled.direction, p.shadingNormal);
     light = value.fCos * sampled.radiance / sampled.pdf;
@@ -80,7 +91,8 @@ void scatter(PathSurface p, SobolSampler s) {
     const float uLobe = hasSpecular(p.bsdf.specular) ? sobol1D(s, pairOf(PAIR_LOBE)) : 0.0;
     const BsdfSample sampled =
         bsdfSample(p.bsdf, -ray.direction, p.shadingNormal, sobol2D(s, pairOf(PAIR_REFLECTION)), uLobe);
-    next = PathVertex(path.throughput * sampled.weight, sampled.pdf, path.irradianceThroughput * sampled.weight, path.slot);
+    next = PathVertex(path.throughput * sampled.weight, sampled.pdf, path.irradianceThroughput * sampled.weight,
+                      path.slot, p.faceNormal);
     if (push.vertex == 0u && sampled.pdf > 0.0)
         next.irradianceThroughput = vec3(dot(p.shadingNormal, sampled.direction) / sampled.pdf);
 
@@ -104,8 +116,7 @@ void shade(Hit hit) {
     hitDistance = hit.t;
     if (hit.triangle == NO_HIT) {
         if (countsHitLight)
-            hitLight = environmentRadiance(ray.direction) *
-                       (isSeenDirectly() ? 1.0 : hitWeight(environmentPdf(push.lights, ray.direction)));
+            hitLight = environmentRadiance(ray.direction) * environmentWeight();
         return;
     }
     if (push.vertex == 1u) sums.data[path.slot].distance_ = hit.t;
@@ -118,14 +129,15 @@ void shade(Hit hit) {
     const GpuMaterial m = sceneMaterials.data[s.material];
     const float cosine = -dot(s.geometricNormal, ray.direction);
     if (countsHitLight && patch_ != NO_PATCH && (m.doubleSided != 0u || cosine > 0.0))
-        hitLight = emission(m, s, 0.0) * hitWeight(patchPdf(patch_, cosine, hit.t));
+        hitLight = emission(m, s, 0.0) * patchWeight(patch_, cosine);
     if (push.vertex > kBounces) return;
 
     const PathSurface p = pathSurface(s, m, ray.direction);
     const uvec2 pixel = pixelOf(push.batch, path.slot / push.batch.samples);
     const SobolSampler random = samplerOf(push.batch, pixel, path.slot % push.batch.samples);
     if (push.vertex == 0u && largestComponent(p.bsdf.diffuse) > 0.0) sums.data[path.slot].hasIrradiance = 1u;
-    if (push.lights.count > 0u && (push.vertex > 0u || kHasDirectLight)) sampleDirectLight(p, random);
+    if (push.lights.treeNodes + push.lights.infiniteLights > 0u && (push.vertex > 0u || kHasDirectLight))
+        sampleDirectLight(p, random);
     scatter(p, random);
 }
 

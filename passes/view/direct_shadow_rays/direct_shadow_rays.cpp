@@ -31,34 +31,43 @@ struct EnumNames<Visibility> {
 };
 
 /// Direct light by shadow rays through the stream interface: from each texel of the G-buffer one ray to each
-/// point, spot and directional light, and `light_samples` rays to emissive surfaces and to the environment.
+/// point, spot and directional light, and `light_samples` rays to emissive surfaces and to the environment. Many point
+/// and spot lights are sampled with the emissive surfaces.
 class DirectShadowRays final : public Pass {
  public:
     static constexpr const char* kName = "direct_shadow_rays";
     static constexpr const char* kHelp =
-        "Computes direct light by shadow rays from every pixel to every light. Exact for point, "
-        "spot and directional lights; noisy by `light_samples` for emissive surfaces and for the environment. "
+        "Computes direct light by shadow rays from every pixel. Exact for directional lights, and for up to "
+        "`exact_lights` point and spot lights; noisy by `light_samples` for more of these, "
+        "for emissive surfaces and for the environment. "
         "Each of these samples is selected from `candidates` by what the surface would reflect of it. "
         "filter_irradiance with `light: direct` denoises it. "
         "Mirrors reflect no lamp and no environment: gather_mirror adds their reflections. "
         "With `visibility: voxels` biased by voxel size. Compare with gather_irradiance with `light: direct`. "
-        "Source: Talbot et al. 2005.";
+        "Source: Talbot et al. 2005; many lights: Conty Estevez and Kulla 2018.";
     struct Params {
         uint32_t lightSamples = 4;
         uint32_t candidates = 4;
+        uint32_t exactLights = kExactLights;
         Visibility visibility = Visibility::Exact;
         static constexpr auto schema() {
             return std::tuple{
                 field("light_samples", &Params::lightSamples,
                       "Shadow rays from each G-buffer texel to all emissive surfaces together, "
+                      "with the point and spot lights where these are more than `exact_lights`, "
                       "and as many to the environment.",
                       1u, 4096u)
                     .lessNoise(),
                 field("candidates", &Params::candidates,
-                      "Candidates from which a shadow ray is selected: emissive triangles by power, "
+                      "Candidates from which a shadow ray is selected: emissive triangles, if there are no more "
+                      "(otherwise the light tree picks one), "
                       "directions by the environment map's radiance and by cosine. "
                       "1: no selection, and the environment by cosine alone.",
                       1u, uint32_t(MAX_LIGHT_CANDIDATES)),
+                field("exact_lights", &Params::exactLights,
+                      "Up to so many point and spot lights each has its own ray from each texel, without noise; "
+                      "if there are more, they are sampled. Its cost grows with the lights, that of samples hardly.",
+                      0u, 1u << 20),
                 field("visibility", &Params::visibility,
                       "Geometry for shadow rays. exact: the scene's triangles. voxels: "
                       "surface voxels, without those around the ray's origin; shadows are wider by about a voxel, "
@@ -88,10 +97,9 @@ class DirectShadowRays final : public Pass {
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     In<SurfaceVoxels> voxels_{*this, "voxels", "geometry for shadow rays", tracesVoxels()};
     Out<FrameImage> direct_{*this, "direct", "radiance reflected of direct light"};
-    Out<NoisyIrradiance> noisy_{*this, "noisy_direct",
-                                "irradiance of emissive surfaces and the environment, for filter_irradiance"};
+    Out<NoisyIrradiance> noisy_{*this, "noisy_direct", "irradiance of lights that are sampled, for filter_irradiance"};
     Out<FrameImage> unfiltered_{*this, "unfiltered_direct",
-                                "the part of 'direct' that 'noisy_direct' lacks: punctual lights, specular lobes"};
+                                "the part of 'direct' that 'noisy_direct' lacks: lights with own rays, specular lobes"};
     Kernel generateRays_{*this, "generate_shadow_rays.comp"};
     Kernel reflect_{*this, "reflect_unoccluded.comp"};
     Kernel reflectSampled_{*this, "reflect_unoccluded.comp", {{"SPLIT", "1"}, {"HITS", "1"}}};
@@ -103,6 +111,7 @@ class DirectShadowRays final : public Pass {
     Buffer moments_;          ///< gpu::ShadowRayMoments of blocks of 2 x 2 groups.
     uint32_t groupSize_ = 1;  ///< Texels along an edge of a group, which has kMinGroupRays or more.
     PaneTransmittance paneTransmittance_{*this};
+    std::vector<LightSource> sources_;
     std::optional<VoxelTracer> voxelTracer_;  ///< With Visibility::Voxels.
 };
 
@@ -115,7 +124,9 @@ void DirectShadowRays::plan(PassPlan& plan) {
     plan.buffer(light_, "shadow ray light", rays * sizeof(gpu::ShadowRayLight));
     plan.buffer(occluded_, "shadow ray results", rays * sizeof(uint32_t));
     paneTransmittance_.plan(plan, rays);
-    plan.lightRays = pixels * texels * plan.frame.scene->lights.size();
+    sources_ = shadowRaySources(lightSources(*plan.frame.scene), *plan.frame.scene, params_.exactLights);
+    const auto punctual = std::ranges::count(sources_, LightSource::Punctual, &LightSource::kind);
+    plan.lightRays = pixels * texels * uint64_t(punctual);
     plan.frameImage(direct_);
     if (isSplit(plan)) {
         NoisyIrradiance& noisy = plan[noisy_];
@@ -153,12 +164,16 @@ void DirectShadowRays::record(PassContext& context) {
 
     // Trace rays to each punctual light, then samples of the other sources
     clearOutputs(context);
-    for (uint32_t light = 0; light < context.scene.lightCount; ++light)
-        trace(context, *tracer, grid, {LightSource::Punctual, light, 1});
-    const bool hasEmitters = context.scene.emitterCount > 0;
-    const uint32_t sources = uint32_t(hasEmitters) + uint32_t(context.scene.hasEnvironment);
-    for (uint32_t s = 0; s < params_.lightSamples && sources > 0; ++s)
-        trace(context, *tracer, grid, {hasEmitters ? LightSource::Emitters : LightSource::Environment, s, sources});
+    std::vector<LightSource::Kind> sampled;  // Emitters or the tree, then the environment.
+    for (const LightSource& source : sources_) {
+        if (source.kind == LightSource::Punctual)
+            trace(context, *tracer, grid, {LightSource::Punctual, source.light, 1});
+        else
+            sampled.push_back(source.kind);
+    }
+    const auto count = uint32_t(sampled.size());
+    for (uint32_t s = 0; s < params_.lightSamples && count > 0; ++s)
+        trace(context, *tracer, grid, {sampled[0], s, count});
 
     if (isSplit(context)) {
         const NoisyIrradiance& noisy = context[noisy_];
@@ -215,6 +230,7 @@ void DirectShadowRays::trace(PassContext& context, RayTracer& tracer, const gpu:
                           {"batchRays", rays},
                           {"seed", randomSeed(frame, context.frameIndex)},
                           {"emitterCount", context.scene.emitterCount},
+                          {"emitterRoot", context.scene.emitterRoot},
                           {"grid", grid}});
         const Coherence coherence = sample.kind == LightSource::Punctual ? Coherence::Coherent : Coherence::Incoherent;
         if (hits)

@@ -1,13 +1,13 @@
 // Generates shadow rays to lights for each G-buffer texel of a batch of pixels, and the irradiance that each brings if
 // it is unoccluded. A pixel's rays are consecutive: by texel, then by source.
 #include "passes/view/direct_shadow_rays/shadow_ray_light.h"
-#include "shaders/lights/lights.glsl"
 #include "shaders/compute/linear_index.glsl"
+#include "shaders/lights/lights.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/scene/scene.glsl"
+#include "shaders/scene/specular.glsl"
 #include "shaders/trace/ray_types.h"
 #include "shaders/voxel_march/surface_segment.glsl"
-#include "shaders/scene/specular.glsl"
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kTraceVoxels = false;  // Otherwise triangles.
 // Rays through voxels end two voxel diagonals before a light, which may be a surface.
@@ -33,6 +33,7 @@ layout(push_constant, scalar) uniform Push {
     uint samples;  // Texels along an edge of a pixel.
     uint seed;
     uint emitterCount;
+    uint emitterRoot;
     vec3 camera;
     VoxelGrid grid;  // With kTraceVoxels.
 } push;
@@ -60,10 +61,10 @@ void main() {
         // Emissive surfaces are sampled from the ray's origin, as rays at a grazing angle would otherwise end behind
         // them
         const vec3 origin = p.xyz + receiver.faceNormal * p.w;
-        receiver.position = kind == SOURCE_EMITTERS ? origin : p.xyz;
-        const LightSample s =
-            sampleSource(kind, push.light, SourceSampling(push.lightSamples, push.candidates, push.emitterCount),
-                         receiver, push.firstPixel * perPixel + texelInBatch, push.seed);
+        receiver.position = kind == SOURCE_EMITTERS || kind == SOURCE_TREE ? origin : p.xyz;
+        const LightSample s = sampleSource(
+            kind, push.light, SourceSampling(push.lightSamples, push.candidates, push.emitterCount, push.emitterRoot),
+            receiver, push.firstPixel * perPixel + texelInBatch, push.seed);
         if (reflectedLuminance(receiver, s) > 0.0) {
             const float cosine = dot(receiver.normal, s.direction);
             light = ShadowRayLight(s.irradiance * cosine, sqrt(min(s.solidAngle * cosine / PI, 1.0)), 1.0 / s.height);

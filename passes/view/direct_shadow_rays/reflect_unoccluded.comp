@@ -1,7 +1,7 @@
 // Adds the radiance that a batch of pixels reflects of unoccluded shadow rays, averaged over the texels of each pixel.
-// SPLIT: writes the radiance that filter_irradiance leaves as it is, too. That is all of it for punctual lights; for
-// samples of other sources (HITS) it is the reflection of specular lobes, and the irradiance of the diffuse layer is
-// added to that of the texel, with the moments of its rays.
+// SPLIT: writes the radiance that filter_irradiance leaves as it is, too. That is all of it for punctual lights with a
+// ray each; for samples of other sources (HITS) it is the reflection of specular lobes, and the irradiance of the
+// diffuse layer is added to that of the texel, with the moments of its rays.
 #include "passes/view/direct_shadow_rays/shadow_ray_light.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
