@@ -21,7 +21,7 @@ void beginPath(uint slot, Ray ray, Hit hit) {
     pathRays.data[place] = ray;
     pathHits.data[place] = hit;
     // The density weights emission at the hit alone
-    vertices.data[place] = PathVertex(vec3(1.0), DELTA_PDF, vec3(PI), slot);
+    vertices.data[place] = PathVertex(vec3(1.0), DELTA_PDF, vec3(PI), slot, vec3(0.0));
     sums.data[slot] = PathSums(vec3(0.0), 1.0e30, vec3(0.0), 1u, vec3(0.0));
 }
 

@@ -1,7 +1,10 @@
-// Links each ray to the surfel that best stands for its hit. KEEPS_HITS: stores how far the hits are, for updates, which
-// trace listed rays alone.
+// Links each ray to the surfel that best stands for its hit. KEEPS_HITS: stores hits, for updates, which trace listed rays
+// alone.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"
+#ifdef KEEPS_HITS
+#include "passes/radiosity/link_surfels/link_hit.glsl"
+#endif
 #include "passes/surfels/sorted_surfels.glsl"
 #include "passes/surfels/surfel_bias.glsl"
 #include "shaders/trace/ray_types.h"
@@ -16,7 +19,7 @@ readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;
 layout(scalar) readonly buffer LinksRef { LargeUints links; };
 buffer UnlinkedHits { uint value; } unlinkedHits;
 #ifdef KEEPS_HITS
-layout(scalar) readonly buffer HitDistancesRef { LargeFloats hitDistances; };  // m
+layout(scalar) readonly buffer LinkHitsRef { LargeUints linkHits; };  // link_hit.glsl
 readonly buffer ListedRays { uint data[]; } listedRays;
 #endif
 layout(push_constant, scalar) uniform Push {
@@ -90,6 +93,7 @@ void main() {
     const uint link = (ray % push.raysPerSurfel) * push.surfelCount + push.firstSurfel + ray / push.raysPerSurfel;
     links.data[link] = surfel;
 #ifdef KEEPS_HITS
-    hitDistances.data[link] = hits.data[i].triangle != NO_HIT ? hits.data[i].t : 1.0e30;
+    const float distance_ = hits.data[i].triangle != NO_HIT ? hits.data[i].t / push.grid.voxelSize : NO_LINK_HIT;
+    linkHits.data[link] = packLinkHit(rays.data[i].direction, distance_);
 #endif
 }

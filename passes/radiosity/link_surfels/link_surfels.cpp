@@ -85,7 +85,7 @@ class LinkSurfels final : public Pass {
     Kernel packMeanDistances_{*this, "pack_mean_distances.comp"};
     Kernel listChangedLinks_{*this, "list_changed_links.comp"};
     bool keepsHits_ = false;                                        ///< Surfaces move.
-    LargeBuffer hitDistances_;                                      ///< By link, m, if hits are kept.
+    LargeBuffer keptHits_;                                          ///< By link (link_hit.glsl), if hits are kept.
     Buffer boxes_;                                                  ///< Of changes, during an update.
     Buffer rays_, hits_, occlusionRays_, occluded_, unlinkedHits_;  ///< Scratch, of a batch of rays.
     Buffer listedRays_, listedCount_;                               ///< Likewise, if hits are kept.
@@ -95,7 +95,7 @@ void LinkSurfels::plan(PassPlan& plan) {
     const Surfels& surfels = plan[surfels_];
     keepsHits_ = surfels.areIndexedById;
     plan[links_].raysPerSurfel = params_.raysPerSurfel;
-    const double linkBytes = keepsHits_ ? sizeof(uint32_t) + sizeof(float) : sizeof(uint32_t);
+    const double linkBytes = keepsHits_ ? 2 * sizeof(uint32_t) : sizeof(uint32_t);
     plan.estimate(surfels.estimatedCount * (params_.raysPerSurfel * linkBytes + sizeof(gpu::SortedSurfel)));
     plan.scratchBuffer(rays_, "link rays", uint64_t(kBatchRays) * sizeof(Ray));
     plan.scratchBuffer(hits_, "link hits", uint64_t(kBatchRays) * sizeof(Hit));
@@ -128,8 +128,7 @@ void LinkSurfels::record(PassContext& context) {
     links.surfelCount = uint32_t(count);
     ensureSize(links.links, context.device, "surfel links", count * params_.raysPerSurfel * sizeof(uint32_t));
     if (keepsHits_)
-        ensureSize(hitDistances_, context.device, "distances of link hits",
-                   count * params_.raysPerSurfel * sizeof(float));
+        ensureSize(keptHits_, context.device, "hits of links", count * params_.raysPerSurfel * sizeof(uint32_t));
 
     sort_.run(context.stream, surfels, context[voxels_].voxelCount, context[byVoxel_]);
     packSurfels(context);
@@ -195,7 +194,7 @@ uint32_t LinkSurfels::listChangedRays(PassContext& context, const Batch& batch) 
                      {{"boxes", boxes_},
                       {"surfels", batch.chunk.surfels},
                       {"LinksRef", links.links.ref()},
-                      {"HitDistancesRef", hitDistances_.ref()},
+                      {"LinkHitsRef", keptHits_.ref()},
                       {"rays", rays_},
                       {"listedRays", listedRays_},
                       {"listedCount", listedCount_},
@@ -205,7 +204,8 @@ uint32_t LinkSurfels::listChangedRays(PassContext& context, const Batch& batch) 
                       {"raysPerSurfel", params_.raysPerSurfel},
                       {"surfelCount", links.surfelCount},
                       {"seed", randomSeed(context.frame)},
-                      {"reach", kHitReach * context[voxels_].grid.voxelSize}});
+                      {"reach", kHitReach * context[voxels_].grid.voxelSize},
+                      {"voxelSize", context[voxels_].grid.voxelSize}});
     return context.stream.readAs<uint32_t>(listedCount_, 1)[0];
 }
 
@@ -241,7 +241,7 @@ uint32_t LinkSurfels::link(PassContext& context, const Batch& batch, bool isUpda
                       {"rayCount", rays},
                       {"raysPerSurfel", params_.raysPerSurfel},
                       {"surfelCount", links.surfelCount},
-                      ifUsed({"HitDistancesRef", hitDistances_.ref()}),
+                      ifUsed({"LinkHitsRef", keptHits_.ref()}),
                       ifUsed({"listedRays", listedRays_}),
                       ifUsed({"isListed", isUpdate})});
     return rays;
@@ -251,7 +251,7 @@ void LinkSurfels::measureMeanDistances(PassContext& context, const Batch& batch,
                                        const LargeBuffer& inverseDistances) const {
     context.dispatch(meanInverseDistance_, batch.count,
                      {ifUsed({"hits", hits_}),
-                      ifUsed({"HitDistancesRef", hitDistances_.ref()}),
+                      ifUsed({"LinkHitsRef", keptHits_.ref()}),
                       {"SortedIndicesRef", context[byVoxel_].sortedIndices.ref()},
                       {"InverseDistancesRef", inverseDistances.ref()},
                       {"firstSurfel", batch.firstIndex()},

@@ -1,11 +1,12 @@
 // Mean inverse distance of what each surfel sees, over its cosine-distributed rays.
+#include "passes/radiosity/link_surfels/link_hit.glsl"
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
 
 #ifdef KEEPS_HITS
-layout(scalar) readonly buffer HitDistancesRef { LargeFloats hitDistances; };  // m; 1e30: none
+layout(scalar) readonly buffer LinkHitsRef { LargeUints linkHits; };
 #else
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 #endif
@@ -24,13 +25,13 @@ layout(push_constant) uniform Push {
 // In voxels. Lower bound, since in a corner one ray would dominate the mean. Chosen.
 const float MIN_DISTANCE = 1.0 / 64.0;
 
-// m; 1e30 without a hit.
+// Voxels.
 float hitDistance(uint inBatch, uint ray) {
 #ifdef KEEPS_HITS
-    return hitDistances.data[ray * push.surfelCount + push.firstSurfel + inBatch];
+    return linkHitDistance(linkHits.data[ray * push.surfelCount + push.firstSurfel + inBatch]);
 #else
     const Hit hit = hits.data[inBatch * push.raysPerSurfel + ray];
-    return hit.triangle != NO_HIT ? hit.t : 1.0e30;
+    return hit.triangle != NO_HIT ? hit.t / push.voxelSize : NO_LINK_HIT;
 #endif
 }
 
@@ -42,7 +43,7 @@ void main() {
     float sum = 0.0;
     for (uint ray = 0u; ray < push.raysPerSurfel; ++ray) {
         const float distance_ = hitDistance(i, ray);
-        if (distance_ < 1.0e30) sum += push.voxelSize / max(distance_, MIN_DISTANCE * push.voxelSize);
+        if (distance_ < NO_LINK_HIT) sum += 1.0 / max(distance_, MIN_DISTANCE);
     }
     inverseDistances.data[sortedIndex] = sum / float(push.raysPerSurfel);
 }

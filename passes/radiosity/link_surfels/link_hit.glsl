@@ -1,0 +1,26 @@
+// The hit of a link's ray in 32 bits, which tells whether a change may affect the link (list_changed_links.comp).
+#ifndef VOXRAY_LINK_HIT_GLSL
+#define VOXRAY_LINK_HIT_GLSL
+
+#include "shaders/scene/octahedral.glsl"
+
+const float NO_LINK_HIT = 65504.0;  // Voxels; the largest half float.
+
+// Bounds of the errors of packing: of the direction, in radians, and of the distance, relative to it.
+const float LINK_DIRECTION_ERROR = 0.017;
+const float LINK_DISTANCE_ERROR = 1.0 / 512.0;
+
+// `voxels`: distance of the hit; rounded up. `direction`: unit length; 8 bits for each coordinate of the octahedral map.
+uint packLinkHit(vec3 direction, float voxels) {
+    const uint distance_ = packHalf2x16(vec2(min(voxels * (1.0 + 0.5 * LINK_DISTANCE_ERROR), NO_LINK_HIT), 0.0));
+    const ivec2 steps = ivec2(round(octahedralPoint(direction) * 127.0));
+    return distance_ | (uint(steps.x) & 255u) << 16 | (uint(steps.y) & 255u) << 24;
+}
+
+float linkHitDistance(uint bits) { return unpackHalf2x16(bits & 0xffffu).x; }
+
+vec3 linkHitDirection(uint bits) {
+    return octahedralDirection(vec2(bitfieldExtract(int(bits), 16, 8), bitfieldExtract(int(bits), 24, 8)) / 127.0);
+}
+
+#endif
