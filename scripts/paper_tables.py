@@ -20,6 +20,7 @@ docs/papers/tables/PAPER.toml has
 - or, for a table of several runs: `columns`, its headings, and `lines`, the cells of each line, with
   `of["RUN"]["VARIANT"]["NAME"]`. Expressions have min and max besides.
 docs/papers/tables/NAME.csv has the values of a run by variant; its first line has the commit, the device and the command.
+Where the results of a run were not kept, its CSV was copied from the page, and its first line says so; --measure writes a measured one.
 """
 import argparse
 import csv
