@@ -8,10 +8,7 @@ struct Box {
     vec3 low;
     vec3 high;
 };
-layout(scalar) readonly buffer Boxes {
-    Box data[];
-}
-boxes;  // The first one contains all others.
+layout(scalar) readonly buffer Boxes { Box data[]; } boxes;  // The first one contains all others.
 
 bool intersects(Ray ray, Box box) {
     const vec3 direction = mix(ray.direction, vec3(1.0e-9), lessThan(abs(ray.direction), vec3(1.0e-9)));

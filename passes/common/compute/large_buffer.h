@@ -34,4 +34,10 @@ void ensureSize(T& buffer, Device& device, const std::string& name, uint64_t byt
     buffer = T(device, name, bytes);
 }
 
+/// Makes a buffer anew where it is too small, and frees the old one first. The content is then undefined. The device
+/// must not be using it.
+inline void growTo(Buffer& buffer, Device& device, const std::string& name, uint64_t bytes) {
+    if (!buffer || buffer.bytes() < bytes) ensureSize(buffer, device, name, bytes);
+}
+
 }  // namespace voxray

@@ -162,7 +162,7 @@ void GatherScreenProbes::makeRoom(Device& device) {
     const uint64_t importanceBytes = probes * (bins() + 1) * sizeof(float);
     distribution_ = Buffer(device, "distributions of probe rays", importanceBytes);
     std::swap(importance_[0], importance_[1]);
-    growTo(device, importance_[0], "importance of directions", importanceBytes);
+    growTo(importance_[0], device, "importance of directions", importanceBytes);
 }
 
 void GatherScreenProbes::record(PassContext& context) {

@@ -53,7 +53,7 @@ void ScreenProbes::place(PassContext& context, const GBuffer& gbuffer, const Sur
     context.dispatch(place_, tileCount(), common);
     if (addsExtra) context.dispatch(placeExtra_, tileCount(), {common.all(), {"extraCounts", extraCounts_}});
     count_ = sum_.run(stream, counts, firstProbes_[current_], tileCount() + 1);
-    growTo(context.device, probes_[current_], "screen probes", uint64_t(reservedCount()) * sizeof(gpu::ScreenProbe));
+    growTo(probes_[current_], context.device, "screen probes", uint64_t(reservedCount()) * sizeof(gpu::ScreenProbe));
     context.dispatch(list_, tileCount(),
                      {{"slots", slots_},
                       {"firstProbes", firstProbes_[current_]},

@@ -2,19 +2,12 @@
 
 #include <array>
 
+#include "passes/common/compute/large_buffer.h"
 #include "passes/common/compute/prefix_sum.h"
 #include "passes/common/view/surface_motion.h"
 #include "passes/final_gather/gather_screen_probes/screen_probe_types.h"
 
 namespace voxray {
-
-/// Makes a buffer anew where it is too small, and frees the old one first; its contents are lost. The device must
-/// not be using it.
-inline void growTo(Device& device, Buffer& buffer, const char* name, uint64_t bytes) {
-    if (buffer.bytes() >= bytes) return;
-    buffer = {};
-    buffer = Buffer(device, name, bytes);
-}
 
 /// The probes of a frame and, where rays are guided, those of the frame before: places on what the camera sees, one
 /// in each tile of the G-buffer and some more where a tile shows several surfaces.

@@ -45,9 +45,10 @@ class LightHitFaces final : public Pass {
         "Each face has up to points_per_face of the rays' hits as its points. Shadow rays measure their direct light, "
         "and a ray from each links it to another face, whose light it reflects. Faces that only these rays hit are lit "
         "likewise, and so on, so that no bounce is lost; then light is passed along the links, a bounce at a time. "
-        "gather_rays reads it with `source: hit_faces`. Cost follows the rays, not the scene. "
+        "gather_rays reads it with `source: hit_faces`. Rays follow the image, not the scene. "
         "Biased by: voxel size (a face has one value). Noisy by: points_per_face, light_samples. "
-        "Leaves unlit: all that no ray hits. Source: Magalhães 2020, section 6.1 (light on demand); Keller et al. 2014 (path space filtering).";
+        "Leaves unlit: all that no ray hits. "
+        "Source: Magalhães 2020, section 6.1 (light on demand); Keller et al. 2014 (path space filtering).";
     struct Params {
         uint32_t pointsPerFace = 4;
         uint32_t bounces = 8;
@@ -57,7 +58,7 @@ class LightHitFaces final : public Pass {
                 field("points_per_face", &Params::pointsPerFace,
                       "Points of a face that gather rays hit, of as many hits; one of other faces.", 1u, 64u)
                     .lessNoise(),
-                field("bounces", &Params::bounces, "Bounces of light.", 0u, 32u),
+                field("bounces", &Params::bounces, "Bounces of light at the faces; the gather adds one.", 0u, 32u),
                 field("light_samples", &Params::lightSamples,
                       "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u, 256u)
                     .lessNoise()};

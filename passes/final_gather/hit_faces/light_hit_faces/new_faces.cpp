@@ -7,14 +7,6 @@
 #include "passes/final_gather/hit_faces/light_hit_faces/face_point_types.h"
 
 namespace voxray {
-namespace {
-
-/// Makes a buffer of at least `bytes`; its contents are undefined.
-void makeRoom(Buffer& buffer, Device& device, const char* name, uint64_t bytes) {
-    if (!buffer || buffer.bytes() < bytes) ensureSize(buffer, device, name, bytes);
-}
-
-}  // namespace
 
 NewFaces::NewFaces(ProgramOwner& owner)
     : numberFaces_(owner, "number_faces.comp"),
@@ -30,7 +22,7 @@ void NewFaces::begin(PassContext& context, uint32_t voxelCount) {
 
 uint32_t NewFaces::number(PassContext& context, const HitFaceLight& light, uint32_t firstFace, uint32_t rays) {
     const uint64_t words = marked_.bytes() / sizeof(uint32_t);
-    makeRoom(newFaces_, context.device, "new faces", std::min<uint64_t>(rays, 32 * words) * sizeof(uint32_t));
+    growTo(newFaces_, context.device, "new faces", std::min<uint64_t>(rays, 32 * words) * sizeof(uint32_t));
     const uint32_t faces = compaction_.run(context.stream, marked_, newFaces_, uint32_t(words));
     context.dispatch(numberFaces_, faces, {light, {"newFaces", newFaces_}, {"count", faces}, {"firstFace", firstFace}});
     context.stream.fill(marked_, 0);
@@ -41,10 +33,10 @@ uint32_t NewFaces::choose(PassContext& context, const HitFaceLight& light, const
                           uint32_t firstFace, uint32_t faces, uint32_t slotsPerFace, uint32_t seed) {
     CommandStream& stream = context.stream;
     const uint64_t slots = uint64_t(faces) * slotsPerFace, words = bitWords(slots);
-    makeRoom(slotKeys_, context.device, "keys of points", slots * sizeof(uint32_t));
-    makeRoom(slotHits_, context.device, "hits of points", slots * sizeof(gpu::FaceHit));
-    makeRoom(takenSlots_, context.device, "taken slots of points", words * sizeof(uint32_t));
-    makeRoom(pointSlots_, context.device, "slots of points", slots * sizeof(uint32_t));
+    growTo(slotKeys_, context.device, "keys of points", slots * sizeof(uint32_t));
+    growTo(slotHits_, context.device, "hits of points", slots * sizeof(gpu::FaceHit));
+    growTo(takenSlots_, context.device, "taken slots of points", words * sizeof(uint32_t));
+    growTo(pointSlots_, context.device, "slots of points", slots * sizeof(uint32_t));
     stream.fill(slotKeys_, 0xffffffffu);
     stream.fill(takenSlots_, 0);
     for (const Kernel* kernel : {&vote_, &store_})
