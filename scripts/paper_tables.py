@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 """Writes tables of docs/papers from results that are kept beside them, and measures those results.
 
-paper_tables.py [--measure RUN...] [--take RUN=DIR... --commit COMMIT] [--out DIR] [--program PROGRAM] [--root ROOT]
+paper_tables.py [--measure RUN...] [--take RUN=DIR... --commit COMMIT] [--times DIR...] [--out DIR] [--program PROGRAM] [--root ROOT]
 
 Writes each table into the page that has a line "<!-- table: NAME -->", in place of the table below that line. With --measure the
 runs named are made first, by the build in build/release; with --take their results are read from a folder DIR, to which another
-machine's were brought, say. tests/repository/docs.py fails where a page says something else.
+machine's were brought, say; --times keeps how long the runs in such folders took. tests/repository/docs.py fails where a page says something else.
 
 docs/papers/tables/PAPER.toml has
 - [run.NAME]: `command` and `values`: by a name, where the run has the value. A command is
@@ -20,6 +20,8 @@ docs/papers/tables/PAPER.toml has
 - or, for a table of several runs: `columns`, its headings, and `lines`, the cells of each line, with
   `of["RUN"]["VARIANT"]["NAME"]`. Expressions have min and max besides.
 docs/papers/tables/NAME.csv has the values of a run by variant; its first line has the commit, the device and the command.
+docs/papers/tables/times.csv has the seconds that a run took. A table named replicate_PAGE lists the tables of docs/papers/PAGE.md,
+with what makes each (scripts/replicate_tables.py).
 Where the results of a run were not kept, its CSV was copied from the page, and its first line says so; --measure writes a measured one.
 """
 import argparse
@@ -38,6 +40,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.dont_write_bytecode = True
 sys.path.append(str(ROOT / "framework"))
+sys.path.append(str(ROOT / "scripts"))
+import replicate_tables  # noqa: E402
 from report.rows import markdown_table, read_rows  # noqa: E402
 
 TABLE = re.compile(r"^<!-- table: (\S+) -->\n((?:\|.*\n)*)", re.M)
@@ -149,6 +153,7 @@ def measure(root, name, run, program, kept_in=None):
         else:
             resume = ["--resume"] if kept_in else []
             subprocess.run([program, *shlex.split(run["command"]), "--out", str(out), *resume], cwd=root, check=True)
+            replicate_tables.keep_times(root, {name: out})
             device, found = results_of(root, run, out)
         keep(root, name, run, device, found)
 
@@ -214,12 +219,25 @@ def table_lines(root, name, table):
     return "".join(line + "\n" for line in markdown_table([table["heading"], *table["columns"]], rows))
 
 
+def replicate_lines(root, name):
+    """The table of what makes the tables of a page."""
+    path = root / "docs/papers" / f"{name.removeprefix(replicate_tables.PREFIX)}.md"
+    if not path.exists():
+        raise TableError(f"table {name}: no {path.relative_to(root)}")
+    runs, tables = definitions(root)
+    rows = replicate_tables.rows(root, path, {n: (table, table_lines(root, n, table)) for n, table in tables.items()}, runs,
+                                 replicate_tables.kept_times(root))
+    return "".join(line + "\n" for line in markdown_table(replicate_tables.HEADINGS, rows))
+
+
 def pages(root):
     """(path, text as it is, text with its tables as the results have them) of each page with tables."""
     _, tables = definitions(root)
     shown = set()
 
     def written(match):
+        if match[1].startswith(replicate_tables.PREFIX):
+            return match[0][:match.start(2) - match.start()] + replicate_lines(root, match[1])
         if match[1] not in tables:
             raise TableError(f"{path.relative_to(root)}: no table {match[1]} in docs/papers/tables")
         shown.add(match[1])
@@ -246,6 +264,7 @@ def main():
     parser.add_argument("--measure", nargs="+", default=[], metavar="RUN", help="runs to make first")
     parser.add_argument("--take", nargs="+", default=[], metavar="RUN=DIR", help="runs whose results lie in a folder")
     parser.add_argument("--commit", help="of the build that made what --take reads")
+    parser.add_argument("--times", nargs="+", default=[], type=Path, metavar="DIR", help="folders of runs, whose times to keep")
     parser.add_argument("--out", type=Path, metavar="DIR", help="folder that keeps results of runs; one that was interrupted goes on")
     parser.add_argument("--program", default=str(ROOT / "build/release/bin/voxray"))
     parser.add_argument("--root", type=Path, default=ROOT)
@@ -262,6 +281,7 @@ def main():
                 keep(options.root, name, runs[name], *results_of(options.root, runs[name], taken[name]), options.commit)
             else:
                 measure(options.root, name, runs[name], options.program, options.out)
+        replicate_tables.keep_times(options.root, {folder.name: folder for folder in options.times if folder.name in runs})
         for path, text, right in pages(options.root):
             if text != right:
                 path.write_text(right, encoding="utf-8")

@@ -21,6 +21,8 @@ void addParetoCommand(CLI::App& app, int& status);
 void addExplainCommand(CLI::App& app, int& status);
 void addStabilityCommand(CLI::App& app, int& status);
 void addTuneCommand(CLI::App& app, int& status);
+void addPackCommand(CLI::App& app, int& status);
+void addVerifyCommand(CLI::App& app, int& status);
 void addPlanCommand(CLI::App& app, int& status);
 void addPassesCommand(CLI::App& app, int& status);
 void addDevicesCommand(CLI::App& app, int& status);

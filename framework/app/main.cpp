@@ -88,6 +88,8 @@ int main(int argc, char** argv) {
     addExplainCommand(app, status);
     addStabilityCommand(app, status);
     addTuneCommand(app, status);
+    addPackCommand(app, status);
+    addVerifyCommand(app, status);
     addPlanCommand(app, status);
     addPassesCommand(app, status);
     addDevicesCommand(app, status);

@@ -31,8 +31,8 @@ CLI::Option* addTexts(CLI::App& command, const std::string& name, const std::str
 }
 
 /// Without it CLI11's overloads are ambiguous for a literal.
-void addFlag(CLI::App& command, const std::string& name, const std::string& help) {
-    command.add_flag(name, help);
+CLI::Option* addFlag(CLI::App& command, const std::string& name, const std::string& help) {
+    return command.add_flag(name, help);
 }
 
 CLI::Option* addCount(CLI::App& command, const std::string& name, const std::string& help, int most = 1 << 16) {
@@ -173,6 +173,40 @@ void addParetoCommand(CLI::App& app, int&) {
     addFlag(command, "--no-images", "Leave out images and error maps, for a smaller page.");
     addText(command, "--figures", "DIR",
             "Folder for figures of a paper: the matrix and each scene's chart as SVG and PDF, with their data.");
+}
+
+void addPackCommand(CLI::App& app, int&) {
+    const auto values = std::make_shared<UnusedValues>();
+    CLI::App& command = *addOrchestrationCommand(app, "pack",
+                                                 "Run a config and write a file with which others can check its "
+                                                 "results: config, hashes and licences of scenes, results, "
+                                                 "references, and what each score may differ by.",
+                                                 values);
+    addConfig(command);
+    addText(command, "-o,--out", "FILE.zip", "The file to write; default <experiment>.zip.");
+    addText(command, "--results", "DIR", "Results folder of the run; default results/<experiment>.");
+    addFlag(command, "--resume", "Keep what an earlier run of the same experiment finished.");
+    addFlag(command, "--with-scenes", "Pack all scenes. Without: those of at most 1 MiB whose file states a licence.");
+    addTexts(command, "--licence", "SCENE=TEXT",
+             "Licence of a scene, by its name in the config, where its file states none. May be given many times.");
+    addDeviceOptions(command, values->run);
+    addFlag(command, "--quiet", "Print nothing of the run but errors.");
+    addSweepOptions(command, *values);
+}
+
+void addVerifyCommand(CLI::App& app, int&) {
+    const auto values = std::make_shared<UnusedValues>();
+    CLI::App& command = *addOrchestrationCommand(app, "verify",
+                                                 "Run a packed study again, its references too, and say of each "
+                                                 "score whether it is the same, within its tolerance, or not.",
+                                                 values);
+    addText(command, "PACK", "FILE.zip", "What 'voxray pack' wrote.")->required();
+    addText(command, "--out", "DIR", "Results folder of the run; by default it is removed at the end.");
+    addFlag(command, "--resume", "Keep what an earlier run into this folder finished.")->needs("--out");
+    addText(command, "--scenes", "DIR", "Folder in which scene files are looked for that are not in the pack.")
+        ->check(CLI::ExistingDirectory.description(""));
+    addDeviceOptions(command, values->run);
+    addFlag(command, "--quiet", "Print no claim that is confirmed.");
 }
 
 }  // namespace voxray

@@ -8,8 +8,10 @@
 #include "app/commands.h"
 #include "app/config_options.h"
 #include "app/planning.h"
+#include "app/source_root.h"
 #include "app/text_values.h"
 #include "experiment/results.h"
+#include "experiment/scene_files.h"
 #include "passes/common/families.h"
 
 namespace voxray {
@@ -33,7 +35,7 @@ Value variantValue(const Variant& variant) {
 }
 
 /// The JSON that docs/programs.md describes.
-Value planValue(const Study& study, const std::filesystem::path& file) {
+Value planValue(const Study& study, const PlanArguments& arguments) {
     const Experiment& experiment = study.experiment;
     Value plan = Value::map(), axes = Value::list(), variants = Value::list();
     for (const auto& [path, values] : experiment.sweep.members) {
@@ -45,9 +47,13 @@ Value planValue(const Study& study, const std::filesystem::path& file) {
     for (const Variant& variant : study.variants) variants.items.push_back(variantValue(variant));
     plan.set("name", quotedText(experiment.setup.general.name));
     plan.set("place", quotedText(experiment.config.where.str()));
-    plan.set("profiles", listOf(profileNames(file)));
+    plan.set("profiles", listOf(profileNames(arguments.file)));
     plan.set("config", experiment.config);
     plan.set("reference", study.reference.isNull() ? Value() : study.reference.items.front());
+    std::vector<std::string> folders;
+    for (const auto& folder : sceneFolders(arguments.scenes, sourceRoot(), arguments.file))
+        folders.push_back(folder.string());
+    plan.set("scene_folders", listOf(folders));
     plan.set("columns", listOf(numberColumns(experiment.measure)));
     plan.set("axes", std::move(axes));
     plan.set("variants", std::move(variants));
@@ -68,7 +74,7 @@ void addPlanCommand(CLI::App& app, int&) {
         Registry registry;
         registerPasses(registry);
         const Study study = loadStudy(arguments->file, arguments->config, arguments->only, registry);
-        fmt::print("{}\n", planValue(study, arguments->file).json(-1));
+        fmt::print("{}\n", planValue(study, *arguments).json(-1));
     });
 }
 

@@ -249,7 +249,7 @@ std::string mergedManifest(Json first, const std::vector<ReferenceEntry>& refere
 
 std::string commitOf(const fs::path& sourceRoot) {
     try {
-        // A worktree's .git is a file that names the folder
+        // A worktree's .git is a file that names the folder, which names the one with the branches
         fs::path git = sourceRoot / ".git";
         const auto firstLine = [](const fs::path& path) {
             const std::string text = readTextFile(path);
@@ -259,6 +259,7 @@ std::string commitOf(const fs::path& sourceRoot) {
         const std::string head = firstLine(git / "HEAD");
         if (!head.starts_with("ref: ")) return head;
         const std::string branch = head.substr(5);
+        if (fs::exists(git / "commondir")) git /= firstLine(git / "commondir");
         if (fs::exists(git / branch)) return firstLine(git / branch);
         std::istringstream packed(readTextFile(git / "packed-refs"));
         for (std::string line; std::getline(packed, line);)

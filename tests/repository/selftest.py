@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Checks of the repository find what they are for: each rule against a tree that breaks it, and one that does not."""
 import graphlib
+import json
 import os
 import subprocess
 import sys
@@ -219,6 +220,18 @@ columns = {nRMSE = "{error:.2f}", "over VCT" = "{ms / of['vct']['ms']:.1f} times
         self.assertEqual((done.returncode, done.stdout), (0, "docs/papers/x.md\n"), done.stderr)
         self.assertEqual(docs.check(self.root), [])
 
+        # What makes each table, from its definition, its results and the time that was kept
+        self.write("docs/papers/x.md", "## A [mirror](y.md)\n" + page.format(table))
+        self.write("docs/papers/y.md", "")
+        self.write("docs/papers/tables/times.csv", "run,seconds\nmirrors,120\n")
+        row = ("| [A mirror](papers/x.md#a-mirror), `mirrors` | `./voxray run x.yaml` | "
+               "VCT: nRMSE 1.00, over VCT 1.0 times, paper 1; 1 more row | 2 min |\n")
+        for shown, problems in ((row, 0), (row.replace("1.00", "1.01"), 1), (row.replace("2 min", "3 min"), 1)):
+            self.write("docs/replicate.md", "<!-- table: replicate_x -->\n| table | command | comes out | time |\n"
+                       "| --- | --- | --- | --- |\n" + shown)
+            self.assertEqual(len(docs.check(self.root)), problems, docs.check(self.root))
+        os.remove(os.path.join(self.root, "docs/replicate.md"))
+
         self.write("docs/papers/x.md", page.format(table) + "<!-- table: lights -->\n")
         self.assertEqual(docs.check(self.root), ["docs/papers/x.md: no table lights in docs/papers/tables"])
         self.write("docs/papers/x.md", "none\n")
@@ -228,6 +241,15 @@ columns = {nRMSE = "{error:.2f}", "over VCT" = "{ms / of['vct']['ms']:.1f} times
         self.assertEqual(docs.check(self.root), ["table mirrors: no variant leaves in the results of mirrors"])
         self.write("docs/papers/tables/mirrors.csv", "#\nvariant,error,ms\nleaves,0.125,\nvct,1,20\n")
         self.assertEqual(docs.check(self.root), ["table mirrors, leaves: name 'ms' is not defined"])
+
+    def test_times_of_runs_are_kept(self):
+        manifest = {"finished": "2026-01-01T00:01:40Z", "sessions": [{"started": "2026-01-01T00:00:00Z", "variants": []}],
+                    "references": [{"cached": True, "seconds": 7}, {"cached": False, "seconds": 50}]}
+        for sessions, kept in ((1, {"a": 107.0}), (2, {})):
+            self.write("docs/papers/tables/times.csv", "run,seconds\n")
+            self.write("a/manifest.json", json.dumps({**manifest, "sessions": sessions * manifest["sessions"]}))
+            paper_tables.replicate_tables.keep_times(Path(self.root), {"a": Path(self.root) / "a"})
+            self.assertEqual(paper_tables.replicate_tables.kept_times(Path(self.root)), kept)
 
     def test_table_of_several_runs(self):
         self.write("docs/papers/tables/x.toml", """[run.mirrors]
