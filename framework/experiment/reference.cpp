@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Part of the hash. It must be increased whenever references change, so that older caches are not used.
-constexpr int kReferenceVersion = 3;
+constexpr int kReferenceVersion = 4;
 
 /// Access to total or indirect light of one half of the samples.
 struct Half {

@@ -1,33 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "scene/geometry.h"
+#include "scene/bounded_light.h"
+#include "scene/light_tree_groups.h"
 #include "shaders/scene/light_tree_types.h"
 
 namespace voxray {
-
-/// Where a light is and where it emits: all that a light tree needs.
-struct BoundedLight {
-    uint32_t id = 0;  ///< At most LIGHT_TREE_LEAF - 1; the tree picks it.
-    Box bounds;
-    double intensity = 0;  ///< Radiant intensity along the axis, luminance, W/sr; more than 0.
-    glm::vec3 axis{0, 0, 1};
-    float cosOrientation = 1;  ///< Half angle of a cone round the axis that has the directions it faces.
-    float cosEmission = 0;     ///< Largest angle from these into which it emits.
-    bool doubleSided = false;
-};
-
-/// A point or spot light; nothing for a directional or a black one.
-std::optional<BoundedLight> boundedLight(const Light& light, uint32_t id);
-
-/// An emissive triangle, or a parallelogram of which it is half. @param corners 3 or 4.
-/// @param area m². @param radiance mean luminance, W/(m² sr).
-BoundedLight boundedLight(std::span<const glm::vec3> corners, const glm::vec3& normal, double area, double radiance,
-                          bool doubleSided, uint32_t id);
 
 /// The most nodes that a tree over so many lights has: each inner one has two children or more. At least 1.
 constexpr uint64_t lightTreeNodes(uint64_t lights) {
@@ -79,8 +60,6 @@ class LightTree {
         uint32_t first, count;
     };
     Children children(uint32_t node) const;
-    /// Over the intensity of the node's parent; of a node near the point that of its children.
-    float importance(uint32_t node, const Receiver& to) const;
     bool isLeaf(uint32_t node) const { return (nodes_[node].link & LIGHT_TREE_LEAF) != 0; }
     float childrenImportance(uint32_t node, const Receiver& to) const;
     /// Receiver::beside as an importance.
@@ -88,8 +67,8 @@ class LightTree {
 
     double intensity_ = 0;
     std::vector<gpu::LightTreeNode> nodes_;
-    std::vector<gpu::LightTreeBounds> bounds_;  ///< What their summaries say.
     std::vector<uint32_t> leaves_;
+    LightTreeGroups groups_;
 };
 
 }  // namespace voxray

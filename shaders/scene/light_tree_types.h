@@ -50,9 +50,8 @@ VOXRAY_SHARED_END
 // Of `link` of an inner node.
 #define LIGHT_TREE_COUNT_SHIFT 27u
 #define LIGHT_TREE_FIRST_CHILD 0x07ffffffu
-// Children that a node has at most: a node of so many lights has these, one of more lights LIGHT_TREE_ARITY nodes.
+// Children that a node has at most: a node of so many lights has these.
 #define LIGHT_TREE_MAX_CHILDREN 12u
-#define LIGHT_TREE_ARITY 4u
 // Of the numbers of lights on the device (trace/gpu_scene.h): a punctual light, otherwise an emissive triangle.
 #define LIGHT_TREE_PUNCTUAL 0x40000000u
 #define LIGHT_TREE_INDEX 0x3fffffffu
