@@ -10,6 +10,13 @@ const float NO_LINK_HIT = 65504.0;  // Voxels; the largest half float.
 const float LINK_DIRECTION_ERROR = 0.017;
 const float LINK_DISTANCE_ERROR = 1.0 / 512.0;
 
+// Hits are stored in blocks of surfels, ray by ray: a test of all rays of a group of surfels then reads them in order.
+const uint LINK_HIT_BLOCK = 16u;  // kHitBlock of link_surfels.cpp.
+
+uint linkHitIndex(uint surfel, uint ray, uint raysPerSurfel) {
+    return (surfel / LINK_HIT_BLOCK * raysPerSurfel + ray) * LINK_HIT_BLOCK + surfel % LINK_HIT_BLOCK;
+}
+
 // `voxels`: distance of the hit; rounded up. `direction`: unit length; 8 bits for each coordinate of the octahedral map.
 uint packLinkHit(vec3 direction, float voxels) {
     const uint distance_ = packHalf2x16(vec2(min(voxels * (1.0 + 0.5 * LINK_DISTANCE_ERROR), NO_LINK_HIT), 0.0));

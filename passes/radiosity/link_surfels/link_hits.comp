@@ -24,8 +24,10 @@ buffer FarCount { uint value; } farCount;
 buffer UnlinkedHits { uint value; } unlinkedHits;
 #endif
 #ifdef KEEPS_HITS
+#ifndef ADJACENT
 layout(scalar) readonly buffer LinkHitsRef { LargeUints linkHits; };        // link_hit.glsl
 layout(scalar) readonly buffer InverseSumsRef { LargeUints inverseSums; };  // By surfel (mean_inverse_distance.comp).
+#endif
 readonly buffer ListedRays { uint data[]; } listedRays;
 #endif
 layout(push_constant, scalar) uniform Push {
@@ -87,26 +89,33 @@ NearestSurfel nearestToHit(uint i) {
     return nearestSurfel(p.position, n, occlusion);
 }
 
-// The link of a ray, as the batch counts its rays.
-uint linkOf(uint i) {
+// Surfel and number of a ray, as the batch counts its rays.
+uvec2 surfelAndRay(uint i) {
 #ifdef KEEPS_HITS
     const uint ray = push.isListed != 0u ? listedRays.data[i] : i;
 #else
     const uint ray = i;
 #endif
-    return (ray % push.raysPerSurfel) * push.surfelCount + push.firstSurfel + ray / push.raysPerSurfel;
+    return uvec2(push.firstSurfel + ray / push.raysPerSurfel, ray % push.raysPerSurfel);
 }
 
-#ifdef KEEPS_HITS
-void keepHit(uint i, uint link) {
+void setLink(uint i, uint linked) {
+    const uvec2 ray = surfelAndRay(i);
+    links.data[ray.y * push.surfelCount + ray.x] = linked;
+}
+
+#if defined(KEEPS_HITS) && !defined(ADJACENT)
+void keepHit(uint i) {
     const float distance_ = hits.data[i].triangle != NO_HIT ? hits.data[i].t / push.grid.voxelSize : NO_LINK_HIT;
     const uint hit = packLinkHit(rays.data[i].direction, distance_);
+    const uvec2 ray = surfelAndRay(i);
+    const uint index = linkHitIndex(ray.x, ray.y, push.raysPerSurfel);
     if (push.isListed != 0u) {
         const float units = inverseDistanceUnits(push.raysPerSurfel);
-        const uint change = linkInverseDistance(hit, units) - linkInverseDistance(linkHits.data[link], units);
-        if (change != 0u) atomicAdd(inverseSums.data[link % push.surfelCount], change);
+        const uint change = linkInverseDistance(hit, units) - linkInverseDistance(linkHits.data[index], units);
+        if (change != 0u) atomicAdd(inverseSums.data[ray.x], change);
     }
-    linkHits.data[link] = hit;
+    linkHits.data[index] = hit;
 }
 #endif
 
@@ -116,21 +125,20 @@ void main() {
     if (listed >= farCount.value) return;
     const uint i = farRays.data[listed], surfel = nearestToHit(i).surfel;
     if (surfel == NO_SURFEL) atomicAdd(unlinkedHits.value, 1u);
-    links.data[linkOf(i)] = surfel;
+    setLink(i, surfel);
 }
 #else
 void main() {
     const uint i = linearIndex();
     if (i >= push.rayCount) return;
-    const uint link = linkOf(i);
     NearestSurfel nearest = NearestSurfel(0.0, NO_SURFEL, NO_SURFEL);
     if (hits.data[i].triangle != NO_HIT) nearest = nearestToHit(i);
     if (nearest.error < MAX_ERROR)
-        links.data[link] = nearest.surfel;
+        setLink(i, nearest.surfel);
     else
         farRays.data[atomicAdd(farCount.value, 1u)] = i;
 #ifdef KEEPS_HITS
-    keepHit(i, link);
+    keepHit(i);
 #endif
 }
 #endif

@@ -21,6 +21,9 @@ constexpr uint64_t kPackedSurfelBytes = 2 * sizeof(uint32_t);
 /// adjacent one, and whether it exists depends on surfaces less than a voxel before it.
 constexpr float kHitReach = 3.1f;
 
+constexpr uint32_t kSurfelGroup = 128;  ///< SURFEL_GROUP of list_changed_links.comp.
+constexpr uint32_t kHitBlock = 16;      ///< LINK_HIT_BLOCK of link_hit.glsl.
+
 }  // namespace
 
 /// Links surfels by rays, for inject_radiosity. Source: Goral et al. 1984 (radiosity); Lehtinen et al. 2008
@@ -125,7 +128,7 @@ void LinkSurfels::record(PassContext& context) {
     SurfelLinks& links = context[links_];
     const Surfels& surfels = context[surfels_];
     const uint64_t count = surfels.count;
-    if (count * params_.raysPerSurfel >= std::numeric_limits<uint32_t>::max())
+    if (count * params_.raysPerSurfel > std::numeric_limits<uint32_t>::max() - kHitBlock * params_.raysPerSurfel)
         throw Error(
             "{}: {} surfels with {} rays each are more links than can be numbered (2^32); "
             "lower 'rays_per_surfel', or place_surfels's 'points_per_voxel'",
@@ -133,7 +136,8 @@ void LinkSurfels::record(PassContext& context) {
     links.surfelCount = uint32_t(count);
     ensureSize(links.links, context.device, "surfel links", count * params_.raysPerSurfel * sizeof(uint32_t));
     if (keepsHits_)
-        ensureSize(keptHits_, context.device, "hits of links", count * params_.raysPerSurfel * sizeof(uint32_t));
+        ensureSize(keptHits_, context.device, "hits of links",
+                   (count + kHitBlock - 1) / kHitBlock * kHitBlock * params_.raysPerSurfel * sizeof(uint32_t));
 
     sort_.run(context.stream, surfels, context[voxels_].voxelCount, context[byVoxel_]);
     packSurfels(context);
@@ -193,7 +197,8 @@ uint32_t LinkSurfels::generateRays(PassContext& context, const Batch& batch) con
 uint32_t LinkSurfels::listChangedRays(PassContext& context, const Batch& batch) {
     const SurfelLinks& links = context[links_];
     context.stream.fill(listedCount_, 0);
-    context.dispatch(listChangedLinks_, batch.count,
+    const uint32_t groups = (batch.count + kSurfelGroup - 1) / kSurfelGroup;
+    context.dispatch(listChangedLinks_, groups * kSurfelGroup,
                      {{"boxes", boxes_},
                       {"surfels", batch.chunk.surfels},
                       {"LinksRef", links.links.ref()},

@@ -47,26 +47,42 @@ Box widenedByErrors(Box box, vec3 origin) {
 
 // The directions from a surfel to the sphere around a box, and how far away it is.
 struct Cone {
-    vec3 axis;            // To the center.
-    float squaredCosine;  // Times the squared length of the axis; not positive where the surfel is in the sphere.
-    uint nearest;         // linkHitDistanceBits() of hits that may be in the sphere, at least.
+    float squaredCosine;  // Times the squared distance of the center; not positive where the surfel is in the sphere.
+    uint nearest, farthest;  // linkHitDistanceBits() of hits in the sphere, at least and at most.
 };
 
+uint distanceBits(float distance_) {
+    return packHalf2x16(vec2(clamp(distance_ / push.voxelSize, 0.0, NO_LINK_HIT), 0.0));
+}
+
 Cone coneOf(Box box, vec3 origin) {
-    const vec3 axis = 0.5 * (box.low + box.high) - origin, halfSize = 0.5 * (box.high - box.low);
-    const float radius = length(halfSize), distance_ = length(axis);
-    const float nearest = (1.0 - LINK_DISTANCE_ERROR) * max(distance_ - radius, 0.0) / push.voxelSize;
-    return Cone(axis, distance_ * distance_ - radius * radius, packHalf2x16(vec2(min(nearest, NO_LINK_HIT), 0.0)));
+    const float radius = 0.5 * distance(box.low, box.high), distance_ = distance(0.5 * (box.low + box.high), origin);
+    return Cone(distance_ * distance_ - radius * radius, distanceBits((1.0 - LINK_DISTANCE_ERROR) * (distance_ - radius)),
+                distanceBits((1.0 + 2.0 * LINK_DISTANCE_ERROR) * (distance_ + radius)));
 }
 
-bool mayMeet(Cone cone, uint hit) {
+// `along`: of a direction and the axis, which is the center's offset. `squaredLength`: of the direction.
+bool isInCone(Cone cone, float along, float squaredLength) {
+    return (along > 0.0 && along * along >= cone.squaredCosine * squaredLength) || cone.squaredCosine <= 0.0;
+}
+
+// What the rays of a surfel may meet, up to the errors of packing.
+struct Bounds {
+    Box crossed;  // Changed surfaces, which a ray may cross.
+    Box ended;    // These and what is within reach of them, where a ray may end.
+    vec3 axis;    // To the center of both.
+    Cone toCrossed, toEnded;
+};
+
+bool mayMeet(Bounds bounds, uint hit) {
     const vec3 direction = scaledLinkHitDirection(hit);
-    const float along = dot(direction, cone.axis);
-    const bool isInside = along > 0.0 && along * along >= cone.squaredCosine * dot(direction, direction);
-    return (isInside || cone.squaredCosine <= 0.0) && linkHitDistanceBits(hit) >= cone.nearest;
+    const float along = dot(direction, bounds.axis), squaredLength = dot(direction, direction);
+    const uint distance_ = linkHitDistanceBits(hit);
+    const bool ends = distance_ <= bounds.toEnded.farthest && isInCone(bounds.toEnded, along, squaredLength);
+    return distance_ >= bounds.toEnded.nearest && (ends || isInCone(bounds.toCrossed, along, squaredLength));
 }
 
-uint linkOf(uint surfel, uint ray) { return ray * push.surfelCount + surfel; }
+uint hitOf(uint surfel, uint ray) { return linkHits.data[linkHitIndex(surfel, ray, push.raysPerSurfel)]; }
 
 float lengthOf(uint hit) {
     const float voxels = linkHitDistance(hit);
@@ -95,32 +111,41 @@ void listAll(uint inBatch, Surfel s) {
 
 void clearAll(uint surfel) {
     for (uint ray = 0u; ray < push.raysPerSurfel; ++ray) {
-        links.data[linkOf(surfel, ray)] = 0xffffffffu;
-        linkHits.data[linkOf(surfel, ray)] = packLinkHit(vec3(0.0, 0.0, 1.0), NO_LINK_HIT);
+        links.data[ray * push.surfelCount + surfel] = 0xffffffffu;
+        linkHits.data[linkHitIndex(surfel, ray, push.raysPerSurfel)] = packLinkHit(vec3(0.0, 0.0, 1.0), NO_LINK_HIT);
     }
     inverseSums.data[surfel] = 0u;
 }
 
 // Of links [first, first + count) of a surfel, at most 32.
-void listChanged(uint inBatch, Surfel s, Box bounds, Cone cone, uint first, uint count) {
+void listChanged(uint inBatch, Surfel s, Bounds bounds, uint first, uint count) {
     const uint surfel = push.firstSurfel + inBatch, seed = hashCombine(push.seed, s.id);
     uint inCone = 0u, inBounds = 0u;
-    for (uint i = 0u; i < count; ++i) inCone |= uint(mayMeet(cone, linkHits.data[linkOf(surfel, first + i)])) << i;
+    for (uint i = 0u; i < count; ++i) inCone |= uint(mayMeet(bounds, hitOf(surfel, first + i))) << i;
     while (inCone != 0u) {
-        const uint i = takeBit(inCone), hit = linkHits.data[linkOf(surfel, first + i)];
+        const uint i = takeBit(inCone), hit = hitOf(surfel, first + i);
         const Ray known = Ray(s.position, 0.0, linkHitDirection(hit), lengthOf(hit));
-        inBounds |= uint(intersects(known, bounds)) << i;
+        const bool ends = contains(bounds.ended, known.origin + known.tMax * known.direction);
+        inBounds |= uint(ends || intersects(known, bounds.crossed)) << i;
     }
     while (inBounds != 0u) {
         const uint ray = first + takeBit(inBounds);
         const vec3 direction = cosineDirection(sobol2(ray, seed), s.normal);
-        if (hasChanged(Ray(s.position, 0.0, direction, lengthOf(linkHits.data[linkOf(surfel, ray)]))))
+        if (hasChanged(Ray(s.position, 0.0, direction, lengthOf(hitOf(surfel, ray)))))
             list(inBatch, ray, s.position, direction);
     }
 }
 
+const uint SURFEL_GROUP = 128u;
+
+// Surfels in an order in which those of one side of a surface follow each other: often a change lies behind them all.
+uint surfelOf(uint invocation) {
+    const uint inGroup = invocation % SURFEL_GROUP, side = inGroup / (SURFEL_GROUP / 2u);
+    return invocation - inGroup + 2u * (inGroup % (SURFEL_GROUP / 2u)) + side;
+}
+
 void main() {
-    const uint i = linearIndex();
+    const uint i = surfelOf(linearIndex());
     if (i >= push.batchSurfels) return;
     const Surfel s = surfels.data[push.firstInChunk + i];
     const bool exists = s.id != VOXRAY_NO_SURFEL;
@@ -131,9 +156,11 @@ void main() {
             clearAll(push.firstSurfel + i);
         return;
     }
-    const Box bounds = widenedByErrors(widened(boxes.data[0], push.reach), s.position);
-    if (!exists || isBehind(bounds, s)) return;
-    const Cone cone = coneOf(bounds, s.position);
+    const Box crossed = widenedByErrors(boxes.data[0], s.position);
+    const Box ended = widenedByErrors(widened(boxes.data[0], push.reach), s.position);
+    if (!exists || isBehind(ended, s)) return;
+    const vec3 axis = 0.5 * (crossed.low + crossed.high) - s.position;
+    const Bounds bounds = Bounds(crossed, ended, axis, coneOf(crossed, s.position), coneOf(ended, s.position));
     for (uint first = 0u; first < push.raysPerSurfel; first += 32u)
-        listChanged(i, s, bounds, cone, first, min(push.raysPerSurfel - first, 32u));
+        listChanged(i, s, bounds, first, min(push.raysPerSurfel - first, 32u));
 }

@@ -35,7 +35,6 @@ void MeanDistances::measure(PassContext& context, const SurfelsByVoxel& byVoxel,
                       {"firstSurfel", first},
                       {"batchSurfels", count},
                       {"raysPerSurfel", raysPerSurfel_},
-                      ifUsed({"surfelCount", surfelCount_}),
                       ifUsed({"voxelSize", voxelSize})});
 }
 

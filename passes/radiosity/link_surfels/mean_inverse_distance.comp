@@ -18,9 +18,7 @@ layout(push_constant) uniform Push {
     uint firstSurfel;  // Of the batch.
     uint batchSurfels;
     uint raysPerSurfel;
-#ifdef KEEPS_HITS
-    uint surfelCount;
-#else
+#ifndef KEEPS_HITS
     float voxelSize;  // m
 #endif
 } push;
@@ -32,7 +30,7 @@ void main() {
     const float units = inverseDistanceUnits(push.raysPerSurfel);
     uint sum = 0u;
     for (uint ray = 0u; ray < push.raysPerSurfel; ++ray)
-        sum += linkInverseDistance(linkHits.data[ray * push.surfelCount + push.firstSurfel + i], units);
+        sum += linkInverseDistance(linkHits.data[linkHitIndex(push.firstSurfel + i, ray, push.raysPerSurfel)], units);
     inverseSums.data[push.firstSurfel + i] = sum;
 #else
     const uint sortedIndex = sortedIndices.data[push.firstSurfel + i];
