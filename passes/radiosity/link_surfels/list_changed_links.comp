@@ -1,7 +1,7 @@
 // Lists the links of a batch that have to be traced again, with their rays: those that begin or end close to a changed
 // box, where surfels may have changed, and those that cross one up to their hit. Links are told apart in steps, of which
-// each takes more time than the one before and is left fewer links. Each is a loop over what is left: a loop ends where no
-// surfel of a group has more, but a condition takes the time of its block for all.
+// each takes more time than the one before and is left fewer links. Each is a loop over what is left, which ends as soon
+// as no surfel of a group has more.
 #include "passes/common/compute/changed_boxes.glsl"
 #include "passes/radiosity/link_surfels/link_hit.glsl"
 #include "passes/surfels/path_ray.glsl"

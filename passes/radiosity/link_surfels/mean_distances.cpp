@@ -17,11 +17,10 @@ void MeanDistances::plan(bool moves, uint32_t raysPerSurfel) {
 }
 
 void MeanDistances::begin(Device& device, const Surfels& surfels, const SurfelsByVoxel& byVoxel) {
-    inverseDistances_ = LargeBuffer(device, "inverse distances of surfels",
-                                    std::max(byVoxel.sortedCount, 1u) * sizeof(float));
+    inverseDistances_ =
+        LargeBuffer(device, "inverse distances of surfels", std::max(byVoxel.sortedCount, 1u) * sizeof(float));
     surfelCount_ = uint32_t(surfels.count);
-    if (moves_)
-        ensureSize(sums_, device, "sums of inverse distances", std::max(surfelCount_, 1u) * sizeof(uint32_t));
+    if (moves_) ensureSize(sums_, device, "sums of inverse distances", std::max(surfelCount_, 1u) * sizeof(uint32_t));
 }
 
 void MeanDistances::measure(PassContext& context, const SurfelsByVoxel& byVoxel, const Buffer& hits,

@@ -16,8 +16,8 @@ class MeanDistances {
     void plan(bool moves, uint32_t raysPerSurfel);
     /// Before any other call of a frame.
     void begin(Device& device, const Surfels& surfels, const SurfelsByVoxel& byVoxel);
-    /// Measures surfels [first, first + count) of all. @param hits of their rays; @param keptHits of all links, by which
-    /// they are measured where surfaces move. @param voxelSize m
+    /// Measures surfels [first, first + count) of all. @param hits of their rays; @param keptHits of all links, by
+    /// which they are measured where surfaces move. @param voxelSize m
     void measure(PassContext& context, const SurfelsByVoxel& byVoxel, const Buffer& hits, const LargeBuffer& keptHits,
                  float voxelSize, uint32_t first, uint32_t count) const;
     /// Packs the means of all surfels with them. Waits for the device.
