@@ -8,11 +8,6 @@
 namespace voxray::test {
 namespace {
 
-/// Cornell with a ball that swings between the walls, once in four seconds.
-std::shared_ptr<const Scene> swingingBall() {
-    return cornellWithBall({.radius = 0.12f, .center = {0, 1.3f, 0.2f}, .swing = {0.85f, 0, 0}, .period = 4});
-}
-
 std::string graphOf(const std::string& see, const std::string& cluster = "target: 200") {
     return graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels, sides: all", "cluster_voxels, " + cluster,
                       "find_patches", "cluster_visibility, " + see, "inject_clusters, direct: shadow_rays, bounces: 1",
@@ -56,7 +51,7 @@ void expectSame(Chain& a, Chain& b) {
 TEST(MovingClusters, AreAsMadeThere) {
     // A little on; to where nothing was; to a wall, within a voxel of it; back to where it began.
     const std::string graph = graphOf("rays: 32");
-    const auto scene = swingingBall();
+    const auto scene = cornellWithSwingingBall();
     const auto moved = chainAt(scene, 0, graph);
     EXPECT_EQ(traced(moved->buildSamples), 100);
     for (const double second : {0.02, 0.5, 1.0, 3.1, 4.0}) {
@@ -74,7 +69,7 @@ TEST(MovingClusters, AreAsMadeThere) {
 
 TEST(MovingClusters, AreKeptWhereNothingMoves) {
     const std::string graph = graphOf("rays: 32");
-    const auto scene = swingingBall();
+    const auto scene = cornellWithSwingingBall();
     const auto chain = chainAt(scene, 0.5, graph), made = chainAt(scene, 0.5, graph);
     chain->relight();
     EXPECT_EQ(chain->buildSamples[kVisibility].rays, 0u);
@@ -91,7 +86,7 @@ TEST(MovingClusters, AreKeptWhereNothingMoves) {
 }
 
 TEST(MovingClusters, AreAsMadeThereByAllKinds) {
-    const auto scene = swingingBall();
+    const auto scene = cornellWithSwingingBall();
     for (const std::string& graph :
          {graphOf("rays: 8, near_distance: 0, hemisphere: face", "initial: 3000, assign: first"),
           graphOf("rays: 8, visibility: voxels", "target: 200, unassigned: nearest"),

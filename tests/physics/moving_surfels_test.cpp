@@ -8,11 +8,6 @@
 namespace voxray::test {
 namespace {
 
-/// Cornell with a ball that swings between the walls, once in four seconds.
-std::shared_ptr<const Scene> swingingBall() {
-    return cornellWithBall({.radius = 0.12f, .center = {0, 1.3f, 0.2f}, .swing = {0.85f, 0, 0}, .period = 4});
-}
-
 constexpr size_t kLinks = 2;  ///< link_surfels, among the passes of the build.
 
 void expectAsMadeThere(const std::string& sides) {
@@ -23,7 +18,7 @@ void expectAsMadeThere(const std::string& sides) {
         return reported(samples.at(kLinks), "rays traced, % of all");
     };
     // A little on; to where nothing was; to a wall, within a voxel of it; back to where it began.
-    const auto scene = swingingBall();
+    const auto scene = cornellWithSwingingBall();
     const auto moved = chainAt(scene, 0, graph);
     EXPECT_EQ(traced(moved->buildSamples), 100);
     for (const double second : {0.02, 0.5, 1.0, 3.1, 4.0}) {

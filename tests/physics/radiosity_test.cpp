@@ -75,17 +75,17 @@ TEST(Radiosity, NeighborsAreTheSurfelsWithinAVoxel) {
                 graphYaml({"voxelize, resolution: 12", "place_surfels, sides: all", "link_surfels, rays_per_surfel: 1",
                            "inject_radiosity, bounces: 1", "smooth_surfels"}));
     const SurfelNeighbors& neighbors = chain.get<SurfelNeighbors>("neighbors");
-    const auto begins = chain.read<uint32_t>(neighbors.begins);
+    const auto ranges = chain.read<glm::uvec2>(neighbors.ranges);
     const auto pairs = chain.read<glm::uvec2>(neighbors.pairs);
     const auto surfels = chain.read<gpu::SortedSurfel>(chain.get<SurfelsByVoxel>("surfels_by_voxel").sorted);
     const float size = chain.get<SurfaceVoxels>("voxels").grid.voxelSize;
-    ASSERT_EQ(begins.size(), surfels.size() + 1);
-    ASSERT_EQ(begins.back(), pairs.size());
+    ASSERT_EQ(ranges.size(), surfels.size());
+    ASSERT_EQ(ranges.back().y, pairs.size());
 
     std::vector<bool> isListed(surfels.size());
     size_t missing = 0;
     for (uint32_t i = 0; i < surfels.size(); ++i) {
-        for (uint32_t p = begins[i]; p < begins[i + 1]; ++p) isListed[pairs[p].x] = true;
+        for (uint32_t p = ranges[i].x; p < ranges[i].y; ++p) isListed[pairs[p].x] = true;
         for (uint32_t j = 0; j < surfels.size(); ++j) {
             const gpu::SortedSurfel &a = surfels[i], &b = surfels[j];
             const bool isNear = i != j && glm::distance(a.position, b.position) < size &&

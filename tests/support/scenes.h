@@ -77,6 +77,11 @@ inline std::shared_ptr<const Scene> cornellWithBall(const MovingSpheres& ball) {
     return scene;
 }
 
+/// Cornell with a ball that swings between the walls, once in four seconds.
+inline std::shared_ptr<const Scene> cornellWithSwingingBall() {
+    return cornellWithBall({.radius = 0.12f, .center = {0, 1.3f, 0.2f}, .swing = {0.85f, 0, 0}, .period = 4});
+}
+
 /// Adds a sphere that is in the next of `path` each second.
 inline void addMovingSphere(Scene& scene, uint32_t material, const std::vector<glm::vec3>& path) {
     scene.meshes.push_back(sphereMesh("sphere", glm::vec3(0), 0.13f, 2, material, false, true));

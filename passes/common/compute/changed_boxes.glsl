@@ -24,4 +24,18 @@ bool intersectsChangedBox(Ray ray) {
     return false;
 }
 
+Box widened(Box box, float margin) { return Box(box.low - margin, box.high + margin); }
+
+bool contains(Box box, vec3 point) {
+    return all(greaterThan(point, box.low)) && all(lessThan(point, box.high));
+}
+
+// Whether a point lies within `reach` (m, along each axis) of a changed box.
+bool isNearChange(vec3 point, float reach) {
+    if (!contains(widened(boxes.data[0], reach), point)) return false;
+    for (uint i = 1u; i < boxes.data.length(); ++i)
+        if (contains(widened(boxes.data[i], reach), point)) return true;
+    return false;
+}
+
 #endif

@@ -1,5 +1,6 @@
-// Links each ray to the surfel that best stands for its hit. KEEPS_HITS: stores hits, for updates, which trace listed rays
-// alone.
+// Links each ray to the surfel that best stands for its hit: one in the hit's voxel, or, where none there is close enough,
+// one in the 26 voxels around it, too. The latter are listed, and linked by a second dispatch, with ADJACENT: few in each
+// group of rays would keep all others waiting. KEEPS_HITS: stores hits, for updates, which trace listed rays alone.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"
 #ifdef KEEPS_HITS
@@ -17,9 +18,16 @@ readonly buffer Occluded { uint data[]; } occluded;  // Of the hit: 0 where no s
 layout(scalar) readonly buffer SortedRef { SortedSurfelWords sorted; };
 readonly buffer SurfelRanges { uvec2 data[]; } surfelRanges;
 layout(scalar) readonly buffer LinksRef { LargeUints links; };
+buffer FarRays { uint data[]; } farRays;  // Whose hits are left to the second dispatch.
+buffer FarCount { uint value; } farCount;
+#ifdef ADJACENT
 buffer UnlinkedHits { uint value; } unlinkedHits;
+#endif
 #ifdef KEEPS_HITS
-layout(scalar) readonly buffer LinkHitsRef { LargeUints linkHits; };  // link_hit.glsl
+#ifndef ADJACENT
+layout(scalar) readonly buffer LinkHitsRef { LargeUints linkHits; };        // link_hit.glsl
+layout(scalar) readonly buffer InverseSumsRef { LargeUints inverseSums; };  // By surfel (mean_inverse_distance.comp).
+#endif
 readonly buffer ListedRays { uint data[]; } listedRays;
 #endif
 layout(push_constant, scalar) uniform Push {
@@ -63,37 +71,74 @@ void searchVoxel(ivec3 voxel, vec3 position, vec3 normal, uint occlusion, inout 
     }
 }
 
-// Searches the voxel of the hit, and its 26 neighbors where that has no surfel within MAX_ERROR.
-uint nearestSurfel(vec3 position, vec3 normal, uint occlusion) {
+NearestSurfel nearestSurfel(vec3 position, vec3 normal, uint occlusion) {
     const ivec3 voxel = voxelAt(push.grid, position);
     NearestSurfel nearest = NearestSurfel(1.0e30, NO_SURFEL, NO_SURFEL);
     searchVoxel(voxel, position, normal, occlusion, nearest);
-    if (nearest.error < MAX_ERROR) return nearest.surfel;
+#ifdef ADJACENT
     for (int i = 0; i < 27; ++i)
         if (i != 13) searchVoxel(voxel + ivec3(i % 3, (i / 3) % 3, i / 9) - 1, position, normal, occlusion, nearest);
-    return nearest.surfel;
+#endif
+    return nearest;
 }
 
-void main() {
-    const uint i = linearIndex();
-    if (i >= push.rayCount) return;
-    uint surfel = NO_SURFEL;
-    if (hits.data[i].triangle != NO_HIT) {
-        const uint occlusion = occluded.data[i] != 0u ? VOXRAY_OCCLUDED : 0u;
-        const SurfacePoint p = surfacePoint(hits.data[i].triangle, vec2(hits.data[i].u, hits.data[i].v));
-        const vec3 n = dot(p.geometricNormal, rays.data[i].direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
-        surfel = nearestSurfel(p.position, n, occlusion);
-        if (surfel == NO_SURFEL) atomicAdd(unlinkedHits.value, 1u);
-    }
+NearestSurfel nearestToHit(uint i) {
+    const uint occlusion = occluded.data[i] != 0u ? VOXRAY_OCCLUDED : 0u;
+    const SurfacePoint p = surfacePoint(hits.data[i].triangle, vec2(hits.data[i].u, hits.data[i].v));
+    const vec3 n = dot(p.geometricNormal, rays.data[i].direction) <= 0.0 ? p.geometricNormal : -p.geometricNormal;
+    return nearestSurfel(p.position, n, occlusion);
+}
+
+// Surfel and number of a ray, as the batch counts its rays.
+uvec2 surfelAndRay(uint i) {
 #ifdef KEEPS_HITS
     const uint ray = push.isListed != 0u ? listedRays.data[i] : i;
 #else
     const uint ray = i;
 #endif
-    const uint link = (ray % push.raysPerSurfel) * push.surfelCount + push.firstSurfel + ray / push.raysPerSurfel;
-    links.data[link] = surfel;
-#ifdef KEEPS_HITS
+    return uvec2(push.firstSurfel + ray / push.raysPerSurfel, ray % push.raysPerSurfel);
+}
+
+void setLink(uint i, uint linked) {
+    const uvec2 ray = surfelAndRay(i);
+    links.data[ray.y * push.surfelCount + ray.x] = linked;
+}
+
+#if defined(KEEPS_HITS) && !defined(ADJACENT)
+void keepHit(uint i) {
     const float distance_ = hits.data[i].triangle != NO_HIT ? hits.data[i].t / push.grid.voxelSize : NO_LINK_HIT;
-    linkHits.data[link] = packLinkHit(rays.data[i].direction, distance_);
+    const uint hit = packLinkHit(rays.data[i].direction, distance_);
+    const uvec2 ray = surfelAndRay(i);
+    const uint index = linkHitIndex(ray.x, ray.y, push.raysPerSurfel);
+    if (push.isListed != 0u) {
+        const float units = inverseDistanceUnits(push.raysPerSurfel);
+        const uint change = linkInverseDistance(hit, units) - linkInverseDistance(linkHits.data[index], units);
+        if (change != 0u) atomicAdd(inverseSums.data[ray.x], change);
+    }
+    linkHits.data[index] = hit;
+}
+#endif
+
+#ifdef ADJACENT
+void main() {
+    const uint listed = linearIndex();
+    if (listed >= farCount.value) return;
+    const uint i = farRays.data[listed], surfel = nearestToHit(i).surfel;
+    if (surfel == NO_SURFEL) atomicAdd(unlinkedHits.value, 1u);
+    setLink(i, surfel);
+}
+#else
+void main() {
+    const uint i = linearIndex();
+    if (i >= push.rayCount) return;
+    NearestSurfel nearest = NearestSurfel(0.0, NO_SURFEL, NO_SURFEL);
+    if (hits.data[i].triangle != NO_HIT) nearest = nearestToHit(i);
+    if (nearest.error < MAX_ERROR)
+        setLink(i, nearest.surfel);
+    else
+        farRays.data[atomicAdd(farCount.value, 1u)] = i;
+#ifdef KEEPS_HITS
+    keepHit(i);
 #endif
 }
+#endif

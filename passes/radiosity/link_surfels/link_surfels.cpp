@@ -6,6 +6,7 @@
 #include "passes/common/compute/changed_boxes.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/voxels/voxels.h"
+#include "passes/radiosity/link_surfels/mean_distances.h"
 #include "passes/radiosity/link_surfels/neighbor_search.h"
 #include "passes/surfels/surfel_links.h"
 #include "passes/surfels/surfel_sort.h"
@@ -19,6 +20,9 @@ constexpr uint64_t kPackedSurfelBytes = 2 * sizeof(uint32_t);
 /// Distance in voxels up to which a change may affect the surfel of a hit: that lies in the voxel of the hit or an
 /// adjacent one, and whether it exists depends on surfaces less than a voxel before it.
 constexpr float kHitReach = 3.1f;
+
+constexpr uint32_t kSurfelGroup = 128;  ///< SURFEL_GROUP of list_changed_links.comp.
+constexpr uint32_t kHitBlock = 16;      ///< LINK_HIT_BLOCK of link_hit.glsl.
 
 }  // namespace
 
@@ -65,9 +69,8 @@ class LinkSurfels final : public Pass {
     /// Generates the rays of a batch that a change may affect, and lists them. @return their number.
     uint32_t listChangedRays(PassContext& context, const Batch& batch);
     void traceOcclusion(PassContext& context, uint32_t rays);
-    /// @param inverseDistances by sorted surfel, means over its rays, 1/voxel.
-    void measureMeanDistances(PassContext& context, const Batch& batch, const LargeBuffer& inverseDistances) const;
-    void packMeanDistances(PassContext& context, const LargeBuffer& inverseDistances) const;
+    void linkHits(PassContext& context, const Batch& batch, uint32_t rays, bool isUpdate);
+    void findNeighbors(PassContext& context, bool isUpdate);
 
     const Params params_;
     In<SurfaceVoxels> voxels_{*this, "voxels", "surface voxels, by which surfels are found"};
@@ -76,18 +79,19 @@ class LinkSurfels final : public Pass {
     Out<SurfelsByVoxel> byVoxel_{*this, "surfels_by_voxel", "the surfels of each voxel"};
     Out<SurfelNeighbors> neighbors_{*this, "neighbors", "the surfels around each surfel"};
     SurfelSort sort_{*this};
+    MeanDistances meanDistances_{*this};
     NeighborSearch neighborSearch_{*this};
     Kernel packSurfels_{*this, "pack_surfels.comp"};
     Kernel generateRays_{*this, "generate_rays.comp"};
     Kernel generateOcclusionRays_{*this, "passes/surfels/generate_occlusion_rays.comp"};
     Kernel linkHits_{*this, "link_hits.comp"};
-    Kernel meanInverseDistance_{*this, "mean_inverse_distance.comp"};
-    Kernel packMeanDistances_{*this, "pack_mean_distances.comp"};
+    Kernel linkFarHits_{*this, "link_hits.comp", {{"ADJACENT", "1"}}};
     Kernel listChangedLinks_{*this, "list_changed_links.comp"};
     bool keepsHits_ = false;                                        ///< Surfaces move.
     LargeBuffer keptHits_;                                          ///< By link (link_hit.glsl), if hits are kept.
     Buffer boxes_;                                                  ///< Of changes, during an update.
     Buffer rays_, hits_, occlusionRays_, occluded_, unlinkedHits_;  ///< Scratch, of a batch of rays.
+    Buffer farRays_, farCount_;                                     ///< Scratch: rays left to linkFarHits_.
     Buffer listedRays_, listedCount_;                               ///< Likewise, if hits are kept.
 };
 
@@ -102,10 +106,14 @@ void LinkSurfels::plan(PassPlan& plan) {
     plan.scratchBuffer(occlusionRays_, "occlusion rays of link hits", uint64_t(kBatchRays) * sizeof(Ray));
     plan.scratchBuffer(occluded_, "occluded link hits", uint64_t(kBatchRays) * sizeof(uint32_t));
     plan.scratchBuffer(unlinkedHits_, "number of hits without surfel", sizeof(uint32_t));
+    plan.scratchBuffer(farRays_, "rays with no surfel close to their hit", uint64_t(kBatchRays) * sizeof(uint32_t));
+    plan.scratchBuffer(farCount_, "number of rays with no surfel close to their hit", sizeof(uint32_t));
     plan[byVoxel_].hasOccludedSurfels = surfels.hasOccludedSurfels;
+    meanDistances_.plan(keepsHits_, params_.raysPerSurfel);
+    neighborSearch_.plan(plan[neighbors_], keepsHits_);
     listChangedLinks_.compileIf(keepsHits_);
     if (!keepsHits_) return;
-    for (Kernel* kernel : {&linkHits_, &meanInverseDistance_}) kernel->define({{"KEEPS_HITS", "1"}});
+    for (Kernel* kernel : {&linkHits_, &linkFarHits_}) kernel->define({{"KEEPS_HITS", "1"}});
     plan.scratchBuffer(listedRays_, "listed link rays", uint64_t(kBatchRays) * sizeof(uint32_t));
     plan.scratchBuffer(listedCount_, "number of listed link rays", sizeof(uint32_t));
 }
@@ -120,7 +128,7 @@ void LinkSurfels::record(PassContext& context) {
     SurfelLinks& links = context[links_];
     const Surfels& surfels = context[surfels_];
     const uint64_t count = surfels.count;
-    if (count * params_.raysPerSurfel >= std::numeric_limits<uint32_t>::max())
+    if (count * params_.raysPerSurfel > std::numeric_limits<uint32_t>::max() - kHitBlock * params_.raysPerSurfel)
         throw Error(
             "{}: {} surfels with {} rays each are more links than can be numbered (2^32); "
             "lower 'rays_per_surfel', or place_surfels's 'points_per_voxel'",
@@ -128,14 +136,14 @@ void LinkSurfels::record(PassContext& context) {
     links.surfelCount = uint32_t(count);
     ensureSize(links.links, context.device, "surfel links", count * params_.raysPerSurfel * sizeof(uint32_t));
     if (keepsHits_)
-        ensureSize(keptHits_, context.device, "hits of links", count * params_.raysPerSurfel * sizeof(uint32_t));
+        ensureSize(keptHits_, context.device, "hits of links",
+                   (count + kHitBlock - 1) / kHitBlock * kHitBlock * params_.raysPerSurfel * sizeof(uint32_t));
 
     sort_.run(context.stream, surfels, context[voxels_].voxelCount, context[byVoxel_]);
     packSurfels(context);
     const bool isUpdate = canUpdate(context);
     if (isUpdate) boxes_ = changedBoxes(context.stream, *context.frame.changedRegions, context[voxels_].grid.voxelSize);
-    const LargeBuffer inverseDistances(context.device, "inverse distances of surfels",
-                                       std::max(context[byVoxel_].sortedCount, 1u) * sizeof(float));
+    meanDistances_.begin(context.device, surfels, context[byVoxel_]);
     context.stream.fill(unlinkedHits_, 0);
     if (!context[surfels_].hasOccludedSurfels) context.stream.fill(occluded_, 0);
     const uint32_t perBatch = kBatchRays / params_.raysPerSurfel;
@@ -144,16 +152,15 @@ void LinkSurfels::record(PassContext& context) {
         for (uint32_t first = 0; first < chunk.count; first += perBatch) {
             const Batch batch{chunk, first, std::min(perBatch, chunk.count - first)};
             rays += link(context, batch, isUpdate);
-            measureMeanDistances(context, batch, inverseDistances);
+            if (isUpdate) continue;
+            meanDistances_.measure(context, context[byVoxel_], hits_, keptHits_, context[voxels_].grid.voxelSize,
+                                   batch.firstIndex(), batch.count);
         }
         context.stream.finish();
     }
+    meanDistances_.pack(context, context[byVoxel_], context[voxels_].voxelCount);
+    if (context[neighbors_].isRead) findNeighbors(context, isUpdate);
     boxes_ = {};
-    packMeanDistances(context, inverseDistances);
-    if (context[neighbors_].isRead)
-        context.report("radius of neighbors, voxels",
-                       neighborSearch_.run(context.stream, context[voxels_], surfels.pointCount, context[byVoxel_],
-                                           context[neighbors_]));
     const uint32_t unlinkedHits = context.stream.readAs<uint32_t>(unlinkedHits_, 1)[0];
     const double linkCount = double(context[byVoxel_].sortedCount) * params_.raysPerSurfel;
     context.report("links", linkCount);
@@ -190,11 +197,13 @@ uint32_t LinkSurfels::generateRays(PassContext& context, const Batch& batch) con
 uint32_t LinkSurfels::listChangedRays(PassContext& context, const Batch& batch) {
     const SurfelLinks& links = context[links_];
     context.stream.fill(listedCount_, 0);
-    context.dispatch(listChangedLinks_, batch.count,
+    const uint32_t groups = (batch.count + kSurfelGroup - 1) / kSurfelGroup;
+    context.dispatch(listChangedLinks_, groups * kSurfelGroup,
                      {{"boxes", boxes_},
                       {"surfels", batch.chunk.surfels},
                       {"LinksRef", links.links.ref()},
                       {"LinkHitsRef", keptHits_.ref()},
+                      {"InverseSumsRef", meanDistances_.sums().ref()},
                       {"rays", rays_},
                       {"listedRays", listedRays_},
                       {"listedCount", listedCount_},
@@ -221,55 +230,50 @@ void LinkSurfels::traceOcclusion(PassContext& context, uint32_t rays) {
 }
 
 uint32_t LinkSurfels::link(PassContext& context, const Batch& batch, bool isUpdate) {
-    const SurfelLinks& links = context[links_];
-    const SurfelsByVoxel& byVoxel = context[byVoxel_];
     const uint32_t rays = isUpdate ? listChangedRays(context, batch) : generateRays(context, batch);
     if (rays == 0) return 0;
     context.tracer.closestHit(context.stream, rays_, hits_, rays);
     if (context[surfels_].hasOccludedSurfels) traceOcclusion(context, rays);
-    context.dispatch(linkHits_, rays,
-                     {context.scene,
-                      context[voxels_],
-                      {"rays", rays_},
-                      {"hits", hits_},
-                      {"occluded", occluded_},
-                      {"SortedRef", byVoxel.sorted.ref()},
-                      {"surfelRanges", byVoxel.ranges},
-                      {"LinksRef", links.links.ref()},
-                      {"unlinkedHits", unlinkedHits_},
-                      {"firstSurfel", batch.firstIndex()},
-                      {"rayCount", rays},
-                      {"raysPerSurfel", params_.raysPerSurfel},
-                      {"surfelCount", links.surfelCount},
-                      ifUsed({"LinkHitsRef", keptHits_.ref()}),
-                      ifUsed({"listedRays", listedRays_}),
-                      ifUsed({"isListed", isUpdate})});
+    linkHits(context, batch, rays, isUpdate);
     return rays;
 }
 
-void LinkSurfels::measureMeanDistances(PassContext& context, const Batch& batch,
-                                       const LargeBuffer& inverseDistances) const {
-    context.dispatch(meanInverseDistance_, batch.count,
-                     {ifUsed({"hits", hits_}),
-                      ifUsed({"LinkHitsRef", keptHits_.ref()}),
-                      {"SortedIndicesRef", context[byVoxel_].sortedIndices.ref()},
-                      {"InverseDistancesRef", inverseDistances.ref()},
-                      {"firstSurfel", batch.firstIndex()},
-                      {"batchSurfels", batch.count},
-                      {"raysPerSurfel", params_.raysPerSurfel},
-                      ifUsed({"surfelCount", context[links_].surfelCount}),
-                      {"voxelSize", context[voxels_].grid.voxelSize}});
+void LinkSurfels::linkHits(PassContext& context, const Batch& batch, uint32_t rays, bool isUpdate) {
+    const SurfelLinks& links = context[links_];
+    const SurfelsByVoxel& byVoxel = context[byVoxel_];
+    context.stream.fill(farCount_, 0);
+    for (const Kernel* kernel : {&linkHits_, &linkFarHits_})
+        context.dispatch(*kernel, rays,
+                         {context.scene,
+                          context[voxels_],
+                          {"rays", rays_},
+                          {"hits", hits_},
+                          {"occluded", occluded_},
+                          {"SortedRef", byVoxel.sorted.ref()},
+                          {"surfelRanges", byVoxel.ranges},
+                          {"LinksRef", links.links.ref()},
+                          {"farRays", farRays_},
+                          {"farCount", farCount_},
+                          ifUsed({"unlinkedHits", unlinkedHits_}),
+                          {"firstSurfel", batch.firstIndex()},
+                          {"rayCount", rays},
+                          {"raysPerSurfel", params_.raysPerSurfel},
+                          {"surfelCount", links.surfelCount},
+                          ifUsed({"LinkHitsRef", keptHits_.ref()}),
+                          ifUsed({"InverseSumsRef", meanDistances_.sums().ref()}),
+                          ifUsed({"listedRays", listedRays_}),
+                          ifUsed({"isListed", isUpdate})});
 }
 
-void LinkSurfels::packMeanDistances(PassContext& context, const LargeBuffer& inverseDistances) const {
-    const SurfelsByVoxel& byVoxel = context[byVoxel_];
-    const uint32_t voxels = context[voxels_].voxelCount;
-    context.dispatch(packMeanDistances_, voxels,
-                     {{"InverseDistancesRef", inverseDistances.ref()},
-                      {"PackedRef", byVoxel.packed.ref()},
-                      {"surfelRanges", byVoxel.ranges},
-                      {"voxels", voxels}});
-    context.stream.finish();
+void LinkSurfels::findNeighbors(PassContext& context, bool isUpdate) {
+    const SurfaceVoxels& voxels = context[voxels_];
+    SurfelNeighbors& neighbors = context[neighbors_];
+    if (isUpdate)
+        neighborSearch_.update(context.stream, voxels, context[surfels_], context[byVoxel_], boxes_,
+                               kHitReach * voxels.grid.voxelSize, neighbors);
+    else
+        neighborSearch_.run(context.stream, voxels, context[surfels_], context[byVoxel_], neighbors);
+    context.report("radius of neighbors, voxels", neighbors.radius);
 }
 
 VOXRAY_REGISTER_PASS(LinkSurfels);

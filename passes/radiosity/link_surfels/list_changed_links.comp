@@ -1,5 +1,7 @@
 // Lists the links of a batch that have to be traced again, with their rays: those that begin or end close to a changed
-// box, where surfels may have changed, and those that cross one up to their hit.
+// box, where surfels may have changed, and those that cross one up to their hit. Links are told apart in steps, of which
+// each takes more time than the one before and is left fewer links. Each is a loop over what is left, which ends as soon
+// as no surfel of a group has more.
 #include "passes/common/compute/changed_boxes.glsl"
 #include "passes/radiosity/link_surfels/link_hit.glsl"
 #include "passes/surfels/path_ray.glsl"
@@ -10,6 +12,7 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
 layout(scalar) readonly buffer LinksRef { LargeUints links; };
 layout(scalar) readonly buffer LinkHitsRef { LargeUints linkHits; };
+layout(scalar) readonly buffer InverseSumsRef { LargeUints inverseSums; };  // By surfel (mean_inverse_distance.comp).
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(scalar) writeonly buffer ListedRays { uint data[]; } listedRays;
 buffer ListedCount { uint value; } listedCount;
@@ -24,21 +27,9 @@ layout(push_constant) uniform Push {
     float voxelSize;  // m
 } push;
 
-Box widened(Box box, float margin) { return Box(box.low - margin, box.high + margin); }
-
-bool contains(Box box, vec3 point) {
-    return all(greaterThan(point, box.low)) && all(lessThan(point, box.high));
-}
-
-bool isNearChange(vec3 point, float reach) {
-    for (uint i = 1u; i < boxes.data.length(); ++i)
-        if (contains(widened(boxes.data[i], reach), point)) return true;
-    return false;
-}
-
 // `ray`: up to its hit, whose distance is rounded up.
 bool hasChanged(Ray ray) {
-    return isNearChange(ray.origin, push.reach) || intersectsChangedBox(ray) ||
+    return intersectsChangedBox(ray) ||
            isNearChange(ray.origin + ray.tMax * ray.direction, push.reach + LINK_DISTANCE_ERROR * ray.tMax);
 }
 
@@ -54,29 +45,122 @@ Box widenedByErrors(Box box, vec3 origin) {
     return widened(box, (LINK_DIRECTION_ERROR + LINK_DISTANCE_ERROR) * farthest);
 }
 
+// The directions from a surfel to the sphere around a box, and how far away it is.
+struct Cone {
+    float squaredCosine;  // Times the squared distance of the center; not positive where the surfel is in the sphere.
+    uint nearest, farthest;  // linkHitDistanceBits() of hits in the sphere, at least and at most.
+};
+
+uint distanceBits(float distance_) {
+    return packHalf2x16(vec2(clamp(distance_ / push.voxelSize, 0.0, NO_LINK_HIT), 0.0));
+}
+
+Cone coneOf(Box box, vec3 origin) {
+    const float radius = 0.5 * distance(box.low, box.high), distance_ = distance(0.5 * (box.low + box.high), origin);
+    return Cone(distance_ * distance_ - radius * radius, distanceBits((1.0 - LINK_DISTANCE_ERROR) * (distance_ - radius)),
+                distanceBits((1.0 + 2.0 * LINK_DISTANCE_ERROR) * (distance_ + radius)));
+}
+
+// `along`: of a direction and the axis, which is the center's offset. `squaredLength`: of the direction.
+bool isInCone(Cone cone, float along, float squaredLength) {
+    return (along > 0.0 && along * along >= cone.squaredCosine * squaredLength) || cone.squaredCosine <= 0.0;
+}
+
+// What the rays of a surfel may meet, up to the errors of packing.
+struct Bounds {
+    Box crossed;  // Changed surfaces, which a ray may cross.
+    Box ended;    // These and what is within reach of them, where a ray may end.
+    vec3 axis;    // To the center of both.
+    Cone toCrossed, toEnded;
+};
+
+bool mayMeet(Bounds bounds, uint hit) {
+    const vec3 direction = scaledLinkHitDirection(hit);
+    const float along = dot(direction, bounds.axis), squaredLength = dot(direction, direction);
+    const uint distance_ = linkHitDistanceBits(hit);
+    const bool ends = distance_ <= bounds.toEnded.farthest && isInCone(bounds.toEnded, along, squaredLength);
+    return distance_ >= bounds.toEnded.nearest && (ends || isInCone(bounds.toCrossed, along, squaredLength));
+}
+
+uint hitOf(uint surfel, uint ray) { return linkHits.data[linkHitIndex(surfel, ray, push.raysPerSurfel)]; }
+
+float lengthOf(uint hit) {
+    const float voxels = linkHitDistance(hit);
+    return voxels < NO_LINK_HIT ? voxels * push.voxelSize : 1.0e30;
+}
+
+// The next bit that is set, which is cleared.
+uint takeBit(inout uint bits) {
+    const uint bit = uint(findLSB(bits));
+    bits &= bits - 1u;
+    return bit;
+}
+
+void list(uint inBatch, uint ray, vec3 origin, vec3 direction) {
+    const uint listed = atomicAdd(listedCount.value, 1u);
+    rays.data[listed] = Ray(origin, 0.0, direction, 1.0e30);
+    listedRays.data[listed] = inBatch * push.raysPerSurfel + ray;
+}
+
+// All links of a surfel close to a change.
+void listAll(uint inBatch, Surfel s) {
+    const uint surfel = push.firstSurfel + inBatch, seed = hashCombine(push.seed, s.id);
+    for (uint ray = 0u; ray < push.raysPerSurfel; ++ray)
+        list(inBatch, ray, s.position, cosineDirection(sobol2(ray, seed), s.normal));
+}
+
+void clearAll(uint surfel) {
+    for (uint ray = 0u; ray < push.raysPerSurfel; ++ray) {
+        links.data[ray * push.surfelCount + surfel] = 0xffffffffu;
+        linkHits.data[linkHitIndex(surfel, ray, push.raysPerSurfel)] = packLinkHit(vec3(0.0, 0.0, 1.0), NO_LINK_HIT);
+    }
+    inverseSums.data[surfel] = 0u;
+}
+
+// Of links [first, first + count) of a surfel, at most 32.
+void listChanged(uint inBatch, Surfel s, Bounds bounds, uint first, uint count) {
+    const uint surfel = push.firstSurfel + inBatch, seed = hashCombine(push.seed, s.id);
+    uint inCone = 0u, inBounds = 0u;
+    for (uint i = 0u; i < count; ++i) inCone |= uint(mayMeet(bounds, hitOf(surfel, first + i))) << i;
+    while (inCone != 0u) {
+        const uint i = takeBit(inCone), hit = hitOf(surfel, first + i);
+        const Ray known = Ray(s.position, 0.0, linkHitDirection(hit), lengthOf(hit));
+        const bool ends = contains(bounds.ended, known.origin + known.tMax * known.direction);
+        inBounds |= uint(ends || intersects(known, bounds.crossed)) << i;
+    }
+    while (inBounds != 0u) {
+        const uint ray = first + takeBit(inBounds);
+        const vec3 direction = cosineDirection(sobol2(ray, seed), s.normal);
+        if (hasChanged(Ray(s.position, 0.0, direction, lengthOf(hitOf(surfel, ray)))))
+            list(inBatch, ray, s.position, direction);
+    }
+}
+
+const uint SURFEL_GROUP = 128u;
+
+// Surfels in an order in which those of one side of a surface follow each other: often a change lies behind them all.
+uint surfelOf(uint invocation) {
+    const uint inGroup = invocation % SURFEL_GROUP, side = inGroup / (SURFEL_GROUP / 2u);
+    return invocation - inGroup + 2u * (inGroup % (SURFEL_GROUP / 2u)) + side;
+}
+
 void main() {
-    const uint i = linearIndex();
+    const uint i = surfelOf(linearIndex());
     if (i >= push.batchSurfels) return;
     const Surfel s = surfels.data[push.firstInChunk + i];
     const bool exists = s.id != VOXRAY_NO_SURFEL;
-    const Box bounds = widenedByErrors(widened(boxes.data[0], push.reach), s.position);
-    if (exists && isBehind(bounds, s)) return;
-    const uint seed = hashCombine(push.seed, s.id);
-    for (uint ray = 0u; ray < push.raysPerSurfel; ++ray) {
-        const uint link = ray * push.surfelCount + push.firstSurfel + i;
-        if (!exists) {
-            links.data[link] = 0xffffffffu;
-            linkHits.data[link] = packLinkHit(vec3(0.0, 0.0, 1.0), NO_LINK_HIT);
-            continue;
-        }
-        // Most rays are far from all changes, which their packed directions tell in less time than it takes to find them
-        const uint hit = linkHits.data[link];
-        const float voxels = linkHitDistance(hit), tMax = voxels < NO_LINK_HIT ? voxels * push.voxelSize : 1.0e30;
-        if (!intersects(Ray(s.position, 0.0, linkHitDirection(hit), tMax), bounds)) continue;
-        const vec3 direction = cosineDirection(sobol2(ray, seed), s.normal);
-        if (!hasChanged(Ray(s.position, 0.0, direction, tMax))) continue;
-        const uint listed = atomicAdd(listedCount.value, 1u);
-        rays.data[listed] = Ray(s.position, 0.0, direction, 1.0e30);
-        listedRays.data[listed] = i * push.raysPerSurfel + ray;
+    if (isNearChange(s.position, push.reach)) {
+        if (exists)
+            listAll(i, s);
+        else
+            clearAll(push.firstSurfel + i);
+        return;
     }
+    const Box crossed = widenedByErrors(boxes.data[0], s.position);
+    const Box ended = widenedByErrors(widened(boxes.data[0], push.reach), s.position);
+    if (!exists || isBehind(ended, s)) return;
+    const vec3 axis = 0.5 * (crossed.low + crossed.high) - s.position;
+    const Bounds bounds = Bounds(crossed, ended, axis, coneOf(crossed, s.position), coneOf(ended, s.position));
+    for (uint first = 0u; first < push.raysPerSurfel; first += 32u)
+        listChanged(i, s, bounds, first, min(push.raysPerSurfel - first, 32u));
 }

@@ -7,28 +7,29 @@
 // two may differ for their geometry, plus the squared difference of their neighborhoods' means beyond its variance.
 #include "passes/surfels/smooth_surfels/neighborhoods.glsl"
 
-layout(scalar) readonly buffer ResultRef { LitSurfels result; };
-
-// `a`, `b`: the moments of Neighborhoods. `pair`: biasAndKernel().
-float weightOf(vec3 a, vec3 b, vec2 pair) {
-    const float mean_ = 0.5 * (a.x + b.x), noise = 0.5 * (a.y + b.y), difference = a.x - b.x;
-    const float bias2 = pair.x * mean_ * mean_ + max(difference * difference - a.z - b.z, 0.0);
-    return pair.y * (bias2 > 0.0 ? noise / max(noise + bias2, 1e-30) : 1.0);
+// `a`, `b`: Neighborhoods.
+float weightOf(uvec4 a, uvec4 b, uvec2 pair) {
+    const Neighbor n = neighborOf(pair, lowerHalf(a.z), lowerHalf(b.z));
+    const vec2 ofA = uintBitsToFloat(a.xy), ofB = uintBitsToFloat(b.xy);
+    const float mean_ = 0.5 * (ofA.x + ofB.x), noise = 0.5 * (ofA.y + ofB.y), difference = ofA.x - ofB.x;
+    const float bias2 =
+        n.bias * mean_ * mean_ + max(difference * difference - upperHalf(a.z) - upperHalf(b.z), 0.0);
+    return n.kernel * (bias2 > 0.0 ? noise / max(noise + bias2, 1e-30) : 1.0);
 }
 
 void main() {
-    const uint surfel = linearIndex();
-    if (surfel >= push.count) return;
-    const uvec4 center = neighborhoods.data[surfel];
-    const uint end = begins.data[surfel + 1u];
+    const uint node = linearIndex();
+    if (node >= push.count) return;
+    const uvec4 center = neighborhoods.data[node];
+    const uvec2 range = ranges.data[node];
     vec3 sum = unpackRadiosity(center.w);
     float weights = 1.0;
-    for (uint i = begins.data[surfel]; i < end; ++i) {
+    for (uint i = range.x; i < range.y; ++i) {
         const uvec2 pair = pairs.data[i];
         const uvec4 neighbor = neighborhoods.data[pair.x];
-        const float weight = weightOf(uintBitsToFloat(center.xyz), uintBitsToFloat(neighbor.xyz), biasAndKernel(pair));
+        const float weight = weightOf(center, neighbor, pair);
         sum += weight * unpackRadiosity(neighbor.w);
         weights += weight;
     }
-    result.data[surfel] = uvec3(lit.data[surfel].xy, packRadiosity(sum / weights));
+    nodes.data[node].y = packRadiosity(sum / weights);
 }

@@ -13,17 +13,18 @@ void add(float weight, uint irradiance) {
 }
 
 void main() {
-    const uint surfel = linearIndex();
-    if (surfel >= push.count) return;
+    const uint node = linearIndex();
+    if (node >= push.count) return;
     weights = 0.0, squaredWeights = 0.0, sum = 0.0, squares = 0.0;
-    const uint irradiance = lit.data[surfel].z, end = begins.data[surfel + 1u];
-    add(1.0, irradiance);
-    for (uint i = begins.data[surfel]; i < end; ++i) {
-        const uvec2 neighbor = pairs.data[i];
-        const vec2 pair = biasAndKernel(neighbor);
-        add(pair.y * push.noise / (push.noise + pair.x), lit.data[neighbor.x].z);
+    const uvec2 range = ranges.data[node], center = nodes.data[node];
+    const float inverse = uintBitsToFloat(center.x);
+    add(1.0, center.y);
+    for (uint i = range.x; i < range.y; ++i) {
+        const uvec2 pair = pairs.data[i], other = nodes.data[pair.x];
+        const Neighbor n = neighborOf(pair, inverse, uintBitsToFloat(other.x));
+        add(n.kernel * push.noise / (push.noise + n.bias), other.y);
     }
     const float mean_ = sum / weights, variance = max(squares / weights - mean_ * mean_, 0.0);
     const float varianceOfMean = variance * squaredWeights / (weights * weights);
-    neighborhoods.data[surfel] = uvec4(floatBitsToUint(vec3(mean_, variance, varianceOfMean)), irradiance);
+    neighborhoods.data[node] = uvec4(floatBitsToUint(vec2(mean_, variance)), packUpperHalves(varianceOfMean, inverse), center.y);
 }

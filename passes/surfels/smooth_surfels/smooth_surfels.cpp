@@ -7,7 +7,8 @@
 namespace voxray {
 namespace {
 
-constexpr uint64_t kNeighborhoodBytes = 4 * sizeof(float), kLitBytes = 3 * sizeof(uint32_t);
+constexpr uint64_t kNeighborhoodBytes = 4 * sizeof(float), kLitBytes = 3 * sizeof(uint32_t),
+                   kNodeBytes = 2 * sizeof(uint32_t);
 
 }  // namespace
 
@@ -40,38 +41,47 @@ class SmoothSurfels final : public Pass {
     In<SurfelNeighbors> neighbors_{*this, "neighbors", "the surfels around each surfel"};
     In<SurfelIrradiance> light_{*this, "surfel_irradiance", "light that arrives at surfels"};
     Out<SurfelIrradiance> smooth_{*this, "surfel_irradiance", "the same with less noise"};
+    Kernel loadNodes_{*this, "load_nodes.comp"};
     Kernel moments_{*this, "neighborhood_moments.comp"};
     Kernel mean_{*this, "mean.comp"};
+    Kernel storeNodes_{*this, "store_nodes.comp"};
 };
 
 void SmoothSurfels::plan(PassPlan& plan) {
     plan[smooth_].relativeVariance = plan[light_].relativeVariance;
+    if (!plan[neighbors_].areBySurfel) return;
+    for (Kernel* kernel : {&loadNodes_, &storeNodes_}) kernel->define({{"BY_SURFEL", "1"}});
 }
 
 void SmoothSurfels::record(PassContext& context) {
     const SurfelsByVoxel& surfels = context[surfels_];
-    const uint32_t count = surfels.sortedCount;
+    const SurfelNeighbors& neighbors = context[neighbors_];
+    const uint32_t count = neighbors.nodeCount;
     const uint64_t allocated = std::max(count, 1u);
-    LargeBuffer& result = context[smooth_].lit;
-    ensureSize(result, context.device, "smooth irradiance of surfels", allocated * kLitBytes);
-    LargeBuffer intermediate(context.device, "intermediate irradiance of surfels", allocated * kLitBytes);
+    ensureSize(context[smooth_].lit, context.device, "smooth irradiance of surfels",
+               std::max(surfels.sortedCount, 1u) * kLitBytes);
+    const LargeBuffer nodes(context.device, "irradiance of surfels, smoothed in place", allocated * kNodeBytes);
     const LargeBuffer neighborhoods(context.device, "moments of neighborhoods", allocated * kNeighborhoodBytes);
 
-    const SurfelNeighbors& neighbors = context[neighbors_];
-    const LargeBuffer* from = &context[light_].lit;
+    const Bindings surfelBindings{
+        ifUsed({"SortedIndicesRef", surfels.sortedIndices.ref()}),
+        {"LitRef", context[light_].lit.ref()},
+        {"NodesRef", nodes.ref()},
+        {"count", count},
+    };
+    context.dispatch(loadNodes_, count, surfelBindings);
+    const Bindings bindings{{"ranges", neighbors.ranges},
+                            {"PairsRef", neighbors.pairs.ref()},
+                            {"NodesRef", nodes.ref()},
+                            {"NeighborhoodsRef", neighborhoods.ref()},
+                            {"count", count},
+                            {"noise", context[light_].relativeVariance},
+                            {"squaredRadius", neighbors.radius * neighbors.radius}};
     for (uint32_t i = 0; i < params_.iterations; ++i) {
-        // The last iteration writes the result.
-        LargeBuffer& to = (params_.iterations - i) % 2 == 1 ? result : intermediate;
-        const Bindings bindings{{"begins", neighbors.begins},
-                                {"PairsRef", neighbors.pairs.ref()},
-                                {"LitRef", from->ref()},
-                                {"NeighborhoodsRef", neighborhoods.ref()},
-                                {"count", count},
-                                {"noise", context[light_].relativeVariance}};
         context.dispatch(moments_, count, bindings);
-        context.dispatch(mean_, count, {bindings.all(), {"ResultRef", to.ref()}});
-        from = &to;
+        context.dispatch(mean_, count, bindings);
     }
+    context.dispatch(storeNodes_, count, {surfelBindings.all(), {"ResultRef", context[smooth_].lit.ref()}});
     context.stream.finish();
 }
 
