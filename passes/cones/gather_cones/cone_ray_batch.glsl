@@ -1,6 +1,6 @@
-// A batch of traced texels' cones, whose near field is traced by rays.
-#ifndef VOXRAY_NEAR_FIELD_BATCH_GLSL
-#define VOXRAY_NEAR_FIELD_BATCH_GLSL
+// A batch of traced texels' cones, with a ray along the axis of each.
+#ifndef VOXRAY_CONE_RAY_BATCH_GLSL
+#define VOXRAY_CONE_RAY_BATCH_GLSL
 
 #include "passes/cones/gather_cones/texel_stride.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -14,7 +14,9 @@ layout(push_constant, scalar) uniform Push {
     uint batchCones;     // Cones of the batch, texel by texel.
     uint conesPerTexel;
     int stride;
-    float range;  // Length of the rays, m.
+    float range;        // Length of the near field, m.
+    float rayLength;    // m
+    float probability;  // Of a cone to go on as a path.
     uint seed;
 } push;
 
