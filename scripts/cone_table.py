@@ -1,13 +1,15 @@
 #!/usr/bin/python3
 """Prints the tables of docs/cone-tracing.md from results of configs/bench/cone_bias.yaml.
 
-cone_table.py DIR...: for each scene and kind of cones the mean ratio / relMSE / nRMSE of the indirect light, and the time of
-gather_cones, ms.
+cone_table.py DIR...: for each scene and kind of cones the mean ratio / relMSE / nRMSE of the indirect light, means over seeds, the
+first with its standard error, and the median time of gather_cones, ms.
 cone_table.py DIR... --levels: of the profile `levels`: for each scene and width of cones the light that cones take, by where along
 the exact ray, over that of the rays; with `--by-level` by level of the voxels instead, that of rays read in voxels of that level
 beside that taken by cones.
 """
+import math
 import os
+import statistics
 import sys
 
 sys.dont_write_bytecode = True
@@ -27,26 +29,32 @@ PARTS = {
     "lacking behind": "opacity lacking behind it",
 }
 LEVELS = range(8)
+ERRORS = ("indirect_mean_ratio", "indirect_relmse", "indirect_nrmse")
 
 
 def scored(folders):
     """Headings, and rows of cells: a scene a row, a kind of cones a column."""
-    cells, kinds = {}, []
+    found, kinds = {}, []
     for folder in folders:
-        times = {row["variant"]: float(row["median_ms"]) for row in read_rows(folder, "passes.csv") if row["pass"] == "cones"}
+        times = {row["variant"]: float(row["ms_median"]) for row in read_rows(folder, "passes.csv") if row["pass"] == "cones"}
         for row in read_rows(folder, "results.csv"):
             if row["cones"] not in kinds:
                 kinds.append(row["cones"])
-            cells.setdefault(row["scene"], {})[row["cones"]] = cell(row, times)
-    lines = [[f"`{scene}`", *(found.get(kind, "") for kind in kinds)] for scene, found in cells.items()]
+            seeds = found.setdefault(row["scene"], {}).setdefault(row["cones"], [])
+            if row["status"] == "ok":
+                seeds.append([float(row[name]) for name in ERRORS] + [times[row["variant"]]])
+    lines = [[f"`{scene}`", *(cell(cells.get(kind, [])) for kind in kinds)] for scene, cells in found.items()]
     return ["scene", *kinds], lines
 
 
-def cell(row, times):
-    if row["status"] != "ok":
-        return "failed"
-    errors = (f"{float(row['indirect_mean_ratio']):.3f}", f"{float(row['indirect_relmse']):.2g}", f"{float(row['indirect_nrmse']):.2g}")
-    return f"{' / '.join(errors)}, {times[row['variant']]:.0f} ms"
+def cell(seeds):
+    """Means over seeds, and the standard error of the mean ratio."""
+    if len(seeds) < 2:
+        return "-"
+    ratios, relmses, nrmses, times = zip(*seeds)
+    error = statistics.stdev(ratios) / math.sqrt(len(seeds))
+    return (f"{statistics.mean(ratios):.3f} ± {error:.3f} / {statistics.mean(relmses):.2g} / {statistics.mean(nrmses):.2g}, "
+            f"{statistics.median(times):.0f} ms")
 
 
 def compared(folders):

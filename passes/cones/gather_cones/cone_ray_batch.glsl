@@ -17,6 +17,7 @@ layout(push_constant, scalar) uniform Push {
     float range;        // Length of the near field, m.
     float rayLength;    // m
     float probability;  // Of a cone to go on as a path.
+    vec2 shift;         // Of directions in their strata.
     uint seed;
 } push;
 
@@ -25,5 +26,8 @@ ivec2 texelOfCone(uint i) {
     const uint traced = push.firstTexel + i / push.conesPerTexel;
     return tracedTexel(ivec2(traced % push.tracedExtent.x, traced / push.tracedExtent.x), push.stride);
 }
+
+// Position of a texel's directions in their strata.
+vec2 directionDither(ivec2 texel) { return fract(texelDither(texel).xy + push.shift); }
 
 #endif

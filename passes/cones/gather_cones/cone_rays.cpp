@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "passes/common/compute/random_seed.h"
+#include "passes/path_trace/sobol.h"
 
 namespace voxray {
 namespace {
@@ -11,6 +12,7 @@ constexpr uint32_t kBatchCones = 1u << 17;
 constexpr uint32_t kMaxContinuations = 2;    // Of a path.
 constexpr float kUnlimited = 1e30f;          // m
 constexpr uint32_t kPathSeed = 0x52657369u;  // Beside other random numbers of the frame.
+constexpr uint32_t kShiftSeed = 0x53686966u;
 
 }  // namespace
 
@@ -71,7 +73,7 @@ void ConeRays::record(PassContext& context, const GBuffer& gbuffer, const Radian
     for (uint32_t first = 0; first < texels; first += maxBatchTexels) {
         const uint32_t batchTexels = std::min(maxBatchTexels, texels - first);
         const uint32_t batchCones = batchTexels * settings_.cones;
-        const Bindings batch{{"cones", cones},
+        const Bindings batch{ifUsed({"cones", cones}),
                              {"tracedExtent", settings_.tracedExtent},
                              {"firstTexel", first},
                              {"batchCones", batchCones},
@@ -80,6 +82,7 @@ void ConeRays::record(PassContext& context, const GBuffer& gbuffer, const Radian
                              {"range", range},
                              {"rayLength", endsInNearField ? range : kUnlimited},
                              {"probability", settings_.residual},
+                             {"shift", directionShift(seed)},
                              {"seed", seed}};
 
         // Rays along the cones, and what each cone sees
@@ -109,6 +112,14 @@ void ConeRays::record(PassContext& context, const GBuffer& gbuffer, const Radian
     const uint32_t paths = context.stream.readAs<uint32_t>(chosen_, 1)[0];
     context.extraRays = streams_->rays(context) - paths;
     context.report("paths, % of cones", 100.0 * paths / (double(texels) * settings_.cones));
+}
+
+glm::vec2 ConeRays::directionShift(uint32_t seed) const {
+    if (settings_.visibility == ConeVisibility::Voxels && !streams_) return glm::vec2(0);
+    const auto unit = [&](uint32_t dimension) {
+        return float(path_trace::hashOf(seed ^ kShiftSeed, dimension) >> 8) * 0x1p-24f;
+    };
+    return {unit(0), unit(1)};
 }
 
 void ConeRays::tracePaths(PassContext& context, const Bindings& batch, uint32_t firstTexel, uint32_t batchTexels,

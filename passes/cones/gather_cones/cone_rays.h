@@ -51,6 +51,9 @@ class ConeRays {
     /// Traces the paths of a batch, whose cones' rays and hits are known.
     void tracePaths(PassContext& context, const Bindings& batch, uint32_t firstTexel, uint32_t batchTexels,
                     uint32_t seed);
+    /// Of a frame's directions: what rays see is noise, which frames and seeds average out. Without rays to the end
+    /// directions stay as they are, since voxels change little within a stratum.
+    glm::vec2 directionShift(uint32_t seed) const;
     bool hasNearField() const { return settings_.nearVoxels > 0; }
 
     Settings settings_;

@@ -27,7 +27,7 @@ class GatherCones final : public Pass {
         "Gathers indirect light by a few cones per texel through prefiltered voxels (filter_voxels). "
         "Biased by: voxel size; the number of cones; a mean over some 25 pixels of the same surface, "
         "which evens out the fixed pattern of directions; the shape of specular lobes. "
-        "Noisy by near_field_voxels alone. Time grows with the cones of each texel, so on a CPU begin with `stride: "
+        "Noisy by: near_field_voxels, visibility of rays, residual; without these it is not. Time grows with the cones of each texel, so on a CPU begin with `stride: "
         "4`, a quarter of them, and `specular: 0` where nothing is glossy. Source: Crassin et al. "
         "2011; Arnebäck 2017, section 3.1.5.";
     struct Params {
@@ -53,7 +53,7 @@ class GatherCones final : public Pass {
                       {0, 1, 7, 19}),
                 field("visibility", &Params::visibility,
                       "What a diffuse cone sees. voxels: what their opacities leave visible along it. rays: what a "
-                      "ray along its axis hits, with the radiance of the voxels there that are as wide as the cone."),
+                      "ray along its axis hits, with the radiance of the finest voxel there."),
                 field("near_field_voxels", &Params::nearFieldVoxels,
                       "Length of the near field, in voxels of the finest level, where rays begin diffuse cones. "
                       "At a hit direct light is sampled by shadow rays and the path continues, up to twice; "

@@ -1,7 +1,7 @@
 // Resolves the ray along a cone's axis. With NEAR_FIELD a hit within the near field is stored as a surfel, where direct
 // light is sampled and a path continues. Beyond it the cone is traced from the near field's end; with VISIBLE_BY_RAYS it
-// sees what the ray hits instead, by the voxels there that are as wide as the cone. Needs the bindings of
-// shaders/scene/scene.glsl and of radiance voxels.
+// sees what the ray hits instead, by the finest voxels there: in coarser ones surfaces that the ray doesn't see are
+// averaged with those that it does. Needs the bindings of shaders/scene/scene.glsl and of radiance voxels.
 //
 //        o────────┤        o: start; ┤: end of the near field
 //     ───x────────┴──      The cone is traced to the right of it: it doesn't read what voxels hold of the
@@ -43,12 +43,12 @@ void addNearHit(Hit hit, Ray ray, uint parent, vec3 throughput, uint id) {
 #endif
 
 #ifdef VISIBLE_BY_RAYS
-vec3 radianceAlong(Ray ray, Hit hit, float width, vec2 dither) {
+vec3 radianceAlong(Ray ray, Hit hit, float dither) {
     Surfel surfel;
     vec3 normal;
     float offset;
     if (!surfelAtHit(hit, ray.origin, surfel, normal, offset)) return vec3(0.0);
-    return radianceAtHit(surfel.position, normal, levelAtHit(surfel.position, width, hit.t, dither));
+    return radianceAtHit(surfel.position, normal, startLevel(surfel.position, dither));
 }
 #endif
 
@@ -65,7 +65,7 @@ void resolveConeRay(uint i, uint parent, vec3 ng, vec3 throughput, float width, 
     }
 #endif
 #ifdef VISIBLE_BY_RAYS
-    const vec3 radiance = radianceAlong(ray, hit, width, dither);
+    const vec3 radiance = radianceAlong(ray, hit, dither.x);
 #else
     const ConeBase base = coneBase(ray.origin, ng, dither.x, range);
     const vec3 radiance = coneRadiance(base, ray.direction, width, dither.y - 0.5);

@@ -38,6 +38,14 @@ void recordCone(vec3 radiance, float opacity, float t, uint level) {
     record[CONE_LEVEL + min(int(level), RECORDED_LEVELS - 1)] += light(radiance);
 }
 
+// The level of the voxels as wide as a cone at `distance_` metres from its start: at most half as wide, as in
+// radiance_cone.glsl, and not finer than the layout has them there.
+uint levelOfCone(vec3 position, float width, float distance_, vec2 dither) {
+    const RadianceGrid g = radianceVoxels.grid;
+    const float level = log2(max(0.5 * width * distance_ / g.voxelSize, 1e-6)) + dither.y - 0.5;
+    return max(uint(clamp(level, 0.0, float(g.levels - 1u))), startLevel(position, dither.x));
+}
+
 void recordRay(Ray ray, Hit hit, float width, vec2 dither) {
     Surfel surfel;
     vec3 normal;
@@ -49,7 +57,7 @@ void recordRay(Ray ray, Hit hit, float width, vec2 dither) {
     const bool isNear = hit.t < kNearVoxels * radianceVoxelSize(0u);
     record[isNear ? RAY_NEAR : RAY_FAR] = light(radianceAtHit(surfel.position, normal, finest));
     record[RAY_CONE] =
-        light(radianceAtHit(surfel.position, normal, levelAtHit(surfel.position, width, hit.t, dither)));
+        light(radianceAtHit(surfel.position, normal, levelOfCone(surfel.position, width, hit.t, dither)));
     for (uint level = 0u; level < RECORDED_LEVELS; ++level)
         record[RAY_LEVEL + level] = light(radianceAtHit(
             surfel.position, normal, clamp(level, finest, max(finest, radianceVoxels.grid.levels - 1u))));

@@ -94,6 +94,7 @@ CompareCones::Record CompareCones::compare(PassContext& context, uint32_t firstT
                          {"range", 0.0f},
                          {"rayLength", 1e30f},
                          {"probability", 0.0f},
+                         {"shift", glm::vec2(0)},
                          {"seed", 0u}};
     context.dispatch(generateRays_, cones, {context.scene, context[gbuffer_], {"rays", rays_}, batch.all()});
     context.tracer.closestHit(context.stream, rays_, hits_, cones);
