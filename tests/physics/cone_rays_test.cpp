@@ -81,11 +81,11 @@ TEST(ConeRays, WithAResidualTheMeanIsTheReferencesWhateverIsStored) {
         const State state = builtin(name, name == "cornell" ? "{lights: area}" : "{slats: 0}");
         const Estimate reference = meanOfFrames(state, graphYaml({"path_trace, spp: 512, bounces: 4"}), 8);
         const auto compare = [&](const std::string& gather, const std::string& bounces) {
-            const Estimate found = meanOfFrames(
-                state,
-                graphOf("gather_cones, cones: 16, stride: 4, " + gather, "16",
-                        "rays_per_light: 65536, bounces: " + bounces, "layout: svo", "8"),
-                16);
+            const Estimate found =
+                meanOfFrames(state,
+                             graphOf("gather_cones, cones: 16, stride: 4, " + gather, "16",
+                                     "rays_per_light: 65536, bounces: " + bounces, "layout: svo", "8"),
+                             16);
             const double ratio = found.mean / reference.mean,
                          error = std::sqrt(found.variance + reference.variance) / reference.mean;
             std::printf("%s, %s, %s bounces stored: %.4f +- %.4f of the reference\n", name.c_str(), gather.c_str(),
@@ -98,7 +98,8 @@ TEST(ConeRays, WithAResidualTheMeanIsTheReferencesWhateverIsStored) {
                     compare("visibility: " + visibility + ", residual: 0.3, residual_bounces: 4", bounces);
                 EXPECT_NEAR(ratio, 1, 0.01 + 2 * error) << name << visibility << bounces;
             }
-        const auto [ratio, error] = compare("visibility: rays, near_field_voxels: 2, residual: 1, residual_bounces: 4", "0");
+        const auto [ratio, error] =
+            compare("visibility: rays, near_field_voxels: 2, residual: 1, residual_bounces: 4", "0");
         EXPECT_NEAR(ratio, 1, 0.01 + 2 * error) << name;
         // The same comparison finds that stored light alone lacks bounces
         EXPECT_GT(std::abs(compare("visibility: rays", "0").first - 1), 0.1) << name;
@@ -126,9 +127,9 @@ TEST(ConeRays, AreDeterministic) {
 }
 
 TEST(ConeRays, AResidualWantsNoEmission) {
-    EXPECT_THROW(meanIndirect("cornell", "{}",
-                              graphOf("gather_cones, residual: 0.5", "32", "bounces: 1", "emission: true")),
-                 Error);
+    EXPECT_THROW(
+        meanIndirect("cornell", "{}", graphOf("gather_cones, residual: 0.5", "32", "bounces: 1", "emission: true")),
+        Error);
 }
 
 TEST(CompareCones, FindsNoDifferenceWhereAllSurfacesSendTheSame) {

@@ -2,7 +2,7 @@
 #ifndef VOXRAY_CHOSEN_CONES_GLSL
 #define VOXRAY_CHOSEN_CONES_GLSL
 
-#include "passes/cones/gather_cones/cone_ray_batch.glsl"
+#include "passes/cones/radiance/cone_ray_batch.glsl"
 #include "shaders/scene/sampling.glsl"
 
 #define CHOICE_SEED 0x3c6ef372u

@@ -18,7 +18,7 @@ constexpr uint32_t kShiftSeed = 0x53686966u;
 
 ConeRays::ConeRays(ProgramOwner& owner, bool hasResidual)
     : hitLight_(owner),
-      generateRays_(owner, "generate_cone_rays.comp"),
+      generateRays_(owner, "passes/cones/radiance/generate_cone_rays.comp"),
       resolveRays_(owner, "resolve_cone_rays.comp"),
       reflect_(owner, "passes/surfels/reflect_at_hits.comp"),
       continuePaths_(owner, "continue_paths.comp"),
@@ -59,8 +59,8 @@ void ConeRays::planNearField(PassPlan& plan, uint32_t batchCones) {
         plan.buffer(normals, "normals at near hits", batchCones * 2 * sizeof(uint32_t));
 }
 
-void ConeRays::record(PassContext& context, const GBuffer& gbuffer, const RadianceVoxels& radiance,
-                      const Buffer& cones, const Image& irradiance) {
+void ConeRays::record(PassContext& context, const GBuffer& gbuffer, const RadianceVoxels& radiance, const Buffer& cones,
+                      const Image& irradiance) {
     const uint32_t texels = settings_.tracedExtent.x * settings_.tracedExtent.y;
     const uint32_t maxBatchTexels = kBatchCones / settings_.cones;
     const float range = settings_.nearVoxels * radiance.grid.voxelSize;
@@ -103,8 +103,7 @@ void ConeRays::record(PassContext& context, const GBuffer& gbuffer, const Radian
                           batch.all()});
         if (hasNearField()) continuePaths(context, radiance, range, seed);
         if (streams_)
-            context.dispatch(addResiduals_, batchCones,
-                             {{"light", light_}, {"sums", streams_->sums()}, batch.all()});
+            context.dispatch(addResiduals_, batchCones, {{"light", light_}, {"sums", streams_->sums()}, batch.all()});
         context.dispatch(sumCones_, batchTexels, {{"light", light_}, {"irradiance", irradiance}, batch.all()});
     }
     if (!streams_) return;
@@ -125,11 +124,7 @@ glm::vec2 ConeRays::directionShift(uint32_t seed) const {
 void ConeRays::tracePaths(PassContext& context, const Bindings& batch, uint32_t firstTexel, uint32_t batchTexels,
                           uint32_t seed) {
     context.dispatch(beginPaths_, batchTexels * settings_.cones,
-                     {{"rays", rays_},
-                      {"hits", hits_},
-                      streams_->open(context),
-                      {"chosen", chosen_},
-                      batch.all()});
+                     {{"rays", rays_}, {"hits", hits_}, streams_->open(context), {"chosen", chosen_}, batch.all()});
     // A texel's cones have one sequence of random numbers
     streams_->follow(context, {.firstPixel = firstTexel,
                                .pixels = batchTexels,

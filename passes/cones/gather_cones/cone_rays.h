@@ -27,13 +27,13 @@ class ConeRays {
  public:
     struct Settings {
         ConeVisibility visibility = ConeVisibility::Voxels;
-        float nearVoxels = 0;        ///< Length of the near field, in voxels of the finest level; 0: none.
-        float residual = 0;          ///< Probability that a ray goes on as a path; 0: none do.
-        uint32_t bounces = 0;        ///< Of the paths, as PathTraceOptions has them.
-        uint32_t cones = 0;          ///< Per traced texel.
-        uint32_t stride = 0;         ///< Of traced texels.
-        glm::uvec2 tracedExtent{};   ///< Traced texels: columns and rows.
-        float width = 0;             ///< Of the cones from near hits, at unit distance.
+        float nearVoxels = 0;       ///< Length of the near field, in voxels of the finest level; 0: none.
+        float residual = 0;         ///< Probability that a ray goes on as a path; 0: none do.
+        uint32_t bounces = 0;       ///< Of the paths, as PathTraceOptions has them.
+        uint32_t cones = 0;         ///< Per traced texel.
+        uint32_t stride = 0;        ///< Of traced texels.
+        glm::uvec2 tracedExtent{};  ///< Traced texels: columns and rows.
+        float width = 0;            ///< Of the cones from near hits, at unit distance.
     };
 
     /// Without a residual no path is traced.

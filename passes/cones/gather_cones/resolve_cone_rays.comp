@@ -1,5 +1,5 @@
 // Resolves the rays along the cones of a batch.
-#include "passes/cones/gather_cones/cone_ray_batch.glsl"
+#include "passes/cones/radiance/cone_ray_batch.glsl"
 #include "passes/cones/gather_cones/resolve_cone_ray.glsl"
 #include "passes/cones/radiance/cone_types.h"
 layout(local_size_x = 64) in;

@@ -1,6 +1,6 @@
 // Compares each cone of a batch with the exact ray along its axis, over the same voxels.
 #define CONE_RECORDS
-#include "passes/cones/gather_cones/cone_ray_batch.glsl"
+#include "passes/cones/radiance/cone_ray_batch.glsl"
 #include "passes/cones/radiance/cone_types.h"
 #include "passes/cones/radiance/radiance_at_hit.glsl"
 #include "passes/cones/radiance/radiance_cone.glsl"

@@ -50,7 +50,7 @@ class CompareCones final : public Pass {
     const Params params_;
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales"};
-    Kernel generateRays_{*this, "passes/cones/gather_cones/generate_cone_rays.comp"};
+    Kernel generateRays_{*this, "passes/cones/radiance/generate_cone_rays.comp"};
     Kernel compare_{*this, "compare.comp"};
     glm::uvec2 extent_{};  ///< Columns and rows of the compared texels.
     Buffer cones_, rays_, hits_, records_;

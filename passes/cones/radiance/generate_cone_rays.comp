@@ -1,5 +1,5 @@
 // Generates a ray along the axis of each cone of a batch.
-#include "passes/cones/gather_cones/cone_ray_batch.glsl"
+#include "passes/cones/radiance/cone_ray_batch.glsl"
 #include "passes/cones/radiance/cone_direction.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/trace/ray_types.h"

@@ -2,7 +2,7 @@
 #ifndef VOXRAY_CONE_RAY_BATCH_GLSL
 #define VOXRAY_CONE_RAY_BATCH_GLSL
 
-#include "passes/cones/gather_cones/texel_stride.glsl"
+#include "passes/cones/radiance/texel_stride.glsl"
 #include "shaders/compute/linear_index.glsl"
 
 uniform sampler2D position;
