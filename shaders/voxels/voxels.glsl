@@ -3,6 +3,7 @@
 #ifndef VOXRAY_VOXELS_GLSL
 #define VOXRAY_VOXELS_GLSL
 
+#include "shaders/voxels/small_areas.glsl"
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/voxels/voxel_packing.h"
 
@@ -12,11 +13,6 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) buffer VoxelMateria
 layout(scalar) readonly buffer VoxelMaterialsRef { VoxelMaterials voxelMaterials; };
 
 VoxelMaterial voxelMaterial(uint voxel) { return unpackMaterial(voxelMaterials.data[voxel]); }
-
-// Flux and areas are sampled, so that the ratio of small ones is noisy. In units of a voxel's face: below the first
-// area adjacent voxels are included, up to the second irradiance is unknown.
-#define SMALL_FACE_AREA 0.05
-#define MIN_FACE_AREA 0.001
 
 // Unoccluded area of a voxel's surfaces at a face +x -x +y -y +z -z, in units of a voxel's face.
 float unoccluded(VoxelMaterial m, uint face) {

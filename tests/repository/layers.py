@@ -30,7 +30,7 @@ FAMILIES = {
     "surfels": set(),
     "radiosity": {"surfels"},
     "clusters": {"surfels"},
-    "cones": {"surfels"},
+    "cones": {"surfels", "path_trace"},
     "final_gather": {"surfels", "cache", "path_trace"},
     "cache": {"surfels"},
     "probes": {"surfels"},

@@ -1,5 +1,5 @@
 // Resolves the rays of paths that continue from near hits.
-#include "passes/cones/gather_cones/resolve_near_field_ray.glsl"
+#include "passes/cones/gather_cones/resolve_cone_ray.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 64) in;
@@ -18,6 +18,6 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.rayCount) return;
     const Surfel origin = origins.data[i];
-    resolveNearFieldRay(i, origin.parent, fromOctahedral(originNormals.data[i].y), origin.reflectance, push.width,
+    resolveConeRay(i, origin.parent, fromOctahedral(originNormals.data[i].y), origin.reflectance, push.width,
                         push.range, origin.id, sobol2(origin.id, push.seed));
 }

@@ -1,7 +1,7 @@
 #include "base/error.h"
 #include "graph/registry.h"
 #include "passes/common/view/gbuffer.h"
-#include "passes/cones/gather_cones/near_field.h"
+#include "passes/cones/gather_cones/cone_rays.h"
 #include "passes/cones/gather_cones/specular_cones.h"
 #include "passes/cones/radiance/cone_sets.h"
 #include "passes/cones/radiance/radiance_voxels.h"
@@ -27,14 +27,18 @@ class GatherCones final : public Pass {
         "Gathers indirect light by a few cones per texel through prefiltered voxels (filter_voxels). "
         "Biased by: voxel size; the number of cones; a mean over some 25 pixels of the same surface, "
         "which evens out the fixed pattern of directions; the shape of specular lobes. "
-        "Noisy by near_field_voxels alone. Time grows with the cones of each texel, so on a CPU begin with `stride: "
+        "Noisy by: near_field_voxels, visibility of rays, residual; without these it is not. Time grows with the cones of each texel, so on a CPU begin with `stride: "
         "4`, a quarter of them, and `specular: 0` where nothing is glossy. Source: Crassin et al. "
         "2011; Arnebäck 2017, section 3.1.5.";
     struct Params {
         uint32_t cones = 16;
         uint32_t stride = 1;
         uint32_t specular = 7;
+        ConeVisibility visibility = ConeVisibility::Voxels;
         float nearFieldVoxels = 0;
+        float residual = 0;
+        uint32_t residualBounces = 8;
+        static constexpr auto withResidual() { return noneOf(&Params::residual, {0.0f}); }
         static constexpr auto schema() {
             return std::tuple{
                 field("cones", &Params::cones,
@@ -47,16 +51,29 @@ class GatherCones final : public Pass {
                       "Cones that partition the specular lobe of each texel of the G-buffer; a mirror has one. "
                       "0: surfaces reflect by their diffuse albedo only.",
                       {0, 1, 7, 19}),
+                field("visibility", &Params::visibility,
+                      "What a diffuse cone sees. voxels: what their opacities leave visible along it. rays: what a "
+                      "ray along its axis hits, with the radiance of the finest voxel there."),
                 field("near_field_voxels", &Params::nearFieldVoxels,
-                      "Length of the rays that diffuse cones begin with, in voxels of the finest level. "
+                      "Length of the near field, in voxels of the finest level, where rays begin diffuse cones. "
                       "At a hit direct light is sampled by shadow rays and the path continues, up to twice; "
-                      "without a hit the cone begins at the ray's end. 0: no rays.",
-                      0.0f, 64.0f)};
+                      "without a hit the cone goes on at the near field's end. 0: no near field.",
+                      0.0f, 64.0f),
+                field("residual", &Params::residual,
+                      "Part of the diffuse cones whose rays go on as paths, and bring (path - cone) / residual beside "
+                      "the cone's light: the mean is that of path tracing, whatever the voxels hold. 0: none.",
+                      0.0f, 1.0f)
+                    .lessNoise(),
+                field("residual_bounces", &Params::residualBounces,
+                      "Scattering events of these paths after direct light at what the camera sees, as path_trace "
+                      "counts them.",
+                      1u, 1024u)
+                    .onlyWith(withResidual())};
         }
     };
     explicit GatherCones(const Params& params) : params_(params) {
         if (params_.specular > 0) specular_.emplace(*this);
-        if (params_.nearFieldVoxels > 0) nearField_.emplace(*this);
+        if (hasRays()) rays_.emplace(*this, params_.residual > 0);
     }
 
     void plan(PassPlan& plan) override;
@@ -64,6 +81,11 @@ class GatherCones final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    void planRays(PassPlan& plan, const RadianceVoxels& radiance, glm::uvec2 tracedExtent);
+    bool hasRays() const {
+        return params_.visibility == ConeVisibility::Rays || params_.nearFieldVoxels > 0 || params_.residual > 0;
+    }
+
     const Params params_;
     In<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
     In<RadianceVoxels> radiance_{*this, "radiance", "light that leaves surfaces, at all scales"};
@@ -77,34 +99,43 @@ class GatherCones final : public Pass {
     Buffer cones_;
     Image irradiance_;
     std::optional<SpecularCones> specular_;
-    std::optional<NearField> nearField_;
+    std::optional<ConeRays> rays_;
 };
 
 void GatherCones::plan(PassPlan& plan) {
     const RadianceVoxels& radiance = plan[radiance_];
     plan.buffer(cones_, "cones", coneSet(params_.cones).size() * sizeof(gpu::Cone));
-    plan[indirect_].lightBounces = radiance.lightBounces;
+    plan[indirect_].lightBounces =
+        params_.residual > 0 ? std::optional(params_.residualBounces) : radiance.lightBounces;
     plan[indirect_].hasSpecularLobes = params_.specular > 0;
     plan.frameImage(indirect_);
     const ImageDesc traced = tracedImage(plan.frame, plan[gbuffer_].samples, params_.stride);
     plan.image(irradiance_, "gathered irradiance", traced);
-    if (nearField_) {
-        if (radiance.emission)
-            throw Error(
-                "gather_cones: 'near_field_voxels' measures light at near hits without what they emit, "
-                "which the radiance voxels hold; set it to 0, or 'emission' of filter_voxels to false");
-        nearField_->plan(plan, radiance,
-                         {params_.nearFieldVoxels, params_.cones, params_.stride, traced.extent,
-                          coneSet(params_.cones).back().width});
-    }
+    if (rays_) planRays(plan, radiance, traced.extent);
     trace_.define(radiance.defines());
-    trace_.compileIf(!nearField_);
+    trace_.compileIf(!rays_);
     resolveLobes_.compileIf(params_.specular > 0);
     if (params_.specular == 0) return;
     SpecularLobes& lobes = plan[lobes_];
     lobes.isJoined = false;
     lobes.emission = radiance.emission;
     specular_->plan(plan, plan[gbuffer_], radiance, params_.specular, lobes.reflected);
+}
+
+void GatherCones::planRays(PassPlan& plan, const RadianceVoxels& radiance, glm::uvec2 tracedExtent) {
+    if (radiance.emission && (params_.nearFieldVoxels > 0 || params_.residual > 0))
+        throw Error(
+            "gather_cones: 'near_field_voxels' and 'residual' measure light at hits without what they emit, "
+            "which the radiance voxels hold; set them to 0, or 'emission' of filter_voxels to false");
+    rays_->plan(plan, radiance,
+                {.visibility = params_.visibility,
+                 .nearVoxels = params_.nearFieldVoxels,
+                 .residual = params_.residual,
+                 .bounces = params_.residualBounces,
+                 .cones = params_.cones,
+                 .stride = params_.stride,
+                 .tracedExtent = tracedExtent,
+                 .width = coneSet(params_.cones).back().width});
 }
 
 void GatherCones::prepare(PassSetup& setup) {
@@ -115,8 +146,8 @@ void GatherCones::prepare(PassSetup& setup) {
 void GatherCones::record(PassContext& context) {
     const GBuffer& gbuffer = context[gbuffer_];
     const RadianceVoxels& radiance = context[radiance_];
-    if (nearField_)
-        nearField_->record(context, gbuffer, radiance, cones_, irradiance_);
+    if (rays_)
+        rays_->record(context, gbuffer, radiance, cones_, irradiance_);
     else
         context.dispatch(trace_, irradiance_.desc().extent,
                          {gbuffer,

@@ -1,6 +1,6 @@
 // Reflected radiance of each pixel: albedo / pi times filtered irradiance, averaged over its texels. With SPECULAR the
 // reflection of specular lobes is added, and the diffuse one scaled by what they leave to it.
-#include "passes/cones/gather_cones/texel_stride.glsl"
+#include "passes/cones/radiance/texel_stride.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 

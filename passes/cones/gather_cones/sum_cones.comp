@@ -1,5 +1,5 @@
 // Irradiance of each traced texel of a batch: the weighted sum of its cones.
-#include "passes/cones/gather_cones/near_field_batch.glsl"
+#include "passes/cones/radiance/cone_ray_batch.glsl"
 #include "passes/cones/radiance/cone_types.h"
 layout(local_size_x = 64) in;
 

@@ -1,5 +1,5 @@
 // Irradiance by a set of cones, for every n-th texel of the G-buffer.
-#include "passes/cones/gather_cones/texel_stride.glsl"
+#include "passes/cones/radiance/texel_stride.glsl"
 #include "passes/cones/radiance/cone_set.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 

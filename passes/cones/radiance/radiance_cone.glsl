@@ -18,6 +18,13 @@
 #include "passes/cones/radiance/radiance_voxels.glsl"
 #include "shaders/voxels/face.glsl"
 
+// A shader that defines CONE_RECORDS before it includes this one also defines recordCone(), which is told what a cone
+// takes at each step, t metres from its start, from voxels of `level`: radiance, W/(m² sr), and opacity, the part of
+// the whole cone that is occluded there.
+#ifdef CONE_RECORDS
+void recordCone(vec3 radiance, float opacity, float t, uint level);
+#endif
+
 // A cone ends at this transmittance.
 #define MIN_TRANSMITTANCE 0.002
 
@@ -215,6 +222,9 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
     }
 
     for (uint k = 0u; k < 3u; ++k) findLayer(axis[k], shape, clearance[k]);
+#ifdef CONE_RECORDS
+    recordCone(light.radiance, light.opacity, 0.0, base.level);
+#endif
 
     // Each step takes the nearest sample of the three axes. There are at most one and a half samples per voxel width of
     // the path, of all axes together, and those of the first layer of an axis that the cone is nearly perpendicular to.
@@ -225,6 +235,10 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
         const float voxel = radianceVoxelSize(axis[k].level);
         // The last layer may be thicker than the grid.
         if (t > shape.exit_ + 2.0 * voxel) break;
+#ifdef CONE_RECORDS
+        const ConeLight before = light;
+        const uint level = axis[k].level;
+#endif
 
         // Samples within the distance known to be clear are skipped. Those that may still read the surface at the start
         // don't block the cone; with one value for all faces they can't be told apart from that surface and are
@@ -257,6 +271,11 @@ vec3 coneRadiance(ConeBase base, vec3 direction, float width, float dither) {
                 raiseOpacity(light, light.column[k], column);
             }
         }
+#ifdef CONE_RECORDS
+        recordCone(light.radiance - before.radiance,
+                   before.transmittance * (1.0 - before.opacity) - light.transmittance * (1.0 - light.opacity), t,
+                   level);
+#endif
         if (axis[k].sample_ + 1 == axis[k].samples) light.column[k] = 0.0;
         advance(axis[k], shape, clearance[k]);
     }

@@ -1,5 +1,5 @@
-// Generates a ray along the axis of each cone of a batch, as long as the near field.
-#include "passes/cones/gather_cones/near_field_batch.glsl"
+// Generates a ray along the axis of each cone of a batch.
+#include "passes/cones/radiance/cone_ray_batch.glsl"
 #include "passes/cones/radiance/cone_direction.glsl"
 #include "shaders/scene/sampling.glsl"
 #include "shaders/trace/ray_types.h"
@@ -18,7 +18,7 @@ void main() {
     if (p.w == 0.0) return;
     const vec3 ng = normalize(texelFetch(geometricNormal, texel, 0).xyz);
     const vec3 ns = normalize(texelFetch(normal, texel, 0).xyz);
-    const vec3 direction = coneDirection(cones.data[i % push.conesPerTexel], ns, texelDither(texel).xy);
+    const vec3 direction = coneDirection(cones.data[i % push.conesPerTexel], ns, directionDither(texel));
     // Cones that a normal map turns below the surface receive nothing.
-    if (dot(direction, ng) > 0.0) rays.data[i] = Ray(p.xyz + ng * p.w, 0.0, direction, push.range);
+    if (dot(direction, ng) > 0.0) rays.data[i] = Ray(p.xyz + ng * p.w, 0.0, direction, push.rayLength);
 }

@@ -1,6 +1,6 @@
-// Resolves the rays through the near fields of a batch of cones.
-#include "passes/cones/gather_cones/near_field_batch.glsl"
-#include "passes/cones/gather_cones/resolve_near_field_ray.glsl"
+// Resolves the rays along the cones of a batch.
+#include "passes/cones/radiance/cone_ray_batch.glsl"
+#include "passes/cones/gather_cones/resolve_cone_ray.glsl"
 #include "passes/cones/radiance/cone_types.h"
 layout(local_size_x = 64) in;
 
@@ -14,6 +14,6 @@ void main() {
     if (any(greaterThanEqual(texel, textureSize(position, 0)))) return;
     const vec3 ng = normalize(texelFetch(geometricNormal, texel, 0).xyz);
     const float dither = texelDither(texel).z;
-    resolveNearFieldRay(i, i, ng, vec3(1.0), cones.data[i % push.conesPerTexel].width, push.range,
+    resolveConeRay(i, i, ng, vec3(1.0), cones.data[i % push.conesPerTexel].width, push.range,
                         push.firstTexel * push.conesPerTexel + i, vec2(dither));
 }

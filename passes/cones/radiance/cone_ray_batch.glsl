@@ -1,8 +1,8 @@
-// A batch of traced texels' cones, whose near field is traced by rays.
-#ifndef VOXRAY_NEAR_FIELD_BATCH_GLSL
-#define VOXRAY_NEAR_FIELD_BATCH_GLSL
+// A batch of traced texels' cones, with a ray along the axis of each.
+#ifndef VOXRAY_CONE_RAY_BATCH_GLSL
+#define VOXRAY_CONE_RAY_BATCH_GLSL
 
-#include "passes/cones/gather_cones/texel_stride.glsl"
+#include "passes/cones/radiance/texel_stride.glsl"
 #include "shaders/compute/linear_index.glsl"
 
 uniform sampler2D position;
@@ -14,7 +14,10 @@ layout(push_constant, scalar) uniform Push {
     uint batchCones;     // Cones of the batch, texel by texel.
     uint conesPerTexel;
     int stride;
-    float range;  // Length of the rays, m.
+    float range;        // Length of the near field, m.
+    float rayLength;    // m
+    float probability;  // Of a cone to go on as a path.
+    vec2 shift;         // Of directions in their strata.
     uint seed;
 } push;
 
@@ -23,5 +26,8 @@ ivec2 texelOfCone(uint i) {
     const uint traced = push.firstTexel + i / push.conesPerTexel;
     return tracedTexel(ivec2(traced % push.tracedExtent.x, traced / push.tracedExtent.x), push.stride);
 }
+
+// Position of a texel's directions in their strata.
+vec2 directionDither(ivec2 texel) { return fract(texelDither(texel).xy + push.shift); }
 
 #endif
