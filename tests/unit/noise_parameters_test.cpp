@@ -44,7 +44,7 @@ TEST(NoiseParameters, AreLeftOutWhereTheyHaveNoEffect) {
 
 TEST(NoiseParameters, StandInTheHelpOfTheirPass) {
     // What makes noise where it is larger
-    const std::set<std::string> more{"gather_cones.near_field_voxels", "inject_rsm.bounces"};
+    const std::set<std::string> more{"gather_cones.near_field_voxels", "gather_cones.residual", "inject_rsm.bounces"};
     const std::regex sentence("[Nn]oisy by[^.]*\\.");
     size_t marked = 0;
     const Registry registry = test::allPasses();

@@ -27,9 +27,9 @@ class GatherCones final : public Pass {
         "Gathers indirect light by a few cones per texel through prefiltered voxels (filter_voxels). "
         "Biased by: voxel size; the number of cones; a mean over some 25 pixels of the same surface, "
         "which evens out the fixed pattern of directions; the shape of specular lobes. "
-        "Noisy by: near_field_voxels, visibility of rays, residual; without these it is not. Time grows with the cones of each texel, so on a CPU begin with `stride: "
-        "4`, a quarter of them, and `specular: 0` where nothing is glossy. Source: Crassin et al. "
-        "2011; Arnebäck 2017, section 3.1.5.";
+        "Noisy by: near_field_voxels, residual, and what rays see. "
+        "Time grows with the cones of each texel, so on a CPU begin with `stride: 4`, a quarter of them, and "
+        "`specular: 0` where nothing is glossy. Source: Crassin et al. 2011; Arnebäck 2017, section 3.1.5.";
     struct Params {
         uint32_t cones = 16;
         uint32_t stride = 1;
@@ -62,8 +62,7 @@ class GatherCones final : public Pass {
                 field("residual", &Params::residual,
                       "Part of the diffuse cones whose rays go on as paths, and bring (path - cone) / residual beside "
                       "the cone's light: the mean is that of path tracing, whatever the voxels hold. 0: none.",
-                      0.0f, 1.0f)
-                    .lessNoise(),
+                      0.0f, 1.0f),
                 field("residual_bounces", &Params::residualBounces,
                       "Scattering events of these paths after direct light at what the camera sees, as path_trace "
                       "counts them.",
