@@ -16,7 +16,7 @@ class CompareCones final : public Pass {
  public:
     static constexpr const char* kName = "compare_cones";
     static constexpr const char* kHelp =
-        "Compares gather_cones with exact rays from the same points along the cones' axes, over the same voxels. "
+        "Compares cones with exact rays along their axes, through the same voxels. "
         "Reports, over the light along the rays, read in the finest voxels: light read in voxels as wide as the cone, "
         "and of each level; the cones' light, by where they take it along the ray and by level; and the opacity that "
         "they find before what the ray hits, and lack behind it. Without the noise and the filter of gather_cones.";
