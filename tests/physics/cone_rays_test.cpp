@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tests/gpu/chain.h"
+#include "tests/gpu/mean_of_frames.h"
 #include "tests/support/errors.h"
 #include "tests/support/radiance_layouts.h"
 
@@ -58,22 +58,9 @@ TEST(ConeRays, AreRightInARoomLitThroughAWindow) {
     EXPECT_GT(std::abs(voxels - 1), std::abs(rays - 1));
 }
 
-/// A mean over frames, which draw independent numbers, and the variance of that mean.
-struct Estimate {
-    double mean = 0, variance = 0;
-};
-
 Estimate meanOfFrames(const State& state, const std::string& graph, int frames) {
     Chain chain(state, graph, 32, 32);
-    double sum = 0, squares = 0;
-    for (int frame = 1; frame <= frames; ++frame) {
-        chain.runFrame(uint32_t(frame));
-        const double value = mean(chain.image("indirect"));
-        sum += value;
-        squares += value * value;
-    }
-    const double n = frames;
-    return {sum / n, std::max(squares / n - sum * sum / n / n, 0.0) / (n - 1)};
+    return meanOfFrames(chain, frames);
 }
 
 TEST(ConeRays, WithAResidualTheMeanIsTheReferencesWhateverIsStored) {

@@ -6,7 +6,7 @@
 #include "passes/common/filter/noisy_irradiance.h"
 #include "passes/common/view/gather_hits.h"
 #include "passes/common/view/gather_light.h"
-#include "tests/gpu/chain.h"
+#include "tests/gpu/mean_of_frames.h"
 #include "tests/support/errors.h"
 
 namespace voxray::test {
@@ -67,22 +67,8 @@ std::string graphOf(const std::string& residual, float factor = 1, const std::st
     return graphYaml(passes);
 }
 
-/// A mean over frames, which draw independent numbers, and the variance of that mean.
-struct Estimate {
-    double mean = 0, variance = 0;
-    double zTo(const Estimate& other) const { return (mean - other.mean) / std::sqrt(variance + other.variance); }
-};
-
-Estimate meanOfFrames(Chain& chain, int frames) {
-    double sum = 0, squares = 0;
-    for (int frame = 1; frame <= frames; ++frame) {
-        chain.runFrame(uint32_t(frame));
-        const double value = mean(chain.image("indirect"));
-        sum += value;
-        squares += value * value;
-    }
-    const double n = frames;
-    return {sum / n, std::max(squares / n - sum * sum / n / n, 0.0) / (n - 1)};
+double zOf(const Estimate& a, const Estimate& b) {
+    return (a.mean - b.mean) / std::sqrt(a.variance + b.variance);
 }
 
 Estimate meanOfFrames(const State& state, const std::string& graph, int frames) {
@@ -98,7 +84,7 @@ TEST(ResidualRays, KeepsTheEnergyOfAFurnace) {
                                             graphOf("probability: 0.25, bounces: 3", factor), 4);
         std::printf("factor %.0f: %.4f of the closed form\n", double(factor), found.mean / expected);
         EXPECT_NEAR(found.mean / expected, 1, 0.01);
-        EXPECT_LT(std::abs(found.zTo({expected, 0})), 5);
+        EXPECT_LT(std::abs(zOf(found, {expected, 0})), 5);
     }
 }
 
@@ -116,9 +102,9 @@ TEST(ResidualRays, MeanIsTheReferencesWhateverIsStored) {
             const double ratio = found.mean / reference.mean,
                          error = std::sqrt(found.variance + reference.variance) / reference.mean;
             std::printf("%s, %s, stored light times %.0f: ratio %.4f +- %.4f, z %.1f\n", c.name, parameters.c_str(),
-                        double(factor), ratio, error, found.zTo(reference));
+                        double(factor), ratio, error, zOf(found, reference));
             EXPECT_NEAR(ratio, 1, 0.005 + 2 * error);
-            EXPECT_LT(std::abs(found.zTo(reference)), 4);
+            EXPECT_LT(std::abs(zOf(found, reference)), 4);
         };
         for (const float factor : {0.0f, 1.0f, 2.0f}) compare("probability: 0.3", factor);
         compare("probability: 1", 1);
@@ -147,10 +133,10 @@ TEST(ResidualRays, MeanIsTheReferencesOverACache) {
     };
     const Estimate stored = gathered(""), found = gathered("residual_rays, probability: 0.3, bounces: 4");
     std::printf("cache alone %.4f, with residuals %.4f, z %.1f\n", stored.mean / reference.mean,
-                found.mean / reference.mean, found.zTo(reference));
+                found.mean / reference.mean, zOf(found, reference));
     EXPECT_GT(std::abs(stored.mean / reference.mean - 1), 0.02);
     EXPECT_NEAR(found.mean / reference.mean, 1, 0.01);
-    EXPECT_LT(std::abs(found.zTo(reference)), 4);
+    EXPECT_LT(std::abs(zOf(found, reference)), 4);
 }
 
 TEST(ResidualRays, GoOnWithTheirProbability) {

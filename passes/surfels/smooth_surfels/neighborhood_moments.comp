@@ -26,5 +26,6 @@ void main() {
     }
     const float mean_ = sum / weights, variance = max(squares / weights - mean_ * mean_, 0.0);
     const float varianceOfMean = variance * squaredWeights / (weights * weights);
-    neighborhoods.data[node] = uvec4(floatBitsToUint(vec2(mean_, variance)), packUpperHalves(varianceOfMean, inverse), center.y);
+    neighborhoods.data[node] =
+        uvec4(floatBitsToUint(vec2(mean_, variance)), packUpperHalves(varianceOfMean, inverse), center.y);
 }
