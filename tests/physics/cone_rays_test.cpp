@@ -93,6 +93,45 @@ TEST(ConeRays, WithAResidualTheMeanIsTheReferencesWhateverIsStored) {
     }
 }
 
+TEST(ConeRays, AFilterOfTheResidualKeepsItsMeanAndTakesItsNoise) {
+    const State state = builtin("cornell", "{lights: area}");
+    const Estimate reference = meanOfFrames(state, graphYaml({"path_trace, spp: 512, bounces: 4"}), 8);
+    struct Found {
+        double ratio, error, noise;
+    };
+    const auto measure = [&](const std::string& stride, const std::vector<std::string>& after) {
+        std::vector<std::string> passes{
+            "gbuffer, samples_per_pixel_edge: 4", "voxelize, resolution: 16",
+            "inject_light_rays, rays_per_light: 65536, bounces: 0", "filter_voxels",
+            "gather_cones, specular: 0, residual: 0.3, residual_bounces: 4, stride: " + stride};
+        passes.insert(passes.end(), after.begin(), after.end());
+        Chain chain(state, graphYaml(passes), 32, 32);
+        const Estimate found = meanOfFrames(chain, 12);
+        const ImageF last = chain.image("indirect");
+        chain.runFrame(13);
+        const ImageF next = chain.image("indirect");
+        double squares = 0;
+        for (size_t i = 0; i < last.data.size(); ++i) squares += std::pow(double(next.data[i]) - last.data[i], 2);
+        return Found{found.mean / reference.mean, std::sqrt(found.variance + reference.variance) / reference.mean,
+                     std::sqrt(squares / double(last.data.size())) / reference.mean};
+    };
+    for (const std::string stride : {"1", "4"}) {
+        const Found averaged = measure(stride, {}), filtered = measure(stride, {"filter_irradiance, light: residual"});
+        std::printf("stride %s: mean %.4f +- %.4f, difference of two frames %.3f; filtered apart %.4f +- %.4f, %.3f\n",
+                    stride.c_str(), averaged.ratio, averaged.error, averaged.noise, filtered.ratio, filtered.error,
+                    filtered.noise);
+        EXPECT_NEAR(filtered.ratio, 1, 0.02 + 2 * filtered.error) << stride;
+        EXPECT_LT(filtered.noise, 0.6 * averaged.noise) << stride;
+    }
+}
+
+TEST(ConeRays, TheResidualOfGlossySurfacesIsNotFilteredApart) {
+    EXPECT_THROW(meanIndirect("cornell", "{}",
+                              graphYaml({"gbuffer", "voxelize, resolution: 16", "inject_light_rays", "filter_voxels",
+                                         "gather_cones, residual: 0.5", "filter_irradiance, light: residual"})),
+                 Error);
+}
+
 TEST(ConeRays, GoOnAsPathsWithTheirProbability) {
     const State state = builtin("cornell", "{lights: area}");
     const auto paths = [&](const std::string& p) {

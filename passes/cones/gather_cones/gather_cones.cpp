@@ -82,6 +82,10 @@ class GatherCones final : public Pass {
 
  private:
     void planRays(PassPlan& plan, const RadianceVoxels& radiance, glm::uvec2 tracedExtent);
+    /// The residual where another pass filters it and adds it, else null.
+    NoisyIrradiance* residualApart(const PortAccess& access) const {
+        return params_.residual > 0 && access[noisy_].isRead ? &access[noisy_] : nullptr;
+    }
     bool hasRays() const {
         return params_.visibility == ConeVisibility::Rays || params_.nearFieldVoxels > 0 || params_.residual > 0;
     }
@@ -93,6 +97,10 @@ class GatherCones final : public Pass {
     Out<SpecularLobes> lobes_{*this, "lobes",
                               "what specular lobes reflect; a pass that reads it joins it with 'indirect'",
                               params_.specular > 0};
+    Out<NoisyIrradiance> noisy_{*this, "noisy_residual",
+                                "irradiance that the cones lack; a pass that reads it filters it, and 'indirect' is "
+                                "without it",
+                                params_.residual > 0};
     Kernel trace_{*this, "trace_cones.comp"};
     Kernel resolve_{*this, "resolve.comp"};
     Kernel resolveLobes_{*this, "resolve.comp", {{"SPECULAR", "1"}}};
@@ -105,8 +113,8 @@ class GatherCones final : public Pass {
 void GatherCones::plan(PassPlan& plan) {
     const RadianceVoxels& radiance = plan[radiance_];
     plan.buffer(cones_, "cones", coneSet(params_.cones).size() * sizeof(gpu::Cone));
-    plan[indirect_].lightBounces =
-        params_.residual > 0 ? std::optional(params_.residualBounces) : radiance.lightBounces;
+    const bool hasResidual = params_.residual > 0 && !residualApart(plan);
+    plan[indirect_].lightBounces = hasResidual ? std::optional(params_.residualBounces) : radiance.lightBounces;
     plan[indirect_].hasSpecularLobes = params_.specular > 0;
     plan.frameImage(indirect_);
     const ImageDesc traced = tracedImage(plan.frame, plan[gbuffer_].samples, params_.stride);
@@ -127,6 +135,10 @@ void GatherCones::planRays(PassPlan& plan, const RadianceVoxels& radiance, glm::
         throw Error(
             "gather_cones: 'near_field_voxels' and 'residual' measure light at hits without what they emit, "
             "which the radiance voxels hold; set them to 0, or 'emission' of filter_voxels to false");
+    if (residualApart(plan) && params_.specular > 0)
+        throw Error(
+            "gather_cones: a filter of the residual takes all surfaces for diffuse; set 'specular' to 0, or leave the "
+            "filter out, so that the residual is averaged as cones are");
     rays_->plan(plan, radiance,
                 {.visibility = params_.visibility,
                  .nearVoxels = params_.nearFieldVoxels,
@@ -134,8 +146,10 @@ void GatherCones::planRays(PassPlan& plan, const RadianceVoxels& radiance, glm::
                  .bounces = params_.residualBounces,
                  .cones = params_.cones,
                  .stride = params_.stride,
+                 .samples = plan[gbuffer_].samples,
                  .tracedExtent = tracedExtent,
-                 .width = coneSet(params_.cones).back().width});
+                 .width = coneSet(params_.cones).back().width},
+                residualApart(plan));
 }
 
 void GatherCones::prepare(PassSetup& setup) {
@@ -147,7 +161,7 @@ void GatherCones::record(PassContext& context) {
     const GBuffer& gbuffer = context[gbuffer_];
     const RadianceVoxels& radiance = context[radiance_];
     if (rays_)
-        rays_->record(context, gbuffer, radiance, cones_, irradiance_);
+        rays_->record(context, gbuffer, radiance, cones_, irradiance_, residualApart(context));
     else
         context.dispatch(trace_, irradiance_.desc().extent,
                          {gbuffer,
