@@ -126,7 +126,9 @@ TEST(GBuffer, RandomSamplesCoverAnEdgeInTheMeanOverFrames) {
                 for (size_t x = 4; x < 6; ++x) {
                     const size_t i = y * 8 + x;
                     sum += albedo[i].w;
-                    if (albedo[i].w > 0) EXPECT_EQ(std::floor((position[i].x + 1) * 4), x) << pattern;
+                    if (albedo[i].w > 0) {
+                        EXPECT_EQ(std::floor((position[i].x + 1) * 4), x) << pattern;
+                    }
                 }
         }
         return sum / (16.0 * frames) - covered;

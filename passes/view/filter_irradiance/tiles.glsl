@@ -6,7 +6,7 @@
 
 // Sums over a tile's elements, by their area, W/m² times pixels.
 struct TileLight {
-    vec3 kept;
+    vec3 kept;  // With SIGNED the area, pixels.
     vec3 excess;
 };
 
