@@ -177,6 +177,7 @@ void ConeRays::tracePaths(PassContext& context, const Bindings& batch, uint32_t 
                                .width = settings_.tracedExtent.x * PATH_TILE,
                                .height = settings_.tracedExtent.y * PATH_TILE,
                                .halves = 1,
+                               .pointsOfPixel = 0,
                                .seed = seed ^ kPathSeed});
 }
 
