@@ -24,6 +24,7 @@ def setting_of(results: Results) -> list[tuple[str, str]]:
               "image": f"{image.get('width', '?')} × {image.get('height', '?')} pixels" if image else "",
               "reference": _joined(reference.get("pass"), *(f"{reference[key]} {words}" for key, words in (
                   ("spp", "samples a pixel"), ("bounces", "bounces")) if key in reference)),
+              "times": _clocks(results),
               "device": _joined(manifest.get("device"), manifest.get("tracer") and f"rays by {manifest['tracer']}")}
     return [(name, words) for name, words in facts.items() if words]
 
@@ -49,6 +50,13 @@ def comparisons(results: Results) -> list[tuple[str, Results]]:
 
 def _joined(*words) -> str:
     return ", ".join(str(word) for word in words if word)
+
+
+def _clocks(results: Results) -> str:
+    """Which passes' times the device did not measure, and who did."""
+    passes = results.passes[results.passes["clock"] != ""] if "clock" in results.passes else results.passes[:0]
+    told = dict.fromkeys(zip(passes["pass"] + " of " + passes["variant"].map(results.names), passes["clock"]))
+    return "; ".join(f"{name}: {clock}" for name, clock in told)
 
 
 def _source(scene: dict) -> str:
