@@ -12,6 +12,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <string_view>
 
 #include "base/error.h"
 #include "base/interrupt.h"
@@ -53,11 +54,27 @@ class Pipe {
     int ends_[2];
 };
 
-/// Starts a program in a process group of its own. @return 0, with errno's number in `failure`, if it can't.
-pid_t spawn(const std::vector<std::string>& words, const std::filesystem::path& folder, int output, int& failure) {
+/// The environment, with the folder as $PWD, which some programs take in place of the folder they run in.
+std::vector<std::string> environmentIn(const std::filesystem::path& folder) {
+    constexpr std::string_view kName = "PWD=";
+    std::vector<std::string> variables;
+    for (char** variable = environ; *variable; ++variable)
+        if (folder.empty() || !std::string_view(*variable).starts_with(kName)) variables.emplace_back(*variable);
+    if (!folder.empty()) variables.push_back(std::string(kName) + std::filesystem::absolute(folder).string());
+    return variables;
+}
+
+/// Pointers for the system's functions.
+std::vector<char*> pointersTo(std::vector<std::string>& words) {
     std::vector<char*> pointers;
-    for (const std::string& word : words) pointers.push_back(const_cast<char*>(word.c_str()));
+    for (std::string& word : words) pointers.push_back(word.data());
     pointers.push_back(nullptr);
+    return pointers;
+}
+
+/// Starts a program in a process group of its own. @return 0, with errno's number in `failure`, if it can't.
+pid_t spawn(std::vector<std::string> words, const std::filesystem::path& folder, int output, int& failure) {
+    std::vector<std::string> variables = environmentIn(folder);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -68,7 +85,8 @@ pid_t spawn(const std::vector<std::string>& words, const std::filesystem::path& 
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     pid_t child = 0;
-    failure = ::posix_spawnp(&child, pointers[0], &actions, &attributes, pointers.data(), environ);
+    failure = ::posix_spawnp(&child, words[0].c_str(), &actions, &attributes, pointersTo(words).data(),
+                             pointersTo(variables).data());
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     return failure == 0 ? child : 0;

@@ -23,10 +23,10 @@ scene: {builtin: cornell, lights: spot, environment: SKY}
 image: {width: 32, height: 24, exposure_stops: 1.5}
 seed: 7
 graph:
-  - {pass: path_trace, id: image, spp: 4, bounces: 2}
+  - {pass: path_trace, id: method, spp: 4, bounces: 2}
 reference: {pass: path_trace, spp: 16, bounces: 2}
 sweep:
-  image:
+  method:
     paths: {pass: path_trace, spp: 4, bounces: 2}
     other: {pass: external, bounces: 2, spp: 5, OTHER}
 measure: {frames: 2, warmup: 1}
@@ -127,7 +127,7 @@ class Command(External):
 
     def test_failures_name_their_cause(self):
         said = self.failure("fail")
-        for words in ("mixed.yaml", "exit status 1", "reading the scene | no licence for | this machine"):
+        for words in ("external", "exit status 1", "reading the scene | no licence for | this machine"):
             self.assertIn(words, said)
         self.assertIn("1 values are NaN or infinite, the first in column 3, row 2", self.failure("nan"))
         self.assertIn("33 x 24 pixels, the config's image 32 x 24", self.failure("wide"))
@@ -143,11 +143,12 @@ class Command(External):
 
     def test_a_program_runs_only_from_a_config(self):
         self.config()
-        said = self.expect(2, "run", "mixed.yaml", *QUIET, "--set", "sweep.image.other.command=[/bin/true]").stderr
+        said = self.expect(2, "run", "mixed.yaml", *QUIET, "--set",
+                           "sweep.method={other: {pass: external, command: [/bin/true]}}").stderr
         self.assertIn("a program runs only from a config's file", said)
         self.assertIn("list of words", self.expect(2, "validate", self.write("mixed.yaml", CONFIG.replace(
             "OTHER", "command: rm -r out").replace("SKY", "none"))).stderr)
-        for none_or_both in ("spp: 1", "command: [/bin/true], images: ."):
+        for none_or_both in ("light: total", "command: [/bin/true], images: ."):
             self.write("mixed.yaml", CONFIG.replace("OTHER", none_or_both).replace("SKY", "none"))
             self.assertIn("either a 'command'", self.expect(2, "validate", "mixed.yaml").stderr)
         self.config()
