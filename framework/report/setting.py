@@ -53,10 +53,13 @@ def _joined(*words) -> str:
 
 
 def _clocks(results: Results) -> str:
-    """Which passes' times the device did not measure, and who did."""
-    passes = results.passes[results.passes["clock"] != ""] if "clock" in results.passes else results.passes[:0]
-    told = dict.fromkeys(zip(passes["pass"] + " of " + passes["variant"].map(results.names), passes["clock"]))
-    return "; ".join(f"{name}: {clock}" for name, clock in told)
+    """Which variants' times the device did not measure, by their numbers, and who did."""
+    told: dict[str, list[str]] = {}
+    if "clock" in results.passes:  # runs of older versions have none
+        for variant, clock in zip(results.passes["variant"], results.passes["clock"]):
+            if clock:
+                told.setdefault(clock, []).append(f"#{results.numbers[variant]}")
+    return "; ".join(f"of {', '.join(dict.fromkeys(numbers))}: {clock}" for clock, numbers in told.items())
 
 
 def _source(scene: dict) -> str:
