@@ -16,7 +16,8 @@ namespace voxray {
 std::shared_ptr<const Scene> loadGltf(const std::filesystem::path& path);
 
 /// Writes a scene at one time as .glb: geometry, materials, textures, lights and cameras as rendered (units:
-/// docs/units.md). @throws Error for an environment, which glTF can't represent.
+/// docs/units.md), without the environment, which glTF can't hold: exportForRenderers() writes that, too.
+/// @throws Error where the file can't be written.
 void exportGlb(const SceneState& state, const std::filesystem::path& path);
 
 /// Names of the built-in scenes, for help and "did you mean".

@@ -39,6 +39,7 @@ FAMILIES = {
     "hybrid_leaves": {"surfels", "cones"},
     "published": {"cones"},
     "path_trace": set(),
+    "external": set(),
     "experiments": {"cones", "surfels"},
 }
 
