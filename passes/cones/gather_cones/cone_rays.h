@@ -20,6 +20,14 @@ struct EnumNames<ConeVisibility> {
                                       std::pair{ConeVisibility::Rays, "rays"}};
 };
 
+/// What averages the residual.
+enum class ResidualFilter { Mean, Apart };
+template <>
+struct EnumNames<ResidualFilter> {
+    static constexpr std::array names{std::pair{ResidualFilter::Mean, "mean"},
+                                      std::pair{ResidualFilter::Apart, "apart"}};
+};
+
 /// Diffuse cones with a ray along each one's axis. Through a near field, where voxels are too coarse: at a hit there
 /// direct light is sampled by shadow rays and the path continues (the secondary gather of Jensen 2001, section 8.2).
 /// Beyond it, up to what the cone sees or not (ConeVisibility). And for the residual: some rays go on as paths.

@@ -1,5 +1,5 @@
-// The residual of each traced texel of a batch, apart from what its cones found: the weighted sum over its cones of what a
-// path brings, less what the cone read in voxels, over the probability that it went on; 0 for cones that did not.
+// The residual of each traced texel of a batch, apart from what its cones found: the weighted sum over its cones of what
+// a path brings, less what the cone read in voxels, over the probability that it went on; 0 for cones that did not.
 #include "passes/cones/gather_cones/chosen_cones.glsl"
 #include "passes/cones/radiance/cone_types.h"
 #include "passes/path_trace/path_streams/path_types.h"
@@ -25,7 +25,8 @@ void main() {
     vec3 sum = vec3(0.0);
     for (uint i = first; hasSurface && i < first + push.conesPerTexel; ++i) {
         if (!isChosen(i)) continue;
-        const vec3 part = cones.data[i - first].weight * (sums.data[i].irradiance - light.data[i].rgb) / push.probability;
+        const vec3 lacking = (sums.data[i].irradiance - light.data[i].rgb) / push.probability,
+                   part = cones.data[i - first].weight * lacking;
         const float ofRay = count * luminance(part);
         sum += part;
         moments.luminance += ofRay;

@@ -6,9 +6,9 @@
 // mean: of the rays of the surrounding blocks; σ: a ray's standard deviation over this mean (statistics.comp). With
 // many rays an element's deviation is a difference of light rather than noise, hence the 1.5. With SIGNED σ is not over
 // the mean, and bounds both sides.
-#include "passes/view/filter_irradiance/block_interpolation.glsl"
+#include "shaders/filter/block_interpolation.glsl"
 #include "passes/view/filter_irradiance/surface.glsl"
-#include "passes/view/filter_irradiance/tiles.glsl"
+#include "shaders/filter/tiles.glsl"
 #include "shaders/filter/ray_statistics.h"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = TILE, local_size_y = TILE) in;

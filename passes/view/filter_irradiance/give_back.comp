@@ -1,7 +1,7 @@
 // By how much the light of each tile is raised to give back what bound.comp took: 1 + excess / kept, over the 5 x 5
 // tiles around. Dark places get back little of what bright ones lost. With SIGNED what is added to it: each tile's
 // excess, shared by the area of the 5 x 5 tiles around it.
-#include "passes/view/filter_irradiance/tiles.glsl"
+#include "shaders/filter/tiles.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(scalar) readonly buffer Tiles { TileLight data[]; } tiles;

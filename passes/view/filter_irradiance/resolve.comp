@@ -1,6 +1,6 @@
 // Radiance that each pixel reflects of the filtered irradiance, by Lambert's law, and of light that is not filtered.
-#include "passes/view/filter_irradiance/block_interpolation.glsl"
-#include "passes/view/filter_irradiance/tiles.glsl"
+#include "shaders/filter/block_interpolation.glsl"
+#include "shaders/filter/tiles.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 uniform sampler2D irradiance;   // Of elements (elements.glsl), W/m².

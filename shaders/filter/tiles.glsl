@@ -1,4 +1,4 @@
-// Tiles of the frame in which light that outliers lost is given back (bound.comp, give_back.comp).
+// Tiles of the frame in which light that a filter lost is given back.
 #ifndef VOXRAY_FILTER_TILES_GLSL
 #define VOXRAY_FILTER_TILES_GLSL
 
