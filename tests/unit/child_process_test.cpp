@@ -13,7 +13,8 @@ namespace {
 
 TEST(ChildProcess, TellsStatusOutputAndFolder) {
     const test::TemporaryFolder folder;
-    const ProgramEnd end = runProgram({"sh", "-c", "echo first; echo $PWD; pwd; echo 'it failed' >&2; exit 3"}, folder / "", 0);
+    const ProgramEnd end =
+        runProgram({"sh", "-c", "echo first; echo $PWD; pwd; echo 'it failed' >&2; exit 3"}, folder / "", 0);
     EXPECT_EQ(end.status, 3);
     EXPECT_FALSE(end.isLate);
     const std::string path = (folder / "").string(), shown = path.substr(0, path.find_last_not_of('/') + 1);

@@ -1,5 +1,6 @@
 #include <nlohmann/json.hpp>
 
+#include "base/files.h"
 #include "scene/compose.h"
 #include "scene/gltf_sidecar.h"
 #include "scene/material_change.h"
