@@ -119,6 +119,8 @@ Surface mixedSurface(const Surface& a, const Surface& b, float weight) {
     mixed.ior = glm::mix(a.ior, b.ior, weight);
     mixed.transmission = glm::mix(a.transmission, b.transmission, weight);
     mixed.opacity = blend(a.opacity, b.opacity, weight);
+    mixed.usesVertexColors = a.usesVertexColors || b.usesVertexColors;
+    mixed.normalMap = weight < 0.5f ? a.normalMap : b.normalMap;
     return mixed;
 }
 
@@ -145,7 +147,8 @@ uint32_t storeSurface(const Surface& surface, const SurfaceEmission& emission, c
     const TexturedColor color = atMostOne(surface.color, name, notes);
     if (surface.opacity.image || surface.opacity.value != glm::vec3(1)) {
         material.alphaMode = AlphaMode::Mask;
-        if (surface.opacity.image) notes.add("an opacity below 0.5 is a hole, another one none", name);
+        if (surface.opacity.image || (surface.opacity.value.x > 0 && surface.opacity.value.x < 1))
+            notes.add("an opacity below 0.5 is a hole, another one none", name);
     }
     material.baseColorTexture = images.store(color, surface.opacity, factor);
     material.baseColor = glm::vec4(glm::clamp(factor, glm::vec3(0), glm::vec3(1)),
@@ -153,6 +156,11 @@ uint32_t storeSurface(const Surface& surface, const SurfaceEmission& emission, c
     if (color.image && glm::any(glm::greaterThan(factor, glm::vec3(1))))
         notes.add("a reflectance above 1 is taken as 1", name);
 
+    if (surface.normalMap) {
+        TexturedColor normals;
+        normals.image = surface.normalMap;
+        material.normalTexture = images.store(normals, true, factor);
+    }
     material.emissiveTexture = images.store(emission.radiance, false, factor);
     material.emission = glm::clamp(factor, glm::vec3(0), glm::vec3(1e30f));
     material.doubleSided = emission.twoSided;

@@ -17,7 +17,9 @@ struct Surface {
     float ior = 1.5f;
     float transmission = 0;
     TexturedColor opacity{glm::vec3(1.0f)};
-    bool isNothing = false;  ///< No surface: a border of media.
+    std::shared_ptr<const ColorImage> normalMap;  ///< Of the tangent space, 0 to 1; nullptr: none.
+    bool usesVertexColors = false;                ///< The color is that of the mesh times `color`.
+    bool isNothing = false;                       ///< No surface: a border of media.
 };
 
 /// a/π.
