@@ -50,8 +50,8 @@ def mitsuba_test(folder, name, reference, bounces=0, part=None, is_diffuse=True)
                  is_diffuse)
 
 
-# The two spheres at the left of the middle row
-DIFFUSE_SPHERES = ((0.36, 0.62), (0.0, 1.0))
+# Two Lambert spheres and two leaves, at the lower right
+DIFFUSE_SPHERES = ((0.44, 1.0), (0.6, 1.0))
 
 SCENES = {
     "instancing": mitsuba_test("instancing", "test_instancing_path", "test_instancing"),
@@ -61,10 +61,10 @@ SCENES = {
     "directional": mitsuba_test("floating_sphere", "test_directional_direct", "test_directional"),
     "emitters": mitsuba_test("various_emitters", "test_various_emitters_ptracer", "test_various_emitters", 2),
     "textured sphere": spheres("textured_diffuse"),
-    "area light": spheres("arealight"),
-    "constant": spheres("constant"),
-    "environment": spheres("envmap"),
-    "point light": spheres("pointlight"),
+    "area light": spheres("arealight", DIFFUSE_SPHERES),
+    "constant": spheres("constant", DIFFUSE_SPHERES),
+    "environment": spheres("envmap", DIFFUSE_SPHERES),
+    "point light": spheres("pointlight", DIFFUSE_SPHERES),
     "rough conductor": spheres("textured_roughconductor", is_diffuse=False),
     "principled": spheres("texturedprincipled1", is_diffuse=False),
 }

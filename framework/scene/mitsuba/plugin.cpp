@@ -1,5 +1,7 @@
 #include "scene/mitsuba/plugin.h"
 
+#include <filesystem>
+
 #include "scene/import/numbers.h"
 
 namespace voxray::mitsuba {
@@ -95,7 +97,7 @@ std::vector<const Plugin*> Plugin::childrenOf(const std::string& wanted) const {
 }
 
 std::string Plugin::name() const {
-    const std::string place = where.str();
+    const std::string place = fmt::format("{}:{}", std::filesystem::path(where.file).filename().string(), where.line);
     return id.empty() ? place : id + " (" + place + ")";
 }
 

@@ -51,7 +51,7 @@ struct Plugin {
     /// The children of this tag.
     std::vector<const Plugin*> childrenOf(const std::string& tag) const;
 
-    /// "'ID' (FILE:LINE)", without an id "(FILE:LINE)": for notes.
+    /// "ID (FILE:LINE)", without an id "FILE:LINE": for notes.
     std::string name() const;
     /// "'TYPE' TAG": for messages.
     std::string what() const { return "'" + type + "' " + tag; }

@@ -92,9 +92,9 @@ TexturedColor Surfaces::alpha(const Plugin& bsdf) {
 }
 
 Surface Surfaces::conductor(const Plugin& bsdf) {
-    const std::string material = lowerCase(bsdf.text("material", bsdf.find("eta") || bsdf.child("eta") ? "" : "cu"));
+    const std::string material = bsdf.text("material", bsdf.find("eta") || bsdf.child("eta") ? "" : "Cu");
     glm::vec3 reflectance(1);
-    if (material != "none") {
+    if (lowerCase(material) != "none") {
         MetalIndex metal{glm::vec3(0), glm::vec3(1)};
         if (const auto known = metalIndex(material)) {
             metal = *known;
