@@ -19,5 +19,5 @@ target_precompile_headers(sanitized_readers PRIVATE ${CMAKE_SOURCE_DIR}/framewor
 
 voxray_tests(mutation SHARDS 3
   SOURCES unit/config_mutation_test.cpp unit/mitsuba_mutation_test.cpp unit/scene_mutation_test.cpp
-  DEPENDS sanitized_readers voxray_config voxray_scene draco::draco meshoptimizer::meshoptimizer)
+  DEPENDS sanitized_readers voxray_config voxray_scene draco::draco meshoptimizer::meshoptimizer ZLIB::ZLIB)
 target_link_options(tests_mutation PRIVATE ${SANITIZERS})
