@@ -13,10 +13,10 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kNone = std::numeric_limits<uint32_t>::max();
+constexpr uint32_t kNoEntry = std::numeric_limits<uint32_t>::max();
 constexpr size_t kLinesPerCheck = 65536;
 
-/// Entries of a corner in the three lists; kNone: it has none.
+/// Entries of a corner in the three lists; kNoEntry: it has none.
 using Corner = std::array<uint32_t, 3>;
 
 struct CornerHash {
@@ -95,7 +95,7 @@ class ObjReader {
     /// "p", "p/t", "p//n" or "p/t/n".
     Corner corner(std::string_view token) const {
         const size_t counts[] = {positions_.size(), texCoords_.size(), normals_.size()};
-        Corner corner{kNone, kNone, kNone};
+        Corner corner{kNoEntry, kNoEntry, kNoEntry};
         for (size_t i = 0; i < 3; ++i) {
             const size_t length = std::min(token.find('/'), token.size());
             if (length > 0 || i == 0) corner[i] = entry(token.substr(0, length), counts[i]);
@@ -108,11 +108,11 @@ class ObjReader {
     uint32_t vertex(const Corner& corner) {
         const auto [known, isNew] = vertices_.try_emplace(corner, uint32_t(mesh_.positions.size()));
         if (!isNew) return known->second;
-        if (mesh_.positions.size() >= kNone) fail("more vertices than 32 bits can number");
+        if (mesh_.positions.size() >= kNoEntry) fail("more vertices than 32 bits can number");
         memory_.reserve(1, sizeof(glm::vec3) * 2 + sizeof(glm::vec2) + 4 * sizeof(Corner));
         mesh_.positions.push_back(positions_[corner[0]]);
-        allHaveTexCoords_ = allHaveTexCoords_ && corner[1] != kNone;
-        allHaveNormals_ = allHaveNormals_ && corner[2] != kNone;
+        allHaveTexCoords_ = allHaveTexCoords_ && corner[1] != kNoEntry;
+        allHaveNormals_ = allHaveNormals_ && corner[2] != kNoEntry;
         if (allHaveTexCoords_) mesh_.texCoords0.push_back(texCoords_[corner[1]]);
         if (allHaveNormals_) mesh_.normals.push_back(normals_[corner[2]]);
         return known->second;

@@ -1,15 +1,13 @@
 #include "scene/mitsuba/serialized.h"
 
-#include <zlib.h>
-
 #include <bit>
 #include <cstring>
-#include <memory>
 #include <span>
 
 #include "base/error.h"
 #include "base/files.h"
 #include "base/interrupt.h"
+#include "scene/import/inflate.h"
 
 namespace voxray::mitsuba {
 namespace {
@@ -18,40 +16,29 @@ static_assert(std::endian::native == std::endian::little);
 constexpr uint16_t kFormat = 0x041C;
 constexpr uint32_t kHasNormals = 0x0001, kHasTexCoords = 0x0002, kHasColors = 0x0008, kFaceNormals = 0x0010,
                    kDouble = 0x2000;
-constexpr size_t kMaxName = 65536;
-/// Values are decompressed in blocks, so that memory follows what the file really holds.
-constexpr size_t kBlockBytes = 1 << 20;
+constexpr size_t kMaxName = 200;
 
-/// Bytes that a zlib stream holds, one after another.
-class Inflater {
+/// Values one after another.
+class Cursor {
  public:
-    Inflater(std::span<const uint8_t> compressed, std::string name) : name_(std::move(name)) {
-        stream_.next_in = const_cast<uint8_t*>(compressed.data());
-        stream_.avail_in = uInt(std::min<size_t>(compressed.size(), std::numeric_limits<uInt>::max()));
-        if (inflateInit(&stream_) != Z_OK) throw Error("zlib can't be started: too little memory");
-    }
-    ~Inflater() { inflateEnd(&stream_); }
-    Inflater(const Inflater&) = delete;
-    Inflater& operator=(const Inflater&) = delete;
+    Cursor(std::span<const uint8_t> bytes, std::string name) : bytes_(bytes), name_(std::move(name)) {}
 
-    void read(void* data, size_t bytes) {
-        stream_.next_out = static_cast<uint8_t*>(data);
-        stream_.avail_out = uInt(bytes);
-        while (stream_.avail_out > 0) {
-            const int code = inflate(&stream_, Z_SYNC_FLUSH);
-            if (code == Z_OK || (code == Z_STREAM_END && stream_.avail_out == 0)) continue;
-            throw Error("{}: is broken or truncated: its data end {} bytes too early", name_, stream_.avail_out);
-        }
+    /// The next `count` values of this size.
+    std::span<const uint8_t> take(uint64_t count, size_t size) {
+        if (count > bytes_.size() / size) throw Error("{}: is broken or truncated: its data end too early", name_);
+        const std::span<const uint8_t> taken = bytes_.first(size_t(count) * size);
+        bytes_ = bytes_.subspan(taken.size());
+        return taken;
     }
     template <typename T>
-    T read() {
+    T take() {
         T value;
-        read(&value, sizeof value);
+        std::memcpy(&value, take(1, sizeof value).data(), sizeof value);
         return value;
     }
 
  private:
-    z_stream stream_{};
+    std::span<const uint8_t> bytes_;
     std::string name_;
 };
 
@@ -71,48 +58,34 @@ uint16_t versionAt(std::span<const uint8_t> bytes, uint64_t offset, const std::s
     return version;
 }
 
-/// Reads `count` vectors of floats or doubles.
+/// Vectors of floats or doubles.
 template <typename Vector>
-std::vector<Vector> readVectors(Inflater& in, uint64_t count, bool isDouble, MemoryBudget& memory) {
-    const size_t size = isDouble ? sizeof(double) : sizeof(float);
-    const size_t each = size_t(Vector::length());
-    const uint64_t perBlock = kBlockBytes / (each * size);
-    std::vector<uint8_t> block(size_t(std::min(count, perBlock)) * each * size);
-    std::vector<Vector> vectors;
-    for (uint64_t done = 0; done < count;) {
-        if (interruptRequested()) throw Interrupted();
-        const auto number = size_t(std::min(count - done, perBlock));
-        in.read(block.data(), number * each * size);
-        memory.reserve(number, sizeof(Vector));
-        for (size_t i = 0; i < number; ++i) {
-            Vector v;
-            for (size_t c = 0; c < each; ++c) {
-                float single;
-                double precise;
-                const uint8_t* at = block.data() + (i * each + c) * size;
-                if (isDouble)
-                    std::memcpy(&precise, at, sizeof precise);
-                else
-                    std::memcpy(&single, at, sizeof single);
-                v[int(c)] = isDouble ? float(precise) : single;
-            }
-            vectors.push_back(v);
-        }
-        done += number;
+std::vector<Vector> takeVectors(Cursor& in, uint64_t count, bool isDouble, MemoryBudget& memory) {
+    constexpr auto each = size_t(Vector::length());
+    const std::span<const uint8_t> bytes = in.take(count, each * (isDouble ? sizeof(double) : sizeof(float)));
+    memory.reserve(count, sizeof(Vector));
+    std::vector<Vector> vectors(size_t(count), Vector(0));
+    if (!isDouble) {
+        if (count > 0) std::memcpy(vectors.data(), bytes.data(), bytes.size());
+        return vectors;
+    }
+    for (size_t i = 0; i < vectors.size() * each; ++i) {
+        double value;
+        std::memcpy(&value, bytes.data() + i * sizeof value, sizeof value);
+        vectors[i / each][int(i % each)] = float(value);
     }
     return vectors;
 }
 
-std::vector<glm::uvec3> readTriangleList(Inflater& in, uint64_t count, MemoryBudget& memory) {
-    constexpr uint64_t perBlock = kBlockBytes / sizeof(glm::uvec3);
-    std::vector<glm::uvec3> triangles;
-    while (triangles.size() < count) {
-        const auto number = size_t(std::min<uint64_t>(count - triangles.size(), perBlock));
-        memory.reserve(number, sizeof(glm::uvec3));
-        triangles.resize(triangles.size() + number);
-        in.read(triangles.data() + triangles.size() - number, number * sizeof(glm::uvec3));
+/// The content of the mesh that begins here.
+std::vector<uint8_t> inflatedMesh(std::span<const uint8_t> bytes, const std::string& name, MemoryBudget& memory) {
+    try {
+        return inflateBytes(bytes, memory);
+    } catch (const Interrupted&) {
+        throw;
+    } catch (const Error& error) {
+        throw Error("{}: {}", name, error.what());
     }
-    return triangles;
 }
 
 }  // namespace
@@ -132,23 +105,27 @@ Mesh readSerialized(const std::filesystem::path& path, uint64_t index, MemoryBud
     const uint64_t offset = version == 4 ? valueAt<uint64_t>(bytes, at, name) : valueAt<uint32_t>(bytes, at, name);
     versionAt(bytes, offset, name);
 
-    Inflater in(bytes.subspan(size_t(offset) + 4), name);
-    const auto flags = in.read<uint32_t>();
+    const std::vector<uint8_t> content = inflatedMesh(bytes.subspan(size_t(offset) + 4), name, memory);
+    Cursor in(content, name);
+    const auto flags = in.take<uint32_t>();
     Mesh mesh;
-    for (char c = 1; version == 4 && c != 0 && mesh.name.size() <= kMaxName;)
-        if ((c = in.read<char>()) != 0) mesh.name += c;
-    const auto vertices = in.read<uint64_t>(), triangles = in.read<uint64_t>();
+    for (char c = 1; version == 4 && c != 0;)
+        if ((c = in.take<char>()) != 0 && mesh.name.size() < kMaxName) mesh.name += c;
+    const auto vertices = in.take<uint64_t>(), triangles = in.take<uint64_t>();
     if (vertices >= uint64_t(1) << 31 || triangles >= uint64_t(1) << 31)
         throw Error("{}: mesh {} has more than 2^31 vertices or triangles", name, index);
     const bool isDouble = (flags & kDouble) != 0;
-    mesh.positions = readVectors<glm::vec3>(in, vertices, isDouble, memory);
-    if (flags & kHasNormals) mesh.normals = readVectors<glm::vec3>(in, vertices, isDouble, memory);
-    if (flags & kHasTexCoords) mesh.texCoords0 = readVectors<glm::vec2>(in, vertices, isDouble, memory);
+    mesh.positions = takeVectors<glm::vec3>(in, vertices, isDouble, memory);
+    if (flags & kHasNormals) mesh.normals = takeVectors<glm::vec3>(in, vertices, isDouble, memory);
+    if (flags & kHasTexCoords) mesh.texCoords0 = takeVectors<glm::vec2>(in, vertices, isDouble, memory);
     if (flags & kHasColors)
-        for (const glm::vec3& color : readVectors<glm::vec3>(in, vertices, isDouble, memory))
+        for (const glm::vec3& color : takeVectors<glm::vec3>(in, vertices, isDouble, memory))
             mesh.colors.emplace_back(color, 1);
     if (flags & kFaceNormals) mesh.normals.clear();
-    mesh.triangles = readTriangleList(in, triangles, memory);
+    const std::span<const uint8_t> indices = in.take(triangles, sizeof(glm::uvec3));
+    memory.reserve(triangles, sizeof(glm::uvec3));
+    mesh.triangles.resize(size_t(triangles));
+    if (triangles > 0) std::memcpy(mesh.triangles.data(), indices.data(), indices.size());
     return mesh;
 }
 
