@@ -33,7 +33,9 @@ TEST(MitsubaMaterials, Lambert) {
     expectNear(materialOf(folder, "<bsdf type='diffuse'><spectrum name='reflectance' value='300:0.25, 900:0.25'/></bsdf>")
                    .baseColor,
                glm::vec3(0.25f), 1e-3f);
-    EXPECT_TRUE(warns(*sceneOf(folder, "<bsdf type='diffuse'><rgb name='reflectance' value='2'/></bsdf>"), "above 1"));
+    const auto bright = sceneOf(folder, "<bsdf type='diffuse'><rgb name='reflectance' value='2'/></bsdf>");
+    EXPECT_TRUE(warns(*bright, "above 1"));
+    EXPECT_TRUE(warns(*bright, "without 'twosided'"));
 }
 
 TEST(MitsubaMaterials, Conductors) {
@@ -140,7 +142,7 @@ TEST(MitsubaMaterials, TexturesThatNoShapeUsesAreNotRead) {
     const auto scene = loadElements(folder, "<texture type='bitmap' id='t'><string name='filename' value='no.exr'/></texture>"
                                             "<bsdf type='diffuse'><ref name='reflectance' id='t'/></bsdf>"
                                             "<shape type='rectangle'/>");
-    EXPECT_TRUE(scene->warnings.empty());
+    EXPECT_FALSE(warns(*scene, "missing"));
 }
 
 TEST(MitsubaMaterials, Checkerboard) {

@@ -123,22 +123,23 @@ Mesh rectangleShape() {
 }
 
 Mesh cubeShape() {
+    // Of each face the corners of texture coordinates (0, 0), (1, 0) and (0, 1), as Mitsuba has them
+    constexpr glm::ivec3 faces[][3] = {{{-1, -1, -1}, {-1, -1, 1}, {1, -1, -1}}, {{1, 1, 1}, {-1, 1, 1}, {1, 1, -1}},
+                                       {{1, -1, 1}, {1, 1, 1}, {1, -1, -1}},     {{-1, -1, 1}, {-1, 1, 1}, {1, -1, 1}},
+                                       {{-1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {{-1, 1, -1}, {-1, -1, -1}, {1, 1, -1}}};
     Mesh cube;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double side : {-1.0, 1.0}) {
-            const Mesh face = gridMesh(1, 1, [&](double u, double v) {
-                glm::dvec3 position(0), normal(0);
-                position[axis] = normal[axis] = side;
-                position[(axis + 1) % 3] = side * (2 * u - 1);
-                position[(axis + 2) % 3] = 2 * v - 1;
-                return SurfacePoint{position, normal};
-            });
-            const auto first = uint32_t(cube.positions.size());
-            cube.positions.insert(cube.positions.end(), face.positions.begin(), face.positions.end());
-            cube.normals.insert(cube.normals.end(), face.normals.begin(), face.normals.end());
-            cube.texCoords0.insert(cube.texCoords0.end(), face.texCoords0.begin(), face.texCoords0.end());
-            for (const glm::uvec3& t : face.triangles) cube.triangles.push_back(t + first);
-        }
+    for (const auto& face : faces) {
+        const glm::dvec3 corner(face[0]), alongU = glm::dvec3(face[1]) - corner, alongV = glm::dvec3(face[2]) - corner;
+        const glm::dvec3 normal = corner + (alongU + alongV) / 2.0;
+        const Mesh side = gridMesh(1, 1, [&](double u, double v) {
+            return SurfacePoint{corner + u * alongU + v * alongV, normal};
+        });
+        const auto first = uint32_t(cube.positions.size());
+        cube.positions.insert(cube.positions.end(), side.positions.begin(), side.positions.end());
+        cube.normals.insert(cube.normals.end(), side.normals.begin(), side.normals.end());
+        cube.texCoords0.insert(cube.texCoords0.end(), side.texCoords0.begin(), side.texCoords0.end());
+        for (const glm::uvec3& t : side.triangles) cube.triangles.push_back(t + first);
+    }
     return cube;
 }
 

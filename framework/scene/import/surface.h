@@ -19,6 +19,7 @@ struct Surface {
     TexturedColor opacity{glm::vec3(1.0f)};
     std::shared_ptr<const ColorImage> normalMap;  ///< Of the tangent space, 0 to 1; nullptr: none.
     bool usesVertexColors = false;                ///< The color is that of the mesh times `color`.
+    bool isOneSided = false;                      ///< In its file it reflects on its front alone.
     bool isNothing = false;                       ///< No surface: a border of media.
 };
 

@@ -13,14 +13,15 @@
 namespace voxray::mitsuba {
 namespace {
 
-/// From the unit cylinder along +Z to one from p0 to p1, without its radius.
+/// From the unit cylinder along +Z to one from p0 to p1, without its radius. The angle begins where Mitsuba's does.
+/// Source: Duff et al., Building an Orthonormal Basis, Revisited (JCGT 2017).
 glm::dmat4 alongAxis(const glm::dvec3& p0, const glm::dvec3& p1, const TextLocation& where) {
     const glm::dvec3 axis = p1 - p0;
     const double length = glm::length(axis);
     if (!(length > 0)) throw Error(where, "a cylinder's p0 and p1 differ");
     const glm::dvec3 z = axis / length;
-    const glm::dvec3 other = std::abs(z.x) > 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 x = glm::normalize(glm::cross(other, z));
+    const double sign = std::copysign(1.0, z.z), a = -1 / (sign + z.z);
+    const glm::dvec3 x(1 + sign * z.x * z.x * a, sign * z.x * z.y * a, -sign * z.x);
     return glm::dmat4(glm::dvec4(x, 0), glm::dvec4(glm::cross(z, x), 0), glm::dvec4(axis, 0), glm::dvec4(p0, 1));
 }
 
@@ -147,6 +148,8 @@ std::optional<uint32_t> Shapes::materialOf(const Plugin& shape, bool& usesVertex
     const Surface surface = bsdf ? surfaces_.surface(*bsdf) : lambertSurface(glm::vec3(0.5f));
     usesVertexColors = surface.usesVertexColors;
     if (surface.isNothing && !emitter) return {};
+    if (surface.isOneSided || !bsdf)
+        import_.notes().add("materials without 'twosided' reflect on both sides", bsdf ? bsdf->name() : "default");
     const auto [known, isNew] = materials_.try_emplace({bsdf, emitter}, 0);
     if (isNew) {
         const std::string name = bsdf && !bsdf->id.empty() ? bsdf->id

@@ -25,6 +25,12 @@ const Surface& Surfaces::surface(const Plugin& bsdf) {
     if (const auto entry = known_.find(&bsdf); entry != known_.end()) return entry->second;
     Surface made = make(bsdf);
     made.usesVertexColors = colors_.takeUsesVertexColors() || made.usesVertexColors;
+    const std::vector<const Plugin*> inner = bsdf.childrenOf("bsdf");
+    const bool isOpen = made.isNothing || made.transmission > 0;
+    made.isOneSided = inner.empty() ? !isOpen
+                                    : bsdf.type != "twosided" && std::ranges::any_of(inner, [&](const Plugin* of) {
+                                          return surface(*of).isOneSided;
+                                      });
     return known_.emplace(&bsdf, std::move(made)).first->second;
 }
 
