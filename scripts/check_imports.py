@@ -4,8 +4,8 @@
 check_imports.py [NAME...] [--scenes DIR] [--spp N] [--out DIR] [--program PROGRAM] [--all]
 
 Renders each scene of the list below by path_trace, as it was imported, at the size of its reference image and with its number of
-bounces, and prints a row for each: the ratio of the means of luminance, of red, green and blue, the root mean square of the
-differences over the mean, and the warnings of the import. NAME: a scene of the list; all where none is named. DIR of --scenes: the
+bounces, and prints a row for each: what `voxray compare` says of the ratio of the means and of nRMSE, and below the table the
+warnings of the import. NAME: a scene of the list; all where none is named. DIR of --scenes: the
 folder of the test scenes' formats, in which files that are missing are said to be. Where a scene has materials that are
 approximated, the list names the part of its image that has none; --all compares whole images. --out keeps the images.
 Exit status 1: a mean is off by more than 1 % where all that is compared is diffuse.
@@ -21,8 +21,6 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.dont_write_bytecode = True
 sys.path.append(str(ROOT / "framework"))
-import numpy as np  # noqa: E402
-from report import exr_pixels, images  # noqa: E402
 from report.rows import markdown_table  # noqa: E402
 
 MITSUBA_TESTS = "mitsuba-3/mitsuba-data/tests/scenes"
@@ -32,69 +30,72 @@ TOLERANCE = 0.01
 class Scene:
     """A scene and the image of its own renderer.
 
-    bounces: after direct light, as in the reference. part: rows and columns (from, to) of the image that are diffuse, as shares
-    of its size; None: the whole image. is_diffuse: whether the mean has to agree.
+    bounces: after direct light, as in the reference. size: of the image. part: x, y, width and height of the pixels that are
+    diffuse; None: the whole image. is_diffuse: whether the mean has to agree.
     """
 
-    def __init__(self, path, reference, bounces=0, part=None, is_diffuse=True):
-        self.path, self.reference, self.bounces, self.part, self.is_diffuse = path, reference, bounces, part, is_diffuse
+    def __init__(self, path, reference, size=(48, 48), bounces=0, part=None, is_diffuse=True):
+        self.path, self.reference, self.size, self.bounces = path, reference, size, bounces
+        self.part, self.is_diffuse = part, is_diffuse
 
 
-def spheres(light, part=None, is_diffuse=True):
-    folder = f"{MITSUBA_TESTS}/bsdf_spheres"
-    return Scene(f"{folder}/test_{light}_path.xml", f"{folder}/refs/test_{light}_ref_rgb.exr", 0, part, is_diffuse)
+def mitsuba_test(folder, name, reference, **more):
+    return Scene(f"{MITSUBA_TESTS}/{folder}/{name}.xml", f"{MITSUBA_TESTS}/{folder}/refs/{reference}_ref_rgb.exr", **more)
 
 
-def mitsuba_test(folder, name, reference, bounces=0, part=None, is_diffuse=True):
-    return Scene(f"{MITSUBA_TESTS}/{folder}/{name}.xml", f"{MITSUBA_TESTS}/{folder}/refs/{reference}_ref_rgb.exr", bounces, part,
-                 is_diffuse)
+def spheres(light, **more):
+    return mitsuba_test("bsdf_spheres", f"test_{light}_path", f"test_{light}", **more)
 
 
-# Two Lambert spheres and two leaves, at the lower right
-DIFFUSE_SPHERES = ((0.44, 1.0), (0.6, 1.0))
+# Two Lambert spheres and two leaves, at the lower right of the grid of spheres
+DIFFUSE_SPHERES = (29, 21, 19, 27)
 
 SCENES = {
-    "instancing": mitsuba_test("instancing", "test_instancing_path", "test_instancing"),
-    "shapes": mitsuba_test("various_shapes", "test_various_shapes_path", "test_various_shapes"),
-    "textures": mitsuba_test("texture_interp", "test_texture_interp_direct", "test_texture_interp"),
+    "instancing": mitsuba_test("instancing", "test_instancing_path", "test_instancing", size=(64, 64)),
+    # Without the open side of the cylinder, black in Mitsuba, and the torus by distances, which is left out
+    "shapes": mitsuba_test("various_shapes", "test_various_shapes_path", "test_various_shapes", size=(480, 480),
+                           part=(0, 0, 225, 480)),
+    "textures": mitsuba_test("texture_interp", "test_texture_interp_direct", "test_texture_interp", size=(128, 128)),
     "vertex colors": mitsuba_test("mesh_attributes", "test_mesh_attributes_3_vertex_direct", "test_mesh_attributes_3_vertex"),
     "directional": mitsuba_test("floating_sphere", "test_directional_direct", "test_directional"),
-    "emitters": mitsuba_test("various_emitters", "test_various_emitters_ptracer", "test_various_emitters", 2),
+    # Its projector is left out and its spots fall off otherwise
+    "emitters": mitsuba_test("various_emitters", "test_various_emitters_ptracer", "test_various_emitters", size=(512, 64),
+                             bounces=2, is_diffuse=False),
     "textured sphere": spheres("textured_diffuse"),
-    "area light": spheres("arealight", DIFFUSE_SPHERES),
-    "constant": spheres("constant", DIFFUSE_SPHERES),
-    "environment": spheres("envmap", DIFFUSE_SPHERES),
-    "point light": spheres("pointlight", DIFFUSE_SPHERES),
+    "area light": spheres("arealight", part=DIFFUSE_SPHERES),
+    "constant": spheres("constant", part=DIFFUSE_SPHERES),
+    "environment": spheres("envmap", part=DIFFUSE_SPHERES),
+    "point light": spheres("pointlight", part=DIFFUSE_SPHERES),
     "rough conductor": spheres("textured_roughconductor", is_diffuse=False),
     "principled": spheres("texturedprincipled1", is_diffuse=False),
 }
 
 
-def render(scene, options, folder, size):
-    """The image by path_trace, and the warnings of the import."""
+def voxray(options, *arguments):
+    """What a command prints. @raises RuntimeError: it failed."""
+    done = subprocess.run([options.program, *arguments], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise RuntimeError(done.stderr.strip())
+    return done.stdout
+
+
+def check(scene, options, folder):
+    """Scores of the scene's image by path_trace, and the warnings of its import."""
     config = {
         "name": "check",
         "scene": {"file": str(options.scenes / scene.path)},
-        "image": {"width": size[1], "height": size[0]},
+        "image": {"width": scene.size[0], "height": scene.size[1]},
         "graph": [{"pass": "path_trace", "spp": options.spp, "bounces": scene.bounces}],
         "measure": {"frames": 1, "warmup": 0, "build_repeats": 0},
     }
     path = folder / "check.yaml"
     path.write_text(json.dumps(config), encoding="utf-8")
     out = folder / "out"
-    done = subprocess.run([options.program, "run", path, "--out", out, "--no-report", "--quiet"], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, text=True, check=False)
-    if done.returncode:
-        raise RuntimeError(done.stdout.strip())
+    voxray(options, "run", path, "--out", out, "--no-report", "--quiet")
+    part = ["--part", ",".join(map(str, scene.part))] if scene.part and not options.all else []
+    scores = voxray(options, "compare", out / "images" / "default" / "final.exr", options.scenes / scene.reference, "--json", *part)
     manifest = json.loads((out / "manifest.json").read_text(encoding="utf-8"))
-    return exr_pixels.rgb(out / "images" / "default" / "final.exr"), manifest.get("warnings", [])
-
-
-def compared(image, scene, options):
-    if scene.part is None or options.all:
-        return image
-    (top, bottom), (left, right) = (tuple(round(share * length) for share in of) for of, length in zip(scene.part, image.shape))
-    return image[top:bottom, left:right]
+    return json.loads(scores)["scores"], manifest.get("warnings", [])
 
 
 def main():
@@ -113,26 +114,19 @@ def main():
     rows, notes, is_off = [], [], False
     for name in options.names or SCENES:
         scene = SCENES[name]
-        theirs = compared(exr_pixels.rgb(options.scenes / scene.reference), scene, options)
-        size = exr_pixels.rgb(options.scenes / scene.reference).shape[:2]
         with tempfile.TemporaryDirectory() as temporary:
             folder = options.out / name.replace(" ", "_") if options.out else Path(temporary)
             folder.mkdir(parents=True, exist_ok=True)
             try:
-                image, warnings = render(scene, options, folder, size)
+                scores, warnings = check(scene, options, folder)
             except RuntimeError as error:
-                rows.append([name, *["-"] * 5])
-                notes.append(f"{name}: {error}")
-                is_off = is_off or scene.is_diffuse
-                continue
-        ours = compared(image, scene, options)
-        ratio = (ours @ images.LUMINANCE).mean() / (theirs @ images.LUMINANCE).mean()
-        channels = ours.reshape(-1, 3).mean(axis=0) / theirs.reshape(-1, 3).mean(axis=0)
-        spread = np.sqrt(np.mean(((ours - theirs) @ images.LUMINANCE) ** 2)) / (theirs @ images.LUMINANCE).mean()
-        rows.append([name, f"{ratio:.4f}", *(f"{channel:.3f}" for channel in channels), f"{spread:.3f}"])
+                scores, warnings = {}, [str(error)]
+        ratio = scores.get("mean_ratio", float("nan"))
+        what = "diffuse" if scene.is_diffuse and scene.part is None else "diffuse part" if scene.is_diffuse else "approximated"
+        rows.append([name, what, f"{ratio:.4f}", f"{scores.get('nrmse', float('nan')):.3f}"])
         notes += [f"{name}: {warning}" for warning in warnings]
-        is_off = is_off or (scene.is_diffuse and not abs(ratio - 1) <= TOLERANCE)
-    print("\n".join(markdown_table(["scene", "mean ratio", "red", "green", "blue", "RMS"], rows)))
+        is_off = is_off or (scene.is_diffuse and not options.all and not abs(ratio - 1) <= TOLERANCE)
+    print("\n".join(markdown_table(["scene", "compared", "mean ratio", "nRMSE"], rows)))
     print("\n".join(["", *notes]))
     return int(is_off)
 

@@ -33,6 +33,8 @@ TEST(MitsubaMaterials, Lambert) {
     expectNear(materialOf(folder, "<bsdf type='diffuse'><spectrum name='reflectance' value='300:0.25, 900:0.25'/></bsdf>")
                    .baseColor,
                glm::vec3(0.25f), 1e-3f);
+    expectNear(materialOf(folder, "<bsdf type='diffuse'><srgb name='reflectance' value='0.5 1 0'/></bsdf>").baseColor,
+               {0.21404f, 1, 0}, 1e-4f);
     const auto bright = sceneOf(folder, "<bsdf type='diffuse'><rgb name='reflectance' value='2'/></bsdf>");
     EXPECT_TRUE(warns(*bright, "above 1"));
     EXPECT_TRUE(warns(*bright, "without 'twosided'"));
@@ -68,6 +70,16 @@ TEST(MitsubaMaterials, PlasticKeepsItsBase) {
     EXPECT_NEAR(darker.baseColor.x, coatedReflectance(0.4f, internalDiffuseReflectance(1.5f)), 1e-5);
     EXPECT_LT(darker.baseColor.x, 0.25f);
     EXPECT_NEAR(darker.roughness, std::sqrt(0.1), 1e-6);
+}
+
+TEST(MitsubaMaterials, CoatsOverLambert) {
+    const TemporaryFolder folder;
+    const std::string index = "<float name='int_ior' value='1.5'/><float name='ext_ior' value='1'/>";
+    const Material coated = materialOf(folder, "<bsdf type='coating'>" + index + "<bsdf type='diffuse'>"
+                                               "<rgb name='reflectance' value='0.4'/></bsdf></bsdf>");
+    EXPECT_NEAR(coated.baseColor.x, coatedReflectance(0.4f, internalDiffuseReflectance(1.5f)), 1e-5);
+    EXPECT_NEAR(coated.ior, 1.5, 1e-5);
+    EXPECT_TRUE(warns(*sceneOf(folder, "<bsdf type='coating'><bsdf type='conductor'/></bsdf>"), "are lost"));
 }
 
 TEST(MitsubaMaterials, GlassIsPanes) {

@@ -138,22 +138,36 @@ TEST(MitsubaShapes, GroupsAndInstances) {
     EXPECT_ERROR("shapegroup", loadElements(folder, "<shape type='instance'/>"));
 }
 
+TEST(MitsubaShapes, MergedShapes) {
+    const TemporaryFolder folder;
+    const std::string merge = "<shape type='merge' id='m'><shape type='cube' id='c'/><shape type='disk'/></shape>";
+    EXPECT_EQ(loadElements(folder, merge)->instances.size(), 2u);
+    std::string chain = "<shape type='cube' id='s0'/>";
+    for (int i = 1; i < 60; ++i)
+        chain += fmt::format("<shape type='merge' id='s{0}'><ref id='s{1}'/><ref id='s{1}'/></shape>", i, i - 1);
+    EXPECT_TRUE(warns(*loadElements(folder, chain), "'merge' shapes are left out"));
+}
+
 TEST(MitsubaShapes, EmittersAndMaterialsOfShapes) {
     const TemporaryFolder folder;
     const auto scene = loadElements(folder, R"(
         <bsdf type="diffuse" id="m"><rgb name="reflectance" value="0.25"/></bsdf>
         <shape type="rectangle"><ref id="m"/><emitter type="area"><rgb name="radiance" value="1 2 3"/></emitter></shape>
+        <emitter type="area" id="e"/>
+        <shape type="disk"><ref id="e"/></shape>
         <shape type="rectangle"><ref id="m"/></shape>
         <shape type="rectangle"><ref id="m"/></shape>
         <shape type="rectangle"/>
         <shape type="rectangle"><bsdf type="null"/></shape>)");
-    ASSERT_EQ(scene->instances.size(), 4u);
-    EXPECT_EQ(scene->materials.size(), 3u);
+    ASSERT_EQ(scene->instances.size(), 5u);
+    EXPECT_EQ(scene->materials.size(), 4u);
     EXPECT_EQ(scene->materials[0].emission, glm::vec3(1, 2, 3));
     EXPECT_FALSE(scene->materials[0].doubleSided);
-    EXPECT_EQ(scene->materials[1].emission, glm::vec3(0));
-    EXPECT_EQ(scene->meshes[1].material, scene->meshes[2].material);
-    EXPECT_EQ(scene->materials[2].baseColor, glm::vec4(0.5f, 0.5f, 0.5f, 1));
+    EXPECT_EQ(scene->materials[1].emission, glm::vec3(1));
+    EXPECT_FALSE(warns(*scene, "emitters"));
+    EXPECT_EQ(scene->materials[2].emission, glm::vec3(0));
+    EXPECT_EQ(scene->meshes[2].material, scene->meshes[3].material);
+    EXPECT_EQ(scene->materials[3].baseColor, glm::vec4(0.5f, 0.5f, 0.5f, 1));
 }
 
 }  // namespace

@@ -118,6 +118,8 @@ TextureRef ColorImages::store(const TexturedColor& color, bool linear, glm::vec3
     if (!color.image) return {};
     const glm::vec3 unit = unitOf(*color.image->pixels);
     factor *= unit;
+    if (unit != glm::vec3(1))
+        notes_.add("textures with values above 1 are stored in 8 bits of the largest one", color.image->name);
     return add(*color.image, nullptr, 1, linear, unit);
 }
 

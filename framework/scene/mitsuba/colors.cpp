@@ -5,6 +5,7 @@
 
 #include "base/files.h"
 #include "base/lower_case.h"
+#include "base/srgb.h"
 #include "scene/import/numbers.h"
 #include "scene/import/spectrum.h"
 
@@ -88,7 +89,8 @@ glm::vec3 Colors::property(const Property& given, Meaning meaning) {
     const auto entry = given.of.find("value");
     if (entry == given.of.end()) throw Error(given.where, "<{}> has no value", given.tag);
     if (const auto hex = rgbOfHex(entry->second)) return *hex;
-    return glm::vec3(threeNumbers(given.of, 0, given.where));
+    const glm::vec3 color(threeNumbers(given.of, 0, given.where));
+    return given.tag == "srgb" ? glm::vec3(srgbDecode(color.x), srgbDecode(color.y), srgbDecode(color.z)) : color;
 }
 
 glm::vec3 Colors::pointsAsColor(const std::string& text, Meaning meaning, const TextLocation& where) {

@@ -80,7 +80,7 @@ void addEmitter(const Plugin& emitter, Colors& colors, SceneImport& import) {
         import.addEnvironment({colors.plain(emitter, "radiance", glm::vec3(1), Meaning::Emission), nullptr});
     } else if (emitter.type == "envmap") {
         addMap(emitter, colors, import);
-    } else {
+    } else if (emitter.type != "area") {  // Shapes that refer to it have it
         import.notes().add(fmt::format("'{}' emitters are left out", emitter.type), emitter.name());
     }
 }

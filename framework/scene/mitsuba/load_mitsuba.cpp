@@ -72,6 +72,8 @@ std::shared_ptr<const Scene> load(const std::filesystem::path& path) {
         if (plugin.tag == "shape") shapes.add(plugin);
         if (plugin.tag == "emitter") addEmitter(plugin, colors, import);
         if (plugin.tag == "sensor") addSensor(plugin, import);
+        if (plugin.tag == "integrator" && plugin.flag("hide_emitters", false))
+            import.notes().add("'hide_emitters' has no effect: lights and sky are seen", plugin.name());
         if (plugin.tag == "medium") import.notes().add("media and subsurface scattering are left out", plugin.name());
     }
     return import.finish();

@@ -41,9 +41,16 @@ Shapes::Parts Shapes::partsOf(const Plugin& shape, bool isInGroup) {
     if (!shape.childrenOf("medium").empty() || !shape.childrenOf("subsurface").empty())
         import_.notes().add("media and subsurface scattering are left out", shape.name());
     if (shape.type == "instance" && !isInGroup) return instance(shape);
+    if (shape.type == "merge" && !isInGroup) {
+        Parts parts;
+        for (const Plugin* inner : shape.childrenOf("shape"))
+            for (Part& part : partsOf(*inner, true)) parts.push_back(std::move(part));
+        return parts;
+    }
     glm::dmat4 toWorld = shape.transform("to_world");
     std::optional<Mesh> mesh = meshOf(shape, toWorld);
     if (!mesh) return {};
+    import_.memory().reserve(mesh->positions.size(), 2 * sizeof(glm::vec3) + sizeof(glm::vec2));
     bool usesVertexColors = false;
     const std::optional<uint32_t> material = materialOf(shape, usesVertexColors);
     if (!material) return {};
@@ -117,6 +124,8 @@ std::optional<Mesh> Shapes::meshFile(const Plugin& shape, bool isMirrored) {
         if (std::max({t.x, t.y, t.z}) >= mesh.positions.size())
             throw Error("{}: a triangle has vertex {}, and there are {}", path.string(), std::max({t.x, t.y, t.z}),
                         mesh.positions.size());
+    if (shape.number("max_smooth_angle", 0) > 0)
+        import_.notes().add("'max_smooth_angle' has no effect", shape.name());
     const bool isFlat = shape.flag("face_normals", false);
     const bool hasNormals = mesh.normals.size() == mesh.positions.size() && !mesh.normals.empty();
     if (isFlat || !hasNormals) {
@@ -143,6 +152,7 @@ SurfaceEmission Shapes::emissionOf(const Plugin& shape) {
 
 std::optional<uint32_t> Shapes::materialOf(const Plugin& shape, bool& usesVertexColors) {
     const std::vector<const Plugin*> bsdfs = shape.childrenOf("bsdf"), emitters = shape.childrenOf("emitter");
+    if (bsdfs.size() > 1) import_.notes().add("shapes of several BSDFs have the first everywhere", shape.name());
     const Plugin* bsdf = bsdfs.empty() ? nullptr : bsdfs.front();
     const Plugin* emitter = emitters.empty() ? nullptr : emitters.front();
     const Surface surface = bsdf ? surfaces_.surface(*bsdf) : lambertSurface(glm::vec3(0.5f));

@@ -55,8 +55,9 @@ Surface Surfaces::make(const Plugin& bsdf) {
     if (type == "mask") return mask(bsdf);
     if (type == "normalmap") return normalMap(bsdf);
     if (type == "null") return noSurface();
-    if (type == "bumpmap" || type == "coating" || type == "roughcoating") {
-        approximated(bsdf, type == "bumpmap" ? "lose their bumps" : "lose their coat");
+    if (type == "coating" || type == "roughcoating") return coating(bsdf);
+    if (type == "bumpmap") {
+        approximated(bsdf, "lose their bumps");
         return nested(bsdf);
     }
     if (type == "difftrans") {
@@ -125,6 +126,21 @@ Surface Surfaces::plastic(const Plugin& bsdf) {
     const glm::vec3 specular = colors_.plain(bsdf, "specular_reflectance", glm::vec3(1), Meaning::Reflectance);
     surface.specularColor *= specular;
     return surface;
+}
+
+Surface Surfaces::coating(const Plugin& bsdf) {
+    const Surface base = nested(bsdf);
+    if (base.metallic > 0 || base.specular > 0 || base.transmission > 0) {
+        approximated(bsdf, "over other than Lambert materials are lost");
+        return base;
+    }
+    approximated(bsdf, "become a dielectric lobe by Schlick's formula over a Lambert base");
+    Surface coated = coatedSurface(base.color, relativeIndex(bsdf, kGlass),
+                                   bsdf.type == "coating" ? TexturedColor(glm::vec3(0)) : alpha(bsdf), true);
+    coated.opacity = base.opacity;
+    coated.normalMap = base.normalMap;
+    coated.usesVertexColors = base.usesVertexColors;
+    return coated;
 }
 
 Surface Surfaces::dielectric(const Plugin& bsdf) {

@@ -19,6 +19,7 @@ class Surfaces {
     Surface nested(const Plugin& bsdf);
     Surface conductor(const Plugin& bsdf);
     Surface plastic(const Plugin& bsdf);
+    Surface coating(const Plugin& bsdf);
     Surface dielectric(const Plugin& bsdf);
     Surface phongOrWard(const Plugin& bsdf);
     Surface principled(const Plugin& bsdf);
