@@ -13,7 +13,7 @@ constexpr double kLeastEdge = 1e-3;
 
 /// ∫ falloff sin over the cone, by the midpoint rule.
 double power(double outer, const std::function<double(double)>& falloff) {
-    constexpr int steps = 10000;
+    constexpr int steps = 2000;
     double sum = 0;
     for (int i = 0; i < steps; ++i) {
         const double angle = outer * (i + 0.5) / steps;
