@@ -15,6 +15,21 @@ namespace voxray {
 /// @throws Error with one line for a broken, truncated or malicious file, Interrupted.
 std::shared_ptr<const Scene> loadGltf(const std::filesystem::path& path);
 
+/// Loads a scene of Mitsuba 0.6 to 3 (.xml), with what it includes. What is approximated or left out is named in
+/// Scene::warnings; docs/scenes.md lists what becomes of each plugin.
+/// @throws Error with one line for a broken file, Interrupted.
+std::shared_ptr<const Scene> loadMitsuba(const std::filesystem::path& path);
+
+/// The same for a scene of pbrt-v4 (.pbrt).
+std::shared_ptr<const Scene> loadPbrt(const std::filesystem::path& path);
+
+/// Loads a scene by the ending of its file: .glb, .gltf, .xml or .pbrt.
+std::shared_ptr<const Scene> loadSceneFile(const std::filesystem::path& path);
+
+/// Whether a file's ending is one of these.
+bool isSceneFile(const std::filesystem::path& path);
+inline constexpr const char* kSceneFileEndings = ".glb, .gltf, .xml, .pbrt";
+
 /// Writes a scene at one time as .glb: geometry, materials, textures, lights and cameras as rendered (units:
 /// docs/units.md), without the environment, which glTF can't hold: exportForRenderers() writes that, too.
 /// @throws Error where the file can't be written.

@@ -69,6 +69,8 @@ PASSES_MAY_USE = LAYERS["graph"] | {"graph"}
 THIRD_PARTY = {
     r"tiny_gltf\.h": ["framework/scene/"],
     r"embree\d*/": ["framework/trace/embree_api.h"],
+    r"pugixml\.hpp": ["framework/scene/mitsuba/document.cpp"],
+    r"zlib\.h": ["framework/scene/import/inflate.cpp", "tests/unit/import_mesh_test.cpp", "tests/unit/mitsuba_files.h"],
     r"(draco|meshoptimizer)": ["framework/scene/", "tests/unit/compressed_gltf.h"],
     r"OpenImageIO/": ["framework/image/", "tests/unit/image_layers_test.cpp"],
     r"yaml-cpp/": ["framework/config/yaml.cpp"],
