@@ -28,8 +28,8 @@ constexpr uint32_t spreadBits(uint32_t x) {
 }
 
 /// Points of a pixel's samples: of sequences of its own, or of those that a square of pixels shares. There pixels in
-/// Morton order take consecutive runs, so that the samples of any aligned square of 2ⁿ × 2ⁿ pixels are stratified (Ahmed
-/// and Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of
+/// Morton order take consecutive runs, so that the samples of any aligned square of 2ⁿ × 2ⁿ pixels are stratified
+/// (Ahmed and Wonka 2020, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via Hierarchical Ordering of
 /// Pixels").
 class PixelPoints {
  public:

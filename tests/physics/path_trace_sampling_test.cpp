@@ -95,7 +95,8 @@ TEST(PathTraceSampling, StratifiedNeighborsKeepTheMeanAndLowerTheNoiseOfTiles) {
             for (uint32_t tile = 0; tile < kTiles; ++tile) {
                 double light = 0;
                 for (uint32_t i = 0; i < kTile * kTile; ++i)
-                    light += double(r.indirect.pixel(tile % kRow * kTile + i % kTile, tile / kRow * kTile + i / kTile)[1]);
+                    light +=
+                        double(r.indirect.pixel(tile % kRow * kTile + i % kTile, tile / kRow * kTile + i / kTile)[1]);
                 sums[tile] += light;
                 squares[tile] += light * light;
             }

@@ -113,6 +113,7 @@ void main() {
 #endif
 
     // A weighted mean of independent values of value.w rays each has sum(weight² / value.w) / sum(weight)² of one ray's
-    // variance
-    imageStore(result, element, vec4(value, square(sum.weights) / (overlap(push.level) * squaredWeights)));
+    // variance. Where squares of weights vanish, as of taps that are nothing alike, it represents none
+    const float rays = squaredWeights > 0.0 ? square(sum.weights) / (overlap(push.level) * squaredWeights) : 0.0;
+    imageStore(result, element, vec4(value, rays));
 }
