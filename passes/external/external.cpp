@@ -63,7 +63,7 @@ class External final : public Pass {
     static constexpr const char* kHelp =
         "Takes the image of another renderer. "
         "A program gets the scene as glTF with a side-car and writes EXR files, once for a scene, camera and seed; or "
-        "'images' names a folder of such files. Bias and noise: the other renderer's own. Source: docs/external.md.";
+        "'images' names a folder of such files. Bias: the other renderer's own; noisy by: spp. Source: docs/external.md.";
     struct Params {
         ProgramCommand command;
         FolderName images;
