@@ -110,7 +110,8 @@ LayeredImage readGiven(const std::filesystem::path& path, const std::string& lay
     }
 }
 
-/// A part of an image, from its upper left; the image itself without a part. @throws UsageError if it isn't in the image
+/// A part of an image, from its upper left; the image itself without a part. @throws UsageError if it isn't in the
+/// image
 ImageF partOf(ImageF image, const std::vector<uint32_t>& part) {
     if (part.empty()) return image;
     const uint64_t right = uint64_t(part[0]) + part[2], bottom = uint64_t(part[1]) + part[3];

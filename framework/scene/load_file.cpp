@@ -9,8 +9,7 @@ struct Format {
     const char* ending;
     std::shared_ptr<const Scene> (*load)(const std::filesystem::path&);
 };
-constexpr Format kFormats[] = {
-    {".glb", loadGltf}, {".gltf", loadGltf}, {".xml", loadMitsuba}, {".pbrt", loadPbrt}};
+constexpr Format kFormats[] = {{".glb", loadGltf}, {".gltf", loadGltf}, {".xml", loadMitsuba}, {".pbrt", loadPbrt}};
 
 const Format* formatOf(const std::filesystem::path& path) {
     for (const Format& format : kFormats)

@@ -50,7 +50,8 @@ TEST(MitsubaLights, SpotsKeepTheirPower) {
     const TemporaryFolder folder;
     for (const double beam : {0.0, 15.0, 29.0}) {
         const auto scene = lit(folder, fmt::format(R"(<emitter type="spot"><rgb name="intensity" value="2"/>
-            <float name="cutoff_angle" value="30"/><float name="beam_width" value="{}"/></emitter>)", beam));
+            <float name="cutoff_angle" value="30"/><float name="beam_width" value="{}"/></emitter>)",
+                                                   beam));
         const double inner = beam * pi / 180, outer = pi / 6;
         double power = 0;
         const int steps = 20000;
@@ -91,8 +92,10 @@ TEST(MitsubaLights, DirectionsOfEnvironmentMaps) {
     const TemporaryFolder folder;
     writeExr(folder / "sky.exr", sky());
     const auto along = [&](const std::string& transform, const glm::dvec3& direction) {
-        const auto scene = lit(folder, "<emitter type='envmap'><string name='filename' value='sky.exr'/>"
-                                       "<transform name='to_world'>" + transform + "</transform></emitter>");
+        const auto scene = lit(folder,
+                               "<emitter type='envmap'><string name='filename' value='sky.exr'/>"
+                               "<transform name='to_world'>" +
+                                   transform + "</transform></emitter>");
         return radianceOfMap(*scene->environment.map, glm::normalize(direction));
     };
     // Mitsuba: u = 0 along -Z, 0.25 along +X, 0.5 along +Z; v = 0 along +Y
@@ -113,13 +116,14 @@ TEST(MitsubaLights, ASmallSunKeepsItsIrradiance) {
         double sum = 0;
         for (uint32_t y = 0; y < map.height; ++y)
             for (uint32_t x = 0; x < map.width; ++x)
-                sum += double(map.pixel(x, y)[0]) * std::sin((y + 0.5) / map.height * pi) * 2 * pi / map.width * pi / map.height;
+                sum += double(map.pixel(x, y)[0]) * std::sin((y + 0.5) / map.height * pi) * 2 * pi / map.width * pi /
+                       map.height;
         return sum;
     };
     const double c = std::cos(0.3), s = std::sin(0.3);
     const glm::dmat3 turn(c, 0, -s, 0, 1, 0, s, 0, c);
-    const auto map =
-        environmentMap(256, turn, [&](const glm::dvec3& d) { return radianceOfMap(sun, d); }, memory);
+    const auto map = environmentMap(
+        256, turn, [&](const glm::dvec3& d) { return radianceOfMap(sun, d); }, memory);
     EXPECT_NEAR(irradiance(*map), irradiance(sun), 0.02 * irradiance(sun));
 }
 

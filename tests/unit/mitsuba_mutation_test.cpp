@@ -132,9 +132,25 @@ std::vector<std::pair<size_t, size_t>> valuesOf(const std::string& text) {
 
 TEST_F(MitsubaMutations, EveryValueReplacedByStrangeOnes) {
     const std::string good = kEverything;
-    const char* const strange[] = {"",      "-1",    "0",     "1e300", "nan",  "inf",    "x",      "$w",         "1 2 3",
-                                   "1,2",   "scene.xml", "a.obj", "a.png", "-0.5", "1e-300", "400:1",
-                                   "18446744073709551616", "true",  "#ffffff"};
+    const char* const strange[] = {"",
+                                   "-1",
+                                   "0",
+                                   "1e300",
+                                   "nan",
+                                   "inf",
+                                   "x",
+                                   "$w",
+                                   "1 2 3",
+                                   "1,2",
+                                   "scene.xml",
+                                   "a.obj",
+                                   "a.png",
+                                   "-0.5",
+                                   "1e-300",
+                                   "400:1",
+                                   "18446744073709551616",
+                                   "true",
+                                   "#ffffff"};
     for (const auto& [at, length] : valuesOf(good))
         for (const char* value : strange) {
             std::string bad = good;

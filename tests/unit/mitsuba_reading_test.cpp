@@ -74,8 +74,9 @@ TEST(MitsubaReading, LoopsAndDepthAreBounded) {
     const TemporaryFolder folder;
     EXPECT_CONTAINS(refusalOf(folder, "<include filename=\"scene.xml\"/>"), "loop");
     EXPECT_CONTAINS(refusalOf(folder, "<bsdf type='twosided' id='a'><ref id='a'/></bsdf>"), "refers to itself");
-    EXPECT_CONTAINS(refusalOf(folder, "<bsdf type='twosided' id='a'><ref id='b'/></bsdf>"
-                                      "<bsdf type='twosided' id='b'><ref id='a'/></bsdf>"),
+    EXPECT_CONTAINS(refusalOf(folder,
+                              "<bsdf type='twosided' id='a'><ref id='b'/></bsdf>"
+                              "<bsdf type='twosided' id='b'><ref id='a'/></bsdf>"),
                     "refers to itself");
     std::string deep;
     for (int i = 0; i < 100000; ++i) deep += "<bsdf type='twosided'>";
@@ -111,9 +112,9 @@ TEST(MitsubaReading, TheCamera) {
     EXPECT_LT(glm::distance(view.up, glm::vec3(0, 1, 0)), 1e-6f);
     EXPECT_NEAR(std::tan(view.verticalFovRadians / 2), std::tan(3.14159265 / 6) / 2, 1e-5);
     // A mirrored camera mirrors the scene
-    const auto mirrored =
-        loadElements(folder, "<shape type='rectangle'><transform name='to_world'><translate x='5'/></transform></shape>" +
-                                 fmt::format(fmt::runtime(camera), "<scale x='-1'/>", ""));
+    const auto mirrored = loadElements(
+        folder, "<shape type='rectangle'><transform name='to_world'><translate x='5'/></transform></shape>" +
+                    fmt::format(fmt::runtime(camera), "<scale x='-1'/>", ""));
     EXPECT_TRUE(warns(*mirrored, "mirrored"));
     EXPECT_EQ(mirrored->cameras[0].position, glm::vec3(-1, 2, 3));
     EXPECT_NEAR(evaluate(mirrored, 0).geometry.boundsMax.x, -4, 1e-5);

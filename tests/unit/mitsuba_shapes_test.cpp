@@ -45,8 +45,9 @@ TEST(MitsubaShapes, AreasAndFrontsOfAnalyticShapes) {
     const Geometry inside = shapeOf(folder, "sphere", "<boolean name='flip_normals' value='true'/>");
     expectFronts(inside, [](const glm::vec3& p) { return -p; });
     EXPECT_NEAR(areaOf(shapeOf(folder, "disk")), pi, 1e-4);
-    const Geometry cylinder = shapeOf(folder, "cylinder", "<point name='p0' value='1 1 1'/><point name='p1' x='1' y='1' "
-                                                          "z='4'/><float name='radius' value='0.5'/>");
+    const Geometry cylinder = shapeOf(folder, "cylinder",
+                                      "<point name='p0' value='1 1 1'/><point name='p1' x='1' y='1' "
+                                      "z='4'/><float name='radius' value='0.5'/>");
     EXPECT_NEAR(areaOf(cylinder), 3 * pi, 1e-3);
     EXPECT_NEAR(cylinder.boundsMax.z, 4, 1e-5);
     expectFronts(cylinder, [](const glm::vec3& p) { return glm::vec3(p.x - 1, p.y - 1, 0); });
@@ -86,8 +87,9 @@ TEST(MitsubaShapes, FrontsOfMeshesAreThoseOfTheirNormals) {
 
 TEST(MitsubaShapes, ObjFiles) {
     const TemporaryFolder folder;
-    writeText(folder / "a.obj", "# quad\r\no name\nv 0 0 0\r\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 0.75\n"
-                                "vt 0 1\nusemtl x\ns 1\nf -4/1 -3/2 -2/3 -1/4 # end");
+    writeText(folder / "a.obj",
+              "# quad\r\no name\nv 0 0 0\r\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 0.75\n"
+              "vt 0 1\nusemtl x\ns 1\nf -4/1 -3/2 -2/3 -1/4 # end");
     const auto scene = loadElements(folder, "<shape type='obj'>" + fileOf("a.obj") + "</shape>");
     ASSERT_EQ(scene->meshes.size(), 1u);
     EXPECT_EQ(scene->meshes[0].triangles.size(), 2u);
@@ -106,9 +108,8 @@ TEST(MitsubaShapes, SerializedFilesOfBothVersions) {
     for (const uint16_t version : {uint16_t(3), uint16_t(4)})
         for (const uint32_t flags : {0x1000u, 0x2000u, 0x1002u, 0x2002u}) {
             writeText(folder / "a.serialized", serializedFile(version, flags, 3));
-            const auto scene =
-                loadElements(folder, "<shape type='serialized'><integer name='shape_index' value='2'/>" +
-                                         fileOf("a.serialized") + "</shape>");
+            const auto scene = loadElements(folder, "<shape type='serialized'><integer name='shape_index' value='2'/>" +
+                                                        fileOf("a.serialized") + "</shape>");
             EXPECT_EQ(scene->meshes.at(0).positions[0], glm::vec3(2, 0, 0)) << version << " " << flags;
             EXPECT_EQ(scene->meshes[0].texCoords0.empty(), (flags & 2) == 0);
             if ((flags & 2) == 0) continue;

@@ -28,8 +28,8 @@ glm::vec3 radianceOfMap(const ImageF& map, const glm::dvec3& direction);
 /// Both together. Maps are added in the size of the finer one.
 Environment sumOfEnvironments(const Environment& a, const Environment& b);
 
-/// The texel at u, v down from the first row; columns continue on the other side. For maps that environmentMap() samples:
-/// where its pixels are theirs, they are copied.
+/// The texel at u, v down from the first row; columns continue on the other side. For maps that environmentMap()
+/// samples: where its pixels are theirs, they are copied.
 glm::vec3 nearestTexel(const ImageF& image, double u, double v);
 
 /// Bilinear lookup in texels whose centers are at (i + 0.5) / size. @param u, v down from the first row. @param

@@ -117,16 +117,15 @@ Mesh cylinderShape(double radius, double bottom, double top, const Turn& turn) {
 }
 
 Mesh rectangleShape() {
-    return gridMesh(1, 1, [](double u, double v) {
-        return SurfacePoint{{2 * u - 1, 2 * v - 1, 0}, {0, 0, 1}};
-    });
+    return gridMesh(1, 1, [](double u, double v) { return SurfacePoint{{2 * u - 1, 2 * v - 1, 0}, {0, 0, 1}}; });
 }
 
 Mesh cubeShape() {
     // Of each face the corners of texture coordinates (0, 0), (1, 0) and (0, 1), as Mitsuba has them
-    constexpr glm::ivec3 faces[][3] = {{{-1, -1, -1}, {-1, -1, 1}, {1, -1, -1}}, {{1, 1, 1}, {-1, 1, 1}, {1, 1, -1}},
-                                       {{1, -1, 1}, {1, 1, 1}, {1, -1, -1}},     {{-1, -1, 1}, {-1, 1, 1}, {1, -1, 1}},
-                                       {{-1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {{-1, 1, -1}, {-1, -1, -1}, {1, 1, -1}}};
+    constexpr glm::ivec3 faces[][3] = {
+        {{-1, -1, -1}, {-1, -1, 1}, {1, -1, -1}}, {{1, 1, 1}, {-1, 1, 1}, {1, 1, -1}},
+        {{1, -1, 1}, {1, 1, 1}, {1, -1, -1}},     {{-1, -1, 1}, {-1, 1, 1}, {1, -1, 1}},
+        {{-1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, {{-1, 1, -1}, {-1, -1, -1}, {1, 1, -1}}};
     Mesh cube;
     for (const auto& face : faces) {
         const glm::dvec3 corner(face[0]), alongU = glm::dvec3(face[1]) - corner, alongV = glm::dvec3(face[2]) - corner;

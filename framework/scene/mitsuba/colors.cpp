@@ -60,8 +60,7 @@ std::array<glm::vec3, 2> uvTransform(const Plugin& texture) {
 
 }  // namespace
 
-TexturedColor Colors::color(const Plugin& plugin, const std::string& name, const glm::vec3& fallback,
-                            Meaning meaning) {
+TexturedColor Colors::color(const Plugin& plugin, const std::string& name, const glm::vec3& fallback, Meaning meaning) {
     if (const Plugin* child = plugin.child(name)) return texture(*child, meaning);
     const Property* given = plugin.find(name);
     return given ? property(*given, meaning) : fallback;
@@ -180,11 +179,13 @@ TexturedColor Colors::bitmap(const Plugin& of) {
     if (!image->pixels) return glm::vec3(kMissing);
     image->name = std::filesystem::path(of.text("filename", "")).filename().string();
     const std::string both = lowerCase(of.text("wrap_mode", "repeat"));
-    for (const auto& [name, wrap] : {std::pair("wrap_mode_u", &image->wrapU), std::pair("wrap_mode_v", &image->wrapV)}) {
+    for (const auto& [name, wrap] :
+         {std::pair("wrap_mode_u", &image->wrapU), std::pair("wrap_mode_v", &image->wrapV)}) {
         const std::string mode = lowerCase(of.text(name, both));
         *wrap = wrapOf(mode).value_or(Wrap::Repeat);
         if (!wrapOf(mode) || mode == "zero" || mode == "one")
-            import_.notes().add("wrap modes of bitmaps other than repeat, mirror and clamp are approximated", of.name());
+            import_.notes().add("wrap modes of bitmaps other than repeat, mirror and clamp are approximated",
+                                of.name());
     }
     if (lowerCase(of.text("filter_type", "bilinear")) == "nearest") image->filter = TexelFilter::Nearest;
     image->transform = uvTransform(of);

@@ -24,17 +24,16 @@ constexpr size_t kMaxValue = 1 << 20;  ///< Bytes of an attribute after the repl
 constexpr size_t kBytesPerElement = 1000;
 
 const std::set<std::string>& pluginTags() {
-    static const std::set<std::string> tags{"bsdf",    "shape",   "emitter",    "sensor",       "texture",
-                                            "film",    "sampler", "rfilter",    "integrator",   "medium",
-                                            "phase",   "volume",  "subsurface", "reconstruction", "luminaire",
-                                            "camera"};
+    static const std::set<std::string> tags{"bsdf",       "shape",          "emitter",    "sensor", "texture", "film",
+                                            "sampler",    "rfilter",        "integrator", "medium", "phase",   "volume",
+                                            "subsurface", "reconstruction", "luminaire",  "camera"};
     return tags;
 }
 
 const std::set<std::string>& propertyTags() {
-    static const std::set<std::string> tags{"float", "integer", "boolean",   "string", "rgb",   "srgb",
-                                            "color", "point",   "spectrum",  "vector", "animation", "blackbody",
-                                            "transform", "tensor"};
+    static const std::set<std::string> tags{"float",     "integer",   "boolean",   "string",   "rgb",
+                                            "srgb",      "color",     "point",     "spectrum", "vector",
+                                            "animation", "blackbody", "transform", "tensor"};
     return tags;
 }
 
@@ -220,7 +219,8 @@ class Reader {
     /// Length of the longest name of a <default> at the front of a text; 0: none.
     size_t nameLength(std::string_view text) const {
         size_t length = 0;
-        while (length < std::min<size_t>(text.size(), 100) && (std::isalnum(uint8_t(text[length])) || text[length] == '_'))
+        while (length < std::min<size_t>(text.size(), 100) &&
+               (std::isalnum(uint8_t(text[length])) || text[length] == '_'))
             ++length;
         while (length > 0 && !defaults_.contains(std::string(text.substr(0, length)))) --length;
         return length;
@@ -244,8 +244,7 @@ class Reader {
     /// Plugins below each other, itself included. @param heights of those that are known, 0: of those above
     static int height(const Plugin& plugin, int depth, std::map<const Plugin*, int>& heights) {
         const auto [known, isNew] = heights.try_emplace(&plugin, 0);
-        if (!isNew && known->second == 0)
-            throw Error(plugin.where, "{} refers to itself", plugin.what());
+        if (!isNew && known->second == 0) throw Error(plugin.where, "{} refers to itself", plugin.what());
         if (!isNew) return known->second;
         int most = 0;
         if (depth < kMaxElements)

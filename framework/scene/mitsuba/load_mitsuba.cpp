@@ -44,8 +44,7 @@ void addSensor(const Plugin& sensor, SceneImport& import) {
         import.notes().add(fmt::format("'{}' sensors are left out", sensor.type), sensor.name());
         return;
     }
-    if (sensor.type == "thinlens")
-        import.notes().add("'thinlens' sensors are pinholes", sensor.name());
+    if (sensor.type == "thinlens") import.notes().add("'thinlens' sensors are pinholes", sensor.name());
     for (const char* shift : {"principal_point_offset_x", "principal_point_offset_y", "shift_x", "shift_y"})
         if (sensor.number(shift, 0) != 0)
             import.notes().add("a sensor's principal point is taken as the center of the image", sensor.name());

@@ -1,7 +1,6 @@
 #include "scene/mitsuba/shapes.h"
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <numbers>
 
 #include "base/interrupt.h"
 #include "scene/import/mesh_normals.h"
@@ -84,7 +83,9 @@ const Shapes::Parts& Shapes::group(const Plugin& shape) {
 std::optional<Mesh> Shapes::meshOf(const Plugin& shape, glm::dmat4& toWorld) {
     const std::string& type = shape.type;
     const bool isMirrored = glm::determinant(glm::dmat3(toWorld)) < 0;
-    const double whole = 2 * std::numbers::pi;
+    if (type == "sphere" || type == "disk" || type == "cylinder")
+        import_.notes().add(fmt::format("'{}' shapes become meshes of equal area with 64 edges around", type),
+                            shape.name());
     if (type == "obj" || type == "ply" || type == "serialized") return meshFile(shape, isMirrored);
     if (type == "rectangle") return rectangleShape();
     if (type == "cube") return cubeShape();
@@ -94,7 +95,7 @@ std::optional<Mesh> Shapes::meshOf(const Plugin& shape, glm::dmat4& toWorld) {
     }
     if (type == "disk") {
         // Mitsuba's texture coordinates: radius, angle
-        Mesh disk = diskShape(0, 0, 1, {whole});
+        Mesh disk = diskShape(0, 0, 1);
         for (glm::vec2& uv : disk.texCoords0) std::swap(uv.x, uv.y);
         return disk;
     }
@@ -124,8 +125,7 @@ std::optional<Mesh> Shapes::meshFile(const Plugin& shape, bool isMirrored) {
         if (std::max({t.x, t.y, t.z}) >= mesh.positions.size())
             throw Error("{}: a triangle has vertex {}, and there are {}", path.string(), std::max({t.x, t.y, t.z}),
                         mesh.positions.size());
-    if (shape.number("max_smooth_angle", 0) > 0)
-        import_.notes().add("'max_smooth_angle' has no effect", shape.name());
+    if (shape.number("max_smooth_angle", 0) > 0) import_.notes().add("'max_smooth_angle' has no effect", shape.name());
     const bool isFlat = shape.flag("face_normals", false);
     const bool hasNormals = mesh.normals.size() == mesh.positions.size() && !mesh.normals.empty();
     if (isFlat || !hasNormals) {

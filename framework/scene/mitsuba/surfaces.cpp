@@ -27,10 +27,10 @@ const Surface& Surfaces::surface(const Plugin& bsdf) {
     made.usesVertexColors = colors_.takeUsesVertexColors() || made.usesVertexColors;
     const std::vector<const Plugin*> inner = bsdf.childrenOf("bsdf");
     const bool isOpen = made.isNothing || made.transmission > 0;
-    made.isOneSided = inner.empty() ? !isOpen
-                                    : bsdf.type != "twosided" && std::ranges::any_of(inner, [&](const Plugin* of) {
-                                          return surface(*of).isOneSided;
-                                      });
+    made.isOneSided = inner.empty()
+                          ? !isOpen
+                          : bsdf.type != "twosided" &&
+                                std::ranges::any_of(inner, [&](const Plugin* of) { return surface(*of).isOneSided; });
     return known_.emplace(&bsdf, std::move(made)).first->second;
 }
 
@@ -80,8 +80,7 @@ float Surfaces::index(const Plugin& bsdf, const std::string& name, const std::st
     if (given && given->tag != "string") return std::max(colors_.number(bsdf, name, 1), 1e-3f);
     const std::string material = bsdf.text(name, fallback);
     if (const auto known = indexOfRefraction(material)) return *known;
-    throw Error(bsdf.where, "{}: no index of refraction is known for '{}': give a number", name,
-                oneLine(material, 60));
+    throw Error(bsdf.where, "{}: no index of refraction is known for '{}': give a number", name, oneLine(material, 60));
 }
 
 float Surfaces::relativeIndex(const Plugin& bsdf, const std::string& inside) {
@@ -93,7 +92,8 @@ TexturedColor Surfaces::alpha(const Plugin& bsdf) {
         notes_.add(fmt::format("microfacets of '{}' become GGX of the same alpha", distribution), bsdf.name());
     if (bsdf.find("alpha_u") || bsdf.find("alpha_v") || bsdf.child("alpha_u") || bsdf.child("alpha_v")) {
         approximated(bsdf, "become isotropic: alpha is the root of alpha_u times alpha_v");
-        return glm::vec3(isotropicAlpha(colors_.number(bsdf, "alpha_u", kAlpha), colors_.number(bsdf, "alpha_v", kAlpha)));
+        return glm::vec3(
+            isotropicAlpha(colors_.number(bsdf, "alpha_u", kAlpha), colors_.number(bsdf, "alpha_v", kAlpha)));
     }
     return colors_.color(bsdf, "alpha", glm::vec3(kAlpha), Meaning::Quantity);
 }
@@ -146,8 +146,7 @@ Surface Surfaces::coating(const Plugin& bsdf) {
 Surface Surfaces::dielectric(const Plugin& bsdf) {
     approximated(bsdf, "become panes: light passes them straight, without refraction, reflection and roughness");
     const float reflectance = dielectricReflectance(relativeIndex(bsdf, kGlass));
-    TexturedColor transmittance =
-        colors_.color(bsdf, "specular_transmittance", glm::vec3(1), Meaning::Reflectance);
+    TexturedColor transmittance = colors_.color(bsdf, "specular_transmittance", glm::vec3(1), Meaning::Reflectance);
     // A thin one has two interfaces, between which light is reflected
     transmittance.value *= bsdf.type == "thindielectric" ? (1 - reflectance) / (1 + reflectance) : 1 - reflectance;
     return paneSurface(transmittance);
@@ -164,10 +163,11 @@ Surface Surfaces::phongOrWard(const Plugin& bsdf) {
 }
 
 Surface Surfaces::principled(const Plugin& bsdf) {
-    for (const char* ignored : {"anisotropic", "sheen", "sheen_tint", "clearcoat", "clearcoat_gloss", "flatness",
-                                "spec_tint", "diff_trans"})
+    for (const char* ignored :
+         {"anisotropic", "sheen", "sheen_tint", "clearcoat", "clearcoat_gloss", "flatness", "spec_tint", "diff_trans"})
         if (bsdf.child(ignored) || bsdf.number(ignored, 0) != 0)
             approximated(bsdf, fmt::format("lose their '{}'", ignored));
+    approximated(bsdf, "become metallic-roughness ones with a Lambert base");
     Surface surface;
     surface.color = colors_.color(bsdf, "base_color", glm::vec3(0.5f), Meaning::Reflectance);
     const float transmission = colors_.number(bsdf, "spec_trans", 0);
