@@ -6,6 +6,7 @@
 #include "graph/registry.h"
 #include "passes/common/filter/noisy_irradiance.h"
 #include "passes/common/filter/wavelet_noise.h"
+#include "passes/view/filter_irradiance/level_kernel.h"
 #include "scene/camera_rays.h"
 
 namespace voxray {
@@ -98,7 +99,6 @@ class FilterIrradiance final : public Pass {
     void findLight(PassContext& context) const;
     /// Computes the mean irradiance of neighborhoods that are twice as wide as the last ones. @param level from 0 on.
     void widenMeans(PassContext& context, uint32_t level) const;
-    uint64_t elements() const;
     glm::uvec2 blocks(PassContext& context) const;
     float blockPixels(PassContext& context) const;
 
@@ -129,12 +129,12 @@ class FilterIrradiance final : public Pass {
     Kernel giveBack_{*this, "give_back.comp"};
     Kernel noise_{*this, "noise.comp"};
     Kernel findNoiseRatio_{*this, "noise_ratio.comp"};
-    Kernel mean_{*this, "mean.comp"};
+    LevelKernel mean_{*this, "mean.comp"};
     Kernel findLight_{*this, "light.comp"};
     Kernel widerMeans_{*this, "wider_means.comp"};
-    Kernel wavelet_{*this, "wavelet.comp"};
+    LevelKernel wavelet_{*this, "wavelet.comp"};
     Kernel resolve_{*this, "resolve.comp"};
-    Buffer second_;           ///< Number of pixels with a second surface, then their indices.
+    Buffer second_;           ///< Pixels with a second surface (shaders/compute/indirect_list.glsl).
     Buffer blockStatistics_;  ///< gpu::RayStatistics per block, from the gather's moments.
     // Regression, where the gather writes moments.
     Buffer blockMeans_;  ///< Luminance per block, W/m².
@@ -172,7 +172,7 @@ void FilterIrradiance::plan(PassPlan& plan) {
     plan.image(reflectance_, "reflectance of surfaces", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
     plan.image(light_, "statistics of light", values);
     for (Image& level : filtered_) plan.image(level, "filtered irradiance", values);
-    plan.buffer(second_, "second surfaces", (1 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
+    plan.buffer(second_, "second surfaces", (4 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
     const bool hasMoments = noisy.blockSize > 0 && !noisy.hasStatistics, givesBack = hasMoments && hasRegression();
     const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
     if (hasMoments) plan.buffer(blockStatistics_, "statistics of rays", noisy.statisticsBytes(texels));
@@ -196,12 +196,13 @@ void FilterIrradiance::plan(PassPlan& plan) {
         defines.emplace("GIVE_BACK", "1");
         defines.emplace("NOISE_RATIO", "1");
     }
-    for (Kernel* kernel : {&findSurfaces_, &statistics_, &bound_, &giveBack_, &noise_, &findNoiseRatio_, &mean_,
-                           &findLight_, &widerMeans_, &wavelet_, &resolve_})
+    for (Kernel* kernel : {&findSurfaces_, &statistics_, &bound_, &giveBack_, &noise_, &findNoiseRatio_,
+                           &findLight_, &widerMeans_, &resolve_})
         kernel->define(defines);
     statistics_.compileIf(hasMoments);
     for (Kernel* kernel : {&bound_, &giveBack_, &noise_, &findNoiseRatio_}) kernel->compileIf(givesBack);
-    mean_.compileIf(noisy.blockSize > 0);
+    mean_.define(defines, noisy.blockSize > 0, samples > 1);
+    wavelet_.define(defines, true, samples > 1);
     widerMeans_.compileIf(noisy.blockSize > 0 && hasRegression());
 }
 
@@ -209,14 +210,14 @@ void FilterIrradiance::record(PassContext& context) {
     const glm::uvec2 pixels = context.frame.pixels();
 
     // Find the surfaces of each pixel
-    context.stream.fill(second_, 0);
-    context.dispatch(findSurfaces_, uint64_t(pixels.x) * pixels.y,
+    context.stream.fill(second_, 1);
+    context.dispatch(findSurfaces_, pixels,
                      {context[gbuffer_],
                       {"irradiance", context[noisy_].irradiance},
                       {"surfaces", surfaces_},
                       {"source", filtered_[0]},
                       {"reflectance", reflectance_},
-                      {"second", second_},
+                      ifUsed({"indirectList", second_}),
                       {"pixels", pixels}});
 
     // Find the light around each
@@ -238,20 +239,19 @@ void FilterIrradiance::record(PassContext& context) {
         if (hasMeans && hasRegression() && level >= kMeanLevels) {
             widenMeans(context, level);
             context.dispatch(
-                widerMeans_, elements(),
-                {{"second", second_}, {"surfaces", surfaces_}, {"mean", means_[level % 2]}, {"light", light_}});
+                widerMeans_, glm::uvec2(surfaces_.desc().extent),
+                {{"surfaces", surfaces_}, {"mean", means_[level % 2]}, {"light", light_}});
         }
         if (hasMoments && hasRegression() && level < kMeasuredLevels) measureNoise(context, level);
-        context.dispatch(wavelet_, elements(),
-                         {{"second", second_},
-                          {"surfaces", surfaces_},
-                          {"light", light_},
-                          {"source", filtered_[level % 2]},
-                          {"result", filtered_[(level + 1) % 2]},
-                          ifUsed({"noiseRatio", noiseRatio_}),
-                          {"level", level},
-                          {"edgeStoppingScale", edgeStoppingScale()},
-                          ifUsed({"ratioLevel", std::min(level, kMeasuredLevels - 1)})});
+        wavelet_.record(context, level,
+                        {{"surfaces", surfaces_},
+                         {"light", light_},
+                         {"source", filtered_[level % 2]},
+                         {"result", filtered_[(level + 1) % 2]},
+                         ifUsed({"noiseRatio", noiseRatio_}),
+                         {"edgeStoppingScale", edgeStoppingScale()},
+                         ifUsed({"ratioLevel", std::min(level, kMeasuredLevels - 1)})},
+                        second_);
     }
 
     // Compute the radiance that they reflect
@@ -294,9 +294,8 @@ void FilterIrradiance::measureNoise(PassContext& context, uint32_t level) const 
 void FilterIrradiance::findLight(PassContext& context) const {
     const NoisyIrradiance& noisy = context[noisy_];
     const CameraRays camera = cameraRays(context.frame.camera, context.frame.width, context.frame.height);
-    context.dispatch(findLight_, elements(),
-                     {{"second", second_},
-                      {"surfaces", surfaces_},
+    context.dispatch(findLight_, glm::uvec2(surfaces_.desc().extent),
+                     {{"surfaces", surfaces_},
                       {"light", light_},
                       ifUsed({"mean", means_[(kMeanLevels - 1) % 2]}),
                       ifUsed({"statistics", noisy.hasStatistics ? noisy.statistics : blockStatistics_}),
@@ -307,17 +306,11 @@ void FilterIrradiance::findLight(PassContext& context) const {
 }
 
 void FilterIrradiance::widenMeans(PassContext& context, uint32_t level) const {
-    context.dispatch(mean_, elements(),
-                     {{"second", second_},
-                      {"surfaces", surfaces_},
-                      {"source", level == 0 ? filtered_[0] : means_[(level - 1) % 2]},
-                      {"result", means_[level % 2]},
-                      {"level", level}});
-}
-
-uint64_t FilterIrradiance::elements() const {
-    const glm::uvec3 extent = surfaces_.desc().extent;
-    return uint64_t(extent.x) * extent.y;
+    mean_.record(context, level,
+                 {{"surfaces", surfaces_},
+                  {"source", level == 0 ? filtered_[0] : means_[(level - 1) % 2]},
+                  {"result", means_[level % 2]}},
+                 second_);
 }
 
 glm::uvec2 FilterIrradiance::blocks(PassContext& context) const {
