@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <string>
 
 #include "base/error.h"
 #include "graph/registry.h"
 #include "passes/common/filter/noisy_irradiance.h"
 #include "passes/common/filter/wavelet_noise.h"
+#include "passes/view/filter_irradiance/filter_irradiance_params.h"
 #include "passes/view/filter_irradiance/level_kernel.h"
 #include "scene/camera_rays.h"
 
@@ -24,23 +24,6 @@ glm::uvec2 tilesOf(glm::uvec2 pixels) {
 
 }  // namespace
 
-/// Light that is denoised.
-enum class FilteredLight { Indirect, Direct, Residual };
-template <>
-struct EnumNames<FilteredLight> {
-    static constexpr std::array names{std::pair{FilteredLight::Indirect, "indirect"},
-                                      std::pair{FilteredLight::Direct, "direct"},
-                                      std::pair{FilteredLight::Residual, "residual"}};
-};
-
-/// What an element's value is, of the weighted taps around it.
-enum class Estimator { Mean, Regression };
-template <>
-struct EnumNames<Estimator> {
-    static constexpr std::array names{std::pair{Estimator::Mean, "mean"},
-                                      std::pair{Estimator::Regression, "regression"}};
-};
-
 /// Denoises a gather's irradiance. Source: the edge-avoiding à-trous wavelet of Dammertz et al. 2010, with a
 /// weight that balances noise against bias: the gradient bound of Ward et al. 1988, geometry, and means of
 /// neighborhoods (wavelet.comp); optionally linear regression on position (Moon et al. 2014). Docs: docs/filtering.md.
@@ -56,35 +39,7 @@ class FilterIrradiance final : public Pass {
         "from their variance, the distances of their hits, and the differences of light between neighborhoods. "
         "Biased by: edge_stopping_scale and levels, less the more rays. Lambert surfaces only. "
         "Source: Dammertz et al. 2010; Ward et al. 1988; Moon et al. 2014; docs/filtering.md.";
-    struct Params {
-        FilteredLight light = FilteredLight::Indirect;
-        Estimator estimator = Estimator::Mean;
-        uint32_t levels = 0;
-        float edgeStoppingScale = 0.0f;
-        static constexpr auto schema() {
-            return std::tuple{
-                field("light", &Params::light,
-                      "indirect: reads 'noisy_irradiance' and writes 'indirect'. "
-                      "direct: reads 'noisy_direct', adds 'unfiltered_direct' and writes 'direct'. "
-                      "residual: reads 'noisy_residual', which may be negative, adds 'indirect' and "
-                      "writes 'indirect'."),
-                field("estimator", &Params::estimator,
-                      "mean: the weighted mean of taps. regression: wider, with less error and 2.3 times "
-                      "the time: linear regression on position, noise measured, outliers bounded and what "
-                      "they lose given back around them, means of wider neighborhoods, one more level.")
-                    .onlyWith(oneOf(&Params::light, {FilteredLight::Indirect, FilteredLight::Direct})),
-                field("levels", &Params::levels,
-                      "Levels of the wavelet, each with twice the radius of the previous one: "
-                      "n levels have a radius of 2^n - 1 pixels. 0: 4, with regression 5, of residuals 6.",
-                      0u, 6u),
-                field("edge_stopping_scale", &Params::edgeStoppingScale,
-                      "Factor of the bound of the difference of irradiance between two texels. "
-                      "1: the whole bound, sharp and noisy; less: smoother, and shadows blur. "
-                      "0: 0.1 for indirect light, most of whose changes cancel, with regression 0.02; "
-                      "1 for direct light, where the edge of a shadow is a single change.",
-                      0.0f, 100.0f)};
-        }
-    };
+    using Params = FilterIrradianceParams;
 
     explicit FilterIrradiance(const Params& params) : params_(params) {}
     void plan(PassPlan& plan) override;
@@ -196,8 +151,8 @@ void FilterIrradiance::plan(PassPlan& plan) {
         defines.emplace("GIVE_BACK", "1");
         defines.emplace("NOISE_RATIO", "1");
     }
-    for (Kernel* kernel : {&findSurfaces_, &statistics_, &bound_, &giveBack_, &noise_, &findNoiseRatio_,
-                           &findLight_, &widerMeans_, &resolve_})
+    for (Kernel* kernel : {&findSurfaces_, &statistics_, &bound_, &giveBack_, &noise_, &findNoiseRatio_, &findLight_,
+                           &widerMeans_, &resolve_})
         kernel->define(defines);
     statistics_.compileIf(hasMoments);
     for (Kernel* kernel : {&bound_, &giveBack_, &noise_, &findNoiseRatio_}) kernel->compileIf(givesBack);
@@ -238,9 +193,8 @@ void FilterIrradiance::record(PassContext& context) {
     for (uint32_t level = 0; level < levels(); ++level) {
         if (hasMeans && hasRegression() && level >= kMeanLevels) {
             widenMeans(context, level);
-            context.dispatch(
-                widerMeans_, glm::uvec2(surfaces_.desc().extent),
-                {{"surfaces", surfaces_}, {"mean", means_[level % 2]}, {"light", light_}});
+            context.dispatch(widerMeans_, glm::uvec2(surfaces_.desc().extent),
+                             {{"surfaces", surfaces_}, {"mean", means_[level % 2]}, {"light", light_}});
         }
         if (hasMoments && hasRegression() && level < kMeasuredLevels) measureNoise(context, level);
         wavelet_.record(context, level,

@@ -31,7 +31,8 @@ class LevelKernel {
         const uint32_t rows = STRIP_ROWS << level, strips = ((pixels.y + rows - 1) / rows) << level;
         context.dispatch(first_, glm::uvec2(pixels.x, strips), {bindings.all(), {"level", level}});
         if (hasSecond_)
-            dispatchIndirect(context.stream, second_, second, 0, {bindings.all(), {"level", level}, {"indirectList", second}});
+            dispatchIndirect(context.stream, second_, second, 0,
+                             {bindings.all(), {"level", level}, {"indirectList", second}});
     }
 
  private:
