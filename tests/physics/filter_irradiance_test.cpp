@@ -178,6 +178,15 @@ TEST_P(FilterEstimator, LeavesEverySurfaceOfAPixelItsOwn) {
     }
 }
 
+TEST_P(FilterEstimator, IsTheSameOverMaterialsOfSurfaces) {
+    // The room's walls are flat and of one color each. Cornell's camera is no test of it: rays right through the room's
+    // edges hit either of two walls, by the order of rays
+    const std::string source = "step: 10, noise: 1, moments: true";
+    const ImageF each = filterKnown(source, with("levels: 4"), "window_room", "2");
+    const ImageF shared = filterKnown(source, with("levels: 4"), "window_room", "2, materials_of: surfaces");
+    EXPECT_LT(meanDifference(shared, each), 1e-4);
+}
+
 TEST_P(FilterEstimator, KeepsALinearGradientOnAWall) {
     // A mean over a symmetric kernel keeps what is linear. The reach of 7 texels stays on the wall.
     const ImageF filtered = filterKnown("slope: 0.5", with("levels: 3"), "white_room");

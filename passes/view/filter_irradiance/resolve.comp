@@ -1,7 +1,7 @@
 // Radiance that each pixel reflects of the filtered irradiance, by Lambert's law, and of light that is not filtered.
 #include "shaders/filter/block_interpolation.glsl"
 #include "shaders/filter/tiles.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 64) in;
 
 uniform sampler2D irradiance;   // Of elements (elements.glsl), W/m².
 uniform sampler2D reflectance;  // Albedo times the surface's fraction of the pixel.
