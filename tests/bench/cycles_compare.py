@@ -12,14 +12,18 @@ by CPU time; the latter holds on a busy machine too. Images whose means differ b
 no ratio, and exit status 1.
 """
 
+import importlib.util
 import json
 import os
 import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "external"))
-import cycles
+# By its path: within Blender, `cycles` is Blender's own module
+_SCRIPT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts", "external", "cycles.py")
+_FOUND = importlib.util.spec_from_file_location("external_cycles", _SCRIPT)
+cycles = importlib.util.module_from_spec(_FOUND)
+_FOUND.loader.exec_module(cycles)
 
 FEW = 4
 SEEDS = 4

@@ -13,6 +13,7 @@
 #include "experiment/scene_setup.h"
 #include "passes/path_trace/path_tracer.h"
 #include "scene/gltf_sidecar.h"
+#include "scene/load.h"
 #include "tests/support/places.h"
 
 namespace voxray {

@@ -167,6 +167,27 @@ class Command(External):
         self.fail("the program lives on")
 
 
+class Cycles(External):
+    @unittest.skipUnless(shutil.which("blender"), "Blender is not installed")
+    def test_its_image_is_ours(self):
+        """A spot light, and a sky with a red half on the left and a green spot on the right, which is seen beside the box."""
+        sky = numpy.full((32, 64, 3), 0.05)
+        sky[:, 16:32, 0] = 1
+        sky[10:20, 36:44, 1] = 3
+        voxray.exr.write(Path(self.path("sky.exr")), sky)
+        script = os.path.join(SOURCE, "scripts", "external", "cycles.py")
+        words = ["blender", "-b", "--factory-startup", "--python-exit-code", "1", "--python", script, "--"]
+        config = CONFIG.replace("spp: 5, OTHER", f"light: parts, spp: 256, command: {json.dumps(words)}").replace("SKY", "sky.exr")
+        self.write("mixed.yaml", config.replace("reference: {pass: path_trace, spp: 16", "reference: {pass: path_trace, spp: 1024"))
+        self.expect(0, "run", "mixed.yaml", *QUIET)
+        self.assertEqual(self.pass_row()["clock"], "told by the renderer")
+        folders = (self.path("out", "images", "other"), self.path("out", "images", "reference"))
+        for name, most in (("final", 0.02), ("indirect", 0.04)):
+            theirs, ours = (exr_pixels.rgb(f"{folder}/{name}.exr") for folder in folders)
+            halves = [(image[:, :16].mean(axis=(0, 1)), image[:, 16:].mean(axis=(0, 1))) for image in (theirs, ours)]
+            self.assertLess(numpy.abs(numpy.array(halves[0]) / halves[1] - 1).max(), most, name)
+
+
 class Images(External):
     def fill(self, **files):
         os.makedirs(self.path("theirs"), exist_ok=True)
