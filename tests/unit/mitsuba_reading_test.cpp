@@ -48,7 +48,7 @@ TEST(MitsubaReading, IncludesAndPaths) {
     std::filesystem::create_directories(folder / "meshes");
     writeText(folder / "meshes/a.obj", kTriangleObj);
     writeText(folder / "main/parts/part.xml", R"(<scene version="3.0.0"><default name="spp" value="1"/>
-        <shape type="obj"><string name="filename" value="a.obj"/><ref id="m"/></shape></scene>)");
+        <shape type="obj"><string name="filename" value="..\meshes\a.obj"/><ref id="m"/></shape></scene>)");
     writeText(folder / "main/parts/shape.xml", "<shape type='disk'/>");
     writeText(folder / "main/scene.xml", mitsubaScene(R"(<path value="../meshes"/>
         <bsdf type="diffuse" id="m"/><include filename="parts/part.xml"/><include filename="parts/shape.xml"/>)"));

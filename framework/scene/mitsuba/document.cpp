@@ -273,6 +273,11 @@ fs::path Document::resolve(const std::string& name) const {
     if (fs::path(name).is_absolute()) return name;
     for (const fs::path& folder : folders)
         if (fs::exists(folder / name, code)) return folder / name;
+    if (name.find('\\') != std::string::npos) {
+        std::string other = name;  // As Windows writes paths
+        std::ranges::replace(other, '\\', '/');
+        return resolve(other);
+    }
     return folders.empty() ? fs::path(name) : folders.front() / name;
 }
 

@@ -15,6 +15,7 @@ struct Document {
     std::vector<std::filesystem::path> folders;
 
     /// The path of a file that the scene names; the name in the first folder if no folder has it.
+    /// Backslashes count as slashes where no file has them in its name.
     std::filesystem::path resolve(const std::string& name) const;
 };
 
