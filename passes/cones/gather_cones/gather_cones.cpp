@@ -33,7 +33,7 @@ class GatherCones final : public Pass {
         "Gathers indirect light by a few cones per texel from prefiltered voxels (filter_voxels). "
         "Biased by: voxel size; the number of cones; a mean over some 25 pixels of the same surface, "
         "which evens out the pattern of directions; the shape of specular lobes; with 'visibility: voxels' opacity. "
-        "Noisy by: what rays along the cones see, near_field_voxels, residual. "
+        "Noisy by: what rays find, near_field_voxels, residual. "
         "Time grows with the cones of each texel, so on a CPU begin with `stride: 4`, a quarter of them, and "
         "`specular: 0` where nothing is glossy. Source: Crassin et al. 2011; Arnebäck 2017, section 3.1.5.";
     struct Params {
