@@ -108,6 +108,37 @@ TEST(GBuffer, SamplesOfARotatedGridCoverStraightEdgesInFineSteps) {
     }
 }
 
+// The same edge, whose place no grid of four samples resolves: random samples cover as much of its pixel as it does in
+// the mean over frames, by one point in each cell of the grid.
+TEST(GBuffer, RandomSamplesCoverAnEdgeInTheMeanOverFrames) {
+    const float covered = 0.3f;
+    SceneBuilder builder("edge");
+    builder.quad("sheet", {-1, -1, 0}, {1 + 0.5f * covered, 0, 0}, {0, 2, 0}, builder.lambert("white", glm::vec3(1)));
+    builder.camera({0, 0, 1}, {0, 0, 0}, 90);
+    const State state = evaluated(builder);
+    const auto errorOf = [&](const std::string& pattern, uint32_t frames) {
+        Chain chain(state, graphYaml({"gbuffer, samples_per_pixel_edge: 2, sample_pattern: " + pattern}), 4, 4);
+        double sum = 0;  // Of the column of pixels that the edge crosses.
+        for (uint32_t frame = 1; frame <= frames; ++frame) {
+            chain.runFrame(frame);
+            const auto albedo = texels(chain, gbuffer(chain).albedo), position = texels(chain, gbuffer(chain).position);
+            for (size_t y = 0; y < 8; ++y)
+                for (size_t x = 4; x < 6; ++x) {
+                    const size_t i = y * 8 + x;
+                    sum += albedo[i].w;
+                    if (albedo[i].w > 0) {
+                        EXPECT_EQ(std::floor((position[i].x + 1) * 4), x) << pattern;
+                    }
+                }
+        }
+        return sum / (16.0 * frames) - covered;
+    };
+    // Only samples of the left half of the pixels see the edge
+    const uint32_t frames = 100;
+    EXPECT_NEAR(errorOf("random", frames), 0, 4 * 0.5 * std::sqrt(0.6 * 0.4 / (8 * frames)));
+    EXPECT_GT(std::abs(errorOf("regular", 2)), 0.1);
+}
+
 TEST(GBuffer, SpecularReflectanceFollowsTheMaterial) {
     // A tinted dielectric: F0 = colour * specular * ((n - 1) / (n + 1))², at most specular.
     SceneBuilder builder("pane");

@@ -4,6 +4,7 @@
 
 #include "graph/registry.h"
 #include "passes/common/compute/large_buffer.h"
+#include "passes/common/compute/random_seed.h"
 #include "passes/common/view/camera_matrix.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/view/surface_motion.h"
@@ -19,12 +20,13 @@ struct EnumNames<GBufferMethod> {
                                       std::pair{GBufferMethod::Raster, "raster"}};
 };
 
-enum class SamplePattern { Regular, Rotated };
+enum class SamplePattern { Regular, Rotated, Random };
 
 template <>
 struct EnumNames<SamplePattern> {
     static constexpr std::array names{std::pair{SamplePattern::Regular, "regular"},
-                                      std::pair{SamplePattern::Rotated, "rotated"}};
+                                      std::pair{SamplePattern::Rotated, "rotated"},
+                                      std::pair{SamplePattern::Random, "random"}};
 };
 
 enum class TextureLookup { Filtered, Sharp };
@@ -97,7 +99,9 @@ class GBufferPass final : public Pass {
                 field(
                     "sample_pattern", &Params::samplePattern,
                     "Where samples are in their pixel. regular: the centers of a regular grid. rotated: a rotated grid, in "
-                    "which no two are in a column or a row: edges along either are as smooth as others.")
+                    "which no two are in a column or a row: edges along either are as smooth as others. random: one point "
+                    "of each of the grid's cells, another one in each frame and with each seed: noise in place of what a "
+                    "grid misses in every frame.")
                     .onlyWith(oneOf(&Params::method, {GBufferMethod::Rays})),
                 field("normal_maps", &Params::normalMaps,
                       "filtered: the mean normal over a sample's footprint, biased as it flattens detail. "
@@ -177,6 +181,7 @@ void GBufferPass::plan(PassPlan& plan) {
     if (hasMotion(plan)) defines.emplace("MOTION", "1");
     drawSurfaces_.define(defines);
     if (params_.samplePattern == SamplePattern::Rotated) defines.emplace("ROTATED_GRID", "1");
+    if (params_.samplePattern == SamplePattern::Random) defines.emplace("RANDOM_POINTS", "1");
     generateRays_.define(defines);
     storeSurfaces_.define(defines);
     RasterState state;
@@ -229,12 +234,16 @@ void GBufferPass::storeFrame(PassContext& context) {
 void GBufferPass::trace(PassContext& context) {
     const GBuffer& g = context[gbuffer_];
     const CameraView view = viewOf(context.frame);
-    const uint32_t texels = view.width * view.height;
+    const uint32_t texels = view.width * view.height, seed = randomSeed(context.frame, context.frameIndex);
     for (uint32_t first = 0; first < texels; first += kMaxBatchRays) {
         const uint32_t batch = std::min(kMaxBatchRays, texels - first);
-        context.dispatch(
-            generateRays_, batch,
-            {{"rays", rays_}, {"view", view}, {"samples", g.samples}, {"firstTexel", first}, {"batchRays", batch}});
+        context.dispatch(generateRays_, batch,
+                         {{"rays", rays_},
+                          {"view", view},
+                          {"samples", g.samples},
+                          {"seed", seed},
+                          {"firstTexel", first},
+                          {"batchRays", batch}});
         context.tracer.closestHit(context.stream, rays_, hits_, batch, Coherence::Coherent);
         context.dispatch(storeSurfaces_, batch,
                          {context.scene,
@@ -245,6 +254,7 @@ void GBufferPass::trace(PassContext& context) {
                           ifUsed({"PreviousPositionsRef", previousPositions_.ref()}),
                           ifUsed({"instanceStarts", instanceStarts_}),
                           {"view", view},
+                          {"seed", seed},
                           {"firstTexel", first},
                           {"batchRays", batch}});
     }

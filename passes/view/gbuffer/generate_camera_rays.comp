@@ -8,6 +8,7 @@ layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(push_constant, scalar) uniform Push {
     CameraView view;
     uint samples;
+    uint seed;  // Of the frame.
     uint firstTexel;
     uint batchRays;
 } push;
@@ -17,5 +18,5 @@ void main() {
     if (i >= push.batchRays) return;
     const uint texel = push.firstTexel + i;
     const uvec2 position = uvec2(texel % push.view.width, texel / push.view.width);
-    rays.data[i] = Ray(push.view.origin, 0.0, sampleDirection(push.view, position, push.samples), 1.0e30);
+    rays.data[i] = Ray(push.view.origin, 0.0, sampleDirection(push.view, position, push.samples, push.seed), 1.0e30);
 }

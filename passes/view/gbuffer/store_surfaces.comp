@@ -23,6 +23,7 @@ layout(rgba32f) writeonly uniform image2D previous;
 layout(push_constant, scalar) uniform Push {
     CameraView view;
     uint samples;
+    uint seed;  // Of the frame.
     uint firstTexel;
     uint batchRays;
 } push;
@@ -38,7 +39,7 @@ void main() {
     VisibleSurface visible = VisibleSurface(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0),
                                             Specular(vec3(0.0), 0.0, 0.0, 0.0, 0.0));
     if (hit.triangle == NO_HIT) {
-        visible.emission = environmentRadiance(sampleDirection(push.view, uvec2(texel), push.samples));
+        visible.emission = environmentRadiance(sampleDirection(push.view, uvec2(texel), push.samples, push.seed));
     } else {
         const vec2 barycentrics = insetBarycentrics(hit.triangle, vec2(hit.u, hit.v));
         const SurfacePoint s = surfacePoint(hit.triangle, barycentrics);
