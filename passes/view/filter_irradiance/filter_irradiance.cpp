@@ -105,6 +105,7 @@ class FilterIrradiance final : public Pass {
     bool isDirect() const { return params_.light == FilteredLight::Direct; }
     bool isResidual() const { return params_.light == FilteredLight::Residual; }
     bool hasRegression() const { return params_.estimator == Estimator::Regression && !isResidual(); }
+    bool boundsOutliers() const { return hasRegression() || isResidual(); }
     uint32_t levels() const {
         if (params_.levels > 0) return params_.levels;
         return isResidual() ? kResidualLevels : hasRegression() ? 5 : WAVELET_LEVELS;
@@ -173,7 +174,8 @@ void FilterIrradiance::plan(PassPlan& plan) {
     plan.image(light_, "statistics of light", values);
     for (Image& level : filtered_) plan.image(level, "filtered irradiance", values);
     plan.buffer(second_, "second surfaces", (1 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
-    const bool hasMoments = noisy.blockSize > 0 && !noisy.hasStatistics, givesBack = hasMoments && hasRegression();
+    const bool hasMoments = noisy.blockSize > 0 && !noisy.hasStatistics;
+    const bool givesBack = hasMoments && boundsOutliers(), measuresNoise = hasMoments && hasRegression();
     const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
     if (hasMoments) plan.buffer(blockStatistics_, "statistics of rays", noisy.statisticsBytes(texels));
     if (givesBack) {
@@ -181,6 +183,9 @@ void FilterIrradiance::plan(PassPlan& plan) {
         plan.buffer(blockMeans_, "mean light of rays", uint64_t(blocks.x) * blocks.y * sizeof(float));
         plan.buffer(tiles_, "light of tiles", uint64_t(tiles.x) * tiles.y * kTileBytes);
         plan.buffer(raised_, "light given back", uint64_t(tiles.x) * tiles.y * kRaisedBytes);
+    }
+    if (measuresNoise) {
+        const glm::uvec2 tiles = tilesOf(plan.frame.pixels());
         plan.buffer(noiseSums_, "noise of tiles", uint64_t(tiles.x) * tiles.y * kNoiseBytes);
         plan.buffer(noiseRatio_, "noise ratio", kMeasuredLevels * sizeof(float));
     }
@@ -192,15 +197,14 @@ void FilterIrradiance::plan(PassPlan& plan) {
     if (noisy.hasStatistics) defines.emplace("BOUNDED_GRADIENT", "1");
     if (isResidual()) defines.emplace("SIGNED", "1");
     if (hasRegression()) defines.emplace("REGRESSION", "1");
-    if (givesBack) {
-        defines.emplace("GIVE_BACK", "1");
-        defines.emplace("NOISE_RATIO", "1");
-    }
+    if (givesBack) defines.emplace("GIVE_BACK", "1");
+    if (measuresNoise) defines.emplace("NOISE_RATIO", "1");
     for (Kernel* kernel : {&findSurfaces_, &statistics_, &bound_, &giveBack_, &noise_, &findNoiseRatio_, &mean_,
                            &findLight_, &widerMeans_, &wavelet_, &resolve_})
         kernel->define(defines);
     statistics_.compileIf(hasMoments);
-    for (Kernel* kernel : {&bound_, &giveBack_, &noise_, &findNoiseRatio_}) kernel->compileIf(givesBack);
+    for (Kernel* kernel : {&bound_, &giveBack_}) kernel->compileIf(givesBack);
+    for (Kernel* kernel : {&noise_, &findNoiseRatio_}) kernel->compileIf(measuresNoise);
     mean_.compileIf(noisy.blockSize > 0);
     widerMeans_.compileIf(noisy.blockSize > 0 && hasRegression());
 }
@@ -228,7 +232,7 @@ void FilterIrradiance::record(PassContext& context) {
                           {"statistics", blockStatistics_},
                           ifUsed({"blockMeans", blockMeans_}),
                           {"blocks", blocks(context)}});
-    if (hasMoments && hasRegression()) boundOutliers(context);
+    if (hasMoments && boundsOutliers()) boundOutliers(context);
     for (uint32_t level = 0; hasMeans && level < kMeanLevels; ++level) widenMeans(context, level);
     findLight(context);
 
