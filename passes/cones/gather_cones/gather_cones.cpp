@@ -17,6 +17,12 @@ ImageDesc tracedImage(const Frame& frame, uint32_t samples, uint32_t stride) {
     return desc;
 }
 
+constexpr uint32_t kTile = 16;  // TILE of shaders/filter/tiles.glsl.
+
+glm::uvec2 tilesOf(glm::uvec2 pixels) {
+    return (pixels + kTile - 1u) / kTile;
+}
+
 }  // namespace
 
 /// Indirect light by cone tracing. Source: Crassin et al. 2011; Arnebäck 2017, sections 3.1.5 and 3.2.5.
@@ -38,6 +44,7 @@ class GatherCones final : public Pass {
         float nearFieldVoxels = 0;
         float residual = 0;
         uint32_t residualBounces = 8;
+        ResidualFilter residualFilter = ResidualFilter::Mean;
         static constexpr auto withResidual() { return noneOf(&Params::residual, {0.0f}); }
         static constexpr auto schema() {
             return std::tuple{
@@ -68,6 +75,10 @@ class GatherCones final : public Pass {
                       "Scattering events of these paths after direct light at what the camera sees, as path_trace "
                       "counts them.",
                       1u, 1024u)
+                    .onlyWith(withResidual()),
+                field("residual_filter", &Params::residualFilter,
+                      "mean: the residual is averaged with the cones' light. apart: it is written to 'noisy_residual', "
+                      "for filter_irradiance with 'light: residual', and 'indirect' is without it.")
                     .onlyWith(withResidual())};
         }
     };
@@ -81,7 +92,17 @@ class GatherCones final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    void planKeptLight(PassPlan& plan);
+    /// Gives back what the mean over texels lost, and adds the lobes, if any.
+    void keepLight(PassContext& context, const std::vector<Binding>& reflected);
     void planRays(PassPlan& plan, const RadianceVoxels& radiance, glm::uvec2 tracedExtent);
+    bool isResidualApart() const { return params_.residual > 0 && params_.residualFilter == ResidualFilter::Apart; }
+    /// The residual where it is apart, else null.
+    NoisyIrradiance* residualApart(const PortAccess& access) const {
+        return isResidualApart() ? &access[noisy_] : nullptr;
+    }
+    /// Whether what the mean over texels loses is given back: not to marched cones, which stay as published.
+    bool keepsLight() const { return params_.visibility == ConeVisibility::Rays || params_.residual > 0; }
     bool hasRays() const {
         return params_.visibility == ConeVisibility::Rays || params_.nearFieldVoxels > 0 || params_.residual > 0;
     }
@@ -93,9 +114,15 @@ class GatherCones final : public Pass {
     Out<SpecularLobes> lobes_{*this, "lobes",
                               "what specular lobes reflect; a pass that reads it joins it with 'indirect'",
                               params_.specular > 0};
+    Out<NoisyIrradiance> noisy_{*this, "noisy_residual", "irradiance that the cones lack", isResidualApart()};
     Kernel trace_{*this, "trace_cones.comp"};
     Kernel resolve_{*this, "resolve.comp"};
     Kernel resolveLobes_{*this, "resolve.comp", {{"SPECULAR", "1"}}};
+    // Where rays see
+    Kernel findFactors_{*this, "kept_light.comp"};
+    Kernel keepLight_{*this, "keep_light.comp"};
+    Kernel keepLightWithLobes_{*this, "keep_light.comp", {{"SPECULAR", "1"}}};
+    Buffer tiles_, raised_;  ///< TileLight of each tile (tiles.glsl), and the factor of its light.
     Buffer cones_;
     Image irradiance_;
     std::optional<SpecularCones> specular_;
@@ -105,8 +132,8 @@ class GatherCones final : public Pass {
 void GatherCones::plan(PassPlan& plan) {
     const RadianceVoxels& radiance = plan[radiance_];
     plan.buffer(cones_, "cones", coneSet(params_.cones).size() * sizeof(gpu::Cone));
-    plan[indirect_].lightBounces =
-        params_.residual > 0 ? std::optional(params_.residualBounces) : radiance.lightBounces;
+    const bool hasResidual = params_.residual > 0 && !isResidualApart();
+    plan[indirect_].lightBounces = hasResidual ? std::optional(params_.residualBounces) : radiance.lightBounces;
     plan[indirect_].hasSpecularLobes = params_.specular > 0;
     plan.frameImage(indirect_);
     const ImageDesc traced = tracedImage(plan.frame, plan[gbuffer_].samples, params_.stride);
@@ -115,6 +142,10 @@ void GatherCones::plan(PassPlan& plan) {
     trace_.define(radiance.defines());
     trace_.compileIf(!rays_);
     resolveLobes_.compileIf(params_.specular > 0);
+    if (keepsLight()) planKeptLight(plan);
+    findFactors_.compileIf(keepsLight());
+    keepLight_.compileIf(keepsLight());
+    keepLightWithLobes_.compileIf(keepsLight() && params_.specular > 0);
     if (params_.specular == 0) return;
     SpecularLobes& lobes = plan[lobes_];
     lobes.isJoined = false;
@@ -122,11 +153,27 @@ void GatherCones::plan(PassPlan& plan) {
     specular_->plan(plan, plan[gbuffer_], radiance, params_.specular, lobes.reflected);
 }
 
+void GatherCones::planKeptLight(PassPlan& plan) {
+    const glm::uvec2 tiles = tilesOf(plan.frame.pixels());
+    const uint64_t count = uint64_t(tiles.x) * tiles.y;
+    plan.buffer(tiles_, "light of tiles", count * 2 * sizeof(glm::vec3));
+    plan.buffer(raised_, "factors of tiles", count * sizeof(glm::vec3));
+    for (Kernel* kernel : {&resolve_, &resolveLobes_}) kernel->define({{"KEEPS_LIGHT", "1"}});
+}
+
 void GatherCones::planRays(PassPlan& plan, const RadianceVoxels& radiance, glm::uvec2 tracedExtent) {
     if (radiance.emission && (params_.nearFieldVoxels > 0 || params_.residual > 0))
         throw Error(
             "gather_cones: 'near_field_voxels' and 'residual' measure light at hits without what they emit, "
             "which the radiance voxels hold; set them to 0, or 'emission' of filter_voxels to false");
+    if (isResidualApart() && params_.specular > 0)
+        throw Error(
+            "gather_cones: a filter of the residual takes all surfaces for diffuse; set 'specular' to 0, or "
+            "'residual_filter' to mean");
+    if (isResidualApart() && !plan[noisy_].isRead)
+        throw Error(
+            "gather_cones: with 'residual_filter: apart' a filter_irradiance with 'light: residual' must follow, or the "
+            "residual is lost");
     rays_->plan(plan, radiance,
                 {.visibility = params_.visibility,
                  .nearVoxels = params_.nearFieldVoxels,
@@ -134,8 +181,10 @@ void GatherCones::planRays(PassPlan& plan, const RadianceVoxels& radiance, glm::
                  .bounces = params_.residualBounces,
                  .cones = params_.cones,
                  .stride = params_.stride,
+                 .samples = plan[gbuffer_].samples,
                  .tracedExtent = tracedExtent,
-                 .width = coneSet(params_.cones).back().width});
+                 .width = coneSet(params_.cones).back().width},
+                residualApart(plan));
 }
 
 void GatherCones::prepare(PassSetup& setup) {
@@ -147,7 +196,7 @@ void GatherCones::record(PassContext& context) {
     const GBuffer& gbuffer = context[gbuffer_];
     const RadianceVoxels& radiance = context[radiance_];
     if (rays_)
-        rays_->record(context, gbuffer, radiance, cones_, irradiance_);
+        rays_->record(context, gbuffer, radiance, cones_, irradiance_, residualApart(context));
     else
         context.dispatch(trace_, irradiance_.desc().extent,
                          {gbuffer,
@@ -169,8 +218,20 @@ void GatherCones::record(PassContext& context) {
                       reflected,
                       {"irradiance", irradiance_},
                       {"result", context[indirect_].image},
+                      ifUsed({"tiles", tiles_}),
                       {"stride", params_.stride},
                       {"voxelSize", radiance.grid.voxelSize}});
+    if (keepsLight()) keepLight(context, reflected);
+}
+
+void GatherCones::keepLight(PassContext& context, const std::vector<Binding>& reflected) {
+    const glm::uvec2 tiles = tilesOf(context.frame.pixels());
+    context.dispatch(findFactors_, tiles, {{"tiles", tiles_}, {"raised", raised_}, {"tileCount", tiles}});
+    context.dispatch(reflected.empty() ? keepLight_ : keepLightWithLobes_, context.frame.pixels(),
+                     {reflected,
+                      {"raised", raised_},
+                      {"result", context[indirect_].image},
+                      ifUsed({"samples", context[gbuffer_].samples})});
 }
 
 VOXRAY_REGISTER_PASS(GatherCones);
