@@ -7,7 +7,6 @@
 #include <glm/gtc/matrix_access.hpp>
 
 #include "base/error.h"
-#include "base/large_pages.h"
 #include "base/parallel.h"
 #include "scene/animation.h"
 #include "scene/swept_bounds.h"
@@ -52,7 +51,6 @@ Geometry allocate(const Scene& scene) {
         throw Error("{}: {} vertices and {} triangles need {} MiB, this machine has {} MiB; use fewer instances",
                     scene.name, vertices, triangles, bytes >> 20, memory >> 20);
     geometry.positions.resize(vertices);
-    reserveInLargePages(geometry.attributes, vertices);
     geometry.attributes.resize(vertices);
     geometry.triangles.resize(triangles);
     geometry.triangleMaterials.resize(triangles);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/interrupt.h"
-#include "base/large_pages.h"
 #include "base/parallel.h"
 #include "scene/gltf_values.h"
 #include "scene/panes.h"
@@ -208,7 +207,6 @@ void MaterialReader::decodeTextures() {
         const DecodedImage& image = decoded[size_t(found - images.begin())];
         scene_.textures[i].width = image.width;
         scene_.textures[i].height = image.height;
-        reserveInLargePages(scene_.textures[i].rgba, image.rgba.size());
         scene_.textures[i].rgba = image.rgba;
     }
 }

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 
-#include "base/large_pages.h"
 #include "base/parallel.h"
 #include "trace/texture_lookup.h"
 
@@ -35,9 +34,7 @@ SurfaceTable::SurfaceTable(const SceneState& state, ExpectedRays rays) : state_(
              m.emissiveTexture.texture >= 0 || m.alphaMode == AlphaMode::Mask});
     if (rays == ExpectedRays::Few) return;
 
-    std::vector<SurfaceTriangle> triangles;
-    reserveInLargePages(triangles, triangleCount());
-    triangles.resize(triangleCount());
+    std::vector<SurfaceTriangle> triangles(triangleCount());
     parallelRanges(triangles.size(), 4096, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) triangles[i] = makeTriangle(uint32_t(i));
     });
