@@ -14,7 +14,7 @@
 namespace voxray {
 namespace {
 
-constexpr uint32_t kNone = ~0u;
+constexpr uint32_t kNoVertex = ~0u;
 
 /// An edge of a triangle, from its corner to the next one.
 struct HalfEdge {
@@ -27,7 +27,7 @@ struct HalfEdge {
 /// An edge with the opposite corners of its triangles.
 struct Edge {
     uint32_t low = 0, high = 0;
-    std::array<uint32_t, 2> opposite{kNone, kNone};
+    std::array<uint32_t, 2> opposite{kNoVertex, kNoVertex};
     uint32_t triangleCount = 0;
 
     bool isBorder() const { return triangleCount != 2; }
