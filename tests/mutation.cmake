@@ -18,6 +18,7 @@ target_compile_options(sanitized_readers PRIVATE ${SANITIZERS} -fno-omit-frame-p
 target_precompile_headers(sanitized_readers PRIVATE ${CMAKE_SOURCE_DIR}/framework/precompiled.h)
 
 voxray_tests(mutation SHARDS 3
-  SOURCES unit/config_mutation_test.cpp unit/mitsuba_mutation_test.cpp unit/scene_mutation_test.cpp
+  SOURCES unit/config_mutation_test.cpp unit/mitsuba_mutation_test.cpp unit/pbrt_mutation_test.cpp
+          unit/scene_mutation_test.cpp
   DEPENDS sanitized_readers voxray_config voxray_scene draco::draco meshoptimizer::meshoptimizer ZLIB::ZLIB)
 target_link_options(tests_mutation PRIVATE ${SANITIZERS})
