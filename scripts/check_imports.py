@@ -21,6 +21,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 sys.dont_write_bytecode = True
 sys.path.append(str(ROOT / "framework"))
+import numpy as np  # noqa: E402
+from PIL import Image  # noqa: E402
+from report import exr_pixels  # noqa: E402
 from report.rows import markdown_table  # noqa: E402
 
 MITSUBA_TESTS = "mitsuba-3/mitsuba-data/tests/scenes"
@@ -31,12 +34,13 @@ class Scene:
     """A scene and the image of its own renderer.
 
     bounces: after direct light, as in the reference. size: of the image. part: x, y, width and height of the pixels that are
-    diffuse; None: the whole image. is_diffuse: whether the mean has to agree.
+    diffuse; None: the whole image. is_diffuse: whether the mean has to agree. is_filmic: the reference is a PNG with Tungsten's
+    filmic curve, of which the pixels count that are neither black nor white.
     """
 
-    def __init__(self, path, reference, size=(48, 48), bounces=0, part=None, is_diffuse=True):
+    def __init__(self, path, reference, size=(48, 48), bounces=0, part=None, is_diffuse=True, is_filmic=False):
         self.path, self.reference, self.size, self.bounces = path, reference, size, bounces
-        self.part, self.is_diffuse = part, is_diffuse
+        self.part, self.is_diffuse, self.is_filmic = part, is_diffuse, is_filmic
 
 
 def mitsuba_test(folder, name, reference, **more):
@@ -45,6 +49,10 @@ def mitsuba_test(folder, name, reference, **more):
 
 def spheres(light, **more):
     return mitsuba_test("bsdf_spheres", f"test_{light}_path", f"test_{light}", **more)
+
+
+def tungsten(folder, image="TungstenRender.png", **more):
+    return Scene(f"pbrt-v4/{folder}/scene-v4.pbrt", f"pbrt-v4/{folder}/{image}", **more)
 
 
 # Two Lambert spheres and two leaves, at the lower right of the grid of spheres
@@ -68,6 +76,11 @@ SCENES = {
     "point light": spheres("pointlight", part=DIFFUSE_SPHERES),
     "rough conductor": spheres("textured_roughconductor", is_diffuse=False),
     "principled": spheres("texturedprincipled1", is_diffuse=False),
+    "pbrt cornell box": tungsten("cornell-box", "TungstenRender.exr", size=(1024, 1024), bounces=62),
+    # Wall and floor left of the plates, lit by three spheres
+    "pbrt spheres": tungsten("veach-mis", size=(640, 360), part=(0, 0, 130, 360), is_filmic=True),
+    # An egg of glass, and lamps of metal
+    "pbrt lamps": tungsten("veach-bidir", size=(512, 512), bounces=4, is_diffuse=False, is_filmic=True),
 }
 
 
@@ -77,6 +90,29 @@ def voxray(options, *arguments):
     if done.returncode:
         raise RuntimeError(done.stderr.strip())
     return done.stdout
+
+
+def filmic(radiance):
+    """Hejl and Burgess-Dawson's curve, which Tungsten's images have: display values of 0 to 1."""
+    c = np.maximum(radiance - 0.004, 0)
+    return c * (6.2 * c + 0.5) / (c * (6.2 * c + 1.7) + 0.06)
+
+
+def filmic_scores(ours, reference, part):
+    """Ratio of the means and nRMSE over blocks of 8 x 8 pixels between black and white, without the curve."""
+    # Tungsten cuts what is behind the point of 255 v
+    display = (np.asarray(Image.open(reference), dtype=float) + 0.5) / 255
+    radiance = np.linspace(0, 10, 1000001)
+    theirs = np.interp(display, filmic(radiance), radiance)
+    x, y, width, height = part or (0, 0, ours.shape[1], ours.shape[0])
+    def blocks(image):
+        image = image[y:y + height, x:x + width]
+        rows, columns = height // 8, width // 8
+        return image[:rows * 8, :columns * 8].reshape(rows, 8, columns, 8, 3).mean(axis=(1, 3))
+    shown = blocks(display).mean(axis=2)
+    counts = (shown > 0.1) & (shown < 0.9)
+    a, b = blocks(ours)[counts], blocks(theirs)[counts]
+    return {"mean_ratio": a.mean() / b.mean(), "nrmse": np.sqrt(((a - b) ** 2).mean()) / b.mean()}
 
 
 def check(scene, options, folder):
@@ -92,6 +128,11 @@ def check(scene, options, folder):
     path.write_text(json.dumps(config), encoding="utf-8")
     out = folder / "out"
     voxray(options, "run", path, "--out", out, "--no-report", "--quiet")
+    if scene.is_filmic:
+        scores = filmic_scores(exr_pixels.rgb(out / "images" / "default" / "final.exr"), options.scenes / scene.reference,
+                               None if options.all else scene.part)
+        manifest = json.loads((out / "manifest.json").read_text(encoding="utf-8"))
+        return scores, manifest.get("warnings", [])
     part = ["--part", ",".join(map(str, scene.part))] if scene.part and not options.all else []
     scores = voxray(options, "compare", out / "images" / "default" / "final.exr", options.scenes / scene.reference, "--json", *part)
     manifest = json.loads((out / "manifest.json").read_text(encoding="utf-8"))

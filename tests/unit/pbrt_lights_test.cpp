@@ -173,7 +173,7 @@ TEST_F(PbrtLights, InfiniteLightsAddUp) {
 }
 
 TEST_F(PbrtLights, WhatIsApproximatedIsNamed) {
-    writeSquareMap(folder_ / "g.exr", 16, [](const glm::dvec3& d) { return glm::vec3(d.z > 0 ? 2 : 0); });
+    writeSquareMap(folder_ / "g.exr", 16, [](const glm::dvec3& d) { return glm::vec3(1.0 + d.z); });
     auto scene = load("LightSource \"goniometric\" \"string filename\" \"g.exr\" \"float scale\" 3");
     EXPECT_TRUE(warns(*scene, "'goniometric'"));
     expectNear(scene->lights.at(0).intensity, glm::vec3(3), 0.01f);

@@ -52,7 +52,7 @@ TEST_F(PbrtMaterials, NamesAndOrder) {
     ASSERT_EQ(scene->materials.size(), 2u);
     EXPECT_EQ(scene->materials[0].name, "later");
     EXPECT_EQ(glm::vec3(scene->materials[0].baseColor), glm::vec3(0, 1, 0));
-    EXPECT_EQ(scene->materials[1].name, "diffuse scene.pbrt:8");
+    EXPECT_EQ(scene->materials[1].name, "diffuse scene.pbrt:9");
     // The dielectric that no shape has is no one's concern
     EXPECT_FALSE(warns(*scene, "dielectric"));
 }
@@ -91,7 +91,8 @@ TEST_F(PbrtMaterials, NamedMetalsAgreeWithTheirIndices) {
     for (const std::string metal : {"Ag", "Al", "Au", "Cu"}) {
         const auto index = metalIndex("metal-" + metal + "-eta");
         ASSERT_TRUE(index);
-        expectNear(*pbrt::namedMetalReflectance("metal-" + metal + "-k"), conductorReflectance(index->eta, index->k), 0.04f);
+        expectNear(*pbrt::namedMetalReflectance("metal-" + metal + "-k"), conductorReflectance(index->eta, index->k),
+                   0.04f);
     }
 }
 

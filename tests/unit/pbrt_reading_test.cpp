@@ -184,7 +184,7 @@ TEST(PbrtReading, TheFilmsExposureIsSaid) {
 
 TEST(PbrtReading, ErrorsNameFileAndLine) {
     const TemporaryFolder folder;
-    const std::string at = (folder / "scene.pbrt").string() + ":4: ";
+    const std::string at = (folder / "scene.pbrt").string() + ":5: ";
     const auto says = [&](const std::string& world, const std::string& message) {
         const std::string refusal = refusalOf(folder, "\n" + world);
         EXPECT_CONTAINS(refusal, at);

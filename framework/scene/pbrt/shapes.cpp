@@ -109,7 +109,7 @@ bool isParallelogram(const std::vector<glm::vec3>& p, const uint32_t* c) {
 }
 
 Mesh bilinearMesh(const Reader& r) {
-    constexpr uint32_t kEdges = 8;  ///< Of a patch that is no parallelogram, along each side.
+    constexpr uint32_t kEdges = 16;  ///< Of a patch that is no parallelogram, along each side.
     const Parameters& p = r.parameters;
     Mesh control;
     control.positions = p.points3("P");
