@@ -19,9 +19,4 @@ struct State {
     std::shared_ptr<const Defaults> defaults = std::make_shared<Defaults>();
 };
 
-/// From the camera's space to the world's inverse: pbrt's LookAt, whose Z is the direction of view.
-/// @throws Error at a place where eye and target are one point
-glm::dmat4 lookAtMatrix(const glm::dvec3& eye, const glm::dvec3& target, const glm::dvec3& up,
-                        const TextLocation& where);
-
 }  // namespace voxray::pbrt
