@@ -17,7 +17,7 @@ Option "bool forcediffuse" false Integrator "path" "integer maxdepth" [5] Sample
 Film "rgb" "integer xresolution" 20 "integer yresolution" 30 "float iso" 200 "string sensor" "canon_eos_5d"
 Scale -1 1 1 LookAt 0 0 5 0 0 0 0 1 0 Camera "perspective" "float fov" 40 "float screenwindow" [-1 1 -2 2]
 WorldBegin
-Attribute "shape" "float radius" 0.5
+Attribute "shape" "float radius" 0.5 "float phimax" 9 # few triangles
 ColorSpace "rec2020"
 MakeNamedMedium "fog" "string type" "homogeneous" MediumInterface "fog" ""
 Texture "i" "spectrum" "imagemap" "string filename" "a.png" "float uscale" 2 "bool invert" true
@@ -35,13 +35,13 @@ AttributeBegin
   Include "part.pbrt"
 AttributeEnd
 ObjectBegin "o" Material "coateddiffuse" "texture reflectance" "x" "float roughness" 0.1
-  Shape "disk" "float innerradius" 0.1 Shape "cylinder" "float phimax" 90 ObjectEnd
+  Shape "disk" "float innerradius" 0.1 Shape "cylinder" "float phimax" 8 ObjectEnd
 Transform [1 0 0 0 0 1 0 0 0 0 1 0 0 2 0 1] ObjectInstance "o" CoordinateSystem "cs" Scale 2 2 2 ObjectInstance "o"
 Material "coatedconductor" "float interface.roughness" 0.1 ReverseOrientation CoordSysTransform "cs"
 Shape "loopsubdiv" "integer levels" 1 "point3 P" [1 0 0 0 1 0 -1 -1 0 0 0 1] "integer indices" [0 1 3 1 2 3 2 0 3]
 Shape "bilinearmesh" "point3 P" [0 0 0 1 0 1 0 1 1 1 1 0] Shape "plymesh" "string filename" "a.ply"
-AttributeBegin AreaLightSource "diffuse" "blackbody L" 4000 "float power" 10 "bool twosided" true Shape "sphere" AttributeEnd
-Material "thindielectric" "spectrum eta" "glass-BK7" Shape "sphere" "float zmin" -0.2
+AttributeBegin AreaLightSource "diffuse" "blackbody L" 4000 "float power" 10 "bool twosided" true Shape "sphere" "float zmax" -0.45 AttributeEnd
+Material "thindielectric" "spectrum eta" "glass-BK7" Shape "sphere" "float zmin" 0.45
 LightSource "point" "spectrum I" [400 1 500 2 700 1] LightSource "spot" "rgb I" [1 2 3] "point3 from" [0 9 0]
 LightSource "distant" "point3 from" [1 1 1] LightSource "infinite" "string filename" "sky.exr" "float illuminance" 3
 LightSource "goniometric" "string filename" "sky.exr" LightSource "projection" "string filename" "a.png"
@@ -97,7 +97,7 @@ class PbrtMutations : public testing::Test {
 
     TemporaryFolder folder_;
     std::map<std::string, std::string> files_{{"scene.pbrt", kEverything},
-                                              {"part.pbrt", "Material \"hair\" Shape \"sphere\"\n"},
+                                              {"part.pbrt", "Material \"hair\" Shape \"sphere\" \"float zmin\" 0.4\n"},
                                               {"a.ply", kPly},
                                               {"n.spd", "# eta\n300 1.5\n500 1.25\n900 1\n"}};
     size_t loaded_ = 0, refused_ = 0;

@@ -81,6 +81,21 @@ TEST_F(PbrtShapes, FrontsAreOnTheSideOfNormals) {
     EXPECT_EQ(scene->meshes[0].texCoords0[1], glm::vec2(5, 0));
 }
 
+TEST_F(PbrtShapes, TexturedMeshesWithoutCoordinatesGetThoseOfPbrt) {
+    const std::string quad =
+        R"(Shape "trianglemesh" "point3 P" [0 0 0 1 0 0 1 1 0 0 1 0] "integer indices" [0 1 2 0 2 3])";
+    auto scene = loadWorld(folder_, quad);
+    EXPECT_TRUE(scene->meshes[0].texCoords0.empty());
+    scene = loadWorld(
+        folder_,
+        "Texture \"c\" \"spectrum\" \"checkerboard\" Material \"diffuse\" \"texture reflectance\" \"c\" " + quad);
+    const Mesh& mesh = scene->meshes[0];
+    ASSERT_EQ(mesh.texCoords0.size(), 6u);
+    EXPECT_EQ(mesh.texCoords0[mesh.triangles[1].y], glm::vec2(1, 0));
+    EXPECT_EQ(mesh.positions[mesh.triangles[1].y], glm::vec3(1, 1, 0));
+    EXPECT_EQ(mesh.texCoords0[mesh.triangles[1].z], glm::vec2(1, 1));
+}
+
 TEST_F(PbrtShapes, BilinearPatches) {
     // A flat one is two triangles; u along the first edge, v to the third corner
     auto scene = loadWorld(folder_, "Shape \"bilinearmesh\" \"point3 P\" [0 0 0 2 0 0 0 1 0 2 1 0]");

@@ -60,8 +60,11 @@ class Builder {
             for (const auto* parameter : shape.parameters->unused()) parameter->isUsed = true;
             return {};
         }
-        Mesh mesh = meshOf(shape, textures_.folder(), import_);
-        if (!cutHoles(shape, surface)) return {};
+        const bool isLeft = cutHoles(shape, surface);
+        const bool isTextured = surface.color.image || surface.roughness.image || surface.opacity.image ||
+                                surface.normalMap || (shape.areaLight && shape.areaLight->find("filename"));
+        Mesh mesh = meshOf(shape, isTextured, textures_.folder(), import_);
+        if (!isLeft) return {};
         mesh.material = materialOf(shape, surface, name, areaOf(mesh, shape.toWorld));
         try {
             return import_.addMesh(std::move(mesh));

@@ -193,6 +193,23 @@ Mesh curve(const Reader& r) {
     return {};
 }
 
+/// Gives each triangle its own vertices, with pbrt's default (u, v).
+void addTexCoords(Mesh& mesh, MemoryBudget& memory) {
+    memory.reserve(3 * mesh.triangles.size(), 2 * sizeof(glm::vec3) + sizeof(glm::vec2));
+    Mesh apart;
+    for (glm::uvec3& t : mesh.triangles) {
+        const uint32_t first = uint32_t(apart.positions.size());
+        for (int c = 0; c < 3; ++c) {
+            apart.positions.push_back(mesh.positions[t[c]]);
+            if (!mesh.normals.empty()) apart.normals.push_back(mesh.normals[t[c]]);
+            apart.texCoords0.emplace_back(c > 0 ? 1 : 0, c > 1 ? 1 : 0);
+        }
+        t = {first, first + 1, first + 2};
+    }
+    apart.triangles = std::move(mesh.triangles);
+    mesh = std::move(apart);
+}
+
 const std::map<std::string, Mesh (*)(const Reader&)>& readers() {
     static const std::map<std::string, Mesh (*)(const Reader&)> table{
         {"bilinearmesh", bilinearMesh}, {"curve", curve},     {"cylinder", cylinder}, {"disk", disk},
@@ -203,7 +220,7 @@ const std::map<std::string, Mesh (*)(const Reader&)>& readers() {
 
 }  // namespace
 
-Mesh meshOf(const Shape& shape, const std::filesystem::path& folder, SceneImport& import) {
+Mesh meshOf(const Shape& shape, bool isTextured, const std::filesystem::path& folder, SceneImport& import) {
     const Parameters& p = *shape.parameters;
     const auto reader = readers().find(p.kind);
     if (reader == readers().end()) {
@@ -212,6 +229,7 @@ Mesh meshOf(const Shape& shape, const std::filesystem::path& folder, SceneImport
         p.fail("the shape \"{}\" is unknown{}", p.kind.substr(0, 40), didYouMean(p.kind, kinds));
     }
     Mesh mesh = reader->second({p, folder, import});
+    if (isTextured && mesh.texCoords0.empty()) addTexCoords(mesh, import.memory());
     mesh.name = p.kind == "plymesh" ? std::filesystem::path(p.text("filename", "")).filename().string()
                                     : p.kind + " " + p.place();
     frontsTowardsNormals(mesh);
