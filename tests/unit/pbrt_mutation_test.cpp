@@ -129,7 +129,7 @@ TEST_F(PbrtMutations, TheUnspoiledSceneLoads) {
 }
 
 TEST_F(PbrtMutations, FlippedBits) {
-    flipBits("scene.pbrt", 2500, 1);
+    flipBits("scene.pbrt", 3000, 1);
 }
 
 TEST_F(PbrtMutations, FlippedBitsOfOtherFiles) {
