@@ -19,10 +19,11 @@ double fresnelFromOutside(double cosine, double eta) {
     return 0.5 * (parallel * parallel + across * across);
 }
 
+/// Source: the measured spectra that Mitsuba has, as means over red, green and blue in Tungsten's table.
 const std::map<std::string, MetalIndex>& metals() {
     static const std::map<std::string, MetalIndex> table{
         {"a-c", {{2.9441f, 2.2272f, 1.9682f}, {0.8874f, 0.7993f, 0.8153f}}},
-        {"ag", {{0.1553f, 0.1167f, 0.1384f}, {4.8283f, 3.1222f, 2.1471f}}},
+        {"ag", {{0.1553f, 0.1167f, 0.1384f}, {4.8283f, 3.1222f, 2.1470f}}},
         {"al", {{1.6574f, 0.8803f, 0.5212f}, {9.2239f, 6.2695f, 4.8370f}}},
         {"au", {{0.1431f, 0.3749f, 1.4424f}, {3.9831f, 2.3857f, 1.6032f}}},
         {"be", {{4.1851f, 3.1851f, 2.7841f}, {3.8354f, 3.0101f, 2.8690f}}},
