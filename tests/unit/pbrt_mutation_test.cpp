@@ -129,11 +129,7 @@ TEST_F(PbrtMutations, TheUnspoiledSceneLoads) {
 }
 
 TEST_F(PbrtMutations, FlippedBits) {
-<<<<<<< HEAD
-    flipBits("scene.pbrt", 2500, 1);
-=======
     flipBits("scene.pbrt", 3000, 1);
->>>>>>> pbrt
 }
 
 TEST_F(PbrtMutations, FlippedBitsOfOtherFiles) {
