@@ -21,7 +21,7 @@ float internalDiffuseReflectance(float eta);
 /// the outside, all reflections between both included: r (1 - f) / (1 - r f), f = internalDiffuseReflectance().
 float coatedReflectance(float base, float internalReflectance);
 
-/// Index of refraction by name as Mitsuba and pbrt have it: "bk7", "water", "glass-BK7". nullopt: unknown.
+/// Index of refraction by name as Mitsuba has it: "bk7", "water". nullopt: unknown.
 std::optional<float> indexOfRefraction(const std::string& name);
 
 /// Complex index of refraction of a metal by chemical symbol: means over red, green and blue of measured values
