@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "base/lower_case.h"
 #include "base/schema.h"
 #include "scene/geometry.h"
 #include "scene/scene.h"
@@ -26,8 +29,13 @@ std::shared_ptr<const Scene> loadPbrt(const std::filesystem::path& path);
 /// Loads a scene by the ending of its file: .glb, .gltf, .xml or .pbrt.
 std::shared_ptr<const Scene> loadSceneFile(const std::filesystem::path& path);
 
-/// Whether a file's ending is one of these.
-bool isSceneFile(const std::filesystem::path& path);
+/// Endings of the files that are scenes.
+inline constexpr std::array kSceneEndings{".glb", ".gltf", ".xml", ".pbrt"};
+
+/// Whether a file's ending is one of these. Inline, as config asks without the scene's library.
+inline bool isSceneFile(const std::filesystem::path& path) {
+    return std::ranges::count(kSceneEndings, lowerCase(path.extension().string())) > 0;
+}
 inline constexpr const char* kSceneFileEndings = ".glb, .gltf, .xml, .pbrt";
 
 /// Writes a scene at one time as .glb: geometry, materials, textures, lights and cameras as rendered (units:
