@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -20,12 +22,15 @@
 #include "base/interrupt.h"
 #include "config/overrides.h"
 #include "experiment/config_schema.h"
+#include "experiment/study.h"
 #include "passes/common/families.h"
 
 namespace voxray {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr const char* kOtherRenderers = "external";  ///< Family of passes.
 
 /// Between looks at whether Ctrl-C was pressed, and after an image before a reference is rendered on.
 constexpr std::chrono::milliseconds kPatience{100};
@@ -96,6 +101,25 @@ Value keep(ShownState& state, const std::vector<ShownState::Change>& changes) {
     return refused;
 }
 
+/// Names of variants with the image of another renderer, which holds for one view. @throws UsageError if all have one
+std::vector<std::string> variantsOfOtherRenderers(const Study& study, const Registry& registry) {
+    std::vector<std::string> names;
+    TextLocation where;
+    for (const Variant& variant : study.variants) {
+        const std::vector<Graph::PassInfo> passes = variant.graph.passes();
+        const auto other = std::ranges::find_if(
+            passes, [&](const auto& pass) { return registry.find(pass.kind)->family == kOtherRenderers; });
+        if (other == passes.end()) continue;
+        names.push_back(variant.name);
+        where = other->where;
+    }
+    if (names.size() == study.variants.size())
+        throw UsageError(where,
+                         "another renderer would have to render at each change of the view, so that there is nothing "
+                         "to look at: './voxray run' renders it, and a variant without this pass can be looked at");
+    return names;
+}
+
 Value vectorValue(const glm::vec3& v) {
     Value list = Value::list();
     list.items = {numberValue(v.x), numberValue(v.y), numberValue(v.z)};
@@ -164,7 +188,12 @@ void look(const LookArguments& arguments) {
     registerPasses(registry);
     const RunOptions options = completed(arguments.options, arguments);
     const InterruptScope interruptScope;
-    InteractiveSession session(openConfig(arguments.file, arguments, options.tracer), registry, options);
+    Experiment experiment = openConfig(arguments.file, arguments, options.tracer);
+    const std::vector<std::string> leftOut = variantsOfOtherRenderers(makeStudy(experiment, registry), registry);
+    if (!leftOut.empty())
+        fmt::print(stderr, "voxray: warning: not shown, as another renderer would render at each change of the view: {}\n",
+                   fmt::join(leftOut, ", "));
+    InteractiveSession session(std::move(experiment), registry, options, leftOut);
     Value start = greetingOf(session);
     for (Value& variant : start.find("variants")->items) {
         const Value config = session.configOf(textOf(variant, "id"));

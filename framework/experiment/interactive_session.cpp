@@ -28,7 +28,8 @@ Value alone(const Variant& variant) {
 
 }  // namespace
 
-InteractiveSession::InteractiveSession(Experiment experiment, const Registry& registry, const RunOptions& options)
+InteractiveSession::InteractiveSession(Experiment experiment, const Registry& registry, const RunOptions& options,
+                                       const std::vector<std::string>& leftOut)
     : registry_(registry),
       opened_(std::move(experiment)),
       session_(deviceOptions(options), options.sourceRoot,
@@ -36,6 +37,7 @@ InteractiveSession::InteractiveSession(Experiment experiment, const Registry& re
       viewChecks_(options.previewTracer) {
     const Study all = makeStudy(opened_, registry_);
     for (const Variant& variant : all.variants) {
+        if (std::ranges::count(leftOut, variant.name)) continue;
         variants_.emplace_back(variant.name, variant.id);
         variantConfigs_.push_back(alone(variant));
     }

@@ -20,8 +20,10 @@ class InteractiveSession {
     static constexpr size_t kSides = 2;
 
     /// Opens the first variant of the experiment on side 0. @param registry must outlive the session.
-    /// @throws UsageError as makeStudy() and planVariants().
-    InteractiveSession(Experiment experiment, const Registry& registry, const RunOptions& options);
+    /// @param leftOut names of variants that are not offered; not of all. @throws UsageError as makeStudy() and
+    /// planVariants().
+    InteractiveSession(Experiment experiment, const Registry& registry, const RunOptions& options,
+                       const std::vector<std::string>& leftOut = {});
     InteractiveSession(const InteractiveSession&) = delete;
     InteractiveSession& operator=(const InteractiveSession&) = delete;
 

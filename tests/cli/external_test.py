@@ -1,6 +1,7 @@
 """Other renderers as variants: the pass `external`, with a stand-in for a renderer, and what export-scene writes for one."""
 import json
 import os
+import re
 import shutil
 import signal
 import sys
@@ -10,6 +11,7 @@ from pathlib import Path
 
 import numpy
 
+from look_test import Look
 from support import SOURCE, CommandTest
 
 sys.path.insert(0, os.path.join(SOURCE, "framework", "python"))
@@ -165,6 +167,30 @@ class Command(External):
                 return
             time.sleep(0.05)
         self.fail("the program lives on")
+
+
+class Looked(Look):
+    """`look` offers the other variants: at each change of the view a program would run, and images would be of another one."""
+
+    yaml = CONFIG.replace("OTHER", f"command: [/usr/bin/python3, {SOURCE}/tests/cli/stand_in_renderer.py], light: parts").replace("SKY", "none")
+    yaml = re.sub("(    paths: .*\n)(    other: .*\n)", r"\2\1", yaml)
+
+    def test_its_variant_is_not_offered(self):
+        start = json.loads(self.ask(name="start.json")[1])
+        self.assertEqual([variant["name"] for variant in start["variants"]], ["paths"])
+        answer, png = self.image(changes=[{"path": "image.width", "value": 24}])
+        self.assertTrue(png, answer)
+        self.assertIn("no variant 'other'", self.image(variant="other")[0]["error"])
+        self.assertFalse(os.path.exists(self.path("runs.jsonl")))
+        self.process.send_signal(signal.SIGINT)
+        said = self.process.stderr.read()
+        self.assertIn("warning: not shown, as another renderer would render at each change of the view: other", said)
+
+    def test_alone_it_is_refused(self):
+        self.write("alone.yaml", re.sub("    paths: .*\n", "", self.yaml))
+        said = self.expect(2, "look", "alone.yaml").stderr
+        self.assertIn("alone.yaml:10", said)
+        self.assertIn("'./voxray run' renders it", said)
 
 
 class Cycles(External):
