@@ -1,6 +1,7 @@
 #include "image/image.h"
 #include "mitsuba_files.h"
 #include "scene/import/optics.h"
+#include "scene/import/spectrum.h"
 #include "scene/panes.h"
 
 namespace voxray::test {
@@ -59,6 +60,49 @@ TEST(MitsubaMaterials, Conductors) {
     expectNear(none.baseColor, glm::vec3(0.5f), 1e-6f);
     EXPECT_ERROR("no metal 'Xx'",
                  materialOf(folder, "<bsdf type='conductor'><string name='material' value='Xx'/></bsdf>"));
+}
+
+/// Index of refraction at the wavelengths kWavelengths. Source: Palik 1985, as in the files of both renderers.
+constexpr std::array kWavelengths{380, 420, 450, 470, 490, 510, 530, 550, 570, 590, 610, 630, 650, 680, 720, 780};
+struct MeasuredMetal {
+    const char* symbol;
+    std::array<double, kWavelengths.size()> eta, k;
+};
+constexpr MeasuredMetal kMetals[] = {
+    {"Cu",
+     {1.206, 1.178, 1.166, 1.154, 1.140, 1.127, 1.081, 0.958, 0.738, 0.473, 0.324, 0.246, 0.217, 0.211, 0.220, 0.251},
+     {2.094, 2.248, 2.394, 2.477, 2.547, 2.595, 2.593, 2.577, 2.638, 2.805, 3.090, 3.378, 3.638, 3.962, 4.345, 4.861}},
+    {"Al",
+     {0.442, 0.539, 0.618, 0.675, 0.736, 0.803, 0.876, 0.959, 1.049, 1.148, 1.248, 1.357, 1.475, 1.674, 2.037, 2.665},
+     {4.615, 5.105, 5.469, 5.716, 5.960, 6.199, 6.447, 6.687, 6.924, 7.146, 7.368, 7.588, 7.794, 8.115, 8.490, 8.569}},
+    {"Au",
+     {1.688, 1.628, 1.508, 1.321, 1.020, 0.700, 0.473, 0.350, 0.287, 0.237, 0.206, 0.184, 0.168, 0.160, 0.163, 0.177},
+     {1.918, 1.952, 1.879, 1.810, 1.814, 2.018, 2.371, 2.714, 2.910, 2.969, 3.030, 3.066, 3.138, 3.633, 4.237, 4.914}}};
+
+TEST(MitsubaMaterials, NamedMetalsAreThoseOfItsRgbVariants) {
+    // They take eta and k as a light's spectrum: a constant one is not grey then
+    const auto byEqualEnergy = [](const auto& values) {
+        SpectrumPoints points;
+        for (size_t i = 0; i < values.size(); ++i) points.emplace_back(kWavelengths[i], values[i]);
+        return rgbOfXyz(xyzOfEmission(points));
+    };
+    const TemporaryFolder folder;
+    for (const MeasuredMetal& metal : kMetals) {
+        const glm::vec3 expected = conductorReflectance(byEqualEnergy(metal.eta), byEqualEnergy(metal.k));
+        const glm::vec3 color = materialOf(folder, std::string("<bsdf type='conductor'><string name='material' value='") +
+                                                       metal.symbol + "'/></bsdf>")
+                                    .baseColor;
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(color[c] / expected[c], 1, 0.01) << metal.symbol << ", channel " << c;
+    }
+}
+
+TEST(MitsubaMaterials, SpectraOfMetalsAreSeenUnderD65) {
+    const TemporaryFolder folder;
+    const Material flat = materialOf(folder,
+                                     "<bsdf type='conductor'><spectrum name='eta' value='300:2, 900:2'/>"
+                                     "<spectrum name='k' value='300:3, 900:3'/></bsdf>");
+    expectNear(flat.baseColor, glm::vec3((1 + 9) / (9.0f + 9)), 1e-3f);
 }
 
 TEST(MitsubaMaterials, PlasticKeepsItsBase) {
