@@ -27,17 +27,22 @@ def kept_times(root):
 
 
 def seconds_of(folder):
-    """How long a run took, references that came from a cache included; None of one that was not finished in one go."""
+    """How long a run took, references that came from a cache included; None of one that was not finished. One that was interrupted and
+    resumed: each session from its start to its last result, which is the age of its file."""
     path = folder / "manifest.json"
     if not path.exists():
         return None
     manifest = json.loads(path.read_text(encoding="utf-8"))
-    if not manifest.get("finished") or len(manifest["sessions"]) != 1:
+    if not manifest.get("finished"):
         return None
-    began, ended = (datetime.fromisoformat(time.replace("Z", "+00:00"))
-                    for time in (manifest["sessions"][0]["started"], manifest["finished"]))
-    cached = sum(entry["seconds"] for entry in manifest.get("references", []) if entry["cached"])
-    return (ended - began).total_seconds() + cached
+    def moment(text):
+        return datetime.fromisoformat(text.replace("Z", "+00:00")).timestamp()
+    *earlier, last = manifest["sessions"]
+    seconds = moment(manifest["finished"]) - moment(last["started"])
+    for session in earlier:
+        results = [(folder / "images" / variant / "result.json").stat().st_mtime for variant in session["variants"]]
+        seconds += max(results, default=moment(session["started"])) - moment(session["started"])
+    return seconds + sum(entry["seconds"] for entry in manifest.get("references", []) if entry["cached"])
 
 
 def keep_times(root, folders):

@@ -8,6 +8,7 @@ import sys
 import tempfile
 import unittest
 import unittest.mock
+from datetime import datetime
 from pathlib import Path
 
 import commands
@@ -243,11 +244,17 @@ columns = {nRMSE = "{error:.2f}", "over VCT" = "{ms / of['vct']['ms']:.1f} times
         self.assertEqual(docs.check(self.root), ["table mirrors, leaves: name 'ms' is not defined"])
 
     def test_times_of_runs_are_kept(self):
-        manifest = {"finished": "2026-01-01T00:01:40Z", "sessions": [{"started": "2026-01-01T00:00:00Z", "variants": []}],
-                    "references": [{"cached": True, "seconds": 7}, {"cached": False, "seconds": 50}]}
-        for sessions, kept in ((1, {"a": 107.0}), (2, {})):
+        manifest = {"references": [{"cached": True, "seconds": 7}, {"cached": False, "seconds": 50}]}
+        last = {"started": "2026-01-01T00:00:00Z", "variants": []}
+        interrupted = {"started": "2025-12-31T23:00:00Z", "variants": ["v", "w"]}
+        for number, variant in enumerate(interrupted["variants"]):  # Ready 10 s and 20 s after their session's start
+            self.write(f"a/images/{variant}/result.json", "{}")
+            ready = datetime.fromisoformat("2025-12-31T23:00:10+00:00").timestamp() + 10 * number
+            os.utime(os.path.join(self.root, f"a/images/{variant}/result.json"), (ready, ready))
+        finished = "2026-01-01T00:01:40Z"
+        for sessions, end, kept in (([last], finished, {"a": 107.0}), ([interrupted, last], finished, {"a": 127.0}), ([last], "", {})):
             self.write("docs/papers/tables/times.csv", "run,seconds\n")
-            self.write("a/manifest.json", json.dumps({**manifest, "sessions": sessions * manifest["sessions"]}))
+            self.write("a/manifest.json", json.dumps({**manifest, "sessions": sessions, "finished": end}))
             paper_tables.replicate_tables.keep_times(Path(self.root), {"a": Path(self.root) / "a"})
             self.assertEqual(paper_tables.replicate_tables.kept_times(Path(self.root)), kept)
 
