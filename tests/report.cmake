@@ -5,7 +5,7 @@ foreach(part browser explain large noise page pareto pareto_browser ranking read
     COMMAND /usr/bin/python3 -m unittest -v report_${part}_test
     WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}/tests/unit)
 endforeach()
-foreach(script compare_builds device_paths growth image_sheet mirror_borders raise_capacity rivals_table setup trials tune)
+foreach(script claims compare_builds device_paths growth image_sheet mirror_borders raise_capacity rivals_table setup trials tune)
   add_test(NAME scripts.${script}
     COMMAND /usr/bin/python3 -m unittest -q ${script}_test
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/unit)

@@ -1,12 +1,13 @@
 """What a study claims: each score of each variant and the brightness of each reference, with the tolerance that follows from
-its interval."""
+its noise."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from statistics import NormalDist
 
 import numpy as np
 from PIL import Image
@@ -15,7 +16,7 @@ from report import exr_pixels
 from report.results import LIGHTS, interval_columns
 from report.rows import read_rows
 
-NORMAL_95 = 1.959964  # standard errors on either side of a mean, of 95 % of a normal distribution
+LEVEL = 0.95  # of an interval, and of all tolerances of a study together
 STATUS = "status"
 MEAN, IMAGE = "mean radiance", "error of the image"  # claims of a reference
 MEAN_RATIO = "mean_ratio"
@@ -24,13 +25,16 @@ LIGHT_OF_FILE = {"final": "total", "indirect": "indirect"}  # what images of a r
 
 @dataclass(frozen=True)
 class Claim:
-    """A number of a variant or of a reference's light. Found between low and high, it is confirmed; text must be equal."""
+    """A number of a variant or of a reference's light. Found between low and high, it is confirmed; text must be equal.
+
+    is_interval: low to high is the 95 % interval of this result alone, of which of_two_results() makes a tolerance."""
 
     of: str
     what: str
     value: float | str
     low: float | None = None
     high: float | None = None
+    is_interval: bool = False
 
     def verdict(self, found: float | str | None) -> str:
         """`same`, `within tolerance` or `not`."""
@@ -41,7 +45,31 @@ class Claim:
         return "within tolerance" if self.low <= found <= self.high else "not"
 
     def record(self) -> dict:
-        return asdict(self)
+        """Of a tolerance."""
+        return {key: value for key, value in asdict(self).items() if key != "is_interval"}
+
+
+def standard_errors(count: int = 1) -> float:
+    """How many standard errors on either side of its mean hold a normally distributed number; of `count` such numbers all at
+    once, however they depend on each other (Bonferroni)."""
+    return NormalDist().inv_cdf(1 - (1 - LEVEL) / (2 * max(count, 1)))
+
+
+def of_two_results(stated: list[Claim]) -> list[Claim]:
+    """Tolerances from the intervals of one result: a result that is noisy by as much, but independent, differs from it by the
+    root of 2 times that noise, and all of a study's are to hold at once. An interval without negative numbers gets none."""
+    widened = math.sqrt(2) * standard_errors(toleranced(stated)) / standard_errors()
+
+    def tolerance(claim: Claim) -> Claim:
+        low = claim.value - widened * max(claim.value - claim.low, 0.0)
+        high = claim.value + widened * max(claim.high - claim.value, 0.0)
+        return replace(claim, low=low if claim.low < 0 else max(low, 0.0), high=high, is_interval=False)
+
+    return [tolerance(claim) if claim.is_interval else claim for claim in stated]
+
+
+def toleranced(stated: list[Claim]) -> int:
+    return sum(claim.low is not None for claim in stated)
 
 
 @dataclass(frozen=True)
@@ -80,13 +108,16 @@ def reference_claims(folder: Path) -> list[Claim]:
     claims = []
     for name, light in LIGHT_OF_FILE.items():
         own, label = read_light(folder, name), f"{folder.name}, {light} light"
-        spread = NORMAL_95 * own.relative_error * own.mean
-        claims += [Claim(label, MEAN, own.mean, own.mean - spread, own.mean + spread), Claim(label, IMAGE, 0.0, 0.0, own.noise)]
+        spread = standard_errors() * own.relative_error * own.mean
+        claims += [Claim(label, MEAN, own.mean, own.mean - spread, own.mean + spread, is_interval=True),
+                   Claim(label, IMAGE, 0.0, 0.0, own.noise)]
     return claims
 
 
-def found_of_reference(packed: Path, fresh: Path) -> dict[tuple[str, str], float]:
-    """What a new rendering of a reference has in place of reference_claims(), by what they are of and what they say."""
+def found_of_reference(packed: Path, fresh: Path, count: int) -> dict[tuple[str, str], float]:
+    """What a new rendering of a reference has in place of reference_claims(), by what they are of and what they say.
+
+    @param count of claims that are to hold at once"""
     found = {}
     for name, light in LIGHT_OF_FILE.items():
         (a, b), own = _halves(packed, name), read_light(packed, name)
@@ -98,33 +129,34 @@ def found_of_reference(packed: Path, fresh: Path) -> dict[tuple[str, str], float
             continue
         # Errors against either half, whose noise is independent; the lower end of the mean's interval
         squares = ((image - a) * (image - b)).mean(axis=-1)
-        low = float(squares.mean() - NORMAL_95 * squares.std() / math.sqrt(squares.size))
+        low = float(squares.mean() - standard_errors(count) * squares.std() / math.sqrt(squares.size))
         found[label, IMAGE] = math.sqrt(max(low, 0.0)) / own.mean if own.mean > 0 else 0.0
     return found
 
 
-def _tolerance(row: dict[str, str], column: str, reference: dict, folder: Path) -> tuple[float, float] | None:
-    """The interval of a score: its own; of the mean ratio, that of the reference's mean; of others by the noise floor, as far as
-    a reference with other noise may lie from this one."""
+def _score(row: dict[str, str], column: str, reference: dict, folder: Path) -> Claim:
+    """A score with its interval: its own, or of the mean ratio that of the reference's mean. Of others it has the noise floor on
+    either side, as far as a reference with other noise may lie from this one."""
     value = float(row[column])
+    claim = Claim(row["name"], column, value)
     low, high = (row.get(name, "") for name in interval_columns(column))
     if low and high:
-        return float(low), float(high)
+        return replace(claim, low=float(low), high=float(high), is_interval=True)
     light = "indirect" if column.startswith(LIGHTS["indirect"]) else "final"
     name, _, mask = column.partition("@")
     metric = name.removeprefix(LIGHTS["indirect"])
     if metric == MEAN_RATIO:
-        spread = NORMAL_95 * read_light(folder, light, mask).relative_error * value
-        return value - spread, value + spread
+        spread = standard_errors() * read_light(folder, light, mask).relative_error * value
+        return replace(claim, low=value - spread, high=value + spread, is_interval=True)
     floor = reference.get(f"{column}_noise")
     if not isinstance(floor, (int, float)):
-        return None
+        return claim
     if metric == "ssim":
-        return value - (1 - floor), value + (1 - floor)
+        floor = 1 - floor
     if metric == "psnr_db":  # As errors, which add up
         error, noise = 10 ** (-value / 20), 10 ** (-floor / 20)
-        return -20 * math.log10(error + noise), -20 * math.log10(error - noise) if error > noise else math.inf
-    return value - floor, value + floor
+        return replace(claim, low=-20 * math.log10(error + noise), high=-20 * math.log10(error - noise) if error > noise else math.inf)
+    return replace(claim, low=value - floor, high=value + floor)
 
 
 def score_columns(row: dict[str, str], manifest: dict) -> list[str]:
@@ -142,9 +174,15 @@ def variant_claims(results: Path, manifest: dict) -> Iterator[Claim]:
         if row["status"] != "ok" or reference is None:
             continue
         for column in score_columns(row, manifest):
-            if math.isfinite(value := float(row[column])):
-                ends = _tolerance(row, column, reference, results / "images" / reference["folder"])
-                yield Claim(row["name"], column, value, *(ends or (None, None)))
+            if math.isfinite(float(row[column])):
+                yield _score(row, column, reference, results / "images" / reference["folder"])
+
+
+def of_study(results: Path, manifest: dict) -> list[Claim]:
+    """All that a run claims, with tolerances."""
+    folders = [results / "images" / entry["folder"] for entry in manifest["references"]]
+    own = [claim for folder in folders for claim in reference_claims(folder)]
+    return of_two_results([*own, *variant_claims(results, manifest)])
 
 
 def coarsest(claims: list[Claim]) -> float:

@@ -66,8 +66,7 @@ def main(program: Program, options: SimpleNamespace) -> int:
         raise Failed(f"not packed, because not all variants ran; {results / 'results.csv'} says why")
 
     manifest = json.loads((results / "manifest.json").read_text(encoding="utf-8"))
-    stated = [claim for entry in manifest["references"] for claim in claims.reference_claims(results / "images" / entry["folder"])]
-    stated += claims.variant_claims(results, manifest)
+    stated = claims.of_study(results, manifest)
     record = {"name": plan["name"], "versions": manifest["versions"] | {"commit": manifest["commit"], "system": system()},
               "device": manifest["device"], "machine": manifest["machine"], "scenes": scenes,
               "claims": [claim.record() for claim in stated]}

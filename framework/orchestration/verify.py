@@ -118,13 +118,13 @@ def check_results(pack: study_pack.Pack, results: Path, verdicts: Verdicts) -> N
     packed = json.loads((pack.results / "manifest.json").read_text(encoding="utf-8"))
     difference = first_difference(config_of(packed), manifest["config"], "")
     verdicts.add(NOT if difference else "same", f"config{': ' + difference if difference else ''}")
+    stated = [claims.Claim(**record) for record in pack.record["claims"]]
     found: dict[tuple[str, str], Any] = {}
     for entry in manifest.get("references") or []:
         if (folder := pack.results / "images" / entry["folder"]).is_dir():
-            found |= claims.found_of_reference(folder, results / "images" / entry["folder"])
+            found |= claims.found_of_reference(folder, results / "images" / entry["folder"], claims.toleranced(stated))
     scores = claims.found_scores(results)
-    for record in pack.record["claims"]:
-        claim = claims.Claim(**record)
+    for claim in stated:
         here = found.get((claim.of, claim.what)) if claim.what in (claims.MEAN, claims.IMAGE) else scores.get(claim.of, {}).get(claim.what)
         verdicts.claim(claim, here)
 
