@@ -34,6 +34,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 import tomllib
 from pathlib import Path
 
@@ -146,10 +147,12 @@ def measure(root, name, run, program, kept_in=None):
     """Makes the run and writes its CSV. `kept_in`: a folder that keeps the run's results; variants that are there already stay."""
     with tempfile.TemporaryDirectory() as folder:
         out = Path(kept_in or folder) / name
-        if run["command"].startswith("bench "):
-            device, found = measure_bench(root, run)
-        elif run["command"].startswith("scripts/"):
-            device, found = measure_search(root, run, program, out)
+        start, is_new = time.monotonic(), not out.exists()
+        if run["command"].startswith(("bench ", "scripts/")):
+            is_bench = run["command"].startswith("bench ")
+            device, found = measure_bench(root, run) if is_bench else measure_search(root, run, program, out)
+            if is_new:
+                replicate_tables.keep_seconds(root, {name: time.monotonic() - start})
         else:
             resume = ["--resume"] if kept_in else []
             subprocess.run([program, *shlex.split(run["command"]), "--out", str(out), *resume], cwd=root, check=True)

@@ -47,7 +47,11 @@ def seconds_of(folder):
 
 def keep_times(root, folders):
     """Adds the times of runs, by the folder of each one's results."""
-    found = {name: seconds for name, folder in folders.items() if (seconds := seconds_of(folder)) is not None}
+    keep_seconds(root, {name: seconds for name, folder in folders.items() if (seconds := seconds_of(folder)) is not None})
+
+
+def keep_seconds(root, found):
+    """Adds times of runs."""
     if not found:
         return
     times = kept_times(root) | found
@@ -64,9 +68,15 @@ def anchor(heading):
 
 
 def shown_time(seconds):
-    if seconds is None:
-        return "-"
     return f"{seconds / 60:.0f} min" if seconds >= 90 else f"{max(seconds, 1):.0f} s"
+
+
+def time_of(root, names, times):
+    """How long the runs of a table take; "> …" where some of them have no time, "GPU" where they want one, "-" where nothing was kept."""
+    known = [times[name] for name in names if name in times]
+    if known:
+        return ("> " if len(known) < len(names) else "") + shown_time(sum(known))
+    return "GPU" if names and all(device_of(root, name).startswith("NVIDIA") for name in names) else "-"
 
 
 def runs_of(table):
@@ -76,11 +86,20 @@ def runs_of(table):
     return list(dict.fromkeys(run for line in table["lines"] for cell in line for run in RUN_OF.findall(cell)))
 
 
+def header_of(root, name):
+    """(device, command) of a run, as its CSV says."""
+    with open(root / "docs/papers/tables" / f"{name}.csv", encoding="utf-8") as file:
+        return file.readline().strip().split("; ")[1:3]
+
+
+def device_of(root, name):
+    return header_of(root, name)[0]
+
+
 def command_of(root, name, runs):
     """As one types it in the root of the repository, and the device that it was measured on where that is a GPU. A run without
     definition is told by its CSV."""
-    with open(root / "docs/papers/tables" / f"{name}.csv", encoding="utf-8") as file:
-        _, device, command, *_ = file.readline().strip().split("; ")
+    device, command = header_of(root, name)
     command = (runs[name]["command"] if name in runs else command)
     device = f", on an {device}" if device.startswith("NVIDIA") else ""
     if command.startswith("bench "):  # Whose output is no results folder
@@ -109,9 +128,8 @@ def rows(root, path, tables, runs, times):
             continue
         table, lines = tables[match["table"]]
         names = runs_of(table)
-        seconds = [times.get(name) for name in names]
         link = f"[{without_links(heading)}](papers/{path.name}#{anchor(heading)}), `{match['table']}`"
         command = command_of(root, names[0], runs) if len(names) == 1 else f"the runs {', '.join(f'`{name}`' for name in names)}"
         found.append([link, command if names else "-", without_links(first_row(lines)),
-                      shown_time(None if None in seconds or not seconds else sum(seconds))])
+                      time_of(root, names, times)])
     return found

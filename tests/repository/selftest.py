@@ -258,6 +258,14 @@ columns = {nRMSE = "{error:.2f}", "over VCT" = "{ms / of['vct']['ms']:.1f} times
             paper_tables.replicate_tables.keep_times(Path(self.root), {"a": Path(self.root) / "a"})
             self.assertEqual(paper_tables.replicate_tables.kept_times(Path(self.root)), kept)
 
+    def test_what_stands_in_place_of_a_time(self):
+        for name, device in (("a", "llvmpipe"), ("b", "llvmpipe"), ("gpu", "NVIDIA H200")):
+            self.write(f"docs/papers/tables/{name}.csv", f"# 123; {device}; run x.yaml\n")
+        time_of = paper_tables.replicate_tables.time_of
+        for names, shown in ((["a"], "2 min"), (["a", "a"], "4 min"), (["a", "b"], "> 2 min"), (["a", "gpu"], "> 2 min"), (["b"], "-"),
+                             (["gpu"], "GPU"), (["b", "gpu"], "-"), ([], "-")):
+            self.assertEqual(time_of(Path(self.root), names, {"a": 120}), shown, names)
+
     def test_table_of_several_runs(self):
         self.write("docs/papers/tables/x.toml", """[run.mirrors]
 command = "run x.yaml"
