@@ -59,12 +59,14 @@ const std::map<std::string, MetalIndex>& metals() {
 
 }  // namespace
 
+double conductorReflectance(double eta, double k) {
+    return ((eta - 1) * (eta - 1) + k * k) / ((eta + 1) * (eta + 1) + k * k);
+}
+
 glm::vec3 conductorReflectance(const glm::vec3& eta, const glm::vec3& k, float outside) {
     glm::vec3 reflectance(0);
-    for (int c = 0; c < 3; ++c) {
-        const double n = double(eta[c]) / outside, e = double(k[c]) / outside;
-        reflectance[c] = float(((n - 1) * (n - 1) + e * e) / ((n + 1) * (n + 1) + e * e));
-    }
+    for (int c = 0; c < 3; ++c)
+        reflectance[c] = float(conductorReflectance(double(eta[c]) / outside, double(k[c]) / outside));
     return reflectance;
 }
 

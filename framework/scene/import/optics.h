@@ -7,7 +7,9 @@
 /// Reflectances of smooth interfaces, by Fresnel's equations for unpolarized light.
 namespace voxray {
 
-/// At normal incidence from a medium of index `outside` on a conductor of index eta + i k.
+/// At normal incidence on a conductor of relative index eta + i k.
+double conductorReflectance(double eta, double k);
+/// The same by channel. @param outside index of the medium before it, to which eta and k are not relative
 glm::vec3 conductorReflectance(const glm::vec3& eta, const glm::vec3& k, float outside = 1.0f);
 
 /// At normal incidence on a dielectric of this relative index.

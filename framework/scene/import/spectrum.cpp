@@ -35,12 +35,8 @@ constexpr std::array<ObserverRow, 41> kObserver{{
 }};
 
 double valueAt(const SpectrumPoints& spectrum, double nm) {
-    if (spectrum.empty() || nm < spectrum.front().first || nm > spectrum.back().first) return 0;
-    const auto next = std::ranges::upper_bound(spectrum, nm, {}, &SpectrumPoints::value_type::first);
-    if (next == spectrum.end()) return spectrum.back().second;
-    const auto& [x1, y1] = *next;
-    const auto& [x0, y0] = *(next - 1);
-    return y0 + (y1 - y0) * (nm - x0) / (x1 - x0);
+    const bool isOutside = spectrum.empty() || nm < spectrum.front().first || nm > spectrum.back().first;
+    return isOutside ? 0 : valueInside(spectrum, nm);
 }
 
 /// ∫ v (x̄, ȳ, z̄) w dλ in steps of 1 nm between the table's rows. @param weight 1 or D65, by row
@@ -71,7 +67,23 @@ glm::dmat3 xyzFromRec709() {
     return xyzFromPrimaries({0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, kWhiteD65);
 }
 
+template <typename Value>
+glm::vec3 underDaylight(const Value& value) {
+    // By the table's own white, so that 1 is exactly (1, 1, 1)
+    const glm::dvec3 relative = observed(value, kDaylight) / observed(kOne, kDaylight);
+    return rgbOfXyz(relative * (xyzFromRec709() * glm::dvec3(1)));
+}
+
 }  // namespace
+
+double valueInside(const SpectrumPoints& spectrum, double nm) {
+    const auto next = std::ranges::upper_bound(spectrum, nm, {}, &SpectrumPoints::value_type::first);
+    if (next == spectrum.begin()) return spectrum.front().second;
+    if (next == spectrum.end()) return spectrum.back().second;
+    const auto& [x1, y1] = *next;
+    const auto& [x0, y0] = *(next - 1);
+    return y0 + (y1 - y0) * (nm - x0) / (x1 - x0);
+}
 
 SpectrumPoints readSpectrumPoints(const std::string& text) {
     std::string plain;
@@ -100,19 +112,11 @@ glm::vec3 rgbOfXyz(const glm::dvec3& xyz) {
 }
 
 glm::vec3 rgbOfReflectance(const SpectrumPoints& spectrum) {
-    const glm::dvec3 seen = observed([&](double nm) { return valueAt(spectrum, nm); }, kDaylight);
-    // By the table's own white, so that 1 is exactly (1, 1, 1)
-    const glm::dvec3 white = observed(kOne, kDaylight);
-    return rgbOfXyz(seen / white * (xyzFromRec709() * glm::dvec3(1)));
+    return underDaylight([&](double nm) { return valueAt(spectrum, nm); });
 }
 
 glm::vec3 rgbOfQuantity(const SpectrumPoints& spectrum) {
-    const auto clamped = [&](double nm) {
-        return valueAt(spectrum, std::clamp(nm, spectrum.front().first, spectrum.back().first));
-    };
-    const glm::dvec3 seen = observed(clamped, kDaylight);
-    const glm::dvec3 white = observed(kOne, kDaylight);
-    return rgbOfXyz(seen / white * (xyzFromRec709() * glm::dvec3(1)));
+    return underDaylight([&](double nm) { return valueInside(spectrum, nm); });
 }
 
 glm::dvec3 xyzOfBlackbody(double kelvin) {

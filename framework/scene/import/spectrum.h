@@ -13,6 +13,9 @@ namespace voxray {
 /// A spectrum by points (wavelength in nm, value), linear between them and 0 outside.
 using SpectrumPoints = std::vector<std::pair<double, double>>;
 
+/// The value at a wavelength, that of the nearest point outside. @param spectrum not empty
+double valueInside(const SpectrumPoints& spectrum, double nm);
+
 /// Text of pairs: "400 0.1 500 0.3" or "400:0.1, 500:0.3"; lines that begin with # are comments.
 /// @throws Error for what is no pair of numbers, or wavelengths that don't increase
 SpectrumPoints readSpectrumPoints(const std::string& text);

@@ -103,20 +103,16 @@ glm::vec3 Colors::pointsAsColor(const std::string& text, Meaning meaning, const 
 }
 
 glm::vec3 Colors::spectrum(const Property& given, Meaning meaning) {
-    const auto get = [&](const char* name) {
-        const auto entry = given.of.find(name);
-        return entry == given.of.end() ? std::string() : entry->second;
-    };
     if (given.tag == "blackbody") {
-        std::string temperature = get("temperature");
+        std::string temperature = textOf(given.of, "temperature");
         if (temperature.ends_with('K') || temperature.ends_with('k')) temperature.pop_back();
-        const std::string scale = get("scale");
+        const std::string scale = textOf(given.of, "scale");
         return blackbody(oneNumber(temperature, given.where), scale.empty() ? 1 : oneNumber(scale, given.where),
                          given.where);
     }
-    if (const std::string file = get("filename"); !file.empty())
+    if (const std::string file = textOf(given.of, "filename"); !file.empty())
         return pointsAsColor(readTextFile(document_.resolve(file)), meaning, given.where);
-    const std::string value = get("value");
+    const std::string value = textOf(given.of, "value");
     if (const auto hex = rgbOfHex(value)) return *hex;
     if (value.find(':') != std::string::npos) return pointsAsColor(value, meaning, given.where);
     // One number is a constant; three are RGB, as version 0.x writes it

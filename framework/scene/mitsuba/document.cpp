@@ -120,10 +120,7 @@ class Reader {
         memory_.reserve(1, kBytesPerElement);
         const std::string element = node.name();
         const Attributes of = attributesOf(node, where);
-        const auto get = [&](const char* name) {
-            const auto entry = of.find(name);
-            return entry == of.end() ? std::string() : entry->second;
-        };
+        const auto get = [&](const char* name) { return textOf(of, name); };
         if (element == "default") {
             defaults_.try_emplace(get("name"), get("value"));
         } else if (element == "path") {
@@ -162,14 +159,10 @@ class Reader {
         plugin->tag = node.name();
         if (plugin->tag == "luminaire") plugin->tag = "emitter";
         if (plugin->tag == "camera") plugin->tag = "sensor";
-        const auto get = [&](const char* name) {
-            const auto entry = of.find(name);
-            return entry == of.end() ? std::string() : entry->second;
-        };
-        plugin->type = lowerCase(get("type"));
-        plugin->id = get("id");
+        plugin->type = lowerCase(textOf(of, "type"));
+        plugin->id = textOf(of, "id");
         if (!plugin->id.empty()) ids_[plugin->id] = plugin;
-        drafts_[target].plugin->children.push_back({snakeCase(get("name")), plugin});
+        drafts_[target].plugin->children.push_back({snakeCase(textOf(of, "name")), plugin});
         drafts_.push_back({plugin, {}});
         readChildren(node, file, drafts_.size() - 1, depth);
     }

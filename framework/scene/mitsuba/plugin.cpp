@@ -13,6 +13,13 @@ const std::string& valueOf(const Property& property, const std::string& name) {
     return entry->second;
 }
 
+}  // namespace
+
+std::string textOf(const Attributes& of, const std::string& name) {
+    const auto entry = of.find(name);
+    return entry == of.end() ? std::string() : entry->second;
+}
+
 std::vector<double> numbersAt(const std::string& text, const TextLocation& where) {
     try {
         return readNumbers(text);
@@ -21,15 +28,13 @@ std::vector<double> numbersAt(const std::string& text, const TextLocation& where
     }
 }
 
-}  // namespace
-
 double oneNumber(const std::string& text, const TextLocation& where) {
     const std::vector<double> numbers = numbersAt(text, where);
     if (numbers.size() != 1) throw Error(where, "expected one number, not '{}'", oneLine(text, 60));
     return numbers[0];
 }
 
-glm::dvec3 threeNumbers(const std::map<std::string, std::string>& of, double fallback, const TextLocation& where) {
+glm::dvec3 threeNumbers(const Attributes& of, double fallback, const TextLocation& where) {
     glm::dvec3 result(fallback);
     if (const auto value = of.find("value"); value != of.end()) {
         const std::vector<double> numbers = numbersAt(value->second, where);
@@ -47,7 +52,6 @@ glm::dvec3 threeNumbers(const std::map<std::string, std::string>& of, double fal
 const Property* Plugin::find(const std::string& name) const {
     const auto entry = properties.find(name);
     if (entry == properties.end()) return nullptr;
-    entry->second.isUsed = true;
     return &entry->second;
 }
 

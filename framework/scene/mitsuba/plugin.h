@@ -12,13 +12,17 @@
 /// A Mitsuba scene as plugins with properties, names as Mitsuba 3 writes them (snake_case).
 namespace voxray::mitsuba {
 
+/// Attributes of an element: name -> text.
+using Attributes = std::map<std::string, std::string>;
+/// The text of an attribute, empty without it.
+std::string textOf(const Attributes& of, const std::string& name);
+
 /// <float name="alpha" value="0.1"/> and others.
 struct Property {
-    std::string tag;                        ///< float, integer, boolean, string, rgb, spectrum, point, transform …
-    std::map<std::string, std::string> of;  ///< Its attributes, but for the name; $names are replaced.
-    glm::dmat4 transform{1.0};              ///< Of a transform.
+    std::string tag;            ///< float, integer, boolean, string, rgb, spectrum, point, transform …
+    Attributes of;              ///< But for the name; $names are replaced.
+    glm::dmat4 transform{1.0};  ///< Of a transform.
     TextLocation where;
-    mutable bool isUsed = false;
 };
 
 struct Plugin;
@@ -58,7 +62,9 @@ struct Plugin {
 };
 
 /// Three numbers of a property: attributes x, y, z (missing ones are the fallback), or `value` with one or three.
-glm::dvec3 threeNumbers(const std::map<std::string, std::string>& of, double fallback, const TextLocation& where);
+glm::dvec3 threeNumbers(const Attributes& of, double fallback, const TextLocation& where);
+/// All numbers in a text. @throws Error
+std::vector<double> numbersAt(const std::string& text, const TextLocation& where);
 /// The only number in a text. @throws Error
 double oneNumber(const std::string& text, const TextLocation& where);
 

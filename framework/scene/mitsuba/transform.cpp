@@ -4,7 +4,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
-#include "scene/import/numbers.h"
 #include "scene/mitsuba/plugin.h"
 
 namespace voxray::mitsuba {
@@ -17,22 +16,14 @@ const std::string& attribute(const Attributes& of, const char* name, const std::
     return entry->second;
 }
 
-std::vector<double> numbersOf(const std::string& text, const TextLocation& where) {
-    try {
-        return readNumbers(text);
-    } catch (const Error& error) {
-        throw Error(where, "{}", error.what());
-    }
-}
-
 glm::dvec3 vectorOf(const std::string& text, const TextLocation& where) {
-    const std::vector<double> numbers = numbersOf(text, where);
+    const std::vector<double> numbers = numbersAt(text, where);
     if (numbers.size() != 3) throw Error(where, "expected three numbers, not '{}'", oneLine(text, 60));
     return {numbers[0], numbers[1], numbers[2]};
 }
 
 glm::dmat4 matrixOf(const std::string& text, const TextLocation& where) {
-    const std::vector<double> numbers = numbersOf(text, where);
+    const std::vector<double> numbers = numbersAt(text, where);
     const size_t size = numbers.size() == 9 ? 3 : 4;
     if (numbers.size() != size * size) throw Error(where, "a matrix has 9 or 16 numbers, not {}", numbers.size());
     glm::dmat4 matrix(1.0);

@@ -71,22 +71,12 @@ glm::vec3 unitColor(const glm::dvec3& xyz) {
     return xyz.y > 0 && std::isfinite(xyz.x + xyz.y + xyz.z) ? rgbOfXyz(xyz / xyz.y) : glm::vec3(0);
 }
 
-double valueOf(const SpectrumPoints& points, double nm) {
-    const auto next = std::ranges::upper_bound(points, nm, {}, &SpectrumPoints::value_type::first);
-    if (next == points.begin()) return points.front().second;
-    if (next == points.end()) return points.back().second;
-    const auto& [x1, y1] = *next;
-    const auto& [x0, y0] = *(next - 1);
-    return y0 + (y1 - y0) * (nm - x0) / (x1 - x0);
-}
-
 /// Fresnel's reflectance wavelength by wavelength.
 glm::vec3 reflectanceOf(const SpectrumPoints& eta, const SpectrumPoints& k, double outside) {
     SpectrumPoints reflectance;
     for (double nm = 380; nm <= 780; nm += 5) {
-        const double n = valueOf(eta, nm) / outside, e = valueOf(k, nm) / outside;
-        const double r = ((n - 1) * (n - 1) + e * e) / ((n + 1) * (n + 1) + e * e);
-        reflectance.emplace_back(nm, r);
+        const double n = valueInside(eta, nm) / outside, e = valueInside(k, nm) / outside;
+        reflectance.emplace_back(nm, conductorReflectance(n, e));
     }
     return glm::min(rgbOfReflectance(reflectance), glm::vec3(1));
 }
