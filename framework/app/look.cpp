@@ -191,7 +191,8 @@ void look(const LookArguments& arguments) {
     Experiment experiment = openConfig(arguments.file, arguments, options.tracer);
     const std::vector<std::string> leftOut = variantsOfOtherRenderers(makeStudy(experiment, registry), registry);
     if (!leftOut.empty())
-        fmt::print(stderr, "voxray: warning: not shown, as another renderer would render at each change of the view: {}\n",
+        fmt::print(stderr,
+                   "voxray: warning: not shown, as another renderer would render at each change of the view: {}\n",
                    fmt::join(leftOut, ", "));
     InteractiveSession session(std::move(experiment), registry, options, leftOut);
     Value start = greetingOf(session);

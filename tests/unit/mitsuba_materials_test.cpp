@@ -89,11 +89,11 @@ TEST(MitsubaMaterials, NamedMetalsAreThoseOfItsRgbVariants) {
     const TemporaryFolder folder;
     for (const MeasuredMetal& metal : kMetals) {
         const glm::vec3 expected = conductorReflectance(byEqualEnergy(metal.eta), byEqualEnergy(metal.k));
-        const glm::vec3 color = materialOf(folder, std::string("<bsdf type='conductor'><string name='material' value='") +
-                                                       metal.symbol + "'/></bsdf>")
-                                    .baseColor;
-        for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(color[c] / expected[c], 1, 0.01) << metal.symbol << ", channel " << c;
+        const glm::vec3 color =
+            materialOf(folder, std::string("<bsdf type='conductor'><string name='material' value='") + metal.symbol +
+                                   "'/></bsdf>")
+                .baseColor;
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(color[c] / expected[c], 1, 0.01) << metal.symbol << ", channel " << c;
     }
 }
 
