@@ -1,5 +1,5 @@
-// Voxels that are split by error: light is neither lost nor counted twice, what is even stays whole, and the error at an
-// edge of light halves with each level.
+// Voxels that are split by error: light is neither lost nor counted twice, what is even stays whole, and the error at
+// an edge of light halves with each level.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -29,7 +29,8 @@ double splitVoxels(const Chain& chain, int level) {
 const std::string kDirectLookup = "gather_irradiance, id: direct, light: direct";
 
 TEST(RefinedVoxels, SplitNothingWhereLightIsEven) {
-    // One irradiance everywhere, and few rays: all differences are noise.
+    // One irradiance everywhere, and few rays: all differences are noise, of which one in twenty voxels passes for
+    // structure.
     const std::vector<std::string> gather{"inject_light_rays, rays_per_light: 65536, bounces: 3", "trace_gather_rays",
                                           "gather_rays"};
     std::vector<std::string> refined{"gbuffer", "voxelize, resolution: 24", refine(2, 0.05, 65536, 3)},
@@ -39,7 +40,7 @@ TEST(RefinedVoxels, SplitNothingWhereLightIsEven) {
     Chain split("furnace", "{shape: box, albedo: 0.6, emission: 1}", graphYaml(refined));
     Chain whole("furnace", "{shape: box, albedo: 0.6, emission: 1}", graphYaml(grid));
     const uint32_t count = whole.get<SurfaceVoxels>("voxels").voxelCount;
-    EXPECT_LT(splitVoxels(split, 0), 0.05 * count);
+    EXPECT_LT(splitVoxels(split, 0), 0.08 * count);
     EXPECT_NEAR(mean(split.image("indirect")) / mean(whole.image("indirect")), 1.0, 0.01);
 }
 
@@ -76,6 +77,8 @@ TEST(RefinedVoxels, HaveTheAreaOfTheGrid) {
     EXPECT_NEAR(total / expected, 1.0, 0.01);
 }
 
+constexpr double kFieldOfView = 20;  // Degrees.
+
 /// A floor of 2 m x 2 m below a screen that keeps the sun from x < edge; seen from between them.
 State edgeOfLight(float edge) {
     SceneBuilder b("edge");
@@ -83,7 +86,7 @@ State edgeOfLight(float edge) {
     b.quad("floor", {-1, -1, 1}, {2, 0, 0}, {0, 0, -2}, grey);
     b.quad("screen", {-1, 1, 1}, {edge + 1, 0, 0}, {0, 0, -2}, grey);
     b.directionalLight({0, -1, 0}, glm::vec3(1));
-    b.camera({0, 0.5f, 0}, {0, -1, 0}, 60, {0, 0, -1});
+    b.camera({0, 0.5f, 0}, {0, -1, 0}, float(kFieldOfView), {0, 0, -1});
     return evaluated(b);
 }
 
@@ -94,32 +97,31 @@ TEST(RefinedVoxels, HalveTheErrorAtAnEdgeOfLightWithEachLevel) {
     const gpu::VoxelGrid grid = makeVoxelGrid(glm::vec3(-1), glm::vec3(1), kResolution);
     const float edge = grid.origin.x + (kResolution / 2 + 1.0f / 3) * grid.voxelSize;
     const State scene = edgeOfLight(edge);
-    const std::vector<std::string> lookUp{
-        "inject_light_rays, rays_per_light: 4194304, bounces: 0",
-        "gather_irradiance, id: direct, light: direct, lookup: nearest_face"};
+    const std::vector<std::string> lookUp{"inject_light_rays, rays_per_light: 8388608, bounces: 0",
+                                          "gather_irradiance, id: direct, light: direct, lookup: nearest_face"};
     Chain exact(scene, graphYaml({"gbuffer", "direct_shadow_rays, id: direct"}), kPixels, kPixels);
     const ImageF right = exact.image("direct");
     const double lit = *std::max_element(right.data.begin(), right.data.end());
-    const double pixel = 2 * 1.5 * std::tan(glm::radians(30.0)) / kPixels;  // m, on the floor.
+    const double pixel = 2 * 1.5 * std::tan(glm::radians(kFieldOfView / 2)) / kPixels;  // m, on the floor.
     for (int levels = 0; levels <= 3; ++levels) {
         std::vector<std::string> passes{"gbuffer", fmt::format("voxelize, resolution: {}", kResolution)};
-        if (levels > 0) passes.push_back(refine(levels, 0.1, 4194304, 0));
+        if (levels > 0) passes.push_back(refine(levels, 0.1, 1048576, 0));
         passes.insert(passes.end(), lookUp.begin(), lookUp.end());
         Chain chain(scene, graphYaml(passes), kPixels, kPixels);
         const ImageF image = chain.image("direct");
+        const double width = grid.voxelSize / (1 << levels), length = kPixels * pixel;
         double error = 0;
         for (int y = 0; y < kPixels; ++y)
             for (int x = 0; x < kPixels; ++x) {
-                // Within a voxel of the edge: noise elsewhere is not its error
-                if (std::abs((x + 0.5 - kPixels / 2) * pixel - edge) > grid.voxelSize) continue;
+                // Within a part's width of the edge: noise elsewhere is not its error
+                if (std::abs((x + 0.5 - kPixels / 2) * pixel - edge) > width) continue;
                 const size_t at = 3 * (size_t(y) * kPixels + size_t(x));
                 error += std::abs(double(image.data[at]) - double(right.data[at])) / lit * pixel * pixel;
             }
-        const double width = grid.voxelSize / (1 << levels), length = kPixels * pixel;
         EXPECT_NEAR(error / (4.0 / 9 * width * length), 1.0, 0.15) << levels << " levels";
         if (levels == 0) continue;
         // Every voxel of the floor along the edge is split, and hardly another one
-        EXPECT_GE(splitVoxels(chain, levels - 1), kResolution << (levels - 1));
+        EXPECT_GE(splitVoxels(chain, levels - 1), std::floor(2 / grid.voxelSize) * (1 << (levels - 1)));
         EXPECT_LE(splitVoxels(chain, 0), 1.5 * kResolution);
     }
 }

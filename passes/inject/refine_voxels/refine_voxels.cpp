@@ -56,8 +56,8 @@ class RefineVoxels final : public Pass {
         uint32_t visibilityRays = 8;
         static constexpr auto schema() {
             return std::tuple{
-                field("levels", &Params::levels, "How often a voxel may be split: its parts are 1/2^levels as wide.", 1u,
-                      3u),
+                field("levels", &Params::levels, "How often a voxel may be split: its parts are 1/2^levels as wide.",
+                      1u, 3u),
                 field("tolerance", &Params::tolerance,
                       "Error of irradiance that a voxel's face may have, relative to the mean around it; of parts of "
                       "voxels by the square root of their area.",
@@ -68,7 +68,8 @@ class RefineVoxels final : public Pass {
                       2u, 1u << 26)
                     .lessNoise(),
                 field("bounces", &Params::bounces, "Bounces of these rays after the first hit.", 0u, 64u),
-                field("visibility_rays", &Params::visibilityRays, "As voxelize has it, for parts of voxels.", 0u, 256u)};
+                field("visibility_rays", &Params::visibilityRays, "As voxelize has it, for parts of voxels.", 0u,
+                      256u)};
         }
     };
 
@@ -121,9 +122,10 @@ void RefineVoxels::plan(PassPlan& plan) {
     const glm::uvec3 resolution = coarse.grid.resolution;
     const uint32_t longest = std::max({resolution.x, resolution.y, resolution.z}), finest = longest << params_.levels;
     if (finest > kMaxResolution)
-        throw Error("{}: 'levels: {}' makes a grid of {} voxels along its longest side, more than {}; lower 'levels' or "
-                    "voxelize's 'resolution'",
-                    kName, params_.levels, finest, kMaxResolution);
+        throw Error(
+            "{}: 'levels: {}' makes a grid of {} voxels along its longest side, more than {}; lower 'levels' or "
+            "voxelize's 'resolution'",
+            kName, params_.levels, finest, kMaxResolution);
     if (coarse.areasAreUnoccluded != (params_.visibilityRays > 0))
         throw Error("{}: 'visibility_rays' of voxelize is 0 and its own is not, or the other way round; set both alike",
                     kName);
@@ -134,8 +136,7 @@ void RefineVoxels::plan(PassPlan& plan) {
     voxels.estimatedCount = kEstimatedGrowth * coarse.estimatedCount;
     uint64_t words = 0;
     for (uint32_t i = 0; i <= params_.levels; ++i) words += occupancyWords(finestGrid(coarse.grid, i));
-    plan.estimate(2.0 * double(words) * sizeof(uint32_t) +
-                  voxels.estimatedCount * kAreaWords * sizeof(uint32_t));
+    plan.estimate(2.0 * double(words) * sizeof(uint32_t) + voxels.estimatedCount * kAreaWords * sizeof(uint32_t));
     blocks_ = (resolution + (kBlock - 1)) / kBlock;
     plan.scratchBuffer(means_, "mean irradiance of blocks",
                        uint64_t(blocks_.x) * blocks_.y * blocks_.z * sizeof(float));
