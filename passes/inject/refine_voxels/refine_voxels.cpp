@@ -18,7 +18,6 @@ namespace {
 constexpr uint32_t kMaxResolution = 1024;     // As voxelize's.
 constexpr uint32_t kBlock = 8;                // Voxels along an edge of a block whose mean irradiance is the scale.
 constexpr uint32_t kMaxBatchRays = 1u << 20;  // Bounds the memory of rays to 108 MiB.
-constexpr double kEstimatedGrowth = 2;        // Of voxels; what is split is known when light is.
 
 /// The grid with twice as many voxels along each axis.
 gpu::VoxelGrid finerGrid(gpu::VoxelGrid grid) {
@@ -133,18 +132,19 @@ void RefineVoxels::plan(PassPlan& plan) {
     VoxelLevels& voxels = plan[voxels_];
     voxels.grid = finestGrid(coarse.grid, params_.levels);
     voxels.areasAreUnoccluded = coarse.areasAreUnoccluded;
-    voxels.estimatedCount = kEstimatedGrowth * coarse.estimatedCount;
-    uint64_t words = 0;
-    for (uint32_t i = 0; i <= params_.levels; ++i) words += occupancyWords(finestGrid(coarse.grid, i));
-    plan.estimate(2.0 * double(words) * sizeof(uint32_t) + voxels.estimatedCount * kAreaWords * sizeof(uint32_t));
     blocks_ = (resolution + (kBlock - 1)) / kBlock;
     plan.scratchBuffer(means_, "mean irradiance of blocks",
                        uint64_t(blocks_.x) * blocks_.y * blocks_.z * sizeof(float));
     plan.scratchBuffer(count_, "number of split voxels", sizeof(uint32_t));
     builder_.planWork(plan);
     const uint32_t batch = std::min(params_.raysPerLight / 2, kMaxBatchRays);
+    // Estimates no light: that of the halves is freed
     paths_.plan(plan, kName, batch, voxels, sources);
     emission_.plan(plan, batch);
+    voxels.estimatedCount = coarse.estimatedCount;  // What is split is known when light is
+    uint64_t words = 0;
+    for (uint32_t i = 0; i <= params_.levels; ++i) words += occupancyWords(finestGrid(coarse.grid, i));
+    plan.estimate(2.0 * double(words) * sizeof(uint32_t) + voxels.estimatedCount * kAreaWords * sizeof(uint32_t));
     plan.lightRays = uint64_t(params_.levels) * params_.raysPerLight * (params_.bounces + 1) * sources.size();
 }
 
