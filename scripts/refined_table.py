@@ -1,10 +1,9 @@
 #!/usr/bin/python3
 """Prints the table of docs/refined-voxels.md from results of configs/bench/refined_voxels.yaml.
 
-refined_table.py DIR...: folders of runs, each of some scenes and variants. For each scene and variant: surface voxels, the
-bytes of voxels and their light that are left after the build (voxelize, refine_voxels, injection, gather), the time of the
-build, errors of indirect light against the variant "512" of the same scene (nRMSE, relMSE and ratio of the means), and
-against the path-traced reference.
+refined_table.py DIR...: folders of runs, each of some scenes and variants. For each scene and variant: the bytes of
+voxels and their light that are left after the build (voxelize, refine_voxels, injection, gather), errors of indirect light
+against the variant "512" of the same scene (nRMSE, relMSE and ratio of the means), and against the path-traced reference.
 """
 import os
 import sys
@@ -53,12 +52,11 @@ def table(folders):
         finest = pixels(folder, row["variant"])
         for light, (folder, row, passes) in lights.items():
             stored = sum(int(p["memory_bytes"]) for p in passes if p["pass"] in STORED)
-            seconds = sum(float(p["ms_median"]) for p in passes if p["phase"] == "build") / 1000
             nrmse, relmse, ratio = errors(pixels(folder, row["variant"]), finest)
             model = "-" if light == FINEST else f"{nrmse:.3f} / {relmse:.4f} / {ratio:.3f}"
-            rows.append([scene, light, f"{stored / 2 ** 20:.1f}", f"{seconds:.0f}", model,
+            rows.append([scene, light, f"{stored / 2 ** 20:.1f}", model,
                          f"{float(row['indirect_nrmse']):.3f} / {float(row['indirect_relmse']):.4f}"])
-    return markdown_table(["scene", "voxels", "MiB", "build, s", "to 512³: nRMSE / relMSE / mean", "to the reference"], rows)
+    return markdown_table(["scene", "voxels", "MiB", "to 512³: nRMSE / relMSE / mean", "to the reference"], rows)
 
 
 if __name__ == "__main__":

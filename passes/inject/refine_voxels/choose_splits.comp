@@ -6,8 +6,7 @@
 //                noise has no part in it on average, since that of the halves is independent
 //     noise      (sum of A (E_a - E_b)² - (sum of A) (mean E_a - mean E_b)²) / 4   is what splitting adds to the
 //                variance of the mean of both halves, since each child has only a part of the rays
-// both summed over faces and colors. Where light is even, structure / noise + 1 is the ratio of two independent estimates
-// of one variance, and Fisher's z, half its logarithm, has the variance 1 / (n - 2) for n children (Fisher 1924).
+// both summed over faces and colors.
 #include "shaders/compute/linear_index.glsl"
 #include "passes/inject/refine_voxels/half_light.glsl"
 layout(local_size_x = 64) in;
@@ -23,18 +22,15 @@ layout(push_constant, scalar) uniform Push {
     float tolerance2;  // Squared error relative to the mean irradiance, times area in faces of the coarsest voxels.
 } push;
 
-const float Z_95 = 1.645;  // One in twenty normal deviates exceeds it.
-
 // Sums over the faces of a parent, times area in faces of its children.
 struct Disagreement {
     float structure;
     float noise;
-    float freedom;  // Children less one, by face.
 };
 
 void addFace(uint face, uint children[8], float voxelSize, inout Disagreement sum) {
     vec3 sumA = vec3(0.0), sumB = vec3(0.0);
-    float area_ = 0.0, structure = 0.0, noise = 0.0, count_ = 0.0;
+    float area_ = 0.0, structure = 0.0, noise = 0.0;
     for (uint i = 0u; i < 8u; ++i) {
         if (children[i] == NO_VOXEL) continue;
         const HalfLight light = halfLight(6u * children[i] + face, voxelSize);
@@ -46,14 +42,11 @@ void addFace(uint face, uint children[8], float voxelSize, inout Disagreement su
         sumA += light.a;
         sumB += light.b;
         area_ += light.area;
-        count_ += 1.0;
     }
-    // Dark faces tell nothing of the noise of others
-    if (count_ < 2.0 || sumA + sumB == vec3(0.0)) return;
+    if (area_ == 0.0) return;
     const vec3 difference = sumA - sumB;
     sum.structure += structure - dot(sumA, sumB) / area_;
     sum.noise += 0.25 * (noise - dot(difference, difference) / area_);
-    sum.freedom += count_ - 1.0;
 }
 
 bool staysSplit(ivec3 parent) {
@@ -65,10 +58,8 @@ bool staysSplit(ivec3 parent) {
         isAny = isAny || children[i] != NO_VOXEL;
     }
     if (!isAny) return false;
-    Disagreement sum = Disagreement(0.0, 0.0, 0.0);
+    Disagreement sum = Disagreement(0.0, 0.0);
     for (uint face = 0u; face < 6u; ++face) addFace(face, children, grid.voxelSize, sum);
-    const float deviation = inversesqrt(max(sum.freedom - 1.0, 0.25));
-    if (sum.structure + sum.noise <= exp(2.0 * Z_95 * deviation) * sum.noise) return false;
     const float gain = sum.structure - sum.noise;
     const uvec3 block = uvec3(parent) >> push.blockShift;
     const float mean2 = means.data[(block.z * push.blocks.y + block.y) * push.blocks.x + block.x];
