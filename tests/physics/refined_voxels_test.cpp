@@ -14,8 +14,8 @@ namespace voxray::test {
 namespace {
 
 std::string refine(int levels, double tolerance, int rays, int bounces) {
-    return fmt::format("refine_voxels, levels: {}, tolerance: {}, rays_per_light: {}, bounces: {}", levels, tolerance,
-                       rays, bounces);
+    return fmt::format("refine_voxels, levels: {}, tolerance: {}, rays_per_light: {}, trial_bounces: {}", levels,
+                       tolerance, rays, bounces);
 }
 
 double splitVoxels(const Chain& chain, int level) {

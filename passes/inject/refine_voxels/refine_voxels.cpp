@@ -51,7 +51,7 @@ class RefineVoxels final : public Pass {
         uint32_t levels = 2;
         float tolerance = 0.1f;
         uint32_t raysPerLight = 4194304;
-        uint32_t bounces = 8;
+        uint32_t trialBounces = 8;
         uint32_t visibilityRays = 8;
         static constexpr auto schema() {
             return std::tuple{
@@ -66,7 +66,7 @@ class RefineVoxels final : public Pass {
                       "inject_light_rays counts them. Take as many as there.",
                       2u, 1u << 26)
                     .lessNoise(),
-                field("bounces", &Params::bounces, "Bounces of these rays after the first hit.", 0u, 64u),
+                field("trial_bounces", &Params::trialBounces, "Bounces of these rays after the first hit.", 0u, 64u),
                 field("visibility_rays", &Params::visibilityRays, "As voxelize has it, for parts of voxels.", 0u,
                       256u)};
         }
@@ -88,7 +88,7 @@ class RefineVoxels final : public Pass {
 
     static LightPathParams pathParams(const Params& params) {
         LightPathParams paths;
-        paths.bounces = params.bounces;
+        paths.bounces = params.trialBounces;
         return paths;
     }
     /// Splits all voxels of the finest level.
@@ -145,7 +145,7 @@ void RefineVoxels::plan(PassPlan& plan) {
     uint64_t words = 0;
     for (uint32_t i = 0; i <= params_.levels; ++i) words += occupancyWords(finestGrid(coarse.grid, i));
     plan.estimate(2.0 * double(words) * sizeof(uint32_t) + voxels.estimatedCount * kAreaWords * sizeof(uint32_t));
-    plan.lightRays = uint64_t(params_.levels) * params_.raysPerLight * (params_.bounces + 1) * sources.size();
+    plan.lightRays = uint64_t(params_.levels) * params_.raysPerLight * (params_.trialBounces + 1) * sources.size();
 }
 
 void RefineVoxels::addLevel(PassContext& context, Levels& levels) {
