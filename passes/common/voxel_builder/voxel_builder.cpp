@@ -14,7 +14,8 @@ VoxelBuilder::VoxelBuilder(ProgramOwner& owner, std::unique_ptr<TriangleVoxelize
       resolve_(owner, "surface_accumulator_resolve.comp"),
       prefixSum_(owner, PrefixSum::Input::SetBits),
       visibilityProbe_(owner),
-      merge_(owner) {}
+      merge_(owner),
+      keepChildren_(owner) {}
 
 void VoxelBuilder::planVoxels(PassPlan& plan, SurfaceVoxels& voxels) {
     plan.buffer(voxels.occupancy, "voxel occupancy", voxels.words() * sizeof(uint32_t));
@@ -29,7 +30,13 @@ void VoxelBuilder::planWork(PassPlan& plan) {
 }
 
 void VoxelBuilder::build(PassContext& context, SurfaceVoxels& voxels) {
-    voxelize(context, VoxelRegion(voxels.grid), voxels, nullptr);
+    voxelize(context, VoxelRegion(voxels.grid), voxels, [] {});
+}
+
+void VoxelBuilder::buildWithin(PassContext& context, const gpu::VoxelGrid& parentGrid, const Buffer& parents,
+                               SurfaceVoxels& voxels) {
+    voxelize(context, VoxelRegion(voxels.grid), voxels,
+             [&] { keepChildren_.run(context.stream, voxels.grid, voxels.occupancy, parentGrid, parents); });
 }
 
 SurfaceVoxels VoxelBuilder::update(PassContext& context, const VoxelRegion& region, SurfaceVoxels& voxels) {
@@ -38,13 +45,13 @@ SurfaceVoxels VoxelBuilder::update(PassContext& context, const VoxelRegion& regi
     rebuilt.areasAreUnoccluded = voxels.areasAreUnoccluded;
     rebuilt.occupancy = Buffer(context.device, "voxel occupancy", voxels.occupancy.bytes());
     rebuilt.rank = Buffer(context.device, "voxel ranks", voxels.rank.bytes());
-    voxelize(context, region, rebuilt, &voxels);
+    voxelize(context, region, rebuilt, [&] { merge_.occupancy(context.stream, region, voxels, rebuilt); });
     merge_.materials(context.stream, prefixSum_, rebuilt, voxels);
     return rebuilt;
 }
 
 void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, SurfaceVoxels& target,
-                            const SurfaceVoxels* previous) {
+                            const std::function<void()>& restrict) {
     CommandStream& stream = context.stream;
     const std::vector<uint32_t> triangles = region.triangles(context.frame.scene->geometry);
     voxelizer_->select(context, target.grid, region, triangles);
@@ -52,7 +59,7 @@ void VoxelBuilder::voxelize(PassContext& context, const VoxelRegion& region, Sur
     // Mark occupied voxels, then number them
     stream.fill(target.occupancy, 0);
     voxelizer_->run(context, *markVoxels_, target.grid, std::vector<Binding>{{"occupancy", target.occupancy}}, 0);
-    if (previous) merge_.occupancy(stream, region, *previous, target);
+    restrict();
     target.voxelCount = prefixSum_.run(stream, target.occupancy, target.rank, uint32_t(target.words()));
     const uint64_t count = std::max(target.voxelCount, 1u);
     ensureSize(target.materials, context.device, "voxel materials", count * sizeof(gpu::PackedVoxelMaterial));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <tuple>
@@ -9,6 +10,7 @@
 #include "passes/common/voxel_builder/changed_voxels.h"
 #include "passes/common/voxel_builder/region_merge.h"
 #include "passes/common/voxel_builder/visibility_probe.h"
+#include "passes/common/voxels/keep_children.h"
 #include "passes/common/voxels/voxels.h"
 
 namespace voxray {
@@ -45,15 +47,19 @@ class VoxelBuilder {
 
     /// Builds all voxels of the grid's window.
     void build(PassContext& context, SurfaceVoxels& voxels);
+    /// Builds those voxels alone that lie in voxels twice as wide. @param parents bits of these, as KeepChildren has
+    /// them, of `parentGrid`.
+    void buildWithin(PassContext& context, const gpu::VoxelGrid& parentGrid, const Buffer& parents,
+                     SurfaceVoxels& voxels);
     /// Rebuilds a region and merges it into the other voxels; bit-identical to build(). @return the region's
     /// voxels only, with their own numbers.
     SurfaceVoxels update(PassContext& context, const VoxelRegion& region, SurfaceVoxels& voxels);
 
  private:
-    /// Builds the voxels of a region into `target`, whose grid is set. @param previous all voxels of the
-    /// previous build; null where the region is the whole window.
+    /// Builds the voxels of a region into `target`, whose grid is set. @param restrict changes which voxels are
+    /// occupied, once all are marked.
     void voxelize(PassContext& context, const VoxelRegion& region, SurfaceVoxels& target,
-                  const SurfaceVoxels* previous);
+                  const std::function<void()>& restrict);
 
     std::unique_ptr<TriangleVoxelizer> voxelizer_;
     const uint32_t visibilityRays_;
@@ -62,6 +68,7 @@ class VoxelBuilder {
     PrefixSum prefixSum_;
     VisibilityProbe visibilityProbe_;
     RegionMerge merge_;
+    KeepChildren keepChildren_;
     float largestEmission_ = 0;
 };
 

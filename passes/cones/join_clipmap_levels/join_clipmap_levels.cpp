@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "graph/registry.h"
-#include "passes/common/compute/prefix_sum.h"
+#include "passes/common/voxels/level_join.h"
 #include "passes/cones/clipmap/clipmap_voxels.h"
 
 namespace voxray {
@@ -52,8 +52,7 @@ class JoinClipmapLevels final : public Pass {
  private:
     In<ClipmapVoxels> clipmap_{*this, "clipmap", "surface voxels of each level's window"};
     Out<VoxelLevels> voxels_{*this, "voxels", "surface voxels of all levels, numbered through"};
-    Kernel markLevel_{*this, "mark_level.comp"}, copyAreas_{*this, "copy_areas.comp"};
-    PrefixSum prefixSum_{*this, PrefixSum::Input::SetBits};
+    LevelJoin join_{*this};
 };
 
 void JoinClipmapLevels::plan(PassPlan& plan) {
@@ -72,40 +71,10 @@ void JoinClipmapLevels::plan(PassPlan& plan) {
 
 void JoinClipmapLevels::record(PassContext& context) {
     if (!context.inputsChanged()) return;
-    const ClipmapVoxels& clipmap = context[clipmap_];
-    VoxelLevels& joined = context[voxels_];
-    std::vector<gpu::VoxelLevel> levels;
-    uint32_t words = 0;
-    for (const ClipmapVoxels::Level& level : clipmap.levels) {
-        levels.push_back(heldLevel(level.voxels.grid));
-        levels.back().grid.firstWord = words;
-        words += uint32_t(level.voxels.words());
-    }
-    context.stream.upload(joined.levels, levels);
-
-    for (uint32_t l = 0; l < levels.size(); ++l) {
-        const SurfaceVoxels& window = clipmap.levels[l].voxels;
-        context.dispatch(markLevel_, window.words(),
-                         {joined,
-                          {"window", window.occupancy},
-                          {"joined", joined.occupancy},
-                          {"level", l},
-                          {"words", uint32_t(window.words())}});
-    }
-    joined.voxelCount = prefixSum_.run(context.stream, joined.occupancy, joined.rank, words);
-    ensureSize(joined.unoccludedArea, context.device, "unoccluded area",
-               std::max(joined.voxelCount, 1u) * uint64_t(kAreaWords) * sizeof(uint32_t));
-    for (uint32_t l = 0; l < levels.size(); ++l) {
-        const SurfaceVoxels& window = clipmap.levels[l].voxels;
-        context.dispatch(copyAreas_, window.words(),
-                         {joined,
-                          {"window", window.occupancy},
-                          {"windowRank", window.rank},
-                          {"WindowMaterialsRef", window.materials.ref()},
-                          {"area", joined.unoccludedArea},
-                          {"level", l},
-                          {"words", uint32_t(window.words())}});
-    }
+    std::vector<LevelSource> sources;
+    for (const ClipmapVoxels::Level& level : context[clipmap_].levels)
+        sources.push_back({heldLevel(level.voxels.grid), &level.voxels});
+    join_.run(context, sources, context[voxels_]);
 }
 
 VOXRAY_REGISTER_PASS(JoinClipmapLevels);

@@ -13,13 +13,13 @@ layout(push_constant) uniform Push {
 void main() {
     const uint word = linearIndex();
     if (word >= push.words) return;
-    const VoxelLevel level = voxelLevels.data[push.level];
-    const uvec3 first = wordCoordinates(level.grid, word);
+    const VoxelGrid grid = voxelLevels.data[push.level].grid;
+    const uvec3 first = wordCoordinates(grid, word);
     uint kept = 0u;
     for (uint bits = window.words[word]; bits != 0u; bits &= bits - 1u) {
-        const ivec3 voxel = ivec3(unwrappedVoxel(level.grid, first + uvec3(findLSB(bits), 0u, 0u)));
-        const bool isFiner = push.level > 0u && isHeld(voxelLevels.data[push.level - 1u], 2 * voxel);
-        if (isHeld(level, voxel) && !isFiner) kept |= bits & -bits;
+        const ivec3 voxel = ivec3(unwrappedVoxel(grid, first + uvec3(findLSB(bits), 0u, 0u)));
+        const bool isFiner = push.level > 0u && isHeld(push.level - 1u, 2 * voxel);
+        if (isHeld(push.level, voxel) && !isFiner) kept |= bits & -bits;
     }
-    joined.words[level.grid.firstWord + word] = kept;
+    joined.words[grid.firstWord + word] = kept;
 }
