@@ -1,0 +1,326 @@
+#include "passes/final_gather/hit_faces/light_hit_faces/kept/kept_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <span>
+
+#include "passes/common/compute/bit_words.h"
+#include "passes/common/compute/random_seed.h"
+#include "passes/final_gather/hit_faces/light_hit_faces/face_point_types.h"
+#include "passes/final_gather/hit_faces/light_hit_faces/kept/kept_types.h"
+
+namespace voxray {
+namespace {
+
+/// Sources that shine in this frame: of those that the pass knows, without lights that are off.
+std::vector<LightSource> shiningSources(const std::vector<LightSource>& sources, const SceneState& scene) {
+    std::vector<LightSource> shining;
+    for (const LightSource& source : sources)
+        if (source.kind != LightSource::Punctual || scene.lights[source.light].intensity != glm::vec3(0.0f))
+            shining.push_back(source);
+    return shining;
+}
+
+/// As SurfelDirectLight traces them.
+uint32_t shadowRaysOfPoint(const std::vector<LightSource>& sources, const SceneState& scene, uint32_t samples) {
+    uint32_t rays = 0;
+    for (const LightSource& source : shadowRaySources(sources, scene))
+        rays += source.kind == LightSource::Punctual ? 1 : samples;
+    return rays;
+}
+
+}  // namespace
+
+KeptFaces::KeptFaces(ProgramOwner& owner, const Params& params)
+    : params_(params),
+      clearPoints_(owner, "clear_points.comp"),
+      offerPoints_(owner, "offer_points.comp"),
+      countReads_(owner, "count_reads.comp"),
+      passImportance_(owner, "pass_importance.comp"),
+      agePoints_(owner, "age_points.comp"),
+      meanSquare_(owner, "mean_square.comp"),
+      prioritize_(owner, "prioritize_points.comp"),
+      costs_(owner, "cost_at_threshold.comp"),
+      select_(owner, "select_points.comp"),
+      placeOld_(owner, "place_kept_points.comp"),
+      placeNew_(owner, "place_kept_points.comp", {{"NEW", "1"}}),
+      storeOld_(owner, "store_points.comp"),
+      storeNew_(owner, "store_points.comp", {{"NEW", "1"}}),
+      linkPoints_(owner, "passes/final_gather/hit_faces/light_hit_faces/link_points.comp", {{"KEEP_ALL", "1"}}),
+      gatherDirect_(owner, "gather_kept_links.comp", {{"DIRECT", "1"}}),
+      gatherLinks_(owner, "gather_kept_links.comp"),
+      prefixSum_(owner, PrefixSum::Input::Uints),
+      compaction_(owner) {}
+
+void KeptFaces::clear(PassContext& context, const VoxelLevels& voxels, HitFaceLight& light) {
+    const uint64_t allFaces = std::max<uint64_t>(uint64_t(voxels.voxelCount) * kFaces, 1);
+    ensureSize(light.numbers, context.device, "numbers of lit faces", allFaces * sizeof(uint32_t));
+    context.stream.fill(light.numbers, NO_FACE);
+    lights_ = context.scene.uploadedLights;
+    faces_ = 0;
+}
+
+void KeptFaces::update(PassContext& context, const VoxelLevels& voxels, HitFaceLight& light, NewFaces& newFaces,
+                       const PointBatch& batch, const std::vector<FaceHits>& hits, const Buffer& lost) {
+    const SceneState& scene = *context.frame.scene;
+    Update update{context,
+                  voxels,
+                  light,
+                  newFaces,
+                  batch,
+                  lost,
+                  randomSeed(context.frame, context.frameIndex),
+                  shiningSources(batch.sources, scene),
+                  0};
+    update.shadowRays = shadowRaysOfPoint(update.sources, scene, batch.samples);
+    ++frame_;
+    ageByLights(context);
+    addFaces(update, hits, true);
+    countImportance(update, hits);
+    again_.count = added_.count = 0;
+    if (faces_ > 0) select(update);
+    measureAgain(update);
+    lightNew(update);
+    passLight(update);
+    context.report("lit faces", faces_);
+    context.report("points", again_.count + added_.count);
+    context.report("points measured again", again_.count);
+}
+
+void KeptFaces::ageByLights(PassContext& context) {
+    const std::vector<gpu::GpuLight>& now = context.scene.uploadedLights;
+    if (now.size() != lights_.size()) throw Error("light_hit_faces: the number of lights has changed");
+    std::vector<gpu::GpuLight> before, changed;
+    for (size_t i = 0; i < now.size(); ++i) {
+        if (std::memcmp(&now[i], &lights_[i], sizeof(gpu::GpuLight)) == 0) continue;
+        before.push_back(lights_[i]);
+        changed.push_back(now[i]);
+    }
+    lights_ = now;
+    const uint32_t points = faces_ * params_.pointsPerFace;
+    if (changed.empty() || points == 0) return;
+    const uint64_t bytes = changed.size() * sizeof(gpu::GpuLight);
+    const Buffer lightsBefore(context.device, "changed lights before", bytes);
+    const Buffer lightsNow(context.device, "changed lights", bytes);
+    context.stream.upload(lightsBefore, before);
+    context.stream.upload(lightsNow, changed);
+    context.dispatch(agePoints_, points,
+                     {context.scene,
+                      {"lightsBefore", lightsBefore},
+                      {"lightsNow", lightsNow},
+                      {"pointHits", pointHits_},
+                      {"pointDirect", pointDirect_},
+                      {"points", points},
+                      {"lights", uint32_t(changed.size())}});
+    context.stream.finish();
+}
+
+void KeptFaces::addFaces(const Update& update, const std::vector<FaceHits>& hits, bool offerToAll) {
+    PassContext& context = update.context;
+    const uint32_t rays = hits.back().first + hits.back().count, firstNew = faces_;
+    const uint32_t added = update.newFaces.number(context, update.light, firstNew, rays);
+    faces_ += added;
+    const uint64_t perFace = params_.pointsPerFace, points = faces_ * perFace, oldPoints = firstNew * perFace;
+    grow(pointHits_, context, "points of kept faces", points * sizeof(gpu::FaceHit), oldPoints * sizeof(gpu::FaceHit));
+    grow(pointDirect_, context, "direct irradiance of points", points * sizeof(glm::vec4),
+         oldPoints * sizeof(glm::vec4));
+    grow(links_, context, "links of points", points * sizeof(gpu::FaceLink), oldPoints * sizeof(gpu::FaceLink));
+    grow(measuredAt_, context, "frames of points", points * sizeof(uint32_t), oldPoints * sizeof(uint32_t));
+    grow(importance_, context, "importance of faces", faces_ * sizeof(uint32_t), firstNew * sizeof(uint32_t));
+    grow(update.light.irradiance, context, "irradiance of lit faces", faces_ * sizeof(glm::vec4),
+         firstNew * sizeof(glm::vec4));
+    context.dispatch(clearPoints_, uint32_t(added * perFace),
+                     {{"pointHits", pointHits_},
+                      {"pointDirect", pointDirect_},
+                      {"links", links_},
+                      {"importance", importance_},
+                      {"irradiance", update.light.irradiance},
+                      {"firstFace", firstNew},
+                      {"count", uint32_t(added * perFace)},
+                      {"pointsPerFace", params_.pointsPerFace}});
+    const uint32_t firstFace = offerToAll ? 0 : firstNew;
+    if (faces_ == firstFace) return;
+    const uint32_t taken = update.newFaces.chooseSlots(context, update.light, hits, firstFace, faces_ - firstFace,
+                                                       params_.pointsPerFace, update.seed);
+    context.dispatch(offerPoints_, taken,
+                     {update.newFaces.points(),
+                      {"pointHits", pointHits_},
+                      {"count", taken},
+                      {"firstPoint", firstFace * params_.pointsPerFace}});
+}
+
+void KeptFaces::countImportance(const Update& update, const std::vector<FaceHits>& hits) {
+    PassContext& context = update.context;
+    std::swap(importance_, importanceBefore_);
+    grow(importance_, context, "importance of faces", importanceBefore_.bytes(), 0);
+    context.stream.fill(importance_, 0);
+    for (const FaceHits& batch : hits)
+        context.dispatch(
+            countReads_, batch.count,
+            {update.light, {"hitFaces", *batch.faces}, {"importance", importance_}, {"count", batch.count}});
+    context.dispatch(passImportance_, faces_,
+                     {{"pointDirect", pointDirect_},
+                      {"links", links_},
+                      {"before", importanceBefore_},
+                      {"importance", importance_},
+                      {"faces", faces_},
+                      {"pointsPerFace", params_.pointsPerFace}});
+}
+
+void KeptFaces::select(const Update& update) {
+    PassContext& context = update.context;
+    CommandStream& stream = context.stream;
+    const uint32_t points = faces_ * params_.pointsPerFace;
+    const auto words = uint32_t(bitWords(points));
+    const auto make = [&](Buffer& buffer, const char* name, uint64_t bytes) { grow(buffer, context, name, bytes, 0); };
+    make(meanSquareOfFaces_, "mean square of faces", sizeof(float));
+    make(bins_, "bins of points", points * sizeof(uint32_t));
+    make(raysOfBins_, "rays of bins", PRIORITY_BINS * sizeof(uint32_t));
+    make(costsBefore_, "rays of points", points * sizeof(uint32_t));
+    make(blockSums_, "prefix sum blocks", PrefixSum::scratchBytes(points));
+    make(oldFlags_, "points measured again", words * sizeof(uint32_t));
+    make(newFlags_, "new points", words * sizeof(uint32_t));
+    make(again_.points, "points measured again", points * sizeof(uint32_t));
+    make(added_.points, "new points", points * sizeof(uint32_t));
+
+    // Bin the updates by what they bring
+    context.dispatch(meanSquare_, 1,
+                     {{"irradiance", update.light.irradiance}, {"meanSquare", meanSquareOfFaces_}, {"faces", faces_}});
+    stream.fill(raysOfBins_, 0);
+    context.dispatch(prioritize_, faces_,
+                     {update.newFaces.takenSlots(),
+                      {"pointDirect", pointDirect_},
+                      {"pointHits", pointHits_},
+                      {"measuredAt", measuredAt_},
+                      {"importance", importance_},
+                      {"meanSquare", meanSquareOfFaces_},
+                      {"bins", bins_},
+                      {"raysOfBins", raysOfBins_},
+                      {"faces", faces_},
+                      {"pointsPerFace", params_.pointsPerFace},
+                      {"frame", frame_},
+                      {"shadowRays", update.shadowRays}});
+
+    // Find the bin in which the budget ends
+    const std::vector<uint32_t> rays = stream.readAs<uint32_t>(raysOfBins_, PRIORITY_BINS);
+    const glm::uvec2 pixels = context.frame.pixels();
+    auto rest = uint32_t(std::floor(double(params_.raysPerPixel) * pixels.x * pixels.y));
+    uint32_t threshold = PRIORITY_BINS - 1;
+    for (; threshold > 0 && rays[threshold] <= rest; --threshold) rest -= rays[threshold];
+
+    const std::vector<Binding> costs{{"bins", bins_},
+                                     {"pointDirect", pointDirect_},
+                                     {"points", points},
+                                     {"threshold", threshold},
+                                     {"shadowRays", update.shadowRays}};
+    context.dispatch(costs_, points, {costs, {"rays", costsBefore_}});
+    prefixSum_.record(stream, costsBefore_, costsBefore_, blockSums_, points);
+    for (const Buffer* flags : {&oldFlags_, &newFlags_}) stream.fill(*flags, 0);
+    context.dispatch(
+        select_, points,
+        {costs, {"raysBefore", costsBefore_}, {"newPoints", newFlags_}, {"oldPoints", oldFlags_}, {"rest", rest}});
+    again_.count = compaction_.run(stream, oldFlags_, again_.points, words);
+    added_.count = compaction_.run(stream, newFlags_, added_.points, words);
+}
+
+void KeptFaces::measureAgain(const Update& update) {
+    const Selected& points = again_;
+    PassContext& context = update.context;
+    for (uint32_t first = 0; first < points.count; first += update.batch.size) {
+        const uint32_t count = std::min(update.batch.size, points.count - first);
+        context.dispatch(placeOld_, count,
+                         {context.scene,
+                          {"selected", points.points},
+                          {"pointHits", pointHits_},
+                          {"surfels", update.batch.surfels},
+                          {"first", first},
+                          {"count", count}});
+        update.batch.measure(context, update.sources, count, update.seed);
+        context.dispatch(storeOld_, count,
+                         {{"selected", points.points},
+                          {"direct", update.batch.direct},
+                          {"pointDirect", pointDirect_},
+                          {"first", first},
+                          {"count", count}});
+    }
+}
+
+void KeptFaces::lightNew(const Update& update) {
+    const Selected& points = added_;
+    if (points.count == 0) return;
+    PassContext& context = update.context;
+    grow(newLinks_, context, "links of new points", points.count * sizeof(gpu::FaceLink), 0);
+    grow(roundHits_, context, "hits of new points", points.count * sizeof(Hit), 0);
+    grow(roundFaces_, context, "faces of new points", points.count * sizeof(uint32_t), 0);
+    for (uint32_t first = 0; first < points.count; first += update.batch.size) {
+        const uint32_t count = std::min(update.batch.size, points.count - first);
+        context.dispatch(placeNew_, count,
+                         {context.scene,
+                          update.newFaces.slotHits(),
+                          {"selected", points.points},
+                          {"pointHits", pointHits_},
+                          {"pointDirect", pointDirect_},
+                          {"surfels", update.batch.surfels},
+                          {"rays", update.batch.rays},
+                          {"first", first},
+                          {"count", count},
+                          {"seed", update.seed + 0x51u}});
+        update.batch.measure(context, update.sources, count, update.seed);
+        context.dispatch(storeOld_, count,
+                         {{"selected", points.points},
+                          {"direct", update.batch.direct},
+                          {"pointDirect", pointDirect_},
+                          {"first", first},
+                          {"count", count}});
+        context.tracer.closestHit(context.stream, update.batch.rays, update.batch.hits, count);
+        context.dispatch(linkPoints_, count,
+                         {context.scene,
+                          update.voxels,
+                          update.light,
+                          update.newFaces.marks(),
+                          {"rays", update.batch.rays},
+                          {"hits", update.batch.hits},
+                          {"roundHits", roundHits_},
+                          {"hitFaces", roundFaces_},
+                          {"links", newLinks_},
+                          {"lost", update.lost},
+                          {"first", first},
+                          {"count", count},
+                          {"firstPoint", 0u}});
+    }
+    addFaces(update, {{&roundHits_, &roundFaces_, 0, points.count}}, false);
+    context.dispatch(storeNew_, points.count,
+                     {update.light,
+                      {"selected", points.points},
+                      {"newLinks", newLinks_},
+                      {"links", links_},
+                      {"measuredAt", measuredAt_},
+                      {"first", 0u},
+                      {"count", points.count},
+                      {"frame", frame_}});
+}
+
+void KeptFaces::passLight(const Update& update) {
+    PassContext& context = update.context;
+    const uint64_t bytes = std::max<uint64_t>(faces_, 1) * sizeof(glm::vec4);
+    for (Buffer* buffer : {&faceDirect_, &faceIrradiance_, &update.light.irradiance})
+        grow(*buffer, context, "irradiance of lit faces", bytes, 0);
+    const auto faces = [&](const Buffer& irradiance) {
+        return std::vector<Binding>{{"pointDirect", pointDirect_},
+                                    {"irradiance", irradiance},
+                                    {"faces", faces_},
+                                    {"pointsPerFace", params_.pointsPerFace}};
+    };
+    context.dispatch(gatherDirect_, faces_, {faces(faceDirect_)});
+    const Buffer* previous = &faceDirect_;
+    for (uint32_t bounce = 0; bounce < params_.bounces; ++bounce) {
+        const Buffer& next = (params_.bounces - bounce) % 2 == 1 ? update.light.irradiance : faceIrradiance_;
+        context.dispatch(gatherLinks_, faces_,
+                         {faces(next), {"links", links_}, {"direct", faceDirect_}, {"previous", *previous}});
+        previous = &next;
+    }
+    if (params_.bounces == 0) context.stream.copy(faceDirect_, update.light.irradiance, bytes);
+}
+
+}  // namespace voxray
