@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <span>
+#include <utility>
 
 #include "passes/common/compute/bit_words.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/final_gather/hit_faces/light_hit_faces/face_point_types.h"
 #include "passes/final_gather/hit_faces/light_hit_faces/kept/kept_types.h"
+#include "scene/panes.h"
 
 namespace voxray {
 namespace {
@@ -28,6 +29,12 @@ uint32_t shadowRaysOfPoint(const std::vector<LightSource>& sources, const SceneS
     for (const LightSource& source : shadowRaySources(sources, scene))
         rays += source.kind == LightSource::Punctual ? 1 : samples;
     return rays;
+}
+
+/// Whether a point may have other light than that of punctual lights that it sees, or light of these through panes.
+bool hasOtherLight(const std::vector<LightSource>& sources, const SceneState& scene) {
+    return dimsLight(scene) ||
+           std::ranges::any_of(sources, [](const LightSource& source) { return source.kind != LightSource::Punctual; });
 }
 
 }  // namespace
@@ -75,7 +82,7 @@ void KeptFaces::update(PassContext& context, const VoxelLevels& voxels, HitFaceL
                   0};
     update.shadowRays = shadowRaysOfPoint(update.sources, scene, batch.samples);
     ++frame_;
-    ageByLights(context);
+    ageByLights(update);
     addFaces(update, hits, true);
     countImportance(update, hits);
     again_.count = added_.count = 0;
@@ -88,31 +95,35 @@ void KeptFaces::update(PassContext& context, const VoxelLevels& voxels, HitFaceL
     context.report("points measured again", again_.count);
 }
 
-void KeptFaces::ageByLights(PassContext& context) {
+void KeptFaces::ageByLights(const Update& update) {
+    PassContext& context = update.context;
     const std::vector<gpu::GpuLight>& now = context.scene.uploadedLights;
     if (now.size() != lights_.size()) throw Error("light_hit_faces: the number of lights has changed");
-    std::vector<gpu::GpuLight> before, changed;
-    for (size_t i = 0; i < now.size(); ++i) {
-        if (std::memcmp(&now[i], &lights_[i], sizeof(gpu::GpuLight)) == 0) continue;
-        before.push_back(lights_[i]);
-        changed.push_back(now[i]);
-    }
-    lights_ = now;
+    std::vector<uint32_t> changed;
+    for (uint32_t i = 0; i < now.size(); ++i)
+        if (std::memcmp(&now[i], &lights_[i], sizeof(gpu::GpuLight)) != 0) changed.push_back(i);
+    const std::vector<gpu::GpuLight> before = std::exchange(lights_, now);
     const uint32_t points = faces_ * params_.pointsPerFace;
     if (changed.empty() || points == 0) return;
-    const uint64_t bytes = changed.size() * sizeof(gpu::GpuLight);
-    const Buffer lightsBefore(context.device, "changed lights before", bytes);
-    const Buffer lightsNow(context.device, "changed lights", bytes);
+    const uint64_t bytes = now.size() * sizeof(gpu::GpuLight);
+    const Buffer lightsBefore(context.device, "lights before", bytes);
+    const Buffer lightsNow(context.device, "lights now", bytes);
+    const Buffer changedLights(context.device, "changed lights", changed.size() * sizeof(uint32_t));
     context.stream.upload(lightsBefore, before);
-    context.stream.upload(lightsNow, changed);
+    context.stream.upload(lightsNow, now);
+    context.stream.upload(changedLights, changed);
     context.dispatch(agePoints_, points,
                      {context.scene,
                       {"lightsBefore", lightsBefore},
                       {"lightsNow", lightsNow},
+                      {"changedLights", changedLights},
                       {"pointHits", pointHits_},
                       {"pointDirect", pointDirect_},
                       {"points", points},
-                      {"lights", uint32_t(changed.size())}});
+                      {"lights", uint32_t(now.size())},
+                      {"changed", uint32_t(changed.size())},
+                      {"hasOtherLight", hasOtherLight(shadowRaySources(update.batch.sources, *context.frame.scene),
+                                                      *context.frame.scene)}});
     context.stream.finish();
 }
 

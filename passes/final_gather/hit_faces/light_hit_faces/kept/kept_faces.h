@@ -50,7 +50,8 @@ class KeptFaces {
         uint32_t count = 0;
     };
 
-    void ageByLights(PassContext& context);
+    /// Predicts the direct light of points by the lights that have changed, and how far off that may be.
+    void ageByLights(const Update& update);
     /// Numbers marked faces, which begin without light, and offers hits as points of the faces from `firstFace` on.
     void addFaces(const Update& update, const std::vector<FaceHits>& hits, bool offerToAll);
     void countImportance(const Update& update, const std::vector<FaceHits>& hits);
