@@ -6,9 +6,13 @@
 // Importance of faces is in units of 1 / IMPORTANCE_ONE reads.
 #define IMPORTANCE_ONE 1024.0
 
-// Priorities are binned by their logarithm. Bin 0 is no candidate. Updates that lower the error of this frame are in
-// the upper half, those that only exchange a point for another in the lower one.
-#define PRIORITY_BINS 2048u
+// Classes of updates, each before all of the classes below it, and bins of priorities in each, by their logarithm. Bin 0
+// is no candidate.
+#define CLASS_EXCHANGE 0u  // One point for another.
+#define CLASS_ERROR 1u     // What lowers the error of this frame.
+#define CLASS_UNLIT 2u     // Light for faces that have none and that gather rays hit, which go on as paths until then.
+#define BINS_PER_CLASS 1024u
+#define PRIORITY_BINS (3u * BINS_PER_CLASS)
 #define BINS_PER_OCTAVE 8.0
 
 #endif

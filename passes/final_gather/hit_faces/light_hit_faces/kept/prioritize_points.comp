@@ -31,6 +31,13 @@ float gainOfNew(DirectOfFace d) {
     return before * before - after * after + meanSquare.value / (n * (n + 1.0));
 }
 
+DirectOfFace withNew(DirectOfFace d) {
+    ++d.lit;
+    d.weight += 1.0;
+    d.weight2 += 1.0;
+    return d;
+}
+
 // With a point that is up to date in place of one that lights have changed.
 DirectOfFace measuredAgain(DirectOfFace d, float change) {
     const float w = pointWeight(d, change);
@@ -40,35 +47,38 @@ DirectOfFace measuredAgain(DirectOfFace d, float change) {
     return d;
 }
 
-uint binOf(float priority, bool lowersError) {
-    const float half_ = 0.5 * float(PRIORITY_BINS);
-    if (priority <= 0.0) return 0u;
-    return uint(clamp(0.5 * half_ + BINS_PER_OCTAVE * log2(priority), 1.0, half_ - 1.0)) + (lowersError ? uint(half_) : 0u);
+uint binOf(float priority, uint class_) {
+    const float middle = 0.5 * float(BINS_PER_CLASS);
+    const float bin = priority > 0.0 ? middle + BINS_PER_OCTAVE * log2(priority) : 1.0;
+    return class_ * BINS_PER_CLASS + uint(clamp(bin, 1.0, float(BINS_PER_CLASS - 1u)));
 }
 
 void main() {
     const uint face = linearIndex();
     if (face >= push.faces) return;
     const uint first = face * push.pointsPerFace;
-    const float reads = float(importance.data[face]) / IMPORTANCE_ONE;
-    const DirectOfFace d = directOfFace(first, push.pointsPerFace);
-    const float n = float(d.lit), error = d.lit > 0u ? meanSquareError(d) : 0.0;
+    const float reads = float(importance.data[face]) / IMPORTANCE_ONE, weight = reads * reads;
+    DirectOfFace d = directOfFace(first, push.pointsPerFace);  // With the updates of the points before.
     for (uint p = first; p < first + push.pointsPerFace; ++p) {
+        bins.data[p] = 0u;
+        if (reads == 0.0 || pointHits.data[p].face == NO_FACE) continue;
         const float change = pointDirect.data[p].w;
-        uint bin = 0u, rays = 0u;
-        if (reads > 0.0 && pointHits.data[p].face != NO_FACE) {
-            if (change < 0.0) {
-                rays = push.shadowRays + 1u;
-                bin = binOf(reads * reads * gainOfNew(d) / float(rays), true);
-            } else if (change > 0.0) {
-                rays = push.shadowRays;
-                bin = binOf(reads * reads * (error - meanSquareError(measuredAgain(d, change))) / float(rays), true);
-            } else if ((takenSlots.words[p >> 5] & 1u << (p & 31u)) != 0u) {
-                rays = push.shadowRays + 1u;
-                bin = binOf(reads * reads * float(push.frame - measuredAt.data[p]) / (n * n * float(rays)), false);
-            }
+        uint bin, rays = push.shadowRays + 1u;
+        if (change < 0.0) {
+            bin = binOf(weight * gainOfNew(d) / float(rays), d.lit == 0u && reads >= 1.0 ? CLASS_UNLIT : CLASS_ERROR);
+            d = withNew(d);
+        } else if (change > 0.0) {
+            rays = push.shadowRays;
+            const DirectOfFace after = measuredAgain(d, change);
+            bin = binOf(weight * (meanSquareError(d) - meanSquareError(after)) / float(rays), CLASS_ERROR);
+            d = after;
+        } else if ((takenSlots.words[p >> 5] & 1u << (p & 31u)) != 0u) {
+            const float n = float(d.lit), age = float(push.frame - measuredAt.data[p]);
+            bin = binOf(weight * age / (n * n * float(rays)), CLASS_EXCHANGE);
+        } else {
+            continue;
         }
         bins.data[p] = bin;
-        if (bin > 0u) atomicAdd(raysOfBins.data[bin], rays);
+        atomicAdd(raysOfBins.data[bin], rays);
     }
 }
