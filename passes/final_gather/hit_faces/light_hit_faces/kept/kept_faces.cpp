@@ -5,10 +5,8 @@
 #include <cstring>
 #include <utility>
 
-#include "passes/common/compute/bit_words.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/final_gather/hit_faces/light_hit_faces/face_point_types.h"
-#include "passes/final_gather/hit_faces/light_hit_faces/kept/kept_types.h"
 #include "scene/panes.h"
 
 namespace voxray {
@@ -46,10 +44,6 @@ KeptFaces::KeptFaces(ProgramOwner& owner, const Params& params)
       countReads_(owner, "count_reads.comp"),
       passImportance_(owner, "pass_importance.comp"),
       agePoints_(owner, "age_points.comp"),
-      meanSquare_(owner, "mean_square.comp"),
-      prioritize_(owner, "prioritize_points.comp"),
-      costs_(owner, "cost_at_threshold.comp"),
-      select_(owner, "select_points.comp"),
       placeOld_(owner, "place_kept_points.comp"),
       placeNew_(owner, "place_kept_points.comp", {{"NEW", "1"}}),
       storeOld_(owner, "store_points.comp"),
@@ -57,8 +51,7 @@ KeptFaces::KeptFaces(ProgramOwner& owner, const Params& params)
       linkPoints_(owner, "passes/final_gather/hit_faces/light_hit_faces/link_points.comp", {{"KEEP_ALL", "1"}}),
       gatherDirect_(owner, "gather_kept_links.comp", {{"DIRECT", "1"}}),
       gatherLinks_(owner, "gather_kept_links.comp"),
-      prefixSum_(owner, PrefixSum::Input::Uints),
-      compaction_(owner) {}
+      selection_(owner) {}
 
 void KeptFaces::clear(PassContext& context, const VoxelLevels& voxels, HitFaceLight& light) {
     const uint64_t allFaces = std::max<uint64_t>(uint64_t(voxels.voxelCount) * kFaces, 1);
@@ -85,14 +78,13 @@ void KeptFaces::update(PassContext& context, const VoxelLevels& voxels, HitFaceL
     ageByLights(update);
     addFaces(update, hits, true);
     countImportance(update, hits);
-    again_.count = added_.count = 0;
-    if (faces_ > 0) select(update);
+    select(update);
     measureAgain(update);
     lightNew(update);
     passLight(update);
     context.report("lit faces", faces_);
-    context.report("points", again_.count + added_.count);
-    context.report("points measured again", again_.count);
+    context.report("points", selection_.again().count + selection_.added().count);
+    context.report("points measured again", selection_.again().count);
 }
 
 void KeptFaces::ageByLights(const Update& update) {
@@ -180,63 +172,19 @@ void KeptFaces::countImportance(const Update& update, const std::vector<FaceHits
 }
 
 void KeptFaces::select(const Update& update) {
-    PassContext& context = update.context;
-    CommandStream& stream = context.stream;
-    const uint32_t points = faces_ * params_.pointsPerFace;
-    const auto words = uint32_t(bitWords(points));
-    const auto make = [&](Buffer& buffer, const char* name, uint64_t bytes) { grow(buffer, context, name, bytes, 0); };
-    make(meanSquareOfFaces_, "mean square of faces", sizeof(float));
-    make(bins_, "bins of points", points * sizeof(uint32_t));
-    make(raysOfBins_, "rays of bins", PRIORITY_BINS * sizeof(uint32_t));
-    make(costsBefore_, "rays of points", points * sizeof(uint32_t));
-    make(blockSums_, "prefix sum blocks", PrefixSum::scratchBytes(points));
-    make(oldFlags_, "points measured again", words * sizeof(uint32_t));
-    make(newFlags_, "new points", words * sizeof(uint32_t));
-    make(again_.points, "points measured again", points * sizeof(uint32_t));
-    make(added_.points, "new points", points * sizeof(uint32_t));
-
-    // Bin the updates by what they bring
-    context.dispatch(meanSquare_, 1,
-                     {{"irradiance", update.light.irradiance}, {"meanSquare", meanSquareOfFaces_}, {"faces", faces_}});
-    stream.fill(raysOfBins_, 0);
-    context.dispatch(prioritize_, faces_,
-                     {update.newFaces.takenSlots(),
-                      {"pointDirect", pointDirect_},
-                      {"pointHits", pointHits_},
-                      {"measuredAt", measuredAt_},
-                      {"importance", importance_},
-                      {"meanSquare", meanSquareOfFaces_},
-                      {"bins", bins_},
-                      {"raysOfBins", raysOfBins_},
-                      {"faces", faces_},
-                      {"pointsPerFace", params_.pointsPerFace},
-                      {"frame", frame_},
-                      {"shadowRays", update.shadowRays}});
-
-    // Find the bin in which the budget ends
-    const std::vector<uint32_t> rays = stream.readAs<uint32_t>(raysOfBins_, PRIORITY_BINS);
-    const glm::uvec2 pixels = context.frame.pixels();
-    auto rest = uint32_t(std::floor(double(params_.raysPerPixel) * pixels.x * pixels.y));
-    uint32_t threshold = PRIORITY_BINS - 1;
-    for (; threshold > 0 && rays[threshold] <= rest; --threshold) rest -= rays[threshold];
-
-    const std::vector<Binding> costs{{"bins", bins_},
-                                     {"pointDirect", pointDirect_},
-                                     {"points", points},
-                                     {"threshold", threshold},
-                                     {"shadowRays", update.shadowRays}};
-    context.dispatch(costs_, points, {costs, {"rays", costsBefore_}});
-    prefixSum_.record(stream, costsBefore_, costsBefore_, blockSums_, points);
-    for (const Buffer* flags : {&oldFlags_, &newFlags_}) stream.fill(*flags, 0);
-    context.dispatch(
-        select_, points,
-        {costs, {"raysBefore", costsBefore_}, {"newPoints", newFlags_}, {"oldPoints", oldFlags_}, {"rest", rest}});
-    again_.count = compaction_.run(stream, oldFlags_, again_.points, words);
-    added_.count = compaction_.run(stream, newFlags_, added_.points, words);
+    if (faces_ == 0) return selection_.selectNone();
+    const std::vector<Binding> kept{update.newFaces.takenSlots(), {"pointDirect", pointDirect_},
+                                    {"pointHits", pointHits_},    {"measuredAt", measuredAt_},
+                                    {"importance", importance_},  {"irradiance", update.light.irradiance}};
+    PointSelection::Candidates candidates{{}, faces_, params_.pointsPerFace, frame_, update.shadowRays};
+    for (const Binding& binding : kept) candidates.kept.push_back(ifUsed(binding));
+    const glm::uvec2 pixels = update.context.frame.pixels();
+    selection_.select(update.context, candidates,
+                      uint32_t(std::floor(double(params_.raysPerPixel) * pixels.x * pixels.y)));
 }
 
 void KeptFaces::measureAgain(const Update& update) {
-    const Selected& points = again_;
+    const SelectedPoints& points = selection_.again();
     PassContext& context = update.context;
     for (uint32_t first = 0; first < points.count; first += update.batch.size) {
         const uint32_t count = std::min(update.batch.size, points.count - first);
@@ -258,7 +206,7 @@ void KeptFaces::measureAgain(const Update& update) {
 }
 
 void KeptFaces::lightNew(const Update& update) {
-    const Selected& points = added_;
+    const SelectedPoints& points = selection_.added();
     if (points.count == 0) return;
     PassContext& context = update.context;
     grow(newLinks_, context, "links of new points", points.count * sizeof(gpu::FaceLink), 0);

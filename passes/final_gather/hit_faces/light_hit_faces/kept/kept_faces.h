@@ -2,9 +2,8 @@
 
 #include <vector>
 
-#include "passes/common/compute/compaction.h"
-#include "passes/common/compute/prefix_sum.h"
 #include "passes/common/voxels/voxels.h"
+#include "passes/final_gather/hit_faces/light_hit_faces/kept/point_selection.h"
 #include "passes/final_gather/hit_faces/light_hit_faces/new_faces.h"
 #include "passes/final_gather/hit_faces/light_hit_faces/point_batch.h"
 #include "shaders/scene/scene_types.h"
@@ -44,12 +43,6 @@ class KeptFaces {
         std::vector<LightSource> sources;  ///< That shine.
         uint32_t shadowRays;               ///< Of a point.
     };
-    /// Points that are updated, by number, in ascending order.
-    struct Selected {
-        Buffer points;
-        uint32_t count = 0;
-    };
-
     /// Predicts the direct light of points by the lights that have changed, and how far off that may be.
     void ageByLights(const Update& update);
     /// Numbers marked faces, which begin without light, and offers hits as points of the faces from `firstFace` on.
@@ -62,20 +55,16 @@ class KeptFaces {
     void passLight(const Update& update);
 
     const Params params_;
-    Kernel clearPoints_, offerPoints_, countReads_, passImportance_, agePoints_, meanSquare_, prioritize_, costs_,
-        select_;
+    Kernel clearPoints_, offerPoints_, countReads_, passImportance_, agePoints_;
     Kernel placeOld_, placeNew_, storeOld_, storeNew_, linkPoints_, gatherDirect_, gatherLinks_;
-    PrefixSum prefixSum_;
-    Compaction compaction_;
-    Selected again_, added_;  ///< Points that measure direct light again; new points.
-    uint32_t faces_ = 0;      ///< That have a number.
+    PointSelection selection_;
+    uint32_t faces_ = 0;  ///< That have a number.
     uint32_t frame_ = 0;
     std::vector<gpu::GpuLight> lights_;                    ///< Of the frame before.
     Buffer pointHits_, pointDirect_, links_, measuredAt_;  ///< By point: `pointsPerFace` of each face.
     Buffer importance_, importanceBefore_;                 ///< By face.
     Buffer faceDirect_, faceIrradiance_;                   ///< By face; the second after every other bounce.
-    Buffer meanSquareOfFaces_, bins_, raysOfBins_, costsBefore_, blockSums_, oldFlags_, newFlags_;
-    Buffer newLinks_, roundHits_, roundFaces_;  ///< Of new points.
+    Buffer newLinks_, roundHits_, roundFaces_;             ///< Of new points.
 };
 
 }  // namespace voxray
