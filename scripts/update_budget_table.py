@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 """Prints the tables of docs/hit-faces.md on budgets from results of configs/bench/update_budget.yaml.
 
-update_budget_table.py DIR...: for each scene and method the nRMSE of indirect light before the light changed, its mean over the
-frames 0 to 3, and in the first, second, fourth, eighth and sixteenth frame after. With --over-frames, of a light that moves in
-each frame: means over all frames of nRMSE and relMSE, the mean ratio, and flicker and bias over frames.
+update_budget_table.py DIR...: for each scene and method the nRMSE of indirect light: its mean over the frames before the light
+changed, and in the first, fourth and eighth frame of the changed light.
+update_budget_table.py --over-frames DIR...: of a light that moves in each frame, means over all frames of nRMSE and relMSE, the
+mean ratio, and bias and flicker over frames.
 """
 import os
 import sys
@@ -13,7 +14,7 @@ sys.path.append(os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", 
 from report.rows import markdown_table, read_rows  # noqa: E402
 
 CHANGE = 4  # The first frame of the changed light.
-AFTER = (1, 2, 4, 8, 16)  # Frames since.
+AFTER = (1, 4, 8)  # Frames of the changed light, the first is 1.
 
 
 def mean(values):
@@ -21,40 +22,43 @@ def mean(values):
     return sum(values) / len(values)
 
 
-def after_a_change(own, _row):
-    errors = {int(frame["frame"]): float(frame["indirect_nrmse"]) for frame in own}
-    return [mean(errors[frame] for frame in range(CHANGE)), *(errors[CHANGE + n - 1] for n in AFTER)]
-
-
-def over_frames(own, row):
-    return [mean(float(frame[f"indirect_{score}"]) for frame in own) for score in ("nrmse", "relmse", "mean_ratio")] + [
-        float(row[f"indirect_temporal_{part}"]) for part in ("bias", "flicker")]
-
-
-def table(folders, numbers_of):
-    rows = []
+def finished(folders):
+    """Rows of results.csv, each with its frames."""
     for folder in folders:
         frames = {}
         for frame in read_rows(folder, "frames.csv"):
             frames.setdefault(frame["variant"], []).append(frame)
         for row in read_rows(folder, "results.csv"):
-            numbers = numbers_of(frames[row["variant"]], row) if row["status"] == "ok" else []
-            rows.append([f"`{row['scene']}`", row["indirect"], *(f"{number:.3f}" for number in numbers)])
-    return rows
+            if row["status"] == "ok":
+                yield row, frames[row["variant"]]
+
+
+def after_a_change(folders):
+    cells = {}
+    for row, own in finished(folders):
+        errors = {int(frame["frame"]): float(frame["indirect_nrmse"]) for frame in own}
+        shown = [mean(errors[frame] for frame in range(CHANGE)), *(errors[CHANGE + n - 1] for n in AFTER)]
+        cells.setdefault(row["scene"], {})[row["indirect"]] = " / ".join(f"{error:.3f}" for error in shown)
+    methods = list(dict.fromkeys(method for of in cells.values() for method in of))
+    return ["scene", *methods], [[f"`{scene}`", *(of.get(method, "-") for method in methods)] for scene, of in cells.items()]
+
+
+def over_frames(folders):
+    rows = []
+    for row, own in finished(folders):
+        numbers = [mean(float(frame[f"indirect_{score}"]) for frame in own) for score in ("nrmse", "relmse", "mean_ratio")]
+        numbers += [float(row[f"indirect_temporal_{part}"]) for part in ("bias", "flicker")]
+        rows.append([f"`{row['scene']}`", row["indirect"], *(f"{number:.3f}" for number in numbers)])
+    return ["scene", "method", "nRMSE", "relMSE", "mean ratio", "bias", "flicker"], rows
 
 
 def main():
-    folders = [word for word in sys.argv[1:] if not word.startswith("-")]
-    options = set(sys.argv[1:]) - set(folders)
-    if not folders or options - {"--over-frames"}:
+    words = sys.argv[1:]
+    table = over_frames if words[:1] == ["--over-frames"] else after_a_change
+    folders = words[1:] if table is over_frames else words
+    if not folders or any(folder.startswith("-") for folder in folders):
         raise SystemExit(__doc__)
-    if options:
-        headings = ["nRMSE", "relMSE", "mean ratio", "bias", "flicker"]
-        rows = table(folders, over_frames)
-    else:
-        headings = ["before", *(f"{n}{'st' if n == 1 else 'nd' if n == 2 else 'th'} frame" for n in AFTER)]
-        rows = table(folders, after_a_change)
-    print("\n".join(markdown_table(["scene", "method", *headings], rows)))
+    print("\n".join(markdown_table(*table(folders))))
 
 
 if __name__ == "__main__":

@@ -57,8 +57,7 @@ class LightHitFaces final : public Pass {
                 field("update_budget", &Params::updateBudget,
                       "Most rays in a frame to light faces, for each pixel of the image: light is kept from frame to "
                       "frame, and what matters most is updated. 0: no limit, and nothing is kept.",
-                      0.0f, 64.0f)
-                    .lessNoise()};
+                      0.0f, 64.0f)};
         }
     };
 
@@ -118,10 +117,14 @@ void LightHitFaces::plan(PassPlan& plan) {
     // Points are different hits, so that no round has more of them than there are gather rays
     batch_.plan(plan, requireLightSources(*plan.frame.scene, kName), params_.lightSamples, gatherRays);
     plan.buffer(lost_, "number of lost rays", sizeof(uint32_t));
-    const double faces = std::min(double(gatherRays), 2 * plan[voxels_].estimatedCount);
-    const double points = std::min(double(gatherRays), params_.pointsPerFace * faces);
-    plan.estimate(plan[voxels_].estimatedCount * kFaces * sizeof(uint32_t) +
-                  points * (sizeof(glm::vec4) + sizeof(gpu::FaceLink) + sizeof(Hit)) + faces * 3 * sizeof(glm::vec4));
+    const double hitFaces = 2 * plan[voxels_].estimatedCount, rays = double(gatherRays);
+    plan.estimate(plan[voxels_].estimatedCount * kFaces * sizeof(uint32_t));
+    if (kept_) {
+        plan.estimate(hitFaces * (KeptFaces::kBytesPerFace + params_.pointsPerFace * KeptFaces::kBytesPerPoint));
+        return;
+    }
+    const double faces = std::min(rays, hitFaces), points = std::min(rays, params_.pointsPerFace * faces);
+    plan.estimate(points * (sizeof(glm::vec4) + sizeof(gpu::FaceLink) + sizeof(Hit)) + faces * 3 * sizeof(glm::vec4));
 }
 
 void LightHitFaces::record(PassContext& context) {

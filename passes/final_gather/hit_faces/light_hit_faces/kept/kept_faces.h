@@ -21,6 +21,9 @@ class KeptFaces {
         uint32_t pointsPerFace, bounces;
         float raysPerPixel;
     };
+    /// Memory, without what buffers have beyond that to grow: of a point its hit, light and link, and what selects it;
+    /// of a face its importance and irradiance.
+    static constexpr double kBytesPerPoint = 92, kBytesPerFace = 56;
     KeptFaces(ProgramOwner& owner, const Params& params);
 
     /// A frame's update. @param hits of gather rays, by batch; their faces are marked where they have no number.
