@@ -20,7 +20,7 @@ std::string keptGraph(const std::string& budget, const std::string& more = "", c
 const PassSample& lighting(const Chain& chain) {
     for (const PassSample& sample : chain.frameSamples)
         for (const PassContext::Value& value : sample.reported)
-            if (value.name == "lit faces") return sample;
+            if (value.name == "kept faces") return sample;
     throw Error("light_hit_faces did not run");
 }
 

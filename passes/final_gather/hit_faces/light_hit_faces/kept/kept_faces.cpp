@@ -82,7 +82,7 @@ void KeptFaces::update(PassContext& context, const VoxelLevels& voxels, HitFaceL
     measureAgain(update);
     lightNew(update);
     passLight(update);
-    context.report("lit faces", faces_);
+    context.report("kept faces", faces_);
     context.report("points", selection_.again().count + selection_.added().count);
     context.report("points measured again", selection_.again().count);
 }
