@@ -10,6 +10,7 @@ import pandas as pd
 from report import images, table, text
 from report.charts import frame_chart
 from report.results import LIGHTS, Results, folder_of, masks_of, number, section
+from report.setting import comparisons
 from report.style import Style
 from report.table import Cell, Table
 
@@ -79,18 +80,22 @@ def regions(results: Results, lights: list[str], anchors: dict[str, str],
 
 def sequence(results: Results, shown: Results, lights: list[str], styles: dict[str, Style],
              anchors: dict[str, str]) -> tuple[Table, list[dict]] | None:
-    """A table of each variant's temporal error, and charts of the errors over frames of those that are `shown`; None where
-    one frame alone was compared."""
+    """A table of each variant's temporal error, and charts of the errors over frames of those that are `shown`, of each scene
+    its own; None where one frame alone was compared."""
     if results.frames.empty or not results.temporal_metrics:
         return None
     columns = table.score_columns(results, lights, results.temporal_metrics)
     charts = []
+    scenes = comparisons(shown)
     for light in lights:
         for metric in (*results.metrics[:2], results.temporal_metrics[0]):
             key = LIGHTS[light] + metric.key
-            rows = shown.frames[shown.frames[key].notna() & shown.frames["variant"].isin(styles)]
-            if rows["frame"].nunique() > 1:
-                charts.append(frame_chart(rows, key, f"{metric.label}, {light} light", results, light))
+            for scene, compared in scenes:
+                drawn = [variant for variant in compared.variants["variant"] if variant in styles]
+                rows = shown.frames[shown.frames[key].notna() & shown.frames["variant"].isin(drawn)]
+                if rows["frame"].nunique() > 1:
+                    where = f", {scene}" if len(scenes) > 1 else ""
+                    charts.append(frame_chart(rows, key, f"{metric.label}, {light} light{where}", results, light))
     return table.results_table(results, "Temporal error", columns, anchors, has_baselines=False), charts
 
 

@@ -203,6 +203,22 @@ class PartOfARun(ReportTest):
         self.assertEqual(lines["lines"], [[0, [0, 1, 2], [0.2, 0.22, 0.24]], [1, [0, 1, 2], [0.4, 0.44, 0.48]]])
         self.assertEqual(shown.count("div", "plot"), 6 + 1 + 3)
 
+    def test_each_scene_has_its_own_charts_over_frames(self):
+        rows = [made_up.variant(f"{scene}-{name}", 10, error) for scene in ("hall", "yard") for name, error in (("a", 0.2), ("b", 0.4))]
+        for row in rows:
+            row["scene"], row["gather"] = row["variant"].split("-")
+        frames = made_up.with_sequence(rows, 3)
+        made_up.write_results(self.directory, rows, made_up.manifest(["scene", "gather"]), indirect=False)
+        made_up.write_csv(self.directory / "frames.csv", list(frames[1]), frames)
+        self.assertEqual(self.run_program()[0], 0)
+        drawn = [chart for chart in numbers_of((self.directory / "report.html").read_text(encoding="utf-8"))["charts"]
+                 if chart.get("xLabel") == "measured frame"]
+        labels = [chart["yLabel"] for chart in drawn]
+        self.assertEqual(labels[:2], ["nRMSE, total light, hall", "nRMSE, total light, yard"])
+        self.assertEqual([line[0] for line in drawn[0]["lines"]], [0, 1])
+        self.assertEqual([line[0] for line in drawn[1]["lines"]], [2, 3])
+        self.assertEqual(len(labels), 6)
+
     def test_the_scene_as_the_config_has_it_and_which_frames_are_compared_are_in_the_header(self):
         rows, run = [made_up.variant("a", 10, 0.2)], made_up.manifest(["scene.camera.move", "voxelize.resolution"])
         for row in rows:

@@ -11,7 +11,7 @@ struct HitFaceLight : Resource {
     std::string indexedBy() const override { return "voxels"; }
 
     LargeBuffer numbers;  ///< uint by face, 6 a voxel: number among the lit faces, or NO_FACE.
-    Buffer irradiance;    ///< vec4 by number, W/m², direct and indirect; may have room for more.
+    Buffer irradiance;  ///< vec4 by number, W/m², direct and indirect; w: 1 where lit, else 0. May have room for more.
 
     /// For shaders that include hit_face_light.glsl.
     std::vector<Binding> bindings() const {

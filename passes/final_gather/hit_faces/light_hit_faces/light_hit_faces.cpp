@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -9,43 +10,33 @@
 #include "passes/common/voxels/voxels.h"
 #include "passes/final_gather/hit_faces/hit_face_light.h"
 #include "passes/final_gather/hit_faces/light_hit_faces/face_point_types.h"
+#include "passes/final_gather/hit_faces/light_hit_faces/kept/kept_faces.h"
 #include "passes/final_gather/hit_faces/light_hit_faces/new_faces.h"
-#include "passes/surfels/surfel_direct_light.h"
+#include "passes/final_gather/hit_faces/light_hit_faces/point_batch.h"
 
 namespace voxray {
 namespace {
-
-constexpr uint32_t kMaxBatchPoints = 1u << 18;  // Bounds the memory of a batch of points to 42 MiB.
 
 /// Factor of the probability that a link to a face without light is kept, from the second round on: what such faces add
 /// is a small part of the light, and each round takes time whatever its size.
 constexpr float kSurvival = 0.5f;
 
-/// Makes a buffer of at least `bytes` that keeps its first `kept` bytes. Waits for the device.
-void grow(Buffer& buffer, PassContext& context, const char* name, uint64_t bytes, uint64_t kept) {
-    if (buffer && buffer.bytes() >= bytes) return;
-    context.stream.finish();
-    if (kept == 0) buffer = {};
-    Buffer larger(context.device, name, kept > 0 ? bytes + bytes / 2 : bytes);
-    if (kept > 0) context.stream.copy(buffer, larger, kept);
-    context.stream.finish();
-    buffer = std::move(larger);
-}
-
 }  // namespace
 
-/// Light of the voxel faces that gather rays hit, new in each frame: rounds of rays find the faces that light comes
-/// from, then it is passed along these rays (docs/hit-faces.md). Source: Magalhães 2020, section 6.1 (light on demand);
-/// Keller et al. 2014 (path space filtering); Neumann 1995 (Monte Carlo radiosity).
+/// Light of the voxel faces that gather rays hit: rounds of rays find the faces that light comes from, then it is
+/// passed along these rays (docs/hit-faces.md). It is new in each frame, or kept and updated within a budget
+/// (KeptFaces). Source: Magalhães 2020, section 6.1 (light on demand); Keller et al. 2014 (path space filtering);
+/// Neumann 1995 (Monte Carlo radiosity).
 class LightHitFaces final : public Pass {
  public:
     static constexpr const char* kName = "light_hit_faces";
     static constexpr const char* kHelp =
-        "Lights the voxel faces that gather rays hit, anew in each frame. "
+        "Lights the voxel faces that gather rays hit, anew in each frame or within a budget. "
         "Each face has up to points_per_face of the rays' hits as its points. Shadow rays measure their direct light, "
         "and a ray from each links it to another face, whose light it reflects. Faces that only these rays hit are lit "
         "likewise, and so on, so that no bounce is lost; then light is passed along the links, a bounce at a time. "
         "gather_rays reads it with `source: hit_faces`. Rays follow the image, not the scene. "
+        "With an update_budget light is kept while surfaces stand still, and rays go where they lower the error most. "
         "Biased by: voxel size (a face has one value). Noisy by: points_per_face, light_samples. "
         "Leaves unlit: all that no ray hits. "
         "Source: Magalhães 2020, section 6.1 (light on demand); Keller et al. 2014 (path space filtering).";
@@ -53,6 +44,7 @@ class LightHitFaces final : public Pass {
         uint32_t pointsPerFace = 4;
         uint32_t bounces = 8;
         uint32_t lightSamples = 1;
+        float updateBudget = 0;
         static constexpr auto schema() {
             return std::tuple{
                 field("points_per_face", &Params::pointsPerFace,
@@ -61,11 +53,18 @@ class LightHitFaces final : public Pass {
                 field("bounces", &Params::bounces, "Bounces of light at the faces; the gather adds one.", 0u, 32u),
                 field("light_samples", &Params::lightSamples,
                       "Shadow rays from each point to the emissive surfaces, and to the environment.", 1u, 256u)
-                    .lessNoise()};
+                    .lessNoise(),
+                field("update_budget", &Params::updateBudget,
+                      "Most rays in a frame to light faces, for each pixel of the image: light is kept from frame to "
+                      "frame, and what matters most is updated. 0: no limit, and nothing is kept.",
+                      0.0f, 64.0f)};
         }
     };
 
-    explicit LightHitFaces(const Params& params) : params_(params) {}
+    explicit LightHitFaces(const Params& params) : params_(params) {
+        if (params.updateBudget > 0)
+            kept_.emplace(*this, KeptFaces::Params{params.pointsPerFace, params.bounces, params.updateBudget});
+    }
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
 
@@ -77,6 +76,8 @@ class LightHitFaces final : public Pass {
     };
     /// Marks the faces that gather rays hit. @return the hits.
     std::vector<FaceHits> markGatherHits(PassContext& context);
+    /// Lights all faces anew, within no budget.
+    void lightAll(PassContext& context, std::vector<FaceHits> hits);
     /// Measures direct light at the points of a round, and links them to others.
     void lightPoints(PassContext& context, const Round& round, uint32_t seed);
     /// Passes light along the links of the first `linked` of all points.
@@ -94,19 +95,16 @@ class LightHitFaces final : public Pass {
     Kernel averageDirect_{*this, "gather_links.comp", {{"DIRECT", "1"}}};
     Kernel gatherLinks_{*this, "gather_links.comp"};
     NewFaces newFaces_{*this};
-    SurfelDirectLight directLight_{*this};
-    std::vector<LightSource> sources_;
-    uint32_t batchPoints_ = 0;
-    std::vector<Buffer> gatherFaces_;                ///< Faces of the gather rays, by batch.
-    Buffer surfels_, rays_, rayHits_, batchDirect_;  ///< Of a batch of points.
-    Buffer lost_;                                    ///< Rays that hit where no voxel is.
-    Buffer roundHits_, roundFaces_;                  ///< Of the rays of a round's points.
-    Buffer pointDirect_, links_, firstPoints_;       ///< Of all points; of all faces.
-    Buffer faceDirect_, faceIrradiance_;             ///< Of all faces; the second after every other bounce.
+    PointBatch batch_{*this};
+    std::optional<KeptFaces> kept_;
+    std::vector<Buffer> gatherFaces_;           ///< Faces of the gather rays, by batch.
+    Buffer lost_;                               ///< Rays that hit where no voxel is.
+    Buffer roundHits_, roundFaces_;             ///< Of the rays of a round's points.
+    Buffer pointDirect_, links_, firstPoints_;  ///< Of all points; of all faces.
+    Buffer faceDirect_, faceIrradiance_;        ///< Of all faces; the second after every other bounce.
 };
 
 void LightHitFaces::plan(PassPlan& plan) {
-    sources_ = requireLightSources(*plan.frame.scene, kName);
     plan[light_].lightBounces = params_.bounces;
     const GatherHits& hits = plan[hits_];
     gatherFaces_ = std::vector<Buffer>(hits.batches.size());
@@ -117,31 +115,39 @@ void LightHitFaces::plan(PassPlan& plan) {
         gatherRays += rays;
     }
     // Points are different hits, so that no round has more of them than there are gather rays
-    batchPoints_ = uint32_t(std::min<uint64_t>(gatherRays, kMaxBatchPoints));
-    plan.buffer(surfels_, "points of faces", batchPoints_ * sizeof(gpu::Surfel));
-    plan.buffer(rays_, "rays of points", batchPoints_ * sizeof(Ray));
-    plan.buffer(rayHits_, "hits of points' rays", batchPoints_ * sizeof(Hit));
-    plan.buffer(batchDirect_, "direct irradiance of a batch of points", batchPoints_ * sizeof(glm::vec4));
+    batch_.plan(plan, requireLightSources(*plan.frame.scene, kName), params_.lightSamples, gatherRays);
     plan.buffer(lost_, "number of lost rays", sizeof(uint32_t));
-    directLight_.plan(plan, batchPoints_);
-    const double faces = std::min(double(gatherRays), 2 * plan[voxels_].estimatedCount);
-    const double points = std::min(double(gatherRays), params_.pointsPerFace * faces);
-    plan.estimate(plan[voxels_].estimatedCount * kFaces * sizeof(uint32_t) +
-                  points * (sizeof(glm::vec4) + sizeof(gpu::FaceLink) + sizeof(Hit)) + faces * 3 * sizeof(glm::vec4));
+    const double hitFaces = 2 * plan[voxels_].estimatedCount, rays = double(gatherRays);
+    plan.estimate(plan[voxels_].estimatedCount * kFaces * sizeof(uint32_t));
+    if (kept_) {
+        plan.estimate(hitFaces * (KeptFaces::kBytesPerFace + params_.pointsPerFace * KeptFaces::kBytesPerPoint));
+        return;
+    }
+    const double faces = std::min(rays, hitFaces), points = std::min(rays, params_.pointsPerFace * faces);
+    plan.estimate(points * (sizeof(glm::vec4) + sizeof(gpu::FaceLink) + sizeof(Hit)) + faces * 3 * sizeof(glm::vec4));
 }
 
 void LightHitFaces::record(PassContext& context) {
-    CommandStream& stream = context.stream;
+    HitFaceLight& light = context[light_];
+    context.stream.fill(lost_, 0);
+    newFaces_.begin(context, context[voxels_].voxelCount);
+    if (kept_) {
+        if (context.changed(voxels_)) kept_->clear(context, context[voxels_], light);
+        kept_->update(context, context[voxels_], light, newFaces_, batch_, markGatherHits(context), lost_);
+    } else {
+        const uint64_t allFaces = std::max<uint64_t>(uint64_t(context[voxels_].voxelCount) * kFaces, 1);
+        ensureSize(light.numbers, context.device, "numbers of lit faces", allFaces * sizeof(uint32_t));
+        context.stream.fill(light.numbers, NO_FACE);
+        lightAll(context, markGatherHits(context));
+    }
+    context.report("rays that hit no voxel", context.stream.readAs<uint32_t>(lost_, 1)[0]);
+}
+
+void LightHitFaces::lightAll(PassContext& context, std::vector<FaceHits> hits) {
     HitFaceLight& light = context[light_];
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
-    const uint64_t allFaces = std::max<uint64_t>(uint64_t(context[voxels_].voxelCount) * kFaces, 1);
-    ensureSize(light.numbers, context.device, "numbers of lit faces", allFaces * sizeof(uint32_t));
-    stream.fill(light.numbers, 0xffffffffu);
-    stream.fill(lost_, 0);
-    newFaces_.begin(context, context[voxels_].voxelCount);
 
     // Each round lights the faces that no round before it has hit
-    std::vector<FaceHits> hits = markGatherHits(context);
     uint32_t faces = 0, points = 0, linked = 0;
     for (uint32_t bounce = 0; bounce <= params_.bounces; ++bounce) {
         Round round{.firstFace = faces, .firstPoint = points};
@@ -161,7 +167,6 @@ void LightHitFaces::record(PassContext& context) {
     passLight(context, faces, points, linked);
     context.report("lit faces", faces);
     context.report("points", points);
-    context.report("rays that hit no voxel", stream.readAs<uint32_t>(lost_, 1)[0]);
 }
 
 std::vector<FaceHits> LightHitFaces::markGatherHits(PassContext& context) {
@@ -174,6 +179,7 @@ std::vector<FaceHits> LightHitFaces::markGatherHits(PassContext& context) {
                          {context.scene,
                           context[voxels_],
                           context[gbuffer_],
+                          context[light_],
                           newFaces_.marks(),
                           {"hits", hits.batches[b]},
                           {"hitFaces", gatherFaces_[b]},
@@ -196,13 +202,13 @@ void LightHitFaces::lightPoints(PassContext& context, const Round& round, uint32
          round.firstFace * sizeof(uint32_t));
     grow(roundHits_, context, "hits of a round", round.points * sizeof(Hit), 0);
     grow(roundFaces_, context, "faces of a round", round.points * sizeof(uint32_t), 0);
-    for (uint32_t first = 0; first < round.points; first += batchPoints_) {
-        const uint32_t count = std::min(batchPoints_, round.points - first);
+    for (uint32_t first = 0; first < round.points; first += batch_.size) {
+        const uint32_t count = std::min(batch_.size, round.points - first);
         context.dispatch(placePoints_, count,
                          {context.scene,
                           newFaces_.points(),
-                          {"surfels", surfels_},
-                          {"rays", rays_},
+                          {"surfels", batch_.surfels},
+                          {"rays", batch_.rays},
                           {"firstPoints", firstPoints_},
                           {"first", first},
                           {"count", count},
@@ -210,18 +216,18 @@ void LightHitFaces::lightPoints(PassContext& context, const Round& round, uint32
                           {"firstFace", round.firstFace},
                           {"slotsPerFace", round.slotsPerFace},
                           {"seed", seed + 0x51u}});
-        directLight_.measure(context, sources_, surfels_, count, params_.lightSamples, seed, batchDirect_);
-        stream.copy(batchDirect_, pointDirect_, count * sizeof(glm::vec4), 0,
+        batch_.measure(context, count, seed);
+        stream.copy(batch_.direct, pointDirect_, count * sizeof(glm::vec4), 0,
                     (uint64_t(round.firstPoint) + first) * sizeof(glm::vec4));
         if (!round.hasLinks) continue;
-        context.tracer.closestHit(stream, rays_, rayHits_, count);
+        context.tracer.closestHit(stream, batch_.rays, batch_.hits, count);
         context.dispatch(linkPoints_, count,
                          {context.scene,
                           context[voxels_],
                           context[light_],
                           newFaces_.marks(),
-                          {"rays", rays_},
-                          {"hits", rayHits_},
+                          {"rays", batch_.rays},
+                          {"hits", batch_.hits},
                           {"roundHits", roundHits_},
                           {"hitFaces", roundFaces_},
                           {"links", links_},

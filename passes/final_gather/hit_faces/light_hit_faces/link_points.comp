@@ -1,5 +1,5 @@
 // Links each point to the face that its ray hits. A face that is not lit yet is marked for the next round, if Russian
-// roulette by albedo and by `survival` spares the link.
+// roulette by albedo and by `survival` spares the link; with KEEP_ALL each link is kept.
 #include "passes/final_gather/hit_faces/light_hit_faces/face_point_types.h"
 #include "passes/final_gather/hit_faces/light_hit_faces/mark_face.glsl"
 #include "passes/surfels/surfel_at_hit.glsl"
@@ -17,8 +17,10 @@ layout(push_constant) uniform Push {
     uint first;  // Of the batch among the round's points.
     uint count;
     uint firstPoint;  // Of the round.
+#ifndef KEEP_ALL
     uint seed;
     float survival;
+#endif
 } push;
 
 void main() {
@@ -34,6 +36,9 @@ void main() {
         if (link.face == NO_FACE) {
             atomicAdd(lost.value, 1u);
         } else if (faceNumber(link.face) == NO_FACE) {
+#ifdef KEEP_ALL
+            markFace(link.face);
+#else
             const float survival = push.survival * survivalProbability(s.reflectance);
             if (sobol2(point, push.seed).x < survival) {
                 link.reflectance /= survival;
@@ -41,6 +46,7 @@ void main() {
             } else {
                 link.face = NO_FACE;
             }
+#endif
         }
     }
     roundHits.data[k] = hits.data[i];

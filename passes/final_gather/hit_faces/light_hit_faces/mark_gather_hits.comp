@@ -1,4 +1,4 @@
-// Marks the faces that gather rays hit, and writes the face of each ray.
+// Marks the faces that gather rays hit and that are not lit yet, and writes the face of each ray.
 #include "passes/final_gather/hit_faces/light_hit_faces/mark_face.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/scene.glsl"
@@ -31,5 +31,5 @@ void main() {
     const vec3 normal = dot(s.geometricNormal, origin - s.position) >= 0.0 ? s.geometricNormal : -s.geometricNormal;
     const uint face = hitFace(s.position, normal);
     hitFaces.data[i] = face;
-    if (face != NO_FACE) markFace(face);
+    if (face != NO_FACE && faceNumber(face) == NO_FACE) markFace(face);
 }

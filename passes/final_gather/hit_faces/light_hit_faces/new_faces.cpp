@@ -31,6 +31,23 @@ uint32_t NewFaces::number(PassContext& context, const HitFaceLight& light, uint3
 
 uint32_t NewFaces::choose(PassContext& context, const HitFaceLight& light, const std::vector<FaceHits>& hits,
                           uint32_t firstFace, uint32_t faces, uint32_t slotsPerFace, uint32_t seed) {
+    vote(context, light, hits, firstFace, faces, slotsPerFace, seed);
+    if (slotsPerFace == 1) return faces;  // Each has a hit.
+    return listSlots(context.stream, uint64_t(faces) * slotsPerFace);
+}
+
+uint32_t NewFaces::chooseSlots(PassContext& context, const HitFaceLight& light, const std::vector<FaceHits>& hits,
+                               uint32_t firstFace, uint32_t faces, uint32_t slotsPerFace, uint32_t seed) {
+    vote(context, light, hits, firstFace, faces, slotsPerFace, seed);
+    return listSlots(context.stream, uint64_t(faces) * slotsPerFace);
+}
+
+uint32_t NewFaces::listSlots(CommandStream& stream, uint64_t slots) {
+    return compaction_.run(stream, takenSlots_, pointSlots_, uint32_t(bitWords(slots)));
+}
+
+void NewFaces::vote(PassContext& context, const HitFaceLight& light, const std::vector<FaceHits>& hits,
+                    uint32_t firstFace, uint32_t faces, uint32_t slotsPerFace, uint32_t seed) {
     CommandStream& stream = context.stream;
     const uint64_t slots = uint64_t(faces) * slotsPerFace, words = bitWords(slots);
     growTo(slotKeys_, context.device, "keys of points", slots * sizeof(uint32_t));
@@ -53,8 +70,6 @@ uint32_t NewFaces::choose(PassContext& context, const HitFaceLight& light, const
                               {"firstFace", firstFace},
                               {"slotsPerFace", slotsPerFace},
                               {"seed", seed}});
-    if (slotsPerFace == 1) return faces;  // Each has a hit.
-    return compaction_.run(stream, takenSlots_, pointSlots_, uint32_t(words));
 }
 
 }  // namespace voxray

@@ -30,10 +30,21 @@ class NewFaces {
     /// Chooses points of `faces` faces that have been numbered. @return the number of points; waits for the device.
     uint32_t choose(PassContext& context, const HitFaceLight& light, const std::vector<FaceHits>& hits,
                     uint32_t firstFace, uint32_t faces, uint32_t slotsPerFace, uint32_t seed);
-    /// The chosen hits, for place_points.comp.
-    std::vector<Binding> points() const { return {{"pointSlots", pointSlots_}, {"slotHits", slotHits_}}; }
+    /// The same for faces of which some have no hit. @return the number of slots that have a hit.
+    uint32_t chooseSlots(PassContext& context, const HitFaceLight& light, const std::vector<FaceHits>& hits,
+                         uint32_t firstFace, uint32_t faces, uint32_t slotsPerFace, uint32_t seed);
+    /// The chosen hits: slots that have one, ascending, and hits by slot.
+    std::vector<Binding> points() const { return {{"pointSlots", pointSlots_}, slotHits()}; }
+    Binding slotHits() const { return {"slotHits", slotHits_}; }
+    /// Which slots have a hit.
+    Binding takenSlots() const { return {"takenSlots", takenSlots_}; }
 
  private:
+    void vote(PassContext& context, const HitFaceLight& light, const std::vector<FaceHits>& hits, uint32_t firstFace,
+              uint32_t faces, uint32_t slotsPerFace, uint32_t seed);
+    /// Lists the slots that have a hit.
+    uint32_t listSlots(CommandStream& stream, uint64_t slots);
+
     Kernel numberFaces_, vote_, store_;
     Compaction compaction_;
     Buffer marked_, newFaces_;

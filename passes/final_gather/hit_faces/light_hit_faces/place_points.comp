@@ -1,9 +1,7 @@
 // The surfel of each chosen hit, and its ray, distributed by cosine. Points are in the order of their faces' numbers.
-#include "passes/final_gather/hit_faces/hit_face.glsl"
-#include "passes/final_gather/hit_faces/light_hit_faces/face_point_types.h"
+#include "passes/final_gather/hit_faces/light_hit_faces/face_point.glsl"
 #include "passes/surfels/path_ray.glsl"
 #include "shaders/compute/linear_index.glsl"
-#include "shaders/scene/scene.glsl"
 layout(local_size_x = 64) in;
 
 readonly buffer PointSlots { uint data[]; } pointSlots;  // Slots that have a hit, ascending; not with one slot a face.
@@ -29,17 +27,8 @@ void main() {
         firstPoints.data[push.firstFace + face] = push.firstPoint + k;
 
     const FaceHit hit = slotHits.data[slot];
-    const SurfacePoint p = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
-    const vec3 faceNormal_ = normalAtFace(p.geometricNormal, hit.face);
-    const vec3 normal = shadingNormal(sceneMaterials.data[p.material], p, 0.0);
-    Surfel s;
-    s.position = p.position + p.offset * faceNormal_;
-    s.voxel = hit.face / 6u;
-    s.normal = dot(normal, faceNormal_) < 0.0 ? -normal : normal;
-    s.id = push.firstPoint + k;
-    s.reflectance = vec3(1.0);
-    s.parent = k;
-    s.area = 1.0;
+    vec3 faceNormal_;
+    const Surfel s = facePoint(hit, push.firstPoint + k, k, faceNormal_);
     surfels.data[i] = s;
     rays.data[i] = pathRay(s, faceNormal_, push.seed);
 }
