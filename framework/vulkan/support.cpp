@@ -127,6 +127,17 @@ uint32_t filteredVolumeSide(VkPhysicalDevice physical) {
     return std::min({image.maxExtent.width, image.maxExtent.height, image.maxExtent.depth});
 }
 
+/// Whether the invocations of a subgroup can vote in compute shaders (shaders/compute/indirect_list.glsl).
+bool hasBallots(VkPhysicalDevice physical) {
+    auto subgroups =
+        structure<VkPhysicalDeviceSubgroupProperties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES);
+    auto properties =
+        structure<VkPhysicalDeviceProperties2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroups);
+    vkGetPhysicalDeviceProperties2(physical, &properties);
+    return (subgroups.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) &&
+           (subgroups.supportedOperations & VK_SUBGROUP_FEATURE_BALLOT_BIT);
+}
+
 /// The least overestimation that the device offers from kRasterOverestimation on.
 float rasterOverestimation(VkPhysicalDevice physical) {
     auto conservative = structure<VkPhysicalDeviceConservativeRasterizationPropertiesEXT>(
@@ -162,6 +173,7 @@ DeviceSupport inspect(VkPhysicalDevice physical) {
     vkGetPhysicalDeviceFeatures2(physical, &offered.core);
     support.features = chooseFeatures(offered, support.extensions, info.missing);
     chooseQueue(support);
+    if (!hasBallots(physical)) info.missing.emplace_back("ballots of subgroups in compute shaders");
 
     const FeatureChain& enabled = *support.features;
     const bool structures = enabled.accelerationStructure.accelerationStructure;

@@ -5,6 +5,7 @@
 #include "shaders/scene/scene_types.h"
 #include "shaders/scene/surface_offset.glsl"
 #include "shaders/scene/texel_filter.glsl"
+#include "shaders/scene/texture_kinds.h"
 
 // Arrays by address: they may exceed maxStorageBufferRange (128 MiB on software Vulkan).
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer VertexPositions { vec3 data[]; };
@@ -91,6 +92,24 @@ float clampedLevel(GpuTextureRef ref, vec2 uv, float level) {
     const float distance_ = max(outside.x, outside.y);
     return distance_ > 0.0 ? log2(max(exp2(level) - 2.0 * distance_, 1.0)) : level;
 }
+
+bool isTextured(GpuMaterial m) {
+    return m.baseColorTexture.texture != NO_TEXTURE || m.metallicRoughnessTexture.texture != NO_TEXTURE ||
+           m.normalTexture.texture != NO_TEXTURE || m.emissiveTexture.texture != NO_TEXTURE;
+}
+
+// A material for a program that is compiled for the kinds of textures that its materials have, TEXTURE_KINDS. A device
+// that computes both sides of a branch then computes no lookups of other kinds.
+#ifdef TEXTURE_KINDS
+GpuMaterial materialOfKinds(uint index) {
+    GpuMaterial m = sceneMaterials.data[index];
+    if ((TEXTURE_KINDS & BASE_COLOR_TEXTURES) == 0u) m.baseColorTexture.texture = NO_TEXTURE;
+    if ((TEXTURE_KINDS & METALLIC_ROUGHNESS_TEXTURES) == 0u) m.metallicRoughnessTexture.texture = NO_TEXTURE;
+    if ((TEXTURE_KINDS & NORMAL_TEXTURES) == 0u) m.normalTexture.texture = NO_TEXTURE;
+    if ((TEXTURE_KINDS & EMISSIVE_TEXTURES) == 0u) m.emissiveTexture.texture = NO_TEXTURE;
+    return m;
+}
+#endif
 
 // Filtered lookup at a mip level; white where the material has no such texture.
 vec4 lookup(GpuTextureRef ref, vec4 texCoords, float level) {

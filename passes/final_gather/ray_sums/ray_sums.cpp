@@ -9,11 +9,15 @@ uint32_t texelsPerBlock(const GatherHits& hits) {
     return hits.layout.blockSize * hits.layout.blockSize;
 }
 
+bool hasTexelsWithoutRays(const GatherHits& hits) {
+    return hits.layout.raysPerBlock < texelsPerBlock(hits);
+}
+
 }  // namespace
 
 void RaySums::requireRays(const GatherHits& hits, const char* pass) {
     const gpu::GatherLayout& layout = hits.layout;
-    if (layout.raysPerBlock < texelsPerBlock(hits))
+    if (hasTexelsWithoutRays(hits))
         throw Error(
             "{3}: blocks of {0}x{0} texels have {1} rays, which leaves texels without any; "
             "let filter_irradiance follow, or raise 'rays_per_block' of trace_gather_rays to {2}",
@@ -22,7 +26,9 @@ void RaySums::requireRays(const GatherHits& hits, const char* pass) {
 
 void RaySums::plan(PassPlan& plan, const GatherHits& hits, uint32_t samples, NoisyIrradiance& noisy,
                    bool needsMoments) {
-    noisy.spacing = hits.layout.raysPerBlock < texelsPerBlock(hits) ? hits.layout.blockSize : 1;
+    noisy.spacing = hasTexelsWithoutRays(hits) ? hits.layout.blockSize : 1;
+    averageTexels_.compileIf(!hasTexelsWithoutRays(hits));
+    scatterRays_.compileIf(hasTexelsWithoutRays(hits));
     plan.image(noisy.irradiance, "noisy irradiance", NoisyIrradiance::desc(plan.frame, samples));
     sumMoments_.compileIf(noisy.isRead || needsMoments);
     if (!noisy.isRead && !needsMoments) return;
@@ -33,12 +39,17 @@ void RaySums::plan(PassPlan& plan, const GatherHits& hits, uint32_t samples, Noi
 void RaySums::average(PassContext& context, const GatherHits& hits, uint32_t batch, const Buffer& light,
                       const Image& irradiance) const {
     const uint32_t blocks = hits.batchBlocks(batch);
-    context.dispatch(averageTexels_, uint64_t(blocks) * texelsPerBlock(hits),
-                     {{"light", light},
-                      {"gathered", irradiance},
-                      {"layout", hits.layout},
-                      {"firstBlock", batch * hits.blocksPerBatch},
-                      {"batchBlocks", blocks}});
+    const Bindings bindings{{"light", light},
+                            {"gathered", irradiance},
+                            {"layout", hits.layout},
+                            {"firstBlock", batch * hits.blocksPerBatch},
+                            {"batchBlocks", blocks}};
+    if (!hasTexelsWithoutRays(hits)) {
+        context.dispatch(averageTexels_, uint64_t(blocks) * texelsPerBlock(hits), bindings);
+        return;
+    }
+    if (batch == 0) context.stream.clear(irradiance, {});
+    context.dispatch(scatterRays_, uint64_t(blocks) * hits.layout.raysPerBlock, bindings);
 }
 
 void RaySums::addMoments(PassContext& context, const GatherHits& hits, uint32_t batch, const Buffer& light,

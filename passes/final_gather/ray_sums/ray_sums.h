@@ -9,12 +9,14 @@ namespace voxray {
 class RaySums {
  public:
     explicit RaySums(ProgramOwner& owner)
-        : averageTexels_(owner, "average_texels.comp"), sumMoments_(owner, "sum_moments.comp") {}
+        : averageTexels_(owner, "average_texels.comp"),
+          scatterRays_(owner, "scatter_rays.comp"),
+          sumMoments_(owner, "sum_moments.comp") {}
 
     /// Describes the irradiance of gather rays, and their moments where `noisy` is read or the pass needs them itself.
     void plan(PassPlan& plan, const GatherHits& hits, uint32_t samples, NoisyIrradiance& noisy,
               bool needsMoments = false);
-    /// Means over the rays of a batch's texels. @param light of the batch, as GatherLight::light.
+    /// Means over the rays of a batch's texels; batches in order. @param light of the batch, as GatherLight::light.
     void average(PassContext& context, const GatherHits& hits, uint32_t batch, const Buffer& light,
                  const Image& irradiance) const;
     /// Moments over the rays of a batch's blocks.
@@ -28,7 +30,7 @@ class RaySums {
     static void requireRays(const GatherHits& hits, const char* pass);
 
  private:
-    Kernel averageTexels_, sumMoments_;
+    Kernel averageTexels_, scatterRays_, sumMoments_;
 };
 
 }  // namespace voxray

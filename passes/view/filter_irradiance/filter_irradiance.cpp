@@ -18,6 +18,10 @@ constexpr uint32_t kTile = 16;  // TILE of tiles.glsl.
 constexpr uint32_t kTileBytes = 6 * sizeof(float), kRaisedBytes = 3 * sizeof(float), kNoiseBytes = 2 * sizeof(float);
 constexpr uint32_t kMeasuredLevels = 3;  // MEASURED_LEVELS of noise_ratio.glsl.
 
+bool isTextured(const Material& m) {
+    return m.baseColorTexture.texture >= 0 || m.normalTexture.texture >= 0;
+}
+
 glm::uvec2 tilesOf(glm::uvec2 pixels) {
     return (pixels + kTile - 1u) / kTile;
 }
@@ -48,6 +52,8 @@ class FilterIrradiance final : public Pass {
  private:
     /// Bounds outliers by the statistics of rays of blocks.
     void boundOutliers(PassContext& context) const;
+    /// Finds what the mean took of light where albedo and irradiance change together. @param filtered irradiance.
+    void keepLight(PassContext& context, const Image& filtered) const;
     /// Measures the noise of a level's input over that of independent rays.
     void measureNoise(PassContext& context, uint32_t level) const;
     /// Computes the statistics of light around each element.
@@ -57,6 +63,7 @@ class FilterIrradiance final : public Pass {
     glm::uvec2 blocks(PassContext& context) const;
     float blockPixels(PassContext& context) const;
 
+    bool hasSeveral(PassContext& context) const { return context[gbuffer_].samples > 1; }
     bool isDirect() const { return params_.light == FilteredLight::Direct; }
     bool isResidual() const { return params_.light == FilteredLight::Residual; }
     bool hasRegression() const { return params_.estimator == Estimator::Regression && !isResidual(); }
@@ -80,27 +87,35 @@ class FilterIrradiance final : public Pass {
                                        isDirect() || isResidual()};
     Out<FrameImage> result_{*this, isDirect() ? "direct" : "indirect", "radiance reflected of this light"};
     Kernel findSurfaces_{*this, "surfaces.comp"};
+    Kernel findSeveral_{*this, "surfaces.comp", {{"LISTED", "1"}}};
     Kernel statistics_{*this, "statistics.comp"};
     Kernel bound_{*this, "bound.comp"};
     Kernel giveBack_{*this, "give_back.comp"};
+    Kernel keepLight_{*this, "keep_light.comp"};
+    Kernel sumColumns_{*this, "sum_columns.comp"};
     Kernel noise_{*this, "noise.comp"};
     Kernel findNoiseRatio_{*this, "noise_ratio.comp"};
     LevelKernel mean_{*this, "mean.comp"};
     Kernel findLight_{*this, "light.comp"};
+    Kernel findSecondLight_{*this, "light.comp", {{"LISTED", "1"}}};
     Kernel widerMeans_{*this, "wider_means.comp"};
     LevelKernel wavelet_{*this, "wavelet.comp"};
     Kernel resolve_{*this, "resolve.comp"};
-    Buffer second_;           ///< Pixels with a second surface (shaders/compute/indirect_list.glsl).
-    Buffer blockStatistics_;  ///< gpu::RayStatistics per block, from the gather's moments.
+    Buffer several_;  ///< Pixels with several surfaces, or not covered by one (shaders/compute/indirect_list.glsl).
+    Buffer blockStatistics_;   ///< gpu::RayStatistics per block, from the gather's moments.
+    bool keepsLight_ = false;  ///< Whether albedo and irradiance may change together: there are textures.
+    // Where light is given back
+    Buffer columns_;  ///< TileLight per column of pixels of a tile (keep_light.comp).
+    Buffer tiles_;    ///< TileLight per tile (tiles.glsl).
+    Buffer raised_;   ///< Factor of each tile's irradiance (give_back.comp).
     // Regression, where the gather writes moments.
     Buffer blockMeans_;  ///< Luminance per block, W/m².
-    Buffer tiles_;       ///< TileLight per tile (tiles.glsl).
-    Buffer raised_;      ///< Factor of each tile's irradiance (give_back.comp).
     Buffer noiseSums_;   ///< NoiseSums per tile (noise_ratio.glsl).
     Buffer noiseRatio_;  ///< By level (noise_ratio.comp).
     // Images of elements (elements.glsl).
     Image surfaces_;     ///< surface.glsl
     Image reflectance_;  ///< Albedo times the surface's fraction of the pixel.
+    Image own_;          ///< What elements reflect of their own irradiance (surfaces.comp), where light is kept.
     Image means_[2];  ///< Means of neighborhoods (mean.comp), read and written in turn; where rays' variance is known.
     Image light_;     ///< surface_light.glsl
     Image filtered_[2];  ///< Irradiance, W/m², and number of rays; read and written in turn by levels.
@@ -128,14 +143,24 @@ void FilterIrradiance::plan(PassPlan& plan) {
     plan.image(reflectance_, "reflectance of surfaces", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
     plan.image(light_, "statistics of light", values);
     for (Image& level : filtered_) plan.image(level, "filtered irradiance", values);
-    plan.buffer(second_, "second surfaces", (4 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
+    plan.buffer(several_, "pixels with several surfaces",
+                (4 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
     const bool hasMoments = noisy.blockSize > 0 && !noisy.hasStatistics;
     const bool givesBack = hasMoments && boundsOutliers(), measuresNoise = hasMoments && hasRegression();
     const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
     if (hasMoments) plan.buffer(blockStatistics_, "statistics of rays", noisy.statisticsBytes(texels));
+    keepsLight_ = !isResidual() && std::ranges::any_of(plan.frame.scene->scene->materials, isTextured);
+    if (keepsLight_) {
+        plan.image(own_, "light of own rays", values);
+        plan.buffer(columns_, "light of columns",
+                    uint64_t(plan.frame.width) * tilesOf(plan.frame.pixels()).y * kTileBytes);
+    }
     if (givesBack) {
-        const glm::uvec2 blocks = noisy.blocks(texels), tiles = tilesOf(plan.frame.pixels());
+        const glm::uvec2 blocks = noisy.blocks(texels);
         plan.buffer(blockMeans_, "mean light of rays", uint64_t(blocks.x) * blocks.y * sizeof(float));
+    }
+    if (givesBack || keepsLight_) {
+        const glm::uvec2 tiles = tilesOf(plan.frame.pixels());
         plan.buffer(tiles_, "light of tiles", uint64_t(tiles.x) * tiles.y * kTileBytes);
         plan.buffer(raised_, "light given back", uint64_t(tiles.x) * tiles.y * kRaisedBytes);
     }
@@ -152,13 +177,19 @@ void FilterIrradiance::plan(PassPlan& plan) {
     if (noisy.hasStatistics) defines.emplace("BOUNDED_GRADIENT", "1");
     if (isResidual()) defines.emplace("SIGNED", "1");
     if (hasRegression()) defines.emplace("REGRESSION", "1");
-    if (givesBack) defines.emplace("GIVE_BACK", "1");
+    if (givesBack || keepsLight_) defines.emplace("GIVE_BACK", "1");
+    if (keepsLight_) defines.emplace("KEEPS_LIGHT", "1");
+    if (givesBack) defines.emplace("BOUNDS_OUTLIERS", "1");
     if (measuresNoise) defines.emplace("NOISE_RATIO", "1");
-    for (Kernel* kernel : {&findSurfaces_, &statistics_, &bound_, &giveBack_, &noise_, &findNoiseRatio_, &findLight_,
-                           &widerMeans_, &resolve_})
+    if (samples > 1 && boundsOutliers()) defines.emplace("READS_ALL_SECOND", "1");
+    for (Kernel* kernel : {&findSurfaces_, &findSeveral_, &statistics_, &bound_, &giveBack_, &keepLight_, &sumColumns_,
+                           &noise_, &findNoiseRatio_, &findLight_, &findSecondLight_, &widerMeans_, &resolve_})
         kernel->define(defines);
+    for (Kernel* kernel : {&findSeveral_, &findSecondLight_}) kernel->compileIf(samples > 1);
     statistics_.compileIf(hasMoments);
-    for (Kernel* kernel : {&bound_, &giveBack_}) kernel->compileIf(givesBack);
+    bound_.compileIf(givesBack);
+    giveBack_.compileIf(givesBack || keepsLight_);
+    for (Kernel* kernel : {&keepLight_, &sumColumns_}) kernel->compileIf(keepsLight_);
     for (Kernel* kernel : {&noise_, &findNoiseRatio_}) kernel->compileIf(measuresNoise);
     mean_.define(defines, noisy.blockSize > 0, samples > 1);
     wavelet_.define(defines, true, samples > 1);
@@ -169,15 +200,17 @@ void FilterIrradiance::record(PassContext& context) {
     const glm::uvec2 pixels = context.frame.pixels();
 
     // Find the surfaces of each pixel
-    context.stream.fill(second_, 1);
-    context.dispatch(findSurfaces_, pixels,
-                     {context[gbuffer_],
-                      {"irradiance", context[noisy_].irradiance},
-                      {"surfaces", surfaces_},
-                      {"source", filtered_[0]},
-                      {"reflectance", reflectance_},
-                      ifUsed({"indirectList", second_}),
-                      {"pixels", pixels}});
+    context.stream.fill(several_, 1);
+    const Bindings surfaces{context[gbuffer_],
+                            {"irradiance", context[noisy_].irradiance},
+                            {"surfaces", surfaces_},
+                            {"source", filtered_[0]},
+                            {"reflectance", reflectance_},
+                            ifUsed({"own", own_}),
+                            {"indirectList", several_},
+                            {"pixels", pixels}};
+    context.dispatch(findSurfaces_, pixels, surfaces);
+    if (hasSeveral(context)) dispatchIndirect(context.stream, findSeveral_, several_, 0, surfaces);
 
     // Find the light around each
     const NoisyIrradiance& noisy = context[noisy_];
@@ -209,12 +242,14 @@ void FilterIrradiance::record(PassContext& context) {
                          ifUsed({"noiseRatio", noiseRatio_}),
                          {"edgeStoppingScale", edgeStoppingScale()},
                          ifUsed({"ratioLevel", std::min(level, kMeasuredLevels - 1)})},
-                        second_);
+                        several_);
     }
 
     // Compute the radiance that they reflect
+    const Image& filtered = filtered_[levels() % 2];
+    if (keepsLight_) keepLight(context, filtered);
     context.dispatch(resolve_, pixels,
-                     {{"irradiance", filtered_[levels() % 2]},
+                     {{"irradiance", filtered},
                       {"reflectance", reflectance_},
                       {"unfiltered", context.orBlack(unfiltered_)},
                       ifUsed({"raised", raised_}),
@@ -232,6 +267,19 @@ void FilterIrradiance::boundOutliers(PassContext& context) const {
                       {"pixels", pixels},
                       {"blocks", blocks(context)},
                       {"blockSize", blockPixels(context)}});
+    if (!keepsLight_)
+        context.dispatch(giveBack_, tiles, {{"tiles", tiles_}, {"raised", raised_}, {"tileCount", tiles}});
+}
+
+void FilterIrradiance::keepLight(PassContext& context, const Image& filtered) const {
+    const glm::uvec2 pixels = context.frame.pixels(), tiles = tilesOf(pixels);
+    context.dispatch(keepLight_, glm::uvec2(pixels.x, tiles.y),
+                     {{"irradiance", filtered},
+                      {"reflectance", reflectance_},
+                      {"own", own_},
+                      {"columns", columns_},
+                      {"pixels", pixels}});
+    context.dispatch(sumColumns_, tiles, {{"columns", columns_}, {"tiles", tiles_}, {"pixels", pixels}});
     context.dispatch(giveBack_, tiles, {{"tiles", tiles_}, {"raised", raised_}, {"tileCount", tiles}});
 }
 
@@ -252,15 +300,17 @@ void FilterIrradiance::measureNoise(PassContext& context, uint32_t level) const 
 void FilterIrradiance::findLight(PassContext& context) const {
     const NoisyIrradiance& noisy = context[noisy_];
     const CameraRays camera = cameraRays(context.frame.camera, context.frame.width, context.frame.height);
-    context.dispatch(findLight_, glm::uvec2(surfaces_.desc().extent),
-                     {{"surfaces", surfaces_},
-                      {"light", light_},
-                      ifUsed({"mean", means_[(kMeanLevels - 1) % 2]}),
-                      ifUsed({"statistics", noisy.hasStatistics ? noisy.statistics : blockStatistics_}),
-                      {"blocks", blocks(context)},
-                      {"blockSize", blockPixels(context)},
-                      {"pixelAngle", 2 * glm::length(camera.up) / float(context.frame.height)},
-                      {"camera", camera.origin}});
+    const Bindings bindings{{"surfaces", surfaces_},
+                            {"light", light_},
+                            ifUsed({"mean", means_[(kMeanLevels - 1) % 2]}),
+                            ifUsed({"statistics", noisy.hasStatistics ? noisy.statistics : blockStatistics_}),
+                            ifUsed({"indirectList", several_}),
+                            {"blocks", blocks(context)},
+                            {"blockSize", blockPixels(context)},
+                            {"pixelAngle", 2 * glm::length(camera.up) / float(context.frame.height)},
+                            {"camera", camera.origin}};
+    context.dispatch(findLight_, context.frame.pixels(), bindings);
+    if (hasSeveral(context)) dispatchIndirect(context.stream, findSecondLight_, several_, 0, bindings);
 }
 
 void FilterIrradiance::widenMeans(PassContext& context, uint32_t level) const {
@@ -268,7 +318,7 @@ void FilterIrradiance::widenMeans(PassContext& context, uint32_t level) const {
                  {{"surfaces", surfaces_},
                   {"source", level == 0 ? filtered_[0] : means_[(level - 1) % 2]},
                   {"result", means_[level % 2]}},
-                 second_);
+                 several_);
 }
 
 glm::uvec2 FilterIrradiance::blocks(PassContext& context) const {

@@ -1,5 +1,5 @@
-// By how much the light of each tile is raised to give back what bound.comp took: 1 + excess / kept, over the 5 x 5
-// tiles around. Dark places get back little of what bright ones lost. With SIGNED what is added to it: each tile's
+// By how much the light of each tile is raised to give back what bound.comp or the mean took (keep_light.comp):
+// 1 + excess / kept, over the 5 x 5 tiles around. Dark places get back little of what bright ones lost. With SIGNED what is added to it: each tile's
 // excess, shared by the area of the 5 x 5 tiles around it.
 #include "shaders/filter/tiles.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -39,7 +39,9 @@ void main() {
     raised.data[tile.y * count.x + tile.x] = added;
 #else
     const TileLight sum = sumAround(tile);
-    const vec3 fraction = mix(sum.excess / max(sum.kept, vec3(1e-30)), vec3(0.0), equal(sum.kept, vec3(0.0)));
+    // Where no ray around found light it tells nothing
+    const bvec3 isDark = lessThanEqual(min(sum.kept, sum.kept + sum.excess), vec3(0.0));
+    const vec3 fraction = mix(sum.excess / max(sum.kept, vec3(1e-30)), vec3(0.0), isDark);
     raised.data[tile.y * count.x + tile.x] = 1.0 + fraction;
 #endif
 }

@@ -25,7 +25,7 @@ class LevelKernel {
         second_.compileIf(isUsed && hasSecond);
     }
 
-    /// @param second pixels with a second surface (surfaces.comp).
+    /// @param second pixels that may have a second surface (surfaces.comp).
     void record(PassContext& context, uint32_t level, const Bindings& bindings, const Buffer& second) const {
         const glm::uvec2 pixels = context.frame.pixels();
         const uint32_t rows = STRIP_ROWS << level, strips = ((pixels.y + rows - 1) / rows) << level;

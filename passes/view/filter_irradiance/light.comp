@@ -1,8 +1,12 @@
 // Statistics of the light around each element: the mean irradiance of its neighborhood, and the statistics of rays,
-// interpolated between the centers of blocks.
+// interpolated between the centers of blocks. With LISTED around the second elements of listed pixels, else around all
+// first ones.
 #include "passes/view/filter_irradiance/elements.glsl"
 #include "passes/view/filter_irradiance/surface_light.glsl"
 #include "shaders/filter/ray_statistics.h"
+#ifdef LISTED
+#include "shaders/compute/indirect_list.glsl"
+#endif
 layout(local_size_x = 64) in;
 
 #ifdef STATISTICS
@@ -39,8 +43,15 @@ vec2 interpolatedStatistics(ivec2 pixel) {
 #endif
 
 void main() {
-    const ivec2 element = ivec2(gl_GlobalInvocationID.xy), size = imageSize(light), pixels = size / ivec2(1, LAYERS);
-    if (any(greaterThanEqual(element, size))) return;
+    const ivec2 pixels = imageSize(light) / ivec2(1, LAYERS);
+#ifdef LISTED
+    if (gl_GlobalInvocationID.x >= listedItems()) return;
+    const uint item = indirectList.items[gl_GlobalInvocationID.x];  // surfaces.comp
+    const ivec2 pixel = ivec2(item & 0xffffu, item >> 16), element = pixel + ivec2(0, pixels.y);
+#else
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), element = pixel;
+    if (any(greaterThanEqual(pixel, pixels))) return;
+#endif
     const uvec4 surface = texelFetch(surfaces, element, 0);
     if (areaOf(surface) == 0.0) {
         imageStore(light, element, vec4(0.0));
@@ -51,7 +62,7 @@ void main() {
     SurfaceLight found = SurfaceLight(1.0, 0.0, 1.0, 1.0e30);
     float variance = 1.0;  // Over the squared mean, or SIGNED.
 #ifdef STATISTICS
-    const vec2 rays = interpolatedStatistics(ivec2(element.x, element.y < pixels.y ? element.y : element.y - pixels.y));
+    const vec2 rays = interpolatedStatistics(pixel);
     const vec3 neighborhood = texelFetch(mean, element, 0).xyz;
     variance = rays.y;
 #ifdef SIGNED

@@ -4,7 +4,7 @@
 layout(local_size_x = 64) in;
 
 uniform sampler2D irradiance;   // Of elements (elements.glsl), W/m².
-uniform sampler2D reflectance;  // Albedo times the surface's fraction of the pixel.
+uniform sampler2D reflectance;  // surfaces.comp
 uniform sampler2D unfiltered;   // W/(m² sr); one black texel where there is none.
 layout(rgba32f) writeonly uniform image2D result;
 #ifdef GIVE_BACK
@@ -21,13 +21,15 @@ vec3 raisedAt(ivec2 pixel, uvec2 pixels) {
 void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(result);
     if (any(greaterThanEqual(pixel, size))) return;
-    const vec3 firstReflectance = texelFetch(reflectance, pixel, 0).rgb;
-    vec3 sum = firstReflectance * texelFetch(irradiance, pixel, 0).rgb, reflected = firstReflectance;
+    const vec4 first = texelFetch(reflectance, pixel, 0);
+    vec3 sum = first.rgb * texelFetch(irradiance, pixel, 0).rgb, reflected = first.rgb;
 #if SAMPLES > 1
     const ivec2 second = pixel + ivec2(0, size.y);
-    const vec3 secondReflectance = texelFetch(reflectance, second, 0).rgb;
-    if (secondReflectance != vec3(0.0)) sum += secondReflectance * texelFetch(irradiance, second, 0).rgb;
-    reflected += secondReflectance;
+    if (first.a > 0.0) {
+        const vec3 secondReflectance = texelFetch(reflectance, second, 0).rgb;
+        if (secondReflectance != vec3(0.0)) sum += secondReflectance * texelFetch(irradiance, second, 0).rgb;
+        reflected += secondReflectance;
+    }
 #endif
 #if defined(GIVE_BACK) && defined(SIGNED)
     sum += reflected * raisedAt(pixel, uvec2(size));

@@ -21,7 +21,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(scalar) readonly buffer Moments { RayMoments data[]; } moments;
 layout(scalar) writeonly buffer Statistics { RayStatistics data[]; } statistics;
-#ifdef GIVE_BACK
+#ifdef BOUNDS_OUTLIERS
 layout(scalar) writeonly buffer BlockMeans { float data[]; } blockMeans;  // Luminance, W/m².
 #endif
 layout(push_constant) uniform Push { uvec2 blocks; } push;
@@ -80,7 +80,7 @@ void main() {
 #endif
     const int i = block.y * int(push.blocks.x) + block.x;
     statistics.data[i] = found;
-#ifdef GIVE_BACK
+#ifdef BOUNDS_OUTLIERS
     blockMeans.data[i] = mean;
 #endif
 }

@@ -10,6 +10,7 @@
 #include "passes/common/view/surface_motion.h"
 #include "passes/view/camera_view.h"
 #include "passes/view/gbuffer/gbuffer_params.h"
+#include "passes/view/gbuffer/scene_materials.h"
 #include "vulkan/indirect.h"
 
 namespace voxray {
@@ -80,6 +81,10 @@ class GBufferPass final : public Pass {
     bool sharesMaterials() const {
         return params_.materialsOf == MaterialsOf::Surfaces && params_.samplesPerPixelEdge > 1;
     }
+    /// Whether surfaces without textures are stored by a program of their own: most of the scene has none.
+    bool sortsHits() const {
+        return !sharesMaterials() && materials_.textureKinds != 0 && materials_.texturedFraction < 0.5;
+    }
     /// Rays whose hits are stored at once: those of whole pixels.
     uint32_t maxBatchRays() const {
         const uint32_t perPixel = params_.samplesPerPixelEdge * params_.samplesPerPixelEdge;
@@ -93,10 +98,13 @@ class GBufferPass final : public Pass {
     Kernel generateRays_{*this, "generate_camera_rays.comp"};
     Kernel storeSurfaces_{*this, "store_surfaces.comp"};
     Buffer rays_, hits_;
+    SceneMaterials materials_;
+    bool isCleared_ = false;  ///< Whether images that rays leave as they are hold zeros.
     // With materials of surfaces
     Kernel storePixels_{*this, "store_pixels.comp"};
-    Kernel storeListed_{*this, "store_surfaces.comp", {{"LISTED", "1"}}};
-    Buffer severalSurfaces_;  ///< Pixels of a batch with several surfaces (shaders/compute/indirect_list.glsl).
+    // With these, or where hits are sorted
+    Kernel storeListed_{*this, "store_surfaces.comp"};
+    Buffer listed_;  ///< Pixels with several surfaces, or rays, of a batch (shaders/compute/indirect_list.glsl).
     // With raster
     Kernel fillBackground_{*this, "background.comp"};
     RasterPipeline drawSurfaces_{*this, {"gbuffer.vert", "gbuffer.frag"}};
@@ -134,30 +142,44 @@ void GBufferPass::plan(PassPlan& plan) {
         plan.buffer(rays_, "camera rays", batchRays(extent) * sizeof(Ray));
         plan.buffer(hits_, "camera ray hits", batchRays(extent) * sizeof(Hit));
     }
+    materials_ = sceneMaterials(*plan.frame.scene);
+    isCleared_ = false;
     if (sharesMaterials()) {
         if (params_.normalMaps == TextureLookup::Sharp || params_.colors == TextureLookup::Sharp)
             throw Error(
                 "gbuffer: 'materials_of: surfaces' filters textures over the pixel, so that 'normal_maps' and 'colors' "
                 "can't be sharp; set 'materials_of: samples'");
-        plan.buffer(severalSurfaces_, "pixels with several surfaces",
+        plan.buffer(listed_, "pixels with several surfaces",
                     sizeof(uint32_t) * (4 + batchRays(extent) / (g.samples * g.samples)));
+    } else if (params_.method == GBufferMethod::Rays && sortsHits()) {
+        plan.buffer(listed_, "rays that hit textures", sizeof(uint32_t) * (4 + batchRays(extent)));
     }
 
-    Defines defines;
+    Defines defines{{"TEXTURE_KINDS", std::to_string(materials_.textureKinds) + "u"}};
     if (params_.normalMaps == TextureLookup::Sharp) defines.emplace("SHARP_NORMALS", "1");
     if (params_.colors == TextureLookup::Sharp) defines.emplace("SHARP_COLORS", "1");
     if (hasMotion(plan)) defines.emplace("MOTION", "1");
     drawSurfaces_.define(defines);
     if (params_.samplePattern == SamplePattern::Rotated) defines.emplace("ROTATED_GRID", "1");
     if (params_.samplePattern == SamplePattern::Random) defines.emplace("RANDOM_POINTS", "1");
+    if (materials_.areLambert) defines.emplace("LAMBERT", "1");
+    if (materials_.isDark) defines.emplace("DARK", "1");
     defines.emplace("SAMPLES", std::to_string(params_.samplesPerPixelEdge));
     if (sharesMaterials()) defines.emplace("PIXEL_ORDER", "1");
     const bool hasRays = params_.method == GBufferMethod::Rays;
-    for (Kernel* kernel : {&generateRays_, &storeSurfaces_, &storePixels_, &storeListed_}) kernel->define(defines);
+    for (Kernel* kernel : {&generateRays_, &storePixels_}) kernel->define(defines);
+    Defines listing = defines, listed = defines;
+    if (sortsHits()) {
+        listing.emplace("LISTS_TEXTURED", "1");
+        listing["TEXTURE_KINDS"] = "0u";
+    }
+    listed.emplace("LISTED", sharesMaterials() ? "TEXELS" : "1");
+    storeSurfaces_.define(listing);
+    storeListed_.define(listed);
     generateRays_.compileIf(hasRays);
     storeSurfaces_.compileIf(hasRays && !sharesMaterials());
     storePixels_.compileIf(hasRays && sharesMaterials());
-    storeListed_.compileIf(hasRays && sharesMaterials());
+    storeListed_.compileIf(hasRays && (sharesMaterials() || sortsHits()));
     RasterState state;
     for (const Target& t : kTargets) state.colorFormats.push_back(t.format);
     if (hasMotion(plan)) state.colorFormats.push_back(kWide);
@@ -204,6 +226,12 @@ void GBufferPass::storeFrame(PassContext& context) {
 }
 
 void GBufferPass::trace(PassContext& context) {
+    if (!isCleared_) {
+        const GBuffer& g = context[gbuffer_];
+        if (materials_.areLambert) context.stream.clear(g.fresnel, {});
+        if (materials_.isDark) context.stream.clear(g.emission, {});
+        isCleared_ = true;
+    }
     const CameraView view = viewOf(context.frame);
     const uint32_t texels = view.width * view.height, seed = randomSeed(context.frame, context.frameIndex);
     for (uint32_t first = 0; first < texels; first += maxBatchRays()) {
@@ -220,17 +248,20 @@ void GBufferPass::storeHits(PassContext& context, uint32_t rays, const std::vect
     const GBuffer& g = context[gbuffer_];
     const Bindings bindings{context.scene,
                             g,
-                            {"emitted", g.emission},
+                            ifUsed({"emitted", g.emission}),
                             {"hits", hits_},
                             ifUsed({"previous", context[motion_].previous}),
                             ifUsed({"PreviousPositionsRef", previousPositions_.ref()}),
                             ifUsed({"instanceStarts", instanceStarts_}),
-                            ifUsed({"indirectList", severalSurfaces_}),
+                            ifUsed({"indirectList", listed_}),
                             range};
-    if (!sharesMaterials()) return context.dispatch(storeSurfaces_, rays, bindings);
-    context.stream.fill(severalSurfaces_, 1);
-    context.dispatch(storePixels_, rays / (g.samples * g.samples), bindings);
-    dispatchIndirect(context.stream, storeListed_, severalSurfaces_, 0, bindings);
+    if (!sharesMaterials() && !sortsHits()) return context.dispatch(storeSurfaces_, rays, bindings);
+    context.stream.fill(listed_, 1);
+    if (sharesMaterials())
+        context.dispatch(storePixels_, rays / (g.samples * g.samples), bindings);
+    else
+        context.dispatch(storeSurfaces_, rays, bindings);
+    dispatchIndirect(context.stream, storeListed_, listed_, 0, bindings);
 }
 
 void GBufferPass::rasterize(PassContext& context) {

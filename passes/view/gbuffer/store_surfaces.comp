@@ -1,12 +1,13 @@
-// Writes the surfaces that a batch of camera rays hit to the G-buffer's images; with LISTED those of listed pixels of the
-// batch.
+// Writes the surfaces that a batch of camera rays hit to the G-buffer's images; with LISTED those of listed items of
+// LISTED rays each, the samples of a pixel or one. With LISTS_TEXTURED only those without textures; the other rays are
+// listed. Devices that compute both sides of a branch then read textures only where there are some.
 #include "passes/view/gbuffer/sample_direction.glsl"
 #include "passes/view/gbuffer/sampled_texel.glsl"
 #include "passes/view/gbuffer/stored_texel.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/inset_barycentrics.glsl"
 #include "shaders/trace/ray_types.h"
-#ifdef LISTED
+#if defined(LISTED) || defined(LISTS_TEXTURED)
 #include "shaders/compute/indirect_list.glsl"
 #endif
 layout(local_size_x = 64) in;
@@ -22,18 +23,25 @@ layout(push_constant, scalar) uniform Push {
 void main() {
 #ifdef LISTED
     const uint thread = gl_GlobalInvocationID.x;
-    if (thread / TEXELS >= listedItems()) return;
-    const uint i = indirectList.items[thread / TEXELS] * TEXELS + thread % TEXELS;
+    if (thread / LISTED >= listedItems()) return;
+    const uint i = indirectList.items[thread / LISTED] * LISTED + thread % LISTED;
 #else
     const uint i = linearIndex();
     if (i >= push.batchRays) return;
 #endif
     const ivec2 texel = sampledTexel(push.firstRay + i, push.view.width);
     const Hit hit = hits.data[i];
+#ifdef LISTS_TEXTURED
+    if (hit.triangle == NO_HIT || isTextured(sceneMaterials.data[triangleMaterial(hit.triangle)])) {
+        appendItem(i, 1u);
+        return;
+    }
+#else
     if (hit.triangle == NO_HIT) {
         storeEnvironment(texel, environmentRadiance(sampleDirection(push.view, uvec2(texel), SAMPLES, push.seed)));
         return;
     }
+#endif
     const vec2 barycentrics = insetBarycentrics(hit.triangle, vec2(hit.u, hit.v));
     const SurfacePoint s = surfacePoint(hit.triangle, barycentrics);
     storePoint(texel, hit.triangle, barycentrics, s.position, s.offset);

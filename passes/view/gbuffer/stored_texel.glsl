@@ -1,4 +1,5 @@
-// Texels of the G-buffer's images, for rays.
+// Texels of the G-buffer's images, for rays. With LAMBERT no surface has a specular lobe, with DARK nothing emits light:
+// `fresnel` and `emitted` are then 0 everywhere, and stay as they are.
 #ifndef VOXRAY_GBUFFER_STORED_TEXEL_GLSL
 #define VOXRAY_GBUFFER_STORED_TEXEL_GLSL
 
@@ -11,9 +12,13 @@ layout(rgba32f) writeonly uniform image2D position;
 layout(rgba16f) writeonly uniform image2D normal;
 layout(rgba16f) writeonly uniform image2D geometricNormal;
 layout(rgba16f) writeonly uniform image2D albedo;
+#ifndef DARK
 layout(rgba32f) writeonly uniform image2D emitted;
+#endif
 layout(rgba16f) writeonly uniform image2D specular;
+#ifndef LAMBERT
 layout(rgba8) writeonly uniform image2D fresnel;
+#endif
 #ifdef MOTION
 layout(rgba32f) writeonly uniform image2D previous;
 #endif
@@ -26,14 +31,22 @@ void storePoint(ivec2 texel, uint triangle, vec2 barycentrics, vec3 point, float
 #endif
 }
 
+void storeLight(ivec2 texel, vec3 emission, vec4 fresnel_) {
+#ifndef DARK
+    imageStore(emitted, texel, vec4(emission, 0.0));
+#endif
+#ifndef LAMBERT
+    imageStore(fresnel, texel, fresnel_);
+#endif
+}
+
 // @param isSingle whether the pixel shows nothing else (GBuffer::normal).
 void storeSurface(ivec2 texel, VisibleSurface s, bool isSingle) {
     imageStore(normal, texel, vec4(s.normal, isSingle ? 1.0 : 0.0));
     imageStore(geometricNormal, texel, vec4(s.geometricNormal, 0.0));
     imageStore(albedo, texel, vec4(s.albedo, 1.0));
-    imageStore(emitted, texel, vec4(s.emission, 0.0));
     imageStore(specular, texel, specularTexel(s.specular));
-    imageStore(fresnel, texel, fresnelTexel(s.specular));
+    storeLight(texel, s.emission, fresnelTexel(s.specular));
 }
 
 void storeEnvironment(ivec2 texel, vec3 radiance) {
@@ -41,9 +54,8 @@ void storeEnvironment(ivec2 texel, vec3 radiance) {
     imageStore(normal, texel, vec4(0.0));
     imageStore(geometricNormal, texel, vec4(0.0));
     imageStore(albedo, texel, vec4(0.0));
-    imageStore(emitted, texel, vec4(radiance, 0.0));
     imageStore(specular, texel, vec4(0.0));
-    imageStore(fresnel, texel, vec4(0.0));
+    storeLight(texel, radiance, vec4(0.0));
 #ifdef MOTION
     imageStore(previous, texel, vec4(0.0));
 #endif

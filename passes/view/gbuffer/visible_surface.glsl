@@ -12,7 +12,7 @@ struct VisibleSurface {
 };
 
 VisibleSurface visibleSurface(CameraView view, SurfacePoint s) {
-    const GpuMaterial m = sceneMaterials.data[s.material];
+    const GpuMaterial m = materialOfKinds(s.material);
     const vec3 toPoint = s.position - view.origin;
     const float distance_ = max(length(toPoint), 1e-20);
     const vec3 direction = toPoint / distance_;
