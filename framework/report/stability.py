@@ -26,7 +26,8 @@ class Row:
     """A scene and what is measured in it.
 
     limits: beginnings of methods' names, and the limit of these; the last that fits counts.
-    scale: the radiance that a leak is a part of, W/(m² sr), or how much more light there is than in the profile's first scene.
+    scale: the radiance that a leak is a part of, W/(m² sr); how much more light there is than in the profile's first scene; or
+    the number of frames in 0.1 s.
     """
 
     profile: str
@@ -84,9 +85,11 @@ class Cell:
 
 @dataclass(frozen=True)
 class Seen:
-    """A variant with one seed: its row of results.csv, its image, and that of the profile's first scene by the same method."""
+    """A variant with one seed: its row of results.csv, of its last frame in frames.csv (empty where frames are not compared),
+    its image, and that of the profile's first scene by the same method."""
 
     scores: dict
+    last_frame: dict
     image: np.ndarray
     base: np.ndarray
 
@@ -115,6 +118,10 @@ def _score(column: str) -> Measure:
     return estimate
 
 
+def _hitch(seen: Seen) -> float:
+    return number(seen.scores.get("frame_ms_p95")) / number(seen.scores.get("frame_ms_median")) - 1
+
+
 # Of a variant with each of its seeds, and the row's scale
 Measure = Callable[[list[Seen], float], Estimate]
 
@@ -130,6 +137,10 @@ MEASURES: dict[str, tuple[Measure, str]] = {
     "image": (lambda seen, scale: root_mean_square_of([_difference(entry, scale) for entry in seen]),
               "root mean square of the difference from the image of the profile's first scene, over its mean"),
     "drift": (_score("indirect_temporal_bias"), "temporal bias: how much the error grows each frame, over the reference's mean"),
+    "afterglow": (lambda seen, scale: mean_of([number(entry.last_frame.get("indirect_frames_lit")) / scale for entry in seen]),
+                  "frames in which a light is still seen after it went out, over those of 0.1 s"),
+    "hitch": (lambda seen, _: mean_of([_hitch(entry) for entry in seen]),
+              "the 95th percentile of the frame's time over its median, less 1"),
     "flicker": (_score("indirect_temporal_flicker"), "temporal flicker: how much the error varies from frame to frame"),
 }
 
@@ -188,6 +199,7 @@ def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, st
     png = IMAGES["indirect"][0]
     pixels = {name: _pixels(results.image(name, png.replace(".png", ".exr"))) for name in results.ok["variant"]}
     first = {(entry["method"], entry.get("seed")): entry["variant"] for entry in variants if entry["scene"] == variants[0]["scene"]}
+    last_frames = {entry["variant"]: entry for entry in results.frames.to_dict("records")}
     seeds: dict[tuple[str, str], list[dict]] = {}
     for entry in variants:
         seeds.setdefault((entry["scene"], entry["method"]), []).append(entry)
@@ -201,7 +213,8 @@ def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, st
                 cells.append(Cell(row, method, Estimate(math.nan, math.nan, math.nan), f"does not run: {failed[0]}", None, None))
                 continue
             base = [first.get((method, entry.get("seed")), "") for entry in entries]
-            seen = [Seen(entry, pixels[entry["variant"]], pixels.get(name, _pixels(None))) for entry, name in zip(entries, base)]
+            seen = [Seen(entry, last_frames.get(entry["variant"], {}), pixels[entry["variant"]], pixels.get(name, _pixels(None)))
+                    for entry, name in zip(entries, base)]
             with np.errstate(all="ignore"):
                 estimate = MEASURES[row.measure][0](seen, row.scale)
             name = entries[0]["variant"]
