@@ -16,7 +16,9 @@ constexpr uint32_t kKeysPerPeriod = 32;
 /// A channel that repeats after `period`: value(t) for t from 0 to 1, whose ends are the same.
 template <typename Value>
 AnimationChannel periodic(uint32_t node, AnimatedProperty property, float period, Value value) {
-    AnimationChannel channel{.node = node, .property = property};
+    AnimationChannel channel;
+    channel.node = node;
+    channel.property = property;
     for (uint32_t key = 0; key <= kKeysPerPeriod; ++key) {
         channel.timesSeconds.push_back(period * float(key) / float(kKeysPerPeriod));
         channel.values.push_back(value(float(key % kKeysPerPeriod) / float(kKeysPerPeriod)));
@@ -42,7 +44,10 @@ struct Tree {
 /// A leaf on a transparent ground: an ellipse with pointed ends, as an alpha mask.
 Texture leafTexture() {
     constexpr uint32_t kSize = 32;
-    Texture texture{.name = "leaf", .width = kSize, .height = kSize, .srgb = true};
+    Texture texture;
+    texture.name = "leaf";
+    texture.width = texture.height = kSize;
+    texture.srgb = true;
     texture.rgba.reserve(4 * kSize * kSize);
     for (uint32_t y = 0; y < kSize; ++y)
         for (uint32_t x = 0; x < kSize; ++x) {
@@ -64,14 +69,18 @@ std::shared_ptr<const Scene> make(const Tree& params) {
     b.box("trunk", {0, 0, 0}, {0.25f, kCrown.y, 0.25f}, 0.3f, b.lambert("bark", {0.3f, 0.2f, 0.12f}));
 
     b.scene().textures.push_back(leafTexture());
-    const uint32_t leaf = b.material({.name = "leaf",
-                                      .metallic = 0,
-                                      .specular = 0,
-                                      .alphaMode = AlphaMode::Mask,
-                                      .doubleSided = true,
-                                      .baseColorTexture = {.texture = 0}});
+    Material foliage;
+    foliage.name = "leaf";
+    foliage.metallic = foliage.specular = 0;
+    foliage.alphaMode = AlphaMode::Mask;
+    foliage.doubleSided = true;
+    foliage.baseColorTexture.texture = 0;
+    const uint32_t leaf = b.material(foliage);
     std::array<Mesh, kBoughs> boughs;
-    for (Mesh& bough : boughs) bough = {.name = "bough", .material = leaf};
+    for (Mesh& bough : boughs) {
+        bough.name = "bough";
+        bough.material = leaf;
+    }
     for (uint32_t i = 0; i < params.leaves; ++i) {
         glm::vec3 place;
         do {
@@ -101,7 +110,7 @@ std::shared_ptr<const Scene> make(const Tree& params) {
     }
     b.directionalLight({0.3f, -1, -0.4f}, glm::vec3(8.0f));
     b.scene().environment.radiance = {0.6f, 0.75f, 1.0f};
-    b.camera({0.5f, 1.6f, 5.5f}, {0, 1.6f, 0}, 55);
+    b.camera({0.4f, 1.5f, 3.4f}, {0, 2.2f, 0}, 60);
     return b.finish();
 }
 
@@ -120,7 +129,9 @@ struct Figure {
 Mesh tube(uint32_t material) {
     constexpr uint32_t kSides = 24, kRings = 33;
     constexpr float kHeight = 1.7f, kRadius = 0.2f;
-    Mesh mesh{.name = "figure", .material = material};
+    Mesh mesh;
+    mesh.name = "figure";
+    mesh.material = material;
     SkinWeights weights;
     const auto add = [&](const glm::vec3& position, const glm::vec3& normal) {
         const float upper = glm::smoothstep(0.35f, 0.65f, position.y / kHeight);
