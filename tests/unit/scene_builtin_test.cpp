@@ -163,8 +163,9 @@ TEST(BuiltinScenes, TheFigureBendsAboveItsMiddle) {
     EXPECT_NEAR(bent.positions[top].x, -0.85f * std::sin(M_PI / 3), 1e-3);
     EXPECT_NEAR(bent.positions[top].y, 0.85f + 0.85f * std::cos(M_PI / 3), 1e-3);
     for (size_t i = 0; i < top; ++i)
-        if (start.positions[i].y < 0.35f * 1.7f)
+        if (start.positions[i].y < 0.35f * 1.7f) {
             EXPECT_LT(glm::length(bent.positions[i] - start.positions[i]), 1e-5f) << i;
+        }
 }
 
 TEST(BuiltinScenes, WallsAreClosedSolids) {
