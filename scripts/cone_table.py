@@ -2,7 +2,7 @@
 """Prints the tables of docs/cone-tracing.md from results of configs/bench/cone_bias.yaml.
 
 cone_table.py DIR...: for each scene and kind of cones the mean ratio / relMSE / nRMSE of the indirect light, means over seeds, the
-first with its standard error, and the median time of gather_cones, ms.
+first with its standard error, and the median time of gather_cones and of a filter of its residual, ms.
 cone_table.py DIR... --levels: of the profile `levels`: for each scene and width of cones the light that cones take, by where along
 the exact ray, over that of the rays; with `--by-level` by level of the voxels instead, that of rays read in voxels of that level
 beside that taken by cones.
@@ -29,6 +29,7 @@ PARTS = {
     "lacking behind": "opacity lacking behind it",
 }
 LEVELS = range(8)
+TIMED = ("cones", "gather_cones")  # A list of passes: its last one, the filter, has the list's id.
 ERRORS = ("indirect_mean_ratio", "indirect_relmse", "indirect_nrmse")
 
 
@@ -36,7 +37,10 @@ def scored(folders):
     """Headings, and rows of cells: a scene a row, a kind of cones a column."""
     found, kinds = {}, []
     for folder in folders:
-        times = {row["variant"]: float(row["ms_median"]) for row in read_rows(folder, "passes.csv") if row["pass"] == "cones"}
+        times = {}
+        for row in read_rows(folder, "passes.csv"):
+            if row["pass"] in TIMED:
+                times[row["variant"]] = times.get(row["variant"], 0) + float(row["ms_median"])
         for row in read_rows(folder, "results.csv"):
             if row["cones"] not in kinds:
                 kinds.append(row["cones"])

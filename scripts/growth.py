@@ -127,7 +127,7 @@ def config(axis, size, out):
         graph += [{"pass": "composite", "id": "chain"}]
         extra["sweep"] = {"chain": {
             "lookup": ["gather_irradiance", "composite"],
-            "cones": ["filter_voxels", {"pass": "gather_cones", "cones": 6, "stride": 4, "specular": 0}, "composite"],
+            "cones": ["filter_voxels", {"pass": "gather_cones", "cones": 6, "stride": 4, "specular": 0, "visibility": "voxels"}, "composite"],
             "rays": [{"pass": "trace_gather_rays", "rays_per_block": 16, "block": 8}, "gather_rays", "filter_irradiance", "composite"]}}
     else:
         graph += [{"pass": "gather_irradiance"}, {"pass": "composite"}]

@@ -5,8 +5,8 @@ residual_table.py DIR: for each scene and variant the time of a frame's indirect
 stores light, which all variants but paths share), its nRMSE / relMSE and mean ratio, and its time over that in which filtered paths,
 and gather rays without a residual, have no more error: below 1 where it is faster; - where the others have no variant with as
 little error, > where their fastest already has.
-residual_table.py DIR --means: of the profile `means`: for each scene and variant the ratio of its indirect light's mean to the
-reference's, over seeds, each with a reference of its own, with its standard error.
+residual_table.py DIR... --means: of the profiles `means` and `samples`: for each scene and variant the ratio of its indirect
+light's mean to the reference's, over seeds, each with a reference of its own, with its standard error.
 """
 import math
 import os
@@ -20,14 +20,15 @@ from report.rows import markdown_table, read_rows  # noqa: E402
 from rivals_table import ERRORS, frame_time, front, speed_up, variants  # noqa: E402
 
 
-def means(folder):
+def means(*folders):
     """Headings, and rows of cells."""
     scenes, methods = {}, []
-    for row in read_rows(folder, "results.csv"):
+    for row in (row for folder in folders for row in read_rows(folder, "results.csv")):
         if row["status"] == "ok":
-            scenes.setdefault(row["scene"], {}).setdefault(row["indirect"], []).append(row)
-            if row["indirect"] not in methods:
-                methods.append(row["indirect"])
+            method = row.get("gbuffer") or row["indirect"]
+            scenes.setdefault(row["scene"], {}).setdefault(method, []).append(row)
+            if method not in methods:
+                methods.append(method)
     lines = []
     for scene, found in scenes.items():
         lines.append([f"`{scene}`", *(ratio(found.get(method, [])) for method in methods)])
@@ -61,9 +62,11 @@ def is_plain(row, start):
 
 
 def main():
-    if len(sys.argv) < 2 or sys.argv[2:] not in ([], ["--means"]):
+    folders = [argument for argument in sys.argv[1:] if argument != "--means"]
+    has_means = "--means" in sys.argv
+    if not folders or (len(folders) > 1 and not has_means):
         raise SystemExit(__doc__)
-    print("\n".join(markdown_table(*(means if sys.argv[2:] else times)(sys.argv[1]))))
+    print("\n".join(markdown_table(*(means if has_means else times)(*folders))))
 
 
 if __name__ == "__main__":

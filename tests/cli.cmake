@@ -1,6 +1,6 @@
 # The built program, from the outside. What takes longest starts first (COST): a long test that starts last keeps a
 # single core busy.
-foreach(part bench_gpu commands compare counterparts disk explain gallery generality look look_page look_passes look_reference mistakes notebooks pack packs parts plan python random_scenes resume run scene_files session stability still_frames threads tune)
+foreach(part bench_gpu commands compare counterparts disk explain external gallery generality look look_page look_passes look_reference mistakes notebooks pack packs parts plan python random_scenes resume run scene_files session stability still_frames threads tune)
   add_test(NAME cli.${part}
     COMMAND /usr/bin/python3 -m unittest -v ${part}_test
     WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/cli)

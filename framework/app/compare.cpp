@@ -27,6 +27,7 @@ struct CompareOptions {
     std::filesystem::path flipMap;
     std::string layer;
     float exposureStops = 0;
+    std::vector<uint32_t> part;  ///< X, Y, width, height of what is compared; empty: all.
     bool json = false;
 };
 
@@ -109,16 +110,31 @@ LayeredImage readGiven(const std::filesystem::path& path, const std::string& lay
     }
 }
 
+/// A part of an image, from its upper left; the image itself without a part. @throws UsageError if it isn't in the
+/// image
+ImageF partOf(ImageF image, const std::vector<uint32_t>& part) {
+    if (part.empty()) return image;
+    const uint64_t right = uint64_t(part[0]) + part[2], bottom = uint64_t(part[1]) + part[3];
+    if (part[2] == 0 || part[3] == 0 || right > image.width || bottom > image.height)
+        throw UsageError("--part: {} x {} pixels from ({}, {}) on are no part of an image of {} x {}", part[2], part[3],
+                         part[0], part[1], image.width, image.height);
+    ImageF cut(part[2], part[3], image.channels);
+    for (uint32_t y = 0; y < cut.height; ++y)
+        std::copy_n(image.pixel(part[0], part[1] + y), size_t(cut.width) * cut.channels, cut.pixel(0, y));
+    return cut;
+}
+
 /// Reads the halves of a reference X.exr, X_a.exr and X_b.exr in the same folder, as `run` writes them; empty
 /// if they don't exist. @throws Error if their mean isn't the reference.
-std::vector<ImageF> readHalves(const std::filesystem::path& path, const ImageF& reference) {
+std::vector<ImageF> readHalves(const std::filesystem::path& path, const ImageF& reference,
+                               const std::vector<uint32_t>& part) {
     std::vector<ImageF> halves;
     std::vector<std::filesystem::path> paths;
     for (const char* end : {"_a", "_b"}) {
         paths.push_back(path.parent_path() / (path.stem().string() + end + path.extension().string()));
         if (!std::filesystem::exists(paths.back())) return {};
     }
-    for (const std::filesystem::path& half : paths) halves.push_back(readGiven(half, "").image);
+    for (const std::filesystem::path& half : paths) halves.push_back(partOf(readGiven(half, "").image, part));
     double difference = 0, sum = 0;
     const bool fits =
         std::ranges::all_of(halves, [&](const ImageF& half) { return half.data.size() == reference.data.size(); });
@@ -142,21 +158,22 @@ bool isPreview(const std::filesystem::path& file) {
 void compare(const CompareOptions& options) {
     for (const std::filesystem::path& file : {options.test, options.reference})
         if (!std::filesystem::exists(file)) throw UsageError("no file '{}'{}", file.string(), didYouMeanFile(file));
-    const LayeredImage given = readGiven(options.test, options.layer);
-    const LayeredImage wanted = readGiven(options.reference, options.layer);
+    LayeredImage given = readGiven(options.test, options.layer);
+    LayeredImage wanted = readGiven(options.reference, options.layer);
     if (!options.layer.empty() && given.layer.empty() && wanted.layer.empty())
         throw UsageError("--layer: neither file has layers");
-    const ImageF& test = given.image;
-    const ImageF& reference = wanted.image;
-    if (test.width != reference.width || test.height != reference.height)
+    if (given.image.width != wanted.image.width || given.image.height != wanted.image.height)
         throw UsageError("{} is {}x{} and {} is {}x{}: images to compare are of one size", options.test.string(),
-                         test.width, test.height, options.reference.string(), reference.width, reference.height);
+                         given.image.width, given.image.height, options.reference.string(), wanted.image.width,
+                         wanted.image.height);
+    const ImageF test = partOf(std::move(given.image), options.part);
+    const ImageF reference = partOf(std::move(wanted.image), options.part);
 
     // All rows have the same exposures, which depend only on the reference
     ScoreOptions scoring;
     scoring.exposureStops = options.exposureStops;
     scoring.flipExposures = flipExposures(reference);
-    const std::vector<ImageF> images = readHalves(options.reference, reference);
+    const std::vector<ImageF> images = readHalves(options.reference, reference, options.part);
     std::optional<ReferenceHalves> halves;
     if (!images.empty()) halves.emplace(ReferenceHalves{images[0], images[1]});
     const Comparison comparison(test, reference, scoring, halves);
@@ -197,6 +214,12 @@ void addCompareCommand(CLI::App& app, int&) {
     command->add_option("--layer", options->layer,
                         "Layer of EXR files that have several, as in View.Combined, or its last word. "
                         "Without: plain R, G, B, else the one called Combined, Beauty, RGBA, RGB, Color or Final.");
+    command
+        ->add_option("--part", options->part,
+                     "X,Y,WIDTH,HEIGHT: compare these pixels alone, counted from the upper left.")
+        ->type_name("X,Y,WIDTH,HEIGHT")
+        ->delimiter(',')
+        ->expected(4);
     command->add_option("--flip-map", options->flipMap, "Write the HDR-FLIP error map to this PNG.")
         ->check(endsWith(".png"));
     command

@@ -46,10 +46,6 @@ inline void addSweepOptions(CLI::App& command, ConfigArguments& arguments) {
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
-inline bool isSceneFile(const std::filesystem::path& what) {
-    return what.extension() == ".glb" || what.extension() == ".gltf";
-}
-
 /// Rejects an output file whose extension is not that of its format.
 inline CLI::Validator endsWith(const std::string& ending) {
     return CLI::Validator(

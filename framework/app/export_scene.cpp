@@ -10,10 +10,10 @@
 #include "app/config_options.h"
 #include "app/source_root.h"
 #include "base/error.h"
-#include "config/overrides.h"
 #include "experiment/scene_files.h"
 #include "experiment/scene_setup.h"
 #include "scene/builtin.h"
+#include "scene/gltf_sidecar.h"
 #include "scene/load.h"
 
 namespace voxray {
@@ -34,20 +34,21 @@ void exportScene(const ExportArguments& arguments) {
     SceneLoader loader(sceneFolders(arguments.scenes, sourceRoot(), arguments.file));
     const PreparedScene scene = loader.prepare(experiment.setup.scene);
     for (const std::string& warning : loader.warnings()) fmt::print(stderr, "voxray: warning: {}\n", warning);
-    if (scene.state.scene->environment.radiance != glm::vec3(0.0f))
-        throw UsageError(locationOf(experiment.config, "scene.environment"),
-                         "scene.environment: glTF can't carry one: "
-                         "leave it out of the file with --set scene.environment=none");
-    exportGlb(scene.state, arguments.target);
-    fmt::print("{}: {} triangles, {} lights\n", arguments.target.string(), scene.state.geometry.triangles.size(),
-               scene.state.lights.size());
+    const ImageSettings& image = experiment.setup.image;
+    const ExportedView view{scene.camera, image.width, image.height, image.exposureStops};
+    const std::filesystem::path sidecar = exportForRenderers(scene.state, view, arguments.target, Value::map());
+    fmt::print("{}: {} triangles, {} lights; {}: camera, environment and what else glTF can't hold\n",
+               arguments.target.string(), scene.state.geometry.triangles.size(), scene.state.lights.size(),
+               sidecar.string());
 }
 
 }  // namespace
 
 void addExportSceneCommand(CLI::App& app, int&) {
     CLI::App* command = app.add_subcommand(
-        "export-scene", "Write what a config renders, camera and lights included, as glTF. Sweeps are left out.");
+        "export-scene",
+        "Write what a config renders, camera and lights included, as glTF, with a side-car for what that can't hold. "
+        "Sweeps are left out.");
     auto arguments = std::make_shared<ExportArguments>();
     command->add_option("CONFIG", arguments->file, "Config file.")->required();
     command->add_option("OUT.glb", arguments->target, "File to write.")->required()->check(endsWith(".glb"));

@@ -8,6 +8,7 @@
 #include "app/starter_config.h"
 #include "config/yaml.h"
 #include "experiment/scene_files.h"
+#include "scene/load.h"
 
 namespace voxray {
 
@@ -15,7 +16,8 @@ Experiment openConfig(const std::filesystem::path& file, ConfigArguments argumen
     if (!tracer.empty()) arguments.config.assignments.push_back("tracer=" + tracer);
     if (!isSceneFile(file)) {
         if (!std::filesystem::exists(file))
-            throw UsageError("no file '{}'; give a config (.yaml) or a scene file (.glb, .gltf)", file.string());
+            throw UsageError("no file '{}'; give a config (.yaml) or a scene file ({})", file.string(),
+                             kSceneFileEndings);
         return loadExperiment(file, arguments.config);
     }
     Value keys = Value::map();

@@ -213,7 +213,7 @@ void addSceneCommand(CLI::App& app, int&) {
     auto arguments = std::make_shared<SceneArguments>();
     command
         ->add_option("SCENE", arguments->what,
-                     "A .glb or .gltf file, the name of a built-in scene, or a config, "
+                     "A .glb, .gltf, .xml or .pbrt file, the name of a built-in scene, or a config, "
                      "whose scene it is with all that the config changes. Sweeps are left out.")
         ->required();
     command->add_option("--picture", arguments->picture, "Write a small path-traced picture.")

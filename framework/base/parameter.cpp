@@ -5,11 +5,9 @@
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
 #include <glm/vec3.hpp>
 #include <limits>
 
-#include "base/files.h"
 #include "base/hex_color.h"
 #include "base/suggest.h"
 
@@ -127,28 +125,6 @@ class PlainType final : public ParameterType {
     bool isVector_;
 };
 
-class TextFileType final : public ParameterType {
- public:
-    const char* name() const override { return "string"; }
-
-    void read(void* target, const Value& value, const std::string& what) const override {
-        TextFile& file = *static_cast<TextFile*>(target);
-        file = {value.asString(what), {}, {}};
-        if (file.name.empty()) return;
-        const std::filesystem::path path = std::filesystem::path(value.where.file).parent_path() / file.name;
-        file.path = path.lexically_normal().string();
-        if (!std::filesystem::is_regular_file(path))
-            throw UsageError(value.where, "{}: no file '{}'{}", what, file.path, didYouMeanFile(path));
-        file.text = readTextFile(path);
-    }
-
-    std::string text(const void* field) const override { return static_cast<const TextFile*>(field)->name; }
-    /// The file's text: manifests keep what was run.
-    Value value(const void* field) const override {
-        return Value::fromScalar(static_cast<const TextFile*>(field)->text, true);
-    }
-};
-
 class ChoiceType final : public ParameterType {
  public:
     explicit ChoiceType(std::vector<std::pair<uint32_t, std::string>> names) : names_(std::move(names)) {}
@@ -190,11 +166,6 @@ class ChoiceType final : public ParameterType {
 template <typename T>
 std::shared_ptr<const ParameterType> parameterType(T min, T max, bool isRanged, std::vector<T> allowed, bool isVector) {
     return std::make_shared<PlainType<T>>(std::move(min), std::move(max), isRanged, std::move(allowed), isVector);
-}
-
-template <>
-std::shared_ptr<const ParameterType> parameterType<TextFile>(TextFile, TextFile, bool, std::vector<TextFile>, bool) {
-    return std::make_shared<TextFileType>();
 }
 
 std::shared_ptr<const ParameterType> choiceType(std::vector<std::pair<uint32_t, std::string>> names) {

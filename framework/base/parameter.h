@@ -38,11 +38,30 @@ struct TextFile {
     std::string text;
 };
 
-/// Defined for bool, the integers, float, double, glm::vec3, std::string and TextFile (parameter.cpp).
+/// A program with its arguments. It is to run in the folder of the file that names it.
+struct ProgramCommand {
+    std::vector<std::string> words;  ///< Empty: none.
+    std::string file;                ///< Where it is written: a file, or what else a config came from.
+};
+
+/// A folder by its name, which is relative to the file that names it, or to the working folder where that is none.
+struct FolderName {
+    std::string name;  ///< As it was written; empty: none.
+    std::string path;
+};
+
+/// Defined for bool, the integers, float, double, glm::vec3, std::string, and the three above (parameter.cpp,
+/// file_parameter.cpp).
 template <typename T>
 std::shared_ptr<const ParameterType> parameterType(T min, T max, bool isRanged, std::vector<T> allowed, bool isVector);
 template <>
 std::shared_ptr<const ParameterType> parameterType<TextFile>(TextFile, TextFile, bool, std::vector<TextFile>, bool);
+template <>
+std::shared_ptr<const ParameterType> parameterType<ProgramCommand>(ProgramCommand, ProgramCommand, bool,
+                                                                   std::vector<ProgramCommand>, bool);
+template <>
+std::shared_ptr<const ParameterType> parameterType<FolderName>(FolderName, FolderName, bool, std::vector<FolderName>,
+                                                               bool);
 
 /// An enum of 32 bits by its names.
 std::shared_ptr<const ParameterType> choiceType(std::vector<std::pair<uint32_t, std::string>> names);

@@ -12,7 +12,7 @@ namespace voxray {
 /// Documentation of a parameter, for help pages and JSON Schema.
 struct ParameterDoc {
     std::string name;
-    std::string type;                  ///< "boolean", "integer", "number", "string", "choice", "rgb", "vector"
+    std::string type;                  ///< "boolean", "integer", "number", "string", "choice", "rgb", "vector", "words"
     std::string help;                  ///< Includes its conditions, and whether it lowers noise.
     std::string defaults;              ///< Default as YAML text.
     std::string min, max;              ///< Empty without a range.

@@ -5,6 +5,7 @@
 #include "base/suggest.h"
 #include "config/overrides.h"
 #include "config/yaml.h"
+#include "scene/load.h"
 
 namespace voxray {
 namespace {
@@ -180,8 +181,7 @@ std::vector<std::string> axesWithoutEffect(const Value& root, const Experiment& 
 
 /// Reads a config file. @throws UsageError for a scene file.
 Value readConfig(const std::filesystem::path& path) {
-    const std::filesystem::path ending = path.extension();
-    if (ending == ".glb" || ending == ".gltf")
+    if (isSceneFile(path))
         throw UsageError(
             "{0}: a scene, not a config; "
             "'./voxray scene {0} --write-config {1}' writes one that compares methods in it, with a camera, "

@@ -22,7 +22,8 @@ struct SceneSource {
     TextLocation where;
     static constexpr auto schema() {
         return std::tuple{
-            field("file", &SceneSource::file, "A .glb or .gltf file, looked for in the scene folders."),
+            field("file", &SceneSource::file,
+                  "A .glb, .gltf, .xml (Mitsuba) or .pbrt file, looked for in the scene folders."),
             field("builtin", &SceneSource::builtin, "A built-in scene; its own parameters stand next to it.")};
     }
 

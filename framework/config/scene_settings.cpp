@@ -125,7 +125,7 @@ void readEnvironment(const Value& value, SceneSettings& settings) {
         if (environment.map.empty())
             throw UsageError(value.where, "scene.environment: 'map' is missing, as in {{map: sky.exr, scale: 2}}{}",
                              scale ? fmt::format("; for a radiance alone write environment: {}", scale->text()) : "");
-    } else if (value.isScalar() && value.scalar == "none" && !value.quoted) {
+    } else if (value.isScalar() && value.scalar == "none") {
         environment.scale = glm::vec3(0.0f);
     } else {
         // A number or a triple is a radiance; other text is a file

@@ -63,8 +63,11 @@ Value parameterSchema(const ParameterDoc& doc) {
     const bool isNumber = doc.type == "integer" || doc.type == "number";
     const bool isTriple = doc.type == "rgb" || doc.type == "vector";
     Value schema = doc.type == "rgb" ? rgbSchema() : doc.type == "vector" ? vectorSchema() : Value::map();
+    const bool isWords = doc.type == "words";
     if (doc.type == "choice")
         schema.set("enum", listOf(doc.choices));
+    else if (isWords)
+        schema = object({{"type", text("array")}, {"items", object({{"type", text("string")}})}});
     else if (!isTriple)
         schema.set("type", text(doc.type));
     schema.set("description", text(doc.help));
@@ -81,6 +84,7 @@ Value parameterSchema(const ParameterDoc& doc) {
                                                {condition.isOneOf ? "in" : "not_in", listOf(condition.values)}}));
         schema.set("x-only-with", conditions);
     }
+    if (isWords) return schema;
     if (isTriple)
         schema.set("default", numbers(doc.defaults));
     else if (isNumber || doc.type == "boolean")

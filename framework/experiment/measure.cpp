@@ -32,6 +32,7 @@ class PhaseSamples {
         cost.rays = first_[pass].rays;
         cost.voxelSteps = first_[pass].voxelSteps;
         cost.work = first_[pass].work;
+        cost.clock = first_[pass].clock;
         return cost;
     }
 

@@ -30,6 +30,7 @@ struct PassCost {
     uint64_t memoryBytes = 0;   ///< Persistent.
     uint64_t scratchBytes = 0;  ///< Additional memory while it runs.
     StreamCounts work = {};     ///< In one run.
+    std::string clock{};        ///< Who measured the time, in words; empty: the device's time stamps.
 };
 
 /// A number that a pass reported.

@@ -123,14 +123,14 @@ std::string resultsCsv(const std::vector<VariantResult>& results, const std::vec
 
 std::string passesCsv(const std::vector<VariantResult>& results) {
     std::string text = csvLine({"variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps",
-                                "memory_bytes", "scratch_bytes", "dispatches", "host_waits", "host_bytes"});
+                                "memory_bytes", "scratch_bytes", "dispatches", "host_waits", "host_bytes", "clock"});
     for (const VariantResult& r : results)
         for (const PassCost& p : r.passes)
             text += csvLine({r.variant, p.id, nameOf(p.phase), numberText(p.milliseconds.median),
                              numberText(p.milliseconds.p05), numberText(p.milliseconds.p95), std::to_string(p.rays),
                              std::to_string(p.voxelSteps), std::to_string(p.memoryBytes),
                              std::to_string(p.scratchBytes), std::to_string(p.work.dispatches),
-                             std::to_string(p.work.waits), std::to_string(p.work.hostBytes)});
+                             std::to_string(p.work.waits), std::to_string(p.work.hostBytes), p.clock});
     return text;
 }
 

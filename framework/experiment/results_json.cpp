@@ -119,7 +119,8 @@ std::string resultJson(const VariantResult& r, const VariantInputs& inputs) {
                                   {"scratch_bytes", p.scratchBytes},
                                   {"dispatches", p.work.dispatches},
                                   {"host_waits", p.work.waits},
-                                  {"host_bytes", p.work.hostBytes}});
+                                  {"host_bytes", p.work.hostBytes},
+                                  {"clock", p.clock}});
     json["values"] = Json::array();
     for (const ReportedValue& v : r.values) {
         json["values"].push_back({{"pass", v.pass}, {"name", v.name}, {"value", v.value}});
@@ -162,7 +163,8 @@ std::pair<VariantResult, VariantInputs> parseResultJson(const std::string& text)
                                 p.at("memory_bytes").get<uint64_t>(),
                                 p.at("scratch_bytes").get<uint64_t>(),
                                 {p.at("dispatches").get<uint64_t>(), p.at("host_waits").get<uint64_t>(),
-                                 p.at("host_bytes").get<uint64_t>()}});
+                                 p.at("host_bytes").get<uint64_t>()},
+                                p.value("clock", std::string())});
         }
         for (const Json& v : json.at("values")) {
             std::optional<uint32_t> frame;

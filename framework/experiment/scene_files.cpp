@@ -71,7 +71,7 @@ void checkBuiltin(const SceneSource& source, const std::vector<fs::path>& folder
     const std::vector<std::string> names = builtinSceneNames();
     if (std::ranges::count(names, name) == 0) {
         std::string advice = didYouMean(name, names);
-        for (const char* ending : {"", ".gltf", ".glb"})
+        for (const char* ending : {"", ".gltf", ".glb", ".xml", ".pbrt"})
             if (const std::string file = name + ending; lookUp(file, folders))
                 advice = fmt::format("; that is a file: write file: {}", file);
         throw UsageError(source.where, "{}.builtin: no built-in scene '{}'{}", source.owner, name, advice);
@@ -87,13 +87,13 @@ void checkBuiltin(const SceneSource& source, const std::vector<fs::path>& folder
                              didYouMean(key, all));
 }
 
-/// @throws UsageError if the extension of the file is not one of glTF.
+/// @throws UsageError if the extension of the file is that of a format that no reader knows.
 void checkFormat(const SceneSource& source) {
     const std::string ending = fs::path(source.file).extension().string();
-    for (const char* unsupported : {".obj", ".fbx", ".blend", ".dae", ".ply", ".stl", ".usd", ".usdz", ".pbrt"})
+    for (const char* unsupported : {".obj", ".fbx", ".blend", ".dae", ".ply", ".stl", ".usd", ".usdz"})
         if (ending == unsupported)
-            throw UsageError(source.where, "{}.file: '{}' is no glTF: export it as .glb", source.owner,
-                             oneLine(source.file, 200));
+            throw UsageError(source.where, "{}.file: '{}' is none of {}: export it as .glb", source.owner,
+                             oneLine(source.file, 200), kSceneFileEndings);
 }
 
 /// @throws UsageError if the extension of the environment map is that of an LDR format, which has no
@@ -156,7 +156,7 @@ std::shared_ptr<const Scene> SceneLoader::load(const SceneSource& source) {
     checkFormat(source);
     const fs::path path = findSceneFile(source.file, folders_, source.where);
     auto& scene = scenes_[path.string()];
-    if (!scene) scene = readAt(source.where, [&] { return loadGltf(path); });
+    if (!scene) scene = readAt(source.where, [&] { return loadSceneFile(path); });
     return scene;
 }
 

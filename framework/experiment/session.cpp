@@ -253,6 +253,7 @@ Frame frameOf(const Setup& setup, const PreparedScene& prepared, uint64_t seed) 
     frame.width = setup.image.width;
     frame.height = setup.image.height;
     frame.seed = seed;
+    frame.exposureStops = setup.image.exposureStops;
     return frame;
 }
 

@@ -131,6 +131,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
     struct Pending {
         uint32_t begin, end;
         std::vector<const Buffer*> marchCounters;
+        std::optional<PassContext::ToldTime> toldTime;
         GraphNode* node;
     };
     std::vector<Pending> pending;
@@ -165,7 +166,7 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         for (const PassContext::Value& value : sample.reported)
             if (!std::isfinite(value.value))
                 throw Error("pass '{}' reported {} as '{}'", node.id, value.value, value.name);
-        pending.push_back({begin, end, std::move(context.marchCounters), &node});
+        pending.push_back({begin, end, std::move(context.marchCounters), std::move(context.toldTime), &node});
         if (checkFinite) checkFiniteOutputs(node, stream);
     };
     try {
@@ -177,9 +178,10 @@ std::vector<PassSample> Graph::run(Phase phase, const Frame& frame, Device& devi
         throw;
     }
     stream.finish();
-    for (const auto& [begin, end, marchCounters, node] : pending) {
+    for (const auto& [begin, end, marchCounters, toldTime, node] : pending) {
         PassSample& sample = node->lastSample;
-        sample.milliseconds = stream.millisecondsBetween(begin, end);
+        sample.milliseconds = toldTime ? toldTime->milliseconds : stream.millisecondsBetween(begin, end);
+        if (toldTime) sample.clock = toldTime->clock;
         uint64_t visits = 0;
         for (const Buffer* counts : marchCounters) {
             const std::vector<uint64_t> stepsAndVisits = stream.readAs<uint64_t>(*counts, 2);

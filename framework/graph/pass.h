@@ -39,6 +39,7 @@ struct Frame {
     uint32_t width = 0;
     uint32_t height = 0;
     uint64_t seed = 0;
+    float exposureStops = 0;  ///< Of previews; images that passes write are radiance without it.
     glm::uvec2 pixels() const { return {width, height}; }
     /// Samples per pixel of a pass that writes their sums (ReferenceSums).
     SamplePart samples;
@@ -149,6 +150,15 @@ class PassContext : public PortAccess {
     std::vector<Value> reported;
     /// Reports a finite number in values.csv and the report. @param name in words, with its unit, if any.
     void report(std::string name, double value) { reported.push_back({std::move(name), value}); }
+
+    /// A time that the pass tells in place of the device's time stamps before and after it.
+    struct ToldTime {
+        double milliseconds;
+        std::string clock;  ///< Who measured it, in words.
+    };
+    std::optional<ToldTime> toldTime;
+    /// For work that other programs do, and that a pass need not do again in each run to know how long it takes.
+    void tellTime(double milliseconds, std::string clock) { toldTime = {milliseconds, std::move(clock)}; }
 
  private:
     const std::optional<std::vector<uint64_t>>& seenVersions_;

@@ -18,6 +18,7 @@ struct PassSample {
     uint64_t rays = 0;
     uint64_t voxelSteps = 0;  ///< Steps of voxel marches, counted on the device.
     StreamCounts work = {};   ///< Recorded by the pass, without those of the measurement.
+    std::string clock{};      ///< PassContext::ToldTime; empty: the device's time stamps.
     std::vector<PassContext::Value> reported;
 };
 

@@ -55,6 +55,9 @@ def main(program: Program, options: SimpleNamespace) -> int:
     if plan["reference"] is None:
         raise UsageError(f"{plan['place']}: there is no 'reference', so no score that others could check: write one, as in "
                          "{pass: path_trace, spp: 1024, bounces: 8}")
+    for variant in plan["variants"]:
+        if any(isinstance(entry, dict) and entry.get("pass") == "external" for entry in variant["config"]["graph"]):
+            raise UsageError(f"{plan['place']}: others have not the program or images of the pass 'external': leave these variants out, with --only")
     licences = stated_licences(options.licence)
     scenes, packed = packed_scenes.describe(packed_scenes.scene_names(plan["variants"]), plan["scene_folders"], licences,
                                             bool(options.with_scenes))

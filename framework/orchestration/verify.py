@@ -13,7 +13,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from orchestration import claims, packed_scenes, study_pack
-from orchestration.errors import Failed
+from orchestration.errors import Failed, UsageError
 from orchestration.pack import config_of
 from orchestration.program import Program
 
@@ -103,6 +103,16 @@ def check_inputs(pack: study_pack.Pack, folders: list[str], verdicts: Verdicts) 
         verdicts.add(NOT if wrong else "same", f"scene {scene['name']}" + (f": {'; '.join(wrong)}" if wrong else ""))
 
 
+def refuse_programs(pack: study_pack.Pack) -> None:
+    """@throws UsageError for a pack with a pass that may run a program: what others give does not choose what runs here"""
+    def has_external(value: Any) -> bool:
+        if isinstance(value, dict):
+            return any(map(has_external, value.values()))
+        return any(map(has_external, value)) if isinstance(value, list) else value == "external"
+    if has_external(json.loads(pack.config.read_text(encoding="utf-8"))):
+        raise UsageError(f"{pack.record['name']}: the pack has the pass 'external', which may run a program of its author's: not run")
+
+
 def check_results(pack: study_pack.Pack, results: Path, verdicts: Verdicts) -> None:
     manifest = json.loads((results / "manifest.json").read_text(encoding="utf-8"))
     packed = json.loads((pack.results / "manifest.json").read_text(encoding="utf-8"))
@@ -130,6 +140,7 @@ def main(program: Program, options: SimpleNamespace) -> int:
     verdicts = Verdicts(bool(options.quiet))
     with tempfile.TemporaryDirectory(prefix="voxray-verify-") as scratch:
         pack = study_pack.unpack(Path(options.pack), Path(scratch) / "pack")
+        refuse_programs(pack)
         program = with_packed_scenes(program, pack, options.scenes)
         name = pack.record["name"]
         check_inputs(pack, program.plan(str(pack.config))["scene_folders"], verdicts)

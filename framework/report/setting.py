@@ -24,6 +24,7 @@ def setting_of(results: Results) -> list[tuple[str, str]]:
               "image": f"{image.get('width', '?')} × {image.get('height', '?')} pixels" if image else "",
               "reference": _joined(reference.get("pass"), *(f"{reference[key]} {words}" for key, words in (
                   ("spp", "samples a pixel"), ("bounces", "bounces")) if key in reference)),
+              "times": _clocks(results),
               "device": _joined(manifest.get("device"), manifest.get("tracer") and f"rays by {manifest['tracer']}")}
     return [(name, words) for name, words in facts.items() if words]
 
@@ -49,6 +50,16 @@ def comparisons(results: Results) -> list[tuple[str, Results]]:
 
 def _joined(*words) -> str:
     return ", ".join(str(word) for word in words if word)
+
+
+def _clocks(results: Results) -> str:
+    """Which variants' times the device did not measure, by their numbers, and who did."""
+    told: dict[str, list[str]] = {}
+    if "clock" in results.passes:  # runs of older versions have none
+        for variant, clock in zip(results.passes["variant"], results.passes["clock"]):
+            if clock:
+                told.setdefault(clock, []).append(f"#{results.numbers[variant]}")
+    return "; ".join(f"of {', '.join(dict.fromkeys(numbers))}: {clock}" for clock, numbers in told.items())
 
 
 def _source(scene: dict) -> str:

@@ -289,9 +289,6 @@ std::string GltfWriter::glb() {
 }
 
 void exportGlb(const SceneState& state, const std::filesystem::path& path) {
-    const Environment& environment = state.scene->environment;
-    if (environment.radiance != glm::vec3(0))
-        throw Error("{}: glTF can't carry an environment; export with environment: none", path.string());
     GltfWriter writer;
     writer.addMaterials(*state.scene);
     for (const SceneState* exported : {&state, static_cast<const SceneState*>(state.panes.get())}) {

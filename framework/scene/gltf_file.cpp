@@ -1,7 +1,5 @@
 #include "scene/gltf_file.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <limits>
 
@@ -82,7 +80,7 @@ void GltfFile::parse(const std::vector<uint8_t>& bytes, const std::filesystem::p
     GltfBuffers buffers = readBuffers(container, folder);
     images_ = readImages(container.root, buffers, folder);
     for (const std::string& line : repairGltf(container.root)) warn("{}", line);
-    const ReserveMemory counted = [this](uint64_t count, uint64_t bytesEach) { countMemory(count, bytesEach); };
+    const ReserveMemory counted = [this](uint64_t count, uint64_t bytesEach) { memory_.reserve(count, bytesEach); };
     expandMeshopt(container.root, buffers, counted);
     expandDraco(container.root, buffers, counted);
 
@@ -92,17 +90,10 @@ void GltfFile::parse(const std::vector<uint8_t>& bytes, const std::filesystem::p
 
 void GltfFile::reserve(uint64_t count, uint64_t bytesEach) {
     try {
-        countMemory(count, bytesEach);
+        memory_.reserve(count, bytesEach);
     } catch (const Error& reason) {
         fail("{}", reason.what());
     }
-}
-
-void GltfFile::countMemory(uint64_t count, uint64_t bytesEach) {
-    const uint64_t limit = uint64_t(sysconf(_SC_PHYS_PAGES)) * uint64_t(sysconf(_SC_PAGE_SIZE)) / 2;
-    if (count > (limit - std::min(limit, reservedBytes_)) / bytesEach)
-        throw Error("it needs more than {} MiB, half of this machine's memory; use a smaller scene", limit >> 20);
-    reservedBytes_ += count * bytesEach;
 }
 
 void GltfFile::addWarning(std::string line) {

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/one_line.h"
 #include "scene/gltf_data.h"
+#include "scene/memory_budget.h"
 #include "scene/tiny_gltf.h"
 
 namespace voxray {
@@ -60,8 +61,6 @@ class GltfFile {
     static constexpr size_t kMaxMessage = 500;  ///< Bytes; names in a file can be longer.
 
     void addWarning(std::string line);
-    /// reserve() without the file's name in the error, as in all errors of parse().
-    void countMemory(uint64_t count, uint64_t bytesEach);
     void parse(const std::vector<uint8_t>& bytes, const std::filesystem::path& folder);
 
     std::string name_;
@@ -69,7 +68,7 @@ class GltfFile {
     std::vector<EncodedImage> images_;
     std::vector<std::string> warnings_;
     std::set<std::string> knownWarnings_;
-    uint64_t reservedBytes_ = 0;
+    MemoryBudget memory_;
 };
 
 }  // namespace voxray

@@ -43,6 +43,10 @@ LightTree::LightTree(std::span<const BoundedLight> lights, size_t firstGroup) {
     groups_ = LightTreeGroups(nodes_);
 }
 
+size_t LightTree::memoryBytes() const {
+    return nodes_.size() * sizeof(nodes_[0]) + leaves_.size() * sizeof(leaves_[0]) + groups_.memoryBytes();
+}
+
 LightTree::Children LightTree::children(uint32_t node) const {
     const uint32_t link = nodes_[node].link;
     if (isLeaf(node)) return {node, 1};
@@ -81,18 +85,22 @@ LightTree::Pick LightTree::pick(const Receiver& to, float u) const {
 
 float LightTree::probability(uint32_t leaf, const Receiver& to) const {
     if (leaf == 0 && !(to.beside > 0.0f)) return 1.0f;
-    float probability = 1.0f;
-    uint32_t node = leaf;
-    do {
-        const uint32_t parent = nodes_[node].parent;
-        LightTreeWalk::Importances weights;
-        const float below = LightTreeWalk(groups_, parent, to.position, to.normal).importances(weights);
-        const float total = parent == 0 ? beside(to) + below : below;
-        if (!(total > 0.0f)) return 0.0f;
-        probability *= weights[node - children(parent).first] / total;
-        node = parent;
-    } while (node != 0);
-    return probability;
+    LightTreeWalk walk(groups_, 0, to.position, to.normal);
+    return walkTo(leaf, to, walk);
+}
+
+float LightTree::walkTo(uint32_t node, const Receiver& to, LightTreeWalk& walk) const {
+    // From the root, as pick() goes: what weighs a near node weighs its children's choice, too
+    const uint32_t parent = nodes_[node].parent;
+    float ofParent = 1.0f;
+    if (parent != 0) {
+        ofParent = walkTo(parent, to, walk);
+        if (!(ofParent > 0.0f)) return 0.0f;
+        walk.down(parent - children(nodes_[parent].parent).first);
+    }
+    LightTreeWalk::Importances weights;
+    const float below = walk.importances(weights), total = parent == 0 ? beside(to) + below : below;
+    return total > 0.0f ? ofParent * weights[node - children(parent).first] / total : 0.0f;
 }
 
 float LightTree::besideProbability(const Receiver& to) const {

@@ -42,6 +42,8 @@ class LightTree {
     const std::vector<gpu::LightTreeNode>& nodes() const { return nodes_; }
     /// The node of a light, by its place in the list.
     uint32_t leaf(size_t light) const { return leaves_[light]; }
+    /// Of what the host keeps, its nodes included.
+    size_t memoryBytes() const;
     /// Of all lights: an importance times this is W/m² of luminance.
     double intensity() const { return intensity_; }
 
@@ -62,6 +64,8 @@ class LightTree {
     Children children(uint32_t node) const;
     bool isLeaf(uint32_t node) const { return (nodes_[node].link & LIGHT_TREE_LEAF) != 0; }
     float childrenImportance(uint32_t node, const Receiver& to) const;
+    /// Probability of a node. @param walk from the root; ends at the node's parent.
+    float walkTo(uint32_t node, const Receiver& to, LightTreeWalk& walk) const;
     /// Receiver::beside as an importance.
     float beside(const Receiver& to) const { return to.beside / float(intensity_); }
 

@@ -17,6 +17,10 @@ class LightTreeGroups {
     /// @param nodes of a tree; the first is its root.
     explicit LightTreeGroups(std::span<const gpu::LightTreeNode> nodes);
 
+    size_t memoryBytes() const {
+        return groups_.size() * (sizeof(Group) + sizeof(Kind)) + first_.size() * sizeof(first_[0]);
+    }
+
  private:
     friend class LightTreeWalk;
     static constexpr uint32_t kSize = 4, kNone = 0xffffffffu;

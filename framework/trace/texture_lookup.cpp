@@ -15,8 +15,12 @@ const std::array<float, 256> kSrgbToLinear = [] {
     return table;
 }();
 
+const uint8_t* codeOf(const Texture& texture, int32_t x, int32_t y) {
+    return &texture.rgba[(size_t(y) * texture.width + size_t(x)) * 4];
+}
+
 glm::vec4 texel(const Texture& texture, int32_t x, int32_t y) {
-    const uint8_t* code = &texture.rgba[(size_t(y) * texture.width + size_t(x)) * 4];
+    const uint8_t* code = codeOf(texture, x, y);
     constexpr float kScale = 1.0f / 255.0f;
     if (texture.srgb) return {kSrgbToLinear[code[0]], kSrgbToLinear[code[1]], kSrgbToLinear[code[2]], code[3] * kScale};
     return glm::vec4(code[0], code[1], code[2], code[3]) * kScale;
@@ -67,8 +71,11 @@ Texels filteredTexels(float coordinate, int32_t size, Wrap wrap, TexelFilter fil
     const bool isNearest = filter == TexelFilter::Nearest;
     const float x = reduceCoordinate(coordinate, wrap) * float(size) - (isNearest ? 0.0f : 0.5f);
     const float floorX = std::floor(x);
-    const int32_t first = int32_t(floorX);
-    return {wrapTexel(first, size, wrap), wrapTexel(first + 1, size, wrap), isNearest ? 0.0f : x - floorX};
+    const int32_t first = int32_t(floorX), second = first + 1;
+    const float weight = isNearest ? 0.0f : x - floorX;
+    // Most texels need no division
+    if (first >= 0 && second < size) return {first, second, weight};
+    return {wrapTexel(first, size, wrap), wrapTexel(second, size, wrap), weight};
 }
 
 }  // namespace
@@ -80,6 +87,14 @@ glm::vec4 sampleTexture(const Texture& texture, glm::vec2 uv) {
         return texel(texture, x.first, rowY) * (1.0f - x.weight) + texel(texture, x.second, rowY) * x.weight;
     };
     return row(y.first) * (1.0f - y.weight) + row(y.second) * y.weight;
+}
+
+void prefetchTexels(const Texture& texture, glm::vec2 uv) {
+    const int32_t width = int32_t(texture.width), height = int32_t(texture.height);
+    const int32_t x = filteredTexels(uv.x, width, texture.wrapU, texture.filter).first;
+    const Texels y = filteredTexels(uv.y, height, texture.wrapV, texture.filter);
+    __builtin_prefetch(codeOf(texture, x, y.first));
+    __builtin_prefetch(codeOf(texture, x, y.second));
 }
 
 glm::vec4 sampleTexture(const SceneState& state, const TextureRef& ref, uint32_t triangle, float u, float v) {

@@ -17,6 +17,8 @@ int32_t wrapTexel(int32_t x, int32_t size, Wrap wrap);
 /// Samples a texture of at least one texel with its filter. (0, 0) is the upper left corner of the upper left
 /// texel, as in glTF. Coordinates that are not finite count as 0.
 glm::vec4 sampleTexture(const Texture& texture, glm::vec2 uv);
+/// Asks for the memory that sampleTexture() will read.
+void prefetchTexels(const Texture& texture, glm::vec2 uv);
 
 /// Texture coordinates of a material: set 0 or 1, then KHR_texture_transform.
 inline glm::vec2 textureCoordinates(const TextureRef& ref, const glm::vec4& texCoords) {

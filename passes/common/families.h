@@ -31,6 +31,7 @@ inline constexpr std::array kFamilies{
     Family{"hybrid_leaves", "Voxels with triangles as leaves; mirrors"},
     Family{"published", "As published, for comparison"},
     Family{"path_trace", "Reference"},
+    Family{"external", "Images of other renderers"},
     Family{"experiments", "Measurements for experiments; no image depends on them", true},
 };
 

@@ -207,8 +207,9 @@ void Integrator::trace(std::span<const Ray> cameraRays, std::span<const SobolSam
     const size_t count = cameraRays.size();
     std::array<Hit, kPacket> hits;
     tracer_.closestHitPacket(cameraRays, std::span(hits).first(count));
+    surfaces_.prefetch(std::span(hits).first(count));
     std::array<std::optional<Path>, kPacket> paths;
-    std::array<bool, kPacket> isAlive;
+    std::array<bool, kPacket> isAlive{};
     std::array<Ray, kPacket> shadows;
     std::array<uint32_t, kPacket> occluded;
     bool hasShadows = false;
@@ -219,19 +220,26 @@ void Integrator::trace(std::span<const Ray> cameraRays, std::span<const SobolSam
         hasShadows = hasShadows || shadows[i].tMax >= shadows[i].tMin;
     }
     if (hasShadows) tracer_.occludedPacket(std::span(shadows).first(count), std::span(occluded).first(count));
+    for (size_t i = 0; i < count; ++i)
+        if (isAlive[i]) paths[i]->addLightSample(occluded[i] != 0);
 
-    // Later rays are incoherent
-    for (size_t i = 0; i < count; ++i) {
-        Path& path = *paths[i];
-        if (isAlive[i]) {
-            path.addLightSample(occluded[i] != 0);
-            while (path.scatter() && path.shadeHit(tracer_.closestHit(path.ray()))) {
-                const Ray& shadow = path.shadowRay();
-                if (shadow.tMax >= shadow.tMin) path.addLightSample(tracer_.occluded(shadow));
-            }
+    // Later rays are incoherent. All paths take a step before the next one, so that they wait for memory together
+    for (bool goesOn = true; goesOn;) {
+        goesOn = false;
+        for (size_t i = 0; i < count; ++i) {
+            isAlive[i] = isAlive[i] && paths[i]->scatter();
+            hits[i] = isAlive[i] ? tracer_.closestHit(paths[i]->ray()) : Hit{0.0f, Hit::kMiss, 0.0f, 0.0f};
+            goesOn = goesOn || isAlive[i];
         }
-        samples[i] = path.sample();
+        surfaces_.prefetch(std::span(hits).first(count));
+        for (size_t i = 0; i < count; ++i) isAlive[i] = isAlive[i] && paths[i]->shadeHit(hits[i]);
+        for (size_t i = 0; i < count; ++i) {
+            if (!isAlive[i]) continue;
+            const Ray& shadow = paths[i]->shadowRay();
+            if (shadow.tMax >= shadow.tMin) paths[i]->addLightSample(tracer_.occluded(shadow));
+        }
     }
+    for (size_t i = 0; i < count; ++i) samples[i] = paths[i]->sample();
 }
 
 }  // namespace voxray::path_trace

@@ -12,6 +12,7 @@ void PathTracePorts::planOutputs(PassPlan& plan, const char* pass) {
                 .spp = params_.spp,
                 .bounces = params_.bounces,
                 .light = params_.light,
+                .stratifiedOver = params_.stratifiedOver,
                 .keepSums = plan[sums_].isRead && params_.light == PathLight::All && params_.spp > 1};
     for (const RenderedImage& image : images_) {
         FrameImage& frame = plan[image.port];

@@ -16,11 +16,18 @@ struct EnumNames<PathLight> {
     static constexpr std::array names{std::pair{PathLight::All, "all"}, std::pair{PathLight::Indirect, "indirect"}};
 };
 
+template <>
+struct EnumNames<StratifiedOver> {
+    static constexpr std::array names{std::pair{StratifiedOver::Pixel, "pixel"},
+                                      std::pair{StratifiedOver::Neighbors, "neighbors"}};
+};
+
 /// Parameters of path tracing, on the host and on the device.
 struct PathTraceParams {
     uint32_t spp = 64;
     uint32_t bounces = 8;
     PathLight light = PathLight::All;
+    StratifiedOver stratifiedOver = StratifiedOver::Pixel;
     static constexpr auto schema() {
         return std::tuple{
             field("spp", &PathTraceParams::spp, "Samples a pixel.", 1u, 1u << 20).lessNoise(),
@@ -28,7 +35,10 @@ struct PathTraceParams {
                   "Scattering events after direct light at the first hit; 0 is emission and direct light.", 0u, 1024u),
             field("light", &PathTraceParams::light,
                   "all: all light. "
-                  "indirect: no emission and direct light at the first hit; another pass writes 'final'.")};
+                  "indirect: no emission and direct light at the first hit; another pass writes 'final'."),
+            field("stratified_over", &PathTraceParams::stratifiedOver,
+                  "pixel: each pixel has points of its own, and noise that neighbors do not share. "
+                  "neighbors: the samples of neighbors complement each other, so that a filter takes off more noise.")};
     }
 };
 

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "passes/path_trace/integrator.h"
+#include "passes/path_trace/pixel_points.h"
 
 namespace voxray {
 
@@ -130,6 +131,7 @@ struct RenderJob {
     /// By batch, whose samples are numbered separately: the first sample, and the number of samples.
     std::array<uint32_t, kBatches> batchFirst{}, batchSizes{};
     uint32_t batches = 1;
+    uint32_t pointsOfPixel = 0;  ///< PixelPoints.
     PathTraceResult& result;
     ProgressReporter& reporter;
 
@@ -185,12 +187,11 @@ struct RenderJob {
 
         for (uint32_t y = first.y; y < last.y; ++y)
             for (uint32_t x = first.x; x < last.x; ++x) {
-                const uint32_t pixel =
-                    hashOf(hashOf(uint32_t(options.seed), uint32_t(options.seed >> 32)), y * options.width + x);
+                const PixelPoints points({x, y}, options.width, pointsOfPixel,
+                                         hashOf(uint32_t(options.seed), uint32_t(options.seed >> 32)));
                 for (uint32_t batch = 0; batch < batches; ++batch) {
-                    const uint32_t sequence = hashOf(pixel, batch);
                     for (uint32_t i = 0; i < batchSizes[batch] && !reporter.isStopped(); ++i) {
-                        packet.add(camera, {{x, y}, {}, batch}, SobolSampler(sequence, batchFirst[batch] + i));
+                        packet.add(camera, {{x, y}, {}, batch}, points.sampler(batch, batchFirst[batch] + i));
                         if (packet.size == Integrator::kPacket) trace();
                     }
                 }
@@ -237,6 +238,7 @@ PathTraceResult render(const Integrator& integrator, const Camera& camera, const
     RenderJob job{
         .integrator = integrator, .camera = pinhole, .options = options, .result = result, .reporter = reporter};
     job.batches = std::min(options.spp, kBatches);
+    job.pointsOfPixel = pointsOfPixel(options);
     for (uint32_t b = 0; b < job.batches; ++b) {
         result.totalHalves[b] = result.indirectHalves[b] = ImageF(width, height, 3);
         const auto firstOf = [&](uint64_t sample) { return uint32_t((sample + b) / job.batches); };

@@ -17,6 +17,9 @@ namespace voxray {
 /// same, bit for bit.
 enum class PathLight { All, Indirect };
 
+/// Which samples have stratified points: those of a pixel, or those of its neighbors, too.
+enum class StratifiedOver { Pixel, Neighbors };
+
 /// Parameters of the reference path tracer.
 struct PathTraceOptions {
     uint32_t width = 0;
@@ -25,6 +28,7 @@ struct PathTraceOptions {
     uint32_t bounces = 8;  ///< Scattering events after direct light at the first hit.
     uint64_t seed = 0;     ///< Different seeds give independent estimates.
     PathLight light = PathLight::All;
+    StratifiedOver stratifiedOver = StratifiedOver::Pixel;
     ExpectedRays rays = ExpectedRays::Many;  ///< Few: nothing is precomputed.
     SamplePart samples{};                    ///< Which of a pixel's spp samples are taken.
     bool keepSums = false;                   ///< Whether to return sums over samples.

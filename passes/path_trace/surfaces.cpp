@@ -97,6 +97,45 @@ SurfacePoint SurfaceTable::pointAt(const Hit& hit, const glm::vec3& direction) c
     return point;
 }
 
+void SurfaceTable::prefetch(std::span<const Hit> hits) const {
+    if (triangles_.empty()) return;
+    const Geometry& geometry = state_->geometry;
+    const auto forEach = [&](const auto& step) {
+        for (const Hit& hit : hits)
+            if (hit.triangle != Hit::kMiss) step(hit);
+    };
+    // Each step reads what the one before asked for
+    forEach([&](const Hit& hit) {
+        __builtin_prefetch(&triangles_[hit.triangle]);
+        __builtin_prefetch(&geometry.triangles[hit.triangle]);
+        __builtin_prefetch(&geometry.triangleMaterials[hit.triangle]);
+    });
+    forEach([&](const Hit& hit) {
+        if (triangles_[hit.triangle].isSimple) return;
+        const glm::uvec3 corners = geometry.triangles[hit.triangle];
+        for (const uint32_t corner : {corners.x, corners.y, corners.z}) {
+            __builtin_prefetch(&geometry.attributes[corner].normal);
+            __builtin_prefetch(&geometry.attributes[corner].color);
+        }
+    });
+    forEach([&](const Hit& hit) {
+        const SurfaceTriangle& t = triangles_[hit.triangle];
+        const Material& m = *materials_[t.material].source;
+        if (t.isSimple || !readsTextures(m)) return;
+        const glm::vec4 texCoords = texCoordsAt(hit);
+        for (const TextureRef* ref : {&m.normalTexture, &m.baseColorTexture, &m.metallicRoughnessTexture})
+            if (ref->texture >= 0)
+                prefetchTexels(state_->scene->textures[size_t(ref->texture)], textureCoordinates(*ref, texCoords));
+    });
+}
+
+glm::vec4 SurfaceTable::texCoordsAt(const Hit& hit) const {
+    const Geometry& geometry = state_->geometry;
+    const glm::uvec3 corners = geometry.triangles[hit.triangle];
+    return interpolate(geometry.attributes[corners.x].texCoords, geometry.attributes[corners.y].texCoords,
+                       geometry.attributes[corners.z].texCoords, hit.u, hit.v);
+}
+
 void SurfaceTable::applyTextures(const Hit& hit, SurfacePoint& point) const {
     const Geometry& geometry = state_->geometry;
     const glm::uvec3 corners = geometry.triangles[hit.triangle];
@@ -104,7 +143,7 @@ void SurfaceTable::applyTextures(const Hit& hit, SurfacePoint& point) const {
     const VertexAttributes& b = geometry.attributes[corners.y];
     const VertexAttributes& c = geometry.attributes[corners.z];
     const Material& m = *materials_[geometry.triangleMaterials[hit.triangle]].source;
-    const glm::vec4 texCoords = interpolate(a.texCoords, b.texCoords, c.texCoords, hit.u, hit.v);
+    const glm::vec4 texCoords = texCoordsAt(hit);
 
     // Normal: interpolated, mapped, flipped to the ray's side
     glm::vec3 normal = interpolate(a.normal, b.normal, c.normal, hit.u, hit.v);

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -54,6 +56,9 @@ class SurfaceTable {
     /// Assigns a triangle to a patch of LightTable. Not thread-safe.
     void setLight(uint32_t triangle, uint32_t light);
 
+    /// Asks for the memory that pointAt() will read at these hits, those that miss left out: what it waits for at one,
+    /// it then doesn't at the next.
+    void prefetch(std::span<const Hit> hits) const;
     /// Geometry and material at a hit. @param direction of the ray, unit length.
     SurfacePoint pointAt(const Hit& hit, const glm::vec3& direction) const;
 
@@ -80,6 +85,7 @@ class SurfaceTable {
     SurfaceTriangle makeTriangle(uint32_t i) const;
     glm::vec3 texturedEmission(uint32_t triangle, float u, float v) const;
     void applyTextures(const Hit& hit, SurfacePoint& point) const;
+    glm::vec4 texCoordsAt(const Hit& hit) const;
     glm::vec4 lookUp(const TextureRef& ref, const glm::vec4& texCoords) const;
 
     const SceneState* state_;

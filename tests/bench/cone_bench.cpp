@@ -56,7 +56,7 @@ void coneGather(benchmark::State& state) {
     scene->lights = {sun};
     test::Chain chain(scene,
                       test::graphYaml({"gbuffer", "voxelize, resolution: 128", "inject_light_rays, bounces: 1",
-                                       "filter_voxels", "gather_cones, cones: 6"}),
+                                       "filter_voxels", "gather_cones, visibility: voxels, cones: 6"}),
                       96, 54, 1);
     for (auto _ : state) {
         chain.runFrameFrom(camera.position);

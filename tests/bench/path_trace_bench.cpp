@@ -12,6 +12,7 @@
 #include "experiment/scene_files.h"
 #include "experiment/scene_setup.h"
 #include "passes/path_trace/path_tracer.h"
+#include "scene/gltf_sidecar.h"
 #include "scene/load.h"
 #include "tests/support/places.h"
 
@@ -81,10 +82,11 @@ void pathTraceRival(benchmark::State& state, const std::string& scene) {
         SceneLoader loader(sceneFolders({}, test::sourceRoot(), file));
         const SceneState prepared = loader.prepare(readSceneSettings(chosen)).state;
 
-        if (const char* folder = std::getenv("VOXRAY_EXPORT"))
-            exportGlb(prepared, std::filesystem::path(folder) / (scene + ".glb"));
-        state.SetLabel(scene);
         const ImageSettings& image = config.setup.image;
+        if (const char* folder = std::getenv("VOXRAY_EXPORT"))
+            exportForRenderers(prepared, {prepared.cameras.at(0), image.width, image.height, image.exposureStops},
+                               std::filesystem::path(folder) / (scene + ".glb"), {});
+        state.SetLabel(scene);
         const int64_t bounces = config.reference.find("bounces")->asInteger("reference.bounces");
         renderSeeds(state, prepared,
                     {.width = image.width, .height = image.height, .spp = kSpp, .bounces = uint32_t(bounces)});

@@ -73,6 +73,18 @@ class Compare(CommandTest):
         self.assertIn("View.Combined", self.expect(2, "compare", "layers.exr", "plain.exr", "--layer", "Depth").stderr)
         self.expect(2, "compare", "plain.exr", "plain.exr", "--layer", "Depth")
 
+    def test_a_part_alone(self):
+        self.image("reference.png", 180)
+        halves = np.full((30, 40, 3), 180, np.uint8)
+        halves[:, 20:] = 90
+        Image.fromarray(halves).save(self.path("test.png"))
+        ratio = linear(90) / linear(180)
+        for part, expected in (("0,0,20,30", 1), ("20,5,20,25", ratio), ("10,0,20,30", (1 + ratio) / 2)):
+            scores = self.scores("test.png", "reference.png", "--part", part)["scores"]
+            self.assertAlmostEqual(scores["mean_ratio"], expected, places=5)
+        for part in ("21,0,20,30", "0,0,0,30"):
+            self.assertIn("--part", self.expect(2, "compare", "test.png", "reference.png", "--part", part).stderr)
+
     def test_table(self):
         self.image("a.png", 90)
         lines = self.expect(0, "compare", "a.png", "a.png").stdout.splitlines()

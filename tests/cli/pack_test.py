@@ -104,7 +104,7 @@ class Confirmed(Pack):
     def test_options_of_the_run_are_in_the_pack(self):
         self.write("study.yaml", STUDY)
         self.expect(0, "pack", "study.yaml", "-o", "study.zip", "--profile", "smaller", "--only", "voxelize.resolution=8",
-                    "--tracer", "embree", "--set", "reference.spp=16")
+                    "--tracer", "embree", "--set", "reference.spp=16", "--set", "scene.environment=none")
         said = self.verify(0)
         self.assertEqual(self.lines(said, "not"), [])
         self.assertNotIn("resolution 16", said)
@@ -182,6 +182,15 @@ class Caught(Pack):
         self.repack(limit)
         wrong = self.lines(self.verify(1), "not")
         self.assertIn("resolution 16: status: ok, here -", wrong)
+
+    def test_a_program_of_the_packs_author_is_not_run(self):
+        self.copy()
+        def change(files):
+            files["config.json"] = files["config.json"].replace(
+                b'"pass": "composite"', b'"pass": "external", "command": ["/usr/bin/touch", "%s"]' % self.path("ran").encode())
+        self.repack(change)
+        self.assertIn("may run a program", self.expect(2, "verify", "study.zip").stderr)
+        self.assertFalse(os.path.exists(self.path("ran")))
 
     def test_a_file_that_is_no_pack(self):
         self.write("study.zip", "nothing")

@@ -9,7 +9,7 @@ COST_COLUMNS = ["variant", "name", "status", "error", "device", "tracer", "voxel
                 "frame_ms_median", "frame_ms_p05", "frame_ms_p95", "memory_bytes", "peak_bytes", "rays",
                 "tracer_build_ms", "tracer_bytes"]
 PASS_COLUMNS = ["variant", "pass", "phase", "ms_median", "ms_p05", "ms_p95", "rays", "voxel_steps", "memory_bytes",
-                "scratch_bytes", "dispatches", "host_waits", "host_bytes"]
+                "scratch_bytes", "dispatches", "host_waits", "host_bytes", "clock"]
 
 # The reference as a method: nothing of it runs on a device.
 PATHS = """\

@@ -98,7 +98,6 @@ class ExportScene(CommandTest):
         self.write("tiny.yaml", TINY)
         self.assertIn("tiny.yaml", self.expect(1, "export-scene", "tiny.yaml", "tiny.yaml/out.glb").stderr)
         self.expect(2, "export-scene", "nowhere.yaml", "out.glb")
-        self.expect(2, "export-scene", "tiny.yaml", "out.glb", "--set", "scene.environment=1")
 
 
 if __name__ == "__main__":

@@ -21,7 +21,7 @@ graph:
 sweep:
   indirect:
     lookup: [gather_irradiance]
-    cones dense: [{pass: filter_voxels, layout: dense}, {pass: gather_cones, stride: 4}]
+    cones dense: [{pass: filter_voxels, layout: dense}, {pass: gather_cones, stride: 4, visibility: voxels}]
     cones octree: [{pass: filter_voxels, layout: svo}, {pass: gather_cones, stride: 4}]
     surfels: [place_surfels, link_surfels, inject_radiosity, smooth_surfels, gather_surfels]
     virtual lights: [{pass: sample_vpls, vpls_per_bounce: 16, bounces: 2}, gather_vpls, filter_irradiance]

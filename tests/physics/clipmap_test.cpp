@@ -261,7 +261,7 @@ TEST(Clipmap, ConesKeepTheEnergyOfAFurnace) {
             "furnace", "{shape: box, albedo: 0.5, emission: 1}",
             graphYaml({"gbuffer", "voxelize, resolution: 64", "inject_light_rays, rays_per_light: 131072, bounces: 2",
                        "filter_voxels, emission: true, layout: " + storage + ", clipmap_resolution: 16",
-                       "gather_cones, cones: 6"}),
+                       "gather_cones, visibility: voxels, cones: 6"}),
             16, 16);
         EXPECT_NEAR(mean(chain.image("indirect")) / (0.5 * 1.875), 1.0, 0.03);
     }
@@ -274,7 +274,7 @@ TEST(Clipmap, ConesKeepTheEnergyOfAFurnaceWithFewLevels) {
         "furnace", "{shape: box, albedo: 0.5, emission: 1}",
         graphYaml({"gbuffer", "voxelize, resolution: 72", "inject_light_rays, rays_per_light: 131072, bounces: 2",
                    "filter_voxels, emission: true, layout: clipmap, clipmap_resolution: 32, clipmap_levels: 3",
-                   "gather_cones, cones: 6"}),
+                   "gather_cones, visibility: voxels, cones: 6"}),
         16, 16);
     EXPECT_EQ(radiance(chain).grid.levels, 3u);
     EXPECT_NEAR(mean(chain.image("indirect")) / (0.5 * 1.875), 1.0, 0.03);

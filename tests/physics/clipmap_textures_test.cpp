@@ -144,7 +144,8 @@ TEST(ClipmapTextures, ConesGatherWhatTheyGatherInTheBuffer) {
             Chain chain("cornell", "{lights: point}",
                         graphYaml({"gbuffer", "voxelize, resolution: 48, directions: " + directions,
                                    "inject_light_rays, rays_per_light: 131072, bounces: 2",
-                                   "filter_voxels, clipmap_resolution: 16, layout: " + layout, "gather_cones"}));
+                                   "filter_voxels, clipmap_resolution: 16, layout: " + layout,
+                                   "gather_cones, visibility: voxels"}));
             return chain.image("indirect");
         };
         expectSameLight(indirect("clipmap"), indirect("clipmap_textures"), directions);
@@ -188,11 +189,12 @@ TEST(ClipmapTextures, MemoryIsPredictedAndBoundByTheWindows) {
 }
 
 TEST(ClipmapTextures, WhatADeviceLacksIsNamed) {
-    const std::string filter =
-        graphYaml({"gbuffer", "voxelize, resolution: 32", "inject_light_rays",
-                   "filter_voxels, layout: clipmap_textures, clipmap_resolution: 16", "gather_cones"});
-    const std::string light = graphYaml({"gbuffer", "voxelize_clipmap, resolution: 32, clipmap_resolution: 16",
-                                         "light_clipmap, layout: clipmap_textures", "gather_cones"});
+    const std::string filter = graphYaml({"gbuffer", "voxelize, resolution: 32", "inject_light_rays",
+                                          "filter_voxels, layout: clipmap_textures, clipmap_resolution: 16",
+                                          "gather_cones, visibility: voxels"});
+    const std::string light =
+        graphYaml({"gbuffer", "voxelize_clipmap, resolution: 32, clipmap_resolution: 16",
+                   "light_clipmap, layout: clipmap_textures", "gather_cones, visibility: voxels"});
     EXPECT_ERROR("filter_voxels: device", planWithVolumes(0, filter));
     EXPECT_ERROR("light_clipmap: device", planWithVolumes(0, light));
     EXPECT_ERROR("'layout'", planWithVolumes(107, light));

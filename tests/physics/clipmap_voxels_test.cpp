@@ -200,7 +200,7 @@ TEST(ClipmapVoxels, ConesBringTheFirstBounce) {
             Chain chain(
                 "cornell", "{lights: point}",
                 graphYaml({"gbuffer", fmt::format("voxelize_clipmap, resolution: 64, clipmap_resolution: {}", side),
-                           "light_clipmap, layout: " + layout, "gather_cones"}));
+                           "light_clipmap, layout: " + layout, "gather_cones, visibility: voxels"}));
             const double ratio = mean(chain.image("indirect")) / expected;
             std::printf("%s, windows of %u: %.3f of the path tracer's\n", layout.c_str(), side, ratio);
             EXPECT_NEAR(ratio, 1.0, 0.04);  // 1.025 and 1.016 measured.
@@ -213,7 +213,7 @@ TEST(ClipmapVoxels, BouncesAreThoseOfTheSceneAndFollowTheCamera) {
         mean(Chain("cornell", "{lights: point}", graphYaml({"path_trace, spp: 128, bounces: 2"})).image("indirect"));
     Chain chain("cornell", "{lights: point}",
                 graphYaml({"gbuffer", "voxelize_clipmap, resolution: 48, clipmap_resolution: 16",
-                           "light_clipmap, bounces: 1", "gather_cones"}));
+                           "light_clipmap, bounces: 1", "gather_cones, visibility: voxels"}));
     const double ratio = mean(chain.image("indirect")) / expected;
     std::printf("%.3f of the path tracer's\n", ratio);
     EXPECT_NEAR(ratio, 1.0, 0.03);

@@ -21,7 +21,8 @@ struct Setting {
 
 std::string coneGraph(const Setting& s) {
     return graphYaml({"gbuffer, " + s.gbuffer, "voxelize, resolution: " + s.resolution,
-                      "inject_light_rays, " + s.inject, "filter_voxels, " + s.filter, "gather_cones, " + s.gather});
+                      "inject_light_rays, " + s.inject, "filter_voxels, " + s.filter,
+                      "gather_cones, visibility: voxels, " + s.gather});
 }
 
 ImageF indirect(const std::string& scene, const std::string& parameters, const Setting& setting) {

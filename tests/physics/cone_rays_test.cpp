@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "scene/shapes.h"
 #include "tests/gpu/mean_of_frames.h"
 #include "tests/support/errors.h"
 #include "tests/support/radiance_layouts.h"
@@ -91,6 +92,80 @@ TEST(ConeRays, WithAResidualTheMeanIsTheReferencesWhateverIsStored) {
         // The same comparison finds that stored light alone lacks bounces
         EXPECT_GT(std::abs(compare("visibility: rays", "0").first - 1), 0.1) << name;
     }
+}
+
+TEST(ConeRays, AFilterOfTheResidualKeepsItsMeanAndTakesItsNoise) {
+    const State state = builtin("cornell", "{lights: area}");
+    const Estimate reference = meanOfFrames(state, graphYaml({"path_trace, spp: 512, bounces: 4"}), 8);
+    struct Found {
+        double ratio, error, noise;
+    };
+    const auto measure = [&](const std::string& stride, const std::string& filter,
+                             const std::vector<std::string>& after) {
+        std::vector<std::string> passes{
+            "gbuffer, samples_per_pixel_edge: 4", "voxelize, resolution: 16",
+            "inject_light_rays, rays_per_light: 65536, bounces: 0", "filter_voxels",
+            "gather_cones, specular: 0, residual: 0.3, residual_bounces: 4, residual_filter: " + filter +
+                ", stride: " + stride};
+        passes.insert(passes.end(), after.begin(), after.end());
+        Chain chain(state, graphYaml(passes), 32, 32);
+        const Estimate found = meanOfFrames(chain, 12);
+        const ImageF last = chain.image("indirect");
+        chain.runFrame(13);
+        const ImageF next = chain.image("indirect");
+        double squares = 0;
+        for (size_t i = 0; i < last.data.size(); ++i) squares += std::pow(double(next.data[i]) - last.data[i], 2);
+        return Found{found.mean / reference.mean, std::sqrt(found.variance + reference.variance) / reference.mean,
+                     std::sqrt(squares / double(last.data.size())) / reference.mean};
+    };
+    for (const std::string stride : {"1", "4"}) {
+        const Found averaged = measure(stride, "mean", {}),
+                    filtered = measure(stride, "apart", {"filter_irradiance, light: residual"});
+        std::printf("stride %s: mean %.4f +- %.4f, difference of two frames %.3f; filtered apart %.4f +- %.4f, %.3f\n",
+                    stride.c_str(), averaged.ratio, averaged.error, averaged.noise, filtered.ratio, filtered.error,
+                    filtered.noise);
+        EXPECT_NEAR(filtered.ratio, 1, 0.02 + 2 * filtered.error) << stride;
+        EXPECT_LT(filtered.noise, 0.6 * averaged.noise) << stride;
+    }
+}
+
+// A floor of shallow ridges, whose bright sides face a lit wall and whose dark sides face away: albedo and irradiance
+// change together within the mean over texels.
+State ridges() {
+    SceneBuilder builder("ridges");
+    const uint32_t bright = builder.lambert("bright", glm::vec3(0.8f)), dark = builder.lambert("dark", glm::vec3(0.1f));
+    constexpr int kRidges = 48;
+    const float width = 2.0f / kRidges, height = 0.15f * width;
+    for (int i = 0; i < kRidges; ++i) {
+        const float x = -1 + float(i) * width;
+        builder.quad("bright side", {x, 0, 1}, {0.5f * width, height, 0}, {0, 0, -2}, bright);
+        builder.quad("dark side", {x + 0.5f * width, height, 1}, {0.5f * width, -height, 0}, {0, 0, -2}, dark);
+    }
+    builder.quad("wall", {-1.2f, 0, -1}, {0, 1, 0}, {0, 0, 2}, bright);
+    builder.pointLight({-0.9f, 0.5f, 0}, glm::vec3(1));
+    builder.camera({0, 2.5f, 0.01f}, {0, 0, 0}, 40);
+    return evaluated(builder);
+}
+
+TEST(ConeRays, GiveBackWhatTheMeanOverTexelsLoses) {
+    const State state = ridges();
+    const Estimate reference = meanOfFrames(state, graphYaml({"path_trace, spp: 512, bounces: 2"}), 4);
+    const Estimate found = meanOfFrames(state,
+                                        graphOf("gather_cones, residual: 1, residual_bounces: 2, stride: 4", "32",
+                                                "rays_per_light: 65536, bounces: 1", "layout: svo", "8"),
+                                        8);
+    const double ratio = found.mean / reference.mean,
+                 error = std::sqrt(found.variance + reference.variance) / reference.mean;
+    std::printf("ridges: %.4f +- %.4f of the reference\n", ratio, error);
+    EXPECT_NEAR(ratio, 1, 0.01 + 2 * error);
+}
+
+TEST(ConeRays, TheResidualOfGlossySurfacesIsNotFilteredApart) {
+    EXPECT_THROW(meanIndirect("cornell", "{}",
+                              graphYaml({"gbuffer", "voxelize, resolution: 16", "inject_light_rays", "filter_voxels",
+                                         "gather_cones, residual: 0.5, residual_filter: apart",
+                                         "filter_irradiance, light: residual"})),
+                 Error);
 }
 
 TEST(ConeRays, GoOnAsPathsWithTheirProbability) {

@@ -19,7 +19,7 @@ struct Setting {
 
 std::string coneGraph(const Setting& s) {
     return graphYaml({"gbuffer, " + s.gbuffer, "voxelize, " + s.voxelize, "inject_light_rays, " + s.inject,
-                      "filter_voxels, " + s.filter, "gather_cones, " + s.gather});
+                      "filter_voxels, " + s.filter, "gather_cones, visibility: voxels, " + s.gather});
 }
 
 double indirect(const std::string& scene, const std::string& parameters, const Setting& setting) {

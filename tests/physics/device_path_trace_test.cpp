@@ -152,6 +152,12 @@ TEST(PathTraceDevice, TracesTheHostsPathsWithEveryLight) {
         expectHostsImages(litRoom(lit), "spp: 16, bounces: 4", fmt::format("light {}", int(lit)).c_str());
 }
 
+TEST(PathTraceDevice, TracesTheHostsPathsStratifiedOverNeighbors) {
+    for (const uint32_t spp : {12u, 16u})
+        expectHostsImages(litRoom(Lit::All), fmt::format("spp: {}, bounces: 4, stratified_over: neighbors", spp),
+                          "stratified over neighbors");
+}
+
 TEST(PathTraceDevice, TracesTheHostsPathsOnTextures) {
     expectHostsImages(texturedCornell(), "spp: 16, bounces: 4", "textures");
 }

@@ -211,7 +211,8 @@ TEST(GatherMirror, HandsOverToCones) {
     // Cones alone, both, rays alone: the same lobe, whoever brings which part of it.
     const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}, 0.4f));
     const ImageF expected = pathTraced(state, 512, 1);
-    const std::vector<std::string> cones{"filter_voxels", "gather_cones, cones: 5, stride: 16, specular: 19"};
+    const std::vector<std::string> cones{"filter_voxels",
+                                         "gather_cones, visibility: voxels, cones: 5, stride: 16, specular: 19"};
     for (const std::string range :
          {"max_roughness: 0.1, blend_roughness: 0.1", "max_roughness: 0.3, blend_roughness: 0.2",
           "max_roughness: 0.4, blend_roughness: 0.2"}) {
@@ -226,7 +227,8 @@ TEST(GatherMirror, HandsOverToCones) {
 TEST(GatherMirror, LeavesConesAsTheyAreWithoutMirrors) {
     // Nothing is left to rays: what gather_cones shows by itself.
     const State state = wallRoom(metal({0.9f, 0.8f, 0.6f}, 0.4f));
-    const std::vector<std::string> cones{"filter_voxels", "gather_cones, cones: 5, stride: 16, specular: 7"};
+    const std::vector<std::string> cones{"filter_voxels",
+                                         "gather_cones, visibility: voxels, cones: 5, stride: 16, specular: 7"};
     Chain both(state, roomGraph("max_roughness: 0, blend_roughness: 0", cones), 16, 16);
     std::vector<std::string> alone{"gbuffer, samples_per_pixel_edge: 2", "voxelize, resolution: 32",
                                    "inject_light_rays, rays_per_light: 524288, bounces: 0"};
@@ -249,9 +251,9 @@ TEST(GatherMirror, IsLinearInLightAndDeterministic) {
 }
 
 TEST(GatherMirror, RefusesConesThatBringLamps) {
-    EXPECT_ERROR(
-        "'emission' of filter_voxels",
-        Chain("mirror_room", "{}", roomGraph("bounces: 1", {"filter_voxels, emission: true", "gather_cones"})));
+    EXPECT_ERROR("'emission' of filter_voxels",
+                 Chain("mirror_room", "{}",
+                       roomGraph("bounces: 1", {"filter_voxels, emission: true", "gather_cones, visibility: voxels"})));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "scene/region_split.h"
 #include "scene/shapes.h"
 #include "tests/gpu/chain.h"
+#include "tests/support/errors.h"
 
 namespace voxray::test {
 namespace {
@@ -106,6 +107,75 @@ TEST(GBuffer, SamplesOfARotatedGridCoverStraightEdgesInFineSteps) {
         EXPECT_LT(largestError("rotated", isRow), 0.5f / 16 + 1e-3f);
         EXPECT_GT(largestError("regular", isRow), 0.09f);
     }
+}
+
+// The same edge, whose place no grid of four samples resolves: random samples cover as much of its pixel as it does in
+// the mean over frames, by one point in each cell of the grid.
+TEST(GBuffer, RandomSamplesCoverAnEdgeInTheMeanOverFrames) {
+    const float covered = 0.3f;
+    SceneBuilder builder("edge");
+    builder.quad("sheet", {-1, -1, 0}, {1 + 0.5f * covered, 0, 0}, {0, 2, 0}, builder.lambert("white", glm::vec3(1)));
+    builder.camera({0, 0, 1}, {0, 0, 0}, 90);
+    const State state = evaluated(builder);
+    const auto errorOf = [&](const std::string& pattern, uint32_t frames) {
+        Chain chain(state, graphYaml({"gbuffer, samples_per_pixel_edge: 2, sample_pattern: " + pattern}), 4, 4);
+        double sum = 0;  // Of the column of pixels that the edge crosses.
+        for (uint32_t frame = 1; frame <= frames; ++frame) {
+            chain.runFrame(frame);
+            const auto albedo = texels(chain, gbuffer(chain).albedo), position = texels(chain, gbuffer(chain).position);
+            for (size_t y = 0; y < 8; ++y)
+                for (size_t x = 4; x < 6; ++x) {
+                    const size_t i = y * 8 + x;
+                    sum += albedo[i].w;
+                    if (albedo[i].w > 0) {
+                        EXPECT_EQ(std::floor((position[i].x + 1) * 4), x) << pattern;
+                    }
+                }
+        }
+        return sum / (16.0 * frames) - covered;
+    };
+    // Only samples of the left half of the pixels see the edge
+    const uint32_t frames = 100;
+    EXPECT_NEAR(errorOf("random", frames), 0, 4 * 0.5 * std::sqrt(0.6 * 0.4 / (8 * frames)));
+    EXPECT_GT(std::abs(errorOf("regular", 2)), 0.1);
+}
+
+// With materials of surfaces every sample keeps its point. A pixel that shows several surfaces is as with materials of
+// samples; the texels of another one have one normal, close to all of theirs.
+TEST(GBuffer, MaterialsOfSurfacesKeepPointsAndEdges) {
+    constexpr size_t kWidth = 64, kHeight = 48;
+    for (const std::string samples : {"2", "3"}) {
+        SCOPED_TRACE(samples);
+        const size_t n = std::stoul(samples);
+        const std::string pass = "gbuffer, samples_per_pixel_edge: " + samples;
+        Chain each("spheres", "{}", graphYaml({pass}), kWidth, kHeight);
+        Chain shared("spheres", "{}", graphYaml({pass + ", materials_of: surfaces"}), kWidth, kHeight);
+        const GBuffer &a = gbuffer(each), &b = gbuffer(shared);
+        const auto positionA = texels(each, a.position), positionB = texels(shared, b.position);
+        const auto normalA = texels(each, a.normal), normalB = texels(shared, b.normal);
+        const auto albedoA = texels(each, a.albedo), albedoB = texels(shared, b.albedo);
+        const auto emissionA = texels(each, a.emission), emissionB = texels(shared, b.emission);
+        size_t several = 0;
+        for (size_t y = 0; y < n * kHeight; ++y)
+            for (size_t x = 0; x < n * kWidth; ++x) {
+                const size_t i = y * n * kWidth + x, corner = (y - y % n) * n * kWidth + x - x % n;
+                ASSERT_LT(glm::length(positionA[i] - positionB[i]), 1e-5f) << x << " " << y;
+                ASSERT_EQ(normalB[i], normalB[corner].w > 0 ? normalB[corner] : normalA[i]) << x << " " << y;
+                if (normalB[i].w == 0) {
+                    ++several;
+                    ASSERT_EQ(albedoA[i], albedoB[i]) << x << " " << y;
+                    ASSERT_EQ(emissionA[i], emissionB[i]) << x << " " << y;
+                } else {
+                    ASSERT_GT(glm::dot(glm::vec3(normalA[i]), glm::vec3(normalB[i])), std::cos(glm::radians(9.0f)));
+                    ASSERT_LT(glm::length(albedoA[i] - albedoB[i]), 1e-3f) << x << " " << y;
+                }
+            }
+        EXPECT_GT(several, n * n * kWidth);
+        EXPECT_LT(several, n * n * kWidth * kHeight / 2);
+    }
+    EXPECT_ERROR("'materials_of: samples'",
+                 Chain("spheres", "{}",
+                       graphYaml({"gbuffer, samples_per_pixel_edge: 2, materials_of: surfaces, normal_maps: sharp"})));
 }
 
 TEST(GBuffer, SpecularReflectanceFollowsTheMaterial) {

@@ -13,8 +13,8 @@ std::shared_ptr<const Scene> swingingBall() {
 
 std::string graphOf(const std::string& inject, const std::string& filter) {
     return graphYaml({"gbuffer", "voxelize, resolution: 8", "place_surfels, points_per_voxel: 1",
-                      "link_surfels, rays_per_surfel: 4", inject, "filter_voxels, " + filter, "gather_cones",
-                      "direct_shadow_rays", "composite"});
+                      "link_surfels, rays_per_surfel: 4", inject, "filter_voxels, " + filter,
+                      "gather_cones, visibility: voxels", "direct_shadow_rays", "composite"});
 }
 
 /// A chain that came to a time from another one is one that was made there, bit for bit.

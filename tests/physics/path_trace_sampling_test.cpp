@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
+#include <bit>
+#include <cmath>
 #include <limits>
 #include <set>
 
 #include "base/error.h"
+#include "passes/path_trace/pixel_points.h"
 #include "passes/path_trace/sobol.h"
 #include "tests/physics/path_trace_scene.h"
 
@@ -58,6 +61,61 @@ TEST(SobolSampler, PairsAndSeedsAreUncorrelated) {
             EXPECT_LT(correlation(1, pair, d, 2, pair, d), 0.06) << pair;
             EXPECT_LT(correlation(1, pair, 0, 1, pair, 1), 0.06) << pair;
         }
+}
+
+TEST(PixelPoints, AlignedSquaresOfPixelsHaveNetsOfPoints) {
+    for (const uint32_t spp : {1u, 4u, 16u})
+        for (const uint32_t edge : {1u, 2u, 4u, 8u})
+            for (const glm::uvec2 corner : {glm::uvec2(0), glm::uvec2(3, 5) * edge, glm::uvec2(64, 128)}) {
+                const uint32_t points =
+                    path_trace::pointsOfPixel({.spp = spp, .stratifiedOver = StratifiedOver::Neighbors});
+                ASSERT_EQ(points, std::max(spp / 2, 1u));
+                const uint32_t count = edge * edge * points, columns = 1u << (std::countr_zero(count) / 2);
+                std::set<std::pair<uint32_t, uint32_t>> cells;
+                for (uint32_t i = 0; i < count; ++i) {
+                    const glm::uvec2 pixel = corner + glm::uvec2(i / points % edge, i / points / edge);
+                    const path_trace::PixelPoints own(pixel, 320, points, 7);
+                    const glm::vec2 u = own.sampler(0, i % points).get2D(3);
+                    cells.insert({uint32_t(u.x * float(columns)), uint32_t(u.y * float(count / columns))});
+                }
+                EXPECT_EQ(cells.size(), count) << spp << " " << edge;
+            }
+}
+
+TEST(PathTraceSampling, StratifiedNeighborsKeepTheMeanAndLowerTheNoiseOfTiles) {
+    const HandScene s = glossyRoom();
+    constexpr uint32_t kSeeds = 48, kSize = 64, kTile = 8, kRow = kSize / kTile, kTiles = kRow * kRow;
+    double means[2], meanVariances[2], tileVariances[2];
+    for (const StratifiedOver over : {StratifiedOver::Pixel, StratifiedOver::Neighbors}) {
+        double sums[kTiles] = {}, squares[kTiles] = {};
+        for (uint32_t seed = 0; seed < kSeeds; ++seed) {
+            const PathTraceResult r = s.render(
+                roomCamera(),
+                {.width = kSize, .height = kSize, .spp = 1, .bounces = 1, .seed = seed, .stratifiedOver = over});
+            for (uint32_t tile = 0; tile < kTiles; ++tile) {
+                double light = 0;
+                for (uint32_t i = 0; i < kTile * kTile; ++i)
+                    light +=
+                        double(r.indirect.pixel(tile % kRow * kTile + i % kTile, tile / kRow * kTile + i / kTile)[1]);
+                sums[tile] += light;
+                squares[tile] += light * light;
+            }
+        }
+        double mean = 0, variance = 0;
+        for (uint32_t tile = 0; tile < kTiles; ++tile) {
+            mean += sums[tile] / kSeeds;
+            variance += (squares[tile] - sums[tile] * sums[tile] / kSeeds) / (kSeeds - 1);
+        }
+        const auto i = size_t(over);
+        means[i] = mean;
+        tileVariances[i] = variance;
+        meanVariances[i] = variance / kSeeds;
+    }
+    const double z = (means[1] - means[0]) / std::sqrt(meanVariances[0] + meanVariances[1]);
+    std::printf("z %.2f, variance of tiles %.3f of that of independent pixels\n", z,
+                tileVariances[1] / tileVariances[0]);
+    EXPECT_LT(std::abs(z), 4);
+    EXPECT_LT(tileVariances[1], 0.7 * tileVariances[0]);
 }
 
 TEST(PathTraceSampling, StrategiesAgree) {

@@ -178,6 +178,22 @@ TEST(ScreenProbes, ExtraProbesStandWhereDepthBreaks) {
     EXPECT_LT(errorWith, 0.8 * errorWithout);
 }
 
+TEST(ScreenProbes, MayHaveMoreBinsThanABufferBinds) {
+    // 35,328 probes of 256 bins take 138 MiB, where software Vulkan binds 128 MiB at most
+    constexpr uint32_t kWidth = 192, kHeight = 184, kRows = 16;
+    Chain chain("furnace", "{shape: box, albedo: 0.6, emission: 1}",
+                probeGraph(", spacing: 1, extra_probes: 0, directions: 16, rays_per_probe: 2, filter_passes: 1"),
+                kWidth, kHeight);
+    chain.runFrames(2);
+    const ImageF image = chain.image("indirect");
+    for (const uint32_t first : {0u, kHeight - kRows}) {
+        double sum = 0;
+        for (uint32_t y = first; y < first + kRows; ++y)
+            for (uint32_t x = 0; x < kWidth; ++x) sum += double(image.pixel(x, y)[1]);
+        EXPECT_NEAR(sum / (kRows * kWidth) / 0.7056, 1, 0.02) << first;
+    }
+}
+
 TEST(ScreenProbes, LeaveASealedRoomBlack) {
     // Its floor and ceiling run on outside into the sun
     for (const auto& [light, source] : {std::pair("voxelize", "voxels"), std::pair("", "radiance_cache")}) {

@@ -12,7 +12,7 @@ namespace {
 std::string coneGraph(const std::string& gbuffer, const std::string& resolution, const std::string& inject,
                       const std::string& filter, const std::string& gather) {
     return graphYaml({"gbuffer, " + gbuffer, "voxelize, resolution: " + resolution, "inject_light_rays, " + inject,
-                      "filter_voxels, " + filter, "gather_cones, " + gather});
+                      "filter_voxels, " + filter, "gather_cones, visibility: voxels, " + gather});
 }
 
 /// Mean of what surfaces reflect where all of them emit 1, by cones and by the reference. Voxels hold what

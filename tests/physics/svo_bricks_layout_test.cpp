@@ -290,7 +290,7 @@ TEST(SvoBricks, ErrLittleMoreThanFullGrids) {
         Chain chain("cornell", room, graphYaml({"gbuffer", voxelize, inject, filter, gather}), 24, 24);
         return relMse(chain.image("indirect"), reference);
     };
-    for (const std::string gather : {"gather_cones, specular: 0", "gather_stepped_cones"})
+    for (const std::string gather : {"gather_cones, visibility: voxels, specular: 0", "gather_stepped_cones"})
         for (const std::string resolution : {"8", "16", "32"}) {
             const double bricks = error("svo_bricks", resolution, gather);
             const double dense = error("dense", resolution, gather);

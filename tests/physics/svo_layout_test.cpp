@@ -49,7 +49,7 @@ TEST(SvoLayout, ConesGatherWhatTheyGatherInFullGrids) {
     const auto indirect = [](const std::string& layout) {
         Chain chain("white_room", "{albedo: 0.5}",
                     graphYaml({"gbuffer", "voxelize", "inject_light_rays, rays_per_light: 131072, bounces: 6",
-                               "filter_voxels, layout: " + layout, "gather_cones"}),
+                               "filter_voxels, layout: " + layout, "gather_cones, visibility: voxels"}),
                     16, 16);
         return chain.image("indirect");
     };

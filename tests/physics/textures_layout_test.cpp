@@ -13,7 +13,7 @@ namespace {
 std::string filterGraph(const std::string& layout, const std::string& resolution, const std::string& directions) {
     return graphYaml({"gbuffer", "voxelize, resolution: " + resolution + ", directions: " + directions,
                       "inject_light_rays, rays_per_light: 131072, bounces: 2", "filter_voxels, layout: " + layout,
-                      "gather_cones"});
+                      "gather_cones, visibility: voxels"});
 }
 
 TEST(TexturesLayout, SamplesInLayersAgreeWithFullGrids) {

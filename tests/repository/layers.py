@@ -39,6 +39,7 @@ FAMILIES = {
     "hybrid_leaves": {"surfels", "cones"},
     "published": {"cones"},
     "path_trace": set(),
+    "external": set(),
     "experiments": {"cones", "surfels"},
 }
 
@@ -68,6 +69,9 @@ PASSES_MAY_USE = LAYERS["graph"] | {"graph"}
 THIRD_PARTY = {
     r"tiny_gltf\.h": ["framework/scene/"],
     r"embree\d*/": ["framework/trace/embree_api.h"],
+    r"pugixml\.hpp": ["framework/scene/mitsuba/document.cpp"],
+    r"zlib\.h": ["framework/scene/import/inflate.cpp", "tests/unit/import_mesh_test.cpp", "tests/unit/mitsuba_files.h",
+                 "tests/unit/pbrt_reading_test.cpp"],
     r"(draco|meshoptimizer)": ["framework/scene/", "tests/unit/compressed_gltf.h"],
     r"OpenImageIO/": ["framework/image/", "tests/unit/image_layers_test.cpp"],
     r"yaml-cpp/": ["framework/config/yaml.cpp"],

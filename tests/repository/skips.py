@@ -27,8 +27,17 @@ def allowed(root):
     return entries
 
 
+def unittest_names(root):
+    """CLASS.METHOD of the tests in Python."""
+    names = []
+    for text in commands.sources(root, "tests", ".py"):
+        for owner, body in re.findall(r"^class (\w+)\(.*?\):\n(.*?)(?=^\S|\Z)", text, re.M | re.S):
+            names += [f"{owner}.{method}" for method in re.findall(r"^    def (test_\w+)\(", body, re.M)]
+    return names
+
+
 def check(root):
-    known = commands.test_names(root)
+    known = commands.test_names(root) + unittest_names(root)
     problems = []
     for name, reason in allowed(root).items():
         if name not in known:

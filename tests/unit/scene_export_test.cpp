@@ -1,4 +1,8 @@
+#include <nlohmann/json.hpp>
+
+#include "base/files.h"
 #include "scene/compose.h"
+#include "scene/gltf_sidecar.h"
 #include "scene/material_change.h"
 #include "scene_gltf_builder.h"
 
@@ -216,12 +220,20 @@ TEST(GlbExport, EveryNumberIsInGltfsRange) {
     }
 }
 
-TEST(GlbExport, EnvironmentsAreRefused) {
+TEST(GlbExport, SidecarHasTheEnvironment) {
     const TemporaryFolder folder;
     auto scene = std::make_shared<Scene>(*makeBuiltinScene("cornell", {}));
-    scene->environment.radiance = glm::vec3(1);
-    EXPECT_THROW(exportGlb(evaluate(scene, 0), folder / "out.glb"), Error);
-    EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));
+    const auto environment = [&] {
+        const SceneState state = evaluate(scene, 0);
+        const auto sidecar = exportForRenderers(state, {state.cameras.at(0), 8, 4, 0}, folder / "out.glb", {});
+        return nlohmann::json::parse(readTextFile(sidecar)).at("environment");
+    };
+    EXPECT_TRUE(environment().is_null());
+    scene->environment.radiance = {1, 2, 3};
+    EXPECT_EQ(environment(), (nlohmann::json{{"radiance", {1, 2, 3}}}));
+    scene->environment.map = std::make_shared<ImageF>(4, 2, 3, 0.5f);
+    EXPECT_EQ(environment(), (nlohmann::json{{"radiance", {1, 2, 3}}, {"map", "out.environment.exr"}}));
+    EXPECT_EQ(readImage(folder / "out.environment.exr").data, scene->environment.map->data);
 }
 
 }  // namespace

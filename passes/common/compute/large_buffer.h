@@ -36,7 +36,8 @@ void ensureSize(T& buffer, Device& device, const std::string& name, uint64_t byt
 
 /// Makes a buffer anew where it is too small, and frees the old one first. The content is then undefined. The device
 /// must not be using it.
-inline void growTo(Buffer& buffer, Device& device, const std::string& name, uint64_t bytes) {
+template <std::derived_from<Buffer> T>
+void growTo(T& buffer, Device& device, const std::string& name, uint64_t bytes) {
     if (!buffer || buffer.bytes() < bytes) ensureSize(buffer, device, name, bytes);
 }
 

@@ -10,9 +10,11 @@ namespace voxray {
 /// samples y + j) is a point in sub-pixel (i, j) of pixel (x, y). Passes that write frame images average the
 /// texels of each pixel. Texels without a surface have position.w = 0.
 struct GBuffer : Resource {
-    uint32_t samples = 1;   ///< Texels along an edge of a pixel; known from plan() on.
-    Image position;         ///< RGBA32F: world position, m; offset of ray origins along the normal, m.
-    Image normal;           ///< RGBA16F: shading normal, facing the camera.
+    uint32_t samples = 1;  ///< Texels along an edge of a pixel; known from plan() on.
+    Image position;        ///< RGBA32F: world position, m; offset of ray origins along the normal, m.
+    /// RGBA16F: shading normal, facing the camera. a: 1 in pixels whose texels are known to show one surface, with the
+    /// same normals and material.
+    Image normal;
     Image geometricNormal;  ///< RGBA16F: the triangle's normal, facing the camera.
     Image albedo;           ///< RGBA16F: diffuse reflectance.
     Image emission;         ///< RGBA32F: radiance towards the camera, W/(m² sr); the environment's on a miss.

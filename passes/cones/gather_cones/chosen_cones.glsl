@@ -2,6 +2,7 @@
 #ifndef VOXRAY_CHOSEN_CONES_GLSL
 #define VOXRAY_CHOSEN_CONES_GLSL
 
+#define CHOOSES_CONES
 #include "passes/cones/radiance/cone_ray_batch.glsl"
 #include "shaders/scene/sampling.glsl"
 

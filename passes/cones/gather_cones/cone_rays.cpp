@@ -24,11 +24,14 @@ ConeRays::ConeRays(ProgramOwner& owner, bool hasResidual)
       continuePaths_(owner, "continue_paths.comp"),
       beginPaths_(owner, "begin_paths.comp"),
       addResiduals_(owner, "add_residuals.comp"),
+      splitResiduals_(owner, "split_residuals.comp"),
+      blockMoments_(owner, "block_moments.comp"),
       sumCones_(owner, "sum_cones.comp") {
     if (hasResidual) streams_.emplace(owner);
 }
 
-void ConeRays::plan(PassPlan& plan, const RadianceVoxels& radiance, const Settings& settings) {
+void ConeRays::plan(PassPlan& plan, const RadianceVoxels& radiance, const Settings& settings,
+                    NoisyIrradiance* residual) {
     settings_ = settings;
     const uint64_t cones = uint64_t(settings.tracedExtent.x) * settings.tracedExtent.y * settings.cones;
     const uint32_t batch = uint32_t(std::min<uint64_t>(cones, kBatchCones / settings.cones * settings.cones));
@@ -43,10 +46,25 @@ void ConeRays::plan(PassPlan& plan, const RadianceVoxels& radiance, const Settin
     }
     for (Kernel* kernel : {&resolveRays_, &continuePaths_}) kernel->define(defines);
     for (Kernel* kernel : {&reflect_, &continuePaths_}) kernel->compileIf(hasNearField());
-    for (Kernel* kernel : {&beginPaths_, &addResiduals_}) kernel->compileIf(streams_.has_value());
+    beginPaths_.compileIf(streams_.has_value());
+    addResiduals_.compileIf(streams_ && !residual);
+    for (Kernel* kernel : {&splitResiduals_, &blockMoments_}) kernel->compileIf(residual);
     if (!streams_) return;
+    if (residual) planResidual(plan, *residual);
     streams_->plan(plan, {.bounces = settings.bounces, .light = PathLight::Indirect, .irradianceTexels = 1}, batch);
     plan.buffer(chosen_, "number of paths", sizeof(uint32_t));
+}
+
+void ConeRays::planResidual(PassPlan& plan, NoisyIrradiance& residual) {
+    residual.lightBounces = settings_.bounces;
+    residual.spacing = settings_.stride;
+    residual.blockSize = 1;  // Then the least with a traced texel in most blocks.
+    while (residual.blockSize * residual.blockSize < settings_.stride) ++residual.blockSize;
+    const ImageDesc desc = NoisyIrradiance::desc(plan.frame, settings_.samples);
+    plan.image(residual.irradiance, "residual of cones", desc);
+    plan.buffer(residual.moments, "moments of the residual", residual.momentsBytes(desc.extent));
+    const uint64_t traced = uint64_t(settings_.tracedExtent.x) * settings_.tracedExtent.y;
+    plan.buffer(texelMoments_, "moments of texels' residual", traced * sizeof(gpu::RayMoments));
 }
 
 void ConeRays::planNearField(PassPlan& plan, uint32_t batchCones) {
@@ -60,7 +78,7 @@ void ConeRays::planNearField(PassPlan& plan, uint32_t batchCones) {
 }
 
 void ConeRays::record(PassContext& context, const GBuffer& gbuffer, const RadianceVoxels& radiance, const Buffer& cones,
-                      const Image& irradiance) {
+                      const Image& irradiance, const NoisyIrradiance* residual) {
     const uint32_t texels = settings_.tracedExtent.x * settings_.tracedExtent.y;
     const uint32_t maxBatchTexels = kBatchCones / settings_.cones;
     const float range = settings_.nearVoxels * radiance.grid.voxelSize;
@@ -69,6 +87,7 @@ void ConeRays::record(PassContext& context, const GBuffer& gbuffer, const Radian
     if (streams_) {
         streams_->begin(context);
         context.stream.fill(chosen_, 0);
+        if (residual) context.stream.clear(residual->irradiance, {});
     }
     for (uint32_t first = 0; first < texels; first += maxBatchTexels) {
         const uint32_t batchTexels = std::min(maxBatchTexels, texels - first);
@@ -81,9 +100,9 @@ void ConeRays::record(PassContext& context, const GBuffer& gbuffer, const Radian
                              {"stride", settings_.stride},
                              {"range", range},
                              {"rayLength", endsInNearField ? range : kUnlimited},
-                             {"probability", settings_.residual},
                              {"shift", directionShift(seed)},
-                             {"seed", seed}};
+                             ifUsed({"probability", settings_.residual}),
+                             ifUsed({"seed", seed})};
 
         // Rays along the cones, and what each cone sees
         context.dispatch(generateRays_, batchCones, {context.scene, gbuffer, {"rays", rays_}, batch.all()});
@@ -102,15 +121,40 @@ void ConeRays::record(PassContext& context, const GBuffer& gbuffer, const Radian
                           ifUsed({"count", count_}),
                           batch.all()});
         if (hasNearField()) continuePaths(context, radiance, range, seed);
-        if (streams_)
+        if (residual)
+            context.dispatch(splitResiduals_, batchTexels,
+                             {gbuffer,
+                              {"light", light_},
+                              {"sums", streams_->sums()},
+                              {"residual", residual->irradiance},
+                              {"texelMoments", texelMoments_},
+                              batch.all()});
+        else if (streams_)
             context.dispatch(addResiduals_, batchCones, {{"light", light_}, {"sums", streams_->sums()}, batch.all()});
         context.dispatch(sumCones_, batchTexels, {{"light", light_}, {"irradiance", irradiance}, batch.all()});
     }
-    if (!streams_) return;
+    if (residual) sumMoments(context, gbuffer, *residual);
+    if (streams_) reportPaths(context);
+}
+
+void ConeRays::sumMoments(PassContext& context, const GBuffer& gbuffer, const NoisyIrradiance& residual) {
+    const glm::uvec2 texels = gbufferExtent(context.frame, gbuffer.samples), blocks = residual.blocks(texels);
+    context.dispatch(blockMoments_, blocks,
+                     {{"texelMoments", texelMoments_},
+                      {"moments", residual.moments},
+                      {"texels", texels},
+                      {"blocks", blocks},
+                      {"blockSize", residual.blockSize},
+                      {"stride", settings_.stride},
+                      {"tracedColumns", settings_.tracedExtent.x}});
+}
+
+void ConeRays::reportPaths(PassContext& context) {
     // The rays to the paths' first hits are the cones'
     const uint32_t paths = context.stream.readAs<uint32_t>(chosen_, 1)[0];
     context.extraRays = streams_->rays(context) - paths;
-    context.report("paths, % of cones", 100.0 * paths / (double(texels) * settings_.cones));
+    const double cones = double(settings_.tracedExtent.x) * settings_.tracedExtent.y * settings_.cones;
+    context.report("paths, % of cones", 100.0 * paths / cones);
 }
 
 glm::vec2 ConeRays::directionShift(uint32_t seed) const {
@@ -133,6 +177,7 @@ void ConeRays::tracePaths(PassContext& context, const Bindings& batch, uint32_t 
                                .width = settings_.tracedExtent.x * PATH_TILE,
                                .height = settings_.tracedExtent.y * PATH_TILE,
                                .halves = 1,
+                               .pointsOfPixel = 0,
                                .seed = seed ^ kPathSeed});
 }
 

@@ -14,11 +14,13 @@ layout(push_constant, scalar) uniform Push {
     uint batchCones;     // Cones of the batch, texel by texel.
     uint conesPerTexel;
     int stride;
-    float range;        // Length of the near field, m.
-    float rayLength;    // m
+    float range;      // Length of the near field, m.
+    float rayLength;  // m
+    vec2 shift;       // Of directions in their strata.
+#ifdef CHOOSES_CONES
     float probability;  // Of a cone to go on as a path.
-    vec2 shift;         // Of directions in their strata.
     uint seed;
+#endif
 } push;
 
 // The g-buffer's texel that cone i of the batch starts from; outside of the g-buffer at the ends of some rows.

@@ -93,9 +93,7 @@ CompareCones::Record CompareCones::compare(PassContext& context, uint32_t firstT
                          {"stride", params_.stride},
                          {"range", 0.0f},
                          {"rayLength", 1e30f},
-                         {"probability", 0.0f},
-                         {"shift", glm::vec2(0)},
-                         {"seed", 0u}};
+                         {"shift", glm::vec2(0)}};
     context.dispatch(generateRays_, cones, {context.scene, context[gbuffer_], {"rays", rays_}, batch.all()});
     context.tracer.closestHit(context.stream, rays_, hits_, cones);
     context.dispatch(compare_, cones,

@@ -1,5 +1,6 @@
 // Sums what a probe's rays bring by bins of directions.
 #include "passes/final_gather/gather_screen_probes/equal_area_octahedron.glsl"
+#include "passes/final_gather/gather_screen_probes/probe_bins.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
 layout(local_size_x = 64) in;
@@ -10,7 +11,7 @@ layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
 layout(scalar) readonly buffer Weights { float data[]; } weights;
 layout(scalar) readonly buffer Light { vec4 data[]; } light;
-layout(scalar) buffer Bins { vec4 data[]; } bins;  // Irradiance, W/m²; 1 over the distance of the nearest hit, 1/m.
+layout(scalar) readonly buffer BinsRef { ProbeBins bins; };
 layout(push_constant) uniform Push {
     uint firstProbe;
     uint count;

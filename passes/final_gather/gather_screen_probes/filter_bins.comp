@@ -2,6 +2,7 @@
 // neighbor counts the less, the more the nearest hit's direction differs between both, over the width of a bin. Two
 // probes give each other the same part of their difference, so that the sum over all probes is kept, whatever weights
 // have to do with light.
+#include "passes/final_gather/gather_screen_probes/probe_bins.glsl"
 #include "passes/final_gather/gather_screen_probes/screen_probes.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/sampling.glsl"
@@ -12,8 +13,8 @@ layout(constant_id = 0) const uint kBinEdge = 8u;
 layout(scalar) readonly buffer Probes { ScreenProbe data[]; } probes;
 readonly buffer FirstProbes { uint data[]; } firstProbes;
 layout(scalar) readonly buffer WeightSums { float data[]; } weightSums;
-layout(scalar) readonly buffer Bins { vec4 data[]; } bins;
-layout(scalar) writeonly buffer Filtered { vec4 data[]; } filtered;
+layout(scalar) readonly buffer BinsRef { ProbeBins bins; };
+layout(scalar) readonly buffer FilteredRef { ProbeBins filtered; };
 layout(push_constant, scalar) uniform Push {
     ProbeTiles tiles;
     uint count;

@@ -105,10 +105,11 @@ class GatherScreenProbes final : public Pass {
     Buffer rays_, hits_, weights_, light_;      ///< Of a batch.
     Buffer counts_;
     // Of all probes, while the pass records
-    std::array<Buffer, 2> bins_;  ///< Read and written in turn by the filter.
-    Buffer weightSums_, irradiance_, distribution_;
+    std::array<LargeBuffer, 2> bins_;  ///< Read and written in turn by the filter.
+    LargeBuffer distribution_;
+    Buffer weightSums_, irradiance_;
     // Of all probes
-    std::array<Buffer, 2> importance_;  ///< Of this frame, and of the previous one.
+    std::array<LargeBuffer, 2> importance_;  ///< Of this frame, and of the previous one.
 };
 
 uint32_t GatherScreenProbes::batchProbes() const {
@@ -152,15 +153,15 @@ void GatherScreenProbes::planBuffers(PassPlan& plan) {
 
 void GatherScreenProbes::makeRoom(Device& device) {
     const uint64_t probes = probes_.reservedCount(), allBins = probes * bins();
-    bins_[0] = Buffer(device, "light of probes by direction", allBins * sizeof(glm::vec4));
+    bins_[0] = LargeBuffer(device, "light of probes by direction", allBins * sizeof(glm::vec4));
     if (params_.filterPasses > 0) {
-        bins_[1] = Buffer(device, "filtered light of probes", allBins * sizeof(glm::vec4));
+        bins_[1] = LargeBuffer(device, "filtered light of probes", allBins * sizeof(glm::vec4));
         weightSums_ = Buffer(device, "sums of filter weights", probes * sizeof(float));
     }
     irradiance_ = Buffer(device, "irradiance of probes", probes * sizeof(gpu::ProbeIrradiance));
     if (!isGuided()) return;
     const uint64_t importanceBytes = probes * (bins() + 1) * sizeof(float);
-    distribution_ = Buffer(device, "distributions of probe rays", importanceBytes);
+    distribution_ = LargeBuffer(device, "distributions of probe rays", importanceBytes);
     std::swap(importance_[0], importance_[1]);
     growTo(importance_[0], device, "importance of directions", importanceBytes);
 }
@@ -174,8 +175,8 @@ void GatherScreenProbes::record(PassContext& context) {
                          {probes_,
                           {"motion", motion->motion},
                           {"previous", motion->previous},
-                          {"oldImportance", importance_[probes_.hasLast() ? 1 : 0]},
-                          {"distribution", distribution_},
+                          {"OldImportanceRef", importance_[probes_.hasLast() ? 1 : 0].ref()},
+                          {"DistributionRef", distribution_.ref()},
                           {"count", probes_.count()},
                           {"hasHistory", probes_.hasLast()}});
 
@@ -200,7 +201,7 @@ ContinuedPaths::Counts GatherScreenProbes::gather(PassContext& context, const st
     context.dispatch(generateRays_, rays,
                      {probes_,
                       common.all(),
-                      ifUsed({"distribution", distribution_}),
+                      ifUsed({"DistributionRef", distribution_.ref()}),
                       {"weights", weights_},
                       {"firstProbe", first},
                       {"raysPerProbe", params_.raysPerProbe},
@@ -224,7 +225,7 @@ ContinuedPaths::Counts GatherScreenProbes::gather(PassContext& context, const st
                       {"hits", hits_},
                       {"weights", weights_},
                       {"light", light_},
-                      {"bins", bins_[0]},
+                      {"BinsRef", bins_[0].ref()},
                       {"firstProbe", first},
                       {"count", count},
                       {"raysPerProbe", params_.raysPerProbe}});
@@ -239,15 +240,15 @@ void GatherScreenProbes::filter(PassContext& context) {
         context.dispatch(filterBins_, uint64_t(probes_.count()) * bins(),
                          {probes_,
                           {"weightSums", weightSums_},
-                          {"bins", bins_[pass % 2]},
-                          {"filtered", bins_[1 - pass % 2]},
+                          {"BinsRef", bins_[pass % 2].ref()},
+                          {"FilteredRef", bins_[1 - pass % 2].ref()},
                           {"count", probes_.count()}});
     context.dispatch(sumBins_, probes_.count(),
                      {probes_,
-                      {"bins", bins_[params_.filterPasses % 2]},
+                      {"BinsRef", bins_[params_.filterPasses % 2].ref()},
                       {"irradiance", irradiance_},
-                      ifUsed({"distribution", distribution_}),
-                      ifUsed({"importance", importance_[0]}),
+                      ifUsed({"DistributionRef", distribution_.ref()}),
+                      ifUsed({"ImportanceRef", importance_[0].ref()}),
                       {"count", probes_.count()}});
 }
 

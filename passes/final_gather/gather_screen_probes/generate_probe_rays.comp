@@ -1,6 +1,7 @@
 // Rays of a batch of probes: by cosine about the probe's normal, and a part of them by where light came from in the
 // previous frame. Each ray's weight is that of the balance heuristic (Veach 1997) between both.
 #include "passes/final_gather/gather_screen_probes/equal_area_octahedron.glsl"
+#include "passes/final_gather/gather_screen_probes/probe_bins.glsl"
 #include "passes/final_gather/gather_screen_probes/screen_probes.glsl"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/trace/ray_types.h"
@@ -12,7 +13,7 @@ layout(constant_id = 0) const uint kBinEdge = 8u;
 layout(scalar) readonly buffer Probes { ScreenProbe data[]; } probes;
 readonly buffer FirstProbes { uint data[]; } firstProbes;
 #ifdef HAS_HISTORY
-layout(scalar) readonly buffer Distribution { float data[]; } distribution;
+layout(scalar) readonly buffer DistributionRef { LargeFloats distribution; };
 #endif
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(scalar) writeonly buffer Weights { float data[]; } weights;  // Cosine over pi times the density of all rays.

@@ -1,5 +1,6 @@
 // For each probe the cumulative distribution of the bins in which the previous frame's probe of the same surface point
 // received light, and over how many frames. All 0 where there was no such probe, or no light.
+#include "passes/final_gather/gather_screen_probes/probe_bins.glsl"
 #include "passes/final_gather/gather_screen_probes/screen_probes.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
@@ -12,8 +13,8 @@ layout(scalar) readonly buffer Probes { ScreenProbe data[]; } probes;
 layout(scalar) readonly buffer OldProbes { ScreenProbe data[]; } oldProbes;
 readonly buffer OldFirstProbes { uint data[]; } oldFirstProbes;
 // For each probe its bins, and then the number of frames.
-layout(scalar) readonly buffer OldImportance { float data[]; } oldImportance;
-layout(scalar) writeonly buffer Distribution { float data[]; } distribution;
+layout(scalar) readonly buffer OldImportanceRef { LargeFloats oldImportance; };
+layout(scalar) readonly buffer DistributionRef { LargeFloats distribution; };
 layout(push_constant, scalar) uniform Push {
     ProbeTiles tiles;
     uint count;

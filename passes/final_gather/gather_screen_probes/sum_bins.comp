@@ -1,6 +1,7 @@
 // Irradiance of each probe from its bins of directions, and the bins' importance for the next frame: the mean over
 // frames of what part of the light came from each.
 #include "passes/final_gather/gather_screen_probes/equal_area_octahedron.glsl"
+#include "passes/final_gather/gather_screen_probes/probe_bins.glsl"
 #include "passes/final_gather/gather_screen_probes/screen_probe_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
@@ -8,11 +9,11 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kBinEdge = 8u;
 
 layout(scalar) readonly buffer Probes { ScreenProbe data[]; } probes;
-layout(scalar) readonly buffer Bins { vec4 data[]; } bins;
+layout(scalar) readonly buffer BinsRef { ProbeBins bins; };
 layout(scalar) writeonly buffer Irradiance { ProbeIrradiance data[]; } irradiance;
 #ifdef HAS_HISTORY
-layout(scalar) readonly buffer Distribution { float data[]; } distribution;
-layout(scalar) writeonly buffer Importance { float data[]; } importance;
+layout(scalar) readonly buffer DistributionRef { LargeFloats distribution; };
+layout(scalar) readonly buffer ImportanceRef { LargeFloats importance; };
 #define MAX_FRAMES 8.0  // Of the mean, which is exponential beyond them.
 #endif
 layout(push_constant) uniform Push { uint count; } push;

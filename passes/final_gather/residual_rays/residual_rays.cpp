@@ -125,6 +125,7 @@ void ResidualRays::measure(PassContext& context, uint32_t batch) {
                               .width = layout.blocks.x * PATH_TILE,
                               .height = layout.blocks.y * PATH_TILE,
                               .halves = 1,
+                              .pointsOfPixel = 0,
                               .seed = path_trace::hashOf(layout.seed, kPathSequence)});
     const Buffer& light = context[light_].light[batch];
     context.dispatch(

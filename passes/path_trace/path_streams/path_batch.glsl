@@ -4,6 +4,7 @@
 
 #include "path_types.h"
 #include "sobol.glsl"
+#include "shaders/scene/morton.glsl"
 
 // Coordinates of a pixel, by its index in the batch.
 uvec2 pixelOf(PathBatch batch, uint index) {
@@ -17,11 +18,17 @@ bool isInside(PathBatch batch, uvec2 pixel) { return pixel.x < batch.width && pi
 // A sample's half: of two the first has the odd numbers.
 uint halfOf(PathBatch batch, uint number) { return batch.halves == 1u ? 0u : 1u - (number & 1u); }
 
-// Random numbers of a pixel's sample, by its index in the batch.
+// Pixels along the edge of a square that shares its sequences, as in pixel_points.h.
+#define SHARED_EDGE 64u
+
+// Random numbers of a pixel's sample, by its index in the batch; host: pixel_points.h.
 SobolSampler samplerOf(PathBatch batch, uvec2 pixel, uint index) {
     const uint number = batch.firstSample + index;
-    const uint sequence = hashOf(hashOf(batch.seed, pixel.y * batch.width + pixel.x), halfOf(batch, number));
-    return makeSampler(sequence, number / batch.halves);
+    const bool isShared = batch.pointsOfPixel > 0u;
+    const uvec2 owner = isShared ? pixel / SHARED_EDGE : pixel;
+    const uint first = isShared ? morton(pixel % SHARED_EDGE) * batch.pointsOfPixel : 0u;
+    const uint sequence = hashOf(hashOf(batch.seed, owner.y * batch.width + owner.x), halfOf(batch, number));
+    return makeSampler(sequence, first + number / batch.halves);
 }
 
 // Where a sample is in its pixel, 0 to 1.

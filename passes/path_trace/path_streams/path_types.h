@@ -15,7 +15,8 @@ struct PathBatch {
     uint samples;      // Of each pixel.
     uint width;        // Of the image, pixels.
     uint height;
-    uint halves;  // Independent sequences among a pixel's samples: 2, 1 where it has a single sample.
+    uint halves;         // Independent sequences among a pixel's samples: 2, 1 where it has a single sample.
+    uint pointsOfPixel;  // Of sequences that pixels share; 0: each has its own (pixel_points.h).
     uint seed;
 };
 

@@ -4,7 +4,7 @@
 #include "base/error.h"
 #include "passes/path_trace/path_streams/path_streams.h"
 #include "passes/path_trace/path_trace_ports.h"
-#include "passes/path_trace/sobol.h"
+#include "passes/path_trace/pixel_points.h"
 
 namespace voxray {
 namespace {
@@ -105,6 +105,7 @@ void PathTraceDevice::traceRange(PassContext& context, const Range& range) {
             .width = options_.width,
             .height = options_.height,
             .halves = std::min(options_.spp, 2u),
+            .pointsOfPixel = path_trace::pointsOfPixel(options_),
             .seed = path_trace::hashOf(uint32_t(options_.seed), uint32_t(options_.seed >> 32)),
         };
         streams_.trace(context, batch);

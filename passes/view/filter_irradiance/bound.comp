@@ -4,10 +4,11 @@
 //     bound = mean · (1 + σ max(2.5/√rays, 1.5))
 //
 // mean: of the rays of the surrounding blocks; σ: a ray's standard deviation over this mean (statistics.comp). With
-// many rays an element's deviation is a difference of light rather than noise, hence the 1.5.
-#include "passes/view/filter_irradiance/block_interpolation.glsl"
+// many rays an element's deviation is a difference of light rather than noise, hence the 1.5. With SIGNED σ is not over
+// the mean, and bounds both sides.
+#include "shaders/filter/block_interpolation.glsl"
 #include "passes/view/filter_irradiance/surface.glsl"
-#include "passes/view/filter_irradiance/tiles.glsl"
+#include "shaders/filter/tiles.glsl"
 #include "shaders/filter/ray_statistics.h"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = TILE, local_size_y = TILE) in;
@@ -30,14 +31,20 @@ layout(push_constant, scalar) uniform Push {
 shared vec3 kept[TILE * TILE];
 shared vec3 excess[TILE * TILE];
 
-float boundOf(ivec2 pixel, float rays) {
+// The part of an element's light that is within the bound.
+float keptFraction(ivec2 pixel, float light, float rays) {
     const BlockCorner corners[4] = blockCorners(pixel, push.blockSize, push.blocks);
     float mean_ = 0.0, variance = 0.0;
     for (int i = 0; i < 4; ++i) {
         mean_ += corners[i].weight * blockMeans.data[corners[i].block];
         variance += corners[i].weight * statistics.data[corners[i].block].variance;
     }
-    return mean_ * (1.0 + sqrt(variance) * max(DEVIATIONS * inversesqrt(max(rays, 1.0)), LEAST_RAY_DEVIATIONS));
+    const float deviation = sqrt(variance) * max(DEVIATIONS * inversesqrt(max(rays, 1.0)), LEAST_RAY_DEVIATIONS);
+#ifdef SIGNED
+    return max(clamp(light, mean_ - deviation, mean_ + deviation) / light, 0.0);
+#else
+    return min(mean_ * (1.0 + deviation) / light, 1.0);
+#endif
 }
 
 void main() {
@@ -50,9 +57,16 @@ void main() {
             const float area = areaOf(texelFetch(surfaces, element, 0));
             const vec4 value = imageLoad(source, element);
             const float light = luminance(value.rgb);
+#ifdef SIGNED
+            kept[thread] += vec3(area);
+            if (area == 0.0 || light == 0.0) continue;
+#else
             if (area == 0.0 || light <= 0.0) continue;
-            const float fraction = min(boundOf(pixel, value.a) / light, 1.0);
+#endif
+            const float fraction = keptFraction(pixel, light, value.a);
+#ifndef SIGNED
             kept[thread] += area * fraction * value.rgb;
+#endif
             excess[thread] += area * (1.0 - fraction) * value.rgb;
             if (fraction < 1.0) imageStore(source, element, vec4(fraction * value.rgb, value.a));
         }

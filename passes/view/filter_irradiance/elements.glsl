@@ -5,22 +5,10 @@
 
 #include "passes/common/filter/wavelet_noise.h"
 #include "passes/view/filter_irradiance/surface.glsl"
-#include "shaders/compute/linear_index.glsl"
-layout(local_size_x = 64) in;
 
 #define LAYERS (SAMPLES > 1 ? 2 : 1)
 
-uniform usampler2D surfaces;                                    // surface.glsl
-layout(scalar) readonly buffer Second { uint data[]; } second;  // Number of second surfaces, then their pixels.
-
-// The element of this invocation; false where there is none.
-bool elementOfThread(ivec2 pixels, out ivec2 element) {
-    const uint i = linearIndex(), count = uint(pixels.x * pixels.y);
-    if (i >= count + second.data[0]) return false;
-    const uint pixel = i < count ? i : second.data[1u + i - count];
-    element = ivec2(pixel % pixels.x, pixel / pixels.x + (i < count ? 0 : pixels.y));
-    return true;
-}
+uniform usampler2D surfaces;  // surface.glsl
 
 // 3 x 3 kernel: 1 2 1 along rows and columns.
 float kernel(int x, int y) { return (x == 0 ? 2.0 : 1.0) * (y == 0 ? 2.0 : 1.0); }

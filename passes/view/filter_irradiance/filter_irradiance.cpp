@@ -1,11 +1,12 @@
 #include <algorithm>
-#include <array>
 #include <string>
 
 #include "base/error.h"
 #include "graph/registry.h"
 #include "passes/common/filter/noisy_irradiance.h"
 #include "passes/common/filter/wavelet_noise.h"
+#include "passes/view/filter_irradiance/filter_irradiance_params.h"
+#include "passes/view/filter_irradiance/level_kernel.h"
 #include "scene/camera_rays.h"
 
 namespace voxray {
@@ -23,23 +24,6 @@ glm::uvec2 tilesOf(glm::uvec2 pixels) {
 
 }  // namespace
 
-/// Light that is denoised.
-enum class FilteredLight { Indirect, Direct, Residual };
-template <>
-struct EnumNames<FilteredLight> {
-    static constexpr std::array names{std::pair{FilteredLight::Indirect, "indirect"},
-                                      std::pair{FilteredLight::Direct, "direct"},
-                                      std::pair{FilteredLight::Residual, "residual"}};
-};
-
-/// What an element's value is, of the weighted taps around it.
-enum class Estimator { Mean, Regression };
-template <>
-struct EnumNames<Estimator> {
-    static constexpr std::array names{std::pair{Estimator::Mean, "mean"},
-                                      std::pair{Estimator::Regression, "regression"}};
-};
-
 /// Denoises a gather's irradiance. Source: the edge-avoiding à-trous wavelet of Dammertz et al. 2010, with a
 /// weight that balances noise against bias: the gradient bound of Ward et al. 1988, geometry, and means of
 /// neighborhoods (wavelet.comp); optionally linear regression on position (Moon et al. 2014). Docs: docs/filtering.md.
@@ -55,35 +39,7 @@ class FilterIrradiance final : public Pass {
         "from their variance, the distances of their hits, and the differences of light between neighborhoods. "
         "Biased by: edge_stopping_scale and levels, less the more rays. Lambert surfaces only. "
         "Source: Dammertz et al. 2010; Ward et al. 1988; Moon et al. 2014; docs/filtering.md.";
-    struct Params {
-        FilteredLight light = FilteredLight::Indirect;
-        Estimator estimator = Estimator::Mean;
-        uint32_t levels = 0;
-        float edgeStoppingScale = 0.0f;
-        static constexpr auto schema() {
-            return std::tuple{
-                field("light", &Params::light,
-                      "indirect: reads 'noisy_irradiance' and writes 'indirect'. "
-                      "direct: reads 'noisy_direct', adds 'unfiltered_direct' and writes 'direct'. "
-                      "residual: reads 'noisy_residual', which may be negative, adds 'indirect' and "
-                      "writes 'indirect'."),
-                field("estimator", &Params::estimator,
-                      "mean: the weighted mean of taps. regression: wider, with less error and 2.3 times "
-                      "the time: linear regression on position, noise measured, outliers bounded and what "
-                      "they lose given back around them, means of wider neighborhoods, one more level.")
-                    .onlyWith(oneOf(&Params::light, {FilteredLight::Indirect, FilteredLight::Direct})),
-                field("levels", &Params::levels,
-                      "Levels of the wavelet, each with twice the radius of the previous one: "
-                      "n levels have a radius of 2^n - 1 pixels. 0: 4, with regression 5, of residuals 6.",
-                      0u, 6u),
-                field("edge_stopping_scale", &Params::edgeStoppingScale,
-                      "Factor of the bound of the difference of irradiance between two texels. "
-                      "1: the whole bound, sharp and noisy; less: smoother, and shadows blur. "
-                      "0: 0.1 for indirect light, most of whose changes cancel, with regression 0.02; "
-                      "1 for direct light, where the edge of a shadow is a single change.",
-                      0.0f, 100.0f)};
-        }
-    };
+    using Params = FilterIrradianceParams;
 
     explicit FilterIrradiance(const Params& params) : params_(params) {}
     void plan(PassPlan& plan) override;
@@ -98,13 +54,13 @@ class FilterIrradiance final : public Pass {
     void findLight(PassContext& context) const;
     /// Computes the mean irradiance of neighborhoods that are twice as wide as the last ones. @param level from 0 on.
     void widenMeans(PassContext& context, uint32_t level) const;
-    uint64_t elements() const;
     glm::uvec2 blocks(PassContext& context) const;
     float blockPixels(PassContext& context) const;
 
     bool isDirect() const { return params_.light == FilteredLight::Direct; }
     bool isResidual() const { return params_.light == FilteredLight::Residual; }
     bool hasRegression() const { return params_.estimator == Estimator::Regression && !isResidual(); }
+    bool boundsOutliers() const { return hasRegression() || isResidual(); }
     uint32_t levels() const {
         if (params_.levels > 0) return params_.levels;
         return isResidual() ? kResidualLevels : hasRegression() ? 5 : WAVELET_LEVELS;
@@ -129,12 +85,12 @@ class FilterIrradiance final : public Pass {
     Kernel giveBack_{*this, "give_back.comp"};
     Kernel noise_{*this, "noise.comp"};
     Kernel findNoiseRatio_{*this, "noise_ratio.comp"};
-    Kernel mean_{*this, "mean.comp"};
+    LevelKernel mean_{*this, "mean.comp"};
     Kernel findLight_{*this, "light.comp"};
     Kernel widerMeans_{*this, "wider_means.comp"};
-    Kernel wavelet_{*this, "wavelet.comp"};
+    LevelKernel wavelet_{*this, "wavelet.comp"};
     Kernel resolve_{*this, "resolve.comp"};
-    Buffer second_;           ///< Number of pixels with a second surface, then their indices.
+    Buffer second_;           ///< Pixels with a second surface (shaders/compute/indirect_list.glsl).
     Buffer blockStatistics_;  ///< gpu::RayStatistics per block, from the gather's moments.
     // Regression, where the gather writes moments.
     Buffer blockMeans_;  ///< Luminance per block, W/m².
@@ -172,8 +128,9 @@ void FilterIrradiance::plan(PassPlan& plan) {
     plan.image(reflectance_, "reflectance of surfaces", {VK_FORMAT_R16G16B16A16_SFLOAT, extent});
     plan.image(light_, "statistics of light", values);
     for (Image& level : filtered_) plan.image(level, "filtered irradiance", values);
-    plan.buffer(second_, "second surfaces", (1 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
-    const bool hasMoments = noisy.blockSize > 0 && !noisy.hasStatistics, givesBack = hasMoments && hasRegression();
+    plan.buffer(second_, "second surfaces", (4 + uint64_t(plan.frame.width) * plan.frame.height) * sizeof(uint32_t));
+    const bool hasMoments = noisy.blockSize > 0 && !noisy.hasStatistics;
+    const bool givesBack = hasMoments && boundsOutliers(), measuresNoise = hasMoments && hasRegression();
     const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
     if (hasMoments) plan.buffer(blockStatistics_, "statistics of rays", noisy.statisticsBytes(texels));
     if (givesBack) {
@@ -181,6 +138,9 @@ void FilterIrradiance::plan(PassPlan& plan) {
         plan.buffer(blockMeans_, "mean light of rays", uint64_t(blocks.x) * blocks.y * sizeof(float));
         plan.buffer(tiles_, "light of tiles", uint64_t(tiles.x) * tiles.y * kTileBytes);
         plan.buffer(raised_, "light given back", uint64_t(tiles.x) * tiles.y * kRaisedBytes);
+    }
+    if (measuresNoise) {
+        const glm::uvec2 tiles = tilesOf(plan.frame.pixels());
         plan.buffer(noiseSums_, "noise of tiles", uint64_t(tiles.x) * tiles.y * kNoiseBytes);
         plan.buffer(noiseRatio_, "noise ratio", kMeasuredLevels * sizeof(float));
     }
@@ -192,16 +152,16 @@ void FilterIrradiance::plan(PassPlan& plan) {
     if (noisy.hasStatistics) defines.emplace("BOUNDED_GRADIENT", "1");
     if (isResidual()) defines.emplace("SIGNED", "1");
     if (hasRegression()) defines.emplace("REGRESSION", "1");
-    if (givesBack) {
-        defines.emplace("GIVE_BACK", "1");
-        defines.emplace("NOISE_RATIO", "1");
-    }
-    for (Kernel* kernel : {&findSurfaces_, &statistics_, &bound_, &giveBack_, &noise_, &findNoiseRatio_, &mean_,
-                           &findLight_, &widerMeans_, &wavelet_, &resolve_})
+    if (givesBack) defines.emplace("GIVE_BACK", "1");
+    if (measuresNoise) defines.emplace("NOISE_RATIO", "1");
+    for (Kernel* kernel : {&findSurfaces_, &statistics_, &bound_, &giveBack_, &noise_, &findNoiseRatio_, &findLight_,
+                           &widerMeans_, &resolve_})
         kernel->define(defines);
     statistics_.compileIf(hasMoments);
-    for (Kernel* kernel : {&bound_, &giveBack_, &noise_, &findNoiseRatio_}) kernel->compileIf(givesBack);
-    mean_.compileIf(noisy.blockSize > 0);
+    for (Kernel* kernel : {&bound_, &giveBack_}) kernel->compileIf(givesBack);
+    for (Kernel* kernel : {&noise_, &findNoiseRatio_}) kernel->compileIf(measuresNoise);
+    mean_.define(defines, noisy.blockSize > 0, samples > 1);
+    wavelet_.define(defines, true, samples > 1);
     widerMeans_.compileIf(noisy.blockSize > 0 && hasRegression());
 }
 
@@ -209,14 +169,14 @@ void FilterIrradiance::record(PassContext& context) {
     const glm::uvec2 pixels = context.frame.pixels();
 
     // Find the surfaces of each pixel
-    context.stream.fill(second_, 0);
-    context.dispatch(findSurfaces_, uint64_t(pixels.x) * pixels.y,
+    context.stream.fill(second_, 1);
+    context.dispatch(findSurfaces_, pixels,
                      {context[gbuffer_],
                       {"irradiance", context[noisy_].irradiance},
                       {"surfaces", surfaces_},
                       {"source", filtered_[0]},
                       {"reflectance", reflectance_},
-                      {"second", second_},
+                      ifUsed({"indirectList", second_}),
                       {"pixels", pixels}});
 
     // Find the light around each
@@ -228,7 +188,7 @@ void FilterIrradiance::record(PassContext& context) {
                           {"statistics", blockStatistics_},
                           ifUsed({"blockMeans", blockMeans_}),
                           {"blocks", blocks(context)}});
-    if (hasMoments && hasRegression()) boundOutliers(context);
+    if (hasMoments && boundsOutliers()) boundOutliers(context);
     for (uint32_t level = 0; hasMeans && level < kMeanLevels; ++level) widenMeans(context, level);
     findLight(context);
 
@@ -237,21 +197,19 @@ void FilterIrradiance::record(PassContext& context) {
     for (uint32_t level = 0; level < levels(); ++level) {
         if (hasMeans && hasRegression() && level >= kMeanLevels) {
             widenMeans(context, level);
-            context.dispatch(
-                widerMeans_, elements(),
-                {{"second", second_}, {"surfaces", surfaces_}, {"mean", means_[level % 2]}, {"light", light_}});
+            context.dispatch(widerMeans_, glm::uvec2(surfaces_.desc().extent),
+                             {{"surfaces", surfaces_}, {"mean", means_[level % 2]}, {"light", light_}});
         }
         if (hasMoments && hasRegression() && level < kMeasuredLevels) measureNoise(context, level);
-        context.dispatch(wavelet_, elements(),
-                         {{"second", second_},
-                          {"surfaces", surfaces_},
-                          {"light", light_},
-                          {"source", filtered_[level % 2]},
-                          {"result", filtered_[(level + 1) % 2]},
-                          ifUsed({"noiseRatio", noiseRatio_}),
-                          {"level", level},
-                          {"edgeStoppingScale", edgeStoppingScale()},
-                          ifUsed({"ratioLevel", std::min(level, kMeasuredLevels - 1)})});
+        wavelet_.record(context, level,
+                        {{"surfaces", surfaces_},
+                         {"light", light_},
+                         {"source", filtered_[level % 2]},
+                         {"result", filtered_[(level + 1) % 2]},
+                         ifUsed({"noiseRatio", noiseRatio_}),
+                         {"edgeStoppingScale", edgeStoppingScale()},
+                         ifUsed({"ratioLevel", std::min(level, kMeasuredLevels - 1)})},
+                        second_);
     }
 
     // Compute the radiance that they reflect
@@ -294,9 +252,8 @@ void FilterIrradiance::measureNoise(PassContext& context, uint32_t level) const 
 void FilterIrradiance::findLight(PassContext& context) const {
     const NoisyIrradiance& noisy = context[noisy_];
     const CameraRays camera = cameraRays(context.frame.camera, context.frame.width, context.frame.height);
-    context.dispatch(findLight_, elements(),
-                     {{"second", second_},
-                      {"surfaces", surfaces_},
+    context.dispatch(findLight_, glm::uvec2(surfaces_.desc().extent),
+                     {{"surfaces", surfaces_},
                       {"light", light_},
                       ifUsed({"mean", means_[(kMeanLevels - 1) % 2]}),
                       ifUsed({"statistics", noisy.hasStatistics ? noisy.statistics : blockStatistics_}),
@@ -307,17 +264,11 @@ void FilterIrradiance::findLight(PassContext& context) const {
 }
 
 void FilterIrradiance::widenMeans(PassContext& context, uint32_t level) const {
-    context.dispatch(mean_, elements(),
-                     {{"second", second_},
-                      {"surfaces", surfaces_},
-                      {"source", level == 0 ? filtered_[0] : means_[(level - 1) % 2]},
-                      {"result", means_[level % 2]},
-                      {"level", level}});
-}
-
-uint64_t FilterIrradiance::elements() const {
-    const glm::uvec3 extent = surfaces_.desc().extent;
-    return uint64_t(extent.x) * extent.y;
+    mean_.record(context, level,
+                 {{"surfaces", surfaces_},
+                  {"source", level == 0 ? filtered_[0] : means_[(level - 1) % 2]},
+                  {"result", means_[level % 2]}},
+                 second_);
 }
 
 glm::uvec2 FilterIrradiance::blocks(PassContext& context) const {

@@ -3,6 +3,7 @@
 #include "passes/view/filter_irradiance/elements.glsl"
 #include "passes/view/filter_irradiance/surface_light.glsl"
 #include "shaders/filter/ray_statistics.h"
+layout(local_size_x = 64) in;
 
 #ifdef STATISTICS
 uniform sampler2D mean;  // mean.comp
@@ -38,16 +39,19 @@ vec2 interpolatedStatistics(ivec2 pixel) {
 #endif
 
 void main() {
-    const ivec2 pixels = imageSize(light) / ivec2(1, LAYERS);
-    ivec2 element;
-    if (!elementOfThread(pixels, element)) return;
+    const ivec2 element = ivec2(gl_GlobalInvocationID.xy), size = imageSize(light), pixels = size / ivec2(1, LAYERS);
+    if (any(greaterThanEqual(element, size))) return;
     const uvec4 surface = texelFetch(surfaces, element, 0);
+    if (areaOf(surface) == 0.0) {
+        imageStore(light, element, vec4(0.0));
+        return;
+    }
 
     // Without statistics assume a mean of 1 everywhere, the maximum gradient, and a ray's variance of its squared mean
     SurfaceLight found = SurfaceLight(1.0, 0.0, 1.0, 1.0e30);
     float variance = 1.0;  // Over the squared mean, or SIGNED.
 #ifdef STATISTICS
-    const vec2 rays = interpolatedStatistics(ivec2(element.x, element.y % pixels.y));
+    const vec2 rays = interpolatedStatistics(ivec2(element.x, element.y < pixels.y ? element.y : element.y - pixels.y));
     const vec3 neighborhood = texelFetch(mean, element, 0).xyz;
     variance = rays.y;
 #ifdef SIGNED
@@ -62,5 +66,5 @@ void main() {
     const float minDistance = MIN_PIXELS * push.pixelAngle * distance(unpackSurface(surface).position, push.camera);
     found.gradient = min(found.gradient, sqrt(variance) / minDistance);
 #endif
-    imageStore(light, element, areaOf(surface) > 0.0 ? packLight(found) : vec4(0.0));
+    imageStore(light, element, packLight(found));
 }

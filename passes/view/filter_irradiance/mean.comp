@@ -11,40 +11,42 @@ uniform sampler2D source;
 layout(rgba32f) writeonly uniform image2D result;
 layout(push_constant) uniform Push { int level; } push;
 
-void main() {
-    const ivec2 pixels = imageSize(result) / ivec2(1, LAYERS);
-    ivec2 element;
-    if (!elementOfThread(pixels, element)) return;
+struct Tap {
+    Surface surface;
+    float area;
+    vec3 light;  // As `result`, but at level 0 the number of rays is that of the element.
+};
+
+Tap loadTap(ivec2 element) {
     const uvec4 bits = texelFetch(surfaces, element, 0);
-    if (areaOf(bits) == 0.0) {
-        imageStore(result, element, vec4(0.0));
-        return;
-    }
-
-    const Surface center = unpackSurface(bits);
-    float luminances = 0.0, rays = 0.0, squares = 0.0, weights = 0.0;
-    for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x) {
-            const ivec2 pixel = ivec2(element.x, element.y % pixels.y) + (ivec2(x, y) << push.level);
-            if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, pixels))) continue;
-            for (int layer = 0, layers = 1; layer < layers; ++layer) {
-                const ivec2 tap = pixel + ivec2(0, layer * pixels.y);
-                const uvec4 neighbor = texelFetch(surfaces, tap, 0);
-                const float area = areaOf(neighbor);
-                if (area == 0.0) continue;
-                if (area < 1.0) layers = LAYERS;
-                // At level 0 the number of rays is that of the element, later per pixel
-                const vec4 value = texelFetch(source, tap, 0);
-                const vec3 light = push.level == 0 ? vec3(luminance(value.rgb), value.aa) : value.rgb;
-                const float same = kernel(x, y) * sameSurface(center, unpackSurface(neighbor));
-                const float weight = push.level == 0 ? same : same * area;
-                luminances += weight * light.y * light.x;
-                rays += weight * light.y;
-                squares += weight * weight * light.z;
-                weights += same * area;
-            }
-        }
-
-    const float meanSquares = overlap(push.level) * squares / (weights * weights);
-    imageStore(result, element, vec4(rays > 0.0 ? luminances / rays : 0.0, rays / weights, meanSquares, 0.0));
+    const vec4 value = texelFetch(source, element, 0);
+    return Tap(unpackSurface(bits), areaOf(bits),
+               push.level == 0 ? vec3(luminance(value.rgb), value.aa) : value.rgb);
 }
+
+struct Sums { float luminances, rays, squares, weights; };
+
+Sums emptySums() { return Sums(0.0, 0.0, 0.0, 0.0); }
+
+float weightOf(Tap a, Tap b) { return sameSurface(a.surface, b.surface); }
+
+void addTap(inout Sums sums, Tap center, Tap tap, float kernel_, float weight) {
+    const float bySize = kernel_ * weight * tap.area;
+    const float byRays = push.level > 0 ? bySize : tap.area > 0.0 ? kernel_ * weight : 0.0;
+    sums.luminances += byRays * tap.light.y * tap.light.x;
+    sums.rays += byRays * tap.light.y;
+    sums.squares += byRays * byRays * tap.light.z;
+    sums.weights += bySize;
+}
+
+void store(ivec2 element, Tap center, Sums sums) {
+    const float rays = sums.rays, weights = sums.weights;
+    const float meanSquares = overlap(push.level) * sums.squares / (weights * weights);
+    imageStore(result, element,
+               center.area > 0.0 ? vec4(rays > 0.0 ? sums.luminances / rays : 0.0, rays / weights, meanSquares, 0.0)
+                                 : vec4(0.0));
+}
+
+#include "passes/view/filter_irradiance/level.glsl"
+
+void main() { filterLevel(imageSize(result), push.level); }

@@ -3,7 +3,7 @@
 // independent rays. A linear change of light adds nothing to such a difference.
 #include "passes/view/filter_irradiance/noise_ratio.glsl"
 #include "passes/view/filter_irradiance/surface_light.glsl"
-#include "passes/view/filter_irradiance/tiles.glsl"
+#include "shaders/filter/tiles.glsl"
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = TILE, local_size_y = TILE) in;
 

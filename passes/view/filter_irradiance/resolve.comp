@@ -1,14 +1,14 @@
 // Radiance that each pixel reflects of the filtered irradiance, by Lambert's law, and of light that is not filtered.
-#include "passes/view/filter_irradiance/block_interpolation.glsl"
-#include "passes/view/filter_irradiance/tiles.glsl"
-layout(local_size_x = 8, local_size_y = 8) in;
+#include "shaders/filter/block_interpolation.glsl"
+#include "shaders/filter/tiles.glsl"
+layout(local_size_x = 64) in;
 
 uniform sampler2D irradiance;   // Of elements (elements.glsl), W/m².
 uniform sampler2D reflectance;  // Albedo times the surface's fraction of the pixel.
 uniform sampler2D unfiltered;   // W/(m² sr); one black texel where there is none.
 layout(rgba32f) writeonly uniform image2D result;
 #ifdef GIVE_BACK
-layout(scalar) readonly buffer Raised { vec3 data[]; } raised;  // Factor of each tile's irradiance (give_back.comp).
+layout(scalar) readonly buffer Raised { vec3 data[]; } raised;  // By tile (give_back.comp).
 
 vec3 raisedAt(ivec2 pixel, uvec2 pixels) {
     const BlockCorner corners[4] = blockCorners(pixel, float(TILE), tilesOf(pixels));
@@ -21,13 +21,17 @@ vec3 raisedAt(ivec2 pixel, uvec2 pixels) {
 void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy), size = imageSize(result);
     if (any(greaterThanEqual(pixel, size))) return;
-    vec3 sum = texelFetch(reflectance, pixel, 0).rgb * texelFetch(irradiance, pixel, 0).rgb;
+    const vec3 firstReflectance = texelFetch(reflectance, pixel, 0).rgb;
+    vec3 sum = firstReflectance * texelFetch(irradiance, pixel, 0).rgb, reflected = firstReflectance;
 #if SAMPLES > 1
     const ivec2 second = pixel + ivec2(0, size.y);
     const vec3 secondReflectance = texelFetch(reflectance, second, 0).rgb;
     if (secondReflectance != vec3(0.0)) sum += secondReflectance * texelFetch(irradiance, second, 0).rgb;
+    reflected += secondReflectance;
 #endif
-#ifdef GIVE_BACK
+#if defined(GIVE_BACK) && defined(SIGNED)
+    sum += reflected * raisedAt(pixel, uvec2(size));
+#elif defined(GIVE_BACK)
     sum *= raisedAt(pixel, uvec2(size));
 #endif
     const vec3 added = texelFetch(unfiltered, min(pixel, textureSize(unfiltered, 0) - 1), 0).rgb;

@@ -2,7 +2,7 @@
 // most of the pixel's rays, and among those with equally many the one with most texels. The second is found in the same
 // way among the remaining texels, and represents all of them.
 #include "passes/view/filter_irradiance/surface.glsl"
-#include "shaders/compute/linear_index.glsl"
+#include "shaders/compute/indirect_list.glsl"
 layout(local_size_x = 64) in;
 
 uniform sampler2D position;
@@ -13,7 +13,6 @@ uniform sampler2D albedo;
 layout(rgba32ui) writeonly uniform uimage2D surfaces;
 layout(rgba32f) writeonly uniform image2D source;       // Irradiance, W/m²; number of rays.
 layout(rgba16f) writeonly uniform image2D reflectance;  // Albedo times the surface's fraction of the pixel.
-layout(scalar) buffer Second { uint data[]; } second;   // Number of second surfaces, then their pixels, in any order.
 layout(push_constant) uniform Push { uvec2 pixels; } push;
 
 #define TEXELS (SAMPLES * SAMPLES)  // Of a pixel.
@@ -21,11 +20,63 @@ layout(push_constant) uniform Push { uvec2 pixels; } push;
 
 ivec2 texelOf(ivec2 pixel, int t) { return pixel * SAMPLES + ivec2(t % SAMPLES, t / SAMPLES); }
 
-void main() {
-    const uint i = linearIndex();
-    if (i >= push.pixels.x * push.pixels.y) return;
-    const ivec2 pixel = ivec2(i % push.pixels.x, i / push.pixels.x);
+Surface surfaceOf(ivec2 texel) {
+    return Surface(texelFetch(position, texel, 0).xyz, texelFetch(geometricNormal, texel, 0).xyz,
+                   texelFetch(normal, texel, 0).xyz);
+}
 
+// Sums over the texels of an element.
+struct ElementSums {
+    Surface surface;
+    vec3 light;  // Irradiance times rays.
+    float rays;
+    vec3 color;
+};
+
+void storeElement(ivec2 element, ElementSums sums, int texels) {
+    imageStore(surfaces, element, packSurface(sums.surface, float(texels) / float(TEXELS)));
+    imageStore(source, element, vec4(sums.light / max(sums.rays, 1.0), sums.rays));
+    imageStore(reflectance, element, vec4(sums.color / float(TEXELS), 0.0));
+}
+
+void storeNothing(ivec2 element) {
+    imageStore(surfaces, element, uvec4(0u));
+    imageStore(source, element, vec4(0.0));
+    imageStore(reflectance, element, vec4(0.0));
+}
+
+// Stores the only surface of a pixel; false where it has several, or texels without any.
+bool storeOneSurface(ivec2 pixel) {
+    const ivec2 corner = pixel * SAMPLES;
+    const Surface first = surfaceOf(corner);
+    const vec3 color = texelFetch(albedo, corner, 0).rgb;
+    const bool isKnown = texelFetch(normal, corner, 0).w > 0.0;
+    ElementSums sums = ElementSums(Surface(vec3(0.0), vec3(0.0), vec3(0.0)), vec3(0.0), 0.0, vec3(0.0));
+    bool isOne = true;
+    for (int t = 0; t < TEXELS; ++t) {
+        const ivec2 texel = texelOf(pixel, t);
+        const vec4 point = texelFetch(position, texel, 0), value = texelFetch(irradiance, texel, 0);
+        sums.surface.position += point.xyz / float(TEXELS);
+        sums.light += value.w * value.rgb;
+        sums.rays += value.w;
+        if (isKnown) {
+            sums.surface.normal += first.normal;
+            sums.surface.geometricNormal += first.geometricNormal;
+            sums.color += color;
+        } else {
+            const Surface s = Surface(point.xyz, texelFetch(geometricNormal, texel, 0).xyz,
+                                      texelFetch(normal, texel, 0).xyz);
+            isOne = isOne && point.w > 0.0 && isSameSurface(first, s);
+            sums.surface.normal += s.normal;
+            sums.surface.geometricNormal += s.geometricNormal;
+            sums.color += texelFetch(albedo, texel, 0).rgb;
+        }
+    }
+    if (isOne) storeElement(pixel, sums, TEXELS);
+    return isOne;
+}
+
+void storeSurfaces(ivec2 pixel) {
     // Read the pixel's texels
     Surface texels[TEXELS];
     bool isUnassigned[TEXELS];
@@ -33,19 +84,16 @@ void main() {
     int unassigned = 0;
     for (int t = 0; t < TEXELS; ++t) {
         const ivec2 texel = texelOf(pixel, t);
-        const vec4 p = texelFetch(position, texel, 0);
-        texels[t] = Surface(p.xyz, texelFetch(geometricNormal, texel, 0).xyz, texelFetch(normal, texel, 0).xyz);
+        texels[t] = surfaceOf(texel);
         rays[t] = texelFetch(irradiance, texel, 0).w;
-        isUnassigned[t] = p.w > 0.0;
+        isUnassigned[t] = texelFetch(position, texel, 0).w > 0.0;
         unassigned += isUnassigned[t] ? 1 : 0;
     }
 
     for (int layer = 0; layer < LAYERS; ++layer) {
         const ivec2 element = pixel + ivec2(0, layer * int(push.pixels.y));
         if (unassigned == 0) {
-            imageStore(surfaces, element, uvec4(0u));
-            imageStore(source, element, vec4(0.0));
-            imageStore(reflectance, element, vec4(0.0));
+            storeNothing(element);
             continue;
         }
 
@@ -69,31 +117,37 @@ void main() {
         }
 
         // Average its geometry, irradiance and albedo; light and albedo of the second surface over all remaining texels
-        Surface mean_ = Surface(vec3(0.0), vec3(0.0), vec3(0.0));
-        vec3 light = vec3(0.0), color = vec3(0.0);
-        float lightRays = 0.0;
+        ElementSums sums = ElementSums(Surface(vec3(0.0), vec3(0.0), vec3(0.0)), vec3(0.0), 0.0, vec3(0.0));
         int area = 0;  // Texels.
         for (int b = 0; b < TEXELS; ++b) {
             if (!isUnassigned[b]) continue;
             const ivec2 texel = texelOf(pixel, b);
             const bool same = isSameSurface(texels[best], texels[b]);
             if (same) {
-                mean_.position += texels[b].position / float(bestTexels);
-                mean_.normal += texels[b].normal;
-                mean_.geometricNormal += texels[b].geometricNormal;
+                sums.surface.position += texels[b].position / float(bestTexels);
+                sums.surface.normal += texels[b].normal;
+                sums.surface.geometricNormal += texels[b].geometricNormal;
             }
             if (same || layer == 1) {
-                light += rays[b] * texelFetch(irradiance, texel, 0).rgb;
-                lightRays += rays[b];
+                sums.light += rays[b] * texelFetch(irradiance, texel, 0).rgb;
+                sums.rays += rays[b];
                 ++area;
-                color += texelFetch(albedo, texel, 0).rgb;
+                sums.color += texelFetch(albedo, texel, 0).rgb;
                 isUnassigned[b] = false;
                 --unassigned;
             }
         }
-        imageStore(surfaces, element, packSurface(mean_, float(area) / float(TEXELS)));
-        imageStore(source, element, vec4(light / max(lightRays, 1.0), lightRays));
-        imageStore(reflectance, element, vec4(color / float(TEXELS), 0.0));
-        if (layer == 1) second.data[1u + atomicAdd(second.data[0], 1u)] = i;
+        storeElement(element, sums, area);
+        if (layer == 1) appendItem(uint(pixel.x) | (uint(pixel.y) << 16), 1u);
     }
+}
+
+void main() {
+    const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(uvec2(pixel), push.pixels))) return;
+    const bool isOne = storeOneSurface(pixel);
+    if (!isOne)
+        storeSurfaces(pixel);
+    else if (LAYERS == 2)
+        storeNothing(pixel + ivec2(0, push.pixels.y));
 }

@@ -23,7 +23,7 @@
 #include "passes/view/filter_irradiance/weighted_mean.glsl"
 #endif
 
-uniform sampler2D light;
+uniform sampler2D light;  // surface_light.glsl
 uniform sampler2D source;  // Irradiance, W/m²; number of rays that it represents.
 layout(rgba32f) writeonly uniform image2D result;
 #ifdef NOISE_RATIO
@@ -45,74 +45,83 @@ layout(push_constant) uniform Push {
 #define KERNEL_SQUARES 0.14
 #endif
 
-// ratio: of the variance of means over that of as many independent rays.
-SurfaceLight lightOf(ivec2 element, float ratio) {
-    SurfaceLight found = unpackLight(texelFetch(light, element, 0));
-    found.meanVariance *= ratio;
-    return found;
+// Of the variance of means over that of as many independent rays.
+float noiseRatioOfLevel() {
+#ifdef NOISE_RATIO
+    return noiseRatio.data[push.ratioLevel];
+#else
+    return 1.0;
+#endif
 }
 
-void main() {
-    const ivec2 pixels = imageSize(result) / ivec2(1, LAYERS);
-    ivec2 element;
-    if (!elementOfThread(pixels, element)) return;
+struct Tap {
+    Surface surface;
+    float area;
+    SurfaceLight light;
+    vec3 irradiance;    // W/m²
+    float inverseRays;  // 0 without rays.
+    float noise;        // Variance of the irradiance.
+    float count;        // Of the element among others.
+};
+
+Tap loadTap(ivec2 element) {
     const uvec4 bits = texelFetch(surfaces, element, 0);
-    if (areaOf(bits) == 0.0) {
+    const vec4 value = texelFetch(source, element, 0);
+    Tap tap;
+    tap.surface = unpackSurface(bits);
+    tap.area = areaOf(bits);
+    const float ratio = noiseRatioOfLevel();
+    tap.light = unpackLight(texelFetch(light, element, 0));
+    tap.light.meanVariance *= ratio;
+    tap.irradiance = value.rgb;
+    tap.inverseRays = value.w > 0.0 ? 1.0 / value.w : 0.0;
+    tap.noise = ratio * tap.light.rayVariance / max(value.w, 1e-3);
+    // Elements are weighted by area: at level 0 by their rays, whose number is proportional to it; later the number of
+    // rays depends on how even the light is and must not weight the value
+    tap.count = push.level == 0 || value.w == 0.0 ? value.w : tap.area;
+    return tap;
+}
+
+struct Sums {
+    Estimate estimate;
+    float squaredWeights;  // Over the taps' rays.
+};
+
+Sums emptySums() { return Sums(emptyEstimate(), 0.0); }
+
+float weightOf(Tap a, Tap b) {
+    const float bias2 = squaredBias(a.surface, a.light, b.surface, b.light, push.edgeStoppingScale);
+    const float noise = 0.5 * (a.noise + b.noise);
+    return bias2 > 0.0 ? noise / (noise + bias2) : 1.0;
+}
+
+void addTap(inout Sums sums, Tap center, Tap tap, float kernel_, float weight) {
+    const float total = tap.area > 0.0 ? kernel_ * weight * tap.count : 0.0;
+    addTap(sums.estimate, total, tap.irradiance, tap.surface.position - center.surface.position);
+    sums.squaredWeights += total * total * tap.inverseRays;
+}
+
+void store(ivec2 element, Tap center, Sums sums) {
+    if (center.area == 0.0 || sums.estimate.weights == 0.0) {
         imageStore(result, element, vec4(0.0));
         return;
     }
 
-    const Surface center = unpackSurface(bits);
-#ifdef NOISE_RATIO
-    const float ratio = noiseRatio.data[push.ratioLevel];
-#else
-    const float ratio = 1.0;
-#endif
-    const SurfaceLight centerLight = lightOf(element, ratio);
-    const float centerNoise = ratio * centerLight.rayVariance / max(texelFetch(source, element, 0).w, 1e-3);
-    Estimate sum = emptyEstimate();
-    float squaredWeights = 0.0;  // Over the taps' rays.
-    for (int y = -1; y <= 1; ++y)
-        for (int x = -1; x <= 1; ++x) {
-            const ivec2 pixel = ivec2(element.x, element.y % pixels.y) + (ivec2(x, y) << push.level);
-            if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, pixels))) continue;
-            for (int layer = 0, layers = 1; layer < layers; ++layer) {
-                const ivec2 tap = pixel + ivec2(0, layer * pixels.y);
-                const uvec4 neighborBits = texelFetch(surfaces, tap, 0);
-                const float area = areaOf(neighborBits);
-                if (area == 0.0) continue;
-                if (area < 1.0) layers = LAYERS;
-                const vec4 value = texelFetch(source, tap, 0);
-                if (value.w == 0.0) continue;
-                const Surface neighbor = unpackSurface(neighborBits);
-                const SurfaceLight neighborLight = lightOf(tap, ratio);
-                const float bias2 = squaredBias(center, centerLight, neighbor, neighborLight, push.edgeStoppingScale);
-
-                // Elements are weighted by area: at level 0 by their rays, whose number is proportional to it; later
-                // the number of rays depends on how even the light is and must not weight the value
-                const float noise = 0.5 * (centerNoise + ratio * neighborLight.rayVariance / value.w);
-                const float count = kernel(x, y) * (push.level == 0 ? value.w : area);
-                const float weight = count * (bias2 > 0.0 ? noise / (noise + bias2) : 1.0);
-                addTap(sum, weight, value.rgb, neighbor.position - center.position);
-                squaredWeights += weight * weight / value.w;
-            }
-        }
-
-    if (sum.weights == 0.0) {
-        imageStore(result, element, vec4(0.0));
-        return;
-    }
-
-    vec3 value = meanOf(sum);
+    vec3 value = meanOf(sums.estimate);
 #ifdef REMOVES_SLOPE
     // From level 1 on remove the linear part of the bias, as far as noise allows; not at the edge of a shadow of a lamp
     // or of the sun, whose gradient is known: it is a step and no trend
-    const float expected = EXPECTED_GRADIENT * centerLight.mean * centerLight.gradient;
+    const float expected = EXPECTED_GRADIENT * center.light.mean * center.light.gradient;
     if (push.level > 0 && expected > 0.0)
-        value = valueAtCenter(sum, KERNEL_SQUARES * centerNoise / square(expected));
+        value = valueAtCenter(sums.estimate, KERNEL_SQUARES * center.noise / square(expected));
 #endif
 
     // A weighted mean of independent values of value.w rays each has sum(weight² / value.w) / sum(weight)² of one ray's
-    // variance
-    imageStore(result, element, vec4(value, square(sum.weights) / (overlap(push.level) * squaredWeights)));
+    // variance. Where squares of weights vanish, as of taps that are nothing alike, it represents none
+    const float spread = overlap(push.level) * sums.squaredWeights;
+    imageStore(result, element, vec4(value, spread > 0.0 ? square(sums.estimate.weights) / spread : 0.0));
 }
+
+#include "passes/view/filter_irradiance/level.glsl"
+
+void main() { filterLevel(imageSize(result), push.level); }

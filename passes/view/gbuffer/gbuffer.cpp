@@ -1,39 +1,18 @@
 #include <algorithm>
-#include <array>
 #include <optional>
 
+#include "base/error.h"
 #include "graph/registry.h"
 #include "passes/common/compute/large_buffer.h"
+#include "passes/common/compute/random_seed.h"
 #include "passes/common/view/camera_matrix.h"
 #include "passes/common/view/gbuffer.h"
 #include "passes/common/view/surface_motion.h"
 #include "passes/view/camera_view.h"
+#include "passes/view/gbuffer/gbuffer_params.h"
+#include "vulkan/indirect.h"
 
 namespace voxray {
-
-enum class GBufferMethod { Rays, Raster };
-
-template <>
-struct EnumNames<GBufferMethod> {
-    static constexpr std::array names{std::pair{GBufferMethod::Rays, "rays"},
-                                      std::pair{GBufferMethod::Raster, "raster"}};
-};
-
-enum class SamplePattern { Regular, Rotated };
-
-template <>
-struct EnumNames<SamplePattern> {
-    static constexpr std::array names{std::pair{SamplePattern::Regular, "regular"},
-                                      std::pair{SamplePattern::Rotated, "rotated"}};
-};
-
-enum class TextureLookup { Filtered, Sharp };
-
-template <>
-struct EnumNames<TextureLookup> {
-    static constexpr std::array names{std::pair{TextureLookup::Filtered, "filtered"},
-                                      std::pair{TextureLookup::Sharp, "sharp"}};
-};
 
 namespace {
 
@@ -78,36 +57,7 @@ class GBufferPass final : public Pass {
         "Writes the G-buffer: position, normals and material of what the camera sees. "
         "Each pixel has a square of samples. "
         "Biased at edges, where the reference averages over the pixel; less so the more samples.";
-    struct Params {
-        GBufferMethod method = GBufferMethod::Rays;
-        uint32_t samplesPerPixelEdge = 1;
-        SamplePattern samplePattern = SamplePattern::Regular;
-        TextureLookup normalMaps = TextureLookup::Filtered;
-        TextureLookup colors = TextureLookup::Filtered;
-        static constexpr auto schema() {
-            return std::tuple{
-                field("method", &Params::method,
-                      "rays: camera rays, which hit the same surfaces as all other rays; "
-                      "on a CPU a tenth of raster's time in a large scene. "
-                      "raster: for GPUs with slow or no ray tracing."),
-                field("samples_per_pixel_edge", &Params::samplesPerPixelEdge,
-                      "Samples along each edge of a pixel: 2 for 4 samples a pixel. "
-                      "Later passes process every sample.",
-                      1u, 8u),
-                field(
-                    "sample_pattern", &Params::samplePattern,
-                    "Where samples are in their pixel. regular: the centers of a regular grid. rotated: a rotated grid, in "
-                    "which no two are in a column or a row: edges along either are as smooth as others.")
-                    .onlyWith(oneOf(&Params::method, {GBufferMethod::Rays})),
-                field("normal_maps", &Params::normalMaps,
-                      "filtered: the mean normal over a sample's footprint, biased as it flattens detail. "
-                      "sharp: the normal at the sample's point: noise instead, which samples_per_pixel_edge lowers."),
-                field("colors", &Params::colors,
-                      "filtered: the mean color over a sample's footprint, by mip levels. "
-                      "sharp: the color at the sample's point, with aliasing where texels are smaller "
-                      "than the distance of samples, as published in Magalhães 2020 (section 5.1.4), for comparison.")};
-        }
-    };
+    using Params = GBufferParams;
 
     explicit GBufferPass(const Params& params) : params_(params) {}
     Phase phase() const override { return Phase::Frame; }
@@ -117,6 +67,8 @@ class GBufferPass final : public Pass {
 
  private:
     void trace(PassContext& context);
+    /// Stores what a batch of rays hit. @param range bindings of the kernels: view and rays.
+    void storeHits(PassContext& context, uint32_t rays, const std::vector<Binding>& range);
     void rasterize(PassContext& context);
     void computeMotion(PassContext& context);
     /// Stores what the next frame's motion is relative to.
@@ -125,6 +77,14 @@ class GBufferPass final : public Pass {
         return cameraView(frame, gbufferExtent(frame, params_.samplesPerPixelEdge));
     }
     bool hasMotion(const PortAccess& access) const { return access[motion_].isRead; }
+    bool sharesMaterials() const {
+        return params_.materialsOf == MaterialsOf::Surfaces && params_.samplesPerPixelEdge > 1;
+    }
+    /// Rays whose hits are stored at once: those of whole pixels.
+    uint32_t maxBatchRays() const {
+        const uint32_t perPixel = params_.samplesPerPixelEdge * params_.samplesPerPixelEdge;
+        return kMaxBatchRays / perPixel * perPixel;
+    }
 
     const Params params_;
     Out<GBuffer> gbuffer_{*this, "gbuffer", "what the camera sees"};
@@ -133,6 +93,10 @@ class GBufferPass final : public Pass {
     Kernel generateRays_{*this, "generate_camera_rays.comp"};
     Kernel storeSurfaces_{*this, "store_surfaces.comp"};
     Buffer rays_, hits_;
+    // With materials of surfaces
+    Kernel storePixels_{*this, "store_pixels.comp"};
+    Kernel storeListed_{*this, "store_surfaces.comp", {{"LISTED", "1"}}};
+    Buffer severalSurfaces_;  ///< Pixels of a batch with several surfaces (shaders/compute/indirect_list.glsl).
     // With raster
     Kernel fillBackground_{*this, "background.comp"};
     RasterPipeline drawSurfaces_{*this, {"gbuffer.vert", "gbuffer.frag"}};
@@ -170,6 +134,14 @@ void GBufferPass::plan(PassPlan& plan) {
         plan.buffer(rays_, "camera rays", batchRays(extent) * sizeof(Ray));
         plan.buffer(hits_, "camera ray hits", batchRays(extent) * sizeof(Hit));
     }
+    if (sharesMaterials()) {
+        if (params_.normalMaps == TextureLookup::Sharp || params_.colors == TextureLookup::Sharp)
+            throw Error(
+                "gbuffer: 'materials_of: surfaces' filters textures over the pixel, so that 'normal_maps' and 'colors' "
+                "can't be sharp; set 'materials_of: samples'");
+        plan.buffer(severalSurfaces_, "pixels with several surfaces",
+                    sizeof(uint32_t) * (4 + batchRays(extent) / (g.samples * g.samples)));
+    }
 
     Defines defines;
     if (params_.normalMaps == TextureLookup::Sharp) defines.emplace("SHARP_NORMALS", "1");
@@ -177,16 +149,21 @@ void GBufferPass::plan(PassPlan& plan) {
     if (hasMotion(plan)) defines.emplace("MOTION", "1");
     drawSurfaces_.define(defines);
     if (params_.samplePattern == SamplePattern::Rotated) defines.emplace("ROTATED_GRID", "1");
-    generateRays_.define(defines);
-    storeSurfaces_.define(defines);
+    if (params_.samplePattern == SamplePattern::Random) defines.emplace("RANDOM_POINTS", "1");
+    defines.emplace("SAMPLES", std::to_string(params_.samplesPerPixelEdge));
+    if (sharesMaterials()) defines.emplace("PIXEL_ORDER", "1");
+    const bool hasRays = params_.method == GBufferMethod::Rays;
+    for (Kernel* kernel : {&generateRays_, &storeSurfaces_, &storePixels_, &storeListed_}) kernel->define(defines);
+    generateRays_.compileIf(hasRays);
+    storeSurfaces_.compileIf(hasRays && !sharesMaterials());
+    storePixels_.compileIf(hasRays && sharesMaterials());
+    storeListed_.compileIf(hasRays && sharesMaterials());
     RasterState state;
     for (const Target& t : kTargets) state.colorFormats.push_back(t.format);
     if (hasMotion(plan)) state.colorFormats.push_back(kWide);
     state.depthFormat = VK_FORMAT_D32_SFLOAT;
     state.depthCompare = VK_COMPARE_OP_GREATER;
     drawSurfaces_.setState(state);
-    generateRays_.compileIf(params_.method == GBufferMethod::Rays);
-    storeSurfaces_.compileIf(params_.method == GBufferMethod::Rays);
     fillBackground_.compileIf(params_.method == GBufferMethod::Raster);
     drawSurfaces_.compileIf(params_.method == GBufferMethod::Raster);
     computeMotion_.compileIf(hasMotion(plan));
@@ -227,27 +204,33 @@ void GBufferPass::storeFrame(PassContext& context) {
 }
 
 void GBufferPass::trace(PassContext& context) {
-    const GBuffer& g = context[gbuffer_];
     const CameraView view = viewOf(context.frame);
-    const uint32_t texels = view.width * view.height;
-    for (uint32_t first = 0; first < texels; first += kMaxBatchRays) {
-        const uint32_t batch = std::min(kMaxBatchRays, texels - first);
-        context.dispatch(
-            generateRays_, batch,
-            {{"rays", rays_}, {"view", view}, {"samples", g.samples}, {"firstTexel", first}, {"batchRays", batch}});
+    const uint32_t texels = view.width * view.height, seed = randomSeed(context.frame, context.frameIndex);
+    for (uint32_t first = 0; first < texels; first += maxBatchRays()) {
+        const uint32_t batch = std::min(maxBatchRays(), texels - first);
+        const std::vector<Binding> range{
+            {"view", view}, ifUsed({"seed", seed}), {"firstRay", first}, ifUsed({"batchRays", batch})};
+        context.dispatch(generateRays_, batch, {{"rays", rays_}, range});
         context.tracer.closestHit(context.stream, rays_, hits_, batch, Coherence::Coherent);
-        context.dispatch(storeSurfaces_, batch,
-                         {context.scene,
-                          g,
-                          {"emitted", g.emission},
-                          {"hits", hits_},
-                          ifUsed({"previous", context[motion_].previous}),
-                          ifUsed({"PreviousPositionsRef", previousPositions_.ref()}),
-                          ifUsed({"instanceStarts", instanceStarts_}),
-                          {"view", view},
-                          {"firstTexel", first},
-                          {"batchRays", batch}});
+        storeHits(context, batch, range);
     }
+}
+
+void GBufferPass::storeHits(PassContext& context, uint32_t rays, const std::vector<Binding>& range) {
+    const GBuffer& g = context[gbuffer_];
+    const Bindings bindings{context.scene,
+                            g,
+                            {"emitted", g.emission},
+                            {"hits", hits_},
+                            ifUsed({"previous", context[motion_].previous}),
+                            ifUsed({"PreviousPositionsRef", previousPositions_.ref()}),
+                            ifUsed({"instanceStarts", instanceStarts_}),
+                            ifUsed({"indirectList", severalSurfaces_}),
+                            range};
+    if (!sharesMaterials()) return context.dispatch(storeSurfaces_, rays, bindings);
+    context.stream.fill(severalSurfaces_, 1);
+    context.dispatch(storePixels_, rays / (g.samples * g.samples), bindings);
+    dispatchIndirect(context.stream, storeListed_, severalSurfaces_, 0, bindings);
 }
 
 void GBufferPass::rasterize(PassContext& context) {

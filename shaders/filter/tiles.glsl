@@ -1,4 +1,4 @@
-// Tiles of the frame in which light that outliers lost is given back (bound.comp, give_back.comp).
+// Tiles of the frame in which light that a filter lost is given back.
 #ifndef VOXRAY_FILTER_TILES_GLSL
 #define VOXRAY_FILTER_TILES_GLSL
 
@@ -6,7 +6,7 @@
 
 // Sums over a tile's elements, by their area, W/m² times pixels.
 struct TileLight {
-    vec3 kept;
+    vec3 kept;  // With SIGNED the area, pixels.
     vec3 excess;
 };
 

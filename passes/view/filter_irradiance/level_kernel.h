@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+
+#include "graph/pass.h"
+#include "passes/view/filter_irradiance/strip.h"
+#include "vulkan/indirect.h"
+
+namespace voxray {
+
+/// One level of an à-trous wavelet over the elements of filter_irradiance (level.glsl).
+class LevelKernel {
+ public:
+    /// @param file a shader of this folder that includes level.glsl.
+    LevelKernel(ProgramOwner& owner, const std::string& file)
+        : first_(owner, "passes/view/filter_irradiance/" + file),
+          second_(owner, "passes/view/filter_irradiance/" + file, {{"LISTED", "1"}}) {}
+
+    /// In plan(). @param hasSecond whether pixels may have second surfaces.
+    void define(const Defines& defines, bool isUsed, bool hasSecond) {
+        hasSecond_ = hasSecond;
+        first_.define(defines);
+        second_.define(defines);
+        first_.compileIf(isUsed);
+        second_.compileIf(isUsed && hasSecond);
+    }
+
+    /// @param second pixels with a second surface (surfaces.comp).
+    void record(PassContext& context, uint32_t level, const Bindings& bindings, const Buffer& second) const {
+        const glm::uvec2 pixels = context.frame.pixels();
+        const uint32_t rows = STRIP_ROWS << level, strips = ((pixels.y + rows - 1) / rows) << level;
+        context.dispatch(first_, glm::uvec2(pixels.x, strips), {bindings.all(), {"level", level}});
+        if (hasSecond_)
+            dispatchIndirect(context.stream, second_, second, 0,
+                             {bindings.all(), {"level", level}, {"indirectList", second}});
+    }
+
+ private:
+    Kernel first_, second_;
+    bool hasSecond_ = false;
+};
+
+}  // namespace voxray

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <fstream>
+#include <string>
+
+#include "scene/load.h"
+#include "tests/support/errors.h"
+#include "tests/support/temporary_folder.h"
+
+/// Small pbrt scenes.
+namespace voxray::test {
+
+inline void writePbrt(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream(path, std::ios::binary) << text;
+}
+
+/// A triangle in the plane z = 0, front to +Z.
+inline const std::string kTriangle =
+    "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2]\n";
+/// A camera at (0, 0, 5) that looks along -Z in a right-handed world.
+inline const std::string kCamera =
+    "Film \"rgb\" \"integer xresolution\" 200 \"integer yresolution\" [100]\n"
+    "Scale -1 1 1 LookAt 0 0 5  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 40\n";
+
+/// Loads a file of this text.
+inline std::shared_ptr<const Scene> loadPbrtText(const TemporaryFolder& folder, const std::string& text) {
+    writePbrt(folder / "scene.pbrt", text);
+    return loadPbrt(folder / "scene.pbrt");
+}
+
+/// Loads a scene of these directives behind WorldBegin, with that camera.
+inline std::shared_ptr<const Scene> loadWorld(const TemporaryFolder& folder, const std::string& world) {
+    return loadPbrtText(folder, kCamera + "WorldBegin\n" + world);
+}
+
+/// Whether a warning holds both texts.
+inline bool warns(const Scene& scene, const std::string& kind, const std::string& name = "") {
+    for (const std::string& line : scene.warnings)
+        if (line.find(kind) != std::string::npos && line.find(name) != std::string::npos) return true;
+    return false;
+}
+
+}  // namespace voxray::test
