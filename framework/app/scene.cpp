@@ -173,6 +173,9 @@ void describe(const SceneArguments& arguments) {
     const size_t objects = scene.state.scene->instances.size();
     fmt::print("{}: {} triangles in {} object{}, {} textures\n", arguments.what.string(), g.triangles.size(), objects,
                objects == 1 ? "" : "s", scene.state.scene->textures.size());
+    if (const auto& panes = scene.state.panes)
+        fmt::print("panes: {} triangles that light passes straight (docs/units.md), not counted above or below\n",
+                   panes->geometry.triangles.size());
     fmt::print("bounds: {} to {}, {:.4g} x {:.4g} x {:.4g} m\n", bracketed(g.boundsMin), bracketed(g.boundsMax), size.x,
                size.y, size.z);
     fmt::print("cameras: {}\n", opened.cameras.size());

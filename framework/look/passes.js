@@ -176,6 +176,7 @@ export class PassList {
         const readHere = written.filter((name) => read.has(name)), outputs = readHere.length ? readHere : written;
         return Object.keys(this.kinds).map((kind) => {
             if (kind === entry.pass) return { pass: kind };
+            if (this.kinds[kind].family === "external") return null; // Its program comes from the config's file alone
             const other = { pass: kind, ...FIRST_VALUES[kind] };
             for (const name of outputs) {
                 const port = this.kinds[kind].outputs.find((port) => port.name === name);

@@ -243,7 +243,7 @@ TEST(Results, JsonSurvivesTheRoundTrip) {
     EXPECT_EQ(back.tracerBytes, r.tracerBytes);
     EXPECT_EQ(back.passes.at(0).scratchBytes, 7u);
     EXPECT_EQ(passesCsv({back}), passesCsv({r}));
-    EXPECT_CONTAINS(passesCsv({back}), ",4,5,6,7,8,9,10\n");
+    EXPECT_CONTAINS(passesCsv({back}), ",4,5,6,7,8,9,10,\n");
     EXPECT_EQ(back.scores, r.scores);
     EXPECT_EQ(back.passes.at(0).voxelSteps, 5u);
     EXPECT_EQ(valuesCsv({back}), valuesCsv({r}));

@@ -3,21 +3,15 @@
 #include <zlib.h>
 
 #include <cstring>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "scene/geometry.h"
 #include "scene/load.h"
-#include "tests/support/errors.h"
-#include "tests/support/temporary_folder.h"
+#include "scene_texts.h"
 
 /// Small Mitsuba scenes for tests.
 namespace voxray::test {
-
-inline void writeText(const std::filesystem::path& path, const std::string& text) {
-    std::ofstream(path, std::ios::binary) << text;
-}
 
 /// A scene of version 3 with these elements.
 inline std::string mitsubaScene(const std::string& elements) {
@@ -27,13 +21,6 @@ inline std::string mitsubaScene(const std::string& elements) {
 inline std::shared_ptr<const Scene> loadElements(const TemporaryFolder& folder, const std::string& elements) {
     writeText(folder / "scene.xml", mitsubaScene(elements));
     return loadMitsuba(folder / "scene.xml");
-}
-
-/// Whether one of a scene's warnings holds a text.
-inline bool warns(const Scene& scene, const std::string& part) {
-    for (const std::string& warning : scene.warnings)
-        if (warning.find(part) != std::string::npos) return true;
-    return false;
 }
 
 /// A triangle with normals and texture coordinates.

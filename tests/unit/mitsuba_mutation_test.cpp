@@ -1,6 +1,4 @@
-#include <random>
-
-#include "image/image.h"
+#include "damaged_scenes.h"
 #include "mitsuba_files.h"
 
 /// Loads thousands of damaged Mitsuba scenes, and meshes that they name. Each must load, or be refused by an Error of
@@ -39,67 +37,23 @@ const char* const kEverything = R"(<?xml version="1.0" encoding="utf-8"?>
 <emitter type="constant"><blackbody name="radiance" temperature="5000K" scale="0.001"/></emitter>
 </scene>)";
 
-class MitsubaMutations : public testing::Test {
+class MitsubaMutations : public DamagedScenes {
  protected:
-    MitsubaMutations() {
-        for (const auto& [name, bytes] : files_) writeText(folder_ / name, bytes);
-        writeExr(folder_ / "sky.exr", ImageF(4, 2, 3, 1.0f));
-        writePng(folder_ / "a.png", ImageF(2, 2, 3, 0.5f));
-    }
-
-    /// Loads the scene with one other file. Anything but success or one clear line fails the test.
-    void check(const std::string& name, const std::string& bytes, const std::string& what) {
-        writeText(folder_ / name, bytes);
-        try {
-            const Geometry g = evaluate(loadMitsuba(folder_ / "scene.xml"), 0).geometry;
-            ++loaded_;
-            uint32_t last = 0;
-            for (const glm::uvec3& t : g.triangles) last = std::max({last, t.x, t.y, t.z});
-            ASSERT_LT(last, g.positions.size()) << what;
-            size_t notUnit = 0;
-            for (const VertexAttributes& a : g.attributes)
-                if (!(std::abs(glm::length(a.normal) - 1) < 1e-3f)) ++notUnit;
-            ASSERT_EQ(notUnit, 0u) << what;
-        } catch (const Error& error) {
-            ++refused_;
-            ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos) << what << ": " << error.what();
-        } catch (const std::exception& error) {
-            FAIL() << what << ": not an Error: " << error.what();
-        }
-        writeText(folder_ / name, files_.at(name));
-    }
-
-    void flipBits(const std::string& name, int count, uint32_t seed) {
-        std::mt19937 random(seed);
-        for (int i = 0; i < count; ++i) {
-            std::string bad = files_.at(name);
-            for (int f = 0; f < 1 + i % 3; ++f) bad[random() % bad.size()] ^= char(1 << random() % 8);
-            check(name, bad, name + ", flip " + std::to_string(i));
-        }
-    }
-    void cut(const std::string& name, size_t step) {
-        for (size_t size = 0; size < files_.at(name).size(); size += step)
-            check(name, files_.at(name).substr(0, size), name + ", cut " + std::to_string(size));
-    }
-    void TearDown() override {
-        RecordProperty("loaded", int(loaded_));
-        RecordProperty("refused", int(refused_));
-        EXPECT_GT(refused_, 0u);
-    }
-
-    TemporaryFolder folder_;
-    std::map<std::string, std::string> files_{{"scene.xml", kEverything},
-                                              {"part.xml", "<scene version='0.6.0'><shape type='rectangle'/></scene>"},
-                                              {"a.obj", kTriangleObj},
-                                              {"a.serialized", serializedFile(4, 0x1002, 2)}};
-    size_t loaded_ = 0, refused_ = 0;
+    MitsubaMutations()
+        : DamagedScenes(loadMitsuba, "scene.xml",
+                        {{"scene.xml", kEverything},
+                         {"part.xml", "<scene version='0.6.0'><shape type='rectangle'/></scene>"},
+                         {"a.obj", kTriangleObj},
+                         {"a.serialized", serializedFile(4, 0x1002, 2)}},
+                        ImageF(4, 2, 3, 1.0f)) {}
 };
 
 TEST_F(MitsubaMutations, TheUnspoiledSceneLoads) {
-    const auto scene = loadMitsuba(folder_ / "scene.xml");
+    const auto scene = load();
     EXPECT_EQ(scene->instances.size(), 7u);
     EXPECT_EQ(scene->lights.size(), 3u);
     EXPECT_EQ(scene->cameras.size(), 1u);
+    check("scene.xml", "<scene version='3.0.0'><shape type='rectangle'/></scene>", "a rectangle");
     check("scene.xml", "", "empty");
 }
 
@@ -131,7 +85,6 @@ std::vector<std::pair<size_t, size_t>> valuesOf(const std::string& text) {
 }
 
 TEST_F(MitsubaMutations, EveryValueReplacedByStrangeOnes) {
-    const std::string good = kEverything;
     const char* const strange[] = {"",
                                    "-1",
                                    "0",
@@ -151,12 +104,7 @@ TEST_F(MitsubaMutations, EveryValueReplacedByStrangeOnes) {
                                    "18446744073709551616",
                                    "true",
                                    "#ffffff"};
-    for (const auto& [at, length] : valuesOf(good))
-        for (const char* value : strange) {
-            std::string bad = good;
-            bad.replace(at, length, value);
-            check("scene.xml", bad, fmt::format("'{}' at {}", value, at));
-        }
+    replaceEach("scene.xml", valuesOf(kEverything), strange);
 }
 
 TEST_F(MitsubaMutations, ValuesExchanged) {

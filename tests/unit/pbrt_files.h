@@ -1,18 +1,12 @@
 #pragma once
 
-#include <fstream>
 #include <string>
 
 #include "scene/load.h"
-#include "tests/support/errors.h"
-#include "tests/support/temporary_folder.h"
+#include "scene_texts.h"
 
 /// Small pbrt scenes.
 namespace voxray::test {
-
-inline void writePbrt(const std::filesystem::path& path, const std::string& text) {
-    std::ofstream(path, std::ios::binary) << text;
-}
 
 /// A triangle in the plane z = 0, front to +Z.
 inline const std::string kTriangle =
@@ -24,20 +18,13 @@ inline const std::string kCamera =
 
 /// Loads a file of this text.
 inline std::shared_ptr<const Scene> loadPbrtText(const TemporaryFolder& folder, const std::string& text) {
-    writePbrt(folder / "scene.pbrt", text);
+    writeText(folder / "scene.pbrt", text);
     return loadPbrt(folder / "scene.pbrt");
 }
 
 /// Loads a scene of these directives behind WorldBegin, with that camera.
 inline std::shared_ptr<const Scene> loadWorld(const TemporaryFolder& folder, const std::string& world) {
     return loadPbrtText(folder, kCamera + "WorldBegin\n" + world);
-}
-
-/// Whether a warning holds both texts.
-inline bool warns(const Scene& scene, const std::string& kind, const std::string& name = "") {
-    for (const std::string& line : scene.warnings)
-        if (line.find(kind) != std::string::npos && line.find(name) != std::string::npos) return true;
-    return false;
 }
 
 }  // namespace voxray::test

@@ -71,8 +71,8 @@ TEST_F(PbrtMaterials, ConductorsByNameFileAndColor) {
     EXPECT_EQ(material("Material \"conductor\"").roughness, 0);
 
     // F = ((n - 1)² + k²) / ((n + 1)² + k²) = 0.5 for n = 1, k = 2
-    writePbrt(folder_ / "n.spd", "# a comment\n300 1\n500 1.0\n900 1\n");
-    writePbrt(folder_ / "k.spd", "300 2 900 2");
+    writeText(folder_ / "n.spd", "# a comment\n300 1\n500 1.0\n900 1\n");
+    writeText(folder_ / "k.spd", "300 2 900 2");
     expectNear(
         glm::vec3(material("Material \"conductor\" \"spectrum eta\" \"n.spd\" \"spectrum k\" \"k.spd\"").baseColor),
         glm::vec3(0.5f));
@@ -82,7 +82,7 @@ TEST_F(PbrtMaterials, ConductorsByNameFileAndColor) {
                {0.1f, 0.2f, 0.3f});
     EXPECT_CONTAINS(errorOf([&] { load("Material \"conductor\" \"spectrum eta\" \"metal-Xx-eta\""); }),
                     "neither a spectrum that pbrt has by name nor a file");
-    writePbrt(folder_ / "bad.spd", "300 1 200 1");
+    writeText(folder_ / "bad.spd", "300 1 200 1");
     EXPECT_CONTAINS(errorOf([&] { load("Material \"conductor\" \"spectrum eta\" \"bad.spd\""); }), "bad.spd");
 }
 

@@ -1,10 +1,7 @@
-#include <gtest/gtest.h>
-
 #include <random>
 
-#include "image/image.h"
+#include "damaged_scenes.h"
 #include "pbrt_files.h"
-#include "scene/geometry.h"
 
 /// Loads thousands of damaged pbrt scenes, and files that they name. Each must load, or be refused by an Error of one
 /// line; sanitizers see the rest.
@@ -51,56 +48,15 @@ const char* const kPly =
     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
     "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 1 0 0 1 1 0 0 1 0 4 0 1 2 3\n";
 
-class PbrtMutations : public testing::Test {
+class PbrtMutations : public DamagedScenes {
  protected:
-    PbrtMutations() {
-        for (const auto& [name, bytes] : files_) writePbrt(folder_ / name, bytes);
-        writeExr(folder_ / "sky.exr", ImageF(2, 2, 3, 1.0f));
-        writePng(folder_ / "a.png", ImageF(2, 2, 3, 0.5f));
-    }
-
-    /// Loads the scene with one other file; anything but success or one clear line fails the test.
-    void check(const std::string& name, const std::string& bytes, const std::string& what) {
-        writePbrt(folder_ / name, bytes);
-        try {
-            const Geometry g = evaluate(loadPbrt(folder_ / "scene.pbrt"), 0).geometry;
-            ++loaded_;
-            for (const glm::uvec3& t : g.triangles) ASSERT_LT(std::max({t.x, t.y, t.z}), g.positions.size()) << what;
-            for (const VertexAttributes& a : g.attributes) ASSERT_NEAR(glm::length(a.normal), 1, 1e-3) << what;
-        } catch (const Error& error) {
-            ++refused_;
-            ASSERT_EQ(std::string(error.what()).find('\n'), std::string::npos) << what << ": " << error.what();
-        } catch (const std::exception& error) {
-            FAIL() << what << ": not an Error: " << error.what();
-        }
-        writePbrt(folder_ / name, files_.at(name));
-    }
-
-    void flipBits(const std::string& name, int count, uint32_t seed) {
-        std::mt19937 random(seed);
-        for (int i = 0; i < count; ++i) {
-            std::string bad = files_.at(name);
-            for (int f = 0; f < 1 + i % 3; ++f) bad[random() % bad.size()] ^= char(1 << random() % 8);
-            check(name, bad, name + ", flip " + std::to_string(i));
-        }
-    }
-    void cut(const std::string& name, size_t step) {
-        for (size_t size = 0; size < files_.at(name).size(); size += step)
-            check(name, files_.at(name).substr(0, size), name + ", cut " + std::to_string(size));
-    }
-    void TearDown() override {
-        RecordProperty("loaded", int(loaded_));
-        RecordProperty("refused", int(refused_));
-        EXPECT_GT(refused_, 0u);
-        EXPECT_GT(loaded_, 0u);
-    }
-
-    TemporaryFolder folder_;
-    std::map<std::string, std::string> files_{{"scene.pbrt", kEverything},
-                                              {"part.pbrt", "Material \"hair\" Shape \"sphere\" \"float zmin\" 0.4\n"},
-                                              {"a.ply", kPly},
-                                              {"n.spd", "# eta\n300 1.5\n500 1.25\n900 1\n"}};
-    size_t loaded_ = 0, refused_ = 0;
+    PbrtMutations()
+        : DamagedScenes(loadPbrt, "scene.pbrt",
+                        {{"scene.pbrt", kEverything},
+                         {"part.pbrt", "Material \"hair\" Shape \"sphere\" \"float zmin\" 0.4\n"},
+                         {"a.ply", kPly},
+                         {"n.spd", "# eta\n300 1.5\n500 1.25\n900 1\n"}},
+                        ImageF(2, 2, 3, 1.0f)) {}
 };
 
 /// Words of a text: places and lengths, strings with their quotes.
@@ -120,7 +76,7 @@ std::vector<std::pair<size_t, size_t>> wordsOf(const std::string& text) {
 }
 
 TEST_F(PbrtMutations, TheUnspoiledSceneLoads) {
-    const auto scene = loadPbrt(folder_ / "scene.pbrt");
+    const auto scene = load();
     EXPECT_EQ(scene->instances.size(), 11u);
     EXPECT_EQ(scene->lights.size(), 5u);
     EXPECT_EQ(scene->cameras.size(), 1u);
@@ -144,14 +100,8 @@ TEST_F(PbrtMutations, Truncations) {
 }
 
 TEST_F(PbrtMutations, EveryWordReplacedByStrangeOnes) {
-    const std::string good = kEverything;
     const char* const strange[] = {"-1", "0", "1e300", "99999999999", "\"\"", "[", "]", "\"a\"", "AttributeEnd", "nan"};
-    for (const auto& [at, length] : wordsOf(good))
-        for (const char* value : strange) {
-            std::string bad = good;
-            bad.replace(at, length, value);
-            check("scene.pbrt", bad, fmt::format("'{}' at {}", value, at));
-        }
+    replaceEach("scene.pbrt", wordsOf(kEverything), strange);
 }
 
 TEST_F(PbrtMutations, WordsExchangedRemovedAndDoubled) {

@@ -78,8 +78,8 @@ TEST(PbrtReading, MotionStandsStillAtTheStart) {
 TEST(PbrtReading, IncludesAreRelativeToTheRootFile) {
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder / "parts");
-    writePbrt(folder / "parts/a.pbrt", "Material \"diffuse\" \"rgb reflectance\" [1 0 0] Include \"parts/b.pbrt\"");
-    writePbrt(folder / "parts/b.pbrt", kTriangle + "Translate 0 0 3");
+    writeText(folder / "parts/a.pbrt", "Material \"diffuse\" \"rgb reflectance\" [1 0 0] Include \"parts/b.pbrt\"");
+    writeText(folder / "parts/b.pbrt", kTriangle + "Translate 0 0 3");
     const std::string path = (folder / "parts/c.pbrt.gz").string();
     gzFile file = gzopen(path.c_str(), "wb");
     gzwrite(file, kTriangle.data(), unsigned(kTriangle.size()));
@@ -95,7 +95,7 @@ TEST(PbrtReading, IncludesAreRelativeToTheRootFile) {
 
     EXPECT_CONTAINS(refusalOf(folder, "\n\nInclude \"parts/x.pbrt\""),
                     "scene.pbrt:6: Include \"parts/x.pbrt\": there is no file");
-    writePbrt(folder / "parts/a.pbrt", "Include \"parts/a.pbrt\"");
+    writeText(folder / "parts/a.pbrt", "Include \"parts/a.pbrt\"");
     EXPECT_CONTAINS(refusalOf(folder, "Include \"parts/a.pbrt\""), "a.pbrt:1: Include \"parts/a.pbrt\" is nested");
 }
 

@@ -118,7 +118,7 @@ TEST_F(PbrtShapes, BilinearPatches) {
 }
 
 TEST_F(PbrtShapes, PlyMeshesAndSubdivisionSurfaces) {
-    writePbrt(folder_ / "quad.ply",
+    writeText(folder_ / "quad.ply",
               "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
               "property uchar red\nproperty uchar green\nproperty uchar blue\n"
               "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
@@ -147,7 +147,7 @@ TEST_F(PbrtShapes, WhatIsNotReadIsNamed) {
 }
 
 TEST_F(PbrtShapes, AlphaCutsHoles) {
-    writePbrt(folder_ / "a.pfm", std::string("Pf\n2 1\n-1\n\0\0\0\0\0\0\x80\x3f", 18));
+    writeText(folder_ / "a.pfm", std::string("Pf\n2 1\n-1\n\0\0\0\0\0\0\x80\x3f", 18));
     const auto scene = loadWorld(folder_, R"(
         Texture "holes" "float" "imagemap" "string filename" "a.pfm"
         Shape "sphere" "texture alpha" "holes"

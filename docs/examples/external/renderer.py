@@ -1,4 +1,4 @@
-"""A renderer of its own: primary visibility of nothing, grey light. What every program for `external` has to do."""
+"""The smallest renderer: a grey image. What every program for `external` has to do. Needs numpy."""
 import json
 import sys
 import time
