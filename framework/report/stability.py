@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import functools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -86,12 +87,13 @@ class Cell:
 @dataclass(frozen=True)
 class Seen:
     """A variant with one seed: its row of results.csv, of its last frame in frames.csv (empty where frames are not compared),
-    its image, and that of the profile's first scene by the same method."""
+    its image, that of the profile's first scene by the same method, and that of its reference (NaN where there is none)."""
 
     scores: dict
     last_frame: dict
     image: np.ndarray
     base: np.ndarray
+    reference: np.ndarray
 
 
 def _pixels(path: Path | None) -> np.ndarray:
@@ -118,6 +120,14 @@ def _score(column: str) -> Measure:
     return estimate
 
 
+def _bias(seen: list[Seen], scale: float) -> Estimate:
+    """Of three seeds or more what their errors have in common; else the score, for which `second_seed` has to be on."""
+    if len(seen) < 3:
+        return _score("indirect_bias_nrmse")(seen, scale)
+    mean = np.mean([entry.reference.mean() for entry in seen])
+    return verdict.shared_error_of([(entry.image - entry.reference) / mean for entry in seen])
+
+
 def _hitch(seen: Seen) -> float:
     return number(seen.scores.get("frame_ms_p95")) / number(seen.scores.get("frame_ms_median")) - 1
 
@@ -131,7 +141,7 @@ MEASURES: dict[str, tuple[Measure, str]] = {
              "mean radiance where all is black, over that of the lit side"),
     "energy": (lambda seen, _: magnitude_of([number(entry.scores.get("indirect_mean_ratio")) - 1 for entry in seen]),
                "mean radiance over the reference's, less 1, absolute"),
-    "bias": (_score("indirect_bias_nrmse"), "error apart from noise (bias_nrmse), over the reference's mean"),
+    "bias": (_bias, "error apart from noise, over the reference's mean"),
     "mean": (lambda seen, scale: magnitude_of([_excess(entry, scale) for entry in seen]),
              "mean radiance over that in the profile's first scene, less 1, absolute"),
     "image": (lambda seen, scale: root_mean_square_of([_difference(entry, scale) for entry in seen]),
@@ -197,7 +207,11 @@ def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, st
     if variants and not {"scene", "method"} <= set(variants[0]):
         raise ReportError(f"{results.directory}: its sweep has no axes 'scene' and 'method'")
     png = IMAGES["indirect"][0]
-    pixels = {name: _pixels(results.image(name, png.replace(".png", ".exr"))) for name in results.ok["variant"]}
+
+    @functools.cache
+    def pixels(folder: str | None) -> np.ndarray:
+        return _pixels(results.image(folder, png.replace(".png", ".exr")) if folder else None)
+
     first = {(entry["method"], entry.get("seed")): entry["variant"] for entry in variants if entry["scene"] == variants[0]["scene"]}
     last_frames = {entry["variant"]: entry for entry in results.frames.to_dict("records")}
     seeds: dict[tuple[str, str], list[dict]] = {}
@@ -212,9 +226,9 @@ def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, st
             if failed:
                 cells.append(Cell(row, method, Estimate(math.nan, math.nan, math.nan), f"does not run: {failed[0]}", None, None))
                 continue
-            base = [first.get((method, entry.get("seed")), "") for entry in entries]
-            seen = [Seen(entry, last_frames.get(entry["variant"], {}), pixels[entry["variant"]], pixels.get(name, _pixels(None)))
-                    for entry, name in zip(entries, base)]
+            base = [first.get((method, entry.get("seed"))) for entry in entries]
+            seen = [Seen(entry, last_frames.get(entry["variant"], {}), pixels(entry["variant"]), pixels(name),
+                         pixels(results.reference_folder(entry["variant"]))) for entry, name in zip(entries, base)]
             with np.errstate(all="ignore"):
                 estimate = MEASURES[row.measure][0](seen, row.scale)
             name = entries[0]["variant"]

@@ -6,6 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 HOLDS, FAILS, UNDECIDED, NOISE = "holds", "fails", "undecided", "noise"
 
 # Of Student's t distribution, two-sided, 95 %, for 1 to 9 degrees of freedom, and of the normal distribution.
@@ -22,6 +24,11 @@ class Estimate:
     high: float
 
 
+def _half_width(count: int, variance: float) -> float:
+    """Half of the interval of a mean of `count` values, from the mean's variance."""
+    return (_T_95[count - 2] if count - 2 < len(_T_95) else _NORMAL_95) * math.sqrt(variance)
+
+
 def mean_of(values: Sequence[float]) -> Estimate:
     """The mean over seeds. Of one seed alone the noise is not known."""
     count = len(values)
@@ -29,7 +36,7 @@ def mean_of(values: Sequence[float]) -> Estimate:
     if count == 1:
         return Estimate(mean, mean, mean)
     variance = sum((value - mean) ** 2 for value in values) / (count - 1)
-    half = (_T_95[count - 2] if count - 2 < len(_T_95) else _NORMAL_95) * math.sqrt(variance / count)
+    half = _half_width(count, variance / count)
     return Estimate(mean, mean - half, mean + half)
 
 
@@ -42,8 +49,31 @@ def magnitude_of(values: Sequence[float]) -> Estimate:
 
 def root_mean_square_of(values: Sequence[float]) -> Estimate:
     """The root of the mean square: what errors of several seeds are together."""
-    squares = mean_of([value * value for value in values])
-    return Estimate(math.sqrt(squares.value), math.sqrt(max(0.0, squares.low)), math.sqrt(max(0.0, squares.high)))
+    return _root(mean_of([value * value for value in values]))
+
+
+def _root(square: Estimate) -> Estimate:
+    """What is below 0 by noise counts as 0."""
+    return Estimate(*(math.sqrt(max(0.0, part)) for part in (square.value, square.low, square.high)))
+
+
+def shared_error_of(errors: Sequence[np.ndarray]) -> Estimate:
+    """The root mean square of what images of independent seeds have in common of their errors: the mean of products of two
+    different ones, in which noise cancels, that of references of their own too. Its interval is the jackknife's over seeds.
+
+    @param errors of three seeds or more, of the same shape
+    """
+    count = len(errors)
+    products = np.array([[np.mean(one * other) for other in errors] for one in errors])
+
+    def shared(seeds: np.ndarray) -> float:
+        part = products[np.ix_(seeds, seeds)]
+        return (part.sum() - np.trace(part)) / (len(seeds) * (len(seeds) - 1))
+
+    seeds = np.arange(count)
+    without_one = np.array([shared(np.delete(seeds, seed)) for seed in seeds])
+    square, half = shared(seeds), _half_width(count, (count - 1) * without_one.var())
+    return _root(Estimate(square, square - half, square + half))
 
 
 def verdict(estimate: Estimate, limit: float) -> str:

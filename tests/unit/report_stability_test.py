@@ -17,7 +17,7 @@ sys.path[:0] = [str(Path(__file__).resolve().parents[2] / "framework"), str(Path
 import browser  # noqa: E402
 import report_results as made_up  # noqa: E402
 from exr_writer import exr  # noqa: E402
-from report import pages, stability, stability_page  # noqa: E402
+from report import pages, stability, stability_page, verdict  # noqa: E402
 from report.results import ReportError  # noqa: E402
 from report_support import Page  # noqa: E402
 
@@ -151,6 +151,32 @@ class Stability(StabilityTest):
         self.profile("leak", {("wall", "rays", 5): (0.0, {}), ("wall", "rays", 6): ("out of memory", {})})
         self.assertTrue(self.cells()["wall", "leak", "rays"].fails)
 
+    def test_bias_is_what_the_errors_of_seeds_have_in_common(self):
+        noise = 0.2 * np.random.default_rng(1).standard_normal((4, 6, 8, 3))
+        reference = self.root / "bias" / "images" / "reference"
+        self.profile("bias", {("room", "rays", seed): (2.2 + noise[seed], {}) for seed in range(4)})
+        (reference / "indirect.exr").write_bytes(exr(np.full((6, 8, 3), 2, np.float32), zipped=True))
+        cell = self.cells()["room", "bias", "rays"]
+        products = [np.mean((0.2 + noise[a]) * (0.2 + noise[b])) for a in range(4) for b in range(a)]
+        self.assertAlmostEqual(cell.value, np.sqrt(np.mean(products)) / 2, 5)
+        self.assertLess(cell.estimate.low, 0.1)
+        self.assertGreater(cell.estimate.high, 0.1)
+        # What noise alone makes negative is 0; images that are alike have no noise.
+        self.assertEqual(verdict.shared_error_of([np.ones((1, 1, 3)), -np.ones((1, 1, 3)), np.zeros((1, 1, 3))]).value, 0)
+        alike = verdict.shared_error_of([np.full((2, 2, 3), 0.3)] * 3)
+        for part in (alike.value, alike.low, alike.high):
+            self.assertAlmostEqual(part, 0.3)
+
+    def test_the_interval_of_a_shared_error_holds_the_true_one_in_95_of_100(self):
+        random = np.random.default_rng(2)
+        pattern = random.standard_normal((20, 30, 3))
+        pattern *= 0.1 / np.sqrt(np.mean(pattern**2))
+        found = [verdict.shared_error_of(list(pattern + 0.3 * random.standard_normal((4, 20, 30, 3)))) for _ in range(200)]
+        held = np.mean([estimate.low <= 0.1 <= estimate.high for estimate in found])
+        self.assertGreater(held, 0.88)
+        self.assertLess(held, 0.995)
+        self.assertAlmostEqual(np.sqrt(np.mean([estimate.value**2 for estimate in found])), 0.1, 2)
+
     def test_remedies_say_what_lowers_a_cell_that_fails(self):
         bias = {"indirect_bias_nrmse": 0.2}
         self.profile("bias", {("room", "rays"): (1.0, bias), ("room", "cones"): (1.0, bias), ("room", "lookup"): (1.0, {"indirect_bias_nrmse": 0.01})})
@@ -204,7 +230,7 @@ class Stability(StabilityTest):
         self.assertGreater(len(rows), 30)
         for entry in stability.read_reasons(SHIPPED / "matrix_reasons.csv"):
             self.assertTrue(any(entry["scene"] in ("", row.scene) and entry["measure"] in ("", row.measure) for row in rows), entry)
-        self.assertEqual(stability_page.limits(rows[0]), "0.010; 0.10 for cones")
+        self.assertEqual(stability_page.limits(rows[0]), "0.015")
 
 
 @unittest.skipIf(browser.MISSING, browser.MISSING)
