@@ -79,7 +79,7 @@ def summary(cells: list[Cell]) -> str:
     """How many cells there are, how many of each verdict, and how many are empty."""
     count = {name: sum(cell.verdict == name for cell in cells) for name in (FAILS, UNDECIDED, NOISE)}
     empty = sum(cell is None for _, row in rows_of(cells) for cell in row)
-    told = [(count[UNDECIDED], "are undecided"), (count[NOISE], "have too much noise to tell"), (empty, "are empty")]
+    told = [(count[UNDECIDED], "undecided"), (count[NOISE], "with too much noise to tell"), (empty, "empty")]
     said = f"{count[FAILS]} of {len(cells)} cells fail" + "".join(f"; {number} {what}" for number, what in told if number)
     if not any(cell.remedies for cell in cells):
         return said
@@ -110,6 +110,14 @@ def _table(cells: list[Cell]) -> Table:
     for cell in cells:
         value = table.number(100 * cell.value, percent(cell.value), mark="worse" if cell.fails else "")
         found.add(cell.row.scene, cell.row.measure, cell.method, value, percent(cell.limit), cell.verdict, reason(cell), cell.row.why)
+    return found
+
+
+def _by_method(cells: list[Cell]) -> Table:
+    found = Table("Verdicts by method", ["method", HOLDS, FAILS, UNDECIDED, NOISE], words=(0,))
+    for method in methods_of(cells):
+        own = [cell.verdict for cell in cells if cell.method == method]
+        found.add(method, *(table.number(own.count(verdict), str(own.count(verdict))) for verdict in (HOLDS, FAILS, UNDECIDED, NOISE)))
     return found
 
 
@@ -149,4 +157,5 @@ def render(cells: list[Cell], directory: Path) -> str:
     """The whole page, self-contained. @throws ReportError where an image is no PNG."""
     present = {cell.row.measure for cell in cells}
     return pages.render("stability.html.j2", scripts=_SCRIPTS, data=_data(cells), summary=summary(cells), cells=_table(cells),
+                        methods=_by_method(cells),
                         directory=str(directory), measures=[(name, meaning) for name, (_, meaning) in MEASURES.items() if name in present])
