@@ -121,8 +121,8 @@ def _score(column: str) -> Measure:
 
 
 def _bias(seen: list[Seen], scale: float) -> Estimate:
-    """Of three seeds or more what their errors have in common; else the score, for which `second_seed` has to be on."""
-    if len(seen) < 3:
+    """What the errors of seeds have in common; of one seed the score, for which `second_seed` has to be on."""
+    if len(seen) == 1:
         return _score("indirect_bias_nrmse")(seen, scale)
     mean = np.mean([entry.reference.mean() for entry in seen])
     return verdict.shared_error_of([(entry.image - entry.reference) / mean for entry in seen])

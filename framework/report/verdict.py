@@ -59,9 +59,10 @@ def _root(square: Estimate) -> Estimate:
 
 def shared_error_of(errors: Sequence[np.ndarray]) -> Estimate:
     """The root mean square of what images of independent seeds have in common of their errors: the mean of products of two
-    different ones, in which noise cancels, that of references of their own too. Its interval is the jackknife's over seeds.
+    different ones, in which noise cancels, that of references of their own too. Its interval is the jackknife's over seeds; two
+    seeds don't tell it, and it is without end.
 
-    @param errors of three seeds or more, of the same shape
+    @param errors of two seeds or more, of the same shape
     """
     count = len(errors)
     products = np.array([[np.mean(one * other) for other in errors] for one in errors])
@@ -71,6 +72,8 @@ def shared_error_of(errors: Sequence[np.ndarray]) -> Estimate:
         return (part.sum() - np.trace(part)) / (len(seeds) * (len(seeds) - 1))
 
     seeds = np.arange(count)
+    if count == 2:
+        return Estimate(_root(Estimate(shared(seeds), 0, 0)).value, 0.0, math.inf)
     without_one = np.array([shared(np.delete(seeds, seed)) for seed in seeds])
     square, half = shared(seeds), _half_width(count, (count - 1) * without_one.var())
     return _root(Estimate(square, square - half, square + half))

@@ -163,6 +163,7 @@ class Stability(StabilityTest):
         self.assertGreater(cell.estimate.high, 0.1)
         # What noise alone makes negative is 0; images that are alike have no noise.
         self.assertEqual(verdict.shared_error_of([np.ones((1, 1, 3)), -np.ones((1, 1, 3)), np.zeros((1, 1, 3))]).value, 0)
+        self.assertEqual(verdict.shared_error_of([np.full((1, 1, 3), 0.2)] * 2), verdict.Estimate(0.2, 0, np.inf))
         alike = verdict.shared_error_of([np.full((2, 2, 3), 0.3)] * 3)
         for part in (alike.value, alike.low, alike.high):
             self.assertAlmostEqual(part, 0.3)
