@@ -137,7 +137,7 @@ Measure = Callable[[list[Seen], float], Estimate]
 
 # What is measured of the indirect light, and what that says.
 MEASURES: dict[str, tuple[Measure, str]] = {
-    "leak": (lambda seen, scale: mean_of([entry.image.mean() / scale for entry in seen]),
+    "leak": (lambda seen, scale: magnitude_of([entry.image.mean() / scale for entry in seen]),
              "mean radiance where all is black, over that of the lit side"),
     "energy": (lambda seen, _: magnitude_of([number(entry.scores.get("indirect_mean_ratio")) - 1 for entry in seen]),
                "mean radiance over the reference's, less 1, absolute"),
