@@ -130,6 +130,10 @@ void addStabilityCommand(CLI::App& app, int&) {
     addFlag(command, "--remedies",
             "Run what fails again with finer settings, one kind at a time, and say which of them lowers each error; "
             "they stand next to the matrix, in a file that ends in _remedies.json.");
+    addText(
+        command, "--export", "DIR",
+        "Run nothing: write the scenes of single images into DIR for another renderer, as glTF with side-cars, and a "
+        "matrix.yaml that scores its images by their limits.");
     addSweepOptions(command, *values);
     addRunOptions(command, values->run,
                   "Folder of the tables and of a results folder for each profile; default results/stability.");

@@ -86,6 +86,14 @@ class Program:
                     os.write(2, (lines[-1] + "\n").encode("utf-8", "surrogateescape"))
                 raise
 
+    def export_scene(self, config: str, target: str, changes: Iterable[str]) -> None:
+        """Writes what a config renders as glTF, after these changes of the form PATH=VALUE. @throws ProgramEnded where it is wrong."""
+        words = [word for change in changes for word in ("--set", change)]
+        done = subprocess.run([self.path, "export-scene", config, target, *option_words(self._options, ("profile", "scenes", "set")), *words],
+                              stdout=subprocess.DEVNULL, check=False)
+        if done.returncode != 0:
+            raise ProgramEnded(done.returncode)
+
     def _json(self, *words: str) -> Any:
         done = subprocess.run([self.path, *words], stdout=subprocess.PIPE, check=False)
         if done.returncode != 0:

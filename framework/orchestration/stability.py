@@ -131,6 +131,12 @@ class Matrix:
 
 def main(program: Program, options: SimpleNamespace) -> int:
     matrix = Matrix(program, options)
+    if options.export:
+        from orchestration.stability_export import export
+
+        count = export(program, matrix.path, matrix.next_to(".csv"), matrix.profiles(), options.scenario, Path(options.export))
+        matrix.say(f"{count} scenes; matrix.yaml scores their images: {options.export}")
+        return 0
     status = matrix.run(matrix.out, matrix.profiles(), options.method, options.scenario)
     if options.dry_run:
         return status

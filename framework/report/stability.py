@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import functools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -10,10 +11,11 @@ from pathlib import Path
 
 import numpy as np
 
-from report import exr_pixels
+from report import exr_pixels, verdict
 from report.load import load
-from report.results import IMAGES, INTERVAL, ReportError, Results, number
+from report.results import IMAGES, ReportError, Results, interval_of, number
 from report.rows import read_rows
+from report.verdict import Estimate, magnitude_of, mean_of, root_mean_square_of
 
 _LIMIT_COLUMNS = ("profile", "scene", "measure", "methods", "limit", "scale", "why")
 _REASON_COLUMNS = ("scene", "measure", "methods", "reason")
@@ -25,7 +27,8 @@ class Row:
     """A scene and what is measured in it.
 
     limits: beginnings of methods' names, and the limit of these; the last that fits counts.
-    scale: the radiance that a leak is a part of, W/(m² sr), or how much more light there is than in the profile's first scene.
+    scale: the radiance that a leak is a part of, W/(m² sr); how much more light there is than in the profile's first scene; or
+    the number of frames in 0.1 s.
     """
 
     profile: str
@@ -41,26 +44,32 @@ class Row:
 
 @dataclass(frozen=True)
 class Cell:
-    """A method in a row. value: relative, NaN where the method did not run. picture, truth: PNGs, of what it shows and
-    of what it should show, None where there is none. remedies: the value with finer settings, by their name.
-    is_undecided: whether its interval of 95 % holds the limit."""
+    """A method in a row. estimate: relative, NaN where the method did not run. picture, truth: PNGs, of what it shows and
+    of what it should show, None where there is none. remedies: the value with finer settings, by their name."""
 
     row: Row
     method: str
-    value: float
+    estimate: Estimate
     reason: str
     picture: Path | None
     truth: Path | None
     remedies: tuple[tuple[str, float], ...] = ()
-    is_undecided: bool = False
+
+    @property
+    def value(self) -> float:
+        return self.estimate.value
 
     @property
     def limit(self) -> float:
         return self.row.limit(self.method)
 
     @property
+    def verdict(self) -> str:
+        return verdict.verdict(self.estimate, self.limit)
+
+    @property
     def fails(self) -> bool:
-        return not self.value <= self.limit
+        return self.verdict == verdict.FAILS
 
     @property
     def over(self) -> float:
@@ -75,39 +84,74 @@ class Cell:
         return sorted((entry for entry in self.remedies if entry[1] <= 0.9 * self.value), key=lambda entry: entry[1])
 
 
+@dataclass(frozen=True)
+class Seen:
+    """A variant with one seed: its row of results.csv, of its last frame in frames.csv (empty where frames are not compared),
+    its image, that of the profile's first scene by the same method, and that of its reference (NaN where there is none)."""
+
+    scores: dict
+    last_frame: dict
+    image: np.ndarray
+    base: np.ndarray
+    reference: np.ndarray
+
+
 def _pixels(path: Path | None) -> np.ndarray:
     """RGB, shape (height, width, 3); NaN where there is no image."""
     return np.full((1, 1, 3), math.nan) if path is None else exr_pixels.rgb(path)
 
 
-def _mean(_, image: np.ndarray, base: np.ndarray, scale: float) -> float:
-    return abs(image.mean() / (scale * base.mean()) - 1)
+def _excess(seen: Seen, scale: float) -> float:
+    """Of the mean radiance over that in the profile's first scene, over 1."""
+    return seen.image.mean() / (scale * seen.base.mean()) - 1
 
 
-def _image(_, image: np.ndarray, base: np.ndarray, scale: float) -> float:
-    return np.sqrt(((image / scale - base) ** 2).mean()) / base.mean() if base.shape == image.shape else math.nan
+def _difference(seen: Seen, scale: float) -> float:
+    image, base = seen.image / scale, seen.base
+    return np.sqrt(((image - base) ** 2).mean()) / base.mean() if base.shape == image.shape else math.nan
 
 
 def _score(column: str) -> Measure:
-    return lambda scores, *_: number(scores.get(column))
+    """A score that is a root mean square: over seeds, or with its own interval where there is one seed."""
+    def estimate(seen: list[Seen], _: float) -> Estimate:
+        values = [number(entry.scores.get(column)) for entry in seen]
+        own = Estimate(values[0], *interval_of(seen[0].scores, column))
+        return own if len(seen) == 1 else root_mean_square_of(values)
+    return estimate
 
 
-# Of a row of results.csv, a variant's image and that of the profile's first scene by the same method, and the row's scale
-Measure = Callable[[dict, np.ndarray, np.ndarray, float], float]
+def _bias(seen: list[Seen], scale: float) -> Estimate:
+    """What the errors of seeds have in common; of one seed the score, for which `second_seed` has to be on."""
+    if len(seen) == 1:
+        return _score("indirect_bias_nrmse")(seen, scale)
+    mean = np.mean([entry.reference.mean() for entry in seen])
+    return verdict.shared_error_of([(entry.image - entry.reference) / mean for entry in seen])
 
-# Measures that are scores with an interval, and their columns.
-_SCORES = {"bias": "indirect_bias_nrmse", "drift": "indirect_temporal_bias", "flicker": "indirect_temporal_flicker"}
+
+def _hitch(seen: Seen) -> float:
+    return number(seen.scores.get("frame_ms_p95")) / number(seen.scores.get("frame_ms_median")) - 1
+
+
+# Of a variant with each of its seeds, and the row's scale
+Measure = Callable[[list[Seen], float], Estimate]
 
 # What is measured of the indirect light, and what that says.
 MEASURES: dict[str, tuple[Measure, str]] = {
-    "leak": (lambda _, image, base, scale: image.mean() / scale, "mean radiance where all is black, over that of the lit side"),
-    "energy": (lambda scores, *_: abs(number(scores.get("indirect_mean_ratio")) - 1),
+    "leak": (lambda seen, scale: magnitude_of([entry.image.mean() / scale for entry in seen]),
+             "mean radiance where all is black, over that of the lit side"),
+    "energy": (lambda seen, _: magnitude_of([number(entry.scores.get("indirect_mean_ratio")) - 1 for entry in seen]),
                "mean radiance over the reference's, less 1, absolute"),
-    "bias": (_score(_SCORES["bias"]), "error apart from noise (bias_nrmse), over the reference's mean"),
-    "mean": (_mean, "mean radiance over that in the profile's first scene, less 1, absolute"),
-    "image": (_image, "root mean square of the difference from the image of the profile's first scene, over its mean"),
-    "drift": (_score(_SCORES["drift"]), "temporal bias: how much the error grows each frame, over the reference's mean"),
-    "flicker": (_score(_SCORES["flicker"]), "temporal flicker: how much the error varies from frame to frame"),
+    "bias": (_bias, "error apart from noise, over the reference's mean"),
+    "mean": (lambda seen, scale: magnitude_of([_excess(entry, scale) for entry in seen]),
+             "mean radiance over that in the profile's first scene, less 1, absolute"),
+    "image": (lambda seen, scale: root_mean_square_of([_difference(entry, scale) for entry in seen]),
+              "root mean square of the difference from the image of the profile's first scene, over its mean"),
+    "drift": (_score("indirect_temporal_bias"), "temporal bias: how much the error grows each frame, over the reference's mean"),
+    "afterglow": (lambda seen, scale: mean_of([number(entry.last_frame.get("indirect_frames_lit")) / scale for entry in seen]),
+                  "frames in which a light is still seen after it went out, over those of 0.1 s"),
+    "hitch": (lambda seen, _: mean_of([_hitch(entry) for entry in seen]),
+              "the 95th percentile of the frame's time over its median, less 1"),
+    "flicker": (_score("indirect_temporal_flicker"), "temporal flicker: how much the error varies from frame to frame"),
 }
 
 
@@ -150,11 +194,12 @@ def reason_of(reasons: list[dict[str, str]], row: Row, method: str) -> str:
     return fitting[-1] if fitting else UNKNOWN
 
 
-def _undecided(cell: Cell, scores: dict) -> str:
-    """Says so where the limit lies within the value's interval of 95 %; else ""."""
-    low, high = (number(scores.get(_SCORES.get(cell.row.measure, "") + end)) for end in INTERVAL)
-    said = f"undecided: the interval of 95 %, {100 * low:.2g} to {100 * high:.2g} %, holds the limit"
-    return said if low <= cell.limit <= high else ""
+def _said_of(cell: Cell, reasons: list[dict[str, str]]) -> str:
+    """Why a cell fails, or what keeps it from being told."""
+    low, high = 100 * cell.estimate.low, 100 * cell.estimate.high
+    if cell.verdict in (verdict.UNDECIDED, verdict.NOISE):
+        return f"{cell.verdict}: the interval of 95 %, {low:.2g} to {high:.2g} %, holds the limit"
+    return reason_of(reasons, cell.row, cell.method) if cell.fails else ""
 
 
 def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, str]]) -> list[Cell]:
@@ -162,24 +207,34 @@ def _profile_cells(results: Results, rows: list[Row], reasons: list[dict[str, st
     if variants and not {"scene", "method"} <= set(variants[0]):
         raise ReportError(f"{results.directory}: its sweep has no axes 'scene' and 'method'")
     png = IMAGES["indirect"][0]
-    pixels = {name: _pixels(results.image(name, png.replace(".png", ".exr"))) for name in results.ok["variant"]}
-    first = {entry["method"]: entry["variant"] for entry in variants if entry["scene"] == variants[0]["scene"]}
+
+    @functools.cache
+    def pixels(folder: str | None) -> np.ndarray:
+        return _pixels(results.image(folder, png.replace(".png", ".exr")) if folder else None)
+
+    first = {(entry["method"], entry.get("seed")): entry["variant"] for entry in variants if entry["scene"] == variants[0]["scene"]}
+    last_frames = {entry["variant"]: entry for entry in results.frames.to_dict("records")}
+    seeds: dict[tuple[str, str], list[dict]] = {}
+    for entry in variants:
+        seeds.setdefault((entry["scene"], entry["method"]), []).append(entry)
     cells = []
     for row in rows:
-        for entry in (entry for entry in variants if entry["scene"] == row.scene):
-            name, method = entry["variant"], entry["method"]
-            base = first.get(method, "")
-            if entry["status"] != "ok":
-                cells.append(Cell(row, method, math.nan, f"does not run: {entry['error']}", None, None))
+        for (scene, method), entries in seeds.items():
+            if scene != row.scene:
                 continue
+            failed = [entry["error"] for entry in entries if entry["status"] != "ok"]
+            if failed:
+                cells.append(Cell(row, method, Estimate(math.nan, math.nan, math.nan), f"does not run: {failed[0]}", None, None))
+                continue
+            base = [first.get((method, entry.get("seed"))) for entry in entries]
+            seen = [Seen(entry, last_frames.get(entry["variant"], {}), pixels(entry["variant"]), pixels(name),
+                         pixels(results.reference_folder(entry["variant"]))) for entry, name in zip(entries, base)]
             with np.errstate(all="ignore"):
-                value = float(MEASURES[row.measure][0](entry, pixels[name], pixels.get(base, _pixels(None)), row.scale))
-            truth = base if row.measure in ("mean", "image") else results.reference_folder(name)
-            cell = Cell(row, method, value, "", results.image(name, png), results.image(truth, png) if truth else None)
-            if cell.fails:
-                undecided = _undecided(cell, entry)
-                cell = replace(cell, reason=undecided or reason_of(reasons, row, method), is_undecided=bool(undecided))
-            cells.append(cell)
+                estimate = MEASURES[row.measure][0](seen, row.scale)
+            name = entries[0]["variant"]
+            truth = base[0] if row.measure in ("mean", "image") else results.reference_folder(name)
+            cell = Cell(row, method, estimate, "", results.image(name, png), results.image(truth, png) if truth else None)
+            cells.append(replace(cell, reason=_said_of(cell, reasons)))
     return cells
 
 

@@ -13,7 +13,9 @@ from report.results import ReportError
 from report.rows import markdown_table
 from report.stability import MEASURES, UNKNOWN, Cell, Row
 from report.table import Table
+from report.verdict import FAILS, HOLDS, NOISE, UNDECIDED
 
+_MARKS = {HOLDS: "{}", FAILS: "**{}**", UNDECIDED: "{} ?", NOISE: "{} ~"}  # of values in a table of Markdown
 _SCRIPTS = ("d3", "toolkit.js", "matrix.js", "stability.js")
 
 
@@ -74,10 +76,11 @@ def rows_of(cells: list[Cell]) -> Iterator[tuple[Row, list[Cell | None]]]:
 
 
 def summary(cells: list[Cell]) -> str:
-    """How many cells there are, and how many fail or are empty."""
-    failing = sum(cell.fails for cell in cells)
+    """How many cells there are, how many of each verdict, and how many are empty."""
+    count = {name: sum(cell.verdict == name for cell in cells) for name in (FAILS, UNDECIDED, NOISE)}
     empty = sum(cell is None for _, row in rows_of(cells) for cell in row)
-    said = f"{failing} of {len(cells)} cells fail" + (f"; {empty} are empty" if empty else "")
+    told = [(count[UNDECIDED], "undecided"), (count[NOISE], "with too much noise to tell"), (empty, "empty")]
+    said = f"{count[FAILS]} of {len(cells)} cells fail" + "".join(f"; {number} {what}" for number, what in told if number)
     if not any(cell.remedies for cell in cells):
         return said
     helped = [cell for cell in cells if cell.helping]
@@ -87,41 +90,52 @@ def summary(cells: list[Cell]) -> str:
 
 def markdown(cells: list[Cell]) -> Iterator[str]:
     def value(cell: Cell | None) -> str:
-        return "" if cell is None else f"**{percent(cell.value)}**" if cell.fails else percent(cell.value)
+        return "" if cell is None else _MARKS[cell.verdict].format(percent(cell.value))
 
     return markdown_table(["scene", "measure", "limit, %", *methods_of(cells)],
                           ([row.scene, row.measure, limits(row), *map(value, found)] for row, found in rows_of(cells)))
 
 
 def csv_lines(cells: list[Cell]) -> Iterator[list]:
-    yield ["profile", "scene", "measure", "method", "value", "limit", "fails", "reason"]
+    yield ["profile", "scene", "measure", "method", "value", "low", "high", "limit", "verdict", "reason"]
     for cell in cells:
-        row = cell.row
-        value = "" if math.isnan(cell.value) else f"{cell.value:.6g}"
-        yield [row.profile, row.scene, row.measure, cell.method, value, f"{cell.limit:g}", int(cell.fails), reason(cell)]
+        row, estimate = cell.row, cell.estimate
+        values = ["" if math.isnan(value) else f"{value:.6g}" for value in (estimate.value, estimate.low, estimate.high)]
+        yield [row.profile, row.scene, row.measure, cell.method, *values, f"{cell.limit:g}", cell.verdict, reason(cell)]
 
 
 def _table(cells: list[Cell]) -> Table:
-    found = Table("All cells", ["scene", "measure", "method", "value, %", "limit, %", "why it fails", "why that limit"],
-                  words=(0, 1, 2, 5, 6), note="Of the indirect light. ▼: over the limit.")
+    found = Table("All cells", ["scene", "measure", "method", "value, %", "limit, %", "verdict", "why", "why that limit"],
+                  words=(0, 1, 2, 5, 6, 7), note="Of the indirect light. ▼: fails.")
     for cell in cells:
         value = table.number(100 * cell.value, percent(cell.value), mark="worse" if cell.fails else "")
-        found.add(cell.row.scene, cell.row.measure, cell.method, value, percent(cell.limit), reason(cell), cell.row.why)
+        found.add(cell.row.scene, cell.row.measure, cell.method, value, percent(cell.limit), cell.verdict, reason(cell), cell.row.why)
+    return found
+
+
+def _by_method(cells: list[Cell]) -> Table:
+    found = Table("Verdicts by method", ["method", HOLDS, FAILS, UNDECIDED, NOISE], words=(0,))
+    for method in methods_of(cells):
+        own = [cell.verdict for cell in cells if cell.method == method]
+        found.add(method, *(table.number(own.count(verdict), str(own.count(verdict))) for verdict in (HOLDS, FAILS, UNDECIDED, NOISE)))
     return found
 
 
 def _words(cell: Cell) -> str:
     value = percent(cell.value) if math.isnan(cell.value) else f"{percent(cell.value)} %, limit {percent(cell.limit)} %"
-    return f"{cell.row.measure} {value}" + (f" ({reason(cell)})" if cell.fails else "")
+    why = reason(cell)
+    return f"{cell.row.measure} {value}" + (f" ({why})" if why else "")
 
 
 def _data(cells: list[Cell]) -> dict:
-    """What the page's script shows: of each method and scene the measure that is furthest above its limit, or nearest to it.
+    """What the page's script shows: of each method and scene the measure with the worst verdict, and among those the one that is
+    furthest above its limit, or nearest to it.
 
     @throws ReportError where an image is no PNG."""
     scenes = list(dict.fromkeys(cell.row.scene for cell in cells))
     groups: dict[tuple[str, str], list[Cell]] = {}
-    for cell in sorted(cells, key=lambda cell: -cell.over):
+    order = [FAILS, UNDECIDED, NOISE, HOLDS]
+    for cell in sorted(cells, key=lambda cell: (order.index(cell.verdict), -cell.over)):
         groups.setdefault((cell.method, cell.row.scene), []).append(cell)
     pictures: dict[Path, int] = {}
 
@@ -130,12 +144,12 @@ def _data(cells: list[Cell]) -> dict:
         if not found:
             return None
         worst = found[0]
-        said = f"{method} in {scene}: {'fails' if worst.fails else 'within its limit'}: {'; '.join(map(_words, found))}."
-        return {"over": worst.over, "fails": worst.fails, "open": worst.is_undecided, "words": said,
+        said = f"{method} in {scene}: {worst.verdict}: {'; '.join(map(_words, found))}."
+        return {"over": worst.over, "verdict": worst.verdict, "words": said,
                 "images": [pictures.setdefault(path, len(pictures)) if path else None for path in (worst.truth, worst.picture)]}
 
     rows = [{"name": method, "cells": [shown(method, scene) for scene in scenes]} for method in methods_of(cells)]
-    rows.sort(key=lambda row: sum(cell["fails"] for cell in row["cells"] if cell))
+    rows.sort(key=lambda row: [sum(cell["verdict"] == name for cell in row["cells"] if cell) for name in (FAILS, UNDECIDED, NOISE)])
     return {"scenes": scenes, "rows": rows, "pictures": [images.embed(path).uri for path in pictures]}
 
 
@@ -143,4 +157,5 @@ def render(cells: list[Cell], directory: Path) -> str:
     """The whole page, self-contained. @throws ReportError where an image is no PNG."""
     present = {cell.row.measure for cell in cells}
     return pages.render("stability.html.j2", scripts=_SCRIPTS, data=_data(cells), summary=summary(cells), cells=_table(cells),
+                        methods=_by_method(cells),
                         directory=str(directory), measures=[(name, meaning) for name, (_, meaning) in MEASURES.items() if name in present])

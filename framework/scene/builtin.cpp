@@ -9,7 +9,8 @@ namespace {
 
 std::vector<BuiltinScene> allScenes() {
     std::vector<BuiltinScene> scenes = roomScenes();
-    for (const auto& more : {daylightScenes(), clutterScenes(), closedFormScenes(), lampScenes(), movingScenes()})
+    for (const auto& more :
+         {daylightScenes(), clutterScenes(), closedFormScenes(), lampScenes(), livingScenes(), movingScenes()})
         scenes.insert(scenes.end(), more.begin(), more.end());
     return scenes;
 }

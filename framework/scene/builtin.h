@@ -22,6 +22,7 @@ std::vector<BuiltinScene> daylightScenes();    ///< window_room, shell_room
 std::vector<BuiltinScene> clutterScenes();     ///< clutter
 std::vector<BuiltinScene> closedFormScenes();  ///< furnace, white_room, quad_light, plane
 std::vector<BuiltinScene> lampScenes();        ///< lamps, candles
+std::vector<BuiltinScene> livingScenes();      ///< tree, figure
 std::vector<BuiltinScene> movingScenes();      ///< spheres
 
 /// Entry for a parameter struct that has `static constexpr const char* name` and `make(const Params&)`.

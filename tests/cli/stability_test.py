@@ -1,7 +1,7 @@
 """`voxray stability`: a part of its matrix, no cell worse than stability.csv has it; what it runs and what it refuses.
 
 `stability_test.py record` (with the program in VOXRAY_PROGRAM, the repository in VOXRAY_SOURCE) writes that table again: the
-numbers of the config's own seed, and how far they may move when random numbers change. That is five times their standard
+numbers of the first seed, and how far they may move when random numbers change. That is five times their standard
 deviation over three seeds, its relative size pooled over the methods of a row.
 """
 import csv
@@ -11,13 +11,19 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from pathlib import Path
+
+import numpy
 
 from generality_test import SEEDS, noise
 from support import PROGRAM, SOURCE, CommandTest
 
-METHODS = ["lookup", "gather rays", "cones octree"]
+sys.path.insert(0, os.path.join(SOURCE, "framework", "python"))
+import voxray.exr  # noqa: E402
+
+METHODS = ["cones", "marched cones", "final gather"]
 SCENARIOS = ["wall of 1/4 voxel", "wall of 1 voxel", "furnace", "a second run", "10 km away", "1 mm large", "light times 1e6"]
-SMALLER = ["--set", "image={width: 32, height: 18}"]
+SMALLER = ["--set", "image={width: 32, height: 18}", "--set", f"sweep.seed=[{SEEDS[0]}]"]
 TABLE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "stability.csv")
 LIMITS = os.path.join(SOURCE, "configs", "stability", "matrix.csv")
 COLUMNS = ["scene", "measure", "method", "value", "noise"]
@@ -66,16 +72,16 @@ class Stability(CommandTest):
         self.assertIn("stability.html", os.listdir(self.path("out")))
 
     def test_every_scene_has_its_limit_and_every_limit_its_scene(self):
-        done = self.expect(0, "stability", "lookup", "--dry-run", "--tracer", "embree", "--out", "out")
+        done = self.expect(0, "stability", "cones", "--dry-run", "--tracer", "embree", "--out", "out")
         said = done.stdout
         self.assertNotIn("is never run", done.stderr)
-        scenes = set(re.findall(r"^(.+), lookup \(tracer", said, re.MULTILINE))
+        scenes = set(re.findall(r"^seed 1, (.+), cones \(tracer", said, re.MULTILINE))
         with open(LIMITS, newline="", encoding="utf-8") as file:
             limited = {row["scene"] for row in csv.DictReader(file)}
         self.assertEqual(scenes, limited)
 
     def test_mistakes(self):
-        for words, part in ((["gather ray"], "'gather rays'"),
+        for words, part in ((["final gathers"], "'final gather'"),
                             (["--scenario", "furnance"], "'furnace'"),
                             (["--profile", "leek"], "'leak'")):
             self.assertIn(part, self.expect(2, "stability", "--dry-run", *words).stderr)
@@ -105,12 +111,39 @@ class Stability(CommandTest):
         self.assertIn("trace_gather_ray", self.expect(2, *words, "--remedies", "--resume").stderr)
 
 
+    def test_the_scenes_of_a_matrix_are_exported_and_images_of_another_renderer_scored(self):
+        self.write("own.yaml", OWN_MATRIX.replace("profiles:", "profiles:\n  moving: {measure: {frames: 3, compare_every: 1}}"))
+        self.write("own.csv", "profile,scene,measure,methods,limit,scale,why\nplain,cornell,energy,,0.1,,light stays\n"
+                   "moving,cornell,flicker,,0.1,,an eye\n")
+        self.expect(0, "stability", "--config", "own.yaml", "--export", "theirs")
+        self.assertEqual(self.files("theirs"), ["matrix.csv", "matrix.yaml", "plain/cornell/scene.glb", "plain/cornell/scene.json"])
+        self.assertEqual([row["measure"] for row in self.rows("theirs", "matrix.csv")], ["energy"])
+        words = ["stability", "--config", "theirs/matrix.yaml", "--tracer", "embree", "--quiet", "--out", "out"]
+        self.expect(1, *words)
+        cell = "cornell", "energy", "other renderer"
+        self.assertIn("plain/cornell: lacks direct.exr, time.json, indirect.exr or final.exr", read(self.path("out", "stability.csv"))[cell]["reason"])
+
+        def value(**images):
+            folder = Path(self.path("theirs", "plain", "cornell"))
+            (folder / "time.json").write_text('{"render_seconds": 1}', encoding="utf-8")
+            for name, radiance in images.items():
+                voxray.exr.write(folder / f"{name}.exr", numpy.full((9, 16, 3), radiance))
+            self.expect(0, *words)
+            return float(read(self.path("out", "stability.csv"))[cell]["value"])
+
+        # The mean of 0.25 over the reference's is that of 0.5 over it, halved; all light less direct light is indirect light.
+        light = value(direct=0.5, final=0.75)
+        self.assertAlmostEqual(value(direct=0.5, final=1.0), 2 * (1 + light) - 1, 4)
+        self.assertAlmostEqual(value(indirect=0.25), light, 4)
+        self.assertIn("none of these scenes is still", self.expect(2, "stability", "--config", "own.yaml", "--profile", "moving", "--export", "no").stderr)
+
+
 def record():
     with open(TABLE, "w", newline="", encoding="utf-8") as file, tempfile.TemporaryDirectory() as folder:
         runs = []
         for seed in SEEDS:
             out = os.path.join(folder, str(seed))
-            subprocess.run([PROGRAM, *arguments(out, "--set", f"seed={seed}")], check=True, cwd=folder)
+            subprocess.run([PROGRAM, *arguments(out, "--set", f"sweep.seed=[{seed}]")], check=True, cwd=folder)
             runs.append({cell: float(row["value"]) for cell, row in read(os.path.join(out, "stability.csv")).items()})
         table = csv.DictWriter(file, COLUMNS, lineterminator="\n")
         table.writeheader()

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene/load.h"
@@ -127,6 +128,44 @@ TEST(BuiltinScenes, SpheresMoveOnClosedPathsAndSeedsDiffer) {
     EXPECT_NE(scene->contentHash, makeBuiltinScene("spheres", other)->contentHash);
     EXPECT_EQ(evaluate(makeBuiltinScene("spheres", parameter("moving", "false")), 4).geometry.positions,
               evaluate(makeBuiltinScene("spheres", parameter("moving", "false")), 0).geometry.positions);
+}
+
+TEST(BuiltinScenes, BoughsOfTheTreeSwayAndItsLeavesAreMasks) {
+    const auto scene = makeBuiltinScene("tree", parameter("sway", "0.2"));
+    const Geometry start = evaluate(scene, 0).geometry, later = evaluate(scene, 1).geometry;
+    ASSERT_EQ(start.positions.size(), later.positions.size());
+    float most = 0;
+    size_t moved = 0;
+    for (size_t i = 0; i < start.positions.size(); ++i) {
+        const float way = glm::length(later.positions[i] - start.positions[i]);
+        most = std::max(most, way);
+        moved += way > 0;
+    }
+    EXPECT_EQ(moved, 4 * 900u);                   // all corners of leaves, and neither the trunk's nor the floor's
+    EXPECT_LT(most, 2 * 0.2f * std::sqrt(2.1f));  // the whole sway, of a bough that sways furthest
+    EXPECT_EQ(start.positions, evaluate(scene, 3).geometry.positions);
+    EXPECT_EQ(evaluate(makeBuiltinScene("tree", parameter("sway", "0")), 1).geometry.positions.size(),
+              start.positions.size());
+    const Material& leaf = scene->materials[scene->meshes.back().material];
+    EXPECT_EQ(leaf.alphaMode, AlphaMode::Mask);
+    // A leaf of |y| < 0.8 sin(pi x) covers 0.8 * 2 / pi = 0.51 of its square
+    const Texture& texture = scene->textures[size_t(leaf.baseColorTexture.texture)];
+    size_t covered = 0;
+    for (size_t i = 3; i < texture.rgba.size(); i += 4) covered += texture.rgba[i] != 0;
+    EXPECT_NEAR(double(covered) / (texture.width * texture.height), 0.51, 0.02);
+}
+
+TEST(BuiltinScenes, TheFigureBendsAboveItsMiddle) {
+    const auto scene = makeBuiltinScene("figure", parameter("bend_deg", "60"));
+    const Geometry start = evaluate(scene, 0).geometry, bent = evaluate(scene, 0.5).geometry;
+    const size_t top = start.positions.size() - 1;  // the middle of its upper end, 0.85 m above the joint
+    EXPECT_NEAR(start.positions[top].y, 1.7f, 1e-4f);
+    EXPECT_NEAR(bent.positions[top].x, -0.85f * std::sin(M_PI / 3), 1e-3);
+    EXPECT_NEAR(bent.positions[top].y, 0.85f + 0.85f * std::cos(M_PI / 3), 1e-3);
+    for (size_t i = 0; i < top; ++i)
+        if (start.positions[i].y < 0.35f * 1.7f) {
+            EXPECT_LT(glm::length(bent.positions[i] - start.positions[i]), 1e-5f) << i;
+        }
 }
 
 TEST(BuiltinScenes, WallsAreClosedSolids) {
