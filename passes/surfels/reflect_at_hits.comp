@@ -1,4 +1,5 @@
 // Adds the direct light that the surfel at each hit reflects to its gather ray, and generates the next ray of its path.
+// A mirror's vertex reflects no light of shadow rays.
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/scene/octahedral.glsl"
 #include "passes/surfels/path_ray.glsl"
@@ -19,6 +20,10 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.count) return;
     const Surfel s = surfels.data[i];
+    if (s.voxel == VOXRAY_MIRROR_VERTEX) {
+        rays.data[i] = Ray(s.position, 0.0, s.normal, 1.0e30);
+        return;
+    }
     light.data[s.parent].rgb += s.reflectance * direct.data[i].rgb;
 
     const uvec2 continuation = continuations.data[i];

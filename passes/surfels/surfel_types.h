@@ -8,6 +8,8 @@ VOXRAY_SHARED_BEGIN
 
 // Surfel::id of a surfel that does not exist: it has no voxel, and stands for no area.
 #define VOXRAY_NO_SURFEL 0xffffffffu
+// Surfel::voxel of a path's vertex on a perfect mirror (mirror_at_hit.glsl).
+#define VOXRAY_MIRROR_VERTEX 0xfffffffeu
 
 // A point on one side of a surface.
 struct Surfel {

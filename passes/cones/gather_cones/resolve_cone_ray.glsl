@@ -1,7 +1,7 @@
 // Resolves the ray along a cone's axis. With NEAR_FIELD a hit within the near field is stored as a surfel, where direct
 // light is sampled and a path continues. Beyond it the cone is traced from the near field's end; with VISIBLE_BY_RAYS it
 // sees what the ray hits instead, by the finest voxels there: in coarser ones surfaces that the ray doesn't see are
-// averaged with those that it does. Needs the bindings of shaders/scene/scene.glsl and of radiance voxels.
+// averaged with those that it does. At a perfect mirror such a ray goes on like a path of the near field. Needs the bindings of shaders/scene/scene.glsl and of radiance voxels.
 //
 //        o────────┤        o: start; ┤: end of the near field
 //     ───x────────┴──      The cone is traced to the right of it: it doesn't read what voxels hold of the
@@ -15,7 +15,7 @@
 #include "passes/cones/radiance/radiance_cone.glsl"
 #endif
 #include "shaders/scene/octahedral.glsl"
-#include "passes/surfels/surfel_at_hit.glsl"
+#include "passes/surfels/mirror_at_hit.glsl"
 
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
 layout(scalar) readonly buffer Hits { Hit data[]; } hits;
@@ -27,11 +27,14 @@ layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
 layout(scalar) writeonly buffer Continuations { uvec2 data[]; } continuations;
 buffer Count { uint value; } count;  // Of surfels.
 
-void addNearHit(Hit hit, Ray ray, uint parent, vec3 throughput, uint id) {
+// Stores the hit of a ray from a cone's start, or from an earlier hit. A hit beyond the near field is stored where it is
+// on a perfect mirror alone. False for one that is not stored.
+bool addHit(Hit hit, Ray ray, bool isNear, uint parent, vec3 throughput, uint id) {
     Surfel surfel;
     vec3 normal;
     float offset;
-    if (!surfelAtHit(hit, ray.origin, surfel, normal, offset)) return;
+    if (!surfelAtHit(hit, ray.origin, surfel, normal, offset)) return isNear;
+    if (!reflectAtMirror(hit, ray.origin, normal, surfel) && !isNear) return false;
     surfel.position += offset * normal;
     surfel.reflectance *= throughput;
     surfel.id = id;
@@ -39,6 +42,7 @@ void addNearHit(Hit hit, Ray ray, uint parent, vec3 throughput, uint id) {
     const uint index = atomicAdd(count.value, 1u);
     surfels.data[index] = surfel;
     continuations.data[index] = uvec2(1u, toOctahedral(normal));
+    return true;
 }
 #endif
 
@@ -59,10 +63,14 @@ void resolveConeRay(uint i, uint parent, vec3 ng, vec3 throughput, float width, 
     const Hit hit = hits.data[i];
     if (ray.tMax < 0.0) return;
 #ifdef NEAR_FIELD
-    if (hit.triangle != NO_HIT && hit.t < range) {
-        addNearHit(hit, ray, parent, throughput, id);
+#ifdef VISIBLE_BY_RAYS
+    const bool asksForMirrors = range > 0.0;
+#else
+    const bool asksForMirrors = false;
+#endif
+    if (hit.triangle != NO_HIT && (asksForMirrors || hit.t < range) &&
+        addHit(hit, ray, hit.t < range, parent, throughput, id))
         return;
-    }
 #endif
 #ifdef VISIBLE_BY_RAYS
     const vec3 radiance = radianceAlong(ray, hit, dither.x);

@@ -27,7 +27,7 @@ class GatherRays final : public Pass {
         "Biased by: the size of voxels or of the cache's cells (of light at the hits, not at the pixel; "
         "with `direct_at_hits: shadow_rays` of indirect light only) and merge_voxels' tolerance. "
         "Noisy by: rays_per_block, which filter_irradiance lowers; few samples in a cell of the cache. "
-        "Lambert surfaces only. Reports how many hits find no light.";
+        "Lambert surfaces only, but for perfect mirrors that rays hit. Reports how many hits find no light.";
     using Params = StoredLightParams;
 
     explicit GatherRays(const Params& params) : params_(params) {}

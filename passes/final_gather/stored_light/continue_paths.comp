@@ -1,6 +1,7 @@
 // Shades the hits of continuation rays.
 #include "passes/final_gather/stored_light/shade_hit.glsl"
 #include "shaders/compute/linear_index.glsl"
+#include "shaders/scene/sampling.glsl"
 layout(local_size_x = 64) in;
 
 layout(scalar) readonly buffer Origins { Surfel data[]; } origins;  // Surfels that the rays start from.
@@ -13,7 +14,10 @@ layout(push_constant, scalar) uniform Push {
 
 void main() {
     const uint i = linearIndex();
-    if (i >= push.rays_ || rays.data[i].tMax < 0.0 || hits.data[i].triangle == NO_HIT) return;
+    if (i >= push.rays_ || rays.data[i].tMax < 0.0) return;
     const Surfel s = origins.data[i];
+    if (s.voxel == VOXRAY_MIRROR_VERTEX)
+        light.data[s.parent].rgb += PI * s.reflectance * emittedTowardsMirror(hits.data[i], rays.data[i]);
+    if (hits.data[i].triangle == NO_HIT) return;
     shadeHit(s.parent, hits.data[i], rays.data[i].origin, s.reflectance, s.id, push.nearField);
 }

@@ -3,7 +3,7 @@
 #define VOXRAY_SHADE_HIT_GLSL
 
 #include "passes/final_gather/stored_light/stored_light.glsl"
-#include "passes/surfels/surfel_at_hit.glsl"
+#include "passes/surfels/mirror_at_hit.glsl"
 #include "shaders/scene/octahedral.glsl"
 
 layout(scalar) buffer Light { vec4 data[]; } light;
@@ -16,10 +16,19 @@ buffer Counts {
     uint unlit;  // Hits beyond the near field where no light is stored.
 } counts;
 
+#define ANY_DISTANCE 1.0e30  // m
+
+// Lists a hit where shadow rays measure direct light, or where a mirror reflects.
+void listHit(Surfel surfel, vec3 faceNormal, bool isContinued) {
+    const uint index = atomicAdd(counts.surfels, 1u);
+    surfels.data[index] = surfel;
+    continuations.data[index] = uvec2(isContinued ? 1u : 0u, toOctahedral(faceNormal));
+}
+
 // Adds `throughput` times the light reflected at a ray's hit to gather ray i. Stored light has the resolution of its
 // cells: a ray from `origin` that is shorter than `nearField` cells does not read it but continues as a path does, and
-// so does a ray that hits where no light is stored. With a `nearField` of 0 every ray ends at its hit. Returns the
-// distance within which rays to this point continue, m.
+// so does a ray that hits where no light is stored, or a perfect mirror. With a `nearField` of 0 every ray ends at its
+// hit. Returns the distance within which rays to this point continue, m.
 //
 //      ┌───────┬───────┐
 //      │   o───┼───┼─> ·   ·: a hit beyond the near field reads the cell.
@@ -31,10 +40,19 @@ float shadeHit(uint i, Hit hit, vec3 origin, vec3 throughput, uint id, float nea
     vec3 faceNormal;
     float offset;
     if (!surfelAtHit(hit, origin, surfel, faceNormal, offset)) return 0.0;
+    const vec3 position = surfel.position;
+    const bool isMirror = nearField > 0.0 && reflectAtMirror(hit, origin, faceNormal, surfel);
+    surfel.position += offset * faceNormal;
+    surfel.reflectance *= throughput;
+    surfel.id = id;
+    surfel.parent = i;
+    if (isMirror) {
+        listHit(surfel, faceNormal, true);
+        return ANY_DISTANCE;
+    }
 
     // Read the light stored for the side that the ray hit
-    surfel.reflectance *= throughput;
-    const StoredLight stored = storedLight(surfel.position, faceNormal);
+    const StoredLight stored = storedLight(position, faceNormal);
     const float nearDistance = nearField * stored.cellSize;
     const bool isNear = hit.t < nearDistance;
     if (!isNear && !stored.known) atomicAdd(counts.unlit, 1u);
@@ -43,14 +61,7 @@ float shadeHit(uint i, Hit hit, vec3 origin, vec3 throughput, uint id, float nea
 #ifndef SHADOW_RAYS
     if (!isContinued) return nearDistance;
 #endif
-
-    // List the hit for shadow rays
-    surfel.position += offset * faceNormal;
-    surfel.id = id;
-    surfel.parent = i;
-    const uint index = atomicAdd(counts.surfels, 1u);
-    surfels.data[index] = surfel;
-    continuations.data[index] = uvec2(isContinued ? 1u : 0u, toOctahedral(faceNormal));
+    listHit(surfel, faceNormal, isContinued);
     return nearDistance;
 }
 
