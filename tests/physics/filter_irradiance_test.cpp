@@ -153,11 +153,14 @@ TEST(FilterIrradiance, RegressionMeasuresTheNoiseOfStratifiedRays) {
 }
 
 TEST_P(FilterEstimator, KeepsTheEnergyOfRareRays) {
-    // One ray in 16 brings all light. Weights are symmetric, so no light is lost on average.
-    const std::string source = "one_in: 16, noise: 0, moments: true";
-    const ImageF raw = filterKnown(source, with("levels: 1, edge_stopping_scale: 100"), "white_room"),
-                 filtered = filterKnown(source, with("levels: 5"), "white_room");
-    EXPECT_NEAR(mean(filtered) / mean(raw), 1, 0.02);
+    // Few rays bring all light. Elements around them have noise and take many taps, all others few: without light that
+    // is kept, one ray in 400 would bring ONEIN times its own.
+    for (const std::string oneIn : {"16", "400"}) {
+        const std::string source = "one_in: " + oneIn + ", noise: 0, moments: true";
+        const ImageF raw = filterKnown(source, "levels: 1, edge_stopping_scale: 100", "white_room"),
+                     filtered = filterKnown(source, with("levels: 5"), "white_room");
+        EXPECT_NEAR(mean(filtered) / mean(raw), 1, 0.02) << oneIn;
+    }
 }
 
 TEST(FilterIrradiance, RegressionBoundsOutliersAndGivesBackWhatTheyLose) {
@@ -231,33 +234,26 @@ TEST(FilterIrradiance, PathsWithoutDirectLightAreTheSamePaths) {
     EXPECT_THROW(Chain("cornell", "{}", "[{pass: path_trace, light: indirect}]"), Error);
 }
 
-/// A wall whose left half reflects 0.2 and whose right half 0.8, with or without a flat normal map, a texture.
-State wallOfTwoColors(bool hasNormalMap) {
+/// A wall whose left half reflects 0.2 and whose right half 0.8.
+State wallOfTwoColors() {
     SceneBuilder builder("wall");
     for (const float albedo : {0.2f, 0.8f}) {
         Material m;
         m.baseColor = glm::vec4(glm::vec3(albedo), 1.0f);
         m.metallic = m.specular = 0;
-        if (hasNormalMap) m.normalTexture.texture = 0;
         builder.quad("half", {albedo < 0.5f ? -2 : 0, -2, 0}, {2, 0, 0}, {0, 4, 0}, builder.material(m));
     }
     builder.camera({0, 0, 1}, {0, 0, 0}, 60);
-    auto scene = std::make_shared<Scene>(*builder.finish());
-    Texture flat;
-    flat.width = flat.height = 1;
-    flat.rgba = {128, 128, 255, 255};
-    scene->textures = {flat};
-    return evaluated(scene);
+    return evaluated(builder.finish());
 }
 
 TEST_P(FilterEstimator, KeepsLightThatChangesWithAlbedo) {
     // The right half has four times the light, too. Nothing tells the filter of that: in the limit of a wide one pixels
-    // reflect the mean albedo of 0.5 times the mean irradiance of 5, and not 3.4. With textures, where albedo and
-    // irradiance may change together anywhere, tiles reflect what their rays do, up to how these factors change over
-    // the three tiles of the image.
-    const auto ratio = [](bool hasNormalMap, const std::string& samples, const std::string& source) {
+    // would reflect the mean albedo of 0.5 times the mean irradiance of 5, and not 3.4; with 5 levels they had 0.95 of
+    // it. Tiles reflect what their rays do, up to how these factors change over the three tiles of the image.
+    const auto ratio = [](const std::string& samples, const std::string& source) {
         const auto image = [&](const std::string& filter) {
-            Chain chain(wallOfTwoColors(hasNormalMap),
+            Chain chain(wallOfTwoColors(),
                         "[{pass: gbuffer, samples_per_pixel_edge: " + samples +
                             "}, {pass: known_irradiance, step: 4, " + source + "}, {pass: filter_irradiance, " +
                             filter + "}]",
@@ -266,10 +262,9 @@ TEST_P(FilterEstimator, KeepsLightThatChangesWithAlbedo) {
         };
         return image(with("levels: 5")) / (3.4 / kPi);
     };
-    EXPECT_LT(ratio(false, "1", "rays: 1"), 0.96);
     for (const std::string samples : {"1", "2"}) {
-        EXPECT_NEAR(ratio(true, samples, "rays: 1"), 1, 0.02) << samples;
-        EXPECT_NEAR(ratio(true, samples, "rays: 1, noise: 0.5, spacing: 2, moments: true"), 1, 0.03) << samples;
+        EXPECT_NEAR(ratio(samples, "rays: 1"), 1, 0.02) << samples;
+        EXPECT_NEAR(ratio(samples, "rays: 1, noise: 0.5, spacing: 2, moments: true"), 1, 0.03) << samples;
     }
 }
 

@@ -102,8 +102,7 @@ class FilterIrradiance final : public Pass {
     LevelKernel wavelet_{*this, "wavelet.comp"};
     Kernel resolve_{*this, "resolve.comp"};
     Buffer several_;  ///< Pixels with several surfaces, or not covered by one (shaders/compute/indirect_list.glsl).
-    Buffer blockStatistics_;   ///< gpu::RayStatistics per block, from the gather's moments.
-    bool keepsLight_ = false;  ///< Whether albedo and irradiance may change together: there are textures.
+    Buffer blockStatistics_;  ///< gpu::RayStatistics per block, from the gather's moments.
     // Where light is given back
     Buffer columns_;  ///< TileLight per column of pixels of a tile (keep_light.comp).
     Buffer tiles_;    ///< TileLight per tile (tiles.glsl).
@@ -149,8 +148,7 @@ void FilterIrradiance::plan(PassPlan& plan) {
     const bool givesBack = hasMoments && boundsOutliers(), measuresNoise = hasMoments && hasRegression();
     const glm::uvec2 texels = gbufferExtent(plan.frame, samples);
     if (hasMoments) plan.buffer(blockStatistics_, "statistics of rays", noisy.statisticsBytes(texels));
-    keepsLight_ = !isResidual() && std::ranges::any_of(plan.frame.scene->scene->materials, isTextured);
-    if (keepsLight_) {
+    if (!isResidual()) {
         plan.image(own_, "light of own rays", values);
         plan.buffer(columns_, "light of columns",
                     uint64_t(plan.frame.width) * tilesOf(plan.frame.pixels()).y * kTileBytes);
@@ -159,7 +157,7 @@ void FilterIrradiance::plan(PassPlan& plan) {
         const glm::uvec2 blocks = noisy.blocks(texels);
         plan.buffer(blockMeans_, "mean light of rays", uint64_t(blocks.x) * blocks.y * sizeof(float));
     }
-    if (givesBack || keepsLight_) {
+    if (givesBack || !isResidual()) {
         const glm::uvec2 tiles = tilesOf(plan.frame.pixels());
         plan.buffer(tiles_, "light of tiles", uint64_t(tiles.x) * tiles.y * kTileBytes);
         plan.buffer(raised_, "light given back", uint64_t(tiles.x) * tiles.y * kRaisedBytes);
@@ -177,8 +175,9 @@ void FilterIrradiance::plan(PassPlan& plan) {
     if (noisy.hasStatistics) defines.emplace("BOUNDED_GRADIENT", "1");
     if (isResidual()) defines.emplace("SIGNED", "1");
     if (hasRegression()) defines.emplace("REGRESSION", "1");
-    if (givesBack || keepsLight_) defines.emplace("GIVE_BACK", "1");
-    if (keepsLight_) defines.emplace("KEEPS_LIGHT", "1");
+    if (givesBack || !isResidual()) defines.emplace("GIVE_BACK", "1");
+    if (!isResidual()) defines.emplace("KEEPS_LIGHT", "1");
+    if (std::ranges::any_of(plan.frame.scene->scene->materials, isTextured)) defines.emplace("ALBEDO_VARIES", "1");
     if (givesBack) defines.emplace("BOUNDS_OUTLIERS", "1");
     if (measuresNoise) defines.emplace("NOISE_RATIO", "1");
     if (samples > 1 && boundsOutliers()) defines.emplace("READS_ALL_SECOND", "1");
@@ -188,8 +187,8 @@ void FilterIrradiance::plan(PassPlan& plan) {
     for (Kernel* kernel : {&findSeveral_, &findSecondLight_}) kernel->compileIf(samples > 1);
     statistics_.compileIf(hasMoments);
     bound_.compileIf(givesBack);
-    giveBack_.compileIf(givesBack || keepsLight_);
-    for (Kernel* kernel : {&keepLight_, &sumColumns_}) kernel->compileIf(keepsLight_);
+    giveBack_.compileIf(givesBack || !isResidual());
+    for (Kernel* kernel : {&keepLight_, &sumColumns_}) kernel->compileIf(!isResidual());
     for (Kernel* kernel : {&noise_, &findNoiseRatio_}) kernel->compileIf(measuresNoise);
     mean_.define(defines, noisy.blockSize > 0, samples > 1);
     wavelet_.define(defines, true, samples > 1);
@@ -247,7 +246,7 @@ void FilterIrradiance::record(PassContext& context) {
 
     // Compute the radiance that they reflect
     const Image& filtered = filtered_[levels() % 2];
-    if (keepsLight_) keepLight(context, filtered);
+    if (!isResidual()) keepLight(context, filtered);
     context.dispatch(resolve_, pixels,
                      {{"irradiance", filtered},
                       {"reflectance", reflectance_},
@@ -267,7 +266,7 @@ void FilterIrradiance::boundOutliers(PassContext& context) const {
                       {"pixels", pixels},
                       {"blocks", blocks(context)},
                       {"blockSize", blockPixels(context)}});
-    if (!keepsLight_)
+    if (isResidual())
         context.dispatch(giveBack_, tiles, {{"tiles", tiles_}, {"raised", raised_}, {"tileCount", tiles}});
 }
 

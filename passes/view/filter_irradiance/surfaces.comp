@@ -18,8 +18,8 @@ layout(rgba32f) writeonly uniform image2D source;       // Irradiance, W/m²; nu
 // Albedo times the surface's fraction of the pixel; a: 1 where the pixel shows more.
 layout(rgba16f) writeonly uniform image2D reflectance;
 #ifdef KEEPS_LIGHT
-// What the texels with rays reflect of their own irradiance, times the surface's fraction of the pixel; a: 1 if there are
-// such texels.
+// What the texels with rays reflect of their own irradiance, times the surface's fraction of the pixel; their irradiance
+// alone unless ALBEDO_VARIES. a: 1 if there are such texels.
 layout(rgba32f) writeonly uniform image2D own;
 #endif
 layout(push_constant) uniform Push { uvec2 pixels; } push;
@@ -53,8 +53,12 @@ void storeElement(ivec2 element, ElementSums sums, int texels) {
     imageStore(source, element, vec4(sums.light / max(sums.rays, 1.0), sums.rays));
     imageStore(reflectance, element, vec4(sums.color / float(TEXELS), texels % TEXELS > 0 ? 1.0 : 0.0));
 #ifdef KEEPS_LIGHT
-    const float area = float(texels) / float(TEXELS);
-    imageStore(own, element, vec4(area * sums.reflected / max(sums.rays, 1.0), sums.rays > 0.0 ? 1.0 : 0.0));
+#ifdef ALBEDO_VARIES
+    const vec3 light = float(texels) / float(TEXELS) * sums.reflected;
+#else
+    const vec3 light = sums.light;
+#endif
+    imageStore(own, element, vec4(light / max(sums.rays, 1.0), sums.rays > 0.0 ? 1.0 : 0.0));
 #endif
 }
 
