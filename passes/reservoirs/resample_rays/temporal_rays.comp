@@ -1,8 +1,12 @@
 // The previous frame's reservoir of each receiver, and the rays that tell what the two see of each other's samples.
+#include "passes/reservoirs/previous_receiver.glsl"
 #include "passes/reservoirs/similar.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
+#ifdef UNBIASED
+uniform sampler2D position;
+#endif
 uniform sampler2D motion;
 uniform sampler2D previous;
 layout(scalar) readonly buffer Receivers { Receiver data[]; } receivers;
@@ -49,9 +53,12 @@ void main() {
 #ifdef UNBIASED
     Ray toOwn = kNoRay, toPrevious = kNoRay;
     if (before != NO_RECEIVER) {
-        const Receiver other = previousReceivers.data[before];
+        const vec3 shift = surfaceShift(position, previous, texelOfReceiver(g, i));
+        const Receiver other = previousReceiver(previousReceivers.data[before], shift);
         const Reservoir own = reservoirs.data[i], old = previousReservoirs.data[before];
-        if (own.W > 0.0 && geometryTerm(other, own) > 0.0) toOwn = visibilityRay(other, own);
+        // A receiver that has moved, perhaps turned, is no origin for a ray: it may lie below its surface. It is taken
+        // to see what this one sees.
+        if (own.W > 0.0 && shift == vec3(0.0) && geometryTerm(other, own) > 0.0) toOwn = visibilityRay(other, own);
         if (old.W > 0.0 && geometryTerm(receiver, old) > 0.0) toPrevious = visibilityRay(receiver, old);
     }
     rays.data[2u * local] = toOwn;
