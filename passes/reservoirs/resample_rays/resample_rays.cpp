@@ -114,7 +114,6 @@ class ResampleRays final : public Pass {
     };
     static Batch batch(const GatherHits& hits, uint32_t index);
     void makeReservoirs(PassContext& context, const Batch& batch);
-    void moveSamples(PassContext& context);
     void reuseHistory(PassContext& context, const Batch& batch);
     void reuseNeighbors(PassContext& context, const Batch& batch);
     void average(PassContext& context, const Batch& batch);
@@ -128,7 +127,6 @@ class ResampleRays final : public Pass {
     Out<NoisyIrradiance> resampled_{*this, "noisy_irradiance", "irradiance of resampled rays"};
     Out<FrameImage> indirect_{*this, "indirect", "radiance reflected of this irradiance"};
     Kernel initial_{*this, "initial.comp", defines()};
-    Kernel moveSamples_{*this, "move_samples.comp"};
     Kernel temporalRays_{*this, "temporal_rays.comp", defines()};
     Kernel temporalMerge_{*this, "temporal_merge.comp", defines()};
     Kernel spatialRays_{*this, "spatial_rays.comp", defines()};
@@ -140,6 +138,7 @@ class ResampleRays final : public Pass {
     std::array<Buffer, 2> receivers_, reservoirs_;
     uint32_t current_ = 0;
     std::optional<uint64_t> historyScene_;  ///< Version of the scene in the previous frame; none: no history.
+    LargeBuffer previousPositions_;         ///< Of vertices in that frame, m.
     // Of a batch.
     Buffer neighborOf_, rays_, occluded_, values_, effective_;
 };
@@ -175,7 +174,9 @@ void ResampleRays::plan(PassPlan& plan) {
         plan.buffer(receivers_[frame], "receivers", rays * sizeof(gpu::Receiver));
         plan.buffer(reservoirs_[frame], "reservoirs", rays * sizeof(gpu::Reservoir));
     }
-    moveSamples_.compileIf(isTemporal());
+    if (isTemporal())
+        plan.buffer(previousPositions_, "previous vertices",
+                    plan.frame.scene->geometry.positions.size() * sizeof(glm::vec3));
     temporalRays_.compileIf(isTemporal());
     temporalMerge_.compileIf(isTemporal());
 
@@ -199,13 +200,12 @@ void ResampleRays::record(PassContext& context) {
         for (uint32_t b = 0; b < hits.batches.size(); ++b) (this->*step)(context, batch(hits, b));
     };
     forBatches(&ResampleRays::makeReservoirs);
-    if (isTemporal()) {
-        if (historyScene_ && *historyScene_ != context.frame.sceneVersion) moveSamples(context);
-        forBatches(&ResampleRays::reuseHistory);
-    }
+    if (isTemporal()) forBatches(&ResampleRays::reuseHistory);
     forBatches(&ResampleRays::reuseNeighbors);
     if (isTemporal()) {
         current_ = 1 - current_;
+        if (historyScene_ != context.frame.sceneVersion)
+            context.stream.copy(context.scene.positions, previousPositions_, previousPositions_.bytes());
         historyScene_ = context.frame.sceneVersion;
     }
 
@@ -233,29 +233,25 @@ void ResampleRays::makeReservoirs(PassContext& context, const Batch& batch) {
                      isTemporal() ? Bindings{bindings.all(), {"previous", context[motion_].previous}} : bindings);
 }
 
-void ResampleRays::moveSamples(PassContext& context) {
-    const GatherHits& hits = context[hits_];
-    const uint32_t rays = hits.blocks() * hits.layout.raysPerBlock;
-    context.dispatch(moveSamples_, rays,
-                     {context.scene, {"reservoirs", reservoirs_[1 - current_]}, {"count", rays}});
-}
-
 void ResampleRays::reuseHistory(PassContext& context, const Batch& batch) {
     const uint32_t before = 1 - current_;
-    const Bindings common{{"receivers", receivers_[current_]},
+    const Bindings common{context.scene,
+                          {"receivers", receivers_[current_]},
                           ifUsed({"reservoirs", reservoirs_[current_]}),
                           ifUsed({"previousReceivers", receivers_[before]}),
                           ifUsed({"previousReservoirs", reservoirs_[before]}),
+                          ifUsed({"PreviousPositionsRef", previousPositions_.ref()}),
                           {"neighbors", neighborOf_},
-                          ifUsed({"position", context[gbuffer_].position}),
-                          ifUsed({"previous", context[motion_].previous}),
-                          ifUsed({"layout", context[hits_].layout}),
+                          ifUsed({"hasMoved", historyScene_ != context.frame.sceneVersion}),
                           {"firstRay", batch.firstRay},
                           {"count", batch.rays}};
     context.dispatch(temporalRays_, batch.rays,
                      {common.all(),
                       ifUsed({"rays", rays_}),
+                      ifUsed({"position", context[gbuffer_].position}),
                       {"motion", context[motion_].motion},
+                      {"previous", context[motion_].previous},
+                      {"layout", context[hits_].layout},
                       {"hasHistory", historyScene_.has_value()},
                       {"minCosine", minCosine()},
                       {"depthThreshold", params_.depthThreshold}});

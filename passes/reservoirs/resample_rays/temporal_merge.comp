@@ -1,14 +1,10 @@
 // Temporal resampling: merges each ray's own hit with the reservoir of the previous frame.
 #include "passes/reservoirs/merge.glsl"
-#include "passes/reservoirs/previous_receiver.glsl"
+#include "passes/reservoirs/moved_sample.glsl"
 #include "passes/reservoirs/similar.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-#ifdef UNBIASED
-uniform sampler2D position;
-uniform sampler2D previous;
-#endif
 layout(scalar) readonly buffer Receivers { Receiver data[]; } receivers;
 layout(scalar) buffer Reservoirs { Reservoir data[]; } reservoirs;
 layout(scalar) readonly buffer PreviousReceivers { Receiver data[]; } previousReceivers;
@@ -18,10 +14,10 @@ layout(scalar) readonly buffer Neighbors { uint data[]; } neighbors;
 layout(scalar) readonly buffer Occluded { uint data[]; } occluded;
 #endif
 layout(push_constant, scalar) uniform Push {
-    GatherLayout layout_;
     uint firstRay;
     uint count;
     uint seed;
+    uint hasMoved;  // Whether the scene has changed since the previous frame.
     float mMax;
 } push;
 
@@ -35,7 +31,9 @@ void main() {
     if (before == NO_RECEIVER) return;
     const Receiver receiver = receivers.data[i];
     const Reservoir own = reservoirs.data[i];
-    Reservoir old = previousReservoirs.data[before];
+    const bool hasMoved = push.hasMoved != 0u;
+    const Reservoir oldBefore = previousReservoirs.data[before];
+    Reservoir old = sampleNow(oldBefore, hasMoved);
     const float scale = min(1.0, push.mMax / old.M);
     old.M *= scale;
     old.rays *= scale;
@@ -45,12 +43,10 @@ void main() {
     float ownWeight = own.M / M, oldWeight = old.M / M;
     bool isOldVisible = true;
 #ifdef UNBIASED
-    const vec3 shift = surfaceShift(position, previous, texelOfReceiver(push.layout_, i));
-    const Receiver other = previousReceiver(previousReceivers.data[before], shift);
-    const float ownThere = occluded.data[2u * local] == 0u ? target(other, own) : 0.0;
-    const float oldThere = target(other, old);
+    const Receiver other = previousReceivers.data[before];
+    const float ownThere = occluded.data[2u * local] == 0u ? target(other, sampleBefore(own, hasMoved)) : 0.0;
     ownWeight = balance(own.M * ownHere, old.M * ownThere, ownWeight);
-    oldWeight = balance(old.M * oldThere, own.M * oldHere, oldHere > 0.0 ? 0.0 : oldWeight);
+    oldWeight = balance(old.M * target(other, oldBefore), own.M * oldHere, oldWeight);
     isOldVisible = occluded.data[2u * local + 1u] == 0u;
 #endif
 
