@@ -8,7 +8,7 @@
 #include "shaders/scene/surface_offset.glsl"
 #include "shaders/trace/ray_types.h"
 
-const Reservoir kNoSample = Reservoir(vec3(0.0), 0u, vec3(0.0), 0.0, 0.0, 0.0, 0.0);
+const Reservoir kNoSample = Reservoir(vec3(0.0), 0u, vec3(0.0), 0.0, vec2(0.0), 0u, 0.0, 0.0, 0.0);
 
 // What the receiver takes of radiance from the sample point if nothing is between them, by area at the point:
 // cos(receiver) cos(point) / distance², 1/m². 0 where the sample can't be shifted to the receiver: below either

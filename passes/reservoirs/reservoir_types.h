@@ -22,6 +22,8 @@ struct Reservoir {
     uint normal;         // Geometric normal, on the receivers' side, octahedral.
     vec3 light;          // π times the radiance that the point sends, W/m².
     float nearDistance;  // GatherLight::nearDistances; negative for a sample closer than that to its receiver.
+    vec2 barycentrics;   // On its triangle, as Hit has them.
+    uint side;           // Index of the triangle, times 2, plus 1 if the receivers are behind it.
     float W;     // Unbiased contribution weight: estimates the reciprocal of the sample's density, m²; 0: none.
     float M;     // Confidence weight: number of rays that were candidates.
     float rays;  // Independent rays to which the estimate's variance corresponds.

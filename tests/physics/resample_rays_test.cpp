@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "passes/common/filter/noisy_irradiance.h"
+#include "passes/common/view/surface_motion.h"
 #include "tests/gpu/chain.h"
 #include "tests/support/errors.h"
 
@@ -127,6 +128,88 @@ TEST(ResampleRays, KeepsTheEnergyOfAFurnace) {
             std::printf("%s, %s: %.4f of the closed form\n", reuse.c_str(), shape.c_str(), sum / 0.7056);
             EXPECT_NEAR(sum, 0.7056, 0.01 * 0.7056) << reuse << ", " << shape;
         }
+}
+
+/// A furnace of 2 m with a faceted ball in it that follows the channel. Light is the same everywhere, wherever it is.
+std::shared_ptr<const Scene> furnaceWithBall(AnimationChannel channel) {
+    const auto scene = builtinScene("furnace", "{shape: box, albedo: 0.6, emission: 1}");
+    channel.node = uint32_t(scene->nodes.size());
+    scene->meshes.push_back(sphereMesh("ball", glm::vec3(0), 0.25f, 1, 0, false, false));
+    scene->nodes.push_back({.name = "ball", .translation = {0, 0, -0.7f}});
+    scene->animation.push_back(channel);
+    scene->instances.push_back({uint32_t(scene->meshes.size() - 1), int32_t(channel.node)});
+    return scene;
+}
+
+/// The last of some frames of a second of a scene that moves.
+struct MovedFrame {
+    std::vector<glm::vec4> irradiance, previous;
+
+    MovedFrame(const std::shared_ptr<const Scene>& moving, const std::string& yaml, int frames, uint64_t seed) {
+        const auto state = evaluated(moving, 0, Playback::Looping);
+        ShaderCompiler compiler(sourceRoot(), shaderCache());
+        CommandStream stream(device());
+        const auto tracer = makeRayTracer(TracerKind::Embree, device(), compiler, *state);
+        GpuScene scene = makeGpuScene(device(), stream, *state);
+        Frame frame;
+        frame.scene = state.get();
+        frame.camera = state->cameras.at(0);
+        frame.width = frame.height = kSize;
+        frame.seed = seed;
+        Graph graph(allPasses(), parseYaml(yaml, "graph"));
+        graph.plan(frame, device().info(), device().memoryLimitBytes());
+        graph.prepare(frame, device(), compiler, stream);
+        const auto goToFrame = [&](Frame& next, int index) {
+            next.changedRegions = advance(*state, double(index + frames) / (frames + 1));
+            ++next.sceneVersion;
+            updateGpuScene(stream, *state, scene);
+            tracer->update(stream);
+        };
+        const auto read = [&](const Image& image) {
+            const Buffer buffer(device(), "readback", kSize * kSize * sizeof(glm::vec4), MemoryKind::Readback);
+            stream.copy(image, buffer);
+            return stream.readAs<glm::vec4>(buffer, kSize * kSize);
+        };
+        MeasureSettings settings;
+        settings.frames = 1;
+        settings.warmup = uint32_t(frames - 1);
+        settings.buildRepeats = 0;
+        measureGraph(graph, {frame, device(), stream, *tracer, scene, goToFrame}, settings, [](double) {},
+                     [&](const Frame&, uint32_t) {
+                         irradiance = read(graph.resource<NoisyIrradiance>("noisy_irradiance")->irradiance);
+                         previous = read(graph.resource<SurfaceMotion>("motion")->previous);
+                     });
+    }
+};
+
+TEST(ResampleRays, KeepsTheEnergyOfAFurnaceInWhichSomethingMoves) {
+    // On the ball, and on the walls that it lights, hides and uncovers. Light of what is uncovered is seen late.
+    const AnimationChannel swing{.timesSeconds = {0, 1},
+                                 .values = {glm::vec4(-0.6f, 0, -0.7f, 0), glm::vec4(0, 0, -0.7f, 0)}};
+    const AnimationChannel turn{.property = AnimatedProperty::Rotation,
+                                .timesSeconds = {0, 1},
+                                .values = {glm::vec4(0, 0, 0, 1), glm::vec4(0, 0.87f, 0, 0.5f)}};
+    constexpr int kFrameCount = 20, kSeeds = 3;
+    for (const auto& [name, channel] : {std::pair{"swings", swing}, std::pair{"turns", turn}}) {
+        double ball = 0, walls = 0, balls = 0, others = 0;
+        for (uint64_t seed = 1; seed <= kSeeds; ++seed) {
+            const std::string graph = graphYaml({"gbuffer, samples_per_pixel_edge: 1", "voxelize, resolution: 16",
+                                                 "inject_light_rays, rays_per_light: 131072, bounces: 2",
+                                                 "trace_gather_rays, rays_per_block: 16", "gather_rays",
+                                                 "resample_rays, reuse: spatiotemporal"});
+            const auto scene = furnaceWithBall(channel);
+            const MovedFrame last(scene, graph, kFrameCount, seed);
+            for (size_t i = 0; i < last.irradiance.size(); ++i) {
+                const bool isBall = last.previous[i].w == float(scene->instances.size());
+                (isBall ? ball : walls) += luminance(last.irradiance[i]) / (kPi * 0.7056 / 0.6);
+                (isBall ? balls : others) += 1;
+            }
+        }
+        std::printf("the ball %s: %.3f of the closed form on its %.0f texels, %.3f on walls\n", name, ball / balls,
+                    balls, walls / others);
+        EXPECT_NEAR(ball / balls, 1, 0.03) << name;
+        EXPECT_NEAR(walls / others, 1, 0.03) << name;
+    }
 }
 
 TEST(ResampleRays, NeighborsLeaveTheMeanAsItIs) {

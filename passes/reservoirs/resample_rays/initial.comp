@@ -54,6 +54,8 @@ void main() {
         const bool isFront = dot(p.geometricNormal, receiver.origin - p.position) >= 0.0;
         own.position = p.position;
         own.normal = toOctahedral(isFront ? p.geometricNormal : -p.geometricNormal);
+        own.barycentrics = vec2(hit.u, hit.v);
+        own.side = 2u * hit.triangle + (isFront ? 0u : 1u);
         const float near = nearDistances.data[i];
         own.nearDistance = distance(p.position, receiver.origin) < near ? -near : near;
         const float geometry = geometryTerm(receiver, own);

@@ -137,7 +137,8 @@ class ResampleRays final : public Pass {
     // Of all gather rays: this frame's, and the previous one's. They change places.
     std::array<Buffer, 2> receivers_, reservoirs_;
     uint32_t current_ = 0;
-    bool hasHistory_ = false;
+    std::optional<uint64_t> historyScene_;  ///< Version of the scene in the previous frame; none: no history.
+    LargeBuffer previousPositions_;         ///< Of vertices in that frame, m.
     // Of a batch.
     Buffer neighborOf_, rays_, occluded_, values_, effective_;
 };
@@ -173,6 +174,9 @@ void ResampleRays::plan(PassPlan& plan) {
         plan.buffer(receivers_[frame], "receivers", rays * sizeof(gpu::Receiver));
         plan.buffer(reservoirs_[frame], "reservoirs", rays * sizeof(gpu::Reservoir));
     }
+    if (isTemporal())
+        plan.buffer(previousPositions_, "previous vertices",
+                    plan.frame.scene->geometry.positions.size() * sizeof(glm::vec3));
     temporalRays_.compileIf(isTemporal());
     temporalMerge_.compileIf(isTemporal());
 
@@ -200,7 +204,9 @@ void ResampleRays::record(PassContext& context) {
     forBatches(&ResampleRays::reuseNeighbors);
     if (isTemporal()) {
         current_ = 1 - current_;
-        hasHistory_ = true;
+        if (historyScene_ != context.frame.sceneVersion)
+            context.stream.copy(context.scene.positions, previousPositions_, previousPositions_.bytes());
+        historyScene_ = context.frame.sceneVersion;
     }
 
     // Copy the moments of single rays, which resampling does not change
@@ -229,20 +235,24 @@ void ResampleRays::makeReservoirs(PassContext& context, const Batch& batch) {
 
 void ResampleRays::reuseHistory(PassContext& context, const Batch& batch) {
     const uint32_t before = 1 - current_;
-    const Bindings common{{"receivers", receivers_[current_]},
+    const Bindings common{context.scene,
+                          {"receivers", receivers_[current_]},
                           ifUsed({"reservoirs", reservoirs_[current_]}),
                           ifUsed({"previousReceivers", receivers_[before]}),
                           ifUsed({"previousReservoirs", reservoirs_[before]}),
+                          ifUsed({"PreviousPositionsRef", previousPositions_.ref()}),
                           {"neighbors", neighborOf_},
+                          ifUsed({"hasMoved", historyScene_ != context.frame.sceneVersion}),
                           {"firstRay", batch.firstRay},
                           {"count", batch.rays}};
     context.dispatch(temporalRays_, batch.rays,
                      {common.all(),
                       ifUsed({"rays", rays_}),
+                      ifUsed({"position", context[gbuffer_].position}),
                       {"motion", context[motion_].motion},
                       {"previous", context[motion_].previous},
                       {"layout", context[hits_].layout},
-                      {"hasHistory", hasHistory_},
+                      {"hasHistory", historyScene_.has_value()},
                       {"minCosine", minCosine()},
                       {"depthThreshold", params_.depthThreshold}});
     if (isUnbiased()) context.tracer.occluded(context.stream, rays_, occluded_, 2 * batch.rays);

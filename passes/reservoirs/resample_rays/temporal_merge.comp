@@ -1,5 +1,6 @@
 // Temporal resampling: merges each ray's own hit with the reservoir of the previous frame.
 #include "passes/reservoirs/merge.glsl"
+#include "passes/reservoirs/moved_sample.glsl"
 #include "passes/reservoirs/similar.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
@@ -16,6 +17,7 @@ layout(push_constant, scalar) uniform Push {
     uint firstRay;
     uint count;
     uint seed;
+    uint hasMoved;  // Whether the scene has changed since the previous frame.
     float mMax;
 } push;
 
@@ -29,7 +31,9 @@ void main() {
     if (before == NO_RECEIVER) return;
     const Receiver receiver = receivers.data[i];
     const Reservoir own = reservoirs.data[i];
-    Reservoir old = previousReservoirs.data[before];
+    const bool hasMoved = push.hasMoved != 0u;
+    const Reservoir oldBefore = previousReservoirs.data[before];
+    Reservoir old = sampleNow(oldBefore, hasMoved);
     const float scale = min(1.0, push.mMax / old.M);
     old.M *= scale;
     old.rays *= scale;
@@ -40,9 +44,9 @@ void main() {
     bool isOldVisible = true;
 #ifdef UNBIASED
     const Receiver other = previousReceivers.data[before];
-    const float ownThere = occluded.data[2u * local] == 0u ? target(other, own) : 0.0;
+    const float ownThere = occluded.data[2u * local] == 0u ? target(other, sampleBefore(own, hasMoved)) : 0.0;
     ownWeight = balance(own.M * ownHere, old.M * ownThere, ownWeight);
-    oldWeight = balance(old.M * target(other, old), own.M * oldHere, oldWeight);
+    oldWeight = balance(old.M * target(other, oldBefore), own.M * oldHere, oldWeight);
     isOldVisible = occluded.data[2u * local + 1u] == 0u;
 #endif
 

@@ -1,8 +1,12 @@
 // The previous frame's reservoir of each receiver, and the rays that tell what the two see of each other's samples.
+#include "passes/reservoirs/moved_sample.glsl"
 #include "passes/reservoirs/similar.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
+#ifdef UNBIASED
+uniform sampler2D position;
+#endif
 uniform sampler2D motion;
 uniform sampler2D previous;
 layout(scalar) readonly buffer Receivers { Receiver data[]; } receivers;
@@ -17,6 +21,7 @@ layout(push_constant, scalar) uniform Push {
     uint firstRay;
     uint count;
     uint hasHistory;
+    uint hasMoved;  // Whether the scene has changed since the previous frame.
     float minCosine;
     float depthThreshold;
 } push;
@@ -50,8 +55,15 @@ void main() {
     Ray toOwn = kNoRay, toPrevious = kNoRay;
     if (before != NO_RECEIVER) {
         const Receiver other = previousReceivers.data[before];
-        const Reservoir own = reservoirs.data[i], old = previousReservoirs.data[before];
-        if (own.W > 0.0 && geometryTerm(other, own) > 0.0) toOwn = visibilityRay(other, own);
+        const bool hasMoved = push.hasMoved != 0u;
+        const Reservoir own = reservoirs.data[i], old = sampleNow(previousReservoirs.data[before], hasMoved);
+
+        // Where the previous receiver's surface has moved, no ray can start from it: now it may be inside of something.
+        // It is taken to see what this receiver sees.
+        const ivec2 texel = texelOfReceiver(g, i);
+        const bool standsStill = texelFetch(position, texel, 0).xyz == texelFetch(previous, texel, 0).xyz;
+        if (own.W > 0.0 && standsStill && geometryTerm(other, sampleBefore(own, hasMoved)) > 0.0)
+            toOwn = visibilityRay(other, own);
         if (old.W > 0.0 && geometryTerm(receiver, old) > 0.0) toPrevious = visibilityRay(receiver, old);
     }
     rays.data[2u * local] = toOwn;
