@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -114,6 +115,7 @@ class ResampleRays final : public Pass {
     };
     static Batch batch(const GatherHits& hits, uint32_t index);
     void makeReservoirs(PassContext& context, const Batch& batch);
+    void loadChangedRegions(PassContext& context);
     void reuseHistory(PassContext& context, const Batch& batch);
     void reuseNeighbors(PassContext& context, const Batch& batch);
     void average(PassContext& context, const Batch& batch);
@@ -139,6 +141,8 @@ class ResampleRays final : public Pass {
     uint32_t current_ = 0;
     std::optional<uint64_t> historyScene_;  ///< Version of the scene in the previous frame; none: no history.
     LargeBuffer previousPositions_;         ///< Of vertices in that frame, m.
+    Buffer changedRegions_;                 ///< Old and new box of each instance that has moved since.
+    uint32_t changedCount_ = 0;             ///< Number of boxes.
     // Of a batch.
     Buffer neighborOf_, rays_, occluded_, values_, effective_;
 };
@@ -174,9 +178,11 @@ void ResampleRays::plan(PassPlan& plan) {
         plan.buffer(receivers_[frame], "receivers", rays * sizeof(gpu::Receiver));
         plan.buffer(reservoirs_[frame], "reservoirs", rays * sizeof(gpu::Reservoir));
     }
-    if (isTemporal())
-        plan.buffer(previousPositions_, "previous vertices",
-                    plan.frame.scene->geometry.positions.size() * sizeof(glm::vec3));
+    if (isTemporal()) {
+        const Geometry& geometry = plan.frame.scene->geometry;
+        plan.buffer(previousPositions_, "previous vertices", geometry.positions.size() * sizeof(glm::vec3));
+        plan.buffer(changedRegions_, "changed regions", 2 * geometry.instances.size() * sizeof(Box));
+    }
     temporalRays_.compileIf(isTemporal());
     temporalMerge_.compileIf(isTemporal());
 
@@ -200,7 +206,10 @@ void ResampleRays::record(PassContext& context) {
         for (uint32_t b = 0; b < hits.batches.size(); ++b) (this->*step)(context, batch(hits, b));
     };
     forBatches(&ResampleRays::makeReservoirs);
-    if (isTemporal()) forBatches(&ResampleRays::reuseHistory);
+    if (isTemporal()) {
+        loadChangedRegions(context);
+        forBatches(&ResampleRays::reuseHistory);
+    }
     forBatches(&ResampleRays::reuseNeighbors);
     if (isTemporal()) {
         current_ = 1 - current_;
@@ -233,6 +242,17 @@ void ResampleRays::makeReservoirs(PassContext& context, const Batch& batch) {
                      isTemporal() ? Bindings{bindings.all(), {"previous", context[motion_].previous}} : bindings);
 }
 
+void ResampleRays::loadChangedRegions(PassContext& context) {
+    const Frame& frame = context.frame;
+    changedCount_ = 0;
+    if (!historyScene_ || *historyScene_ == frame.sceneVersion) return;
+    std::vector<Box> boxes{
+        {glm::vec3(std::numeric_limits<float>::lowest()), glm::vec3(std::numeric_limits<float>::max())}};
+    if (*historyScene_ + 1 == frame.sceneVersion && frame.changedRegions) boxes = *frame.changedRegions;
+    changedCount_ = uint32_t(boxes.size());
+    if (!boxes.empty()) context.stream.upload(changedRegions_, boxes);
+}
+
 void ResampleRays::reuseHistory(PassContext& context, const Batch& batch) {
     const uint32_t before = 1 - current_;
     const Bindings common{context.scene,
@@ -243,15 +263,16 @@ void ResampleRays::reuseHistory(PassContext& context, const Batch& batch) {
                           ifUsed({"PreviousPositionsRef", previousPositions_.ref()}),
                           {"neighbors", neighborOf_},
                           ifUsed({"hasMoved", historyScene_ != context.frame.sceneVersion}),
+                          ifUsed({"changedBoxes", changedRegions_}),
+                          ifUsed({"position", context[gbuffer_].position}),
+                          ifUsed({"previous", context[motion_].previous}),
+                          ifUsed({"layout", context[hits_].layout}),
                           {"firstRay", batch.firstRay},
                           {"count", batch.rays}};
     context.dispatch(temporalRays_, batch.rays,
                      {common.all(),
                       ifUsed({"rays", rays_}),
-                      ifUsed({"position", context[gbuffer_].position}),
                       {"motion", context[motion_].motion},
-                      {"previous", context[motion_].previous},
-                      {"layout", context[hits_].layout},
                       {"hasHistory", historyScene_.has_value()},
                       {"minCosine", minCosine()},
                       {"depthThreshold", params_.depthThreshold}});
@@ -260,6 +281,7 @@ void ResampleRays::reuseHistory(PassContext& context, const Batch& batch) {
                      {common.all(),
                       ifUsed({"occluded", occluded_}),
                       {"seed", context[hits_].layout.seed},
+                      ifUsed({"changedRegions", changedCount_}),
                       {"mMax", float(params_.mMax)}});
 }
 

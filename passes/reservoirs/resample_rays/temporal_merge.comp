@@ -1,10 +1,15 @@
 // Temporal resampling: merges each ray's own hit with the reservoir of the previous frame.
+#include "passes/reservoirs/changed_regions.glsl"
 #include "passes/reservoirs/merge.glsl"
 #include "passes/reservoirs/moved_sample.glsl"
 #include "passes/reservoirs/similar.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
+#ifdef UNBIASED
+uniform sampler2D position;
+uniform sampler2D previous;
+#endif
 layout(scalar) readonly buffer Receivers { Receiver data[]; } receivers;
 layout(scalar) buffer Reservoirs { Reservoir data[]; } reservoirs;
 layout(scalar) readonly buffer PreviousReceivers { Receiver data[]; } previousReceivers;
@@ -14,10 +19,12 @@ layout(scalar) readonly buffer Neighbors { uint data[]; } neighbors;
 layout(scalar) readonly buffer Occluded { uint data[]; } occluded;
 #endif
 layout(push_constant, scalar) uniform Push {
+    GatherLayout layout_;
     uint firstRay;
     uint count;
     uint seed;
     uint hasMoved;  // Whether the scene has changed since the previous frame.
+    uint changedRegions;  // Their number.
     float mMax;
 } push;
 
@@ -31,9 +38,10 @@ void main() {
     if (before == NO_RECEIVER) return;
     const Receiver receiver = receivers.data[i];
     const Reservoir own = reservoirs.data[i];
-    const bool hasMoved = push.hasMoved != 0u;
     const Reservoir oldBefore = previousReservoirs.data[before];
-    Reservoir old = sampleNow(oldBefore, hasMoved);
+    Reservoir old = oldBefore;
+    const bool oldMoved = push.hasMoved != 0u && old.W > 0.0 && hasMoved(old);
+    if (oldMoved) old = sampleNow(old);
     const float scale = min(1.0, push.mMax / old.M);
     old.M *= scale;
     old.rays *= scale;
@@ -44,9 +52,17 @@ void main() {
     bool isOldVisible = true;
 #ifdef UNBIASED
     const Receiver other = previousReceivers.data[before];
-    const float ownThere = occluded.data[2u * local] == 0u ? target(other, sampleBefore(own, hasMoved)) : 0.0;
+    const bool ownMoved = push.hasMoved != 0u && own.W > 0.0 && hasMoved(own);
+    float ownThere = occluded.data[2u * local] == 0u ? target(other, ownMoved ? sampleBefore(own) : own) : 0.0;
+    float oldThere = target(other, oldBefore);
+
+    // Between what stands still, the previous frame may not have seen a sample past something that moves
+    if (push.changedRegions > 0u && standsStill(position, previous, texelOfReceiver(push.layout_, i))) {
+        if (!ownMoved && crossesChange(receiver.origin, own.position, push.changedRegions)) ownThere = 0.0;
+        if (!oldMoved && crossesChange(receiver.origin, old.position, push.changedRegions)) oldThere = 0.0;
+    }
     ownWeight = balance(own.M * ownHere, old.M * ownThere, ownWeight);
-    oldWeight = balance(old.M * target(other, oldBefore), own.M * oldHere, oldWeight);
+    oldWeight = balance(old.M * oldThere, own.M * oldHere, oldHere > 0.0 ? 0.0 : oldWeight);
     isOldVisible = occluded.data[2u * local + 1u] == 0u;
 #endif
 

@@ -1,4 +1,5 @@
 // The previous frame's reservoir of each receiver, and the rays that tell what the two see of each other's samples.
+#include "passes/reservoirs/changed_regions.glsl"
 #include "passes/reservoirs/moved_sample.glsl"
 #include "passes/reservoirs/similar.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -55,15 +56,15 @@ void main() {
     Ray toOwn = kNoRay, toPrevious = kNoRay;
     if (before != NO_RECEIVER) {
         const Receiver other = previousReceivers.data[before];
-        const bool hasMoved = push.hasMoved != 0u;
-        const Reservoir own = reservoirs.data[i], old = sampleNow(previousReservoirs.data[before], hasMoved);
+        const Reservoir own = reservoirs.data[i];
+        Reservoir ownBefore = own, old = previousReservoirs.data[before];
+        if (push.hasMoved != 0u && own.W > 0.0 && hasMoved(own)) ownBefore = sampleBefore(own);
+        if (push.hasMoved != 0u && old.W > 0.0 && hasMoved(old)) old = sampleNow(old);
 
         // Where the previous receiver's surface has moved, no ray can start from it: now it may be inside of something.
         // It is taken to see what this receiver sees.
-        const ivec2 texel = texelOfReceiver(g, i);
-        const bool standsStill = texelFetch(position, texel, 0).xyz == texelFetch(previous, texel, 0).xyz;
-        if (own.W > 0.0 && standsStill && geometryTerm(other, sampleBefore(own, hasMoved)) > 0.0)
-            toOwn = visibilityRay(other, own);
+        const bool isStill = standsStill(position, previous, texelOfReceiver(g, i));
+        if (own.W > 0.0 && isStill && geometryTerm(other, ownBefore) > 0.0) toOwn = visibilityRay(other, own);
         if (old.W > 0.0 && geometryTerm(receiver, old) > 0.0) toPrevious = visibilityRay(receiver, old);
     }
     rays.data[2u * local] = toOwn;
