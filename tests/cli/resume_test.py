@@ -117,7 +117,7 @@ class Resume(Run):
         process = self.start_until(lambda: os.path.exists(manifest) and self.json("out", "manifest.json")["finished"],
                                    "run", "tiny.yaml", "--out", "out", start_new_session=True)
         for _ in range(signals):
-            time.sleep(0.05)
+            time.sleep(0.5)  # Two signals that come before the first is handled are one.
             os.killpg(process.pid, signal.SIGINT)
         said = process.communicate()[1]
         self.assertEqual([row["status"] for row in self.rows("out", "results.csv")], ["ok"] * 2)
