@@ -1,7 +1,8 @@
 // Resolves the ray along a cone's axis. With NEAR_FIELD a hit within the near field is stored as a surfel, where direct
 // light is sampled and a path continues. Beyond it the cone is traced from the near field's end; with VISIBLE_BY_RAYS it
 // sees what the ray hits instead, by the finest voxels there: in coarser ones surfaces that the ray doesn't see are
-// averaged with those that it does. At a perfect mirror such a ray goes on like a path of the near field. Needs the bindings of shaders/scene/scene.glsl and of radiance voxels.
+// averaged with those that it does. At a perfect mirror such a ray goes on like a path of the near field. Needs the
+// bindings of shaders/scene/scene.glsl and of radiance voxels.
 //
 //        o────────┤        o: start; ┤: end of the near field
 //     ───x────────┴──      The cone is traced to the right of it: it doesn't read what voxels hold of the

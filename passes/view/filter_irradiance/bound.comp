@@ -1,5 +1,6 @@
-// Bounds each element's irradiance by what the rays around it explain, and sums what exceeds the bound over tiles
-// (tiles.glsl), one work group each. A rare bright ray would otherwise be a spot as wide as the filter.
+// Bounds each element's irradiance by what the rays around it explain. A rare bright ray would otherwise be a spot as wide
+// as the filter. keep_light.comp finds what is lost by that; with SIGNED it is summed here, over tiles (tiles.glsl), one
+// work group each.
 //
 //     bound = mean · (1 + σ max(2.5/√rays, 1.5))
 //
@@ -21,15 +22,19 @@ uniform usampler2D surfaces;
 layout(rgba32f) uniform image2D source;  // Irradiance, W/m²; number of rays.
 layout(scalar) readonly buffer Statistics { RayStatistics data[]; } statistics;
 layout(scalar) readonly buffer BlockMeans { float data[]; } blockMeans;
+#ifdef SIGNED
 layout(scalar) writeonly buffer Tiles { TileLight data[]; } tiles;
+#endif
 layout(push_constant, scalar) uniform Push {
     uvec2 pixels;
     uvec2 blocks;
     float blockSize;
 } push;
 
+#ifdef SIGNED
 shared vec3 kept[TILE * TILE];
 shared vec3 excess[TILE * TILE];
+#endif
 
 // The part of an element's light that is within the bound.
 float keptFraction(ivec2 pixel, float light, float rays) {
@@ -49,8 +54,10 @@ float keptFraction(ivec2 pixel, float light, float rays) {
 
 void main() {
     const ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+#ifdef SIGNED
     const uint thread = gl_LocalInvocationIndex;
     kept[thread] = excess[thread] = vec3(0.0);
+#endif
     if (all(lessThan(uvec2(pixel), push.pixels)))
         for (int layer = 0; layer < LAYERS; ++layer) {
             const ivec2 element = pixel + ivec2(0, layer * int(push.pixels.y));
@@ -64,13 +71,13 @@ void main() {
             if (area == 0.0 || light <= 0.0) continue;
 #endif
             const float fraction = keptFraction(pixel, light, value.a);
-#ifndef SIGNED
-            kept[thread] += area * fraction * value.rgb;
-#endif
-            excess[thread] += area * (1.0 - fraction) * value.rgb;
             if (fraction < 1.0) imageStore(source, element, vec4(fraction * value.rgb, value.a));
+#ifdef SIGNED
+            excess[thread] += area * (1.0 - fraction) * value.rgb;
+#endif
         }
 
+#ifdef SIGNED
     // Sum over the tile
     for (uint half_ = uint(TILE * TILE) / 2u; half_ > 0u; half_ /= 2u) {
         barrier();
@@ -81,4 +88,5 @@ void main() {
     }
     if (thread == 0u)
         tiles.data[gl_WorkGroupID.y * tilesOf(push.pixels).x + gl_WorkGroupID.x] = TileLight(kept[0], excess[0]);
+#endif
 }

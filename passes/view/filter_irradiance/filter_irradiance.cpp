@@ -7,6 +7,7 @@
 #include "passes/common/filter/wavelet_noise.h"
 #include "passes/view/filter_irradiance/filter_irradiance_params.h"
 #include "passes/view/filter_irradiance/level_kernel.h"
+#include "passes/view/scene_materials.h"
 #include "scene/camera_rays.h"
 
 namespace voxray {
@@ -18,8 +19,9 @@ constexpr uint32_t kTile = 16;  // TILE of tiles.glsl.
 constexpr uint32_t kTileBytes = 6 * sizeof(float), kRaisedBytes = 3 * sizeof(float), kNoiseBytes = 2 * sizeof(float);
 constexpr uint32_t kMeasuredLevels = 3;  // MEASURED_LEVELS of noise_ratio.glsl.
 
-bool isTextured(const Material& m) {
-    return m.baseColorTexture.texture >= 0 || m.normalTexture.texture >= 0;
+/// Whether albedo or normal may change within the surfaces of a material.
+bool varies(const Material& m) {
+    return (textureKinds(m) & (BASE_COLOR_TEXTURES | METALLIC_ROUGHNESS_TEXTURES | NORMAL_TEXTURES)) != 0;
 }
 
 glm::uvec2 tilesOf(glm::uvec2 pixels) {
@@ -52,7 +54,7 @@ class FilterIrradiance final : public Pass {
  private:
     /// Bounds outliers by the statistics of rays of blocks.
     void boundOutliers(PassContext& context) const;
-    /// Finds what the mean took of light where albedo and irradiance change together. @param filtered irradiance.
+    /// Finds by how much the light of tiles is raised, so that the filter keeps it. @param filtered irradiance.
     void keepLight(PassContext& context, const Image& filtered) const;
     /// Measures the noise of a level's input over that of independent rays.
     void measureNoise(PassContext& context, uint32_t level) const;
@@ -103,7 +105,7 @@ class FilterIrradiance final : public Pass {
     Kernel resolve_{*this, "resolve.comp"};
     Buffer several_;  ///< Pixels with several surfaces, or not covered by one (shaders/compute/indirect_list.glsl).
     Buffer blockStatistics_;  ///< gpu::RayStatistics per block, from the gather's moments.
-    // Where light is given back
+    // Of light that is given back
     Buffer columns_;  ///< TileLight per column of pixels of a tile (keep_light.comp).
     Buffer tiles_;    ///< TileLight per tile (tiles.glsl).
     Buffer raised_;   ///< Factor of each tile's irradiance (give_back.comp).
@@ -114,7 +116,7 @@ class FilterIrradiance final : public Pass {
     // Images of elements (elements.glsl).
     Image surfaces_;     ///< surface.glsl
     Image reflectance_;  ///< Albedo times the surface's fraction of the pixel.
-    Image own_;          ///< What elements reflect of their own irradiance (surfaces.comp), where light is kept.
+    Image own_;          ///< What elements reflect of their own irradiance (surfaces.comp); not of residuals.
     Image means_[2];  ///< Means of neighborhoods (mean.comp), read and written in turn; where rays' variance is known.
     Image light_;     ///< surface_light.glsl
     Image filtered_[2];  ///< Irradiance, W/m², and number of rays; read and written in turn by levels.
@@ -177,7 +179,7 @@ void FilterIrradiance::plan(PassPlan& plan) {
     if (hasRegression()) defines.emplace("REGRESSION", "1");
     if (givesBack || !isResidual()) defines.emplace("GIVE_BACK", "1");
     if (!isResidual()) defines.emplace("KEEPS_LIGHT", "1");
-    if (std::ranges::any_of(plan.frame.scene->scene->materials, isTextured)) defines.emplace("ALBEDO_VARIES", "1");
+    if (std::ranges::any_of(plan.frame.scene->scene->materials, varies)) defines.emplace("ALBEDO_VARIES", "1");
     if (givesBack) defines.emplace("BOUNDS_OUTLIERS", "1");
     if (measuresNoise) defines.emplace("NOISE_RATIO", "1");
     if (samples > 1 && boundsOutliers()) defines.emplace("READS_ALL_SECOND", "1");
@@ -262,7 +264,7 @@ void FilterIrradiance::boundOutliers(PassContext& context) const {
                       {"source", filtered_[0]},
                       {"statistics", blockStatistics_},
                       {"blockMeans", blockMeans_},
-                      {"tiles", tiles_},
+                      ifUsed({"tiles", tiles_}),
                       {"pixels", pixels},
                       {"blocks", blocks(context)},
                       {"blockSize", blockPixels(context)}});

@@ -1,6 +1,6 @@
-// By how much the light of each tile is raised to give back what bound.comp took and what the mean lost or gained
-// (keep_light.comp). Each tile's excess is shared by the 5 x 5 tiles around it, in proportion to the light that they kept: so
-// nothing is lost, and dark places get back little of what bright ones lost. With SIGNED it is shared by area, and added.
+// By how much the light of each tile is raised to give back what the filter lost, or gained (keep_light.comp). Each tile's
+// excess is shared by the 5 x 5 tiles around it, in proportion to the light that they kept: so nothing is lost, and dark
+// places get back little of what bright ones lost. With SIGNED it is what bound.comp took, shared by area, and added.
 #include "shaders/filter/tiles.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 

@@ -10,7 +10,7 @@
 #include "passes/common/view/surface_motion.h"
 #include "passes/view/camera_view.h"
 #include "passes/view/gbuffer/gbuffer_params.h"
-#include "passes/view/gbuffer/scene_materials.h"
+#include "passes/view/scene_materials.h"
 #include "vulkan/indirect.h"
 
 namespace voxray {

@@ -183,6 +183,16 @@ void KeptFaces::select(const Update& update) {
                       uint32_t(std::floor(double(params_.raysPerPixel) * pixels.x * pixels.y)));
 }
 
+void KeptFaces::measure(const Update& update, const SelectedPoints& points, uint32_t first, uint32_t count) {
+    update.batch.measure(update.context, update.sources, count, update.seed);
+    update.context.dispatch(storeOld_, count,
+                            {{"selected", points.points},
+                             {"direct", update.batch.direct},
+                             {"pointDirect", pointDirect_},
+                             {"first", first},
+                             {"count", count}});
+}
+
 void KeptFaces::measureAgain(const Update& update) {
     const SelectedPoints& points = selection_.again();
     PassContext& context = update.context;
@@ -195,13 +205,7 @@ void KeptFaces::measureAgain(const Update& update) {
                           {"surfels", update.batch.surfels},
                           {"first", first},
                           {"count", count}});
-        update.batch.measure(context, update.sources, count, update.seed);
-        context.dispatch(storeOld_, count,
-                         {{"selected", points.points},
-                          {"direct", update.batch.direct},
-                          {"pointDirect", pointDirect_},
-                          {"first", first},
-                          {"count", count}});
+        measure(update, points, first, count);
     }
 }
 
@@ -225,13 +229,7 @@ void KeptFaces::lightNew(const Update& update) {
                           {"first", first},
                           {"count", count},
                           {"seed", update.seed + 0x51u}});
-        update.batch.measure(context, update.sources, count, update.seed);
-        context.dispatch(storeOld_, count,
-                         {{"selected", points.points},
-                          {"direct", update.batch.direct},
-                          {"pointDirect", pointDirect_},
-                          {"first", first},
-                          {"count", count}});
+        measure(update, points, first, count);
         context.tracer.closestHit(context.stream, update.batch.rays, update.batch.hits, count);
         context.dispatch(linkPoints_, count,
                          {context.scene,

@@ -53,6 +53,8 @@ class KeptFaces {
     void countImportance(const Update& update, const std::vector<FaceHits>& hits);
     /// Selects points within the budget.
     void select(const Update& update);
+    /// Measures direct light at the batch's surfels, of `count` points from the `first` on.
+    void measure(const Update& update, const SelectedPoints& points, uint32_t first, uint32_t count);
     void measureAgain(const Update& update);
     void lightNew(const Update& update);
     void passLight(const Update& update);
