@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 """Prints how much faster lookups, gather rays or virtual lights are than filtered path tracing at equal error, from results of
-configs/bench/rivals.yaml or configs/papers/sun2015/rivals.yaml.
+configs/bench/rivals_still_light.yaml, rivals_new_light.yaml or configs/papers/sun2015/rivals.yaml.
 
 rivals_table.py DIR [--best]: for each scene and number of samples a pixel, the frame time of path tracing (G-buffer, paths, filter)
 and its errors of indirect light; then that time over the time in which voxels that are looked up, gather rays into voxels,
 or gather rays into a radiance cache reach as small an nRMSE / relMSE: with light and geometry that stand still (frames
 alone), with light that is new in each frame (what brings light counts, too), and with geometry that is new, too (all that
-is built counts). Faces that gather rays hit are lit in each frame (configs/bench/hit_faces.yaml).
+is built counts). Faces that gather rays hit are lit in each frame.
 "rays alone" takes the G-buffer and the filter, which both sides share, off both sides: what the column before would come to
 if these cost nothing. For virtual lights what samples and selects them counts. Of a method's
 variants those count that no other one beats in time and error; between them the time is interpolated, logarithm over
@@ -26,7 +26,8 @@ from report.rows import markdown_table, read_rows  # noqa: E402
 
 LEFT_OUT = {"direct", "composite"}
 SHARED = {"gbuffer", "indirect"}  # In variants with gather rays and with paths 'indirect' is the filter.
-LIGHT = {"inject", "few_rays", "inject_radiosity", "smooth_surfels", "update_radiance_cache", "update_probes", "screen_probe_light", "sample_vpls", "select_vpls"}
+LIGHT = {"inject", "few_rays", "light", "surfel_light", "inject_radiosity", "smooth_surfels", "update_radiance_cache", "update_probes",
+         "screen_probe_light", "sample_vpls", "select_vpls"}
 ERRORS = ("indirect_nrmse", "indirect_relmse")
 
 # Of each column: its title, the id of a pass that its methods have, whether a build pass counts, and what does not count.

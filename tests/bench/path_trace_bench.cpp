@@ -68,11 +68,11 @@ void pathTraceCornell(benchmark::State& state) {
                 {.width = 512, .height = 512, .spp = kSpp, .bounces = uint32_t(state.range(0))});
 }
 
-/// A scene of configs/bench/rivals_lookup.yaml, with the config's image and its reference's bounces. Where
+/// A scene of configs/bench/rivals_still_light.yaml, with the config's image and its reference's bounces. Where
 /// $VOXRAY_EXPORT names a folder, the scene is written there as .glb, for cycles_compare.py.
 void pathTraceRival(benchmark::State& state, const std::string& scene) {
     try {
-        const std::filesystem::path file = test::sourceRoot() / "configs/bench/rivals_lookup.yaml";
+        const std::filesystem::path file = test::sourceRoot() / "configs/bench/rivals_still_light.yaml";
         const Experiment config = loadExperiment(file);
         const Value& axis = *config.sweep.find("scene");
         const std::vector<std::string> labels = sweepLabels("scene", axis, {});
