@@ -26,7 +26,7 @@ from report.rows import markdown_table, read_rows  # noqa: E402
 
 LEFT_OUT = {"direct", "composite"}
 SHARED = {"gbuffer", "indirect"}  # In variants with gather rays and with paths 'indirect' is the filter.
-LIGHT = {"inject", "few_rays", "light", "surfel_light", "inject_radiosity", "smooth_surfels", "update_radiance_cache", "update_probes",
+LIGHT = {"inject", "few_rays", "light", "inject_radiosity", "smooth_surfels", "update_radiance_cache", "update_probes",
          "screen_probe_light", "sample_vpls", "select_vpls"}
 ERRORS = ("indirect_nrmse", "indirect_relmse")
 
