@@ -41,7 +41,7 @@ class LightHitFaces final : public Pass {
         "Leaves unlit: all that no ray hits. "
         "Source: Magalhães 2020, section 6.1 (light on demand); Keller et al. 2014 (path space filtering).";
     struct Params {
-        uint32_t pointsPerFace = 4;
+        uint32_t pointsPerFace = 16;
         uint32_t bounces = 8;
         uint32_t lightSamples = 1;
         float updateBudget = 0;
