@@ -110,7 +110,7 @@ TEST(ConeTracing, ANearFieldByRaysKeepsTheEnergyOfAFurnace) {
 
 TEST(ConeTracing, ANearFieldOfEmissionRefusesLightsThatItCanNotTellApart) {
     const auto scene = builtinScene("cornell");  // Its lamp is a surface
-    for (int i = 0; i < 65; ++i) scene->lights.push_back({.position = {0, 0.01f * float(i), 0}});
+    for (int i = 0; i < 65; ++i) scene->lights.emplace_back().position.y = 0.01f * float(i);
     Setting s;
     s.filter = "emission: true";
     s.gather = "near_field_voxels: 2";
