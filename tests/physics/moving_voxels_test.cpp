@@ -29,7 +29,7 @@ void letItGrow(Scene& scene) {
     scene.morphs.push_back({.targetCount = 1, .timesSeconds = {0, 1, 2, 3, 4}, .values = {0, 0, 1, 1, 0}});
 }
 
-/// Cornell with two spheres on their walk, one of which glows and grows.
+/// Cornell with two spheres on their walk, one of which grows, the other glows.
 std::shared_ptr<const Scene> roomWithSpheres() {
     auto scene = builtinScene("cornell", "{lights: point}");
     for (const glm::vec3& emission : {glm::vec3(0), glm::vec3(2, 1, 0.5f)}) {
@@ -37,8 +37,8 @@ std::shared_ptr<const Scene> roomWithSpheres() {
         material.emission = emission;
         scene->materials.push_back(material);
         addMovingSphere(*scene, uint32_t(scene->materials.size() - 1), kWalks[emission.x > 0]);
+        if (emission.x == 0) letItGrow(*scene);
     }
-    letItGrow(*scene);
     return scene;
 }
 
