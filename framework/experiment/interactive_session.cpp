@@ -8,6 +8,7 @@
 #include "base/interrupt.h"
 #include "config/overrides.h"
 #include "experiment/scene_files.h"
+#include "scene/animation.h"
 
 namespace voxray {
 namespace {
@@ -81,7 +82,7 @@ void InteractiveSession::leaveOutIdleTime(Value& config) {
     if (options.time == 0 && options.timeStep == 0) return;
     session_.moveCamera(setup);  // So that the scene is found loaded
     const PreparedScene& scene = session_.loader().prepareCached(setup.scene, session_.loader().key(setup.scene));
-    if (!scene.state.scene->animation.empty()) return;
+    if (isAnimated(*scene.state.scene)) return;
     for (const char* path : {"scene.time", "scene.time_step"})
         if (valueAt(config, path)) applyOverride(config, path, Value());
 }

@@ -6,6 +6,7 @@
 #include "config/overrides.h"
 #include "experiment/interactive_session.h"
 #include "experiment/variant_run.h"
+#include "scene/animation.h"
 
 namespace voxray {
 namespace {
@@ -110,7 +111,7 @@ ShownState::Rendering ShownState::render(Graph graph, const Setup& setup, const 
     rendered_.reset();
     if (!isReusable_) graph_.reset();
     SceneOnDevice& scene = resources_.scene(setup);
-    const bool changes = changesInTime(setup.scene, !scene.prepared.state.scene->animation.empty());
+    const bool changes = changesInTime(setup.scene, isAnimated(*scene.prepared.state.scene));
     const std::string builtFor = fmt::format("{} {}", scene.cameraless, setup.general.seed);
     const std::string viewOf = fmt::format("{} {} {}", scene.key, setup.image.width, setup.image.height);
     const Frame frame = frameOf(setup, scene.prepared, setup.general.seed);

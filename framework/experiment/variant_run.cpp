@@ -4,6 +4,7 @@
 
 #include "base/byte_units.h"
 #include "experiment/readback.h"
+#include "scene/animation.h"
 
 namespace voxray {
 
@@ -42,7 +43,7 @@ Measurement runGraph(Graph graph, const Setup& setup, uint64_t seed, const Measu
     session.plan(graph, frame, measure.memoryLimitMb);
     graph.prepare(frame, session.device(), session.compiler(), session.stream());
     GraphTarget target{frame, session.device(), session.stream(), *scene.tracer, scene.gpu, {}};
-    if (changesInTime(setup.scene, !scene.prepared.state.scene->animation.empty()))
+    if (changesInTime(setup.scene, isAnimated(*scene.prepared.state.scene)))
         target.goToFrame = [&](Frame& moved, int fromCompared) { session.goToFrame(setup, moved, fromCompared); };
     Measurement measured = measureGraph(graph, target, measure, progress,
                                         [&](const Frame& now, uint32_t number) { afterFrame(graph, now, number); });

@@ -33,38 +33,73 @@ bool isFinite(const glm::mat4& m) {
     return true;
 }
 
+/// Where a time lies between two keys; at a key, `previous` and `next` are the same.
+struct KeySpan {
+    size_t previous = 0, next = 0;
+    float t = 0;        ///< From 0 at `previous` to 1 at `next`.
+    float seconds = 0;  ///< From one to the other.
+};
+
+/// The keys around a time, which is clamped to them.
+KeySpan spanAt(const std::vector<float>& times, Interpolation interpolation, double timeSeconds) {
+    assert(!times.empty());
+    const size_t next = size_t(std::upper_bound(times.begin(), times.end(), timeSeconds) - times.begin());
+    if (next == 0) return {};
+    const size_t previous = next - 1;
+    if (next == times.size() || interpolation == Interpolation::Step) return {previous, previous};
+    const double seconds = double(times[next]) - double(times[previous]);
+    return {previous, next, float((timeSeconds - double(times[previous])) / seconds), float(seconds)};
+}
+
+/// A Hermite spline. @param out,in tangents per second at its ends. T: a float or a vector.
+template <typename T>
+T hermite(const KeySpan& span, const T& from, const T& out, const T& to, const T& in) {
+    const float t = span.t, t2 = t * t, t3 = t2 * t;
+    return (2 * t3 - 3 * t2 + 1) * from + (t3 - 2 * t2 + t) * (out * span.seconds) + (-2 * t3 + 3 * t2) * to +
+           (t3 - t2) * (in * span.seconds);
+}
+
 }  // namespace
 
 glm::vec4 sampleChannel(const AnimationChannel& channel, double timeSeconds) {
-    assert(!channel.timesSeconds.empty());
-    const std::vector<float>& times = channel.timesSeconds;
     const bool cubic = channel.interpolation == Interpolation::CubicSpline;
     const bool rotation = channel.property == AnimatedProperty::Rotation;
     const auto value = [&](size_t key) { return channel.values[cubic ? 3 * key + 1 : key]; };
-
-    // The keys around the time, clamped.
-    const size_t next = size_t(std::upper_bound(times.begin(), times.end(), timeSeconds) - times.begin());
-    if (next == 0) return value(0);
-    if (next == times.size() || channel.interpolation == Interpolation::Step) return value(next - 1);
-    const size_t previous = next - 1;
-    const double span = double(times[next]) - double(times[previous]);
-    const float t = float((timeSeconds - double(times[previous])) / span);
+    const KeySpan span = spanAt(channel.timesSeconds, channel.interpolation, timeSeconds);
+    const glm::vec4 from = value(span.previous), to = value(span.next);
+    if (span.previous == span.next) return from;
 
     // Linear, rotations along the shorter arc.
     if (!cubic) {
-        if (!rotation) return glm::mix(value(previous), value(next), t);
-        const glm::quat q = glm::slerp(toQuat(value(previous)), toQuat(value(next)), t);
-        return normalizedOr(glm::vec4(q.x, q.y, q.z, q.w), value(previous));
+        if (!rotation) return glm::mix(from, to, span.t);
+        const glm::quat q = glm::slerp(toQuat(from), toQuat(to), span.t);
+        return normalizedOr(glm::vec4(q.x, q.y, q.z, q.w), from);
     }
+    const glm::vec4 sum = hermite(span, from, channel.values[3 * span.previous + 2], to, channel.values[3 * span.next]);
+    return rotation ? normalizedOr(sum, from) : sum;
+}
 
-    // Hermite spline; tangents are per second.
-    const float t2 = t * t;
-    const float t3 = t2 * t;
-    const glm::vec4 out = channel.values[3 * previous + 2] * float(span);
-    const glm::vec4 in = channel.values[3 * next] * float(span);
-    const glm::vec4 sum = (2 * t3 - 3 * t2 + 1) * value(previous) + (t3 - 2 * t2 + t) * out +
-                          (-2 * t3 + 3 * t2) * value(next) + (t3 - t2) * in;
-    return rotation ? normalizedOr(sum, value(previous)) : sum;
+std::vector<float> sampleWeights(const MorphChannel& channel, double timeSeconds) {
+    const bool cubic = channel.interpolation == Interpolation::CubicSpline;
+    const KeySpan span = spanAt(channel.timesSeconds, channel.interpolation, timeSeconds);
+    std::vector<float> weights(channel.targetCount);
+    for (size_t t = 0; t < weights.size(); ++t) {
+        const auto value = [&](size_t key, size_t part) {
+            return channel.values[(cubic ? 3 * key + part : key) * weights.size() + t];
+        };
+        const float from = value(span.previous, 1), to = value(span.next, 1);
+        if (span.previous == span.next)
+            weights[t] = from;
+        else if (cubic)
+            weights[t] = hermite(span, from, value(span.previous, 2), to, value(span.next, 0));
+        else
+            weights[t] = glm::mix(from, to, span.t);
+    }
+    return weights;
+}
+
+bool isAnimated(const Scene& scene) {
+    return !scene.animation.empty() || !scene.morphs.empty();
 }
 
 std::vector<glm::mat4> nodeToWorld(const Scene& scene, double timeSeconds) {
@@ -102,6 +137,7 @@ std::vector<glm::mat4> nodeToWorld(const Scene& scene, double timeSeconds) {
 double loopedTime(const Scene& scene, double timeSeconds) {
     double end = 0;
     for (const AnimationChannel& channel : scene.animation) end = std::max(end, double(channel.timesSeconds.back()));
+    for (const MorphChannel& channel : scene.morphs) end = std::max(end, double(channel.timesSeconds.back()));
     if (!(end > 0)) return 0;
     const double time = std::fmod(timeSeconds, end);
     return time < 0 ? time + end : time;

@@ -30,6 +30,8 @@ uint32_t appendVertex(Mesh& mesh, uint32_t corner, const Mean& mean) {
     append(mesh.texCoords0);
     append(mesh.texCoords1);
     append(mesh.colors);
+    for (MorphTarget& target : mesh.morph.targets)
+        for (auto* offsets : {&target.positions, &target.normals, &target.tangents}) append(*offsets);
     return uint32_t(mesh.positions.size() - 1);
 }
 

@@ -65,9 +65,12 @@ void addScene(Scene& scene, const Scene& added, const Placement& placement, cons
         for (uint32_t& joint : skin.joints) joint = uint32_t(numberOf(int32_t(joint)));
         scene.skins.push_back(std::move(skin));
     }
+    const int32_t firstMorph = int32_t(scene.morphs.size());
+    scene.morphs.insert(scene.morphs.end(), added.morphs.begin(), added.morphs.end());
     for (const Instance& instance : added.instances)
-        scene.instances.push_back(
-            {firstMesh + instance.mesh, numberOf(instance.node), instance.skin < 0 ? -1 : firstSkin + instance.skin});
+        scene.instances.push_back({firstMesh + instance.mesh, numberOf(instance.node),
+                                   instance.skin < 0 ? -1 : firstSkin + instance.skin,
+                                   instance.morph < 0 ? -1 : firstMorph + instance.morph});
 
     // Lights; those without a node are in the added scene's world space
     for (Light light : added.lights) {

@@ -30,6 +30,12 @@ void add(Hasher& hash, const Material& m) {
         add(hash, *ref);
 }
 
+void add(Hasher& hash, const MorphTargets& morph) {
+    hash.addPlain(uint64_t(morph.targets.size()), morph.hasFlatNormals, morph.tangentTexCoords.value_or(~0u));
+    for (const MorphTarget& target : morph.targets)
+        for (const auto* offsets : {&target.positions, &target.normals, &target.tangents}) addArray(hash, *offsets);
+}
+
 void add(Hasher& hash, const Mesh& mesh) {
     hash.add(mesh.name).addPlain(mesh.material);
     addArray(hash, mesh.positions);
@@ -42,6 +48,7 @@ void add(Hasher& hash, const Mesh& mesh) {
         addArray(hash, set.joints);
         addArray(hash, set.weights);
     }
+    if (!mesh.morph.targets.empty()) add(hash, mesh.morph);
     addArray(hash, mesh.triangles);
 }
 
@@ -59,6 +66,7 @@ void add(Hasher& hash, const Skin& skin) {
 
 void add(Hasher& hash, const Instance& instance) {
     hash.addPlain(instance.mesh, instance.node, instance.skin);
+    if (instance.morph >= 0) hash.addPlain(instance.morph);
 }
 
 void add(Hasher& hash, const Light& light) {
@@ -84,6 +92,12 @@ void add(Hasher& hash, const AnimationChannel& channel) {
     addArray(hash, channel.values);
 }
 
+void add(Hasher& hash, const MorphChannel& channel) {
+    hash.addPlain(channel.interpolation, channel.targetCount);
+    addArray(hash, channel.timesSeconds);
+    addArray(hash, channel.values);
+}
+
 template <typename T>
 void addAll(Hasher& hash, const std::vector<T>& values) {
     hash.addPlain(uint64_t(values.size()));
@@ -104,6 +118,7 @@ std::string hashScene(const Scene& scene) {
     addAll(hash, scene.cameras);
     add(hash, scene.environment);
     addAll(hash, scene.animation);
+    if (!scene.morphs.empty()) addAll(hash, scene.morphs);
     return hash.hex();
 }
 

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
+#include <span>
 
 #include "base/error.h"
 #include "base/parallel.h"
 #include "scene/animation.h"
+#include "scene/morph.h"
 #include "scene/swept_bounds.h"
 
 namespace voxray {
@@ -85,17 +87,27 @@ glm::mat4 blended(const Mesh& mesh, const std::vector<glm::mat4>& joints, size_t
     return sum;
 }
 
+/// A mesh's shape at rest or as its morph targets make it.
+struct ShapeView {
+    explicit ShapeView(const Mesh& mesh) : positions(mesh.positions), normals(mesh.normals), tangents(mesh.tangents) {}
+    explicit ShapeView(const MorphedShape& shape)
+        : positions(shape.positions), normals(shape.normals), tangents(shape.tangents) {}
+    std::span<const glm::vec3> positions, normals;
+    std::span<const glm::vec4> tangents;
+};
+
 /// @param transformOf gives a vertex's VertexTransform.
 template <typename TransformOf>
-void transformVertices(const Mesh& mesh, const InstanceRange& range, const TransformOf& transformOf, Geometry& out) {
-    parallelRanges(mesh.positions.size(), grain, [&](size_t begin, size_t end) {
+void transformVertices(const Mesh& mesh, const ShapeView& shape, const InstanceRange& range,
+                       const TransformOf& transformOf, Geometry& out) {
+    parallelRanges(shape.positions.size(), grain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             const VertexTransform& transform = transformOf(i);
-            out.positions[range.firstVertex + i] = glm::vec3(transform.world * glm::vec4(mesh.positions[i], 1.0f));
+            out.positions[range.firstVertex + i] = glm::vec3(transform.world * glm::vec4(shape.positions[i], 1.0f));
             VertexAttributes& a = out.attributes[range.firstVertex + i];
-            if (!mesh.normals.empty()) a.normal = directionOr(transform.normalMatrix * mesh.normals[i], {0, 1, 0});
-            if (!mesh.tangents.empty()) {
-                const glm::vec4 t = mesh.tangents[i];
+            if (!shape.normals.empty()) a.normal = directionOr(transform.normalMatrix * shape.normals[i], {0, 1, 0});
+            if (!shape.tangents.empty()) {
+                const glm::vec4 t = shape.tangents[i];
                 a.tangent =
                     glm::vec4(directionOr(transform.linear * glm::vec3(t), {1, 0, 0}), transform.mirrored ? -t.w : t.w);
             }
@@ -122,18 +134,34 @@ void transformVertices(const Mesh& mesh, const InstanceRange& range, const Trans
     });
 }
 
-/// Transforms an instance by its skin's joints or by its node.
-void transformInstance(const Scene& scene, const Instance& instance, const std::vector<glm::mat4>& world,
-                       const InstanceRange& range, Geometry& out) {
+/// What animation decides of a scene at one time.
+struct Pose {
+    std::vector<glm::mat4> world;             ///< In the order of Scene::nodes.
+    std::vector<std::vector<float>> weights;  ///< In the order of Scene::morphs.
+};
+
+Pose poseAt(const Scene& scene, double timeSeconds, Playback playback) {
+    const double time = playback == Playback::Looping ? loopedTime(scene, timeSeconds) : timeSeconds;
+    Pose pose{nodeToWorld(scene, time), {}};
+    for (const MorphChannel& channel : scene.morphs) pose.weights.push_back(sampleWeights(channel, time));
+    return pose;
+}
+
+/// Transforms an instance by its morph targets' weights, and then by its skin's joints or by its node.
+void transformInstance(const Scene& scene, const Instance& instance, const Pose& pose, const InstanceRange& range,
+                       Geometry& out) {
     const Mesh& mesh = scene.meshes[instance.mesh];
+    const MorphedShape moved =
+        instance.morph < 0 ? MorphedShape() : morphed(mesh, pose.weights[size_t(instance.morph)]);
+    const ShapeView shape = instance.morph < 0 ? ShapeView(mesh) : ShapeView(moved);
     if (instance.skin >= 0) {
-        const auto joints = jointMatrices(scene.skins[size_t(instance.skin)], world);
+        const auto joints = jointMatrices(scene.skins[size_t(instance.skin)], pose.world);
         const auto transformOf = [&](size_t vertex) { return VertexTransform(blended(mesh, joints, vertex)); };
-        transformVertices(mesh, range, transformOf, out);
+        transformVertices(mesh, shape, range, transformOf, out);
     } else {
-        const VertexTransform transform(instance.node < 0 ? glm::mat4(1.0f) : world[size_t(instance.node)]);
+        const VertexTransform transform(instance.node < 0 ? glm::mat4(1.0f) : pose.world[size_t(instance.node)]);
         transformVertices(
-            mesh, range, [&](size_t) -> const VertexTransform& { return transform; }, out);
+            mesh, shape, range, [&](size_t) -> const VertexTransform& { return transform; }, out);
     }
 }
 
@@ -221,15 +249,11 @@ std::vector<Camera> placeCameras(const Scene& scene, const std::vector<glm::mat4
     return cameras;
 }
 
-std::vector<glm::mat4> worldAt(const Scene& scene, double timeSeconds, Playback playback) {
-    return nodeToWorld(scene, playback == Playback::Looping ? loopedTime(scene, timeSeconds) : timeSeconds);
-}
-
 }  // namespace
 
 SceneState evaluate(std::shared_ptr<const Scene> scenePointer, double timeSeconds, Playback playback) {
     const Scene& scene = *scenePointer;
-    const std::vector<glm::mat4> world = worldAt(scene, timeSeconds, playback);
+    const Pose pose = poseAt(scene, timeSeconds, playback);
     SceneState state;
     state.playback = playback;
 
@@ -238,13 +262,13 @@ SceneState evaluate(std::shared_ptr<const Scene> scenePointer, double timeSecond
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         InstanceRange& range = state.geometry.instances[i];
-        transformInstance(scene, instance, world, range, state.geometry);
+        transformInstance(scene, instance, pose, range, state.geometry);
         range.moves = playback == Playback::Looping && range.vertexCount > 0 && movesInTime(scene, instance);
     }
     findBounds(scene, state.geometry);
 
-    state.lights = placeLights(scene, world);
-    state.cameras = placeCameras(scene, world);
+    state.lights = placeLights(scene, pose.world);
+    state.cameras = placeCameras(scene, pose.world);
     state.scene = std::move(scenePointer);
     return state;
 }
@@ -277,19 +301,19 @@ std::vector<InstanceRange> movingInstanceRanges(const Geometry& geometry) {
 
 std::vector<Box> advance(SceneState& state, double timeSeconds) {
     const Scene& scene = *state.scene;
-    const std::vector<glm::mat4> world = worldAt(scene, timeSeconds, state.playback);
+    const Pose pose = poseAt(scene, timeSeconds, state.playback);
     std::vector<Box> changed;
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const InstanceRange& range = state.geometry.instances[i];
         if (!range.moves) continue;
         const Instance& instance = scene.instances[i];
         const Box before = boundsOf(state.geometry, range, scene, instance);
-        transformInstance(scene, instance, world, range, state.geometry);
+        transformInstance(scene, instance, pose, range, state.geometry);
         const Box after = boundsOf(state.geometry, range, scene, instance);
         changed.insert(changed.end(), {before, after});
     }
-    state.lights = placeLights(scene, world);
-    state.cameras = placeCameras(scene, world);
+    state.lights = placeLights(scene, pose.world);
+    state.cameras = placeCameras(scene, pose.world);
     if (state.panes) advance(*state.panes, timeSeconds);
     return changed;
 }

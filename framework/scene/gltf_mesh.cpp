@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "scene/gltf_accessor.h"
-#include "scene/gltf_deform.h"
+#include "scene/gltf_skin.h"
 #include "scene/mesh_repair.h"
 
 namespace voxray {
@@ -81,9 +81,9 @@ void readTriangles(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& m
     mesh.triangles = trianglesOf(file, primitive.mode, indices, what);
 }
 
-/// Reads all attributes, with morph targets applied.
-void readAttributes(GltfFile& file, const tinygltf::Primitive& primitive, const std::vector<double>& morphWeights,
-                    Mesh& mesh, const std::string& what) {
+/// Reads all attributes.
+void readAttributes(GltfFile& file, const tinygltf::Primitive& primitive, const FixedWeights& weights, Mesh& mesh,
+                    const std::string& what) {
     const size_t count = mesh.positions.size();
     readAttribute(file, primitive, "TEXCOORD_0", 2, 2, 0, mesh.texCoords0, count, what);
     readAttribute(file, primitive, "TEXCOORD_1", 2, 2, 0, mesh.texCoords1, count, what);
@@ -91,7 +91,7 @@ void readAttributes(GltfFile& file, const tinygltf::Primitive& primitive, const 
     readAttribute(file, primitive, "NORMAL", 3, 3, 0, mesh.normals, count, what);
     // Tangents are meaningless without normals (glTF 2.0, section 3.7.2.1).
     if (!mesh.normals.empty()) readAttribute(file, primitive, "TANGENT", 4, 4, 1, mesh.tangents, count, what);
-    addMorphTargets(file, primitive, morphWeights, mesh, what);
+    readMorphTargets(file, primitive, weights, mesh, what);
     readSkinWeights(file, primitive, mesh, what);
 }
 
@@ -112,12 +112,13 @@ void completeNormals(GltfFile& file, const Material& material, Mesh& mesh, const
     if (make && material.normalTexture.texture >= 0) {
         file.reserve(mesh.positions.size(), bytesPerVertex);
         makeTangents(mesh, material.normalTexture.texCoord);
+        if (!mesh.morph.targets.empty()) mesh.morph.tangentTexCoords = material.normalTexture.texCoord;
     }
 }
 
 }  // namespace
 
-Mesh readPrimitive(GltfFile& file, const tinygltf::Primitive& primitive, const std::vector<double>& morphWeights,
+Mesh readPrimitive(GltfFile& file, const tinygltf::Primitive& primitive, const FixedWeights& weights,
                    const Material& material, const std::string& what) {
     Mesh mesh;
     if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
@@ -141,7 +142,7 @@ Mesh readPrimitive(GltfFile& file, const tinygltf::Primitive& primitive, const s
         file.warn("{}: it has no triangles; left out", what);
         return mesh;
     }
-    readAttributes(file, primitive, morphWeights, mesh, what);
+    readAttributes(file, primitive, weights, mesh, what);
     dropUnusedVertices(mesh);
     if (replaceNonFinite(mesh.positions, 0) > 0) file.fail("{}: it has positions that are not finite", what);
 
@@ -153,6 +154,7 @@ Mesh readPrimitive(GltfFile& file, const tinygltf::Primitive& primitive, const s
         file.warn("{}: COLOR_0 of {} vertices is limited, so that it is from 0 to 1 times baseColorFactor", what,
                   others);
     completeNormals(file, material, mesh, what);
+    if (weights) applyMorphTargets(*weights, mesh);
     return mesh;
 }
 

@@ -13,7 +13,7 @@ namespace voxray {
 /// @throws Error for cycles, nodes with two parents, transforms that are not finite.
 std::vector<int> readNodes(GltfFile& file, Scene& scene);
 
-/// Reads all animations of those nodes, played together.
+/// Reads all animations of those nodes' transforms, played together; MorphReader reads those of weights.
 /// @param fileNodes as readNodes returned them
 void readAnimations(GltfFile& file, const std::vector<int>& fileNodes, Scene& scene);
 

@@ -5,11 +5,12 @@
 
 #include "base/interrupt.h"
 #include "scene/content_hash.h"
-#include "scene/gltf_deform.h"
 #include "scene/gltf_file.h"
 #include "scene/gltf_material.h"
 #include "scene/gltf_mesh.h"
+#include "scene/gltf_morph.h"
 #include "scene/gltf_nodes.h"
+#include "scene/gltf_skin.h"
 #include "scene/gltf_values.h"
 
 namespace voxray {
@@ -22,23 +23,17 @@ struct MeshRange {
 };
 
 /// A mesh of the file, and its morph targets' weights.
-using MeshKey = std::pair<int, std::vector<double>>;
-
-/// A node's weights override those of its mesh (glTF 2.0, section 3.7.2.2).
-MeshKey meshOf(GltfFile& file, const tinygltf::Node& node) {
-    const tinygltf::Mesh& mesh = file.at(file.model().meshes, node.mesh, "mesh");
-    return {node.mesh, node.weights.empty() ? mesh.weights : node.weights};
-}
+using MeshKey = std::pair<int, FixedWeights>;
 
 MeshRange readMesh(GltfFile& file, const MeshKey& key, MaterialReader& materials, Scene& scene) {
-    const auto& [index, morphWeights] = key;
+    const auto& [index, weights] = key;
     const tinygltf::Mesh& source = file.model().meshes[size_t(index)];
     MeshRange range{uint32_t(scene.meshes.size()), 0};
     for (size_t i = 0; i < source.primitives.size(); ++i) {
         const tinygltf::Primitive& primitive = source.primitives[i];
         const std::string what = fmt::format("mesh {} '{}', primitive {}", index, shortLine(source.name), i);
         const uint32_t material = materials.material(primitive.material);
-        Mesh mesh = readPrimitive(file, primitive, morphWeights, scene.materials[material], what);
+        Mesh mesh = readPrimitive(file, primitive, weights, scene.materials[material], what);
         if (mesh.triangles.empty()) continue;
         mesh.name = shortLine(source.name);
         mesh.material = material;
@@ -99,6 +94,7 @@ std::shared_ptr<const Scene> load(const std::filesystem::path& path) {
     const std::vector<int> fileNodes = readNodes(file, *scene);
     const std::vector<bool> hidden = hiddenNodes(file, fileNodes, *scene);
     SkinReader skins(file, fileNodes, *scene);
+    MorphReader morphs(file, *scene);
     for (size_t i = 0; i < fileNodes.size(); ++i) {
         const tinygltf::Node& node = file.model().nodes[size_t(fileNodes[i])];
         if (interruptRequested()) throw Interrupted();
@@ -106,13 +102,14 @@ std::shared_ptr<const Scene> load(const std::filesystem::path& path) {
         if (hidden[i]) continue;
         readLight(file, node, int32_t(i), *scene);
         if (node.mesh < 0) continue;
-        const MeshKey key = meshOf(file, node);
+        const MeshKey key{node.mesh, morphs.weights(fileNodes[i])};
         if (!meshes.contains(key)) meshes[key] = readMesh(file, key, materials, *scene);
         const MeshRange& range = meshes[key];
         const int32_t skin = skinOf(file, node, range, skins, *scene);
+        const int32_t morph = morphs.channel(fileNodes[i]);
         for (const int32_t instanceNode : readInstanceNodes(file, node, int32_t(i), *scene))
             for (uint32_t m = 0; m < range.count; ++m)
-                scene->instances.push_back({range.first + m, instanceNode, skin});
+                scene->instances.push_back({range.first + m, instanceNode, skin, morph});
     }
     if (scene->instances.empty()) {
         const bool hasMeshes = std::any_of(fileNodes.begin(), fileNodes.end(),

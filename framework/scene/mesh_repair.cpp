@@ -17,9 +17,9 @@ glm::vec3 directionOr(const glm::dvec3& v, const glm::vec3& fallback) {
 }
 
 /// Twice the area times the normal.
-glm::dvec3 areaNormal(const Mesh& mesh, const glm::uvec3& t) {
-    const glm::dvec3 a(mesh.positions[t.x]);
-    return glm::cross(glm::dvec3(mesh.positions[t.y]) - a, glm::dvec3(mesh.positions[t.z]) - a);
+glm::dvec3 areaNormal(const std::vector<glm::vec3>& positions, const glm::uvec3& t) {
+    const glm::dvec3 a(positions[t.x]);
+    return glm::cross(glm::dvec3(positions[t.y]) - a, glm::dvec3(positions[t.z]) - a);
 }
 
 /// Any unit vector perpendicular to a unit vector (Duff et al. 2017).
@@ -49,6 +49,11 @@ void gatherVertices(Mesh& mesh, const std::vector<uint32_t>& source) {
         gather(set.joints, source);
         gather(set.weights, source);
     }
+    for (MorphTarget& target : mesh.morph.targets) {
+        gather(target.positions, source);
+        gather(target.normals, source);
+        gather(target.tangents, source);
+    }
 }
 
 /// A triangle's tangent, the direction of growing u, times twice its area; zero for degenerate uv.
@@ -56,9 +61,10 @@ struct TriangleTangent {
     glm::dvec3 tangent{0.0};
     bool mirrored = false;
 };
-TriangleTangent tangentOf(const Mesh& mesh, const std::vector<glm::vec2>& uv, const glm::uvec3& t) {
-    const glm::dvec3 e1 = glm::dvec3(mesh.positions[t.y]) - glm::dvec3(mesh.positions[t.x]);
-    const glm::dvec3 e2 = glm::dvec3(mesh.positions[t.z]) - glm::dvec3(mesh.positions[t.x]);
+TriangleTangent tangentOf(const std::vector<glm::vec3>& positions, const std::vector<glm::vec2>& uv,
+                          const glm::uvec3& t) {
+    const glm::dvec3 e1 = glm::dvec3(positions[t.y]) - glm::dvec3(positions[t.x]);
+    const glm::dvec3 e2 = glm::dvec3(positions[t.z]) - glm::dvec3(positions[t.x]);
     const glm::dvec2 d1 = glm::dvec2(uv[t.y]) - glm::dvec2(uv[t.x]);
     const glm::dvec2 d2 = glm::dvec2(uv[t.z]) - glm::dvec2(uv[t.x]);
     const double determinant = d1.x * d2.y - d2.x * d1.y;
@@ -69,6 +75,33 @@ TriangleTangent tangentOf(const Mesh& mesh, const std::vector<glm::vec2>& uv, co
     const double area = glm::length(glm::cross(e1, e2));
     result.tangent = area * glm::dvec3(directionOr(sign * (d2.y * e1 - d1.y * e2), glm::vec3(0)));
     return result;
+}
+
+/// A set of texture coordinates, zeros where the mesh has none.
+std::vector<glm::vec2> texCoordsOf(const Mesh& mesh, uint32_t texCoordSet) {
+    std::vector<glm::vec2> uv = texCoordSet == 0 ? mesh.texCoords0 : mesh.texCoords1;
+    uv.resize(mesh.positions.size(), glm::vec2(0));
+    return uv;
+}
+
+/// Sums triangles' tangents at vertices, and orthogonalizes them to the normals.
+/// @param handednessOf gives w of a vertex
+template <typename HandednessOf>
+std::vector<glm::vec4> smoothTangents(const std::vector<glm::uvec3>& triangles,
+                                      const std::vector<TriangleTangent>& tangents,
+                                      const std::vector<glm::vec3>& normals, const HandednessOf& handednessOf) {
+    std::vector<glm::dvec3> sums(normals.size(), glm::dvec3(0));
+    for (size_t i = 0; i < triangles.size(); ++i)
+        for (int corner = 0; corner < 3; ++corner) sums[triangles[i][corner]] += tangents[i].tangent;
+    std::vector<glm::vec4> smooth(normals.size());
+    for (size_t i = 0; i < sums.size(); ++i) {
+        const glm::dvec3 n(normals[i]);
+        const glm::dvec3 flat = sums[i] - glm::dot(sums[i], n) * n;
+        const bool degenerate = glm::length(flat) <= 1e-6 * glm::length(sums[i]);
+        const glm::vec3 fallback = perpendicular(normals[i]);
+        smooth[i] = glm::vec4(degenerate ? fallback : directionOr(flat, fallback), handednessOf(i));
+    }
+    return smooth;
 }
 
 }  // namespace
@@ -94,16 +127,20 @@ void makeFlatNormals(Mesh& mesh) {
     std::vector<uint32_t> source;
     source.reserve(3 * mesh.triangles.size());
     mesh.normals.clear();
-    std::vector<glm::vec3> normals;
-    normals.reserve(3 * mesh.triangles.size());
     for (glm::uvec3& t : mesh.triangles) {
         const uint32_t first = uint32_t(source.size());
         source.insert(source.end(), {t.x, t.y, t.z});
-        normals.insert(normals.end(), 3, directionOr(areaNormal(mesh, t), {0, 1, 0}));
         t = {first, first + 1, first + 2};
     }
     gatherVertices(mesh, source);
-    mesh.normals = std::move(normals);
+    mesh.normals = flatNormals(mesh.positions, mesh.triangles);
+}
+
+std::vector<glm::vec3> flatNormals(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles) {
+    std::vector<glm::vec3> normals(positions.size(), {0, 1, 0});
+    for (const glm::uvec3& t : triangles)
+        normals[t.x] = normals[t.y] = normals[t.z] = directionOr(areaNormal(positions, t), {0, 1, 0});
+    return normals;
 }
 
 size_t repairNormals(Mesh& mesh) {
@@ -124,7 +161,7 @@ size_t repairNormals(Mesh& mesh) {
     std::vector<glm::dvec3> sums(mesh.normals.size(), glm::dvec3(0));
     for (const glm::uvec3& t : mesh.triangles)
         for (int corner = 0; corner < 3; ++corner)
-            if (bad[t[corner]]) sums[t[corner]] += areaNormal(mesh, t);
+            if (bad[t[corner]]) sums[t[corner]] += areaNormal(mesh.positions, t);
     for (size_t i = 0; i < bad.size(); ++i)
         if (bad[i]) mesh.normals[i] = directionOr(sums[i], {0, 1, 0});
     return notFinite;
@@ -132,14 +169,13 @@ size_t repairNormals(Mesh& mesh) {
 
 void makeTangents(Mesh& mesh, uint32_t texCoordSet) {
     mesh.tangents.clear();
-    std::vector<glm::vec2> uv = texCoordSet == 0 ? mesh.texCoords0 : mesh.texCoords1;
-    uv.resize(mesh.positions.size(), glm::vec2(0));
+    const std::vector<glm::vec2> uv = texCoordsOf(mesh, texCoordSet);
 
     // Copy vertices of mirrored triangles that unmirrored ones use, too.
     std::vector<uint8_t> uses(mesh.positions.size());
     std::vector<TriangleTangent> tangents(mesh.triangles.size());
     for (size_t i = 0; i < mesh.triangles.size(); ++i) {
-        tangents[i] = tangentOf(mesh, uv, mesh.triangles[i]);
+        tangents[i] = tangentOf(mesh.positions, uv, mesh.triangles[i]);
         for (int corner = 0; corner < 3; ++corner) uses[mesh.triangles[i][corner]] |= tangents[i].mirrored ? 2 : 1;
     }
     std::vector<uint32_t> source(mesh.positions.size());
@@ -158,18 +194,17 @@ void makeTangents(Mesh& mesh, uint32_t texCoordSet) {
         if (tangents[i].mirrored)
             for (int corner = 0; corner < 3; ++corner) mesh.triangles[i][corner] = copies[mesh.triangles[i][corner]];
 
-    // Sum triangles' tangents at vertices, and orthogonalize them to the normals.
-    std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0));
-    for (size_t i = 0; i < mesh.triangles.size(); ++i)
-        for (int corner = 0; corner < 3; ++corner) sums[mesh.triangles[i][corner]] += tangents[i].tangent;
-    mesh.tangents.resize(mesh.positions.size());
-    for (size_t i = 0; i < sums.size(); ++i) {
-        const glm::dvec3 n(mesh.normals[i]);
-        const glm::dvec3 flat = sums[i] - glm::dot(sums[i], n) * n;
-        const bool degenerate = glm::length(flat) <= 1e-6 * glm::length(sums[i]);
-        const glm::vec3 fallback = perpendicular(mesh.normals[i]);
-        mesh.tangents[i] = glm::vec4(degenerate ? fallback : directionOr(flat, fallback), handedness[i]);
-    }
+    mesh.tangents =
+        smoothTangents(mesh.triangles, tangents, mesh.normals, [&](size_t vertex) { return handedness[vertex]; });
+}
+
+std::vector<glm::vec4> tangentsOf(const Mesh& mesh, const std::vector<glm::vec3>& positions,
+                                  const std::vector<glm::vec3>& normals, uint32_t texCoordSet) {
+    const std::vector<glm::vec2> uv = texCoordsOf(mesh, texCoordSet);
+    std::vector<TriangleTangent> tangents;
+    tangents.reserve(mesh.triangles.size());
+    for (const glm::uvec3& t : mesh.triangles) tangents.push_back(tangentOf(positions, uv, t));
+    return smoothTangents(mesh.triangles, tangents, normals, [&](size_t vertex) { return mesh.tangents[vertex].w; });
 }
 
 bool normalizeTangents(Mesh& mesh) {

@@ -12,6 +12,10 @@ void dropUnusedVertices(Mesh& mesh);
 /// Gives each triangle its own three vertices and its flat normal. Degenerate triangles get +Y.
 void makeFlatNormals(Mesh& mesh);
 
+/// Normals of triangles of which no vertex has two, or where all of a vertex lie in one plane. Degenerate ones
+/// give +Y.
+std::vector<glm::vec3> flatNormals(const std::vector<glm::vec3>& positions, const std::vector<glm::uvec3>& triangles);
+
 /// Normalizes normals; replaces those that are zero or not finite by the mean of their triangles' normals.
 /// @return number of normals that were not finite
 size_t repairNormals(Mesh& mesh);
@@ -20,6 +24,10 @@ size_t repairNormals(Mesh& mesh);
 /// summed at vertices and orthogonalized to the normal. Vertices between mirrored and unmirrored coordinates
 /// are split. Close to MikkTSpace, but not bit-equal to it.
 void makeTangents(Mesh& mesh, uint32_t texCoordSet);
+
+/// Tangents as makeTangents() gave them to the mesh, for other positions and normals of its vertices.
+std::vector<glm::vec4> tangentsOf(const Mesh& mesh, const std::vector<glm::vec3>& positions,
+                                  const std::vector<glm::vec3>& normals, uint32_t texCoordSet);
 
 /// Normalizes tangents and sets their handedness to 1 or -1.
 /// @return false if any is zero or not finite

@@ -98,6 +98,23 @@ bool split(Mesh& mesh, const glm::vec3* world, const Box& box) {
     return isCut;
 }
 
+/// An instance's mesh as it is at the state's time, in world space, without joints and morph targets.
+Mesh placedMesh(const SceneState& state, size_t instance) {
+    const Geometry& g = state.geometry;
+    const InstanceRange& range = g.instances[instance];
+    Mesh mesh = state.scene->meshes[state.scene->instances[instance].mesh];
+    mesh.skinWeights.clear();
+    mesh.morph = {};
+    for (uint32_t v = 0; v < range.vertexCount; ++v) {
+        mesh.positions[v] = g.positions[range.firstVertex + v];
+        if (!mesh.normals.empty()) mesh.normals[v] = g.attributes[range.firstVertex + v].normal;
+        if (!mesh.tangents.empty()) mesh.tangents[v] = g.attributes[range.firstVertex + v].tangent;
+    }
+    for (uint32_t t = 0; t < range.triangleCount; ++t)
+        mesh.triangles[t] = g.triangles[range.firstTriangle + t] - range.firstVertex;
+    return mesh;
+}
+
 }  // namespace
 
 SceneState splitAtRegion(const SceneState& state, const Box& region, double timeSeconds) {
@@ -105,9 +122,16 @@ SceneState splitAtRegion(const SceneState& state, const Box& region, double time
     for (size_t i = 0; i < scene->instances.size(); ++i) {
         const InstanceRange& range = state.geometry.instances[i];
         if (range.moves) continue;
-        Mesh mesh = scene->meshes[scene->instances[i].mesh];
+        Instance& instance = scene->instances[i];
+        const bool isDeformed = instance.skin >= 0 || instance.morph >= 0;
+        Mesh mesh = isDeformed ? placedMesh(state, i) : scene->meshes[instance.mesh];
         if (!split(mesh, state.geometry.positions.data() + range.firstVertex, region)) continue;
-        scene->instances[i].mesh = uint32_t(scene->meshes.size());
+        if (isDeformed) {
+            const Node inWorld{.name = instance.node < 0 ? "" : scene->nodes[size_t(instance.node)].name};
+            instance = {.node = int32_t(scene->nodes.size())};
+            scene->nodes.push_back(inWorld);
+        }
+        instance.mesh = uint32_t(scene->meshes.size());
         scene->meshes.push_back(std::move(mesh));
     }
     scene->contentHash = hashScene(*scene);

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "image/image.h"
+#include "scene/interpolation.h"
+#include "scene/morph_types.h"
 
 /// A scene as glTF 2.0 describes it, in metres, right-handed, Y up, linear Rec.709.
 /// Plain data, immutable once loaded; `evaluate` (geometry.h) turns it into world-space triangles.
@@ -78,6 +80,7 @@ struct Mesh {
     std::vector<glm::vec2> texCoords1;
     std::vector<glm::vec4> colors;  ///< Linear RGBA, multiplies the base colour.
     std::vector<SkinWeights> skinWeights;
+    MorphTargets morph;  ///< Where weights are animated; other targets are applied when a file is read.
     std::vector<glm::uvec3> triangles;
     uint32_t material = 0;
 };
@@ -98,11 +101,13 @@ struct Skin {
     std::vector<glm::mat4> inverseBindMatrices;
 };
 
-/// A mesh transformed by a node, or by the joints of a skin, in which case the node is ignored.
+/// A mesh transformed by a node, or by the joints of a skin, in which case the node is ignored. Morph targets
+/// come before both.
 struct Instance {
     uint32_t mesh = 0;
-    int32_t node = -1;  ///< -1: identity.
-    int32_t skin = -1;  ///< Index into Scene::skins; -1: none.
+    int32_t node = -1;   ///< -1: identity.
+    int32_t skin = -1;   ///< Index into Scene::skins; -1: none.
+    int32_t morph = -1;  ///< Index into Scene::morphs, which has a weight for each target; -1: none.
 };
 
 enum class LightType : uint32_t { Point, Spot, Directional };
@@ -138,7 +143,6 @@ struct Environment {
 };
 
 enum class AnimatedProperty : uint32_t { Translation, Rotation, Scale };
-enum class Interpolation : uint32_t { Linear, Step, CubicSpline };
 
 /// One animated property of one node. For CubicSpline each key has in-tangent, value, out-tangent.
 struct AnimationChannel {
@@ -162,6 +166,7 @@ struct Scene {
     std::vector<std::string> orthographicCameras;  ///< Names of ignored ones.
     Environment environment;
     std::vector<AnimationChannel> animation;  ///< All of the file's animations, played together.
+    std::vector<MorphChannel> morphs;         ///< Played with them.
     std::vector<std::string> warnings;        ///< Warnings of the loader, one line each.
     std::string contentHash;                  ///< Hash of everything above (hashScene()).
 };

@@ -6,6 +6,8 @@
 #include <glm/mat3x3.hpp>
 #include <optional>
 
+#include "scene/morph.h"
+
 namespace voxray {
 namespace {
 
@@ -94,37 +96,50 @@ bool nodeMoves(const Scene& scene, int32_t node) {
     return false;
 }
 
+/// Calls visit(positions) with the mesh's positions in shapes whose hull holds those of all times.
+template <typename Visit>
+void visitShapes(const Scene& scene, const Instance& instance, const Visit& visit) {
+    const Mesh& mesh = scene.meshes[instance.mesh];
+    if (instance.morph < 0) return visit(mesh.positions);
+    for (const std::vector<float>& weights : hullOfWeights(scene.morphs[size_t(instance.morph)]))
+        visit(morphedPositions(mesh, weights));
+}
+
 /// Bounds of each joint's vertices, in its node's space.
-std::vector<Box> jointHulls(const Mesh& mesh, const Skin& skin) {
+std::vector<Box> jointHulls(const Scene& scene, const Instance& instance) {
+    const Skin& skin = scene.skins[size_t(instance.skin)];
     std::vector<Box> hulls(skin.joints.size(), Box::empty());
-    for (const SkinWeights& set : mesh.skinWeights)
-        for (size_t v = 0; v < mesh.positions.size(); ++v)
-            for (int i = 0; i < 4; ++i) {
-                if (!(set.weights[v][i] > 0)) continue;
-                const uint32_t joint = set.joints[v][i];
-                const glm::vec4 p = skin.inverseBindMatrices[joint] * glm::vec4(mesh.positions[v], 1.0f);
-                hulls[joint].include(glm::vec3(p));
-            }
+    visitShapes(scene, instance, [&](const std::vector<glm::vec3>& positions) {
+        for (const SkinWeights& set : scene.meshes[instance.mesh].skinWeights)
+            for (size_t v = 0; v < positions.size(); ++v)
+                for (int i = 0; i < 4; ++i) {
+                    if (!(set.weights[v][i] > 0)) continue;
+                    const uint32_t joint = set.joints[v][i];
+                    const glm::vec4 p = skin.inverseBindMatrices[joint] * glm::vec4(positions[v], 1.0f);
+                    hulls[joint].include(glm::vec3(p));
+                }
+    });
     return hulls;
 }
 
 }  // namespace
 
 bool movesInTime(const Scene& scene, const Instance& instance) {
+    if (instance.morph >= 0 && changes(scene.morphs[size_t(instance.morph)])) return true;
     if (instance.skin < 0) return nodeMoves(scene, instance.node);
     const std::vector<uint32_t>& joints = scene.skins[size_t(instance.skin)].joints;
     return std::any_of(joints.begin(), joints.end(), [&](uint32_t joint) { return nodeMoves(scene, int32_t(joint)); });
 }
 
 Box sweptBounds(const Scene& scene, const Instance& instance) {
-    const Mesh& mesh = scene.meshes[instance.mesh];
     Box box = Box::empty();
     if (instance.skin < 0) {
-        box = sweptToWorld(hullOf(mesh.positions), scene, instance.node);
+        visitShapes(scene, instance, [&](const std::vector<glm::vec3>& positions) { box.include(hullOf(positions)); });
+        box = sweptToWorld(box, scene, instance.node);
     } else {
         // A blend with weights that sum to 1 lies in the hull of the vertices transformed by single joints.
         const Skin& skin = scene.skins[size_t(instance.skin)];
-        const std::vector<Box> hulls = jointHulls(mesh, skin);
+        const std::vector<Box> hulls = jointHulls(scene, instance);
         for (size_t i = 0; i < hulls.size(); ++i) {
             if (hulls[i].min.x > hulls[i].max.x) continue;
             box.include(sweptToWorld(hulls[i], scene, int32_t(skin.joints[i])));

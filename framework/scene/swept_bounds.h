@@ -4,7 +4,8 @@
 
 namespace voxray {
 
-/// Whether an instance is animated: the world matrix of its node or one of its joints changes.
+/// Whether an instance is animated: the world matrix of its node or one of its joints changes, or a weight of
+/// its morph targets.
 bool movesInTime(const Scene& scene, const Instance& instance);
 
 /// World-space bounds of an instance over all times of the scene's animation. Conservative: too large if

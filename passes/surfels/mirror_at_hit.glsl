@@ -24,13 +24,17 @@ bool reflectAtMirror(Hit hit, vec3 origin, vec3 faceNormal, inout Surfel s) {
     return true;
 }
 
-// What the ray of a mirror's vertex finds of lamps and environment, W/(m² sr): no shadow ray to them has begun there.
-vec3 emittedTowardsMirror(Hit hit, Ray ray) {
-    if (hit.triangle == NO_HIT) return environmentRadiance(ray.direction);
+// What the surface at a hit emits against the ray, W/(m² sr).
+vec3 emittedTowards(Hit hit, Ray ray) {
     const SurfacePoint p = surfacePoint(hit.triangle, vec2(hit.u, hit.v));
     const GpuMaterial m = sceneMaterials.data[p.material];
     const bool isLit = m.doubleSided != 0u || dot(p.geometricNormal, ray.direction) < 0.0;
     return isLit ? emission(m, p, 0.0) : vec3(0.0);
+}
+
+// What the ray of a mirror's vertex finds of lamps and environment, W/(m² sr): no shadow ray to them has begun there.
+vec3 emittedTowardsMirror(Hit hit, Ray ray) {
+    return hit.triangle == NO_HIT ? environmentRadiance(ray.direction) : emittedTowards(hit, ray);
 }
 
 #endif

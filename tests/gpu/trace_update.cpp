@@ -12,7 +12,7 @@ namespace voxray {
 namespace {
 
 /// Triangles of all of the soup's materials, masked ones too: of each material a mesh that stays and one on a
-/// node that travels, turns and is mirrored, and a lamp that rides along.
+/// node that travels, turns and is mirrored, whose triangles morph, and a lamp that rides along.
 std::shared_ptr<const Scene> movingSoup() {
     TestRandom random(7);
     const std::shared_ptr<Scene> scene = soupMaterials(random);
@@ -35,13 +35,21 @@ std::shared_ptr<const Scene> movingSoup() {
                 }
                 mesh.triangles.emplace_back(3 * t, 3 * t + 1, 3 * t + 2);
             }
-            scene->instances.push_back({uint32_t(scene->meshes.size()), node});
+            if (node == 0) {
+                MorphTarget& target = mesh.morph.targets.emplace_back();
+                for (size_t v = 0; v < mesh.positions.size(); ++v) {
+                    target.positions.push_back(random.vector(-0.1f, 0.1f));
+                    target.normals.push_back(random.vector(-1, 1));
+                }
+            }
+            scene->instances.push_back({.mesh = uint32_t(scene->meshes.size()), .node = node, .morph = node});
             scene->meshes.push_back(std::move(mesh));
         }
     using enum AnimatedProperty;
     scene->animation = {{0, Translation, Interpolation::Linear, {0, 1}, {{-0.4f, 0, 0, 0}, {0.4f, 0.3f, 0, 0}}},
                         {0, Rotation, Interpolation::Linear, {0, 1}, {{0, 0, 0, 1}, {0.6f, 0, 0, 0.8f}}},
                         {0, Scale, Interpolation::Linear, {0, 1}, {{1, 1, 1, 0}, {-1, 1, 1, 0}}}};
+    scene->morphs = {{.targetCount = 1, .timesSeconds = {0, 1}, .values = {0, 1}}};
     scene->lights.emplace_back();
     scene->lights[0].node = 0;
     return scene;

@@ -19,7 +19,17 @@ const std::vector<glm::vec3> kWalks[] = {
     {{0.3f, 1.4f, 0.3f}, {0.32f, 1.41f, 0.3f}, {-0.86f, 0.7f, 0.3f}, {0.333f, 0.5f, 0.7f}, {0.3f, 1.4f, 0.3f}},
     {{0.5f, 1.5f, -0.5f}, {0.5f, 1.5f, -0.5f}, {-0.3f, 1.34f, -0.25f}, {0.87f, 0.13f, -0.8f}, {0.5f, 1.5f, -0.5f}}};
 
-/// Cornell with two spheres on their walk, one of which glows.
+/// Lets the last mesh grow to 1.4 times its size in the third and fourth second.
+void letItGrow(Scene& scene) {
+    Mesh& mesh = scene.meshes.back();
+    MorphTarget target;
+    for (const glm::vec3& p : mesh.positions) target.positions.push_back(0.4f * p);
+    mesh.morph.targets.push_back(target);
+    scene.instances.back().morph = int32_t(scene.morphs.size());
+    scene.morphs.push_back({.targetCount = 1, .timesSeconds = {0, 1, 2, 3, 4}, .values = {0, 0, 1, 1, 0}});
+}
+
+/// Cornell with two spheres on their walk, one of which grows, the other glows.
 std::shared_ptr<const Scene> roomWithSpheres() {
     auto scene = builtinScene("cornell", "{lights: point}");
     for (const glm::vec3& emission : {glm::vec3(0), glm::vec3(2, 1, 0.5f)}) {
@@ -27,6 +37,7 @@ std::shared_ptr<const Scene> roomWithSpheres() {
         material.emission = emission;
         scene->materials.push_back(material);
         addMovingSphere(*scene, uint32_t(scene->materials.size() - 1), kWalks[emission.x > 0]);
+        if (emission.x == 0) letItGrow(*scene);
     }
     return scene;
 }

@@ -53,6 +53,17 @@ TEST(Region, CutsTrianglesAtItsBorderAndKeepsTheirSurface) {
               whole.geometry.triangles.size());
 }
 
+TEST(Region, CutsWhatJointsBendWhereItIs) {
+    const SceneState whole = evaluate(builtinScene("figure"), 0.5);
+    constexpr Box kAboveTheHip{{-2, 1, -2}, {2, 2.5f, 2}};
+    const SceneState cut = splitAtRegion(whole, kAboveTheHip, 0.5);
+    EXPECT_GT(cut.geometry.triangles.size(), whole.geometry.triangles.size());
+    const auto all = [](uint32_t) { return true; };
+    EXPECT_NEAR(areaOf(cut.geometry, all), areaOf(whole.geometry, all), 1e-6 * areaOf(whole.geometry, all));
+    EXPECT_EQ(cut.geometry.boundsMin, whole.geometry.boundsMin);
+    EXPECT_EQ(cut.geometry.boundsMax, whole.geometry.boundsMax);
+}
+
 TEST(Region, HoldsTrianglesThatLieInItsBorder) {
     // A third of this, added up three times, is a larger float
     const float wall = 0.43491772f;

@@ -317,7 +317,7 @@ def nodes():
         g.add("skins", {"joints": bones, **({"inverseBindMatrices": g.accessor(numpy.repeat(identity, joints, 0), "f", 16)}
                                             if sets == 1 else {})})
         yield f"skin_{joints}_{sets}_{kind}", g
-    for weights, own in itertools.product([None, [0.5], [1, -1]], [None, [1]]):
+    for weights, own in itertools.product([None, [0.5, 0], [1, -1]], [None, [1, 0]]):
         g = Gltf()
         target = {"POSITION": g.accessor([(0, 0.4, 0)] * 12)}
         number = g.tetrahedron(targets=[target, target], **{})
@@ -325,7 +325,16 @@ def nodes():
             g.root["meshes"][1]["weights"] = weights
         if own:
             g.root["nodes"][number]["weights"] = own
-        yield f"morph_{len(weights or [])}_{'own' if own else 'mesh'}", g
+        yield f"morph_{weights[1] if weights else 'none'}_{'own' if own else 'mesh'}", g
+    for interpolation in ["LINEAR", "STEP", "CUBICSPLINE"]:
+        g = Gltf()
+        targets = [{"POSITION": g.accessor([(0, 0.4, 0)] * 12)}, {"POSITION": g.accessor([(0.2, 0, 0)] * 12)}]
+        number = g.tetrahedron(targets=targets)
+        keys = [(0, 0), (1, 0.5)]
+        if interpolation == "CUBICSPLINE":
+            keys = [row for key in keys for row in ((0, 0), key, (0, 0))]
+        g.animate(number, "weights", [0.5, 1], [weight for row in keys for weight in row], interpolation, 1)
+        yield f"animated_weights_{interpolation}", g
     for kinds in itertools.chain.from_iterable(itertools.combinations(["perspective", "orthographic"], n) for n in (1, 2)):
         g = Gltf()
         g.tetrahedron()

@@ -42,9 +42,12 @@ GltfBuilder everything() {
     const int weights = b.floats(std::vector<glm::vec4>(3, {0.5f, 0.5f, 0, 0}), "VEC4");
     const int joints = b.accessor(b.view(std::vector<uint8_t>(12, 0), 4), 3, "VEC4", ubyteType);
     const int target = b.floats(std::vector<glm::vec3>(3, {0, 0, 1}), "VEC3");
+    const int shorts = b.accessor(b.view(std::vector<int16_t>(12, 9), 8), 3, "VEC3", shortType, {{"normalized", true}});
     b.root["meshes"][0]["primitives"][0]["attributes"].update({{"WEIGHTS_0", weights}, {"JOINTS_0", joints}});
-    b.root["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", target}}};
-    b.root["meshes"][0]["weights"] = {0.5};
+    b.root["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", target}}, {{"POSITION", shorts}}};
+    b.root["meshes"][0]["weights"] = {0.5, 0};
+    b.root["meshes"][1]["primitives"][0]["targets"] = {{{"POSITION", target}, {"NORMAL", target}}};
+    b.root["meshes"][1]["weights"] = {0.5};
     b.root["nodes"][0]["skin"] = b.add(
         "skins", {{"joints", {2}}, {"inverseBindMatrices", b.floats(std::vector<glm::mat4>{glm::mat4(1)}, "MAT4")}});
     b.root["nodes"][1]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
@@ -56,6 +59,10 @@ GltfBuilder everything() {
     const int output = b.floats(std::vector<glm::vec3>{{0, 0, 0}, {0, 10, 0}}, "VEC3");
     b.add("animations", {{"samplers", {{{"input", input}, {"output", output}}}},
                          {"channels", {{{"sampler", 0}, {"target", {{"node", 3}, {"path", "translation"}}}}}}});
+    const int targetWeights = b.floats(std::vector<float>{0, 0, 0, 0, 1, 0, 0, 1, 1, 0.5f, 0, 0}, "SCALAR");
+    b.add("animations",
+          {{"samplers", {{{"input", input}, {"output", targetWeights}, {"interpolation", "CUBICSPLINE"}}}},
+           {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "weights"}}}}}}});
     return b;
 }
 
@@ -92,6 +99,7 @@ TEST_F(Mutations, TheUnspoiledFileLoads) {
     EXPECT_EQ(scene->instances.size(), 2u);
     EXPECT_EQ(scene->lights.size(), 1u);
     EXPECT_EQ(scene->animation.size(), 1u);
+    EXPECT_EQ(scene->morphs.size(), 1u);
     EXPECT_TRUE(scene->warnings.empty());
     check("", "empty");
 }

@@ -97,27 +97,5 @@ TEST(Skins, WhatCanNotBeSkinnedIsNamed) {
     EXPECT_ERROR("export-scene", subdivide(skinned, 1));
 }
 
-TEST(Morphs, DefaultWeightsAreAppliedAndANodesOwnComeFirst) {
-    GltfBuilder b;
-    const int up = b.floats(std::vector<glm::vec3>{{0, 0, 0}, {0, 4, 0}, {0, 0, 0}}, "VEC3");
-    const int out = b.floats(std::vector<glm::vec3>{{0, 0, 2}, {0, 0, 2}, {0, 0, 2}}, "VEC3");
-    b.triangle({{"targets", {{{"POSITION", up}}, {{"POSITION", out}}}}});
-    b.root["meshes"][0]["weights"] = {0.25, 0.5};
-    b.add("nodes", {{"mesh", 0}, {"weights", {0, 1}}});
-    const Geometry g = evaluate(b.load(), 0).geometry;
-    ASSERT_EQ(g.positions.size(), 6u);
-    expectNear(g.positions[1], {1, 1, 1}, 1e-6f);
-    expectNear(g.positions[3 + 1], {1, 0, 2}, 1e-6f);
-
-    // A target that turns the triangle turns its flat normal: (1,0,0) to (0,0,1).
-    GltfBuilder rotated;
-    const int turn = rotated.floats(std::vector<glm::vec3>{{0, 0, 0}, {-1, 0, 1}, {0, 0, 0}}, "VEC3");
-    rotated.triangle({{"targets", {{{"POSITION", turn}}}}});
-    rotated.root["meshes"][0]["weights"] = {1};
-    expectNear(evaluate(rotated.load(), 0).geometry.attributes[0].normal, {-1, 0, 0}, 1e-6f);
-    rotated.root["accessors"][0]["count"] = 2;
-    EXPECT_CONTAINS(rotated.error(), "morph target 0");
-}
-
 }  // namespace
 }  // namespace voxray::test

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "config/overrides.h"
+#include "scene/animation.h"
 
 namespace voxray {
 
@@ -44,17 +45,17 @@ void UnusedMotionSettings::add(const Variant& variant, const Scene& scene) {
         use.hasEffect = use.hasEffect || hasEffect;
     };
     const SceneSettings& settings = variant.setup.scene;
-    const bool isAnimated = !scene.animation.empty();
+    const bool hasAnimation = isAnimated(scene);
     const char* nothing =
         "nothing in the scene is animated: leave it out, or add 'moving_spheres', or a 'swing' to an entry of 'add'";
-    if (settings.options.time > 0) addUse("scene.time", isAnimated, nothing);
-    if (settings.options.timeStep > 0 && !isAnimated) addUse("scene.time_step", false, nothing);
+    if (settings.options.time > 0) addUse("scene.time", hasAnimation, nothing);
+    if (settings.options.timeStep > 0 && !hasAnimation) addUse("scene.time_step", false, nothing);
 
     // Motion from frame to frame
     const bool hasFrames = measure_.frames + measure_.warmup > 1;
     const char* single = "there is one frame, in which nothing moves: raise measure.frames, or leave it out";
     const auto moves = [](const ConfigLight& light) { return light.move != glm::vec3(0.0f); };
-    if (settings.options.timeStep > 0 && isAnimated) addUse("scene.time_step", hasFrames, single);
+    if (settings.options.timeStep > 0 && hasAnimation) addUse("scene.time_step", hasFrames, single);
     if (settings.camera && settings.camera->move != glm::vec3(0.0f)) addUse("scene.camera.move", hasFrames, single);
     if (settings.camera && !settings.camera->path.empty())
         addUse("scene.camera.path", measure_.frames > 1,

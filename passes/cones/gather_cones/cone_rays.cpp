@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/path_trace/sobol.h"
 
@@ -13,6 +14,22 @@ constexpr uint32_t kMaxContinuations = 2;    // Of a path.
 constexpr float kUnlimited = 1e30f;          // m
 constexpr uint32_t kPathSeed = 0x52657369u;  // Beside other random numbers of the frame.
 constexpr uint32_t kShiftSeed = 0x53686966u;
+
+/// Sources but for emissive surfaces, which cones see themselves where voxels hold emission. @throws Error where shadow
+/// rays can't tell them apart.
+std::vector<LightSource> sourcesBesideEmitters(const SceneState& scene) {
+    std::vector<LightSource> sources = lightSources(scene);
+    const auto isTree = [](const LightSource& source) { return source.kind == LightSource::Tree; };
+    const bool areJoined = std::ranges::any_of(shadowRaySources(sources, scene), isTree);
+    const auto isEmitter = [](const LightSource& source) { return source.kind == LightSource::Emitters; };
+    if (std::erase_if(sources, isEmitter) > 0 && areJoined)
+        throw Error(
+            "gather_cones: shadow rays from the near field sample more than {} point and spot lights together with "
+            "emissive surfaces, which the radiance voxels hold already; set 'near_field_voxels' to 0, or 'emission' of "
+            "filter_voxels to false",
+            kExactLights);
+    return sources;
+}
 
 }  // namespace
 
@@ -41,8 +58,9 @@ void ConeRays::plan(PassPlan& plan, const RadianceVoxels& radiance, const Settin
     Defines defines = radiance.defines();
     if (settings.visibility == ConeVisibility::Rays) defines.emplace("VISIBLE_BY_RAYS", "1");
     if (hasNearField()) {
-        planNearField(plan, batch);
+        planNearField(plan, radiance, batch);
         defines.emplace("NEAR_FIELD", "1");
+        if (radiance.emission) defines.emplace("EMISSION", "1");
     }
     for (Kernel* kernel : {&resolveRays_, &continuePaths_}) kernel->define(defines);
     for (Kernel* kernel : {&reflect_, &continuePaths_}) kernel->compileIf(hasNearField());
@@ -67,8 +85,8 @@ void ConeRays::planResidual(PassPlan& plan, NoisyIrradiance& residual) {
     plan.buffer(texelMoments_, "moments of texels' residual", traced * sizeof(gpu::RayMoments));
 }
 
-void ConeRays::planNearField(PassPlan& plan, uint32_t batchCones) {
-    sources_ = lightSources(*plan.frame.scene);
+void ConeRays::planNearField(PassPlan& plan, const RadianceVoxels& radiance, uint32_t batchCones) {
+    sources_ = radiance.emission ? sourcesBesideEmitters(*plan.frame.scene) : lightSources(*plan.frame.scene);
     hitLight_.plan(plan, batchCones);
     plan.buffer(count_, "number of near hits", sizeof(uint32_t));
     plan.buffer(direct_, "direct light at near hits", batchCones * 4 * sizeof(float));

@@ -57,7 +57,7 @@ class ConeRays {
                 const Image& irradiance, const NoisyIrradiance* residual);
 
  private:
-    void planNearField(PassPlan& plan, uint32_t batchCones);
+    void planNearField(PassPlan& plan, const RadianceVoxels& radiance, uint32_t batchCones);
     void planResidual(PassPlan& plan, NoisyIrradiance& residual);
     /// Sums the moments of texels over blocks.
     void sumMoments(PassContext& context, const GBuffer& gbuffer, const NoisyIrradiance& residual);

@@ -18,7 +18,12 @@ void main() {
     const uint i = linearIndex();
     if (i >= push.rayCount) return;
     const Surfel origin = origins.data[i];
-    if (origin.voxel == VOXRAY_MIRROR_VERTEX && rays.data[i].tMax > 0.0)
+#ifdef EMISSION
+    const bool findsEmission = hits.data[i].triangle == NO_HIT;  // Of surfaces resolveConeRay() adds it
+#else
+    const bool findsEmission = true;
+#endif
+    if (origin.voxel == VOXRAY_MIRROR_VERTEX && findsEmission && rays.data[i].tMax > 0.0)
         light.data[origin.parent].rgb += PI * origin.reflectance * emittedTowardsMirror(hits.data[i], rays.data[i]);
     resolveConeRay(i, origin.parent, fromOctahedral(originNormals.data[i].y), origin.reflectance, push.width,
                         push.range, origin.id, sobol2(origin.id, push.seed));

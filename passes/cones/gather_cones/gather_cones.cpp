@@ -162,10 +162,10 @@ void GatherCones::planKeptLight(PassPlan& plan) {
 }
 
 void GatherCones::planRays(PassPlan& plan, const RadianceVoxels& radiance, glm::uvec2 tracedExtent) {
-    if (radiance.emission && (params_.nearFieldVoxels > 0 || params_.residual > 0))
+    if (radiance.emission && params_.residual > 0)
         throw Error(
-            "gather_cones: 'near_field_voxels' and 'residual' measure light at hits without what they emit, "
-            "which the radiance voxels hold; set them to 0, or 'emission' of filter_voxels to false");
+            "gather_cones: 'residual' measures light at hits without what they emit, which the radiance voxels hold; "
+            "set it to 0, or 'emission' of filter_voxels to false");
     if (isResidualApart() && params_.specular > 0)
         throw Error(
             "gather_cones: a filter of the residual takes all surfaces for diffuse; set 'specular' to 0, or "

@@ -1,8 +1,9 @@
 // Resolves the ray along a cone's axis. With NEAR_FIELD a hit within the near field is stored as a surfel, where direct
 // light is sampled and a path continues. Beyond it the cone is traced from the near field's end; with VISIBLE_BY_RAYS it
 // sees what the ray hits instead, by the finest voxels there: in coarser ones surfaces that the ray doesn't see are
-// averaged with those that it does. At a perfect mirror such a ray goes on like a path of the near field. Needs the
-// bindings of shaders/scene/scene.glsl and of radiance voxels.
+// averaged with those that it does. At a perfect mirror such a ray goes on like a path of the near field. With EMISSION
+// voxels hold what surfaces emit, and near hits add theirs. Needs the bindings of shaders/scene/scene.glsl and of
+// radiance voxels.
 //
 //        o────────┤        o: start; ┤: end of the near field
 //     ───x────────┴──      The cone is traced to the right of it: it doesn't read what voxels hold of the
@@ -16,6 +17,7 @@
 #include "passes/cones/radiance/radiance_cone.glsl"
 #endif
 #include "shaders/scene/octahedral.glsl"
+#include "shaders/scene/sampling.glsl"
 #include "passes/surfels/mirror_at_hit.glsl"
 
 layout(scalar) readonly buffer Rays { Ray data[]; } rays;
@@ -36,6 +38,9 @@ bool addHit(Hit hit, Ray ray, bool isNear, uint parent, vec3 throughput, uint id
     float offset;
     if (!surfelAtHit(hit, ray.origin, surfel, normal, offset)) return isNear;
     if (!reflectAtMirror(hit, ray.origin, normal, surfel) && !isNear) return false;
+#ifdef EMISSION
+    light.data[parent].rgb += PI * throughput * emittedTowards(hit, ray);
+#endif
     surfel.position += offset * normal;
     surfel.reflectance *= throughput;
     surfel.id = id;
@@ -79,7 +84,7 @@ void resolveConeRay(uint i, uint parent, vec3 ng, vec3 throughput, float width, 
     const ConeBase base = coneBase(ray.origin, ng, dither.x, range);
     const vec3 radiance = coneRadiance(base, ray.direction, width, dither.y - 0.5);
 #endif
-    light.data[parent].rgb += 3.14159265358979 * throughput * radiance;
+    light.data[parent].rgb += PI * throughput * radiance;
 }
 
 #endif

@@ -7,13 +7,8 @@
 #include "scene/gltf_file.h"
 #include "scene/scene.h"
 
-/// Deformation of meshes: morph targets and skins.
+/// Deformation of meshes by skins.
 namespace voxray {
-
-/// Adds a primitive's morph targets to positions, normals and tangents, each times its weight.
-/// @throws Error if a target differs in length from the positions
-void addMorphTargets(GltfFile& file, const tinygltf::Primitive& primitive, const std::vector<double>& weights,
-                     Mesh& mesh, const std::string& what);
 
 /// Reads all pairs JOINTS_n and WEIGHTS_n; weights are normalized to sum to 1. @throws Error
 void readSkinWeights(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& mesh, const std::string& what);

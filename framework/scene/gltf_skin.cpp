@@ -1,30 +1,10 @@
-#include "scene/gltf_deform.h"
-
-#include <algorithm>
+#include "scene/gltf_skin.h"
 
 #include "scene/gltf_accessor.h"
 #include "scene/gltf_values.h"
 
 namespace voxray {
 namespace {
-
-/// Adds one attribute of all targets.
-template <typename Vector>
-void addTargets(GltfFile& file, const tinygltf::Primitive& primitive, const std::vector<double>& weights,
-                const char* name, std::vector<Vector>& values, const std::string& what) {
-    if (values.empty()) return;
-    for (size_t t = 0; t < std::min(primitive.targets.size(), weights.size()); ++t) {
-        const auto entry = primitive.targets[t].find(name);
-        const float weight = checkedFloat(file, weights[t], -maxNumber, maxNumber, what + ": weight of a morph target");
-        if (entry == primitive.targets[t].end() || weight == 0) continue;
-        const AccessorValues target = readAccessor(file, entry->second, 3, 3, name);
-        if (target.count != values.size())
-            file.fail("{}: {} of morph target {} has {} elements for {} positions", what, name, t, target.count,
-                      values.size());
-        for (size_t i = 0; i < values.size(); ++i)
-            for (uint32_t c = 0; c < 3; ++c) values[i][int(c)] += weight * target.get(i, c);
-    }
-}
 
 /// Normalizes weights to sum to 1 at each vertex. @return vertices without weights
 size_t normalizeWeights(std::vector<SkinWeights>& sets, size_t vertexCount) {
@@ -47,13 +27,6 @@ size_t normalizeWeights(std::vector<SkinWeights>& sets, size_t vertexCount) {
 }
 
 }  // namespace
-
-void addMorphTargets(GltfFile& file, const tinygltf::Primitive& primitive, const std::vector<double>& weights,
-                     Mesh& mesh, const std::string& what) {
-    addTargets(file, primitive, weights, "POSITION", mesh.positions, what);
-    addTargets(file, primitive, weights, "NORMAL", mesh.normals, what);
-    addTargets(file, primitive, weights, "TANGENT", mesh.tangents, what);
-}
 
 void readSkinWeights(GltfFile& file, const tinygltf::Primitive& primitive, Mesh& mesh, const std::string& what) {
     const size_t count = mesh.positions.size();
