@@ -4,7 +4,8 @@
 
 #include "shaders/shared/types.h"
 
-#define NO_FACE 0xffffffffu  // In place of a face or of its number.
+#define NO_FACE 0xffffffffu       // In place of a face or of its number.
+#define NOT_MEASURED 0xfffffffeu  // FaceLink::face of a kept point that has no light yet.
 
 VOXRAY_SHARED_BEGIN
 
@@ -14,6 +15,12 @@ struct FaceHit {
     float u;  // Barycentric, as in Hit.
     float v;
     uint face;  // hitFace()
+};
+
+// Where a point that is kept receives light.
+struct PointPlace {
+    vec3 position;  // m; off the surface, where rays begin.
+    vec3 normal;    // For shading, on the face's side.
 };
 
 // What a point reads of the light of others: its ray's hit reflects `reflectance` times the irradiance of `face`.

@@ -3,7 +3,7 @@
 // was hidden, and stays so in the prediction; else it was seen, and brings what it brings now. That is sure where all other
 // lights together could not have brought as much. As the direction to a light changes, shadows move: the chance that a
 // point's shadow is another is taken to be half the chord between the directions, 0 for none and 1 for opposite ones.
-#include "passes/cache/hit_faces/face_point.glsl"
+#include "passes/cache/hit_faces/face_point_types.h"
 #include "shaders/compute/linear_index.glsl"
 #include "shaders/lights/lights.glsl"
 layout(local_size_x = 64) in;
@@ -13,7 +13,7 @@ layout(local_size_x = 64) in;
 layout(scalar) readonly buffer LightsBefore { GpuLight data[]; } lightsBefore;
 layout(scalar) readonly buffer LightsNow { GpuLight data[]; } lightsNow;
 readonly buffer ChangedLights { uint data[]; } changedLights;  // Indices.
-layout(scalar) readonly buffer PointHits { FaceHit data[]; } pointHits;
+layout(scalar) readonly buffer PointPlaces { PointPlace data[]; } pointPlaces;
 layout(scalar) buffer PointDirect { vec4 data[]; } pointDirect;
 layout(push_constant) uniform Push {
     uint points;
@@ -23,7 +23,7 @@ layout(push_constant) uniform Push {
 } push;
 
 // Without shadow, W/m².
-vec3 brings(GpuLight light, Surfel s, out vec3 direction) {
+vec3 brings(GpuLight light, PointPlace s, out vec3 direction) {
     const LightSample l = samplePunctual(light, s.position);
     direction = l.direction;
     return l.irradiance * max(dot(s.normal, l.direction), 0.0);
@@ -32,8 +32,8 @@ vec3 brings(GpuLight light, Surfel s, out vec3 direction) {
 void main() {
     const uint point = linearIndex();
     if (point >= push.points || pointDirect.data[point].w < 0.0) return;
-    vec3 faceNormal_, directionBefore, directionNow;
-    const Surfel s = facePoint(pointHits.data[point], 0u, 0u, faceNormal_);
+    vec3 directionBefore, directionNow;
+    const PointPlace s = pointPlaces.data[point];
     float all = 0.0;
     for (uint i = 0u; i < push.lights; ++i) all += luminance(brings(lightsBefore.data[i], s, directionBefore));
     const vec4 direct = pointDirect.data[point];

@@ -20,7 +20,7 @@ void main() {
     const uint point = push.firstFace * push.pointsPerFace + i, face = point / push.pointsPerFace;
     pointHits.data[point].face = NO_FACE;
     pointDirect.data[point] = vec4(0.0, 0.0, 0.0, -1.0);
-    links.data[point] = FaceLink(vec3(0.0), NO_FACE);
+    links.data[point] = FaceLink(vec3(0.0), NOT_MEASURED);
     importance.data[face] = 0u;
     irradiance.data[face] = vec4(0.0);
 }

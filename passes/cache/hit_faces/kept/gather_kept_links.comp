@@ -4,8 +4,8 @@
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer PointDirect { vec4 data[]; } pointDirect;
 #ifdef DIRECT
+layout(scalar) readonly buffer PointDirect { vec4 data[]; } pointDirect;
 #include "passes/cache/hit_faces/kept/direct_of_face.glsl"
 #else
 layout(scalar) readonly buffer Links { FaceLink data[]; } links;
@@ -34,8 +34,8 @@ void main() {
     // A link to a face whose light is not known yet does not count
     float known = 0.0;
     for (uint point = first; point < first + push.pointsPerFace; ++point) {
-        if (pointDirect.data[point].w < 0.0) continue;
         const FaceLink link = links.data[point];
+        if (link.face == NOT_MEASURED) continue;
         const vec4 light = link.face == NO_FACE ? vec4(0.0, 0.0, 0.0, 1.0) : previous.data[link.face];
         sum += light.w * link.reflectance * light.rgb;
         known += light.w;

@@ -43,7 +43,7 @@ KeptFaces::KeptFaces(ProgramOwner& owner, const Params& params)
       offerPoints_(owner, "offer_points.comp"),
       countReads_(owner, "count_reads.comp"),
       passImportance_(owner, "pass_importance.comp"),
-      agePoints_(owner, "age_points.comp", definesOf(params.kind)),
+      agePoints_(owner, "age_points.comp"),
       placeOld_(owner, "place_kept_points.comp", definesOf(params.kind)),
       placeNew_(owner, "place_kept_points.comp", definesOf(params.kind, {{"NEW", "1"}})),
       storeOld_(owner, "store_points.comp"),
@@ -106,12 +106,10 @@ void KeptFaces::ageByLights(const Update& update) {
     context.stream.upload(lightsNow, now);
     context.stream.upload(changedLights, changed);
     context.dispatch(agePoints_, points,
-                     {context.scene,
-                      update.store.ofFaces,
-                      {"lightsBefore", lightsBefore},
+                     {{"lightsBefore", lightsBefore},
                       {"lightsNow", lightsNow},
                       {"changedLights", changedLights},
-                      {"pointHits", pointHits_},
+                      {"pointPlaces", pointPlaces_},
                       {"pointDirect", pointDirect_},
                       {"points", points},
                       {"lights", uint32_t(now.size())},
@@ -128,6 +126,8 @@ void KeptFaces::addFaces(const Update& update, const std::vector<FaceHits>& hits
     faces_ += added;
     const uint64_t perFace = params_.pointsPerFace, points = faces_ * perFace, oldPoints = firstNew * perFace;
     grow(pointHits_, context, "points of kept faces", points * sizeof(gpu::FaceHit), oldPoints * sizeof(gpu::FaceHit));
+    grow(pointPlaces_, context, "places of points", points * sizeof(gpu::PointPlace),
+         oldPoints * sizeof(gpu::PointPlace));
     grow(pointDirect_, context, "direct irradiance of points", points * sizeof(glm::vec4),
          oldPoints * sizeof(glm::vec4));
     grow(links_, context, "links of points", points * sizeof(gpu::FaceLink), oldPoints * sizeof(gpu::FaceLink));
@@ -165,8 +165,7 @@ void KeptFaces::countImportance(const Update& update, const std::vector<FaceHits
             countReads_, batch.count,
             {update.light, {"hitFaces", *batch.faces}, {"importance", importance_}, {"count", batch.count}});
     context.dispatch(passImportance_, faces_,
-                     {{"pointDirect", pointDirect_},
-                      {"links", links_},
+                     {{"links", links_},
                       {"before", importanceBefore_},
                       {"importance", importance_},
                       {"faces", faces_},
@@ -230,6 +229,7 @@ void KeptFaces::lightNew(const Update& update) {
                           {"pointDirect", pointDirect_},
                           {"surfels", update.batch.surfels},
                           {"rays", update.batch.rays},
+                          {"pointPlaces", pointPlaces_},
                           {"first", first},
                           {"count", count},
                           {"seed", update.seed + 0x51u}});
@@ -268,7 +268,7 @@ void KeptFaces::passLight(const Update& update) {
     for (Buffer* buffer : {&faceDirect_, &faceIrradiance_, &update.light.irradiance})
         grow(*buffer, context, "irradiance of lit faces", bytes, 0);
     const auto faces = [&](const Buffer& irradiance) {
-        return std::vector<Binding>{{"pointDirect", pointDirect_},
+        return std::vector<Binding>{ifUsed({"pointDirect", pointDirect_}),
                                     {"irradiance", irradiance},
                                     {"faces", faces_},
                                     {"pointsPerFace", params_.pointsPerFace}};

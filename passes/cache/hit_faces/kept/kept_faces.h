@@ -25,9 +25,9 @@ class KeptFaces {
     struct Store {
         std::vector<Binding> ofHits, ofFaces;
     };
-    /// Memory, without what buffers have beyond that to grow: of a point its hit, light and link, and what selects it;
-    /// of a face its importance and irradiance.
-    static constexpr double kBytesPerPoint = 92, kBytesPerFace = 56;
+    /// Memory, without what buffers have beyond that to grow: of a point its hit, place, light and link, and what
+    /// selects it; of a face its importance and irradiance.
+    static constexpr double kBytesPerPoint = 116, kBytesPerFace = 56;
     KeptFaces(ProgramOwner& owner, const Params& params);
 
     /// A frame's update. @param hits of gather rays, by batch; their faces are marked where they have no number.
@@ -70,11 +70,11 @@ class KeptFaces {
     PointSelection selection_;
     uint32_t faces_ = 0;  ///< That have a number.
     uint32_t frame_ = 0;
-    std::vector<gpu::GpuLight> lights_;                    ///< Of the frame before.
-    Buffer pointHits_, pointDirect_, links_, measuredAt_;  ///< By point: `pointsPerFace` of each face.
-    Buffer importance_, importanceBefore_;                 ///< By face.
-    Buffer faceDirect_, faceIrradiance_;                   ///< By face; the second after every other bounce.
-    Buffer newLinks_, roundHits_, roundFaces_;             ///< Of new points.
+    std::vector<gpu::GpuLight> lights_;                                  ///< Of the frame before.
+    Buffer pointHits_, pointPlaces_, pointDirect_, links_, measuredAt_;  ///< By point: `pointsPerFace` of each face.
+    Buffer importance_, importanceBefore_;                               ///< By face.
+    Buffer faceDirect_, faceIrradiance_;        ///< By face; the second after every other bounce.
+    Buffer newLinks_, roundHits_, roundFaces_;  ///< Of new points.
 };
 
 }  // namespace voxray

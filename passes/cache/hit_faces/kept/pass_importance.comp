@@ -4,7 +4,6 @@
 #include "shaders/scene/sampling.glsl"
 layout(local_size_x = 64) in;
 
-layout(scalar) readonly buffer PointDirect { vec4 data[]; } pointDirect;
 layout(scalar) readonly buffer Links { FaceLink data[]; } links;
 readonly buffer Before { uint data[]; } before;
 buffer Importance { uint data[]; } importance;
@@ -19,10 +18,10 @@ void main() {
     const uint mattered = before.data[face], first = face * push.pointsPerFace, end = first + push.pointsPerFace;
     if (mattered == 0u) return;
     uint lit = 0u;
-    for (uint point = first; point < end; ++point) lit += pointDirect.data[point].w >= 0.0 ? 1u : 0u;
+    for (uint point = first; point < end; ++point) lit += links.data[point].face != NOT_MEASURED ? 1u : 0u;
     for (uint point = first; point < end; ++point) {
         const FaceLink link = links.data[point];
-        if (link.face != NO_FACE)
+        if (link.face < NOT_MEASURED)
             atomicAdd(importance.data[link.face], uint(float(mattered) * luminance(link.reflectance) / float(lit)));
     }
 }

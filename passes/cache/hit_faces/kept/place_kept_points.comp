@@ -12,6 +12,7 @@ layout(scalar) writeonly buffer Surfels { Surfel data[]; } surfels;
 layout(scalar) readonly buffer PointDirect { vec4 data[]; } pointDirect;
 layout(scalar) readonly buffer SlotHits { FaceHit data[]; } slotHits;
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
+layout(scalar) writeonly buffer PointPlaces { PointPlace data[]; } pointPlaces;
 #endif
 layout(push_constant) uniform Push {
     uint first;  // Of the batch.
@@ -33,5 +34,6 @@ void main() {
     surfels.data[i] = s;
 #ifdef NEW
     rays.data[i] = pathRay(s, faceNormal_, push.seed);
+    pointPlaces.data[point] = PointPlace(s.position, s.normal);
 #endif
 }
