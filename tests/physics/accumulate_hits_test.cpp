@@ -55,7 +55,8 @@ TEST(AccumulateHits, LowerNoiseAsSoManyRaysDo) {
 }
 
 TEST(AccumulateHits, DoNotLag) {
-    // All light comes from a lamp whose power halves: what is kept is halved, too, in the same frame. One ray of 16 is new
+    // All light comes from a lamp whose power halves: what is kept is halved, too, in the same frame. One ray of 16 is
+    // new
     const auto state = builtin("cornell", "{lights: point}");
     Chain chain(state, hitsGraph("16", "0"), 24, 24);
     chain.runFrames(32);
