@@ -47,7 +47,8 @@ class UpdateRadianceCache final : public Pass {
         "points, each with shadow rays and a ray to another cell, and rays go where they lower the error most. "
         "Unbiased in the mean of a cell. There are no cells where no path arrives, and where the hash table is full. "
         "Biased by: the size of cells; with history_frames, light that changed since; samples_to_end. "
-        "Noisy by: rays_per_image, the more so the smaller cells are. Source: NVIDIA's SHaRC.";
+        "Noisy by: rays_per_image, or points_per_cell with a budget, the more so the smaller cells are. "
+        "Source: NVIDIA's SHaRC.";
     struct Params {
         CacheUpdate update = CacheUpdate::EachFrame;
         uint32_t raysPerImage = 65536;

@@ -30,7 +30,7 @@ class AccumulateHits final : public Pass {
     static constexpr const char* kName = "accumulate_hits";
     static constexpr const char* kFilterLabel = "hits accumulated";
     static constexpr const char* kHelp =
-        "Averages gather rays over frames without lag: hits are kept, and read the light of this frame. "
+        "Averages gather rays over frames without lag: kept hits read the light of this frame. "
         "Follows gather_rays with `source: hit_faces` and a light_hit_faces with an update_budget. Where a ray brought "
         "other light than that of its face, as paths from near hits do, the difference is averaged over frames. "
         "Begins anew where the camera or surfaces move. "
