@@ -17,7 +17,8 @@ struct SurfelLinks : Resource {
 
     uint32_t raysPerSurfel = 0;
     uint32_t surfelCount = 0;  ///< Of all chunks of Surfels.
-    /// Index of the linked surfel among all chunks, or kNone: of ray r from surfel i at r * surfelCount + i.
+    /// Index of the linked surfel among all chunks, kNone or LINK_NOT_TRACED: of ray r from surfel i at r * surfelCount
+    /// + i.
     LargeBuffer links;
 };
 

@@ -8,6 +8,8 @@ VOXRAY_SHARED_BEGIN
 
 // Surfel::id of a surfel that does not exist: it has no voxel, and stands for no area.
 #define VOXRAY_NO_SURFEL 0xffffffffu
+// A link of a surfel that did not exist when others were traced last (SurfelLinks): its light is not known yet.
+#define LINK_NOT_TRACED 0xfffffffeu
 // Surfel::voxel of a path's vertex on a perfect mirror (mirror_at_hit.glsl).
 #define VOXRAY_MIRROR_VERTEX 0xfffffffeu
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "image/metrics.h"
-#include "passes/final_gather/hit_faces/hit_face_light.h"
+#include "passes/cache/hit_faces/hit_face_light.h"
 #include "tests/gpu/chain.h"
 #include "tests/physics/voxels_read.h"
 #include "tests/support/errors.h"

@@ -44,5 +44,43 @@ TEST(MovingSurfels, AreAsMadeThereOnAllSides) {
     expectAsMadeThere("all");
 }
 
+TEST(MovingSurfels, WithABudgetAreAsMadeThereInTheEnd) {
+    const auto graph = [](const std::string& links) {
+        return graphYaml({"gbuffer", "voxelize, resolution: 24", "place_surfels, sides: all",
+                          "link_surfels, rays_per_surfel: 16" + links, "inject_radiosity, bounces: 2", "smooth_surfels",
+                          "gather_surfels"});
+    };
+    const auto scene = cornellWithSwingingBall();
+    const double allowed = 2 * 16 * 16;
+    const auto moved = chainAt(scene, 0, graph(", update_budget: 2"));
+    const auto made = chainAt(scene, 0.5, graph(""));
+    const double expected = mean(made->image("indirect"));
+    const auto waiting = [&] { return reported(moved->updateSamples.at(kLinks), "links that wait, % of all"); };
+    const auto expectWithinBudget = [&] {
+        const double rays = double(moved->updateSamples.at(kLinks).rays);
+        EXPECT_LE(rays, allowed);
+        EXPECT_GT(rays, 0.8 * allowed);
+        EXPECT_NEAR(mean(moved->image("indirect")) / expected, 1, 0.1);
+    };
+    moved->goTo(0.02);
+    expectWithinBudget();
+    moved->goTo(0.5);
+    expectWithinBudget();
+    // Nothing moves any more
+    int frames = 0;
+    for (double before = 100; waiting() > 0 && frames < 1000; ++frames) {
+        EXPECT_LT(waiting(), before);
+        before = waiting();
+        moved->update([](SceneState&) { return std::vector<Box>{}; });
+        EXPECT_LE(double(moved->updateSamples.at(kLinks).rays), allowed);
+    }
+    std::printf("after %d frames no link waits\n", frames);
+    EXPECT_GT(frames, 2);
+    EXPECT_EQ(waiting(), 0);
+    const auto &links = moved->get<SurfelLinks>("links"), &madeLinks = made->get<SurfelLinks>("links");
+    EXPECT_TRUE(sameBits(moved->read<uint32_t>(links.links), made->read<uint32_t>(madeLinks.links)));
+    EXPECT_TRUE(sameBits(moved->image("indirect").data, made->image("indirect").data));
+}
+
 }  // namespace
 }  // namespace voxray::test

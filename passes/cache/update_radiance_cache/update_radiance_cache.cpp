@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "base/error.h"
 #include "graph/registry.h"
 #include "passes/cache/radiance_cache.h"
+#include "passes/cache/update_radiance_cache/kept_cells.h"
 #include "passes/cache/update_radiance_cache/path_types.h"
 #include "passes/common/compute/random_seed.h"
 #include "passes/common/view/image_rays.h"
@@ -32,8 +34,8 @@ struct EnumNames<CacheUpdate> {
                                       std::pair{CacheUpdate::EachFrame, "each_frame"}};
 };
 
-/// Paths from the camera whose vertices write the irradiance that they receive to a radiance cache. Source:
-/// NVIDIA's SHaRC; Binder et al. 2019, "Massively parallel path space filtering".
+/// Paths from the camera whose vertices write the irradiance that they receive to a radiance cache; with a budget
+/// KeptCells in their place. Source: NVIDIA's SHaRC; Binder et al. 2019, "Massively parallel path space filtering".
 class UpdateRadianceCache final : public Pass {
  public:
     static constexpr const char* kName = "update_radiance_cache";
@@ -41,9 +43,12 @@ class UpdateRadianceCache final : public Pass {
         "Fills a hashed radiance cache by paths traced from the camera. "
         "Shadow rays measure direct light at each vertex. "
         "The first four vertices of a path write the irradiance that they receive to hashed cells. "
+        "With an update_budget light is kept while surfaces stand still, cells have a few of the gather rays' hits as "
+        "points, each with shadow rays and a ray to another cell, and rays go where they lower the error most. "
         "Unbiased in the mean of a cell. There are no cells where no path arrives, and where the hash table is full. "
         "Biased by: the size of cells; with history_frames, light that changed since; samples_to_end. "
-        "Noisy by: rays_per_image, the more so the smaller cells are. Source: NVIDIA's SHaRC.";
+        "Noisy by: rays_per_image, or points_per_cell with a budget, the more so the smaller cells are. "
+        "Source: NVIDIA's SHaRC.";
     struct Params {
         CacheUpdate update = CacheUpdate::EachFrame;
         uint32_t raysPerImage = 65536;
@@ -54,6 +59,8 @@ class UpdateRadianceCache final : public Pass {
         uint32_t capacity = 1u << 20;
         uint32_t historyFrames = 1;
         uint32_t samplesToEnd = 0;
+        float updateBudget = 0;
+        uint32_t pointsPerCell = 4;
         static constexpr auto schema() {
             return std::tuple{
                 field("update", &Params::update,
@@ -61,7 +68,8 @@ class UpdateRadianceCache final : public Pass {
                       "each_frame: "
                       "it is filled again in each frame, with history_frames above 1 on top of earlier samples."),
                 field("rays_per_image", &Params::raysPerImage, "Paths from the camera in an update.", 1u, 1u << 24)
-                    .lessNoise(),
+                    .lessNoise()
+                    .onlyWith(oneOf(&Params::updateBudget, {0.0f})),
                 field("bounces", &Params::bounces, "Bounces of light; Russian roulette by albedo ends paths early.", 0u,
                       32u),
                 field("light_samples", &Params::lightSamples,
@@ -86,11 +94,24 @@ class UpdateRadianceCache final : public Pass {
                       "at their second vertex or later, with the cell's light. Biased: "
                       "light of all bounces, with the errors and the lag of cells. 0: no path ends in the cache.",
                       0u, 65536u)
-                    .onlyWith(noneOf(&Params::historyFrames, {1u}))};
+                    .onlyWith(noneOf(&Params::historyFrames, {1u})),
+                field("update_budget", &Params::updateBudget,
+                      "Most rays in a frame to light cells, for each pixel of the image: light is kept from frame to "
+                      "frame, and what matters most is updated, without paths from the camera. 0: no limit.",
+                      0.0f, 64.0f)
+                    .onlyWith(oneOf(&Params::update, {CacheUpdate::EachFrame})),
+                field("points_per_cell", &Params::pointsPerCell,
+                      "Hits of gather rays at which a cell's light is measured.", 1u, 64u)
+                    .lessNoise()
+                    .onlyWith(noneOf(&Params::updateBudget, {0.0f}))};
         }
     };
 
-    explicit UpdateRadianceCache(const Params& params) : params_(params) {}
+    explicit UpdateRadianceCache(const Params& params) : params_(params) {
+        if (hasBudget())
+            kept_.emplace(*this, KeptCells::Params{params.updateBudget, params.pointsPerCell, params.bounces,
+                                                   params.lightSamples, params.cellSize, params.capacity});
+    }
     Phase phase() const override { return params_.update == CacheUpdate::EachFrame ? Phase::Frame : Phase::Build; }
     bool buildReadsView() const override { return true; }
     uint32_t warmupFrames() const override { return params_.historyFrames - 1; }
@@ -98,6 +119,7 @@ class UpdateRadianceCache final : public Pass {
     void record(PassContext& context) override;
 
  private:
+    bool hasBudget() const { return params_.update == CacheUpdate::EachFrame && params_.updateBudget > 0; }
     bool usesHistory() const { return params_.update == CacheUpdate::EachFrame && params_.historyFrames > 1; }
     bool endsInCache() const { return usesHistory() && params_.samplesToEnd > 0; }
     /// The vertices that write, and the bounces of light that the last of them receives.
@@ -117,6 +139,7 @@ class UpdateRadianceCache final : public Pass {
     float unitsPerIrradiance_ = 1;
     ImageRays imageRays_{*this};
     SurfelDirectLight light_{*this};
+    std::optional<KeptCells> kept_;
     Kernel extendPaths_{*this, "extend_paths.comp"};
     Kernel writeCells_{*this, "write_cells.comp"};
     Kernel decayCells_{*this, "decay_cells.comp"};
@@ -130,6 +153,8 @@ void UpdateRadianceCache::plan(PassPlan& plan) {
     if (!plan.device.shaderInt64Atomics)
         throw Error("{}: device '{}' lacks 64-bit atomics on buffers (shaderBufferInt64Atomics)", kName,
                     plan.device.name);
+    if (hasBudget() && params_.historyFrames > 1)
+        throw Error("{}: history_frames has no effect with an update_budget, which keeps all light: remove one", kName);
     sources_ = requireLightSources(*plan.frame.scene, kName);
     unitsPerIrradiance_ = std::ldexp(1.0f, 28) / std::max(meanIrradiance(sources_, plan.frame.scene->geometry), 1e-30f);
 
@@ -138,6 +163,9 @@ void UpdateRadianceCache::plan(PassPlan& plan) {
     plan.buffer(cache.gridBuffer, "grid of the radiance cache", sizeof(gpu::RadianceCacheGrid));
     plan.buffer(cache.keys, "keys of the radiance cache", params_.capacity * RadianceCache::kKeyBytes);
     plan.buffer(cache.sums, "sums of the radiance cache", params_.capacity * RadianceCache::kSumBytes);
+    for (Kernel* kernel : {&extendPaths_, &writeCells_}) kernel->compileIf(!kept_);
+    decayCells_.compileIf(usesHistory());
+    if (kept_) return kept_->plan(plan, sources_);
     if (usesHistory()) {
         plan.buffer(oldKeys_, "keys of the previous frame", params_.capacity * RadianceCache::kKeyBytes);
         plan.buffer(oldSums_, "sums of the previous frame", params_.capacity * RadianceCache::kSumBytes);
@@ -153,11 +181,11 @@ void UpdateRadianceCache::plan(PassPlan& plan) {
     plan.buffer(cellCounts_, "counts of cells", sizeof(CellCounts));
     light_.plan(plan, uint32_t(vertices));
     extendPaths_.specialize({{"samplesToEnd", endsInCache() ? params_.samplesToEnd : 0}});
-    decayCells_.compileIf(usesHistory());
 }
 
 void UpdateRadianceCache::record(PassContext& context) {
     RadianceCache& cache = context[cache_];
+    if (kept_) return kept_->update(context, cache, makeGrid(context.frame));
     initCells(context, cache);
     const uint32_t seed = randomSeed(context.frame, context.frameIndex);
     double vertices = 0;

@@ -10,7 +10,7 @@
 #elif defined(STORED_IN_RADIANCE_CACHE)
 #include "passes/cache/radiance_cache.glsl"
 #elif defined(STORED_IN_HIT_FACES)
-#include "passes/final_gather/hit_faces/hit_face_light.glsl"
+#include "passes/cache/hit_faces/hit_face_light.glsl"
 #endif
 
 struct StoredLight {

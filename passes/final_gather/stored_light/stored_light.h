@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
+#include "passes/cache/hit_faces/hit_face_light.h"
 #include "passes/cache/radiance_cache.h"
 #include "passes/common/voxels/face_irradiance.h"
-#include "passes/final_gather/hit_faces/hit_face_light.h"
 #include "passes/final_gather/merged_voxels/irradiance_tree.h"
 #include "passes/final_gather/stored_light/stored_light_params.h"
 

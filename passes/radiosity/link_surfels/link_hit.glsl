@@ -2,6 +2,7 @@
 #ifndef VOXRAY_LINK_HIT_GLSL
 #define VOXRAY_LINK_HIT_GLSL
 
+#include "passes/surfels/surfel_types.h"
 #include "shaders/scene/octahedral.glsl"
 
 const float NO_LINK_HIT = 65504.0;  // Voxels; the largest half float.

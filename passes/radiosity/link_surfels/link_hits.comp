@@ -133,6 +133,9 @@ void main() {
     if (i >= push.rayCount) return;
     NearestSurfel nearest = NearestSurfel(0.0, NO_SURFEL, NO_SURFEL);
     if (hits.data[i].triangle != NO_HIT) nearest = nearestToHit(i);
+#ifdef KEEPS_HITS
+    if (rays.data[i].tMax < 0.0) nearest.surfel = LINK_NOT_TRACED;
+#endif
     if (nearest.error < MAX_ERROR)
         setLink(i, nearest.surfel);
     else

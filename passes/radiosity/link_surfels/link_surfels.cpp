@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 #include "base/error.h"
 #include "graph/registry.h"
@@ -8,6 +10,7 @@
 #include "passes/common/voxels/voxels.h"
 #include "passes/radiosity/link_surfels/mean_distances.h"
 #include "passes/radiosity/link_surfels/neighbor_search.h"
+#include "passes/radiosity/link_surfels/waiting_links.h"
 #include "passes/surfels/surfel_links.h"
 #include "passes/surfels/surfel_sort.h"
 
@@ -36,18 +39,27 @@ class LinkSurfels final : public Pass {
         "Links the surfels that see each other, for radiosity. "
         "Rays find the links once for a geometry; light then travels along them (inject_radiosity). "
         "Where surfaces move, rays that pass or end near them are traced again. "
-        "Biased by: the distance of surfels (a hit takes the light of the nearest surfel in its voxel). "
+        "Biased by: the distance of surfels (a hit takes the light of the nearest surfel in its voxel); "
+        "with an update_budget, links that wait show what their rays hit before. "
         "Noisy by: rays_per_surfel. Source: Goral et al. 1984; Lehtinen et al. 2008.";
     struct Params {
         uint32_t raysPerSurfel = 64;
+        float updateBudget = 0;
         static constexpr auto schema() {
             return std::tuple{
                 field("rays_per_surfel", &Params::raysPerSurfel, "Rays from each surfel; 4 bytes each.", 1u, 4096u)
-                    .lessNoise()};
+                    .lessNoise(),
+                field("update_budget", &Params::updateBudget,
+                      "Most rays in a frame in which surfaces move, for each pixel of the image: links that changes "
+                      "affect wait for theirs, and those that have waited longest come first. 0: no limit.",
+                      0.0f, 64.0f)};
         }
     };
 
-    explicit LinkSurfels(const Params& params) : params_(params) {}
+    explicit LinkSurfels(const Params& params) : params_(params) {
+        if (params.updateBudget > 0) waiting_.emplace(*this);
+    }
+    bool buildReadsView() const override { return params_.updateBudget > 0; }
     void plan(PassPlan& plan) override;
     void record(PassContext& context) override;
 
@@ -68,8 +80,15 @@ class LinkSurfels final : public Pass {
     uint32_t generateRays(PassContext& context, const Batch& batch) const;
     /// Generates the rays of a batch that a change may affect, and lists them. @return their number.
     uint32_t listChangedRays(PassContext& context, const Batch& batch);
+    /// Dispatches listChangedLinks_.
+    void findChanged(PassContext& context, const Batch& batch);
+    /// Traces all links, or all that a change may affect. @return the number of rays.
+    uint64_t linkAll(PassContext& context, bool isUpdate);
+    /// Traces links that wait, within the budget; before, those that a change may affect join them. @return the number
+    /// of rays.
+    uint64_t linkWaiting(PassContext& context, bool hasChanged);
     void traceOcclusion(PassContext& context, uint32_t rays);
-    void linkHits(PassContext& context, const Batch& batch, uint32_t rays, bool isUpdate);
+    void linkHits(PassContext& context, uint32_t firstSurfel, uint32_t rays, bool isUpdate);
     void findNeighbors(PassContext& context, bool isUpdate);
 
     const Params params_;
@@ -87,6 +106,7 @@ class LinkSurfels final : public Pass {
     Kernel linkHits_{*this, "link_hits.comp"};
     Kernel linkFarHits_{*this, "link_hits.comp", {{"ADJACENT", "1"}}};
     Kernel listChangedLinks_{*this, "list_changed_links.comp"};
+    std::optional<WaitingLinks> waiting_;                           ///< With a budget.
     bool keepsHits_ = false;                                        ///< Surfaces move.
     LargeBuffer keptHits_;                                          ///< By link (link_hit.glsl), if hits are kept.
     Buffer boxes_;                                                  ///< Of changes, during an update.
@@ -114,6 +134,10 @@ void LinkSurfels::plan(PassPlan& plan) {
     listChangedLinks_.compileIf(keepsHits_);
     if (!keepsHits_) return;
     for (Kernel* kernel : {&linkHits_, &linkFarHits_}) kernel->define({{"KEEPS_HITS", "1"}});
+    if (waiting_) {
+        plan.estimate(surfels.estimatedCount * waiting_->plan(plan, params_.raysPerSurfel));
+        listChangedLinks_.define({{"WAIT", "1"}});
+    }
     plan.scratchBuffer(listedRays_, "listed link rays", uint64_t(kBatchRays) * sizeof(uint32_t));
     plan.scratchBuffer(listedCount_, "number of listed link rays", sizeof(uint32_t));
 }
@@ -124,7 +148,8 @@ bool LinkSurfels::canUpdate(PassContext& context) const {
 }
 
 void LinkSurfels::record(PassContext& context) {
-    if (!context.inputsChanged()) return;  // Only light has changed.
+    const bool hasChanged = context.changed(voxels_) || context.changed(surfels_);
+    if (!hasChanged && !(waiting_ && waiting_->waiting() > 0)) return context.markOutputsUnchanged();
     SurfelLinks& links = context[links_];
     const Surfels& surfels = context[surfels_];
     const uint64_t count = surfels.count;
@@ -141,14 +166,31 @@ void LinkSurfels::record(PassContext& context) {
 
     sort_.run(context.stream, surfels, context[voxels_].voxelCount, context[byVoxel_]);
     packSurfels(context);
-    const bool isUpdate = canUpdate(context);
-    if (isUpdate) boxes_ = changedBoxes(context.stream, *context.frame.changedRegions, context[voxels_].grid.voxelSize);
+    const bool isUpdate = !hasChanged || canUpdate(context);
+    if (isUpdate && hasChanged)
+        boxes_ = changedBoxes(context.stream, *context.frame.changedRegions, context[voxels_].grid.voxelSize);
     meanDistances_.begin(context.device, surfels, context[byVoxel_]);
     context.stream.fill(unlinkedHits_, 0);
     if (!context[surfels_].hasOccludedSurfels) context.stream.fill(occluded_, 0);
+    const uint64_t rays = isUpdate && waiting_ ? linkWaiting(context, hasChanged) : linkAll(context, isUpdate);
+    meanDistances_.pack(context, context[byVoxel_], context[voxels_].voxelCount);
+    if (context[neighbors_].isRead && hasChanged) findNeighbors(context, isUpdate);
+    boxes_ = {};
+    const uint32_t unlinkedHits = context.stream.readAs<uint32_t>(unlinkedHits_, 1)[0];
+    const double linkCount = double(context[byVoxel_].sortedCount) * params_.raysPerSurfel;
+    context.report("links", linkCount);
+    context.report("hits without surfel, % of rays", rays > 0 ? 100.0 * unlinkedHits / double(rays) : 0);
+    if (keepsHits_)
+        context.report("rays traced, % of all", 100.0 * double(rays) / (double(count) * params_.raysPerSurfel));
+    if (waiting_)
+        context.report("links that wait, % of all",
+                       100.0 * double(waiting_->waiting()) / (double(count) * params_.raysPerSurfel));
+}
+
+uint64_t LinkSurfels::linkAll(PassContext& context, bool isUpdate) {
     const uint32_t perBatch = kBatchRays / params_.raysPerSurfel;
     uint64_t rays = 0;
-    for (const Surfels::Chunk& chunk : surfels.chunks) {
+    for (const Surfels::Chunk& chunk : context[surfels_].chunks) {
         for (uint32_t first = 0; first < chunk.count; first += perBatch) {
             const Batch batch{chunk, first, std::min(perBatch, chunk.count - first)};
             rays += link(context, batch, isUpdate);
@@ -158,15 +200,31 @@ void LinkSurfels::record(PassContext& context) {
         }
         context.stream.finish();
     }
-    meanDistances_.pack(context, context[byVoxel_], context[voxels_].voxelCount);
-    if (context[neighbors_].isRead) findNeighbors(context, isUpdate);
-    boxes_ = {};
-    const uint32_t unlinkedHits = context.stream.readAs<uint32_t>(unlinkedHits_, 1)[0];
-    const double linkCount = double(context[byVoxel_].sortedCount) * params_.raysPerSurfel;
-    context.report("links", linkCount);
-    context.report("hits without surfel, % of rays", rays > 0 ? 100.0 * unlinkedHits / double(rays) : 0);
-    if (keepsHits_)
-        context.report("rays traced, % of all", 100.0 * double(rays) / (double(count) * params_.raysPerSurfel));
+    if (waiting_) waiting_->clear(context, uint32_t(context[surfels_].count));
+    return rays;
+}
+
+uint64_t LinkSurfels::linkWaiting(PassContext& context, bool hasChanged) {
+    const Surfels& surfels = context[surfels_];
+    if (hasChanged)
+        for (const Surfels::Chunk& chunk : surfels.chunks) findChanged(context, {chunk, 0, chunk.count});
+    waiting_->count(context);
+    const glm::uvec2 pixels = context.frame.pixels();
+    const double budget = double(params_.updateBudget) * pixels.x * pixels.y;
+    auto left = uint64_t(std::floor(budget / (surfels.hasOccludedSurfels ? 2 : 1)));
+    uint64_t traced = 0;
+    while (const uint32_t rays = waiting_->select(context, std::min<uint64_t>(left, kBatchRays))) {
+        context.stream.fill(listedCount_, 0);
+        for (const Surfels::Chunk& chunk : surfels.chunks)
+            waiting_->list(context, chunk, randomSeed(context.frame),
+                           {{"rays", rays_}, {"listedRays", listedRays_}, {"listedCount", listedCount_}});
+        context.tracer.closestHit(context.stream, rays_, hits_, rays);
+        if (surfels.hasOccludedSurfels) traceOcclusion(context, rays);
+        linkHits(context, 0, rays, true);
+        left -= rays;
+        traced += rays;
+    }
+    return traced;
 }
 
 void LinkSurfels::packSurfels(PassContext& context) const {
@@ -195,8 +253,15 @@ uint32_t LinkSurfels::generateRays(PassContext& context, const Batch& batch) con
 }
 
 uint32_t LinkSurfels::listChangedRays(PassContext& context, const Batch& batch) {
-    const SurfelLinks& links = context[links_];
     context.stream.fill(listedCount_, 0);
+    findChanged(context, batch);
+    return context.stream.readAs<uint32_t>(listedCount_, 1)[0];
+}
+
+void LinkSurfels::findChanged(PassContext& context, const Batch& batch) {
+    const SurfelLinks& links = context[links_];
+    std::vector<Binding> waiting;
+    if (waiting_) waiting = {waiting_->bits(), {"wordsPerSurfel", waiting_->wordsPerSurfel()}};
     const uint32_t groups = (batch.count + kSurfelGroup - 1) / kSurfelGroup;
     context.dispatch(listChangedLinks_, groups * kSurfelGroup,
                      {{"boxes", boxes_},
@@ -204,9 +269,9 @@ uint32_t LinkSurfels::listChangedRays(PassContext& context, const Batch& batch) 
                       {"LinksRef", links.links.ref()},
                       {"LinkHitsRef", keptHits_.ref()},
                       {"InverseSumsRef", meanDistances_.sums().ref()},
-                      {"rays", rays_},
-                      {"listedRays", listedRays_},
-                      {"listedCount", listedCount_},
+                      ifUsed({"rays", rays_}),
+                      ifUsed({"listedRays", listedRays_}),
+                      ifUsed({"listedCount", listedCount_}),
                       {"firstInChunk", batch.first},
                       {"firstSurfel", batch.firstIndex()},
                       {"batchSurfels", batch.count},
@@ -214,8 +279,8 @@ uint32_t LinkSurfels::listChangedRays(PassContext& context, const Batch& batch) 
                       {"surfelCount", links.surfelCount},
                       {"seed", randomSeed(context.frame)},
                       {"reach", kHitReach * context[voxels_].grid.voxelSize},
-                      {"voxelSize", context[voxels_].grid.voxelSize}});
-    return context.stream.readAs<uint32_t>(listedCount_, 1)[0];
+                      {"voxelSize", context[voxels_].grid.voxelSize},
+                      waiting});
 }
 
 void LinkSurfels::traceOcclusion(PassContext& context, uint32_t rays) {
@@ -234,11 +299,11 @@ uint32_t LinkSurfels::link(PassContext& context, const Batch& batch, bool isUpda
     if (rays == 0) return 0;
     context.tracer.closestHit(context.stream, rays_, hits_, rays);
     if (context[surfels_].hasOccludedSurfels) traceOcclusion(context, rays);
-    linkHits(context, batch, rays, isUpdate);
+    linkHits(context, batch.firstIndex(), rays, isUpdate);
     return rays;
 }
 
-void LinkSurfels::linkHits(PassContext& context, const Batch& batch, uint32_t rays, bool isUpdate) {
+void LinkSurfels::linkHits(PassContext& context, uint32_t firstSurfel, uint32_t rays, bool isUpdate) {
     const SurfelLinks& links = context[links_];
     const SurfelsByVoxel& byVoxel = context[byVoxel_];
     context.stream.fill(farCount_, 0);
@@ -255,7 +320,7 @@ void LinkSurfels::linkHits(PassContext& context, const Batch& batch, uint32_t ra
                           {"farRays", farRays_},
                           {"farCount", farCount_},
                           ifUsed({"unlinkedHits", unlinkedHits_}),
-                          {"firstSurfel", batch.firstIndex()},
+                          {"firstSurfel", firstSurfel},
                           {"rayCount", rays},
                           {"raysPerSurfel", params_.raysPerSurfel},
                           {"surfelCount", links.surfelCount},

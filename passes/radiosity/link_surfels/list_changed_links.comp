@@ -1,9 +1,10 @@
-// Lists the links of a batch that have to be traced again, with their rays: those that begin or end close to a changed
+// Lists the links of a batch that have to be traced again, with their rays, or marks them (WAIT): those that begin or end close to a changed
 // box, where surfels may have changed, and those that cross one up to their hit. Links are told apart in steps, of which
 // each takes more time than the one before and is left fewer links. Each is a loop over what is left, which ends as soon
 // as no surfel of a group has more.
 #include "passes/common/compute/changed_boxes.glsl"
 #include "passes/radiosity/link_surfels/link_hit.glsl"
+#include "passes/radiosity/link_surfels/waiting_links.glsl"
 #include "passes/surfels/path_ray.glsl"
 #include "shaders/compute/large_buffer.glsl"
 #include "shaders/compute/linear_index.glsl"
@@ -13,9 +14,11 @@ layout(scalar) readonly buffer Surfels { Surfel data[]; } surfels;
 layout(scalar) readonly buffer LinksRef { LargeUints links; };
 layout(scalar) readonly buffer LinkHitsRef { LargeUints linkHits; };
 layout(scalar) readonly buffer InverseSumsRef { LargeUints inverseSums; };  // By surfel (mean_inverse_distance.comp).
+#ifndef WAIT
 layout(scalar) writeonly buffer Rays { Ray data[]; } rays;
 layout(scalar) writeonly buffer ListedRays { uint data[]; } listedRays;
 buffer ListedCount { uint value; } listedCount;
+#endif
 layout(push_constant) uniform Push {
     uint firstInChunk;
     uint firstSurfel;
@@ -25,6 +28,9 @@ layout(push_constant) uniform Push {
     uint seed;
     float reach;      // m; how far from a change the surfel of a hit may be another one.
     float voxelSize;  // m
+#ifdef WAIT
+    uint wordsPerSurfel;
+#endif
 } push;
 
 // `ray`: up to its hit, whose distance is rounded up.
@@ -89,17 +95,15 @@ float lengthOf(uint hit) {
     return voxels < NO_LINK_HIT ? voxels * push.voxelSize : 1.0e30;
 }
 
-// The next bit that is set, which is cleared.
-uint takeBit(inout uint bits) {
-    const uint bit = uint(findLSB(bits));
-    bits &= bits - 1u;
-    return bit;
-}
-
 void list(uint inBatch, uint ray, vec3 origin, vec3 direction) {
+#ifdef WAIT
+    const uint word = (push.firstSurfel + inBatch) * push.wordsPerSurfel + ray / 32u;
+    waiting.data[word] |= 1u << (ray & 31u);
+#else
     const uint listed = atomicAdd(listedCount.value, 1u);
     rays.data[listed] = Ray(origin, 0.0, direction, 1.0e30);
     listedRays.data[listed] = inBatch * push.raysPerSurfel + ray;
+#endif
 }
 
 // All links of a surfel close to a change.
@@ -111,10 +115,13 @@ void listAll(uint inBatch, Surfel s) {
 
 void clearAll(uint surfel) {
     for (uint ray = 0u; ray < push.raysPerSurfel; ++ray) {
-        links.data[ray * push.surfelCount + surfel] = 0xffffffffu;
+        links.data[ray * push.surfelCount + surfel] = LINK_NOT_TRACED;
         linkHits.data[linkHitIndex(surfel, ray, push.raysPerSurfel)] = packLinkHit(vec3(0.0, 0.0, 1.0), NO_LINK_HIT);
     }
     inverseSums.data[surfel] = 0u;
+#ifdef WAIT
+    for (uint word = 0u; word < push.wordsPerSurfel; ++word) waiting.data[surfel * push.wordsPerSurfel + word] = 0u;
+#endif
 }
 
 // Of links [first, first + count) of a surfel, at most 32.

@@ -1,6 +1,6 @@
 // Irradiance of each lit face: the mean direct irradiance of its points (DIRECT), or that plus what its points receive
 // along their links, one bounce more than in the dispatch before.
-#include "passes/final_gather/hit_faces/light_hit_faces/face_point_types.h"
+#include "passes/cache/hit_faces/face_point_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

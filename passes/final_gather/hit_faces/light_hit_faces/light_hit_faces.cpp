@@ -4,15 +4,12 @@
 #include <vector>
 
 #include "graph/registry.h"
+#include "passes/cache/hit_faces/face_point_types.h"
+#include "passes/cache/hit_faces/gather_faces.h"
+#include "passes/cache/hit_faces/kept/kept_faces.h"
+#include "passes/cache/hit_faces/point_batch.h"
 #include "passes/common/compute/random_seed.h"
-#include "passes/common/view/gather_hits.h"
-#include "passes/common/view/gbuffer.h"
 #include "passes/common/voxels/voxels.h"
-#include "passes/final_gather/hit_faces/hit_face_light.h"
-#include "passes/final_gather/hit_faces/light_hit_faces/face_point_types.h"
-#include "passes/final_gather/hit_faces/light_hit_faces/kept/kept_faces.h"
-#include "passes/final_gather/hit_faces/light_hit_faces/new_faces.h"
-#include "passes/final_gather/hit_faces/light_hit_faces/point_batch.h"
 
 namespace voxray {
 namespace {
@@ -88,16 +85,15 @@ class LightHitFaces final : public Pass {
     In<GBuffer> gbuffer_{*this, "gbuffer", "where the gather rays start"};
     In<GatherHits> hits_{*this, "gather_hits", "where the gather rays hit"};
     Out<HitFaceLight> light_{*this, "hit_face_light", "light that arrives at the faces that rays hit"};
-    Kernel mark_{*this, "mark_gather_hits.comp"};
     Kernel placePoints_{*this, "place_points.comp"};
-    Kernel linkPoints_{*this, "link_points.comp"};
+    Kernel linkPoints_{*this, "passes/cache/hit_faces/link_points.comp"};
     Kernel numberLinks_{*this, "number_links.comp"};
     Kernel averageDirect_{*this, "gather_links.comp", {{"DIRECT", "1"}}};
     Kernel gatherLinks_{*this, "gather_links.comp"};
-    NewFaces newFaces_{*this};
+    GatherFaces gatherFaces_{*this, FaceKind::Voxels};
+    NewFaces newFaces_{*this, FaceKind::Voxels};
     PointBatch batch_{*this};
     std::optional<KeptFaces> kept_;
-    std::vector<Buffer> gatherFaces_;           ///< Faces of the gather rays, by batch.
     Buffer lost_;                               ///< Rays that hit where no voxel is.
     Buffer roundHits_, roundFaces_;             ///< Of the rays of a round's points.
     Buffer pointDirect_, links_, firstPoints_;  ///< Of all points; of all faces.
@@ -106,14 +102,8 @@ class LightHitFaces final : public Pass {
 
 void LightHitFaces::plan(PassPlan& plan) {
     plan[light_].lightBounces = params_.bounces;
-    const GatherHits& hits = plan[hits_];
-    gatherFaces_ = std::vector<Buffer>(hits.batches.size());
-    uint64_t gatherRays = 0;
-    for (uint32_t b = 0; b < hits.batches.size(); ++b) {
-        const uint64_t rays = uint64_t(hits.batchBlocks(b)) * hits.layout.raysPerBlock;
-        plan.buffer(gatherFaces_[b], "faces that gather rays hit", rays * sizeof(uint32_t));
-        gatherRays += rays;
-    }
+    plan[light_].keepsNumbers = kept_.has_value();
+    const uint64_t gatherRays = gatherFaces_.plan(plan, plan[hits_]);
     // Points are different hits, so that no round has more of them than there are gather rays
     batch_.plan(plan, requireLightSources(*plan.frame.scene, kName), params_.lightSamples, gatherRays);
     plan.buffer(lost_, "number of lost rays", sizeof(uint32_t));
@@ -130,12 +120,13 @@ void LightHitFaces::plan(PassPlan& plan) {
 void LightHitFaces::record(PassContext& context) {
     HitFaceLight& light = context[light_];
     context.stream.fill(lost_, 0);
-    newFaces_.begin(context, context[voxels_].voxelCount);
+    const uint64_t allFaces = std::max<uint64_t>(uint64_t(context[voxels_].voxelCount) * kFaces, 1);
+    newFaces_.begin(context, allFaces);
     if (kept_) {
-        if (context.changed(voxels_)) kept_->clear(context, context[voxels_], light);
-        kept_->update(context, context[voxels_], light, newFaces_, batch_, markGatherHits(context), lost_);
+        if (context.changed(voxels_)) kept_->clear(context, allFaces, light);
+        kept_->update(context, {context[voxels_].bindings(), {}}, light, newFaces_, batch_, markGatherHits(context),
+                      lost_);
     } else {
-        const uint64_t allFaces = std::max<uint64_t>(uint64_t(context[voxels_].voxelCount) * kFaces, 1);
         ensureSize(light.numbers, context.device, "numbers of lit faces", allFaces * sizeof(uint32_t));
         context.stream.fill(light.numbers, NO_FACE);
         lightAll(context, markGatherHits(context));
@@ -170,26 +161,8 @@ void LightHitFaces::lightAll(PassContext& context, std::vector<FaceHits> hits) {
 }
 
 std::vector<FaceHits> LightHitFaces::markGatherHits(PassContext& context) {
-    const GatherHits& hits = context[hits_];
-    std::vector<FaceHits> all;
-    uint32_t first = 0;
-    for (uint32_t b = 0; b < hits.batches.size(); ++b) {
-        const uint32_t rays = hits.batchBlocks(b) * hits.layout.raysPerBlock;
-        context.dispatch(mark_, rays,
-                         {context.scene,
-                          context[voxels_],
-                          context[gbuffer_],
-                          context[light_],
-                          newFaces_.marks(),
-                          {"hits", hits.batches[b]},
-                          {"hitFaces", gatherFaces_[b]},
-                          {"layout", hits.layout},
-                          {"firstBlock", b * hits.blocksPerBatch},
-                          {"rays", rays}});
-        all.push_back({&hits.batches[b], &gatherFaces_[b], first, rays});
-        first += rays;
-    }
-    return all;
+    return gatherFaces_.mark(context, context[hits_], context[gbuffer_], context[voxels_].bindings(), context[light_],
+                             newFaces_);
 }
 
 void LightHitFaces::lightPoints(PassContext& context, const Round& round, uint32_t seed) {

@@ -1,6 +1,6 @@
 // Replaces the faces of links by their numbers.
-#include "passes/final_gather/hit_faces/hit_face.glsl"
-#include "passes/final_gather/hit_faces/light_hit_faces/face_point_types.h"
+#include "passes/cache/hit_faces/hit_face.glsl"
+#include "passes/cache/hit_faces/face_point_types.h"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
 

@@ -1,5 +1,5 @@
 // The surfel of each chosen hit, and its ray, distributed by cosine. Points are in the order of their faces' numbers.
-#include "passes/final_gather/hit_faces/light_hit_faces/face_point.glsl"
+#include "passes/cache/hit_faces/face_point.glsl"
 #include "passes/surfels/path_ray.glsl"
 #include "shaders/compute/linear_index.glsl"
 layout(local_size_x = 64) in;
